@@ -75,13 +75,24 @@ class Path:
         check_contours(self.contours)
 
     @classmethod
-    def _sound(cls, contours: tuple[NDArray[np.float64], ...], like: "Path", to_source: Affine) -> "Path":
-        """Path of contours that are known to be finite and closed, without a check; the rest is another's, moved."""
+    def sound(
+        cls,
+        contours: tuple[NDArray[np.float64], ...],
+        fill_rule: FillRule,
+        paint: Paint,
+        group: int = -1,
+        element: str = "",
+    ) -> "Path":
+        """Path of contours that are known to be finite and closed, without a check, which costs more than the rest."""
         path = object.__new__(cls)
-        values = (contours, like.fill_rule, like.paint.after(to_source), like.group, like.element)
-        for name, value in zip(cls.__slots__, values, strict=True):
+        for name, value in zip(cls.__slots__, (contours, fill_rule, paint, group, element), strict=True):
             object.__setattr__(path, name, value)
         return path
+
+    @classmethod
+    def _sound(cls, contours: tuple[NDArray[np.float64], ...], like: "Path", to_source: Affine) -> "Path":
+        """Sound path whose rest is another's, moved."""
+        return cls.sound(contours, like.fill_rule, like.paint.after(to_source), like.group, like.element)
 
     @property
     def box(self) -> NDArray[np.float64]:

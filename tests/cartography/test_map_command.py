@@ -202,3 +202,24 @@ def test_the_command_writes_texture_and_table(tmp_path):
     wrong = CliRunner().invoke(main, [*arguments, "--order", "a", "--order", "b", "--order", "c"])
     assert wrong.exit_code == 1
     assert "--order is given 3 times for 2 sources" in wrong.output
+
+
+def test_borders_that_are_equal_are_not_touched_and_others_are(monkeypatch):
+    from vexture.cartography import coverage
+
+    source, snapped = cells(60), []
+    real = coverage.shared
+    monkeypatch.setattr(coverage, "shared", lambda *given: snapped.append(1) or real(*given))
+    assert mapped(source).conversion.notes == ()
+    assert not snapped, "nothing was amiss"
+    off = source.geometry.values.copy()
+    off[7] = shapely.transform(off[7], lambda places: places + 1e-4)
+    assert any("snapped" in message for message in messages(mapped(source.set_geometry(off))))
+    assert snapped
+    snapped.clear()
+    assert any("lie below" in message for message in messages(mapped(frame(overlapping(), METRES))))
+    assert snapped
+
+
+def overlapping():
+    return [shapely.box(0, 0, 600, 600), shapely.box(500, 500, 1000, 1000), shapely.box(1000, 0, 1200, 200)]

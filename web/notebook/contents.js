@@ -6,9 +6,16 @@ import { VectorTexture } from '../src/vector-texture.js';
  * @typedef {import('../src/data.js').PackedData} PackedData
  * @typedef {[number, number, number, number]} Color sRGB and opacity, 0..1
  * @typedef {Record<string, Color>} Colors of elements, or of shapes that are no maps, by their names
+ * @typedef {Map<string, Color>} Coloring of all elements, by their names
  * @typedef {{ data: PackedData, texture: VectorTexture }} Content
  * @typedef {{ users: number, content: Promise<Content> }} Entry
  */
+
+/** What 1 of a colour is, as it is sent. */
+const COLOR_ONE = 10_000;
+
+/** First byte of a file that is deflated as a whole; a texture's own begins otherwise. */
+const DEFLATED = 0x78;
 
 /** @type {Map<string, Entry>} */
 const ENTRIES = new Map();
@@ -24,8 +31,15 @@ export function open({ key, content }) {
 /** @param {DataView | ArrayBuffer} content @returns {Promise<Content>} */
 async function read(content) {
   const view = content instanceof ArrayBuffer ? new DataView(content) : content;
-  const data = await readPacked(new Uint8Array(view.buffer, view.byteOffset, view.byteLength));
+  const bytes = new Uint8Array(view.buffer, view.byteOffset, view.byteLength);
+  const data = await readPacked(bytes[0] === DEFLATED ? await inflated(bytes) : bytes);
   return { data, texture: new VectorTexture(data) };
+}
+
+/** @param {Uint8Array} bytes a stream of zlib @returns {Promise<Uint8Array>} */
+async function inflated(bytes) {
+  const stream = new Blob([/** @type {Uint8Array<ArrayBuffer>} */ (bytes)]).stream().pipeThrough(new DecompressionStream('deflate'));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 /** Forget a content that was opened, with its last user. @param {import('./widget.js').Shared} source */
@@ -40,6 +54,7 @@ export function release({ key }) {
 export class Colored {
   #root;
   #colors;
+  #coloring;
   /** Names of what is coloured as a shape. @type {Set<string>} */
   #shapes = new Set();
 
@@ -47,11 +62,13 @@ export class Colored {
    * @param {PackedData} data
    * @param {{ first: number, count: number }} range of the drawing's roots
    * @param {Colors} colors
+   * @param {Coloring | null} coloring of all elements, below those colours
    * @param {import('../src/select-root.js').RootChoice} root that chooses the drawing
    */
-  constructor(data, { first, count }, colors, root) {
+  constructor(data, { first, count }, colors, coloring, root) {
     this.#root = root;
     this.#colors = colors;
+    this.#coloring = coloring;
     const roots = structuredClone(data.roots); // those of one style share it again
     for (const one of roots.slice(first, first + count)) {
       const color = one.isMap ? undefined : colors[one.name];
@@ -61,28 +78,52 @@ export class Colored {
       this.#shapes.add(one.name);
     }
     this.texture = new VectorTexture({ ...data, texels: data.texels.slice(), roots });
-    this.#paint(Object.entries(colors));
+    const named = Object.entries(colors).filter(([name]) => !this.#shapes.has(name));
+    this.#paint(new Map([...(coloring ?? []), ...named]));
   }
 
-  /** @param {[string, Color][]} colors */
-  #paint(colors) {
-    const elements = new Map(colors.filter(([name]) => !this.#shapes.has(name)));
-    if (elements.size) this.texture.setPaints(elements, this.#root);
+  /** @param {Map<string, Color | 'own'>} paints */
+  #paint(paints) {
+    if (paints.size) this.texture.setPaints(paints, this.#root);
   }
 
   /**
-   * Change the colours, if that costs less than another texture: nothing has its first colour again, and no shape another.
+   * Change the colours, if that costs less than another texture: no shape has one.
    *
    * @param {Colors} colors
+   * @param {Coloring | null} coloring
    * @param {import('../src/select-root.js').RootChoice} root
    * @returns {boolean} whether it is done
    */
-  recolor(colors, root) {
+  recolor(colors, coloring, root) {
     const before = this.#colors;
-    const isMore = Object.keys(before).every((name) => name in colors);
-    if (root !== this.#root || this.#shapes.size || !isMore) return false;
-    this.#paint(Object.entries(colors).filter(([name, color]) => String(color) !== String(before[name])));
+    if (root !== this.#root || this.#shapes.size) return false;
+    const isNew = coloring !== this.#coloring;
+    /** @type {Map<string, Color | 'own'>} */
+    const paints = new Map(isNew ? coloring : []);
+    for (const name of Object.keys(before)) if (!(name in colors)) paints.set(name, coloring?.get(name) ?? 'own');
+    for (const [name, color] of Object.entries(colors)) {
+      if (isNew || String(color) !== String(before[name])) paints.set(name, color);
+    }
+    this.#paint(paints);
     this.#colors = colors;
+    this.#coloring = coloring;
     return true;
   }
+}
+
+/**
+ * Colours of all elements, as a kernel sends them.
+ *
+ * @param {import('../src/style.js').Style} style
+ * @param {{ colors: DataView, places: DataView }} sent the colours, and for each element the place of its own
+ * @returns {Coloring}
+ */
+export function coloringOf({ elements }, { colors, places }) {
+  const bytes = places.byteLength / elements.length;
+  const read = bytes === 1 ? places.getUint8 : bytes === 2 ? places.getUint16 : places.getUint32;
+  const parts = [0, 1, 2, 3];
+  const known = Array.from({ length: colors.byteLength / 8 }, (_, place) =>
+    /** @type {Color} */ (parts.map((part) => colors.getUint16(8 * place + 2 * part, true) / COLOR_ONE)));
+  return new Map(elements.map(({ name }, number) => [name, known[read.call(places, bytes * number, true)]]));
 }

@@ -5,7 +5,7 @@ import { Stage } from './stage.js';
 /**
  * Show a widget in an element.
  *
- * @param {{ model: import('./widget.js').Model, el: HTMLElement, source: import('./widget.js').Shared }} widget
+ * @param {{ model: import('./widget.js').Model, el: HTMLElement, source: () => Promise<import('./widget.js').Shared> | null }} widget
  * @returns {() => void} takes it away again
  */
 export function attach({ model, el, source }) {

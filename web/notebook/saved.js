@@ -22,7 +22,10 @@ export function followSaved(attach) {
   const scene = document.getElementById('vexture-scene');
   const el = document.getElementById('app');
   if (!scene || !el) return;
-  const { state, texture } = JSON.parse(scene.textContent ?? '');
+  const { state, texture } = JSON.parse(scene.textContent ?? '', (_, value) => (value?.base64 ? bytesOf(value.base64) : value));
   void fetch(texture).then((answer) => answer.arrayBuffer())
-    .then((content) => attach({ model: modelOf(state), el, source: { key: '', content } }));
+    .then((content) => attach({ model: modelOf(state), el, source: () => Promise.resolve({ key: '', content }) }));
 }
+
+/** @param {string} text in base64 */
+const bytesOf = (text) => new DataView(Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer);

@@ -1,18 +1,20 @@
 /** A drawing in an element: it follows a model, and tells it how it is moved and what is pointed at. */
 import { element } from '../viewer/dom.js';
 import { panned, toUnit, zoomed } from '../viewer/view.js';
-import { Colored, open, release } from './contents.js';
+import { Colored, coloringOf, open, release } from './contents.js';
 import { drawnOf, foundAt } from './drawn.js';
 import { listenTo } from './input.js';
 import { Tip, legendOf } from './legend.js';
 import { followPixels } from './pixels.js';
 import { rectOf, viewOf } from './rect.js';
 import { screenOfPage } from './screen.js';
+import { Sketch } from './sketch.js';
 import { STYLE } from './style.js';
 
 /**
  * @typedef {import('./widget.js').Model} Model
  * @typedef {import('./rect.js').Rect} Rect
+ * @typedef {() => Promise<import('./widget.js').Shared> | null} Source null before it is there
  */
 
 const HINT = 'Drag or press the arrow keys to move, + and − to zoom, Home to see all of it.';
@@ -30,6 +32,8 @@ export class Stage {
   #pointer = null;
   /** @type {import('./screen.js').Screen | null} */
   #screen = null;
+  /** @type {import('./widget.js').Shared | null} */
+  #source = null;
   /** @type {import('./contents.js').Content | null} */
   #content = null;
   /** With colours of its own. @type {Colored | null} */
@@ -42,10 +46,14 @@ export class Stage {
   #sending = 0;
   #ended = new AbortController();
 
-  /** @param {Model} model @param {import('./widget.js').Shared} source */
+  /** In place of a texture that is still made. @type {Sketch | null} */
+  #sketch = null;
+  /** Of all elements. @type {{ sent: unknown, coloring: import('./contents.js').Coloring | null }} */
+  #coloring = { sent: null, coloring: null };
+
+  /** @param {Model} model @param {Source} source */
   constructor(model, source) {
     this.model = model;
-    this.source = source;
     this.#rect = model.get('view');
     const style = element('style', {}, STYLE);
     this.element = element('div', {
@@ -58,7 +66,31 @@ export class Stage {
     followPixels(this.canvas, () => this.#redraw(), this.#ended.signal);
     this.#follow();
     listenTo(this.element, this, this.#ended.signal);
-    void this.#start();
+    this.#await(source);
+  }
+
+  /** Show pictures until the texture is there. @param {Source} source */
+  #await(source) {
+    const found = source();
+    if (!found) this.element.ariaBusy = 'true';
+    if (found) return void this.#start(found);
+    this.#sketch = new Sketch(this.model, this.canvas, () => this.#redraw(), this.#ended.signal);
+    const come = () => {
+      if (!source()) return;
+      this.model.off('change:_source', come);
+      if (!this.#ended.signal.aborted) this.#await(source);
+    };
+    const fail = () => this.#say(this.model.get('_failure'));
+    this.#on({ 'change:_source': come, 'change:_failure': fail });
+    if (this.model.get('_failure')) fail();
+  }
+
+  /** @param {Record<string, () => void>} acts */
+  #on(acts) {
+    for (const [event, act] of Object.entries(acts)) {
+      this.model.on(event, act);
+      this.#ended.signal.addEventListener('abort', () => this.model.off(event, act));
+    }
   }
 
   /** Take it out of the page, and free its memory. */
@@ -66,11 +98,12 @@ export class Stage {
     this.#ended.abort();
     this.#screen?.remove(this);
     this.#own?.texture.dispose();
-    if (this.#content) release(this.source);
+    if (this.#source && this.#content) release(this.#source);
     this.element.remove();
   }
 
-  async #start() {
+  /** @param {Promise<import('./widget.js').Shared>} source */
+  async #start(source) {
     try {
       this.#screen = screenOfPage();
     } catch {
@@ -78,8 +111,9 @@ export class Stage {
     }
     this.#screen.add(this);
     try {
-      const content = await open(this.source);
-      if (this.#ended.signal.aborted) return release(this.source);
+      const shared = this.#source = await source;
+      const content = await open(shared);
+      if (this.#ended.signal.aborted) return release(shared);
       this.#content = content;
       await this.#color();
     } catch (error) {
@@ -105,13 +139,10 @@ export class Stage {
     for (const name of ['width', 'height', 'background']) acts[`change:${name}`] = () => this.#sized();
     acts['change:legend'] = () => this.#explain();
     acts['change:tip'] = () => this.#tell();
-    for (const name of ['colors', '_marked', 'root', 'mode']) {
+    for (const name of ['colors', '_marked', '_coloring', 'root', 'mode']) {
       acts[`change:${name}`] = () => void this.#color().catch((error) => this.#say(error.message));
     }
-    for (const [event, act] of Object.entries(acts)) {
-      this.model.on(event, act);
-      this.#ended.signal.addEventListener('abort', () => this.model.off(event, act));
-    }
+    this.#on(acts);
   }
 
   #sized() {
@@ -129,15 +160,25 @@ export class Stage {
     const root = this.model.get('root');
     const colors = { ...this.model.get('colors'), ...this.model.get('_marked') };
     const range = texture.layersOf(root);
-    if (!this.#own?.recolor(colors, root)) {
+    const coloring = this.#coloringOf(data.roots[range.first], this.model.get('_coloring'));
+    if (!this.#own?.recolor(colors, coloring, root)) {
       this.#own?.texture.dispose();
-      this.#own = Object.keys(colors).length ? new Colored(data, range, colors, root) : null;
+      const isOwn = coloring !== null || Object.keys(colors).length > 0;
+      this.#own = isOwn ? new Colored(data, range, colors, coloring, root) : null;
     }
     this.#range = range;
     this.shown = drawnOf(this.texture, range, this.model.get('mode'));
     this.#say('');
     await this.#screen.prepare(this);
+    this.#sketch = null; // the canvas keeps its picture until the next one
+    this.element.ariaBusy = 'false';
     this.#redraw();
+  }
+
+  /** @param {import('../src/data.js').Root} root @param {any} sent @returns {import('./contents.js').Coloring | null} */
+  #coloringOf({ style }, sent) {
+    if (sent !== this.#coloring.sent) this.#coloring = { sent, coloring: style && sent ? coloringOf(style, sent) : null };
+    return this.#coloring.coloring;
   }
 
   /** @returns {import('../src/vector-texture.js').VectorTexture} */
@@ -146,7 +187,8 @@ export class Stage {
   }
 
   #redraw() {
-    this.#screen?.request(this);
+    if (this.#sketch) this.#sketch.draw(this.#rect);
+    else this.#screen?.request(this);
   }
 
   /** What is far from the window is drawn when it comes near. */

@@ -39,8 +39,8 @@ function imported({ key, content }) {
 
 /** @param {{ model: ManagedModel, el: HTMLElement }} widget */
 async function render({ model, el }) {
-  const [engine, source] = await Promise.all([shared(model, '_engine'), shared(model, '_source')]);
-  const { attach } = await imported(engine);
+  const source = () => (model.get('_source') ? shared(model, '_source') : null);
+  const { attach } = await imported(await shared(model, '_engine'));
   return attach({ model, el, source });
 }
 

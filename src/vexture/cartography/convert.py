@@ -1,87 +1,28 @@
 """Conversion of geographic data into the texture of a map, and the table of its attributes."""
 
-import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from vexture.cartography.colours import Scale, colours_of, rgba_of
 from vexture.cartography.coverage import covering, ranks
-from vexture.cartography.marks import strokes, width_of, widths_at
-from vexture.cartography.paths import Fit, area_paths, fitted, symbol_paths
-from vexture.cartography.place import MERCATOR, placed
-from vexture.content import about
+from vexture.cartography.paths import area_paths, fitted
+from vexture.cartography.place import MERCATOR
+from vexture.cartography.prepare import FILL, INK, MapLayer, Prepared, prepared
 from vexture.deadline import DEFAULT_SECONDS, within
 from vexture.drawing import Drawing, Path
-from vexture.errors import LimitError, ParameterError, SourceError
-from vexture.geo.crs import chosen_crs, gis_packages
-from vexture.geo.features import Features, read_features
-from vexture.geo.rings import Rings
+from vexture.errors import LimitError, SourceError
 from vexture.layout import MOST_PAINTS
-from vexture.notes import Notes
-from vexture.paint import Paint
 from vexture.pipeline import Conversion, run
 
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["DEFAULT_SIZE", "LEGEND", "Map", "MapLayer", "convert_map"]
+__all__ = ["DEFAULT_SIZE", "Map", "convert_map", "converted"]
 
 DEFAULT_SIZE: Final = 1024
 """Pixels of the map's larger side, to which widths in pixels refer."""
-
-LEGEND: Final = "vexture.legend"
-"""Key of the legends in the metadata of the table."""
-
-FILL, INK, DOT = "#c3cdd6", "#404a54", "#d55e00"
-"""Colours of areas, lines and points that none is given for."""
-
-
-@dataclass(frozen=True)
-class MapLayer:
-    """A source of a map, what of it is drawn, and how.
-
-    Parameters
-    ----------
-    source : path, bytes or GeoDataFrame
-    layer, where, crs, id, columns
-        As in `vexture.geo.features.read_features`; `crs` is that of the source.
-    color : Scale, optional
-        Colours by an attribute.
-    fill : str, optional
-        One CSS colour for all of it.
-    order : str, optional
-        Column by which overlapping polygons are painted, the greatest on top; by default the smaller are on top.
-    stroke : str
-        Width of lines: ``500m`` on the ground, or ``1.5px`` of a map of the stated size.
-    symbol : Drawing, optional
-        What is drawn at points; a dot by default.
-    symbol_size : str
-        Width of symbols, as of lines.
-    """
-
-    source: Any
-    layer: str | None = None
-    where: str | None = None
-    crs: str | None = None
-    id: str | None = None
-    columns: tuple[str, ...] | None = None
-    color: Scale | None = None
-    fill: str | None = None
-    order: str | None = None
-    stroke: str = "1px"
-    symbol: Drawing | None = None
-    symbol_size: str = "8px"
-
-    @property
-    def name(self) -> str:
-        """The layer's name, or else the file's."""
-        named = isinstance(self.source, str | FilePath)
-        return self.layer or (FilePath(self.source).name.partition(".")[0] if named else "map")
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,22 +34,6 @@ class Map:
     legends: tuple[dict[str, Any], ...]
 
 
-@dataclass(frozen=True, eq=False)
-class _Painted:
-    """Features in the map's reference system, with their names in the texture and their colours."""
-
-    layer: MapLayer
-    features: Features
-    names: NDArray[Any]
-    rgba: NDArray[np.float64] | None
-
-    def colours(self, default: str) -> NDArray[np.float64]:
-        if self.rgba is not None:
-            return self.rgba
-        return np.tile(rgba_of(self.layer.fill or default, "fill"), (len(self.features), 1))
-
-
-@gis_packages()
 def convert_map(
     layers: Sequence[MapLayer],
     *,
@@ -143,115 +68,40 @@ def convert_map(
     SourceError, ParameterError, LimitError
         Each in a line that says what to do.
     """
-    if not layers:
-        raise ParameterError("a map of no sources; give at least one")
-    if size < 1:
-        raise ParameterError(f"`size` is {size}; it must be 1 or more pixels")
-    notes, crs = Notes(), chosen_crs(crs, None)
+    ready = prepared(layers, crs=crs, size=size, name=name, max_seconds=max_seconds)
+    return converted(ready, snap=snap, restyle=restyle, tolerance=tolerance, max_seconds=max_seconds)
+
+
+def converted(
+    ready: Prepared,
+    *,
+    snap: float | None = None,
+    restyle: bool = True,
+    tolerance: float | Literal["auto"] = "auto",
+    max_seconds: float = DEFAULT_SECONDS,
+    capacity: int | None = None,
+) -> Map:
+    """Convert layers that are read; parameters and errors are those of `convert_map` and `vexture.convert`."""
     with within(max_seconds):
-        read = [_read(layer, crs, notes) for layer in layers]
-        painted, legends = _coloured(read, notes)
-        drawing = _drawing(painted, crs, snap, size, name or layers[0].name, notes)
+        drawing = _drawing(ready, snap)
         _check_count(drawing, restyle)
-    done = run(replace(drawing, notes=notes.listed), split="faces", restyle=restyle, tolerance=tolerance)
-    return Map(done, _table(painted, legends), tuple(legends))
+    given: dict[str, Any] = {"restyle": restyle, "tolerance": tolerance, "capacity": capacity}
+    done = run(replace(drawing, notes=ready.notes.listed), split="faces", max_seconds=max_seconds, **given)
+    return Map(done, ready.table, ready.legends)
 
 
-def _read(layer: MapLayer, crs: str, notes: Notes) -> tuple[MapLayer, Features]:
-    """Features of a layer, in the map's reference system."""
-    with about(str(layer.source) if isinstance(layer.source, str | FilePath) else layer.name):
-        options = {"layer": layer.layer, "where": layer.where, "id": layer.id, "columns": _columns(layer)}
-        try:
-            features = read_features(layer.source, crs=layer.crs, notes=notes, **options)  # type: ignore[arg-type]
-        except SourceError as error:
-            if "give `crs`" not in str(error):
-                raise
-            raise SourceError(str(error).replace("`crs`", "`source_crs`")) from None
-        if not len(features):
-            reason = f"no feature meets `where` {layer.where!r}" if layer.where else "it has no features"
-            raise SourceError(f"{reason}; there is nothing to draw")
-        if not (len(features.rings.ends) or len(features.lines.ends) or len(features.points.points)):
-            raise SourceError("none of its features has a geometry; there is nothing to draw")
-        return layer, placed(features, crs, notes)
-
-
-def _columns(layer: MapLayer) -> tuple[str, ...] | None:
-    """The columns that a layer keeps or needs."""
-    if layer.columns is None:
-        return None
-    needed = (layer.color.column if layer.color else None, layer.order)
-    return tuple(dict.fromkeys([*layer.columns, *(name for name in needed if name is not None)]))
-
-
-def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list[_Painted], list[dict[str, Any]]]:
-    """Names and colours of all features; ids that two layers share get the layer's name before them."""
-    every = np.concatenate([features.ids for _, features in read])
-    clash = len(set(every.tolist())) < len(every)
-    if clash:
-        notes.remark("layers share ids, so elements are named LAYER:ID")
-    painted, legends = [], []
-    for layer, features in read:
-        names = np.array([f"{layer.name}:{one}" for one in features.ids], object) if clash else features.ids
-        rgba = None
-        if layer.color is not None:
-            with about(layer.name):
-                rgba, legend = colours_of(features.table, layer.color, notes)
-            legends.append({"layer": layer.name, **legend})
-        painted.append(_Painted(layer, features, names, rgba))
-    return painted, legends
-
-
-def _drawing(painted: list[_Painted], crs: str, snap: float | None, size: int, name: str, notes: Notes) -> Drawing:
+def _drawing(ready: Prepared, snap: float | None) -> Drawing:
     """All layers in the unit square."""
-    boxes = [np.concatenate([f.rings.points, f.lines.points, f.points.points]) for f in (p.features for p in painted)]
-    every = np.concatenate(boxes)
-    if not len(every):
-        raise SourceError("nothing of it lies on the map; choose another `crs`")
-    side = float(np.ptp(every, axis=0).max())
-    parts: list[tuple[_Painted, Rings, list[Path]]] = []
-    reach = [every.min(axis=0), every.max(axis=0)]
-    for one in painted:
-        pixel = (side or 1.0) / size
-        width = width_of(one.layer.stroke, "stroke")
-        lines = strokes(one.features.lines, width, crs, pixel)
-        symbols = list(_symbols(one, crs, pixel))
-        own = [lines.points, *(np.concatenate(path.contours)[:, 0] for path in symbols)]
-        reach += [corner for points in own if len(points) for corner in (points.min(axis=0), points.max(axis=0))]
-        parts.append((one, lines, symbols))
-    low, high = np.min(reach, axis=0), np.max(reach, axis=0)
-    if not (high > low).all():
-        raise SourceError("it has no area on the map; give polygons, or points that differ")
-    fit = Fit((*map(float, low), *map(float, high)))  # type: ignore[arg-type]
-    paths: list[Path] = []
-    for one, lines, symbols in parts:
+    fit, paths = ready.fit, list[Path]()
+    for one in ready.layers:
         rank = ranks(one.features, one.layer.order)
-        rings = covering(one.features.rings, rank, fit.scale, snap, notes)
+        rings = covering(one.features.rings, rank, fit.scale, snap, ready.notes)
         paths += area_paths(rings, one.names, one.colours(FILL), rank, fit)
-        paths += area_paths(lines, one.names, one.colours(INK), np.arange(len(one.features)), fit)
-        paths += fitted(iter(symbols), fit)
+        paths += area_paths(one.lines, one.names, one.colours(INK), np.arange(len(one.features)), fit)
+        paths += fitted(iter(one.symbols), fit)
     if not paths:
         raise SourceError("its features enclose no area; correct them")
-    return Drawing(tuple(paths), fit.to_source, name, crs, sides=fit.sides)
-
-
-def _symbols(one: _Painted, crs: str, pixel: float) -> Iterator[Path]:
-    """Paths of the symbols of a layer's points, in the units of the map."""
-    points, layer = one.features.points, one.layer
-    if not len(points.points):
-        return
-    sizes = widths_at(points.points, width_of(layer.symbol_size, "symbol_size"), crs, pixel)
-    names = [str(one.names[feature]) for feature in points.feature.tolist()]
-    own_colours = layer.symbol is not None and one.rgba is None and layer.fill is None
-    colours = one.colours(DOT)[points.feature].tolist()
-    paints = [None if own_colours else Paint((red, green, blue), alpha) for red, green, blue, alpha in colours]
-    yield from symbol_paths(layer.symbol or _dot(), points.points, sizes, names, paints)
-
-
-def _dot() -> Drawing:
-    """A round symbol that fills the unit square."""
-    from vexture.reading import read
-
-    return read(b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 2 2"><circle cx="1" cy="1" r="1"/></svg>')
+    return Drawing(tuple(paths), fit.to_source, ready.name, ready.crs, sides=fit.sides)
 
 
 def _check_count(drawing: Drawing, restyle: bool) -> None:
@@ -262,22 +112,3 @@ def _check_count(drawing: Drawing, restyle: bool) -> None:
             f"it has {count:,} features, and one map that can be restyled holds {MOST_PAINTS - 1:,}; draw colours of "
             "classes only (`restyle` off), fewer features by `where`, or make a pyramid by vexture tiles"
         )
-
-
-def _table(painted: list[_Painted], legends: list[dict[str, Any]]) -> "pyarrow.Table":
-    """Attributes of all layers: `id` is the element's name in the texture; of several layers, `layer` is its name."""
-    import pyarrow as pa
-
-    tables = []
-    for one in painted:
-        table = one.features.table.set_column(0, "id", pa.array(one.names.tolist(), pa.string()))
-        if len(painted) > 1:
-            names = [f"{name}_" if name == "layer" else name for name in table.column_names]
-            table = table.rename_columns(names)
-            table = table.add_column(1, "layer", pa.array([one.layer.name] * len(table), pa.string()))
-        tables.append(table)
-    try:
-        joined = pa.concat_tables(tables, promote_options="permissive")
-    except (pa.ArrowInvalid, pa.ArrowTypeError) as error:
-        raise ParameterError(f"the layers' columns differ in type ({error}); choose others by `columns`") from None
-    return joined.replace_schema_metadata({LEGEND: json.dumps(legends)})

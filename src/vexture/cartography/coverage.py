@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vexture.errors import ParameterError
 from vexture.geo.features import Features
 from vexture.geo.rings import Rings, rings_of, shared
-from vexture.geo.snap import DEFAULT_SNAP
+from vexture.geo.snap import DEFAULT_SNAP, MOST_SNAP
 from vexture.notes import Notes
 
 __all__ = ["covering", "ranks"]
@@ -33,12 +33,26 @@ def covering(rings: Rings, rank: NDArray[np.int64], size: float, snap: float | N
     notes : Notes
         Gets what was snapped and closed, and how many polygons overlap.
     """
-    if not len(rings.ends):
+    width = (DEFAULT_SNAP if snap is None else snap) * size
+    if not len(rings.ends) or (0.0 < width <= MOST_SNAP * size and _is_clean(rings, width)):
         return rings
     rings = shared(rings, size, snap, notes)
     if snap == 0.0 or len(rings.outer) < 2:
         return rings
-    return _cleaned(rings, rank, size, (DEFAULT_SNAP if snap is None else snap) * size, notes)
+    return _cleaned(rings, rank, size, width, notes)
+
+
+def _is_clean(rings: Rings, width: float) -> bool:
+    """Whether borders are equal already, bit for bit and corner for corner, without overlaps and narrow gaps.
+
+    Then there is nothing to snap, and to know it costs much less than to try.
+    """
+    import shapely
+
+    try:
+        return len(rings.outer) > 1 and bool(shapely.coverage_is_valid(rings.shapes, gap_width=width))
+    except (shapely.errors.GEOSException, ValueError):
+        return False
 
 
 def _cleaned(rings: Rings, rank: NDArray[np.int64], size: float, width: float, notes: Notes) -> Rings:

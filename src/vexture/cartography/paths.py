@@ -45,14 +45,16 @@ def area_paths(
     contours = ring_contours(fit.inward(rings.points), rings.ends)
     owner = rings.feature[rings.polygon]
     order = np.argsort(rank[owner], kind="stable")
-    features, first = np.unique(rank[owner][order], return_index=True)
+    ends = np.append(np.flatnonzero(np.diff(rank[owner][order])) + 1, len(order))
+    first, places = 0, order.tolist()
+    features = owner[order[np.append(0, ends[:-1]).astype(np.intp)]]
     paints: dict[tuple[float, ...], Paint] = {}
-    for places in np.split(order, first[1:]) if len(features) else ():
-        feature = int(owner[places[0]])
-        colour = tuple(rgba[feature].tolist())
-        paint = paints.setdefault(colour, Paint(colour[:3], colour[3]))
-        own = tuple(contours[place] for place in places.tolist())
-        yield Path(own, FillRule.NONZERO, paint, element=str(names[feature]))
+    named = zip(ends.tolist(), names[features].tolist(), map(tuple, rgba[features].tolist()), strict=True)
+    for end, name, colour in named:
+        paint = paints.get(colour) or paints.setdefault(colour, Paint(colour[:3], colour[3]))
+        own = tuple(contours[place] for place in places[first:end])
+        yield Path.sound(own, FillRule.NONZERO, paint, element=str(name))
+        first = end
 
 
 def symbol_paths(

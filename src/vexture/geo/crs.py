@@ -41,6 +41,9 @@ UNPLACED: Final = (
 )
 """Reference system of a plane without a known place in the world."""
 
+MANY: Final = 10_000
+"""Points from which it pays to look for equal ones."""
+
 SAMPLES: Final = 21
 """Points on each side of a rectangle whose bounds are transformed."""
 
@@ -230,8 +233,13 @@ def transformed(points: NDArray[np.float64], start: str, end: str) -> NDArray[np
     """Points, (n, 2), of one system in another; infinite where they have no image."""
     if not len(points) or same_system(start, end):
         return points
-    x, y = _transformer(start, end).transform(points[:, 0], points[:, 1])
-    return np.stack([x, y], axis=1)
+    transformer = _transformer(start, end)
+    if len(points) < MANY:
+        return np.stack(transformer.transform(points[:, 0], points[:, 1]), axis=1)
+    # corners that polygons share are transformed once, which costs more than to find them
+    places = np.ascontiguousarray(points + 0.0, np.float64).view(np.complex128).ravel()
+    unique, place = np.unique(places, return_inverse=True)
+    return np.stack(transformer.transform(unique.real, unique.imag), axis=1)[place]
 
 
 def transformed_bounds(bounds: Bounds, start: str, end: str) -> Bounds | None:

@@ -30,6 +30,9 @@ ROUNDS: Final = 5
 TESTS: Final = 1 << 23
 """Pairs of a shape and a corner that are tested, at most, between two looks at the clock."""
 
+FEWEST: Final = 32
+"""Shapes in a call: it costs as much as the search for some."""
+
 MOST_NEAR: Final = 50
 """Corners near a corner or side, on average, above which snapping would destroy what it is for."""
 
@@ -138,7 +141,7 @@ def _near(shapes: NDArray[Any], tree: Any, distance: float) -> Numbers:
     """Pairs (2, k) of a shape and a corner of the tree within a distance."""
 
     def parts() -> Iterator[Numbers]:
-        step, found = max(1, TESTS // max(len(tree), 1)), 0
+        step, found = max(FEWEST, TESTS // max(len(tree), 1)), 0
         for first in range(0, len(shapes), step):
             check_time()
             pairs = tree.query(shapes[first : first + step], predicate="dwithin", distance=distance)

@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from vexture.errors import DeviceError, ParameterError
@@ -14,6 +15,9 @@ __all__ = ["map"]
 OF_SCALE: Final = ("scale", "palette", "classes", "no_data")
 OF_LAYER: Final = ("layer", "where", "source_crs", "id", "columns", "fill", "order", "stroke", "symbol", "symbol_size")
 OF_MAP: Final = ("crs", "snap", "size", "tolerance", "max_seconds")
+CAPACITY: Final = 15
+"""Pieces in a leaf: more than by default, as the bytes are sent to the page at once."""
+
 NAMES: Final = {"source_crs": "crs"}
 """Options whose layers have another name for them."""
 
@@ -77,7 +81,11 @@ def map(
         from vexture.notebook.map_widget import MapWidget
     except ModuleNotFoundError as error:
         raise DeviceError(f"map needs the package {error.name}: pip install 'vexture[notebook,map]'") from None
-    from vexture.cartography import MapLayer, Scale, convert_map
+    from vexture.cartography import MapLayer, Scale
+    from vexture.cartography.convert import DEFAULT_SIZE, converted
+    from vexture.cartography.place import MERCATOR
+    from vexture.cartography.prepare import prepared
+    from vexture.deadline import DEFAULT_SECONDS
 
     fields = {name: options.pop(name) for name in OF_SCALE if name in options}
     scale = Scale(column or "", **{("kind" if name == "scale" else name): value for name, value in fields.items()})
@@ -86,7 +94,12 @@ def map(
         if name not in OF_MAP:
             raise ParameterError(f"map has no option {name!r}; leave it out")
     layer = MapLayer(source, color=None if column is None else scale, **of_layer)
-    made = convert_map([layer], name=None if isinstance(source, str | os.PathLike) else "map", **options)
-    given = {"width": width, "height": height, "background": background, "view": view}
-    traits = {name: value for name, value in given.items() if value is not None}
-    return MapWidget(made, scale, tooltip=tooltip, has_legend=legend, **traits)
+    title = None if isinstance(source, str | os.PathLike) else "map"
+    first: dict[str, Any] = {"crs": MERCATOR, "size": DEFAULT_SIZE, "max_seconds": DEFAULT_SECONDS}
+    first |= {given: value for given, value in options.items() if given in first}
+    ready = prepared([layer], name=title, **first)
+    later = {given: value for given, value in options.items() if given not in ("crs", "size")}
+    shown = {"width": width, "height": height, "background": background, "view": view}
+    traits = {name: value for name, value in shown.items() if value is not None}
+    conversion = partial(converted, ready, **later, capacity=CAPACITY)
+    return MapWidget(ready, scale, conversion, tooltip=tooltip, has_legend=legend, **traits)

@@ -1,8 +1,13 @@
 """The widget of a map: its column, its selection, and what is told of a feature, as traits."""
 
-from collections.abc import Sequence
+import os
+import threading
+import zlib
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Final
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 import traitlets
@@ -10,11 +15,29 @@ from numpy.typing import NDArray
 
 from vexture.cartography import Map, Scale
 from vexture.cartography.colours import colours_of
+from vexture.cartography.picture import map_picture
+from vexture.cartography.prepare import Prepared
 from vexture.errors import ParameterError
-from vexture.notebook.widget import HEIGHT, VectorWidget
+from vexture.notebook.pending import Pending
+from vexture.notebook.picture import MARGIN, Rect, png_of
+from vexture.notebook.shared import shared
+from vexture.notebook.widget import HEIGHT, PICTURE_WIDTH, PNG, VectorWidget
 from vexture.notes import Notes
+from vexture.renderers.view import Size, window
+from vexture.texture.restyle import components
+from vexture.texture.texture import Texture
+from vexture.tree.planar.style import rounded
+
+if TYPE_CHECKING:
+    import pyarrow
 
 __all__ = ["MapWidget"]
+
+COLOUR_ONE: Final = 10_000
+"""What 1 of a colour is, as it is sent: colours of elements have four digits."""
+
+MOST_PIXELS: Final = 4096
+"""Of a side of a picture."""
 
 SELECTED: Final = (0.0, 0.9, 1.0, 1.0)
 """Colour of the selected feature: in no ramp of the default palettes."""
@@ -50,35 +73,139 @@ class MapWidget(VectorWidget):
     legend: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     tip: Any = traitlets.List().tag(sync=True)
     _marked = traitlets.Dict().tag(sync=True)
-    saved_traits = ("legend", "selected", "_marked")
+    _coloring: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
+    _picture: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
+    _wanted: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
+    _failure = traitlets.Unicode().tag(sync=True)
+    saved_traits = ("legend", "selected", "_marked", "_coloring")
 
     def __init__(
         self,
-        made: Map,
+        ready: Prepared,
         scale: Scale,
+        conversion: Callable[[], Map],
         *,
         tooltip: bool | Sequence[str] = True,
         has_legend: bool = True,
         **traits: Any,
     ) -> None:
-        self.table = made.table
-        self._ids = [str(name) for name in made.table.column("id").to_pylist()]
+        self.table = ready.table
+        self._ids = [str(name) for name in ready.table.column("id").to_pylist()]
         self._row = {name: row for row, name in enumerate(self._ids)}
-        self._told = _told(made, tooltip)
-        self._scale, self._has_legend = scale, has_legend
-        texture = made.conversion.texture
-        style = texture.roots[0].style
-        assert style is not None
-        self._rgba: NDArray[np.float64] = np.zeros((len(self._ids), 4))
-        self._seen = frozenset(style.names)  # others lie wholly below them
-        for name, rgba in zip(style.names, style.rgba, strict=True):
-            self._rgba[self._row[name]] = rgba
-        legend = _legend(made.legends[0]) if made.legends and has_legend else None
-        super().__init__(texture, **{"height": HEIGHT, **traits}, column=scale.column or None, legend=legend)
+        self._told = _told(ready.table, tooltip)
+        self._scale, self._has_legend, self._is_recolored = scale, has_legend, False
+        self._drawn = map_picture(ready)
+        self._rgba = self._drawn.colours(len(self._ids))
+        self._style_rows: NDArray[np.intp] | None = None
+        self._last: tuple[Size, tuple[float, ...], NDArray[np.float32]] | None = None
+        legend = _legend(ready.legends[0]) if ready.legends and has_legend else None
+        own = {"_home": _home(ready.fit.sides), "_name": ready.name, "height": HEIGHT}
+        super().__init__(None, **{**own, **traits}, column=scale.column or None, legend=legend)
+        self._send_picture({"view": self.view, "size": [self.width or PICTURE_WIDTH, self.height]})
         self.observe(self._recolour, "column")
         self.observe(self._mark, "selected")
         self.observe(self._tell, "hovered")
         self.observe(self._select, "picked")
+        self.observe(lambda change: self._send_picture(change["new"]), "_wanted")
+        self._lock = threading.RLock()
+        self._pending = Pending(lambda: _sent(conversion()), self._arrived)
+
+    @property
+    def texture(self) -> Texture:
+        """The converted map; it is waited for."""
+        self._pending.result()
+        self._arrived()
+        return super().texture
+
+    def _arrived(self) -> None:
+        """Show the texture in place of the pictures."""
+        with self._lock:
+            if self._texture is not None or self.comm is None:
+                return
+            if self._pending.error is not None:
+                self._failure = str(self._pending.error)
+                return
+            made, content = self._pending.result()
+            texture = made.conversion.texture
+            style = texture.roots[0].style
+            assert style is not None
+            self._style_rows = np.array([self._row[name] for name in style.names], np.intp)
+            self._texture = texture
+            with self.hold_sync():
+                self._source = shared(content)
+                if self._is_recolored:
+                    self._coloring = self._coded()
+                self._mark({"new": self.selected})
+                self.send_state("colors")  # without those of what is hidden
+                self._picture = None
+
+    def _is_seen(self, name: str) -> bool:
+        """Whether a feature is in the texture, as far as that is known: some lie wholly below others."""
+        return self._style_rows is None or name in self._in_texture
+
+    @cached_property
+    def _in_texture(self) -> frozenset[str]:
+        assert self._style_rows is not None
+        return frozenset(self._ids[row] for row in self._style_rows.tolist())
+
+    def _coded(self) -> dict[str, Any]:
+        """Colours of the elements of the style: each one once, and the place of each element's among them."""
+        rgba = np.uint16(np.rint(COLOUR_ONE * self._rgba[self._style_rows]))
+        unique, places = np.unique(rgba.view(np.uint64).ravel(), return_inverse=True)
+        kind = np.uint8 if len(unique) <= 1 << 8 else np.uint16 if len(unique) <= 1 << 16 else np.uint32
+        return {"colors": unique.tobytes(), "places": places.astype(kind).tobytes()}
+
+    def _send_picture(self, wanted: Any) -> None:
+        """Send a picture of a view, (x, y, width, height), in so many pixels."""
+        if self._texture is not None or not wanted:
+            return
+        size = tuple(max(1, min(MOST_PIXELS, int(side))) for side in wanted["size"])
+        picture = self._sketched((size[0], size[1]), wanted["view"])
+        self._picture = {**wanted, "content": png_of(picture, "transparent", fast=True)}
+
+    def _sketched(self, size: Size, view: Any) -> NDArray[np.float32]:
+        """A picture of the map as it was read."""
+        changed = {**self.components(self.colors), **self._marked}
+        rgba = self._rgba.copy() if changed or self._is_recolored else None
+        if rgba is None and self._last is not None and self._last[:2] == (size, tuple(view)):
+            return self._last[2]
+        for name, colour in changed.items():
+            assert rgba is not None
+            rgba[self._row[name]] = colour
+        picture = self._drawn.draw(rgba, size, window(*view))
+        self._last = (size, tuple(view), picture) if rgba is None else None
+        return picture
+
+    def render(self, size: Size | None = None) -> NDArray[np.float32]:
+        """What the widget shows; see `VectorWidget.render`. Before the map is converted it is drawn as it was read."""
+        if self._texture is not None:
+            return super().render(size)
+        return self._sketched(size or (self.width or PICTURE_WIDTH, self.height), self.view)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write what the widget shows; see `VectorWidget.save`."""
+        if Path(path).suffix.lower() != PNG:
+            assert self.texture is not None  # it is waited for
+        super().save(path)
+
+    def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
+        """Red, green, blue and opacity of colours by the names of features."""
+        if not isinstance(colours, Mapping):
+            raise ParameterError("the colours are no mapping of names, such as {'4': 'red'}")
+        for name in colours:
+            if name not in self._row:
+                raise ParameterError(f"there is no feature {name!r}; names are in the column `id` of `table`")
+        parts = rounded([components(name, colour) for name, colour in colours.items()]).tolist()
+        pairs = zip(colours, parts, strict=True)
+        return {name: part for name, part in pairs if self._is_seen(name)}
+
+    def coloured(self) -> Texture:
+        """The texture in the colours that the widget shows."""
+        every: dict[str, Any] = {}
+        if self._is_recolored:
+            every = dict(zip(self._ids, self._rgba.tolist(), strict=True))
+        every |= self.components(self.colors) | self._marked
+        return self.texture.with_paints({name: colour for name, colour in every.items() if self._is_seen(name)})
 
     @traitlets.validate("column")
     def _checked_column(self, proposal: Any) -> Any:
@@ -103,20 +230,21 @@ class MapWidget(VectorWidget):
             rgba, legend = colours_of(self.table, scale, Notes())
         except ParameterError:  # a column of texts: the scale was chosen for another one
             rgba, legend = colours_of(self.table, replace(scale, kind="categories", palette=None), Notes())
-        self._rgba = np.round(rgba, 4)
+        self._rgba, self._is_recolored = rounded(rgba), True
         with self.hold_sync():
-            pairs = zip(self._ids, self._rgba.tolist(), strict=True)
-            self.colors = {name: colour for name, colour in pairs if name in self._seen}
-            selected = self.selected
-            self._marked = {selected: SELECTED} if selected is not None and selected in self._seen else {}
+            if self._style_rows is not None:
+                self._coloring = self._coded()
+            self._mark({"new": self.selected})
             self.legend = _legend(legend) if self._has_legend else None
+            if self._picture is not None:
+                self._send_picture({name: self._picture[name] for name in ("view", "size")})
 
     def _mark(self, change: Any) -> None:
-        """Colour what is selected, and give what was selected its own colour again."""
-        marked = {name: self._rgba[self._row[name]].tolist() for name in self._marked}
-        if change["new"] in self._seen:
-            marked[change["new"]] = SELECTED
-        self._marked = marked
+        """Colour what is selected."""
+        name = change["new"]
+        self._marked = {name: SELECTED} if name is not None and self._is_seen(name) else {}
+        if "name" in change and self._picture is not None:
+            self._send_picture({name: self._picture[name] for name in ("view", "size")})
 
     def _tell(self, change: Any) -> None:
         row = self._row.get((change["new"] or {}).get("element") or "")
@@ -136,9 +264,20 @@ def _legend(found: dict[str, Any]) -> dict[str, Any]:
     return {"title": found["column"], "kind": found["scale"], "entries": entries}
 
 
-def _told(made: Map, tooltip: bool | Sequence[str]) -> list[str]:
+def _home(sides: tuple[float, float]) -> Rect:
+    """The box of a map in the unit square, with a margin."""
+    width, height = sides
+    return (0.5 - width / 2 - MARGIN, 0.5 - height / 2 - MARGIN, width + 2 * MARGIN, height + 2 * MARGIN)
+
+
+def _sent(made: Map) -> tuple[Map, bytes]:
+    """A map, and the bytes that a page gets: the names of many features are half of a file, which is not deflated."""
+    return made, zlib.compress(made.conversion.texture.to_ktx2(deflate=False))
+
+
+def _told(table: "pyarrow.Table", tooltip: bool | Sequence[str]) -> list[str]:
     """Attributes that a tip has."""
-    names: list[str] = made.table.column_names
+    names: list[str] = table.column_names
     if isinstance(tooltip, bool):
         return names[:MOST_TOLD] if tooltip else []
     for name in tooltip:

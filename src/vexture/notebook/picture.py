@@ -10,7 +10,7 @@ from vexture.renderers.view import Size, window
 from vexture.svg.colors import Color, parse_color
 from vexture.texture.texture import Texture
 
-__all__ = ["MODES", "Mode", "Rect", "home_of", "png_of", "seen"]
+__all__ = ["MARGIN", "MODES", "Mode", "Rect", "home_of", "png_of", "seen"]
 
 Mode: TypeAlias = Literal["paint", "silhouette"]
 MODES: Final = ("paint", "silhouette")
@@ -53,8 +53,8 @@ def seen(texture: Texture, size: Size, view: Rect, mode: Mode, root: str | int |
     return picture
 
 
-def png_of(picture: NDArray[np.float32], background: str) -> bytes:
-    """A picture on a background, as a file."""
+def png_of(picture: NDArray[np.float32], background: str, *, fast: bool = False) -> bytes:
+    """A picture on a background, as a file; one that is made `fast` has more bytes."""
     from PIL import Image
 
     paper = parse_color(background)
@@ -65,5 +65,5 @@ def png_of(picture: NDArray[np.float32], background: str) -> bytes:
     flat[..., :3] = np.divide(flat[..., :3], opacity, out=np.zeros_like(flat[..., :3]), where=opacity > 0.0)
     image = Image.fromarray(np.uint8(np.rint(255.0 * np.clip(flat, 0.0, 1.0))))
     data = BytesIO()
-    (image if paper.alpha < 1.0 else image.convert("RGB")).save(data, "PNG")
+    (image if paper.alpha < 1.0 else image.convert("RGB")).save(data, "PNG", compress_level=1 if fast else 6)
     return data.getvalue()

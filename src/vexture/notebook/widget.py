@@ -46,7 +46,14 @@ def _rectangle(**tags: Any) -> Any:
 
 
 def _colours_to_json(colours: Mapping[str, Any], widget: "VectorWidget") -> dict[str, list[float]]:
-    return components_of(widget.texture, colours, widget.root)
+    return widget.components(colours)
+
+
+def _written(value: Any) -> Any:
+    """A trait as JSON, which has no bytes."""
+    if isinstance(value, dict):
+        return {name: _written(part) for name, part in value.items()}
+    return {"base64": base64.b64encode(value).decode()} if isinstance(value, bytes | memoryview) else value
 
 
 class VectorWidget(anywidget.AnyWidget):
@@ -80,7 +87,7 @@ class VectorWidget(anywidget.AnyWidget):
 
     _esm = traitlets.Unicode().tag(sync=True)
     _engine = traitlets.Instance(Shared).tag(sync=True, **widget_serialization)
-    _source = traitlets.Instance(Shared).tag(sync=True, **widget_serialization)
+    _source = traitlets.Instance(Shared, allow_none=True).tag(sync=True, **widget_serialization)
     _home = _rectangle()
     _name = traitlets.Unicode().tag(sync=True)
     view = _rectangle()
@@ -93,27 +100,30 @@ class VectorWidget(anywidget.AnyWidget):
     picked = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     hovered = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
 
-    def __init__(self, texture: Texture, **traits: Any) -> None:
+    def __init__(self, texture: Texture | None, **traits: Any) -> None:
         self._texture = texture
-        home = home_of(texture, traits.get("root"))
-        traits.setdefault("view", home)
-        engine, source = shared(built(PAGE.script)), shared(texture.to_ktx2())
-        super().__init__(_home=home, _name=texture.name, _engine=engine, _source=source, **traits)
+        if texture is not None:  # else it comes later
+            traits |= {"_home": home_of(texture, traits.get("root")), "_name": texture.name}
+            traits["_source"] = shared(texture.to_ktx2())
+        traits.setdefault("view", traits["_home"])
+        super().__init__(_engine=shared(built(PAGE.script)), **traits)
 
     def __repr__(self) -> str:
         """Name and view."""
-        return f"<VectorWidget {self.texture.name!r}: view {', '.join(f'{number:g}' for number in self.view)}>"
+        return f"<{type(self).__name__} {self._name!r}: view {', '.join(f'{number:g}' for number in self.view)}>"
 
     @property
     def texture(self) -> Texture:
         """What is shown; for another one make another widget."""
+        assert self._texture is not None
         return self._texture
 
     def close(self) -> None:
         """End the widget; the last one of a texture frees its bytes."""
         if self.comm is not None:
             for each in (self._engine, self._source):
-                each.release()
+                if each is not None:
+                    each.release()
         super().close()
 
     def render(self, size: Size | None = None) -> NDArray[np.float32]:
@@ -129,9 +139,17 @@ class VectorWidget(anywidget.AnyWidget):
         (height, width, 4) float32 array
             As of `vexture.render`.
         """
-        shown = coloured(self.texture, self.colors, self.root)
+        shown = self.coloured()
         mode: Mode = self.mode  # type: ignore[assignment]
         return seen(shown, size or (self.width or PICTURE_WIDTH, self.height), self.view, mode, self.root)
+
+    def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
+        """Red, green, blue and opacity of colours by their names; refuses what cannot be shown."""
+        return components_of(self.texture, colours, self.root)
+
+    def coloured(self) -> Texture:
+        """The texture in the colours that the widget shows."""
+        return coloured(self.texture, self.colors, self.root)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write what the widget shows: ``NAME.png`` is a picture, ``NAME.html`` a page that needs no kernel or network.
@@ -148,10 +166,11 @@ class VectorWidget(anywidget.AnyWidget):
             return write_together({target: png_of(self.render(), self.background)})
         check_output(target, PAGE)
         state = {
-            **{name: self.get_state(name)[name] for name in (*SAVED, *self.saved_traits)},
+            **{name: _written(self.get_state(name)[name]) for name in (*SAVED, *self.saved_traits)},
             "width": None,
             "height": None,
         }
+        assert self._source is not None
         texture = data_address(File(self._source.content, TEXTURE_TYPE, ".ktx2"))
         return write_together({target: whole_page(PAGE, {"state": state, "texture": texture}, self.texture.name)})
 
@@ -166,7 +185,7 @@ class VectorWidget(anywidget.AnyWidget):
 
     @traitlets.validate("colors")
     def _checked_colours(self, proposal: Any) -> Any:
-        components_of(self.texture, proposal["value"], self.root)
+        self.components(proposal["value"])
         return proposal["value"]
 
     @traitlets.validate("background")

@@ -1,0 +1,244 @@
+"""Layers of a map before their conversion: read, in the map's reference system, coloured, and fitted into a box."""
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.cartography.colours import Scale, colours_of, rgba_of
+from vexture.cartography.marks import strokes, width_of, widths_at
+from vexture.cartography.paths import Fit, symbol_paths
+from vexture.cartography.place import placed
+from vexture.content import about
+from vexture.deadline import within
+from vexture.drawing import Drawing, Path
+from vexture.errors import ParameterError, SourceError
+from vexture.geo.crs import chosen_crs, gis_packages
+from vexture.geo.features import Features, read_features
+from vexture.geo.rings import Rings
+from vexture.notes import Notes
+from vexture.paint import Paint
+
+if TYPE_CHECKING:
+    import pyarrow
+
+__all__ = ["FILL", "INK", "LEGEND", "MapLayer", "Prepared", "prepared"]
+
+LEGEND: Final = "vexture.legend"
+"""Key of the legends in the metadata of the table."""
+
+FILL, INK, DOT = "#c3cdd6", "#404a54", "#d55e00"
+"""Colours of areas, lines and points that none is given for."""
+
+NO_LINES: Final = Rings(np.empty((0, 2)), np.empty(0, np.intp), np.empty(0, np.intp), str, np.empty(0, np.intp))
+
+
+@dataclass(frozen=True)
+class MapLayer:
+    """A source of a map, what of it is drawn, and how.
+
+    Parameters
+    ----------
+    source : path, bytes or GeoDataFrame
+    layer, where, crs, id, columns
+        As in `vexture.geo.features.read_features`; `crs` is that of the source.
+    color : Scale, optional
+        Colours by an attribute.
+    fill : str, optional
+        One CSS colour for all of it.
+    order : str, optional
+        Column by which overlapping polygons are painted, the greatest on top; by default the smaller are on top.
+    stroke : str
+        Width of lines: ``500m`` on the ground, or ``1.5px`` of a map of the stated size.
+    symbol : Drawing, optional
+        What is drawn at points; a dot by default.
+    symbol_size : str
+        Width of symbols, as of lines.
+    """
+
+    source: Any
+    layer: str | None = None
+    where: str | None = None
+    crs: str | None = None
+    id: str | None = None
+    columns: tuple[str, ...] | None = None
+    color: Scale | None = None
+    fill: str | None = None
+    order: str | None = None
+    stroke: str = "1px"
+    symbol: Drawing | None = None
+    symbol_size: str = "8px"
+
+    @property
+    def name(self) -> str:
+        """The layer's name, or else the file's."""
+        named = isinstance(self.source, str | FilePath)
+        return self.layer or (FilePath(self.source).name.partition(".")[0] if named else "map")
+
+
+@dataclass(frozen=True, eq=False)
+class Painted:
+    """Features in the map's reference system, with their names in the texture, their colours, and areas of marks."""
+
+    layer: MapLayer
+    features: Features
+    names: NDArray[Any]
+    rgba: NDArray[np.float64] | None
+    lines: Rings
+    symbols: tuple[Path, ...]
+    """In the units of the map."""
+
+    def colours(self, default: str) -> NDArray[np.float64]:
+        if self.rgba is not None:
+            return self.rgba
+        return np.tile(rgba_of(self.layer.fill or default, "fill"), (len(self.features), 1))
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """Layers of a map, ready to be drawn or converted.
+
+    Parameters
+    ----------
+    layers : tuple of Painted
+        In the order in which they are drawn.
+    fit : Fit
+        The map's box in the unit square.
+    legends : tuple of dict
+    table : pyarrow.Table
+        Attributes of all features.
+    crs, name : str
+    notes : Notes
+        Of what was read; the conversion adds to them.
+    """
+
+    layers: tuple[Painted, ...]
+    fit: Fit
+    legends: tuple[dict[str, Any], ...]
+    table: "pyarrow.Table"
+    crs: str
+    name: str
+    notes: Notes
+
+
+@gis_packages()
+def prepared(layers: Sequence[MapLayer], *, crs: str, size: int, name: str | None, max_seconds: float) -> Prepared:
+    """Read layers; parameters and errors are those of `vexture.cartography.convert_map`."""
+    if not layers:
+        raise ParameterError("a map of no sources; give at least one")
+    if size < 1:
+        raise ParameterError(f"`size` is {size}; it must be 1 or more pixels")
+    notes, crs = Notes(), chosen_crs(crs, None)
+    with within(max_seconds):
+        painted, legends = _coloured([_read(layer, crs, notes) for layer in layers], notes)
+        marked, fit = _marked(painted, crs, size)
+    table = _table(painted, legends)
+    return Prepared(marked, fit, tuple(legends), table, crs, name or layers[0].name, notes)
+
+
+def _read(layer: MapLayer, crs: str, notes: Notes) -> tuple[MapLayer, Features]:
+    """Features of a layer, in the map's reference system."""
+    with about(str(layer.source) if isinstance(layer.source, str | FilePath) else layer.name):
+        options = {"layer": layer.layer, "where": layer.where, "id": layer.id, "columns": _columns(layer)}
+        try:
+            features = read_features(layer.source, crs=layer.crs, notes=notes, **options)  # type: ignore[arg-type]
+        except SourceError as error:
+            if "give `crs`" not in str(error):
+                raise
+            raise SourceError(str(error).replace("`crs`", "`source_crs`")) from None
+        if not len(features):
+            reason = f"no feature meets `where` {layer.where!r}" if layer.where else "it has no features"
+            raise SourceError(f"{reason}; there is nothing to draw")
+        if not (len(features.rings.ends) or len(features.lines.ends) or len(features.points.points)):
+            raise SourceError("none of its features has a geometry; there is nothing to draw")
+        return layer, placed(features, crs, notes)
+
+
+def _columns(layer: MapLayer) -> tuple[str, ...] | None:
+    """The columns that a layer keeps or needs."""
+    if layer.columns is None:
+        return None
+    needed = (layer.color.column if layer.color else None, layer.order)
+    return tuple(dict.fromkeys([*layer.columns, *(name for name in needed if name is not None)]))
+
+
+def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list[Painted], list[dict[str, Any]]]:
+    """Names and colours of all features; ids that two layers share get the layer's name before them."""
+    every = np.concatenate([features.ids for _, features in read])
+    clash = len(set(every.tolist())) < len(every)
+    if clash:
+        notes.remark("layers share ids, so elements are named LAYER:ID")
+    painted, legends = [], []
+    for layer, features in read:
+        names = np.array([f"{layer.name}:{one}" for one in features.ids], object) if clash else features.ids
+        rgba = None
+        if layer.color is not None:
+            with about(layer.name):
+                rgba, legend = colours_of(features.table, layer.color, notes)
+            legends.append({"layer": layer.name, **legend})
+        painted.append(Painted(layer, features, names, rgba, NO_LINES, ()))
+    return painted, legends
+
+
+def _marked(painted: list[Painted], crs: str, size: int) -> tuple[tuple[Painted, ...], Fit]:
+    """Layers with the areas of their lines and points, and the box of all."""
+    boxes = [np.concatenate([f.rings.points, f.lines.points, f.points.points]) for f in (p.features for p in painted)]
+    every = np.concatenate(boxes)
+    if not len(every):
+        raise SourceError("nothing of it lies on the map; choose another `crs`")
+    reach = [every.min(axis=0), every.max(axis=0)]
+    pixel = (float((reach[1] - reach[0]).max()) or 1.0) / size
+    marked = []
+    for one in painted:
+        lines = strokes(one.features.lines, width_of(one.layer.stroke, "stroke"), crs, pixel)
+        symbols = tuple(_symbols(one, crs, pixel))
+        own = [lines.points, *(np.concatenate(path.contours)[:, 0] for path in symbols)]
+        reach += [corner for points in own if len(points) for corner in (points.min(axis=0), points.max(axis=0))]
+        marked.append(replace(one, lines=lines, symbols=symbols))
+    low, high = np.min(reach, axis=0), np.max(reach, axis=0)
+    if not (high > low).all():
+        raise SourceError("it has no area on the map; give polygons, or points that differ")
+    return tuple(marked), Fit((*map(float, low), *map(float, high)))  # type: ignore[arg-type]
+
+
+def _symbols(one: Painted, crs: str, pixel: float) -> Iterator[Path]:
+    """Paths of the symbols of a layer's points, in the units of the map."""
+    points, layer = one.features.points, one.layer
+    if not len(points.points):
+        return
+    sizes = widths_at(points.points, width_of(layer.symbol_size, "symbol_size"), crs, pixel)
+    names = [str(one.names[feature]) for feature in points.feature.tolist()]
+    own_colours = layer.symbol is not None and one.rgba is None and layer.fill is None
+    colours = one.colours(DOT)[points.feature].tolist()
+    paints = [None if own_colours else Paint((red, green, blue), alpha) for red, green, blue, alpha in colours]
+    yield from symbol_paths(layer.symbol or _dot(), points.points, sizes, names, paints)
+
+
+def _dot() -> Drawing:
+    """A round symbol that fills the unit square."""
+    from vexture.reading import read
+
+    return read(b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 2 2"><circle cx="1" cy="1" r="1"/></svg>')
+
+
+def _table(painted: list[Painted], legends: list[dict[str, Any]]) -> "pyarrow.Table":
+    """Attributes of all layers: `id` is the element's name in the texture; of several layers, `layer` is its name."""
+    import pyarrow as pa
+
+    tables = []
+    for one in painted:
+        table = one.features.table.set_column(0, "id", pa.array(one.names.tolist(), pa.string()))
+        if len(painted) > 1:
+            names = [f"{name}_" if name == "layer" else name for name in table.column_names]
+            table = table.rename_columns(names)
+            table = table.add_column(1, "layer", pa.array([one.layer.name] * len(table), pa.string()))
+        tables.append(table)
+    try:
+        joined = pa.concat_tables(tables, promote_options="permissive")
+    except (pa.ArrowInvalid, pa.ArrowTypeError) as error:
+        raise ParameterError(f"the layers' columns differ in type ({error}); choose others by `columns`") from None
+    return joined.replace_schema_metadata({LEGEND: json.dumps(legends)})

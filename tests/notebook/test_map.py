@@ -1,0 +1,191 @@
+"""`vexture.map` without a browser: the first picture, what is sent, and what is asked for before the texture."""
+
+import asyncio
+import base64
+import io
+import json
+import threading
+import zlib
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import vexture
+from vexture.errors import LimitError, ParameterError
+
+pytest.importorskip("anywidget", reason="anywidget is not installed (pip install 'vexture[notebook]')")
+pytest.importorskip("cmap", reason="cmap is not installed (pip install 'vexture[map]')")
+geopandas = pytest.importorskip("geopandas")
+shapely = pytest.importorskip("shapely")
+pytestmark = pytest.mark.usefixtures("page_is_built")
+
+METRES = "EPSG:28992"
+
+
+@pytest.fixture(autouse=True)
+def none_is_left():
+    import ipywidgets
+
+    yield
+    ipywidgets.Widget.close_all()
+
+
+def fields(count=300, seed=5):
+    random = np.random.default_rng(seed)
+    cells = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(random.uniform(0, 1000, (count, 2)))))
+    cells = shapely.clip_by_rect(cells, 0, 0, 1000, 1000)
+    columns = {"value": random.random(count), "kind": random.choice(["a", "b", "c"], count)}
+    return geopandas.GeoDataFrame(columns, geometry=cells, crs=METRES)
+
+
+def shown(frame=None, column="value", **options):
+    return vexture.map(fields() if frame is None else frame, column, crs=METRES, width=300, height=200, **options)
+
+
+@pytest.fixture
+def held(monkeypatch):
+    """Conversions that wait for an event."""
+    import vexture.notebook.map_widget as module
+
+    go, real = threading.Event(), module._sent
+    monkeypatch.setattr(module, "_sent", lambda made: go.wait(30) and real(made))
+    yield go
+    go.set()
+
+
+def picture_of(chart):
+    return np.asarray(Image.open(io.BytesIO(chart._picture["content"]))).astype(int)
+
+
+def difference(one, other):
+    return np.abs(one.astype(float) - other).max()
+
+
+def test_the_first_picture_is_that_of_the_texture(held):
+    chart = shown()
+    first, sent = chart.render(), picture_of(chart)
+    assert chart._source is None
+    assert sent.shape == (200, 300, 4)
+    held.set()
+    chart.texture  # noqa: B018  # is waited for
+    assert chart._source is not None
+    assert chart._picture is None
+    assert difference(first, chart.render()) < 1 / 255
+
+
+def test_another_view_column_or_selection_is_drawn_before_the_texture_is_there(held):
+    chart = shown()
+    before = picture_of(chart)
+    chart._wanted = {"view": [0.2, 0.2, 0.3, 0.3], "size": [150, 120]}
+    assert picture_of(chart).shape == (120, 150, 4)
+    chart.view = (0.2, 0.2, 0.3, 0.3)
+    assert difference(picture_of(chart), 255 * chart.render((150, 120))) <= 1
+    chart.view = chart._home
+    chart._wanted = {"view": list(chart.view), "size": [300, 200]}
+    assert difference(picture_of(chart), before) == 0
+    chart.column = "kind"
+    kinds = picture_of(chart)
+    assert difference(kinds, before) > 100
+    chart.selected = "7"
+    assert 0 < (picture_of(chart) != kinds).any(axis=2).mean() < 0.1
+    chart.colors = {"8": "red"}
+    before = chart.render()
+    held.set()
+    chart.texture  # noqa: B018  # is waited for
+    assert difference(before, chart.render()) < 1 / 255
+
+
+def test_a_column_sends_a_byte_for_each_feature():
+    chart = shown()
+    texture = chart.texture
+    assert chart._coloring is None
+    chart.column = "kind"
+    assert [len(chart._coloring[part]) for part in ("colors", "places")] == [3 * 8, 300]
+    assert chart.colors == {}
+    names = texture.roots[0].style.names
+    colours = np.frombuffer(chart._coloring["colors"], np.uint16).reshape(-1, 4) / 10_000
+    places = np.frombuffer(chart._coloring["places"], np.uint8)
+    sent = dict(zip(names, colours[places].tolist(), strict=True))
+    kinds = dict(zip(chart.table["id"].to_pylist(), chart.table["kind"].to_pylist(), strict=True))
+    legend = {entry["label"]: entry["color"] for entry in chart.legend["entries"]}
+    for name, parts in sent.items():
+        assert "#{:02x}{:02x}{:02x}".format(*(round(255 * part) for part in parts[:3])) == legend[kinds[name]]
+
+
+def test_the_bytes_of_the_texture_are_deflated_as_a_whole():
+    chart = shown()
+    content = chart.texture and chart._source.content
+    assert len(content) < 0.8 * len(chart.texture.to_ktx2())
+    (tmp := io.BytesIO()).write(zlib.decompress(content))
+    assert tmp.getvalue()[:7] == b"\xabKTX 20"
+
+
+def test_the_texture_comes_between_the_messages_of_a_kernel(held):
+    threads = []
+
+    async def cell():
+        chart = shown()
+        chart.observe(lambda change: threads.append(threading.current_thread()), "_source")
+        held.set()
+        while chart._source is None:
+            await asyncio.sleep(0.01)
+        return chart
+
+    chart = asyncio.run(cell())
+    assert threads == [threading.main_thread()]
+    assert chart.texture.roots[0].style is not None
+
+
+def test_a_conversion_that_fails_says_so_in_the_page_and_in_python():
+    chart = shown(tolerance=0.0, max_seconds=5.0)
+    assert chart.texture is not None
+    failing = shown(snap=0.5)
+    with pytest.raises(ParameterError, match=r"`snap` is 0.5"):
+        failing.texture  # noqa: B018  # raises
+    assert "`snap` is 0.5" in failing._failure
+    assert failing.render().shape == (200, 300, 4)
+
+
+def test_a_widget_that_is_closed_is_left_alone(held):
+    chart = shown()
+    chart.close()
+    held.set()
+    chart._pending.result()
+    assert chart._source is None
+
+
+def test_a_saved_page_has_its_colours(tmp_path):
+    chart = shown()
+    chart.column = "kind"
+    chart.save(tmp_path / "map.html")
+    scene = (tmp_path / "map.html").read_text().partition('"_coloring":')[2]
+    found, _ = json.JSONDecoder().raw_decode(scene.lstrip())
+    assert base64.b64decode(found["places"]["base64"]) == chart._coloring["places"]
+
+
+def test_lines_and_points_are_in_the_first_picture(held):
+    marks = [shapely.LineString([(0, 0), (1000, 600)]), shapely.Point(800, 100), shapely.box(0, 500, 300, 900)]
+    frame = geopandas.GeoDataFrame({"value": [1.0, 2.0, 3.0]}, geometry=marks, crs=METRES)
+    chart = shown(frame, stroke="30m", symbol_size="90m")
+    first = chart.render()
+    held.set()
+    chart.texture  # noqa: B018  # is waited for
+    assert difference(first, chart.render()) < 12 / 255, "edges of one layer over another are mixed"
+    assert np.abs(first - chart.render()).mean() < 0.1 / 255
+
+
+def test_unknown_features_are_refused_before_and_after(held):
+    chart = shown()
+    for _ in range(2):
+        with pytest.raises(ParameterError, match="no feature 'x'"):
+            chart.colors = {"x": "red"}
+        with pytest.raises(ParameterError, match="no feature 'x'"):
+            chart.selected = "x"
+        held.set()
+        chart.texture  # noqa: B018  # is waited for
+
+
+def test_too_long_is_said():
+    with pytest.raises(LimitError, match="raise `max_seconds`"):
+        shown(max_seconds=1e-9).texture  # noqa: B018  # raises
