@@ -68,12 +68,16 @@ def divide(
     written to `child_at` (5,).
     """
     points, path, numbers, owner, part = pool.points, pool.path, pool.numbers, pool.child, pool.part
-    parts = 0
+    parts, lower, right_lower, upper = 0, 0, 0, 0
     for place in range(first, last):
         i = numbers[place]
         x, y = points[i, 0, 0], points[i, 0, 1]
         if (x - xm) * (points[i, 3, 0] - xm) > 0.0 and (y - ym) * (points[i, 3, 1] - ym) > 0.0:
-            owner[parts], part[parts] = (1 if x > xm else 0) + (2 if y > ym else 0), i
+            child = (1 if x > xm else 0) + (2 if y > ym else 0)
+            owner[parts], part[parts] = child, i
+            lower += child == 0
+            right_lower += child == 1
+            upper += child == 2
             parts += 1
             continue
         whole = pieces
@@ -85,15 +89,14 @@ def divide(
             pieces = _cut(points, path, whole + 1, 1, ym, grain, pieces)
         for k in range(whole, pieces):
             if points[k, 0, 0] != points[k, 3, 0] or points[k, 0, 1] != points[k, 3, 1]:
-                owner[parts], part[parts] = child_of(points[k], xm, ym), k
+                child = child_of(points[k], xm, ym)
+                owner[parts], part[parts] = child, k
+                lower += child == 0
+                right_lower += child == 1
+                upper += child == 2
                 parts += 1
-    for child in range(4):
-        child_at[child] = 0
-    for k in range(parts):
-        child_at[owner[k]] += 1
-    start = last
-    for child in range(4):
-        start, child_at[child] = start + child_at[child], start
+    child_at[0], child_at[1] = last, last + lower
+    child_at[2], child_at[3] = last + lower + right_lower, last + lower + right_lower + upper
     for k in range(parts):
         numbers[child_at[owner[k]]] = part[k]
         child_at[owner[k]] += 1

@@ -146,7 +146,9 @@ def _write_chains(out: NDArray[np.float64], count: int, target: NDArray[np.float
         for j in range(k, count):
             first = True
             for i in range(k, count):
-                first = first and not follows(out, j, i)
+                if follows(out, j, i):
+                    first = False
+                    break
             next_one = k > 0 and follows(out, j, k - 1)
             if 2 * next_one + first > rank:
                 best, rank = j, 2 * next_one + first

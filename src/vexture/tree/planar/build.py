@@ -44,6 +44,7 @@ from vexture.tree.growth import (
     QUADS,
     UNRESOLVED,
     WAITING,
+    WHOLE,
     WINDING,
     Growth,
     first_of,
@@ -88,7 +89,7 @@ class PlanarGrowth(NamedTuple):
 class Work(NamedTuple):
     """Arrays that are reused from cell to cell."""
 
-    counts: NDArray[np.int64]  # (4,): what the map had before a cell
+    counts: NDArray[np.int64]  # (5,): what the map had before a cell
     row: NDArray[np.int64]  # (7,): the row of the stack of the cell
     child_at: NDArray[np.int64]  # (5,): start of each child's list of pieces
     windings: NDArray[np.int64]  # (paths, 8): what `child_windings` writes
@@ -165,7 +166,19 @@ def _grow_quad(
     xm, ym = x0 + half, y0 + half
     grain = 0.5 ** max(depth + 1, bounds.least_depth) / LATTICE
     pieces = divide(pool, row[FIRST], row[LAST], xm, ym, grain, row[PIECES], child_at)
-    child_windings(pool.points, pool.path, pool.numbers, child_at, present[rows[0] : rows[1]], x0, y0, xm, ym, windings)
+    child_windings(
+        pool.points,
+        pool.path,
+        pool.numbers,
+        child_at,
+        present[rows[0] : rows[1]],
+        x0,
+        y0,
+        xm,
+        ym,
+        counts[WHOLE],
+        windings,
+    )
     tree.first[quad, 0], tree.first[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = rows[1]
     for child in range(4):
