@@ -37,8 +37,17 @@ def empty_pieces(count: int) -> Pieces:
 
 
 @kernel(allocates=False)
+def _is_ordered(curve: NDArray[np.float64], axis: int) -> bool:
+    """Whether a coordinate of the control points never turns, and that of the cubic neither: above all of a line."""
+    a, b, c, d = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
+    return a <= b <= c <= d or a >= b >= c >= d
+
+
+@kernel(allocates=False)
 def turns(curve: NDArray[np.float64], out: NDArray[np.float64]) -> int:
     """Write the parameters at which x or y turns, in rising order; return how many (0 to 4)."""
+    if _is_ordered(curve, 0) and _is_ordered(curve, 1):
+        return 0
     count = turning_points(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], out)
     count += turning_points(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], out[count:])
     for i in range(1, count):

@@ -30,6 +30,7 @@ from vexture.tree.growth import (
     QUADS,
     UNRESOLVED,
     WAITING,
+    WHOLE,
     WINDING,
     Growth,
     has_room,
@@ -144,7 +145,17 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
     at_limit = depth + 1 == bounds.max_depth
     pieces = divide(pool, first, last, xm, ym, grain, stack[top, PIECES], at_limit, child_at)
     child_windings(
-        pool.points, pool.path, pool.numbers, child_at, present[first_path:last_path], x0, y0, xm, ym, windings
+        pool.points,
+        pool.path,
+        pool.numbers,
+        child_at,
+        present[first_path:last_path],
+        x0,
+        y0,
+        xm,
+        ym,
+        counts[WHOLE],
+        windings,
     )
     first_below[quad, 0], first_below[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = last_path
@@ -261,7 +272,7 @@ def new_growth(
         np.empty((n + 16, 4, 4)),
         np.empty((n + 16, 2), np.int64),
         np.empty((4 * n + 8 * MOST_CURVES, 4, 2)),
-        np.array([1, 0, 0, 1]),
+        np.array([1, 0, 0, 1, n]),
         np.zeros(1),
         np.empty(5, np.int64),
     ), outside

@@ -25,6 +25,7 @@ __all__ = [
     "QUADS",
     "UNRESOLVED",
     "WAITING",
+    "WHOLE",
     "WINDING",
     "Growth",
     "first_of",
@@ -37,8 +38,8 @@ __all__ = [
 IS_QUAD, COUNT, WINDING, COVERAGE = range(4)
 """Columns of the cells."""
 
-QUADS, CURVES, UNRESOLVED, WAITING = range(4)
-"""Counts: quads, curves, unresolved leaves, cells on the stack."""
+QUADS, CURVES, UNRESOLVED, WAITING, WHOLE = range(5)
+"""Counts: quads, curves, unresolved leaves, cells on the stack, pieces of the unit square."""
 
 
 QUAD, DEPTH, FIRST, LAST, FIRST_PATH, LAST_PATH, PIECES = range(7)
@@ -56,7 +57,7 @@ class Growth(NamedTuple):
     cells: NDArray[np.float64]
     first: NDArray[np.int64]  # (room, 2): first quad below each quad, first curve of its leaves
     curves: NDArray[np.float64]  # (room, 4, 2), in lattice units
-    counts: NDArray[np.int64]  # (4,)
+    counts: NDArray[np.int64]  # (5,)
     deviation: NDArray[np.float64]  # (1,): largest distance of a leaf's outline from the drawing's
     # (5,): rows that the next cell needs of pieces, lists of them, lists of paths, quads and curves
     needed: NDArray[np.int64]
@@ -85,7 +86,7 @@ def has_room(tree: Growth) -> bool:
 
 def tree_of(tree: Growth) -> Tree:
     """The tree that has grown, its quads numbered level by level, in its final types."""
-    quads, _, unresolved, _ = tree.counts.tolist()
+    quads, _, unresolved, *_ = tree.counts.tolist()
     order = np.concatenate([*levels(tree.cells[:quads, :, IS_QUAD] == 1.0, tree.first[:, 0])])
     cells = tree.cells[order]
     is_quad = cells[:, :, IS_QUAD] == 1.0

@@ -19,7 +19,7 @@ from vexture.tree.boundary import MOST_RESOLVED, Boundary, cell_paths, crowded_a
 from vexture.tree.coincide import match, may_coincide
 from vexture.tree.divide import PiecePool
 from vexture.tree.left_edge import corner_winding
-from vexture.tree.merge import MOST_MERGED, merge_chains
+from vexture.tree.merge import MOST_MERGED, follows, merge_chains
 from vexture.tree.separate import UNSURE, CellPieces, all_separate, clean_pieces
 from vexture.tree.winding import winding_area
 
@@ -80,7 +80,7 @@ def _aim(curve: NDArray[np.float64], end: int, control: int) -> None:
     if length > LONG_HANDLE or length < 1.0:
         return
     chord_x, chord_y = curve[3, 0] - curve[0, 0], curve[3, 1] - curve[0, 1]
-    chord = np.hypot(chord_x, chord_y)
+    chord = np.sqrt(chord_x * chord_x + chord_y * chord_y)
     across = abs(x * chord_y - y * chord_x) / chord if chord > 0.0 else length
     best, least = 1.0, np.inf
     for k in range(int(length)):
@@ -91,9 +91,11 @@ def _aim(curve: NDArray[np.float64], end: int, control: int) -> None:
         if change > 0 and (abs(share * x) > abs(far_x) or abs(share * y) > abs(far_y)):
             continue  # it stays before the other handle, so that the piece stays monotone
         to_x, to_y = np.rint(share * x), np.rint(share * y)
-        turn = abs(to_x * y - to_y * x) / max(np.hypot(to_x, to_y), 0.5)
+        turn = abs(to_x * y - to_y * x) / max(np.sqrt(to_x * to_x + to_y * to_y), 0.5)
         if turn < 0.9 * least:
             best, least = share, turn
+            if turn == 0.0:
+                break
     curve[control, 0], curve[control, 1] = curve[end, 0] + best * x, curve[end, 1] + best * y
 
 
@@ -137,12 +139,6 @@ def _meet(out: NDArray[np.float64], count: int) -> bool:
 
 
 @kernel(allocates=False)
-def _follows(out: NDArray[np.float64], i: int, j: int) -> bool:
-    """Whether piece i starts where piece j ends."""
-    return out[i, 0, 0] == out[j, 3, 0] and out[i, 0, 1] == out[j, 3, 1]
-
-
-@kernel(allocates=False)
 def _write_chains(out: NDArray[np.float64], count: int, target: NDArray[np.float64]) -> None:
     """Copy pieces, each behind the one that ends where it starts: files with points side by side compress better."""
     for k in range(count):
@@ -150,10 +146,12 @@ def _write_chains(out: NDArray[np.float64], count: int, target: NDArray[np.float
         for j in range(k, count):
             first = True
             for i in range(k, count):
-                first = first and not _follows(out, j, i)
-            follows = k > 0 and _follows(out, j, k - 1)
-            if 2 * follows + first > rank:
-                best, rank = j, 2 * follows + first
+                if follows(out, j, i):
+                    first = False
+                    break
+            next_one = k > 0 and follows(out, j, k - 1)
+            if 2 * next_one + first > rank:
+                best, rank = j, 2 * next_one + first
         copy_curve(out[best], target[k])
         copy_curve(out[k], out[best])
         copy_curve(target[k], out[k])

@@ -13,7 +13,7 @@ from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.layout import LATTICE
 
-__all__ = ["MOST_MERGED", "merge_chains"]
+__all__ = ["MOST_MERGED", "follows", "merge_chains"]
 
 MOST_MERGED = 64
 """Pieces. In a cell with more nothing is merged, because it will be divided."""
@@ -56,15 +56,16 @@ def _monotone_parts(rest: NDArray[np.float64], out: NDArray[np.float64]) -> int:
 
 
 @kernel(allocates=False)
+def follows(curves: NDArray[np.float64], i: int, j: int) -> bool:
+    """Whether piece i starts where piece j ends."""
+    return curves[i, 0, 0] == curves[j, 3, 0] and curves[i, 0, 1] == curves[j, 3, 1]
+
+
+@kernel(allocates=False)
 def _chain_end(curves: NDArray[np.float64], path: NDArray[np.int64], first: int) -> int:
     """Number of the piece after the chain that starts with piece `first`."""
     last = first + 1
-    while (
-        last < len(path)
-        and path[last] == path[first]
-        and curves[last, 0, 0] == curves[last - 1, 3, 0]
-        and curves[last, 0, 1] == curves[last - 1, 3, 1]
-    ):
+    while last < len(path) and path[last] == path[first] and follows(curves, last, last - 1):
         last += 1
     return last
 

@@ -45,14 +45,17 @@ def child_windings(
     y0: float,
     xm: float,
     ym: float,
+    whole: int,
     out: NDArray[np.int64],
 ) -> None:
     """Write the corner windings of a cell's four children to `out` (m or more, 8).
 
     Each row is of one path in `present`: four corner windings, then whether the path has a piece in each child.
     `numbers` holds one list of pieces for each child, in the order of `present`; `child_at` (5 or more,) is the start
-    of each list and the end of the last. Runs of pieces end on no edge. The cell's middle is (xm, ym).
+    of each list and the end of the last. The cell's middle is (xm, ym). Runs, and the first `whole` pieces, which were
+    never cut, end on the lines of no cell: they change no winding at its corners.
     """
+    whole = whole if x0 > 0.0 and y0 > 0.0 else 0  # they may end on the sides of the unit square
     for k in range(len(present)):
         for column in range(8):
             out[k, column] = 0
@@ -66,7 +69,7 @@ def child_windings(
             while present[k, 0] != owner:
                 k += 1
             out[k, 4 + child] = 1
-            if i < 0:
+            if i < whole:
                 continue
             for end, event in ((0, 1), (3, -1)):
                 if points[i, end, 0] == cx:

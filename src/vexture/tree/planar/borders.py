@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from vexture.bezier.split import copy_curve
 from vexture.kernels import kernel
+from vexture.layout import LATTICE
 from vexture.tree.boundary import quantise_piece
 from vexture.tree.divide import PiecePool
-from vexture.tree.merge import merge_chains
+from vexture.tree.merge import follows, merge_chains
 from vexture.tree.planar.layers import Layers
 from vexture.tree.winding import inside
 
@@ -41,17 +42,21 @@ class Borders(NamedTuple):
     begin: NDArray[np.int64]  # (room + 1,): where each list begins in `path` and `times`
     path: NDArray[np.int64]  # (pieces,): places in the cell's list of paths
     times: NDArray[np.int64]  # (pieces,): how often they run along the border; negative: in the other direction
+    sums: NDArray[np.float64]  # (room,), scratch: the sum of each border's ends, alike in both directions
+    work: NDArray[np.int64]  # (room,), scratch
 
 
 @kernel
-def new_borders(room: int) -> Borders:
-    """Arrays for so many borders."""
+def new_borders(room: int, pieces: int) -> Borders:
+    """Arrays for so many borders, in cells of so many pieces."""
     return Borders(
         np.empty((room, 4, 2)),
         np.empty(room, np.int64),
         np.empty(room + 1, np.int64),
-        np.empty(4 * room, np.int64),
-        np.empty(4 * room, np.int64),
+        np.empty(pieces, np.int64),
+        np.empty(pieces, np.int64),
+        np.empty(room),
+        np.empty(room, np.int64),
     )
 
 
@@ -72,18 +77,12 @@ def _same_border(a: NDArray[np.float64], b: NDArray[np.float64]) -> int:
     return 0
 
 
-@kernel
-def find_borders(
-    pool: PiecePool, cell: Cell, present: NDArray[np.int64], most: int, borders: Borders
-) -> tuple[int, Borders]:
-    """Number of borders in a cell, and the arrays with them; -1 if there are more than `most`."""
+@kernel(allocates=False)
+def find_borders(pool: PiecePool, cell: Cell, present: NDArray[np.int64], most: int, borders: Borders) -> int:
+    """Write the borders in a cell; return how many, or -1 if there are more than `most`."""
     kind, turn = pool.child, pool.part  # scratch with room for the pieces of any cell
-    pieces, count = cell.last - cell.first, 0
-    if pieces > len(borders.path):
-        path, times = np.empty(2 * pieces, np.int64), np.empty(2 * pieces, np.int64)
-        borders = Borders(borders.curves, borders.rows, borders.begin, path, times)
-    curves = borders.curves
-    for i in range(pieces):
+    count, curves, sums = 0, borders.curves, borders.sums
+    for i in range(cell.last - cell.first):
         piece = curves[count]
         quantise_piece(pool.points[pool.numbers[cell.first + i]], cell.x, cell.y, cell.size, piece)
         for k in (1, 2):
@@ -93,19 +92,22 @@ def find_borders(
         if piece[0, 0] == piece[3, 0] and piece[0, 1] == piece[3, 1]:
             continue
         kind[i], turn[i] = count, 1
+        ends = piece[0, 0] + piece[3, 0] + 4.0 * LATTICE * (piece[0, 1] + piece[3, 1])
         for k in range(count):
-            turned = _same_border(curves[k], piece)
-            if turned != 0:
-                kind[i], turn[i] = k, turned
-                break
+            if sums[k] == ends:  # most differ here
+                turned = _same_border(curves[k], piece)
+                if turned != 0:
+                    kind[i], turn[i] = k, turned
+                    break
         if kind[i] == count:
+            sums[count] = ends
             count += 1
             if count > most:
-                return -1, borders
-    return _crossing_paths(pool, cell, present, count, borders), borders
+                return -1
+    return _crossing_paths(pool, cell, present, count, borders)
 
 
-@kernel
+@kernel(allocates=False)
 def _crossing_paths(pool: PiecePool, cell: Cell, present: NDArray[np.int64], count: int, borders: Borders) -> int:
     """Write which paths cross each border; drop those that none crosses; return how many are left."""
     kind, turn, begin = pool.child, pool.part, borders.begin
@@ -116,8 +118,9 @@ def _crossing_paths(pool: PiecePool, cell: Cell, present: NDArray[np.int64], cou
             begin[kind[i] + 1] += 1
     for k in range(count):
         begin[k + 1] += begin[k]
-    filled = np.zeros(count, np.int64)
-    owner = 0
+    filled, owner = borders.work, 0
+    for k in range(count):
+        filled[k] = 0
     for i in range(cell.last - cell.first):
         path = pool.path[pool.numbers[cell.first + i]]
         while present[owner, 0] != path:
@@ -131,21 +134,25 @@ def _crossing_paths(pool: PiecePool, cell: Cell, present: NDArray[np.int64], cou
         else:
             borders.path[at], borders.times[at] = owner, turn[i]
             filled[k] += 1
-    return _pack(borders, filled)
+    return _pack(borders, count)
 
 
 @kernel(allocates=False)
-def _pack(borders: Borders, filled: NDArray[np.int64]) -> int:
-    """Close the gaps between the borders' rows, without rows of 0 times; return how many borders have any."""
-    begin, kept, at = borders.begin, 0, 0
-    for k in range(len(filled)):
+def _pack(borders: Borders, count: int) -> int:
+    """Close the gaps between the borders' rows, without rows of 0 times; return how many borders have any.
+
+    `borders.work` has how many rows of each are filled.
+    """
+    begin, filled, kept, at = borders.begin, borders.work, 0, 0
+    for k in range(count):
         start, first = begin[k], at
         for row in range(start, start + filled[k]):
             if borders.times[row] != 0:
                 borders.path[at], borders.times[at] = borders.path[row], borders.times[row]
                 at += 1
         if at > first:
-            copy_curve(borders.curves[k], borders.curves[kept])
+            if kept < k:
+                copy_curve(borders.curves[k], borders.curves[kept])
             begin[kept], borders.rows[kept] = first, kept
             kept += 1
     begin[kept] = at
@@ -164,7 +171,7 @@ def _crossed_alike(borders: Borders, i: int, j: int) -> bool:
     return True
 
 
-@kernel
+@kernel(allocates=False)
 def merge_borders(
     borders: Borders, count: int, tolerance: float, most: int, room: NDArray[np.float64]
 ) -> tuple[int, float]:
@@ -173,9 +180,13 @@ def merge_borders(
     More than `most` may be returned without the rest of them. `tolerance` and the result are in lattice units; `room`
     is scratch for curves.
     """
+    chains = False
     for k in range(count):
         borders.rows[k] = borders.rows[k - 1] if k > 0 and _crossed_alike(borders, k - 1, k) else k
-    rows = np.empty(len(borders.rows), np.int64)
+        chains = chains or (k > 0 and borders.rows[k] == borders.rows[k - 1] and follows(borders.curves, k, k - 1))
+    if not chains:
+        return count, 0.0
+    rows = borders.work
     merged, distance = merge_chains(borders.curves[:count], borders.rows[:count], tolerance, most, room, rows)
     for k in range(merged):
         copy_curve(room[k], borders.curves[k])
@@ -186,10 +197,10 @@ def merge_borders(
 @kernel(allocates=False)
 def key_of(layers: Layers, present: NDArray[np.int64], windings: NDArray[np.int64]) -> int:
     """Exclusive or of the keys of the paths that are inside."""
-    key = 0
+    key, rules, keys = 0, layers.rules, layers.keys
     for k in range(len(present)):
-        if inside(windings[k], layers.rules[present[k, 0]]):
-            key ^= layers.keys[present[k, 0]]
+        if inside(windings[k], rules[present[k, 0]]):
+            key ^= keys[present[k, 0]]
     return key
 
 
@@ -204,13 +215,13 @@ def cross(
     key: int,
 ) -> int:
     """Add the paths of a border to the windings, `by` times; return the key after that."""
-    of = borders.rows[border]
+    of, rules = borders.rows[border], layers.rules
     for row in range(borders.begin[of], borders.begin[of + 1]):
         k = borders.path[row]
         path = present[k, 0]
-        before = inside(windings[k], layers.rules[path])
+        before = inside(windings[k], rules[path])
         windings[k] += by * borders.times[row]
-        if before != inside(windings[k], layers.rules[path]):
+        if before != inside(windings[k], rules[path]):
             key ^= layers.keys[path]
     return key
 

@@ -26,7 +26,7 @@ from vexture.tree.build import (
     check_growth,
     new_growth,
 )
-from vexture.tree.divide import divide
+from vexture.tree.divide import PARTS, divide
 from vexture.tree.growth import (
     COUNT,
     COVERAGE,
@@ -42,6 +42,7 @@ from vexture.tree.growth import (
     QUADS,
     UNRESOLVED,
     WAITING,
+    WHOLE,
     WINDING,
     Growth,
     first_of,
@@ -83,6 +84,16 @@ class PlanarGrowth(NamedTuple):
     sides: NDArray[np.int64]  # (curves, 2)
 
 
+class Work(NamedTuple):
+    """Arrays that are reused from cell to cell."""
+
+    counts: NDArray[np.int64]  # (5,): what the map had before a cell
+    row: NDArray[np.int64]  # (7,): the row of the stack of the cell
+    child_at: NDArray[np.int64]  # (9,): start of each child's list of pieces; see `divide`
+    windings: NDArray[np.int64]  # (paths, 8): what `child_windings` writes
+    leaf: Workspace
+
+
 SHORT_SLICE = SLICE // 8
 """Work between two looks at the number of texels, where it is limited."""
 
@@ -91,7 +102,7 @@ DEFAULT_MAP_CAPACITY = 12
 % fewer texels, and a pixel reads about one more."""
 
 
-@kernel
+@kernel(allocates=False)
 def _child_paths(
     growth: PlanarGrowth,
     rows: tuple[int, int],
@@ -127,15 +138,14 @@ def _child_paths(
     return here, ground
 
 
-@kernel
+@kernel(allocates=False)
 def _grow_quad(
     growth: PlanarGrowth,
     layers: Layers,
     faces: Faces,
     bounds: Bounds,
-    workspace: Workspace,
-    windings: NDArray[np.int64],
-) -> Workspace:
+    work: Work,
+) -> None:
     """Divide the cell on top of the stack: each child becomes a leaf or is pushed onto the stack.
 
     If the faces have no room, nothing has been done.
@@ -143,13 +153,30 @@ def _grow_quad(
     tree = growth.tree
     pool, present, stack, corner, counts = tree.pool, tree.present, tree.stack, tree.corner, tree.counts
     top = counts[WAITING] - 1
-    before, row, x0, y0 = counts.copy(), stack[top].copy(), corner[top, 0], corner[top, 1]
-    quad, depth, under, child_at = row[QUAD], row[DEPTH], growth.ground[top], np.empty(9, np.int64)
+    before, row, child_at, windings = work.counts, work.row, work.child_at, work.windings
+    x0, y0 = corner[top, 0], corner[top, 1]
+    for k in range(len(before)):
+        before[k] = counts[k]
+    for k in range(len(row)):
+        row[k] = stack[top, k]
+    quad, depth, under = row[QUAD], row[DEPTH], growth.ground[top]
     rows, half = (row[FIRST_PATH], row[LAST_PATH]), 0.5 ** (row[DEPTH] + 1)
     xm, ym = x0 + half, y0 + half
     grain = 0.5 ** max(depth + 1, bounds.least_depth) / LATTICE
     pieces = divide(pool, row[FIRST], row[LAST], xm, ym, grain, row[PIECES], False, child_at)
-    child_windings(pool.points, pool.path, pool.numbers, child_at, present[rows[0] : rows[1]], x0, y0, xm, ym, windings)
+    child_windings(
+        pool.points,
+        pool.path,
+        pool.numbers,
+        child_at,
+        present[rows[0] : rows[1]],
+        x0,
+        y0,
+        xm,
+        ym,
+        counts[WHOLE],
+        windings,
+    )
     tree.first[quad, 0], tree.first[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = rows[1]
     for child in range(4):
@@ -158,8 +185,8 @@ def _grow_quad(
         while first < last and (here == end_path or pool.path[pool.numbers[first]] < present[end_path, 0]):
             first += 1  # hidden by a path above
         cell = Cell(x0 + half * (child & 1), y0 + half * (child >> 1), half, first, last)
-        leaf, workspace = _leaf(
-            growth, cell, quad, child, ground, present[end_path:here], layers, faces, depth + 1, bounds, workspace
+        leaf = _leaf(
+            growth, cell, quad, child, ground, present[end_path:here], layers, faces, depth + 1, bounds, work.leaf
         )
         if leaf.size == DIVIDE:
             stack[top, QUAD], stack[top, DEPTH], stack[top, FIRST] = counts[QUADS], depth + 1, first
@@ -176,10 +203,9 @@ def _grow_quad(
         for k in range(len(row)):
             stack[top, k] = row[k]
         corner[top, 0], corner[top, 1], growth.ground[top] = x0, y0, under
-    return workspace
 
 
-@kernel
+@kernel(allocates=False)
 def _leaf(
     growth: PlanarGrowth,
     cell: Cell,
@@ -192,7 +218,7 @@ def _leaf(
     depth: int,
     bounds: Bounds,
     workspace: Workspace,
-) -> tuple[PlanarLeaf, Workspace]:
+) -> PlanarLeaf:
     """Write a cell of a quad, and the pieces of its leaf, if it is one."""
     tree, mean = growth.tree, growth.mean[quad, child]
     if cell.first == cell.last:
@@ -203,7 +229,7 @@ def _leaf(
     elif depth < bounds.least_depth:
         leaf = PlanarLeaf(DIVIDE, 0, 0.0, True)
     else:
-        leaf, workspace = planar_leaf(
+        leaf = planar_leaf(
             tree.pool,
             cell,
             ground,
@@ -220,7 +246,7 @@ def _leaf(
     out[IS_QUAD], out[COUNT], out[BASE], out[IS_MEAN] = 0.0, 0.0, 0.0, 0.0
     if leaf.size == DIVIDE:
         out[IS_QUAD] = 1.0
-        return leaf, workspace
+        return leaf
     out[COUNT], out[BASE], out[IS_MEAN] = leaf.size, leaf.base, 0.0 if leaf.resolved else 1.0
     for k in range(leaf.size):
         at = tree.counts[CURVES] + k
@@ -232,7 +258,7 @@ def _leaf(
     tree.counts[CURVES] += leaf.size
     tree.deviation[0] = max(tree.deviation[0], leaf.distance)
     tree.counts[UNRESOLVED] += 0 if leaf.resolved else 1
-    return leaf, workspace
+    return leaf
 
 
 @kernel(allocates=False)
@@ -254,12 +280,16 @@ def _means(growth: PlanarGrowth) -> None:
 def grow_map(growth: PlanarGrowth, layers: Layers, faces: Faces, bounds: Bounds, most_work: int) -> None:
     """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done."""
     tree = growth.tree
-    windings, workspace = np.empty((len(layers.rules), 8), np.int64), new_workspace(len(layers.rules))
-    stack, counts = tree.stack, tree.counts
+    stack, counts, paths, in_cell = tree.stack, tree.counts, len(layers.rules), 0
+    for k in range(counts[WAITING]):
+        in_cell = max(in_cell, PARTS * (stack[k, LAST] - stack[k, FIRST]))
+    row = np.empty(stack.shape[1], np.int64)
+    child_at, windings = np.empty(9, np.int64), np.empty((paths, 8), np.int64)
+    work = Work(np.empty(len(counts), np.int64), row, child_at, windings, new_workspace(paths, in_cell))
     while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
         top = counts[WAITING] - 1
         most_work -= CELL + stack[top, LAST] - stack[top, FIRST]
-        workspace = _grow_quad(growth, layers, faces, bounds, workspace, windings)
+        _grow_quad(growth, layers, faces, bounds, work)
         if faces.counts[1] != 0:
             break
     if counts[WAITING] == 0:

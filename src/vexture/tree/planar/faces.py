@@ -181,7 +181,7 @@ def composite_stacks(
             out[k, c] = ops.rgba[0, c] if count > 0 else 0.0
 
 
-@kernel
+@kernel(allocates=False)
 def face_of(
     faces: Faces, layers: Layers, ground: int, present: NDArray[np.int64], windings: NDArray[np.int64], key: int
 ) -> int:

@@ -14,7 +14,7 @@ from vexture.tree.merge import MOST_MERGED
 from vexture.tree.planar.borders import Borders, Cell, find_borders, merge_borders, new_borders
 from vexture.tree.planar.faces import Faces
 from vexture.tree.planar.layers import Layers
-from vexture.tree.planar.left_edge import settle_left_edge
+from vexture.tree.planar.left_edge import Tally, new_tally, settle_left_edge
 from vexture.tree.planar.means import add_programs, set_crowded_mean, set_flat_mean
 from vexture.tree.planar.slabs import Pieces, clean_borders, sweep
 from vexture.tree.separate import all_separate
@@ -44,16 +44,18 @@ class Workspace(NamedTuple):
     borders: Borders
     windings: NDArray[np.int64]  # (paths,)
     pieces: Pieces
+    tally: Tally
 
 
 @kernel
-def new_workspace(paths: int) -> Workspace:
-    """Arrays for the cells of a drawing of so many paths."""
+def new_workspace(paths: int, in_cell: int) -> Workspace:
+    """Arrays for the cells of a drawing of so many paths, and of so many pieces in one cell."""
     room = MOST_PIECES + 2 * MOST_RESOLVED
     return Workspace(
-        new_borders(MOST_RESOLVED + 1),
+        new_borders(MOST_RESOLVED + 1, in_cell),
         np.empty(paths, np.int64),
         Pieces(np.empty((room, 4, 2)), np.empty((room, 2), np.int64)),
+        new_tally(MOST_RESOLVED, room),
     )
 
 
@@ -74,7 +76,7 @@ def _is_knot(pieces: Pieces, count: int) -> bool:
     return False
 
 
-@kernel
+@kernel(allocates=False)
 def planar_leaf(
     pool: PiecePool,
     cell: Cell,
@@ -87,18 +89,17 @@ def planar_leaf(
     at_limit: bool,
     workspace: Workspace,
     mean: NDArray[np.float64],
-) -> tuple[PlanarLeaf, Workspace]:
+) -> PlanarLeaf:
     """Leaf of a cell above a face, `ground`; its pieces are left in the workspace, its mean colour in `mean` (4,).
 
     `capacity` is the number of pieces in a leaf; more are allowed only at the depth limit and in knots. `tolerance`
     bounds the distance by which merging moves borders, in unit-square units; 0 merges nothing. With `at_limit` the cell
-    may not be divided. The workspace that is returned may have more room.
+    may not be divided.
     """
-    windings, out, distance = workspace.windings, workspace.pieces, 0.0
+    borders, windings, out, distance = workspace.borders, workspace.windings, workspace.pieces, 0.0
     most = MOST_RESOLVED if at_limit else capacity + SPARE
     found = max(most, MOST_MERGED) if tolerance > 0.0 else most
-    count, borders = find_borders(pool, cell, present, found, workspace.borders)
-    workspace = Workspace(borders, windings, out)
+    count = find_borders(pool, cell, present, found, borders)
     if tolerance > 0.0 and 1 < count <= MOST_MERGED:
         count, distance = merge_borders(borders, count, tolerance * LATTICE / cell.size, most, out.curves)
         distance *= cell.size / LATTICE
@@ -111,11 +112,11 @@ def planar_leaf(
     if made < 0:
         if at_limit:
             set_crowded_mean(pool, cell, ground, present, layers, faces, windings, mean)
-        return PlanarLeaf(0 if at_limit else DIVIDE, 0, 0.0, False), workspace
-    made, base = settle_left_edge(borders, count, ground, present, layers, faces, windings, out, made)
+        return PlanarLeaf(0 if at_limit else DIVIDE, 0, 0.0, False)
+    made, base = settle_left_edge(borders, count, ground, present, layers, faces, windings, out, made, workspace.tally)
     round_controls(out.curves, made)
     if set_flat_mean(out, made, base, faces, mean):
         add_programs(out, made, base, cell, layers, faces, mean)
     if made > capacity and not (made <= MOST_CURVES and (at_limit or _is_knot(out, made))):
-        return PlanarLeaf(0 if at_limit else DIVIDE, base, distance, False), workspace
-    return PlanarLeaf(made, base, distance, True), workspace
+        return PlanarLeaf(0 if at_limit else DIVIDE, base, distance, False)
+    return PlanarLeaf(made, base, distance, True)

@@ -5,18 +5,19 @@ changes must telescope, paint by paint, from each face on the edge to the next: 
 chance, and would no longer if a paint is changed.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.kernels import kernel
 from vexture.layout import LATTICE
-from vexture.tree.boundary import sort_order
 from vexture.tree.planar.borders import Borders, set_left_edge
 from vexture.tree.planar.faces import Faces, face_of
 from vexture.tree.planar.layers import Layers
 from vexture.tree.planar.slabs import Pieces
 
-__all__ = ["settle_left_edge"]
+__all__ = ["Tally", "new_tally", "settle_left_edge"]
 
 
 @kernel(allocates=False)
@@ -60,26 +61,42 @@ def _all_zero(sums: NDArray[np.int64], n: int) -> bool:
     return True
 
 
+class Tally(NamedTuple):
+    """Arrays that are reused from cell to cell."""
+
+    heights: NDArray[np.float64]  # (2 borders + 1,)
+    ids: NDArray[np.int64]  # (4 pieces + 8,): paints
+    sums: NDArray[np.int64]  # (4 pieces + 8,): how much more often each begins than ends
+
+
 @kernel
-def _heights(borders: Borders, count: int) -> NDArray[np.float64]:
-    """Heights of all ends on the left edge, from the lowest, each once; the first is 0."""
-    found = np.zeros(2 * count + 1)
+def new_tally(borders: int, pieces: int) -> Tally:
+    """Arrays for cells of so many borders and pieces."""
+    return Tally(np.empty(2 * borders + 1), np.empty(4 * pieces + 8, np.int64), np.empty(4 * pieces + 8, np.int64))
+
+
+@kernel(allocates=False)
+def _find_heights(borders: Borders, count: int, out: NDArray[np.float64]) -> int:
+    """Write the heights of all ends on the left edge, from the lowest, each once; the first is 0. Return how many."""
     n = 1
+    out[0] = 0.0
     for i in range(count):
         for end in (0, 3):
-            if borders.curves[i, end, 0] == 0.0 and borders.curves[i, end, 1] < LATTICE:
-                found[n] = borders.curves[i, end, 1]
+            y = borders.curves[i, end, 1]
+            if borders.curves[i, end, 0] == 0.0 and y < LATTICE:
+                k = n
+                while out[k - 1] > y:
+                    k -= 1
+                if out[k - 1] == y:
+                    continue
+                for m in range(n, k, -1):
+                    out[m] = out[m - 1]
+                out[k] = y
                 n += 1
-    out = np.zeros(n)
-    kept = 0
-    for k in sort_order(found, n):
-        if found[k] != out[kept]:
-            kept += 1
-            out[kept] = found[k]
-    return out[: kept + 1]
+    return n
 
 
-@kernel
+@kernel(allocates=False)
 def settle_left_edge(
     borders: Borders,
     count: int,
@@ -90,14 +107,15 @@ def settle_left_edge(
     windings: NDArray[np.int64],
     pieces: Pieces,
     made: int,
+    tally: Tally,
 ) -> tuple[int, int]:
     """Make the ends on the left edge agree with the faces there; return the number of pieces and the base paint.
 
     Where they do not telescope, they move off the edge, and one horizontal piece says it instead. The base is the paint
     at the bottom left corner, before what starts or ends there.
     """
-    heights = _heights(borders, count)
-    ids, sums = np.empty(4 * made + 8, np.int64), np.empty(4 * made + 8, np.int64)
+    heights, ids, sums = tally
+    levels = _find_heights(borders, count, heights)
     key = set_left_edge(borders, count, layers, present, 0.0, windings)
     below = faces.paint[face_of(faces, layers, ground, present, windings, key)]
     n = _tally(ids, sums, _changes(pieces, made, 0.0, ids, sums), below, -1)
@@ -111,7 +129,7 @@ def settle_left_edge(
     if single:
         _move_off(pieces, made, 0.0)
         base = below
-    for s in range(1, len(heights)):
+    for s in range(1, levels):
         y = heights[s]
         key = set_left_edge(borders, count, layers, present, y, windings)
         above = faces.paint[face_of(faces, layers, ground, present, windings, key)]

@@ -45,7 +45,30 @@ def along_edge(curve: NDArray[np.float64]) -> bool:
     return curve[0, 0] == curve[3, 0] and (curve[0, 0] == 0.0 or curve[0, 0] == LATTICE)
 
 
-@kernel
+@kernel(allocates=False)
+def beside(curve: NDArray[np.float64], other: NDArray[np.float64], y: float) -> int:
+    """1 if a border that does not cross another one is left of it at a height within both, -1 if right; 0 if unclear.
+
+    Most lie on different sides of a line along the first one's chord, all control points of each.
+    """
+    if max(other[0, 0], other[3, 0]) <= min(curve[0, 0], curve[3, 0]):
+        return 1
+    if min(other[0, 0], other[3, 0]) >= max(curve[0, 0], curve[3, 0]):
+        return -1
+    dx, dy = curve[3, 0] - curve[0, 0], curve[3, 1] - curve[0, 1]
+    low, high, other_low, other_high = 0.0, 0.0, np.inf, -np.inf
+    for k in range(4):
+        across = dx * (curve[k, 1] - curve[0, 1]) - dy * (curve[k, 0] - curve[0, 0])
+        low, high = min(low, across), max(high, across)
+        across = dx * (other[k, 1] - curve[0, 1]) - dy * (other[k, 0] - curve[0, 0])
+        other_low, other_high = min(other_low, across), max(other_high, across)
+    if other_low > high or other_high < low:
+        return 1 if (other_low > high) == (dy > 0.0) else -1
+    gap = x_at(curve, y) - x_at(other, y)
+    return 1 if gap > 0.0 else -1 if gap < 0.0 else 0
+
+
+@kernel(allocates=False)
 def clean_borders(
     borders: Borders,
     count: int,
@@ -64,19 +87,15 @@ def clean_borders(
             continue
         y = 0.5 * (curve[0, 1] + curve[3, 1])
         key = set_left_edge(borders, count, layers, present, y, windings)
-        low, high = min(curve[0, 0], curve[3, 0]), max(curve[0, 0], curve[3, 0])
         for j in range(count):
             other = borders.curves[j]
             a, d = other[0, 1], other[3, 1]
             if j == i or not (min(a, d) <= y < max(a, d)) or along_edge(other):
                 continue
-            left = max(other[0, 0], other[3, 0]) <= low
-            if not left and min(other[0, 0], other[3, 0]) < high:
-                gap = x_at(curve, y) - x_at(other, y)
-                if gap == 0.0:
-                    return -1
-                left = gap > 0.0
-            if left:
+            side = beside(curve, other, y)
+            if side == 0:
+                return -1
+            if side > 0:
                 key = cross(borders, j, -1 if d > a else 1, layers, present, windings, key)
         before = faces.paint[face_of(faces, layers, ground, present, windings, key)]
         key = cross(borders, i, -1 if curve[3, 1] > curve[0, 1] else 1, layers, present, windings, key)
@@ -94,7 +113,7 @@ class Roles(NamedTuple):
     since: NDArray[np.float64]  # (borders,)
 
 
-@kernel
+@kernel(allocates=False)
 def _roles_in_slab(
     borders: Borders,
     active: NDArray[np.int64],
