@@ -108,7 +108,8 @@ export class FeatureColors {
     if (this.isHidden(id)) return null;
     const place = this.#times?.places.get(id);
     if (this.#times && place !== undefined) return mixed(this.#times.steps, this.#time, 4 * place);
-    const paint = this.#paints.get(id) ?? this.#byFunction?.(id) ?? (this.#paints.has(id) ? null : 'own');
+    const paint = this.#paints.has(id) ? this.#paints.get(id) ?? null : this.#byFunction?.(id);
+    if (paint === undefined) return 'own';
     return paint === 'own' ? paint : parts(paint);
   }
 }
