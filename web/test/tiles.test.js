@@ -117,3 +117,14 @@ test('a camera above a globe sees few quads, the deepest below it', () => {
   const [x, y] = mercator(0.001, 0.001);
   expect(found.some((quad) => keyOf(quad) === keyOf(ancestor({ z: 30, x: Math.floor(x * 2 ** 30), y: Math.floor(y * 2 ** 30) }, quad.z)))).toBe(true);
 });
+
+test('a paint of null hides a feature, whatever a function says of it', () => {
+  const hidden = (/** @type {any} */ paints) => {
+    const colors = new FeatureColors();
+    colors.setPaint(() => '#ff0000');
+    colors.setPaint(paints);
+    return colors.paintOf('a');
+  };
+  expect(hidden({ b: '#000' })).toEqual([1, 0, 0, 1]);
+  expect(hidden({ a: null })).toEqual([0, 0, 0, 0]);
+});

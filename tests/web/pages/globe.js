@@ -8,7 +8,7 @@ renderer.setClearColor(0xffffff);
 document.body.append(renderer.domElement);
 const scene = new Scene();
 const camera = new PerspectiveCamera(40, innerWidth / innerHeight, 1e-8, 100);
-const globe = new VectorGlobe({ source: 'map.pmtiles', pause: 10 });
+const globe = new VectorGlobe({ source: location.search.slice(1) || 'map.pmtiles', pause: 10 });
 scene.add(globe);
 
 const draw = () => {

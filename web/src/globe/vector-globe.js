@@ -43,7 +43,7 @@ export class VectorGlobe extends Group {
   #radius;
   /** @type {Map<LoadedTile, import('three').DataTexture>} */
   #textures = new Map();
-  /** @type {Map<string, { group: Group, loaded: LoadedTile, geometry: import('three').BufferGeometry }>} */
+  /** @type {Map<string, { group: Group, loaded: LoadedTile, geometries: import('three').BufferGeometry[] }>} */
   #patches = new Map();
 
   /** @param {VectorGlobeOptions} options */
@@ -151,6 +151,37 @@ export class VectorGlobe extends Group {
     return [(180 / Math.PI) * Math.atan2(x, z), (180 / Math.PI) * Math.asin(y)];
   }
 
+  /**
+   * The place under a pointer; null beside the globe.
+   *
+   * @param {{ x: number, y: number }} pointer -1..1 across the picture, upwards, as for a raycaster
+   * @param {import('three').PerspectiveCamera} camera
+   * @returns {[number, number] | null} longitude and latitude in degrees
+   */
+  placeUnder({ x, y }, camera) {
+    this.updateWorldMatrix(true, false);
+    camera.updateWorldMatrix(true, false);
+    const from = this.worldToLocal(new Vector3().setFromMatrixPosition(camera.matrixWorld));
+    const way = this.worldToLocal(new Vector3(x, y, 0.5).unproject(camera)).sub(from).normalize();
+    const along = from.dot(way);
+    const rest = from.clone().addScaledVector(way, -along).lengthSq(); // of the ray from the middle, squared
+    const radius = this.#radius;
+    if (along > 0 || rest > radius * radius) return null;
+    return this.lngLatOf(this.localToWorld(from.addScaledVector(way, -along - Math.sqrt(radius * radius - rest))));
+  }
+
+  /**
+   * The feature under a pointer; null where nothing is.
+   *
+   * @param {{ x: number, y: number }} pointer -1..1 across the picture, upwards, as for a raycaster
+   * @param {import('three').PerspectiveCamera} camera
+   * @returns {Feature | null}
+   */
+  featureUnder(pointer, camera) {
+    const place = this.placeUnder(pointer, camera);
+    return place && this.featureAt(place);
+  }
+
   /** Abort what is being loaded, and free the GPU memory. */
   dispose() {
     for (const key of [...this.#patches.keys()]) this.#remove(key);
@@ -176,7 +207,7 @@ export class VectorGlobe extends Group {
    * @param {LoadedTile} loaded
    */
   #add(key, quad, loaded) {
-    const { geometry, middle } = patch(quad, this.#radius);
+    const { geometry, skirt, middle } = patch(quad, this.#radius);
     const data = /** @type {import('../data.js').PackedData} */ (loaded.data);
     const group = new Group();
     const { base, rest, side } = lookup(quad, loaded.tile, this.#pyramid.client?.source.margin ?? 0);
@@ -193,13 +224,15 @@ export class VectorGlobe extends Group {
       };
       const material = new RawShaderMaterial({ glslVersion: GLSL3, vertexShader: VERTEX, fragmentShader, uniforms, transparent: true, premultipliedAlpha: true,
         blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor });
-      const mesh = new Mesh(geometry, material);
-      mesh.renderOrder = this.renderOrder + order;
-      group.add(mesh);
+      [geometry, skirt].forEach((shape, isSkirt) => {
+        const mesh = new Mesh(shape, material);
+        mesh.renderOrder = this.renderOrder + (order + isSkirt * data.roots.length) / 65536; // when all that may hide it is there
+        group.add(mesh);
+      });
     });
     group.position.set(...middle);
     this.add(group);
-    this.#patches.set(key, { group, loaded, geometry });
+    this.#patches.set(key, { group, loaded, geometries: [geometry, skirt] });
   }
 
   /** @param {string} key */
@@ -207,7 +240,7 @@ export class VectorGlobe extends Group {
     const known = this.#patches.get(key);
     if (!known) return;
     this.remove(known.group);
-    known.geometry.dispose();
+    for (const geometry of known.geometries) geometry.dispose();
     for (const mesh of known.group.children) /** @type {any} */ (mesh).material.dispose();
     this.#patches.delete(key);
   }

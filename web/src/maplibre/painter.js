@@ -50,6 +50,11 @@ export class TilePainter {
     return this.#textures.size;
   }
 
+  /** Whether its context is lost, and with it all that it has made. */
+  get isLost() {
+    return this.#gl.isContextLost();
+  }
+
   /**
    * Draw the tiles of a view.
    *

@@ -1,4 +1,5 @@
 import { VextureError, line } from '../errors.js';
+import { FeatureColors } from '../tiles/feature-colors.js';
 import { LEAD, TILE_SIZE, mercator } from '../tiles/grid.js';
 import { Pyramid } from '../tiles/pyramid.js';
 import { TilePainter } from './painter.js';
@@ -29,6 +30,12 @@ import { TilePainter } from './painter.js';
  *   What listeners of each event get.
  */
 
+/** The first version of MapLibre that says which tiles cover a view. */
+const OLDEST = '5.7';
+
+/** CSS pixels from the pointer to the nearest place of the map, above which nothing is under the pointer. */
+const BESIDE = 2;
+
 /**
  * A map of `vexture tiles` as a layer of MapLibre, flat and on the globe: `map.addLayer(layer, beforeId)`.
  */
@@ -49,23 +56,26 @@ export class VectorTileLayer {
   #listeners = new Map();
   /** @type {string | null} */
   #hovered = null;
+  /** Layers above it, from below. @type {string[]} */
+  #above = [];
 
   /** @param {VectorTileLayerOptions} options */
   constructor(options) {
     /** Its name in MapLibre. @type {string} */
     this.id = options.id;
     this.#options = options;
-    this.#pyramid = this.#open();
+    this.#pyramid = this.#open(new FeatureColors());
     this.setOpacity(options.opacity ?? 1);
   }
 
-  #open() {
+  /** @param {FeatureColors} colors */
+  #open(colors) {
     const pyramid = new Pyramid(this.#options.source, {
       ...this.#options,
       onChange: () => this.#map?.triggerRepaint(),
       onDrop: (loaded) => this.#painter?.drop(loaded),
       onError: (error, tile) => this.#emit('error', { error, tile }),
-    });
+    }, colors);
     pyramid.ready.catch((error) => this.#emit('error', { error }));
     return pyramid;
   }
@@ -193,54 +203,77 @@ export class VectorTileLayer {
     for (const listener of listeners ?? []) listener(event);
   }
 
+  /**
+   * @param {{ lng: number, lat: number }} place
+   * @param {{ x: number, y: number }} point
+   */
+  #under(place, point) {
+    const seen = this.#map?.project([place.lng, place.lat]);
+    const isBeside = !seen || Math.hypot(seen.x - point.x, seen.y - point.y) > BESIDE; // of a globe
+    return isBeside ? null : this.featureAt(place);
+  }
+
   #pointed = (/** @type {import('maplibre-gl').MapMouseEvent} */ { lngLat, point }) => {
     if (!this.#listeners.get('hover')?.size) return;
-    const feature = this.featureAt(lngLat);
+    const feature = this.#under(lngLat, point);
     if ((feature?.id ?? null) === this.#hovered) return;
     this.#hovered = feature?.id ?? null;
     this.#emit('hover', { feature, lngLat, point });
   };
 
+  #left = (/** @type {import('maplibre-gl').MapMouseEvent} */ { lngLat, point }) => {
+    if (this.#hovered === null) return;
+    this.#hovered = null;
+    this.#emit('hover', { feature: null, lngLat, point });
+  };
+
   #clicked = (/** @type {import('maplibre-gl').MapMouseEvent} */ { lngLat, point }) => {
-    if (this.#listeners.get('click')?.size) this.#emit('click', { feature: this.featureAt(lngLat), lngLat, point });
-  };
-
-  #lost = () => {
-    this.#painter = null; // its objects are gone with the context
-  };
-
-  #restored = () => {
-    const gl = this.#map?.painter?.context?.gl;
-    if (gl) this.#painter = new TilePainter(gl);
+    if (this.#listeners.get('click')?.size) this.#emit('click', { feature: this.#under(lngLat, point), lngLat, point });
   };
 
   /**
-   * Called by MapLibre.
+   * MapLibre drops custom layers with a lost context: this one comes back by itself, where it was, with its tiles.
+   *
+   * @param {MapLibreMap} map
+   */
+  #return(map) {
+    const above = this.#above;
+    const add = () => {
+      if (!map.getLayer(this.id)) map.addLayer(this, above.find((id) => map.getLayer(id)));
+    };
+    map.once('webglcontextrestored', () => (map.style?._loaded ? add() : map.once('style.load', add)));
+  }
+
+  /**
+   * Called by MapLibre. A layer that was removed opens its pyramid again, with the colours that it had.
    *
    * @param {MapLibreMap} map
    * @param {WebGL2RenderingContext} gl
    */
   onAdd(map, gl) {
     if (typeof map.coveringTiles !== 'function' || !(gl instanceof WebGL2RenderingContext)) {
-      throw new VextureError(`maplibre-gl ${map.version} is too old; use version 5 or newer`, 'map');
+      throw new VextureError(`maplibre-gl ${map.version} is too old; use version ${OLDEST} or newer`, 'map');
     }
+    if (this.#pyramid.isClosed) this.#pyramid = this.#open(this.#pyramid.colors);
     this.#map = map;
     this.#painter = new TilePainter(gl);
     map.on('mousemove', this.#pointed);
+    map.on('mouseout', this.#left);
     map.on('click', this.#clicked);
-    map.on('webglcontextlost', this.#lost);
-    map.on('webglcontextrestored', this.#restored);
   }
 
   /** Called by MapLibre. */
   onRemove() {
     const map = this.#map;
-    map?.off('mousemove', this.#pointed);
-    map?.off('click', this.#clicked);
-    map?.off('webglcontextlost', this.#lost);
-    map?.off('webglcontextrestored', this.#restored);
-    this.#pyramid.dispose();
-    this.#painter?.dispose();
+    if (!map) return;
+    map.off('mousemove', this.#pointed);
+    map.off('mouseout', this.#left);
+    map.off('click', this.#clicked);
+    if (this.#painter?.isLost) this.#return(map);
+    else {
+      this.#pyramid.dispose();
+      this.#painter?.dispose();
+    }
     this.#painter = null;
     this.#map = null;
   }
@@ -255,6 +288,8 @@ export class VectorTileLayer {
     const { client } = this.#pyramid;
     const painter = this.#painter;
     if (!client || !painter || !this.#map) return;
+    const order = this.#map.getLayersOrder();
+    this.#above = order.slice(order.indexOf(this.id) + 1);
     const shown = this.#pyramid.update(this.#quads(this.#map), (loaded, rows) => painter.send(loaded, rows));
     painter.draw(shown, render, client.source.margin, this.#opacity);
   }

@@ -97,18 +97,19 @@ export class FeatureColors {
     data.roots.forEach(({ style }, root) => {
       if (!style) return;
       const paints = new Map();
-      for (const { name } of style.elements) if (name && !paints.has(name)) paints.set(name, this.#paintOf(name));
+      for (const { name } of style.elements) if (name && !paints.has(name)) paints.set(name, this.paintOf(name));
       if (paints.size) rows.push(...mapParts().recolored(data, root, paints, NO_COLORS));
     });
     return rows;
   }
 
-  /** @param {string} id */
-  #paintOf(id) {
+  /** The colour of a feature, or 'own'. @param {string} id */
+  paintOf(id) {
     if (this.isHidden(id)) return null;
     const place = this.#times?.places.get(id);
     if (this.#times && place !== undefined) return mixed(this.#times.steps, this.#time, 4 * place);
-    const paint = this.#paints.get(id) ?? this.#byFunction?.(id) ?? (this.#paints.has(id) ? null : 'own');
+    const paint = this.#paints.has(id) ? this.#paints.get(id) ?? null : this.#byFunction?.(id);
+    if (paint === undefined) return 'own';
     return paint === 'own' ? paint : parts(paint);
   }
 }

@@ -16,7 +16,6 @@ import { openTiles } from './source.js';
  */
 
 export class Pyramid {
-  colors = new FeatureColors();
   /** @type {TileClient | null} */
   client = null;
   /** @type {View} */
@@ -26,8 +25,10 @@ export class Pyramid {
   /**
    * @param {string | import('./source.js').TileSource} source an address, or what `openTiles` has made of it
    * @param {import('./client.js').AllTileOptions} options
+   * @param {FeatureColors} [colors] those of a pyramid before it
    */
-  constructor(source, options) {
+  constructor(source, options, colors = new FeatureColors()) {
+    this.colors = colors;
     /** When its metadata are there. @type {Promise<TileClient | null>} */
     this.ready = this.#open(source, options);
     this.ready.catch(() => {}); // who waits for it gets the error, too
@@ -44,6 +45,11 @@ export class Pyramid {
     this.client = new TileClient(source, options);
     options.onChange?.();
     return this.client;
+  }
+
+  /** Whether it has been disposed of. */
+  get isClosed() {
+    return this.#controller.signal.aborted;
   }
 
   /**
