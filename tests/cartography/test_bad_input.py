@@ -1,9 +1,5 @@
 """Maps of data that is large, damaged or strange: each works, or ends in a line that says what to do."""
 
-import resource
-import subprocess
-import sys
-
 import geopandas
 import numpy as np
 import pandas as pd
@@ -99,22 +95,3 @@ def test_a_polygon_of_a_million_corners():
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1) * radius[:, None]
     texture = convert_map([MapLayer(frame([1], [shapely.Polygon(ring)]))], crs=METRES).conversion.texture
     assert texture.element_at(np.array([[0.5, 0.5], [0.01, 0.01]])).name.tolist() == ["0", ""]
-
-
-@pytest.mark.slow
-def test_a_source_larger_than_the_memory_says_what_to_do(tmp_path):
-    count = 150_000
-    x, y = np.arange(count) % 400, np.arange(count) // 400
-    shapes = shapely.segmentize(shapely.box(x, y, x + 1, y + 1), 0.02)
-    geopandas.GeoDataFrame({"v": x}, geometry=shapes, crs=METRES).to_parquet(tmp_path / "many.parquet")
-    command = [sys.executable, "-m", "vexture", "map", str(tmp_path / "many.parquet"), "-o", str(tmp_path / "m.ktx2")]
-    limit = 3 << 30
-    ended = subprocess.run(
-        command,
-        capture_output=True,
-        text=True,
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)),
-    )
-    assert ended.returncode == 1
-    last = ended.stderr.strip().splitlines()[-1]
-    assert "more memory than there is; choose fewer features by --where" in last
