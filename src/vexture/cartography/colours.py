@@ -153,10 +153,14 @@ def _classes(
     edges.append(float(max(known.max(), edges[-1])))
     counts = np.bincount(number[np.isfinite(values)], minlength=len(colours))
     entries = [
-        {"color": _hex(colour), "label": f"{low:g} - {high:g}", "from": low, "to": high, "count": int(count)}
+        {"color": _hex(colour), "label": _range(low, high), "from": low, "to": high, "count": int(count)}
         for colour, (low, high), count in zip(colours, pairwise(edges), counts, strict=True)
     ]
     return rgba, entries
+
+
+def _range(low: float, high: float) -> str:
+    return f"{low:g}" if low == high else f"{low:g} - {high:g}"
 
 
 def _continuous(values: NDArray[np.float64], scale: Scale) -> tuple[Rgba, list[dict[str, Any]]]:

@@ -9,7 +9,8 @@ import numpy as np
 from vexture.cartography.coverage import covering, ranks
 from vexture.cartography.paths import area_paths, fitted
 from vexture.cartography.place import MERCATOR
-from vexture.cartography.prepare import FILL, INK, MapLayer, Prepared, prepared
+from vexture.cartography.prepare import FILL, INK, MapLayer, Prepared, in_memory, prepared
+from vexture.content import about
 from vexture.deadline import DEFAULT_SECONDS, within
 from vexture.drawing import Drawing, Path
 from vexture.errors import LimitError, SourceError
@@ -82,11 +83,12 @@ def converted(
     capacity: int | None = None,
 ) -> Map:
     """Convert layers that are read; parameters and errors are those of `convert_map` and `vexture.convert`."""
-    with within(max_seconds):
-        drawing = _drawing(ready, snap)
-        _check_count(drawing, restyle)
     given: dict[str, Any] = {"restyle": restyle, "tolerance": tolerance, "capacity": capacity}
-    done = run(replace(drawing, notes=ready.notes.listed), split="faces", max_seconds=max_seconds, **given)
+    with in_memory():
+        with within(max_seconds):
+            drawing = _drawing(ready, snap)
+            _check_count(drawing, restyle)
+        done = run(replace(drawing, notes=ready.notes.listed), split="faces", max_seconds=max_seconds, **given)
     return Map(done, ready.table, ready.legends)
 
 
@@ -94,7 +96,8 @@ def _drawing(ready: Prepared, snap: float | None) -> Drawing:
     """All layers in the unit square."""
     fit, paths = ready.fit, list[Path]()
     for one in ready.layers:
-        rank = ranks(one.features, one.layer.order)
+        with about(one.layer.name):
+            rank = ranks(one.features, one.layer.order)
         rings = covering(one.features.rings, rank, fit.scale, snap, ready.notes)
         paths += area_paths(rings, one.names, one.colours(FILL), rank, fit)
         paths += area_paths(one.lines, one.names, one.colours(INK), np.arange(len(one.features)), fit)

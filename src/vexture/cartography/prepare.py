@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, Final
@@ -16,7 +17,7 @@ from vexture.cartography.place import placed
 from vexture.content import about
 from vexture.deadline import within
 from vexture.drawing import Drawing, Path
-from vexture.errors import ParameterError, SourceError
+from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.geo.crs import chosen_crs, gis_packages
 from vexture.geo.features import Features, read_features
 from vexture.geo.rings import Rings
@@ -26,7 +27,7 @@ from vexture.paint import Paint
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["FILL", "INK", "LEGEND", "MapLayer", "Prepared", "prepared"]
+__all__ = ["FILL", "INK", "LEGEND", "MapLayer", "Prepared", "in_memory", "prepared"]
 
 LEGEND: Final = "vexture.legend"
 """Key of the legends in the metadata of the table."""
@@ -125,6 +126,18 @@ class Prepared:
     notes: Notes
 
 
+@contextmanager
+def in_memory() -> Iterator[None]:
+    """Say what to do where there is not enough memory."""
+    try:
+        yield
+    except MemoryError:
+        raise LimitError(
+            "the map needs more memory than there is; choose fewer features by `where`, fewer `columns`, or make a "
+            "pyramid by vexture tiles, which reads them in parts"
+        ) from None
+
+
 @gis_packages()
 def prepared(layers: Sequence[MapLayer], *, crs: str, size: int, name: str | None, max_seconds: float) -> Prepared:
     """Read layers; parameters and errors are those of `vexture.cartography.convert_map`."""
@@ -133,7 +146,7 @@ def prepared(layers: Sequence[MapLayer], *, crs: str, size: int, name: str | Non
     if size < 1:
         raise ParameterError(f"`size` is {size}; it must be 1 or more pixels")
     notes, crs = Notes(), chosen_crs(crs, None)
-    with within(max_seconds):
+    with within(max_seconds), in_memory():
         painted, legends = _coloured([_read(layer, crs, notes) for layer in layers], notes)
         marked, fit = _marked(painted, crs, size)
     table = _table(painted, legends)
@@ -146,15 +159,15 @@ def _read(layer: MapLayer, crs: str, notes: Notes) -> tuple[MapLayer, Features]:
         options = {"layer": layer.layer, "where": layer.where, "id": layer.id, "columns": _columns(layer)}
         try:
             features = read_features(layer.source, crs=layer.crs, notes=notes, **options)  # type: ignore[arg-type]
-        except SourceError as error:
-            if "give `crs`" not in str(error):
+        except (SourceError, ParameterError) as error:
+            if "`crs`" not in str(error):
                 raise
-            raise SourceError(str(error).replace("`crs`", "`source_crs`")) from None
+            raise type(error)(str(error).replace("`crs`", "`source_crs`")) from None
         if not len(features):
             reason = f"no feature meets `where` {layer.where!r}" if layer.where else "it has no features"
             raise SourceError(f"{reason}; there is nothing to draw")
         if not (len(features.rings.ends) or len(features.lines.ends) or len(features.points.points)):
-            raise SourceError("none of its features has a geometry; there is nothing to draw")
+            raise SourceError("none of its features has a geometry that can be drawn; there is nothing to draw")
         return layer, placed(features, crs, notes)
 
 

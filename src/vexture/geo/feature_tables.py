@@ -173,7 +173,23 @@ def _arrow_chunk(
     numbers = np.asarray(table.column(number).to_numpy(), np.int64)
     shapes = _objects(table.column(geometry))
     kept = table.drop_columns([number, geometry])
+    _check_texts(kept)
     return Chunk(kept, shapes, numbers, crs, own, bounded=True, fallback=WORLD if topology else None)
+
+
+def _check_texts(table: "pyarrow.Table") -> None:
+    """Refuse texts in another encoding, which GDAL passes on as they are."""
+    import pyarrow as pa
+
+    for name, column in zip(table.column_names, table.columns, strict=True):
+        if pa.types.is_string(column.type) or pa.types.is_large_string(column.type):
+            try:
+                column.validate(full=True)
+            except pa.ArrowInvalid:
+                raise SourceError(
+                    f"the texts in its column {name!r} are not UTF-8; name their encoding, such as ISO-8859-1, in a "
+                    "file of the same name that ends in .cpg, or leave the column out by `columns`"
+                ) from None
 
 
 @contextmanager
@@ -266,15 +282,29 @@ def _frame(frame: Any, choice: Choice) -> Chunk:
 
     if choice.layer is not None:
         raise ParameterError(f"a GeoDataFrame has no layers, so none {choice.layer!r}; leave `layer` out")
-    geometry = frame.geometry
-    shapes = np.asarray(geometry.values, object)
-    others = frame.drop(columns=[name for name in frame.columns if str(frame[name].dtype) == "geometry"])
-    names = [str(name) for name in others.columns]
-    columns = choice.kept(names)
-    table = pa.Table.from_pandas(others, preserve_index=False)
+    shapes = np.asarray(frame.geometry.values, object)
+    columns = [] if frame.ndim == 1 else [str(name) for name in frame.columns]
+    if len(set(columns)) < len(columns):
+        again = next(name for name in columns if columns.count(name) > 1)
+        raise ParameterError(f"it has several columns {again!r}; rename all but one")
+    given = {} if frame.ndim == 1 else dict(zip(columns, (frame[name] for name in frame.columns), strict=True))
+    others = {name: _arrow_of(values) for name, values in given.items() if str(values.dtype) != "geometry"}
+    columns = choice.kept([*others])
+    table = pa.table(others) if others else pa.table({"row": np.arange(len(shapes))})
     rows = np.arange(len(shapes)) if choice.where is None else _rows_where(table, choice.where)
     crs = None if frame.crs is None else str(frame.crs.to_wkt())
     return Chunk(table.take(rows).select(columns), shapes[rows], rows.astype(np.int64), crs, choice.id, parsed=True)
+
+
+def _arrow_of(values: Any) -> Any:
+    """A column of pandas; one that Arrow has no type for, as of numbers and texts together, is its values as texts."""
+    import pyarrow as pa
+
+    try:
+        return pa.array(values, from_pandas=True)
+    except (pa.ArrowInvalid, pa.ArrowTypeError, pa.ArrowNotImplementedError):
+        known = ~values.isna()
+        return pa.array([str(value) if there else None for value, there in zip(values, known, strict=True)])
 
 
 def _split(chunk: Chunk, batch: int | None) -> Iterator[Chunk]:

@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from vexture.errors import DeviceError, ParameterError
+from vexture.notes import warn_of
 
 if TYPE_CHECKING:
     from vexture.notebook.map_widget import MapWidget
@@ -88,6 +89,7 @@ def map(
     from vexture.deadline import DEFAULT_SECONDS
 
     fields = {name: options.pop(name) for name in OF_SCALE if name in options}
+    column = None if column is None else str(column)
     scale = Scale(column or "", **{("kind" if name == "scale" else name): value for name, value in fields.items()})
     of_layer = {NAMES.get(name, name): options.pop(name) for name in OF_LAYER if name in options}
     for name in options:
@@ -98,6 +100,7 @@ def map(
     first: dict[str, Any] = {"crs": MERCATOR, "size": DEFAULT_SIZE, "max_seconds": DEFAULT_SECONDS}
     first |= {given: value for given, value in options.items() if given in first}
     ready = prepared([layer], name=title, **first)
+    warn_of(ready.name, ready.notes.listed)
     later = {given: value for given, value in options.items() if given not in ("crs", "size")}
     shown = {"width": width, "height": height, "background": background, "view": view}
     traits = {name: value for name, value in shown.items() if value is not None}

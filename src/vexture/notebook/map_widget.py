@@ -22,7 +22,7 @@ from vexture.notebook.pending import Pending
 from vexture.notebook.picture import MARGIN, Rect, png_of
 from vexture.notebook.shared import shared
 from vexture.notebook.widget import HEIGHT, PICTURE_WIDTH, PNG, VectorWidget
-from vexture.notes import Notes
+from vexture.notes import Notes, warn_of
 from vexture.renderers.view import Size, window
 from vexture.texture.restyle import components
 from vexture.texture.texture import Texture
@@ -89,7 +89,7 @@ class MapWidget(VectorWidget):
         has_legend: bool = True,
         **traits: Any,
     ) -> None:
-        self.table = ready.table
+        self.table, self._notes = ready.table, ready.notes.listed
         self._ids = [str(name) for name in ready.table.column("id").to_pylist()]
         self._row = {name: row for row, name in enumerate(self._ids)}
         self._told = _told(ready.table, tooltip)
@@ -126,6 +126,8 @@ class MapWidget(VectorWidget):
                 self._failure = str(self._pending.error)
                 return
             made, content = self._pending.result()
+            read = self._notes
+            warn_of(self._name, [note for note in made.conversion.notes if note not in read])
             texture = made.conversion.texture
             style = texture.roots[0].style
             assert style is not None

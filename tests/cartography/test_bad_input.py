@@ -1,0 +1,97 @@
+"""Maps of data that is large, damaged or strange: each works, or ends in a line that says what to do."""
+
+import geopandas
+import numpy as np
+import pandas as pd
+import pytest
+import shapely
+
+from vexture.cartography import MapLayer, Scale, convert_map
+from vexture.errors import ParameterError, SourceError
+
+METRES = "EPSG:28992"
+BOXES = [shapely.box(k, 0, k + 1, 1) for k in range(4)]
+
+
+def frame(values, shapes=BOXES, crs=METRES):
+    return geopandas.GeoDataFrame({"v": values}, geometry=list(shapes), crs=crs)
+
+
+def legend(source, column="v", **options):
+    """Labels of the legend of a map."""
+    done = convert_map([MapLayer(source, color=Scale(column, **options))], crs=METRES)
+    entries = [entry["label"] for entry in done.legends[0]["entries"]]
+    return [*entries, done.legends[0].get("no_data", {}).get("count", 0)]
+
+
+@pytest.mark.parametrize(
+    ("values", "labels"),
+    [
+        ([1.0, np.nan, np.inf, -np.inf], ["1", 3]),
+        ([5, 5, 5, 5], ["5", 0]),
+        ([True, False, None, True], ["True", "False", 1]),
+        ([1, "a", None, 2.5], ["1", "2.5", "a", 1]),
+        ([1j, 1j, 2j, 2j], ["1j", "2j", 0]),
+        (pd.to_datetime(["2020-01-01", "2020-01-02", None, "2020-01-02"]).date, ["2020-01-02", "2020-01-01", 1]),
+        (pd.Categorical(["a", "b", "a", None]), ["a", "b", 1]),
+    ],
+)
+def test_values_of_every_kind_have_colours(values, labels):
+    assert legend(frame(values)) == labels
+
+
+def test_a_series_of_geometries_has_no_attributes():
+    done = convert_map([MapLayer(geopandas.GeoSeries(BOXES, crs=METRES))], crs=METRES)
+    assert done.conversion.texture.roots[0].style.names == ("0", "1", "2", "3")
+
+
+def test_columns_of_one_name_are_refused():
+    twice = geopandas.GeoDataFrame(np.array([[1, 2]] * 4), columns=["v", "v"], geometry=BOXES, crs=METRES)
+    with pytest.raises(ParameterError, match="several columns 'v'; rename"):
+        convert_map([MapLayer(twice)], crs=METRES)
+
+
+def test_texts_in_another_encoding_name_the_remedy_which_helps(tmp_path):
+    places = frame(["Zuid", "Cura\u00e7ao", "b", "c"])
+    places.to_file(tmp_path / "places.shp", encoding="latin1")
+    (tmp_path / "places.cpg").unlink()
+    with pytest.raises(SourceError, match=r"column 'v' are not UTF-8; .*ends in \.cpg"):
+        legend(tmp_path / "places.shp")
+    (tmp_path / "places.cpg").write_text("ISO-8859-1")
+    assert "Cura\u00e7ao" in legend(tmp_path / "places.shp")
+
+
+@pytest.mark.parametrize("where", ["source_crs", "crs"])
+def test_unknown_reference_systems_name_the_right_option(where):
+    source = frame([1] * 4, crs=None)
+    given = {"source_crs": METRES, "crs": METRES, where: "EPSG:99999"}
+    with pytest.raises((SourceError, ParameterError), match=f"name it as `{where}` EPSG"):
+        convert_map([MapLayer(source, crs=given["source_crs"])], crs=given["crs"])
+
+
+def test_a_ring_that_encloses_nothing_is_no_geometry():
+    around = shapely.Polygon([(longitude, -70) for longitude in range(-180, 180, 10)])
+    with pytest.raises(SourceError, match="geometry that can be drawn"):
+        convert_map([MapLayer(frame([1], [around], "EPSG:4326"))])
+
+
+def test_one_feature_across_the_world_and_another_over_a_pole():
+    parts = [shapely.box(x, y, x + 5, y + 5) for x in range(-180, 180, 30) for y in range(-80, 80, 20)]
+    pole = shapely.box(-180, -90, 180, -82)
+    done = convert_map([MapLayer(frame([1, 2], [shapely.MultiPolygon(parts), pole], "EPSG:4326"), color=Scale("v"))])
+    assert any("85.05 degrees" in str(note) for note in done.conversion.notes)
+    texture = done.conversion.texture
+    at = (np.radians([[-178, 0], [153, 2], [170, -83]]) - 0) * 6378137.0
+    at[:, 1] = 6378137.0 * np.arcsinh(np.tan(np.radians([0.5, 2, -83])))
+    root = texture.roots[0]
+    found = texture.element_at((at - root.to_source[:, 2]) / root.to_source[0, 0]).name
+    assert found.tolist() == ["0", "0", "1"]
+
+
+@pytest.mark.slow
+def test_a_polygon_of_a_million_corners():
+    angle = np.linspace(0, 2 * np.pi, 1_000_000, endpoint=False)
+    radius = 10 + np.cumsum(np.random.default_rng(0).normal(0, 1e-4, len(angle)))
+    ring = np.stack([np.cos(angle), np.sin(angle)], axis=1) * radius[:, None]
+    texture = convert_map([MapLayer(frame([1], [shapely.Polygon(ring)]))], crs=METRES).conversion.texture
+    assert texture.element_at(np.array([[0.5, 0.5], [0.01, 0.01]])).name.tolist() == ["0", ""]
