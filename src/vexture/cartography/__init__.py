@@ -2,7 +2,7 @@
 
 `convert.py` begins; `prepare.py` reads the layers, and `place.py` brings features into the map's reference system;
 `coverage.py` closes gaps between polygons and orders overlaps; `colours.py` chooses colours and makes the legend;
-`marks.py` makes areas of lines and points; `paths.py` makes the drawing. `picture.py` draws a map without a conversion.
+`marks.py` makes areas of lines and points; `paths.py` makes the drawing.
 """
 
 from vexture.cartography.colours import Scale

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from vexture.cartography import Map, Scale
 from vexture.cartography.colours import colours_of
-from vexture.cartography.picture import map_picture
 from vexture.cartography.prepare import Prepared
 from vexture.errors import ParameterError
+from vexture.notebook.map_picture import map_picture
 from vexture.notebook.pending import Pending
 from vexture.notebook.picture import MARGIN, Rect, png_of
 from vexture.notebook.shared import shared
