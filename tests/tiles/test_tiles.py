@@ -287,3 +287,19 @@ def test_features_in_batches_are_numbered_through(parcels, tmp_path):
     assert {key: hashlib.sha256(data).digest() for key, data in one.items()} == {
         key: hashlib.sha256(data).digest() for key, data in other.items()
     }
+
+
+def test_land_that_jumps_over_the_antimeridian_is_whole(tmp_path):
+    """Its sides run across the whole map, where they cross its own: it is unwrapped before it is repaired."""
+    land = [(30.0, 50.0), (175.0, 50.0), (179.9, 65.0), (-180.0, 65.1), (-170.0, 66.0), (-180.0, 69.0), (179.9, 69.1)]
+    land = shapely.Polygon([*land, (100.0, 60.0), (60.0, 75.0), (30.0, 75.0)])
+    assert not land.is_valid
+    source = write_source(tmp_path / "land.geojson", [land], ["land"])
+    made = make_tiles(source, tmp_path / "land.pmtiles", TileOptions(max_zoom=2, id="parcel"))
+    assert made.notes == ()
+    (tile,) = tiles_of(tmp_path / "land.pmtiles").values()
+    texture = loaded(tile)
+    places = np.array([(40.0, 65.0), (40.0, 69.05), (175.0, 66.0), (-176.0, 66.5), (0.0, 66.0), (-100.0, 69.0)])
+    to = texture.roots[0].to_source
+    unit = (transformed(places, "EPSG:4326", CRS) - to[:, 2]) / to[:, :2].diagonal()
+    assert texture.element_at(unit).name.tolist() == ["land"] * 4 + [""] * 2

@@ -11,7 +11,7 @@ from vexture.errors import SourceError
 from vexture.geo.crs import period, refuse_metres, same_system, shown_bounds, shown_system, system, transformed
 from vexture.geo.extent import Bounds
 from vexture.geo.features import Features, Lines, Points
-from vexture.geo.rings import Rings, cut, moved, refuse_far, unwrapped, within
+from vexture.geo.rings import Rings, cut, jumping, moved, refuse_far, repaired, unwrapped, within
 from vexture.notes import Notes
 
 __all__ = ["MERCATOR", "placed", "units_per_metre"]
@@ -36,7 +36,9 @@ def placed(features: Features, crs: str, notes: Notes) -> Features:
     rings, turn = features.rings, period(features.crs)
     if turn and len(rings.ends):
         refuse_metres(rings.points, features.crs, f"the coordinates {shown_bounds(rings.box, features.crs)}")
+        jumps = jumping(rings, turn).any()
         rings = unwrapped(rings, turn)
+        rings = repaired(rings, notes) if jumps else rings
     if same_system(crs, features.crs):
         return replace(features, rings=rings)
     if same_system(crs, MERCATOR):

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import ParameterError
-from vexture.geo.crs import chosen_crs, gis_packages
+from vexture.geo.crs import chosen_crs, gis_packages, period
 from vexture.geo.extent import Bounds
 from vexture.geo.feature_tables import Choice, Chunk, chunks_of
 from vexture.geo.geojson import UNLOCATED
-from vexture.geo.rings import Rings, refuse_far, repaired, rings_of
+from vexture.geo.rings import Rings, jumping, refuse_far, repaired, rings_of
 from vexture.geo.vectors import parsed_wkb, parts_of
 from vexture.notes import Notes
 
@@ -166,25 +166,30 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     parts, of = parts_of(whole)
     kinds, feature = shapely.get_type_id(parts), owner[of].astype(np.intp)
     ids = _ids(chunk, choice, seen, notes)
-    rings = _polygons(parts[kinds == 3], feature[kinds == 3], ids, notes)
+    owners = feature[kinds == 3]
+    rings = rings_of(parts[kinds == 3], lambda index: f"feature {ids[owners[index]]}", owners)
+    refuse_far(rings, "correct it")
     lines = (kinds == shapely.GeometryType.LINESTRING) | (kinds == shapely.GeometryType.LINEARRING)
     spots = (kinds == shapely.GeometryType.POINT) & ~shapely.is_empty(parts)
     system = chosen_crs(crs, chunk.crs(rings.points))
+    rings = _valid(rings, period(system), notes)
     points = Points(shapely.get_coordinates(parts[spots]), feature[spots])
     return Features(rings, ids, _table(chunk, ids), system, _lines(parts[lines], feature[lines]), points)
 
 
-def _polygons(polygons: NDArray[Any], feature: NDArray[np.intp], ids: NDArray[Any], notes: Notes) -> Rings:
-    """Valid polygons; what was repaired is counted."""
+def _valid(rings: Rings, turn: float | None, notes: Notes) -> Rings:
+    """Valid polygons; what was repaired is counted. Those that jump over the antimeridian become so by unwrapping."""
     import shapely
 
-    rings = rings_of(polygons, lambda index: f"feature {ids[feature[index]]}", feature)
-    refuse_far(rings, "correct it")
-    wrong = int((~shapely.is_valid(polygons)).sum())
-    if not wrong:
+    if not len(rings.ends):
         return rings
-    notes.remark(f"{wrong} of its polygons crossed or overlapped themselves and were repaired")
-    return repaired(rings, notes)
+    later = jumping(rings, turn) if turn else np.zeros(len(rings.outer), np.bool_)
+    here = rings.taken(np.flatnonzero(~later)) if later.any() else rings
+    wrong = int((~shapely.is_valid(here.shapes)).sum())
+    if wrong:
+        notes.remark(f"{wrong} of its polygons crossed or overlapped themselves and were repaired")
+        here = repaired(here, notes)
+    return here.joined(rings.taken(np.flatnonzero(later))) if later.any() else here
 
 
 def _lines(lines: NDArray[Any], feature: NDArray[np.intp]) -> Lines:

@@ -16,7 +16,19 @@ from vexture.geo.snap import snapped
 from vexture.notes import Notes
 from vexture.tolerance import ROUND
 
-__all__ = ["Rings", "cut", "moved", "oriented", "refuse_far", "repaired", "rings_of", "shared", "unwrapped", "within"]
+__all__ = [
+    "Rings",
+    "cut",
+    "jumping",
+    "moved",
+    "oriented",
+    "refuse_far",
+    "repaired",
+    "rings_of",
+    "shared",
+    "unwrapped",
+    "within",
+]
 
 FULL_TURN: Final = 1.0 - 1e-9
 """Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
@@ -176,6 +188,19 @@ def unwrapped(rings: Rings, turn: float) -> Rings:
     if highs.max() - lows.min() >= min(turn / 2, boxes[:, 1, 0].max() - boxes[:, 0, 0].min()):
         return rings
     return _shifted(rings, shift[rings.polygon])
+
+
+def jumping(rings: Rings, turn: float) -> NDArray[np.bool_]:
+    """Polygons, (p,), that jump over the antimeridian and are whole once they are unwrapped: they go around no pole."""
+    longitude = rings.points[:, 0]
+    step = longitude[rings.following] - longitude
+    jumps = np.where(np.abs(step) > turn / 2, np.rint(step / turn), 0.0)
+    if not jumps.any():
+        return np.zeros(len(rings.outer), np.bool_)
+    net = np.add.reduceat(jumps, rings.starts)
+    jump = np.logical_or.reduceat(jumps != 0.0, rings.starts)
+    around: NDArray[np.bool_] = np.logical_or.reduceat(net != 0.0, rings.outer)
+    return np.logical_or.reduceat(jump, rings.outer) & ~around
 
 
 def _without_jumps(rings: Rings, turns: NDArray[np.float64], full: NDArray[np.bool_], turn: float) -> Rings:

@@ -29,20 +29,19 @@ def in_world(features: Any, first: int, most: int, notes: Notes) -> Pieces:
     if not len(rings.ends):
         return Pieces(np.empty(0, np.int64), np.empty(0, object), np.empty(0, object))
     refuse_far(rings, "correct it")
-    rings = repaired(rings, notes)
-    rings = _in_degrees(rings, own, most) if system(own).is_geographic else _in_metres(rings, own)
+    rings = _in_degrees(rings, own, most, notes) if system(own).is_geographic else _in_metres(rings, own, notes)
     feature = np.asarray(rings.feature, np.int64)
     ids = np.asarray(features.ids, object)[feature]
     return Pieces(feature + first, ids, rings.shapes)
 
 
-def _in_degrees(rings: Rings, own: str, most: int) -> Rings:
+def _in_degrees(rings: Rings, own: str, most: int, notes: Notes) -> Rings:
     """Rings of longitudes and latitudes in metres, with copies beyond the antimeridian."""
     turn = period(own)
     assert turn is not None
     degree = turn / 360.0
     refuse_metres(rings.points, own, f"the coordinates {shown_bounds(rings.box, own)}")
-    rings = repaired(unwrapped(rings, turn), Notes())
+    rings = repaired(unwrapped(rings, turn), notes)
     reach = turn / 2.0 * (1.0 + BEYOND)
     world = (-reach, -LATITUDE * degree, reach, LATITUDE * degree)
     boxes = rings.boxes
@@ -64,8 +63,9 @@ def _projected(points: Any, own: str, turn: float) -> Any:
     return image + np.stack([turns * 2.0 * HALF, np.zeros(len(turns))], axis=1)
 
 
-def _in_metres(rings: Rings, own: str) -> Rings:
+def _in_metres(rings: Rings, own: str, notes: Notes) -> Rings:
     """Rings of a projected system in metres of Web Mercator."""
+    rings = repaired(rings, notes)
     if own != CRS:
         size = np.full(2, 1.0)
         wide = 2.0 * HALF
