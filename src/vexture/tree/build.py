@@ -144,19 +144,8 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
     grain = 0.5 ** max(depth + 1, bounds.least_depth) / LATTICE
     at_limit = depth + 1 == bounds.max_depth
     pieces = divide(pool, first, last, xm, ym, grain, stack[top, PIECES], at_limit, child_at)
-    child_windings(
-        pool.points,
-        pool.path,
-        pool.numbers,
-        child_at,
-        present[first_path:last_path],
-        x0,
-        y0,
-        xm,
-        ym,
-        counts[WHOLE],
-        windings,
-    )
+    touching = present[first_path:last_path]
+    child_windings(pool.points, pool.path, pool.numbers, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
     first_below[quad, 0], first_below[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = last_path
     for child in range(4):

@@ -164,19 +164,8 @@ def _grow_quad(
     xm, ym = x0 + half, y0 + half
     grain = 0.5 ** max(depth + 1, bounds.least_depth) / LATTICE
     pieces = divide(pool, row[FIRST], row[LAST], xm, ym, grain, row[PIECES], False, child_at)
-    child_windings(
-        pool.points,
-        pool.path,
-        pool.numbers,
-        child_at,
-        present[rows[0] : rows[1]],
-        x0,
-        y0,
-        xm,
-        ym,
-        counts[WHOLE],
-        windings,
-    )
+    touching = present[rows[0] : rows[1]]
+    child_windings(pool.points, pool.path, pool.numbers, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
     tree.first[quad, 0], tree.first[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = rows[1]
     for child in range(4):
