@@ -303,3 +303,20 @@ def test_land_that_jumps_over_the_antimeridian_is_whole(tmp_path):
     to = texture.roots[0].to_source
     unit = (transformed(places, "EPSG:4326", CRS) - to[:, 2]) / to[:, :2].diagonal()
     assert texture.element_at(unit).name.tolist() == ["land"] * 4 + [""] * 2
+
+
+def test_land_around_a_pole_is_there(tmp_path):
+    """As in atlases that have lost their cuts: the coast around the pole is a hole in a circle beside it."""
+    circle = [(longitude, -89.999) for longitude in range(-180, 180, 10)]
+    coast = [(longitude, -70.0 - abs(longitude) / 36.0) for longitude in range(175, -180, -10)]
+    lake = [(100.0, -80.0), (110.0, -80.0), (110.0, -82.0), (100.0, -82.0)]
+    source = write_source(tmp_path / "ice.geojson", [shapely.Polygon(circle, [coast, lake])], ["ice"])
+    made = make_tiles(source, tmp_path / "ice.pmtiles", TileOptions(max_zoom=2, id="parcel"))
+    assert [note.message for note in made.notes] == ["polygons around a pole are closed along the antimeridian: 1"]
+    (tile,) = tiles_of(tmp_path / "ice.pmtiles").values()
+    texture = loaded(tile)
+    on = [(0.0, -70.5), (179.9, -75.5), (-179.9, -75.5), (90.0, -84.0)]
+    off = [(105.0, -81.0), (0.0, -69.5), (179.9, -74.5)]
+    to = texture.roots[0].to_source
+    unit = (transformed(np.array(on + off), "EPSG:4326", CRS) - to[:, 2]) / to[:, :2].diagonal()
+    assert texture.element_at(unit).name.tolist() == ["ice"] * 4 + [""] * 3

@@ -12,6 +12,7 @@ from vexture.geo.crs import chosen_crs, gis_packages, period
 from vexture.geo.extent import Bounds
 from vexture.geo.feature_tables import Choice, Chunk, chunks_of
 from vexture.geo.geojson import UNLOCATED
+from vexture.geo.poles import closed_over_poles
 from vexture.geo.rings import Rings, jumping, refuse_far, repaired, rings_of
 from vexture.geo.vectors import parsed_wkb, parts_of
 from vexture.notes import Notes
@@ -183,7 +184,12 @@ def _valid(rings: Rings, turn: float | None, notes: Notes) -> Rings:
 
     if not len(rings.ends):
         return rings
-    later = jumping(rings, turn) if turn else np.zeros(len(rings.outer), np.bool_)
+    later = np.zeros(len(rings.outer), np.bool_)
+    if turn:
+        rings, polar = closed_over_poles(rings, turn)
+        if polar:
+            notes.remark(f"polygons around a pole are closed along the antimeridian: {polar}")
+        later = jumping(rings, turn)
     here = rings.taken(np.flatnonzero(~later)) if later.any() else rings
     wrong = int((~shapely.is_valid(here.shapes)).sum())
     if wrong:

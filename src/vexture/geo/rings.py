@@ -17,6 +17,7 @@ from vexture.notes import Notes
 from vexture.tolerance import ROUND
 
 __all__ = [
+    "FULL_TURN",
     "Rings",
     "cut",
     "jumping",
