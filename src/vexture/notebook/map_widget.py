@@ -126,8 +126,6 @@ class MapWidget(VectorWidget):
                 self._failure = str(self._pending.error)
                 return
             made, content = self._pending.result()
-            read = self._notes
-            warn_of(self._name, [note for note in made.conversion.notes if note not in read])
             texture = made.conversion.texture
             style = texture.roots[0].style
             assert style is not None
@@ -140,6 +138,8 @@ class MapWidget(VectorWidget):
                 self._mark({"new": self.selected})
                 self.send_state("colors")  # without those of what is hidden
                 self._picture = None
+        # last, as a warning may be an error
+        warn_of(self._name, [note for note in made.conversion.notes if note not in self._notes])
 
     def _is_seen(self, name: str) -> bool:
         """Whether a feature is in the texture, as far as that is known: some lie wholly below others."""

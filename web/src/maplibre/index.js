@@ -1,5 +1,5 @@
 /**
- * Maps of `vexture tiles` in MapLibre GL JS 5 or newer, flat and on its globe, without three.js.
+ * Maps of `vexture tiles` in MapLibre GL JS 5.7 or newer, flat and on its globe, without three.js.
  *
  * @module
  */
