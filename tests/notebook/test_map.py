@@ -189,3 +189,20 @@ def test_unknown_features_are_refused_before_and_after(held):
 def test_too_long_is_said():
     with pytest.raises(LimitError, match="raise `max_seconds`"):
         shown(max_seconds=1e-9).texture  # noqa: B018  # raises
+
+
+def test_a_map_that_is_converted_before_the_call_is_over_arrives(monkeypatch):
+    import vexture.notebook.map_widget as module
+
+    class Late(module.Pending):
+        """Its name is given to it when its thread has long been done."""
+
+        def __init__(self, *given):
+            super().__init__(*given)
+            self._thread.join(0.5)
+
+    monkeypatch.setattr(module, "_sent", lambda _: pytest.fail("nothing is converted"))
+    monkeypatch.setattr(module, "Pending", Late)
+    chart = shown()
+    chart._pending._thread.join(10.0)
+    assert "nothing is converted" in chart._failure

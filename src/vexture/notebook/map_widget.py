@@ -108,7 +108,8 @@ class MapWidget(VectorWidget):
         self.observe(self._select, "picked")
         self.observe(lambda change: self._send_picture(change["new"]), "_wanted")
         self._lock = threading.RLock()
-        self._pending = Pending(lambda: _sent(conversion()), self._arrived)
+        with self._lock:  # a small map may arrive before its name is there
+            self._pending = Pending(lambda: _sent(conversion()), self._arrived)
 
     @property
     def texture(self) -> Texture:
