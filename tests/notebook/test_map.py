@@ -31,6 +31,15 @@ def none_is_left():
     ipywidgets.Widget.close_all()
 
 
+@pytest.fixture(autouse=True)
+def no_loop_of_a_browser():
+    """A browser that an earlier test of this process has opened holds a loop, which never goes on here."""
+    loop = asyncio._get_running_loop()
+    asyncio._set_running_loop(None)
+    yield
+    asyncio._set_running_loop(loop)
+
+
 def fields(count=300, seed=5):
     random = np.random.default_rng(seed)
     cells = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(random.uniform(0, 1000, (count, 2)))))
