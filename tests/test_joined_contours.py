@@ -1,5 +1,7 @@
 """Contours as parts of one array: joined without a copy where they follow one another, and checked in blocks."""
 
+from multiprocessing.reduction import ForkingPickler
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -24,14 +26,16 @@ def test_joined_holds_all_cubics_in_order(lengths, before, random):
     assert (joined(strange) == np.concatenate(strange)).all()
 
 
-@pytest.mark.parametrize("flags", ["strided", "read-only", "other type", "turned"])
+@pytest.mark.parametrize("flags", ["strided", "read-only", "other type", "turned", "of another process"])
 def test_joined_is_what_kernels_read(flags):
     whole = np.arange(48.0).reshape(-1, 4, 2)
+    long = np.resize(whole, (20, 4, 2))  # numpy keeps the bytes of arrays over 1,000 bytes as their base
     parts = {
         "strided": [whole[::2]],
         "read-only": [whole[:1], whole[1:3]],
         "other type": [whole.view(np.int64)[:1], whole.view(np.int64)[1:]],
         "turned": [whole.transpose(0, 2, 1).reshape(-1, 4, 2, order="F")[:2]],
+        "of another process": ForkingPickler.loads(ForkingPickler.dumps([long, long[:1]])),
     }[flags]
     if flags == "read-only":
         whole.flags.writeable = False

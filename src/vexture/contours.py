@@ -51,8 +51,10 @@ def joined(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     """
     if not contours:
         return np.empty((0, 4, 2))
-    base: NDArray[np.float64] | None = contours[0] if len(contours) == 1 else contours[0].base
-    if base is None or base.dtype != np.float64 or not (base.flags.c_contiguous and base.flags.writeable):
+    base = contours[0] if len(contours) == 1 else contours[0].base
+    if not isinstance(base, np.ndarray) or base.dtype != np.float64:  # arrays of another process are parts of bytes
+        return _copied(contours)
+    if not (base.flags.c_contiguous and base.flags.writeable):
         return _copied(contours)
     first = at = _address(contours[0])
     for contour in contours:
