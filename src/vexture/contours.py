@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,8 +52,8 @@ def joined(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     """
     if not contours:
         return np.empty((0, 4, 2))
-    base = contours[0] if len(contours) == 1 else contours[0].base
-    if not isinstance(base, np.ndarray) or base.dtype != np.float64:  # arrays of another process are parts of bytes
+    base: Any = contours[0] if len(contours) == 1 else contours[0].base  # of another process's array, bytes
+    if not isinstance(base, np.ndarray) or base.dtype != np.float64:
         return _copied(contours)
     if not (base.flags.c_contiguous and base.flags.writeable):
         return _copied(contours)
@@ -62,7 +63,8 @@ def joined(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
             return _copied(contours)
         at += contour.nbytes
     start, end = ((place - _address(base)) // base.itemsize for place in (first, at))
-    return base.reshape(-1)[start:end].reshape(-1, 4, 2)
+    found: NDArray[np.float64] = base.reshape(-1)[start:end].reshape(-1, 4, 2)
+    return found
 
 
 def _copied(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:

@@ -305,12 +305,20 @@ def test_land_that_jumps_over_the_antimeridian_is_whole(tmp_path):
     assert texture.element_at(unit).name.tolist() == ["land"] * 4 + [""] * 2
 
 
-def test_land_around_a_pole_is_there(tmp_path):
-    """As in atlases that have lost their cuts: the coast around the pole is a hole in a circle beside it."""
-    circle = [(longitude, -89.999) for longitude in range(-180, 180, 10)]
-    coast = [(longitude, -70.0 - abs(longitude) / 36.0) for longitude in range(175, -180, -10)]
-    lake = [(100.0, -80.0), (110.0, -80.0), (110.0, -82.0), (100.0, -82.0)]
-    source = write_source(tmp_path / "ice.geojson", [shapely.Polygon(circle, [coast, lake])], ["ice"])
+CIRCLE = [(longitude, -89.999) for longitude in range(-180, 180, 10)]
+COAST = [(longitude, -70.0 - abs(longitude) / 36.0) for longitude in range(175, -180, -10)]
+LAKE = [(100.0, -80.0), (110.0, -80.0), (110.0, -82.0), (100.0, -82.0)]
+ENDS = [(-180.0, -75.0), (180.0, -75.0)]
+
+
+@pytest.mark.parametrize(
+    "ice",
+    [shapely.Polygon(CIRCLE, [COAST, LAKE]), shapely.Polygon(COAST, [LAKE]), shapely.Polygon([*COAST, *ENDS], [LAKE])],
+    ids=["beside the pole", "around it", "around it, with a side around the world"],
+)
+def test_land_around_a_pole_is_there(ice, tmp_path):
+    """As in atlases that have lost their cuts."""
+    source = write_source(tmp_path / "ice.geojson", [ice], ["ice"])
     made = make_tiles(source, tmp_path / "ice.pmtiles", TileOptions(max_zoom=2, id="parcel"))
     assert [note.message for note in made.notes] == ["polygons around a pole are closed along the antimeridian: 1"]
     (tile,) = tiles_of(tmp_path / "ice.pmtiles").values()

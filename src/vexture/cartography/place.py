@@ -11,7 +11,8 @@ from vexture.errors import SourceError
 from vexture.geo.crs import period, refuse_metres, same_system, shown_bounds, shown_system, system, transformed
 from vexture.geo.extent import Bounds
 from vexture.geo.features import Features, Lines, Points
-from vexture.geo.rings import Rings, cut, jumping, moved, refuse_far, repaired, unwrapped, within
+from vexture.geo.longitudes import jumping, unwrapped
+from vexture.geo.rings import Rings, cut, moved, refuse_far, repaired, within
 from vexture.notes import Notes
 
 __all__ = ["MERCATOR", "placed", "units_per_metre"]

@@ -12,8 +12,8 @@ from vexture.geo.crs import chosen_crs, gis_packages, period
 from vexture.geo.extent import Bounds
 from vexture.geo.feature_tables import Choice, Chunk, chunks_of
 from vexture.geo.geojson import UNLOCATED
-from vexture.geo.poles import closed_over_poles
-from vexture.geo.rings import Rings, jumping, refuse_far, repaired, rings_of
+from vexture.geo.longitudes import closed_over_poles, jumping
+from vexture.geo.rings import Rings, refuse_far, repaired, rings_of
 from vexture.geo.vectors import parsed_wkb, parts_of
 from vexture.notes import Notes
 

@@ -27,7 +27,8 @@ from vexture.geo.crs import (
 )
 from vexture.geo.extent import Bounds, Extent, Frame, Step, bounds_of_square
 from vexture.geo.geojson import UNLOCATED, met
-from vexture.geo.rings import Rings, cut, moved, oriented, refuse_far, repaired, shared, unwrapped, within
+from vexture.geo.longitudes import unwrapped
+from vexture.geo.rings import Rings, cut, moved, oriented, refuse_far, repaired, shared, within
 from vexture.geo.vectors import read_areas
 from vexture.notes import Notes
 from vexture.tolerance import CLOSED

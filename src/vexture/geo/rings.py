@@ -1,4 +1,4 @@
-"""Rings of many polygons in a few arrays: checked, unwrapped at the antimeridian, repaired, clipped, transformed."""
+"""Rings of many polygons in a few arrays: checked, repaired, clipped, transformed."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -17,22 +17,16 @@ from vexture.notes import Notes
 from vexture.tolerance import ROUND
 
 __all__ = [
-    "FULL_TURN",
     "Rings",
     "cut",
-    "jumping",
     "moved",
     "oriented",
     "refuse_far",
     "repaired",
     "rings_of",
     "shared",
-    "unwrapped",
     "within",
 ]
-
-FULL_TURN: Final = 1.0 - 1e-9
-"""Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
 
 MOST_HALVINGS: Final = 8
 """Largest number of times that a side which a transform bends is halved."""
@@ -123,6 +117,12 @@ class Rings:
             None if self.feature is None or other.feature is None else np.append(self.feature, other.feature),
         )
 
+    def shifted(self, shift: NDArray[np.float64]) -> "Rings":
+        """Rings moved along x, each by its own distance, (r,)."""
+        points = self.points.copy()
+        points[:, 0] += np.repeat(shift, self.ends - self.starts)
+        return replace(self, points=points)
+
     @property
     def shapes(self) -> NDArray[Any]:
         """The polygons as shapely's."""
@@ -164,76 +164,6 @@ def refuse_far(rings: Rings, remedy: str) -> None:
         point = int(near.argmin())
         x, y = rings.points[point]
         raise SourceError(f"{rings.where(point)}: a point is at {x:g},{y:g}; the limit is {LARGEST:g}; {remedy}")
-
-
-def unwrapped(rings: Rings, turn: float) -> Rings:
-    """Rings of longitudes without jumps: they exceed half a turn where they cross the antimeridian.
-
-    A side of more than half a turn is read as one that goes the other way around the world. Holes stay in their
-    polygon, and all polygons move to the side of the antimeridian where they span less. A ring around a pole is
-    refused, unless it follows the edge of a map.
-    """
-    if not len(rings.ends):
-        return rings
-    longitude = rings.points[:, 0]
-    step = longitude[rings.following] - longitude
-    turns = np.where(np.abs(step) > turn / 2, np.rint(step / turn), 0.0)
-    if turns.any():
-        rings = _without_jumps(rings, turns, np.abs(step) >= turn * FULL_TURN, turn)
-    boxes = rings.boxes
-    if boxes[:, 1, 0].max() - boxes[:, 0, 0].min() <= turn / 2:
-        return rings
-    middle = boxes[:, :, 0].mean(axis=1)
-    shift = np.where(middle < 0.0, turn, 0.0)
-    lows, highs = boxes[:, 0, 0] + shift, boxes[:, 1, 0] + shift
-    if highs.max() - lows.min() >= min(turn / 2, boxes[:, 1, 0].max() - boxes[:, 0, 0].min()):
-        return rings
-    return _shifted(rings, shift[rings.polygon])
-
-
-def jumping(rings: Rings, turn: float) -> NDArray[np.bool_]:
-    """Polygons, (p,), that jump over the antimeridian and are whole once they are unwrapped: they go around no pole."""
-    longitude = rings.points[:, 0]
-    step = longitude[rings.following] - longitude
-    jumps = np.where(np.abs(step) > turn / 2, np.rint(step / turn), 0.0)
-    if not jumps.any():
-        return np.zeros(len(rings.outer), np.bool_)
-    net = np.add.reduceat(jumps, rings.starts)
-    jump = np.logical_or.reduceat(jumps != 0.0, rings.starts)
-    around: NDArray[np.bool_] = np.logical_or.reduceat(net != 0.0, rings.outer)
-    return np.logical_or.reduceat(jump, rings.outer) & ~around
-
-
-def _without_jumps(rings: Rings, turns: NDArray[np.float64], full: NDArray[np.bool_], turn: float) -> Rings:
-    """Rings without the jumps of their sides, in turns, except sides that are meant to go around the world."""
-    net = np.add.reduceat(turns, rings.starts)
-    around = np.logical_or.reduceat(full, rings.starts)
-    pole = (net != 0.0) & ~around
-    if pole.any():
-        where = rings.where(int(rings.starts[int(pole.argmax())]))
-        raise SourceError(
-            f"{where} goes around a pole, where longitudes have no inside; cut it along the antimeridian or give the "
-            "data in a polar reference system"
-        )
-    lengths = rings.ends - rings.starts
-    turns = np.where(np.repeat(around & (net != 0.0), lengths), 0.0, turns)
-    before = np.cumsum(turns) - turns  # the jump is in the side that leaves the point
-    shift = np.repeat(before[rings.starts], lengths) - before
-    points = rings.points + np.stack([turn * shift, np.zeros(len(shift))], axis=1)
-    first, last = np.minimum.reduceat(points, rings.starts), np.maximum.reduceat(points, rings.starts)
-    flat = np.repeat(around & (last[:, 0] - first[:, 0] <= turn * (1.0 - FULL_TURN)), lengths)
-    points[flat] = rings.points[flat]  # a map's whole width
-    unwound = replace(rings, points=points)
-    middle = (np.minimum.reduceat(points[:, 0], rings.starts) + np.maximum.reduceat(points[:, 0], rings.starts)) / 2
-    own = middle[rings.outer][rings.polygon]
-    return _shifted(unwound, turn * np.rint((own - middle) / turn))
-
-
-def _shifted(rings: Rings, shift: NDArray[np.float64]) -> Rings:
-    """Rings moved along x, each by its own distance."""
-    points = rings.points.copy()
-    points[:, 0] += np.repeat(shift, rings.ends - rings.starts)
-    return replace(rings, points=points)
 
 
 def repaired(rings: Rings, notes: Notes) -> Rings:
@@ -302,7 +232,7 @@ def within(rings: Rings, box: Bounds, turn: float | None) -> Rings:
             found = rings
         elif inside.any() or found is None:
             part = rings.taken(np.flatnonzero(inside))
-            part = _shifted(part, np.full(len(part.ends), shift))
+            part = part.shifted(np.full(len(part.ends), shift))
             found = part if found is None else found.joined(part)
     assert found is not None
     return found

@@ -6,7 +6,8 @@ import numpy as np
 
 from vexture.errors import SourceError
 from vexture.geo.crs import period, refuse_metres, shown_bounds, system, transformed
-from vexture.geo.rings import Rings, cut, moved, refuse_far, repaired, unwrapped, within
+from vexture.geo.longitudes import unwrapped
+from vexture.geo.rings import Rings, cut, moved, refuse_far, repaired, within
 from vexture.notes import Notes
 from vexture.tiles.grid import CRS, HALF, LATITUDE, MARGIN, pixel
 from vexture.tiles.pieces import Pieces

@@ -1,0 +1,169 @@
+"""Rings of longitudes, which begin again after a turn: unwrapped at the antimeridian, closed over the poles."""
+
+from dataclasses import dataclass, replace
+from functools import reduce
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import SourceError
+from vexture.geo.rings import Rings, rings_of
+
+__all__ = ["closed_over_poles", "jumping", "unwrapped"]
+
+FULL_TURN: Final = 1.0 - 1e-9
+"""Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Jumps:
+    """Jumps of longitudes in rings.
+
+    `turns`, (n,), are those in the side that leaves each point, and `net`, (r,), their sum in each ring: not 0 where
+    it goes around a pole. `edging` are the rings, (r,), with a side that is meant to go around the world. Of a ring
+    that would go around a pole without it, such a side lies on the pole, or between two sides along the antimeridian;
+    else it closes a coast that has lost its cut.
+    """
+
+    turns: NDArray[np.float64]
+    net: NDArray[np.float64]
+    edging: NDArray[np.bool_]
+
+
+def _jumps(rings: Rings, turn: float) -> _Jumps:
+    """Jumps of longitudes of period `turn`, of at least one ring: a longer side than half a turn is one."""
+    longitude, following = rings.points[:, 0], rings.following
+    step = longitude[following] - longitude
+    turns = np.where(np.abs(step) > turn / 2, np.rint(step / turn), 0.0)
+    net = np.add.reduceat(turns, rings.starts)
+    upright = step == 0.0
+    between = upright[following]
+    between[following] &= upright
+    polar = np.abs(rings.points[:, 1]) >= turn / 4 * FULL_TURN
+    closed = np.repeat(net == 0.0, rings.ends - rings.starts)
+    full = (np.abs(step) >= turn * FULL_TURN) & (closed | polar | between)
+    return _Jumps(turns, net, np.logical_or.reduceat(full, rings.starts))
+
+
+def unwrapped(rings: Rings, turn: float) -> Rings:
+    """Rings of longitudes without jumps: they exceed half a turn where they cross the antimeridian.
+
+    A side of more than half a turn is read as one that goes the other way around the world. Holes stay in their
+    polygon, and all polygons move to the side of the antimeridian where they span less. A ring around a pole is
+    refused, unless it follows the edge of a map.
+    """
+    if not len(rings.ends):
+        return rings
+    jumps = _jumps(rings, turn)
+    if jumps.turns.any():
+        rings = _without_jumps(rings, jumps, turn)
+    boxes = rings.boxes
+    if boxes[:, 1, 0].max() - boxes[:, 0, 0].min() <= turn / 2:
+        return rings
+    middle = boxes[:, :, 0].mean(axis=1)
+    shift = np.where(middle < 0.0, turn, 0.0)
+    lows, highs = boxes[:, 0, 0] + shift, boxes[:, 1, 0] + shift
+    if highs.max() - lows.min() >= min(turn / 2, boxes[:, 1, 0].max() - boxes[:, 0, 0].min()):
+        return rings
+    return rings.shifted(shift[rings.polygon])
+
+
+def jumping(rings: Rings, turn: float) -> NDArray[np.bool_]:
+    """Polygons, (p,), that jump over the antimeridian and are whole once they are unwrapped: they go around no pole."""
+    jumps = _jumps(rings, turn)
+    if not jumps.turns.any():
+        return np.zeros(len(rings.outer), np.bool_)
+    jump = np.logical_or.reduceat(jumps.turns != 0.0, rings.starts)
+    around: NDArray[np.bool_] = np.logical_or.reduceat(jumps.net != 0.0, rings.outer)
+    return np.logical_or.reduceat(jump, rings.outer) & ~around
+
+
+def _without_jumps(rings: Rings, jumps: _Jumps, turn: float) -> Rings:
+    """Rings without the jumps of their sides, except those that are meant to go around the world."""
+    around, open_ring = jumps.edging, jumps.net != 0.0
+    pole = open_ring & ~around
+    if pole.any():
+        where = rings.where(int(rings.starts[int(pole.argmax())]))
+        raise SourceError(
+            f"{where} goes around a pole, where longitudes have no inside; cut it along the antimeridian or give the "
+            "data in a polar reference system"
+        )
+    lengths = rings.ends - rings.starts
+    turns = np.where(np.repeat(around & open_ring, lengths), 0.0, jumps.turns)
+    before = np.cumsum(turns) - turns  # the jump is in the side that leaves the point
+    shift = np.repeat(before[rings.starts], lengths) - before
+    points = rings.points + np.stack([turn * shift, np.zeros(len(shift))], axis=1)
+    first, last = np.minimum.reduceat(points, rings.starts), np.maximum.reduceat(points, rings.starts)
+    flat = np.repeat(around & (last[:, 0] - first[:, 0] <= turn * (1.0 - FULL_TURN)), lengths)
+    points[flat] = rings.points[flat]  # a map's whole width
+    unwound = replace(rings, points=points)
+    middle = (np.minimum.reduceat(points[:, 0], rings.starts) + np.maximum.reduceat(points[:, 0], rings.starts)) / 2
+    own = middle[rings.outer][rings.polygon]
+    return unwound.shifted(turn * np.rint((own - middle) / turn))
+
+
+def closed_over_poles(rings: Rings, turn: float) -> tuple[Rings, int]:
+    """Rings of which none goes around a pole, and how many polygons had one; they come last.
+
+    The area within a ring around a pole, in longitudes of period `turn`, is all that lies between it and that pole. A
+    polygon is what an odd number of its rings hold: a coast and a circle near the pole are the land between them.
+    Rings along the edge of a map are as they were.
+
+    Examples
+    --------
+    >>> import shapely
+    >>> ice = shapely.Polygon([(longitude, -70.0) for longitude in range(-170, 180, 20)])
+    >>> found, count = closed_over_poles(rings_of(np.array([ice]), str), 360.0)
+    >>> count, float(shapely.area(found.shapes)[0]), found.box
+    (1, 7200.0, (-180.0, -90.0, 180.0, -70.0))
+    """
+    if not len(rings.ends):
+        return rings, 0
+    jumps = _jumps(rings, turn)
+    polar = np.zeros(len(rings.outer), np.bool_)
+    polar[rings.polygon[(jumps.net != 0.0) & ~jumps.edging]] = True
+    polar[rings.polygon[jumps.edging]] = False
+    if not polar.any():
+        return rings, 0
+    places = np.flatnonzero(polar)
+    made = np.array([_closed(rings, int(place), jumps.turns, turn) for place in places], object)
+    import shapely
+
+    parts, owner = shapely.get_parts(made, return_index=True)
+    whole = places[owner]
+    feature = None if rings.feature is None else rings.feature[whole]
+    closed = rings_of(parts, lambda index: rings.place(int(whole[index])), feature)
+    return rings.taken(np.flatnonzero(~polar)).joined(closed), len(places)
+
+
+def _closed(rings: Rings, polygon: int, turns: NDArray[np.float64], turn: float) -> Any:
+    """A polygon with its rings closed."""
+    import shapely
+
+    areas = []
+    for ring in np.flatnonzero(rings.polygon == polygon):
+        here = slice(rings.starts[ring], rings.ends[ring])
+        area = shapely.Polygon(_over_pole(rings.points[here], turns[here], turn))
+        areas.append(area if area.is_valid else shapely.make_valid(area, method="structure", keep_collapsed=False))
+    return reduce(shapely.symmetric_difference, areas)
+
+
+def _over_pole(points: NDArray[np.float64], turns: NDArray[np.float64], turn: float) -> NDArray[np.float64]:
+    """Points of a ring without jumps; one around a pole goes on to the antimeridian, and over the pole back."""
+    jumps = np.flatnonzero(turns)
+    if len(jumps):  # it begins after a jump
+        points, turns = np.roll(points, -1 - jumps[-1], axis=0), np.roll(turns, -1 - jumps[-1])
+    before = np.cumsum(turns) - turns
+    points = points - np.stack([turn * before, np.zeros(len(points))], axis=1)
+    if turns.sum() == 0.0:
+        return points
+    along = -turns.sum() * turn  # to the east or to the west
+    first, last = points[0], points[-1]
+    border = -np.sign(along) * turn / 2
+    gap = along + first[0] - last[0]
+    share = (border + along - last[0]) / gap if gap else 0.0
+    height = last[1] + share * (first[1] - last[1])
+    pole = np.copysign(turn / 4, points[:, 1].mean())
+    ends = [(border + along, height), (border + along, pole), (border, pole), (border, height)]
+    return np.concatenate([points, ends])
