@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import SourceError
-from vexture.geo.crs import period, refuse_metres, same_system, shown_bounds, shown_system, system, transformed
+from vexture.geo.crs import period, refuse_metres, same_system, seam, shown_bounds, shown_system, system, transformed
 from vexture.geo.extent import Bounds
 from vexture.geo.features import Features, Lines, Points
 from vexture.geo.longitudes import jumping, unwrapped
@@ -29,6 +29,9 @@ MOST_LATITUDE: Final = 85.0511287798066
 DEGREE: Final = 111_320.0
 """Metres in a degree of latitude, as far as widths of strokes need it."""
 
+BESIDE: Final = 1e-11
+"""Turns. Places this far from where a map is torn apart are on the right side of it for sure."""
+
 Move = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
@@ -45,10 +48,22 @@ def placed(features: Features, crs: str, notes: Notes) -> Features:
     if same_system(crs, MERCATOR):
         return _on_mercator(replace(features, rings=rings), notes)
     move = _mover(features.crs, crs)
+    if turn and len(rings.ends):
+        rings = _torn(rings, turn, crs)
     if len(rings.ends):
         rings = _usable(rings, features.crs, crs, move, notes)
     lines, points = _marks(features, move, notes)
     return replace(features, rings=rings, crs=crs, lines=lines, points=points)
+
+
+def _torn(rings: Rings, turn: float, crs: str) -> Rings:
+    """Polygons in longitudes of period `turn`, cut where a map of the world is torn apart."""
+    longitude = seam(crs)
+    if longitude is None:
+        return rings
+    west, pole = (longitude - 360.0 * (longitude > 0.0)) / 360.0 * turn, turn / 4
+    box = (west + BESIDE * turn, -pole, west + (1.0 - BESIDE) * turn, pole)
+    return cut(within(rings, box, turn), box)
 
 
 def _mover(start: str, end: str) -> Move:
@@ -130,7 +145,7 @@ def _mapped(rings: Rings, move: Move, size: NDArray[np.float64] | None) -> Rings
         return replace(rings, points=image)
     low, high = known.min(axis=0), known.max(axis=0)
     sides = np.maximum(high - low, 1e-9) if size is None else size
-    return moved(rings, move, (*map(float, low), *map(float, high)), sides)  # type: ignore[arg-type]
+    return moved(rings, move, (-np.inf, -np.inf, np.inf, np.inf), sides)  # images of sides may leave that of corners
 
 
 def _marks(features: Features, move: Move, notes: Notes) -> tuple[Lines, Points]:
