@@ -113,18 +113,19 @@ class Notes:
         """Note something that is in the result, but not as it should be."""
         self.count("simplified", what)
 
-    def remark(self, sentence: str) -> None:
-        """Note a sentence about the whole."""
-        self.count("remark", sentence)
+    def remark(self, sentence: str, times: int = 1) -> None:
+        """Note a sentence about the whole, or about so many of its parts."""
+        self.count("remark", sentence, times)
 
     def boxed(self, character: str) -> None:
         """Note a character that no font has; all of them become one note."""
         self._boxed[character] = self._boxed.get(character, 0) + 1
 
-    def count(self, kind: Kind, what: str) -> None:
-        """Note something once more."""
-        what = printable(what)
-        self._counts[kind][what] = self._counts[kind].get(what, 0) + 1
+    def count(self, kind: Kind, what: str, times: int = 1) -> None:
+        """Note something once more, or so many times; if that is none, there is no note."""
+        if times:
+            what = printable(what)
+            self._counts[kind][what] = self._counts[kind].get(what, 0) + times
 
     @property
     def boxes(self) -> frozenset[str]:
