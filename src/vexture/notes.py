@@ -115,14 +115,17 @@ class Notes:
 
     def remark(self, sentence: str, times: int = 1) -> None:
         """Note a sentence about the whole, or about so many of its parts."""
-        self.count("remark", sentence, times)
+        self._add("remark", sentence, times)
 
     def boxed(self, character: str) -> None:
         """Note a character that no font has; all of them become one note."""
         self._boxed[character] = self._boxed.get(character, 0) + 1
 
-    def count(self, kind: Kind, what: str, times: int = 1) -> None:
-        """Note something once more, or so many times; if that is none, there is no note."""
+    def count(self, kind: Kind, what: str) -> None:
+        """Note something once more."""
+        self._add(kind, what, 1)
+
+    def _add(self, kind: Kind, what: str, times: int) -> None:
         if times:
             what = printable(what)
             self._counts[kind][what] = self._counts[kind].get(what, 0) + times
