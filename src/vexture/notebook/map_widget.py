@@ -123,8 +123,10 @@ class MapWidget(VectorWidget):
     @property
     def texture(self) -> Texture:
         """The converted map; it is waited for."""
-        self._pending.result()
-        self._arrived()
+        try:
+            self._pending.result()
+        finally:
+            self._arrived()
         return super().texture
 
     def _arrived(self) -> None:
