@@ -29,7 +29,6 @@ __all__ = [
     "period",
     "refuse_metres",
     "same_system",
-    "seam",
     "shown_bounds",
     "shown_system",
     "system",
@@ -53,12 +52,6 @@ LATITUDE: Final = pi / 2 * (1.0 + 1e-6)
 
 LONGITUDE: Final = 4.0 * pi
 """Radians. The largest valid longitude: files that cross the antimeridian exceed half a turn, but never this."""
-
-BESIDE: Final = 1e-3
-"""Degrees from a meridian on its two sides, 222 m together at the equator, whose images are compared."""
-
-TORN: Final = 1e3
-"""Times that distance, between images of places on the two sides of a meridian where a map is torn."""
 
 METRE_DEGREES: Final = 1e-3
 """Degrees over which the length of a degree is measured on the ellipsoid."""
@@ -247,33 +240,6 @@ def transformed(points: NDArray[np.float64], start: str, end: str) -> NDArray[np
     places = np.ascontiguousarray(points + 0.0, np.float64).view(np.complex128).ravel()
     unique, place = np.unique(places, return_inverse=True)
     return np.stack(transformer.transform(unique.real, unique.imag), axis=1)[place]
-
-
-@lru_cache(maxsize=64)
-def seam(crs: str) -> float | None:
-    """Longitude, in degrees, at which a projected system tears the world apart; None where it does not.
-
-    Examples
-    --------
-    >>> seam("EPSG:8857"), seam("EPSG:3832"), seam("EPSG:3031")
-    (180.0, -30.0, None)
-    """
-    operation = system(crs).coordinate_operation
-    origins = [each for each in (operation.params if operation else ()) if each.name.startswith("Longitude of ")]
-    if not system(crs).is_projected or not origins:
-        return None
-    longitude = 180.0 + float(np.degrees(float(origins[0].value) * origins[0].unit_conversion_factor))
-    longitude = round(longitude - 360.0 * (longitude > 180.0), 9)
-    latitudes = np.arange(-60.0, 61.0, 30.0)
-    west, east = (
-        transformed(np.stack([np.full(len(latitudes), longitude + beside), latitudes], axis=1), "EPSG:4326", crs)
-        for beside in (-BESIDE, BESIDE)
-    )
-    unit = system(crs).axis_info[0].unit_conversion_factor
-    with np.errstate(invalid="ignore"):
-        apart = np.hypot(*(east - west).T) * unit
-    ground = 2.0 * BESIDE * _metres(0.0, 0.0, "EPSG:4326")[0]
-    return longitude if (apart[np.isfinite(apart)] > TORN * ground).any() else None
 
 
 def transformed_bounds(bounds: Bounds, start: str, end: str) -> Bounds | None:
