@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.monotone import Pieces, write_monotone
 from vexture.deadline import check_time
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, ParameterError, SourceError
@@ -145,7 +144,20 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
     at_limit = depth + 1 == bounds.max_depth
     pieces = divide(pool, first, last, xm, ym, grain, stack[top, PIECES], at_limit, child_at)
     touching = present[first_path:last_path]
-    child_windings(pool.points, pool.path, pool.numbers, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
+    child_windings(
+        pool.points,
+        pool.path,
+        pool.numbers,
+        pool.owner,
+        child_at,
+        touching,
+        x0,
+        y0,
+        xm,
+        ym,
+        counts[WHOLE],
+        windings,
+    )
     first_below[quad, 0], first_below[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = last_path
     for child in range(4):
@@ -193,25 +205,35 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
 
 
 @kernel
-def root_paths(points: NDArray[np.float64], path: NDArray[np.int64]) -> tuple[NDArray[np.int64], int, float]:
-    """Paths of the unit square with corner windings 0; move ends into the square, and return by how much at most.
-
-    The number of paths is returned behind their list, which has room for more.
-    """
-    paths = 0
-    for i in range(len(path)):
-        paths += 1 if i == 0 or path[i] != path[i - 1] else 0
-    present, outside, k = np.zeros((5 * paths + 64, 2), np.int64), 0.0, -1
-    for i in range(len(path)):
-        if i == 0 or path[i] != path[i - 1]:
-            k += 1
-            present[k, 0] = path[i]
+def _into_square(points: NDArray[np.float64]) -> float:
+    """Move ends of pieces into the unit square, and return by how much at most."""
+    outside = 0.0
+    for i in range(len(points)):
         for end in (0, 3):
             for axis in range(2):
                 inner = min(max(points[i, end, axis], 0.0), 1.0)
                 outside = max(outside, abs(points[i, end, axis] - inner))
                 points[i, end, axis] = inner
-    return present, paths, outside
+    return outside
+
+
+@kernel
+def root_paths(pool: PiecePool, listed: int) -> tuple[NDArray[np.int64], int]:
+    """Paths of the unit square with corner windings 0, with room for more, and their number."""
+    paths, before = 0, -1
+    present = np.zeros((16, 2), np.int64)
+    for counted in (True, False):
+        if not counted:
+            present = np.zeros((5 * paths + 64, 2), np.int64)
+            paths, before = 0, -1
+        for place in range(listed):
+            i = pool.numbers[place]
+            path = pool.path[i] if i >= 0 else pool.owner[RUN * (-1 - i)]
+            if path != before:
+                if not counted:
+                    present[paths, 0] = path
+                paths, before = paths + 1, path
+    return present, paths
 
 
 @kernel(ahead=True)
@@ -242,17 +264,25 @@ def new_growth(
     cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: int, in_runs: bool
 ) -> tuple[Growth, float]:
     """The unit square with the pieces of cubics, to be divided, and how far the outline lies outside it."""
-    room = (PARTS + 2) * len(cubics) + 64
-    points, path = np.empty((room, 4, 2)), np.empty(room, np.int64)
-    n = write_monotone(cubics, owner, Pieces(points, path, path[:0], points[:0, 0]))
-    present, paths, outside = root_paths(points[:n], path[:n])
+    n = len(cubics)
+    room = (PARTS + 2) * n + 64
     runs = n // RUN if in_runs and n > CROWDED else 0
     pool = PiecePool(
-        points, path, np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64), np.empty((runs, 4))
+        np.empty((room, 4, 2)),
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
+        np.empty((runs, 4)),
+        cubics,
+        owner,
     )
+    listed, pieces = list_all(pool)
+    outside = _into_square(pool.points[:pieces])
+    present, paths = root_paths(pool, listed)
     cells = 4 * max_depth + 4
     stack = np.zeros((cells, 7), np.int64)
-    stack[0, LAST], stack[0, LAST_PATH], stack[0, PIECES] = list_all(pool, n), paths, n
+    stack[0, LAST], stack[0, LAST_PATH], stack[0, PIECES] = listed, paths, pieces
     return Growth(
         pool,
         present,
@@ -261,7 +291,7 @@ def new_growth(
         np.empty((n + 16, 4, 4)),
         np.empty((n + 16, 2), np.int64),
         np.empty((4 * n + 8 * MOST_CURVES, 4, 2)),
-        np.array([1, 0, 0, 1, n]),
+        np.array([1, 0, 0, 1, pieces]),
         np.zeros(1),
         np.empty(5, np.int64),
     ), outside

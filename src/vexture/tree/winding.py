@@ -39,6 +39,7 @@ def child_windings(
     points: NDArray[np.float64],
     path: NDArray[np.int64],
     numbers: NDArray[np.int64],
+    owner: NDArray[np.int64],
     child_at: NDArray[np.int64],
     present: NDArray[np.int64],
     x0: float,
@@ -52,8 +53,9 @@ def child_windings(
 
     Each row is of one path in `present`: four corner windings, then whether the path has a piece in each child.
     `numbers` holds one list of pieces for each child, in the order of `present`; `child_at` (5 or more,) is the start
-    of each list and the end of the last. The cell's middle is (xm, ym). Runs, and the first `whole` pieces, which were
-    never cut, end on the lines of no cell: they change no winding at its corners.
+    of each list and the end of the last. `path` is that of each piece, `owner` that of each cubic in a run. The cell's
+    middle is (xm, ym). Runs, and the first `whole` pieces, which were never cut, end on the lines of no cell: they
+    change no winding at its corners.
     """
     whole = whole if x0 > 0.0 and y0 > 0.0 else 0  # they may end on the sides of the unit square
     for k in range(len(present)):
@@ -65,8 +67,8 @@ def child_windings(
         k = 0
         for place in range(child_at[child], child_at[child + 1]):
             i = numbers[place]
-            owner = path[i if i >= 0 else RUN * (-1 - i)]
-            while present[k, 0] != owner:
+            here = path[i] if i >= 0 else owner[RUN * (-1 - i)]
+            while present[k, 0] != here:
                 k += 1
             out[k, 4 + child] = 1
             if i < whole:
