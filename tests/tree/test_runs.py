@@ -7,7 +7,8 @@ import pytest
 
 from vexture.contours import ring_contours
 from vexture.drawing import Drawing, FillRule, Path
-from vexture.tree.build import DEFAULT_DEPTH, SLICE, bounds_of, grow_on, new_growth
+from vexture.tree.bounds import DEFAULT_DEPTH, bounds_of
+from vexture.tree.build import SLICE, grow_on, new_growth
 from vexture.tree.cubics import gather
 from vexture.tree.divide import CROWDED, RUN, PiecePool, divide
 from vexture.tree.growth import LAST, PIECES, WAITING, Growth, tree_of, with_needed_room
@@ -33,10 +34,10 @@ def grown(drawing, in_runs, tolerance=0.0, max_depth=DEFAULT_DEPTH):
     tree, _ = new_growth(cubics, owner, max_depth, in_runs)
     tree = Growth(*tree)
     runs = int((tree.pool[2][: tree.stack[0, LAST]] < 0).sum())
-    grow_on(tree, rules, bounds, SLICE)
+    grow_on(tree, rules, bounds, SLICE, 0)
     while tree.counts[WAITING] > 0:
         tree = with_needed_room(tree)
-        grow_on(tree, rules, bounds, SLICE)
+        grow_on(tree, rules, bounds, SLICE, 0)
     return tree_of(tree), runs
 
 

@@ -56,7 +56,7 @@ class Growth(NamedTuple):
     # (room, 4, 4): for each cell of each quad: whether a quad, count, corner winding, coverage
     cells: NDArray[np.float64]
     first: NDArray[np.int64]  # (room, 2): first quad below each quad, first curve of its leaves
-    curves: NDArray[np.float64]  # (room, 4, 2), in lattice units
+    curves: NDArray[Any]  # (room, 4, 2), in lattice units: float64, or int32 when they have grown in parts
     counts: NDArray[np.int64]  # (5,)
     deviation: NDArray[np.float64]  # (1,): largest distance of a leaf's outline from the drawing's
     # (5,): rows that the next cell needs of pieces, lists of them, lists of paths, quads and curves
@@ -113,10 +113,10 @@ def first_of(lengths: NDArray[np.int64], start: int) -> NDArray[np.int32]:
 def with_needed_room(tree: Growth) -> Growth:
     """The tree, with at least twice the room where the next cell has none."""
     pieces, numbers, paths, quads, curves = tree.needed.tolist()
-    points, path, listed, child, part, *drawing = tree.pool
+    points, path, listed, child, part, boxes, cubics, owner = tree.pool
     listed, child, part = (roomy(rows, numbers) for rows in (listed, child, part))
     return Growth(
-        PiecePool(roomy(points, pieces), roomy(path, pieces), listed, child, part, *drawing),
+        PiecePool(roomy(points, pieces), roomy(path, pieces), listed, child, part, boxes, cubics, owner),
         roomy(tree.present, paths),
         tree.stack,
         tree.corner,
