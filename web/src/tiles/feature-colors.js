@@ -7,7 +7,8 @@ import { parts } from './css-color.js';
  * @typedef {string | number | readonly number[] | null} FeaturePaint a colour of CSS, 0xrrggbb, or sRGB components and
  *   opacity, 0..1; null hides
  *
- * @typedef {Readonly<Record<string, FeaturePaint>> | ReadonlyMap<string, FeaturePaint>} FeaturePaints by the features' ids
+ * @typedef {Readonly<Record<string, FeaturePaint | undefined>> | ReadonlyMap<string, FeaturePaint | undefined>} FeaturePaints
+ *   by the features' ids; undefined: as before they were given one
  *
  * @typedef {(id: string) => FeaturePaint | undefined} PaintFunction undefined: as it is in the tile
  *
@@ -33,7 +34,8 @@ export class FeatureColors {
   #time = 0;
 
   /**
-   * @param {FeaturePaints | PaintFunction | null} paints those of a table join those before; null: all as in the tiles
+   * @param {FeaturePaints | PaintFunction | null} paints those of a table join those before, undefined takes one back; null: all
+   *   as in the tiles
    */
   setPaint(paints) {
     if (typeof paints === 'function') this.#byFunction = paints;
@@ -42,8 +44,11 @@ export class FeatureColors {
       this.#byFunction = null;
     } else {
       const listed = paints instanceof Map ? [...paints] : Object.entries(paints);
-      for (const [, paint] of listed) if (paint !== 'own') parts(paint); // all or nothing
-      for (const [id, paint] of listed) this.#paints.set(id, paint);
+      for (const [, paint] of listed) if (paint !== 'own' && paint !== undefined) parts(paint); // all or nothing
+      for (const [id, paint] of listed) {
+        if (paint === undefined) this.#paints.delete(id);
+        else this.#paints.set(id, paint);
+      }
     }
     this.version++;
   }
