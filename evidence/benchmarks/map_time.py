@@ -23,7 +23,7 @@ from report import write_figures
 GOALS = {"states_step_ms": 4.0, "country_step_ms": 4.0}
 ATLAS = corpora.Package("us-atlas", "3.0.1", "")
 MONTHS = 120
-VIEWS = {"country": {"center": [-96, 38], "zoom": 3.5}, "states": {"center": [-84, 36], "zoom": 6}}
+VIEWS = {"country": {"center": [-96, 38], "zoom": 2.5}, "states": {"center": [-90, 41], "zoom": 5}}
 HTML = """<!doctype html><link rel="icon" href="data:,"><style>html, body, #map { margin: 0; height: 100% }</style>
 <div id="map"></div><script type="module" src="page.js"></script>"""
 
@@ -64,7 +64,7 @@ def main() -> None:
         ids = prepare(Path(name))
         with served(Path(name)) as address:
             for view in VIEWS:
-                page = browser.new_page(viewport={"width": 1024, "height": 768})
+                page = browser.new_page(viewport={"width": 512, "height": 384})
                 page.goto(f"{address}/page.html")
                 page.wait_for_function("!!window.measured")
                 figures |= measured(page, view, ids, 12 if chosen.quick else MONTHS)
