@@ -226,5 +226,5 @@ def inflated(stored: bytes, size: int, what: str) -> bytes:
     except zlib.error as error:
         raise FormatError(f"the {what} cannot be inflated ({error})") from None
     if len(raw) == size and (not stream.eof or stream.unused_data):
-        raise FormatError(f"the {what}'s {len(stored)} bytes do not end where they should")
+        raise FormatError(f"the {len(stored)} bytes of {what} do not end where they should")
     return raw
