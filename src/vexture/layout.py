@@ -39,6 +39,7 @@ __all__ = [
     "MOST_PROGRAM",
     "MOST_ROWS",
     "MOST_STOPS",
+    "MOST_STYLE_BYTES",
     "MOST_TEXT_BYTES",
     "PACKED_FILE_LIMIT",
     "PACKED_SUFFIX",
@@ -53,6 +54,7 @@ __all__ = [
     "TEXT_NAME",
     "TEXT_ROOTS",
     "TEXT_SOURCE",
+    "TEXT_STYLES",
     "TEXT_VERSION",
     "TEXT_WRITER",
     "WINDING_OFFSET",
@@ -75,6 +77,7 @@ TEXT_WRITER: Final = "KTXwriter"
 TEXT_NAME: Final = "vexture.name"
 TEXT_SOURCE: Final = "vexture.source"
 TEXT_ROOTS: Final = "vexture.roots"
+TEXT_STYLES: Final = "vexture.styles"
 """Further keys of the packed file."""
 
 ENCODING_PACKED: Final = "packed"
@@ -97,6 +100,9 @@ MOST_ROWS: Final = 16384
 
 MOST_TEXT_BYTES: Final = 1 << 24
 """Bytes of key/value data: room for 100,000 roots."""
+
+MOST_STYLE_BYTES: Final = 1 << 26
+"""Bytes of the text of deflated styles: room for a million elements."""
 
 PACKED_FILE_LIMIT: Final = (MOST_ROWS << ROW_BITS) * 16 + 2 * MOST_TEXT_BYTES
 """Bytes. A longer file is not read: the most texels, not deflated, and the longest texts."""

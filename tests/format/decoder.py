@@ -86,16 +86,20 @@ def read_ktx2(data: bytes) -> tuple[str, list[dict], np.ndarray]:
     need(1 <= height <= 16384 and (width == 2048 or (height == 1 and width in 2 ** np.arange(11))), "size")
     image = zlib.decompress(image) if scheme else image
     need(length == len(image) == 16 * width * height, "length of the image")
-    texts: dict[bytes, str] = {}
+    texts: dict[bytes, bytes] = {}
     while values:
         end = 4 + int.from_bytes(values[:4], "little")
         key, _, text = values[4:end].partition(b"\0")
         need(end <= len(values) and key > max(texts, default=b""), "key/value data")
-        texts[key], values = text.removesuffix(b"\0").decode(), values[end + -end % 4 :]
-    need(texts[b"vexture.encoding"] == "packed", "encoding")
-    roots = json.loads(texts[b"vexture.roots"])
+        texts[key], values = text.removesuffix(b"\0"), values[end + -end % 4 :]
+    need(texts[b"vexture.encoding"] == b"packed", "encoding")
+    roots = json.loads(texts[b"vexture.roots"].decode())
+    if styles := texts.get(b"vexture.styles"):
+        listed = json.loads(zlib.decompress(styles[4:])[: int.from_bytes(styles[:4], "little")])
+        need(len(listed) == len(roots), "styles")
+        roots = [root | {"style": style} for root, style in zip(roots, listed, strict=True)]
     need(all(isinstance(r["name"], str) and np.isfinite([*r["transform"]]).sum() == 6 for r in roots), "roots")
-    return texts[b"vexture.version"], roots, np.frombuffer(image, "<u4").reshape(-1, 4).astype(int)
+    return texts[b"vexture.version"].decode(), roots, np.frombuffer(image, "<u4").reshape(-1, 4).astype(int)
 
 
 def read_cells(words: np.ndarray) -> tuple[np.ndarray, ...]:

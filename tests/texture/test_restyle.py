@@ -1,6 +1,7 @@
 """Planar maps to be restyled: new colours without a new tree, and the element at a point."""
 
 import json
+import zlib
 from dataclasses import replace
 from itertools import pairwise
 
@@ -15,11 +16,11 @@ from planar import coloured
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import FormatError, ParameterError
 from vexture.group import Blend, Group
-from vexture.layout import COVERAGE_ONE, TEXT_ROOTS
+from vexture.layout import COVERAGE_ONE, MOST_STYLE_BYTES, TEXT_ROOTS, TEXT_STYLES
 from vexture.paint import Gradient, Paint, Stop
 from vexture.pipeline import atlas, run
 from vexture.renderers.exact import render_exact_colours
-from vexture.texture.ktx2 import write_ktx2
+from vexture.texture.ktx2 import read_value, write_ktx2
 from vexture.texture.load import texture_from
 from vexture.texture.planar import decode_map
 from vexture.texture.restyle import renew_means, restyled
@@ -313,3 +314,45 @@ def test_two_roots_of_one_map_are_restyled_together() -> None:
 def test_colours_that_are_no_mapping_of_names_get_one_line(colours) -> None:
     with pytest.raises(ParameterError, match="no mapping of elements' names"):
         two().with_paints(colours)
+
+
+def crowd(count: int) -> vexture.Texture:
+    squares = [
+        polygon([(k / count, 0), ((k + 1) / count, 0), ((k + 1) / count, 1), (k / count, 1)]) for k in range(count)
+    ]
+    return faces(Drawing(tuple(Path((square,), paint=RED, element=f"parcel {k}") for k, square in enumerate(squares))))
+
+
+def test_long_styles_are_deflated_and_read() -> None:
+    texture = crowd(60)
+    data, plain = texture.to_ktx2(), texture.to_ktx2(deflate=False)
+    assert read_value(plain, TEXT_STYLES) is None
+    assert read_value(crowd(2).to_ktx2(), TEXT_STYLES) is None
+    assert len(read_value(data, TEXT_STYLES) or b"") < len(texture.texts()[TEXT_ROOTS]) / 5
+    for other in (texture_from(data, "deflated"), texture_from(plain, "plain")):
+        assert other.texts() == texture.texts()
+        assert other.element_at([(0.51, 0.5)]).name.tolist() == ["parcel 30"]
+
+
+@pytest.mark.parametrize(
+    ("length", "stored", "message"),
+    [
+        (0, b"", "vexture.styles says that it has 0 bytes; the limit is"),
+        (MOST_STYLE_BYTES + 1, zlib.compress(b"[null]"), "vexture.styles says that it has 67108865 bytes"),
+        (MOST_STYLE_BYTES, zlib.compress(b"[null]"), "14 bytes of styles; they cannot inflate to 67108864"),
+        (7, zlib.compress(b"[null]"), "vexture.styles has 6 bytes and says 7"),
+        (5, zlib.compress(b"[null]"), "vexture.styles has 6 bytes and says 5"),
+        (6, b"[null]", "the styles cannot be inflated"),
+        (6, zlib.compress(b"[null]") + b"\0", "the 15 bytes of styles do not end where they should"),
+        (1, zlib.compress(b"["), "vexture.styles is not JSON"),
+        (2, zlib.compress(b"[]"), "vexture.styles is no list of one style for each of 1 roots"),
+        (4, zlib.compress(b"[{}]"), "elements is None; it must be a list"),
+    ],
+)
+def test_deflated_styles_that_break_the_format_are_refused_in_a_line(length: int, stored: bytes, message: str) -> None:
+    texture = crowd(2)
+    texts = texture.texts() | {TEXT_STYLES: length.to_bytes(4, "little") + stored}
+    with pytest.raises(FormatError) as error:
+        texture_from(write_ktx2(texture.texels, texts, True), "broken")
+    assert message in str(error.value)
+    assert "\n" not in str(error.value)

@@ -35,6 +35,7 @@ const FIXED = /** @type {const} */ ([
  * @property {number} height rows
  * @property {Uint32Array} texels four words each, row by row
  * @property {Map<string, string>} texts values by key, without their terminating zero; others than UTF-8 are omitted
+ * @property {Map<string, Uint8Array>} values the same as they are in the file
  */
 
 /**
@@ -68,9 +69,9 @@ export async function readKtx2(file) {
       'kvdByteLength',
     );
   }
-  const texts = readTexts(part(bytes, view.getUint32(56, true), kvdLength, 'kvdByteOffset'));
+  const { texts, values } = readTexts(part(bytes, view.getUint32(56, true), kvdLength, 'kvdByteOffset'));
   const raw = await readImage(bytes, view, width * height * TEXEL_BYTES);
-  return { width, height, texels: new Uint32Array(raw), texts };
+  return { width, height, texels: new Uint32Array(raw), texts, values };
 }
 
 /**
@@ -145,6 +146,8 @@ function readTexts(pairs) {
   const view = new DataView(pairs.buffer, pairs.byteOffset, pairs.byteLength);
   /** @type {Map<string, string>} */
   const texts = new Map();
+  /** @type {Map<string, Uint8Array>} */
+  const values = new Map();
   for (let at = 0; at < pairs.length; ) {
     const length = at + LENGTH_BYTES <= pairs.length ? view.getUint32(at, true) : 0;
     at += LENGTH_BYTES;
@@ -156,16 +159,18 @@ function readTexts(pairs) {
         'keyAndValueByteLength',
       );
     }
-    const value = pair.subarray(zero + 1, pair.at(-1) === 0 && pair.length > zero + 1 ? -1 : undefined);
+    const whole = pair.subarray(zero + 1);
+    const value = whole.at(-1) === 0 ? whole.subarray(0, -1) : whole;
     const key = decoded(decoder, pair.subarray(0, zero));
-    if (key !== undefined && texts.has(key)) {
+    if (key !== undefined && values.has(key)) {
       throw new VextureError(`key ${line(key)} is there twice; each may be there once; ${REMEDY}`, key);
     }
     const text = decoded(decoder, value); // keys of other writers may hold any bytes
+    if (key !== undefined) values.set(key, whole);
     if (key !== undefined && text !== undefined) texts.set(key, text);
     at += length + (-length & 3);
   }
-  return texts;
+  return { texts, values };
 }
 
 /**

@@ -7,6 +7,7 @@ import {
   TEXT_ENCODING,
   TEXT_NAME,
   TEXT_ROOTS,
+  TEXT_STYLES,
   TEXT_VERSION,
 } from '../generated/layout.js';
 import { checkForest } from './check-texels.js';
@@ -29,10 +30,10 @@ export async function readPacked(file, name = 'texture') {
     if (file.byteLength > PACKED_FILE_LIMIT) {
       throw new VextureError(`longer than ${PACKED_FILE_LIMIT} bytes, so not a texture; ${REMEDY}`, 'byteLength');
     }
-    const { width, height, texels, texts } = await readKtx2(file);
+    const { width, height, texels, texts, values } = await readKtx2(file);
     checkKnown(texts, TEXT_ENCODING, [ENCODING_PACKED]);
     checkKnown(texts, TEXT_VERSION, [PACKED_VERSION, MAP_VERSION]);
-    const roots = await readRoots(texts.get(TEXT_ROOTS) ?? '');
+    const roots = await readRoots(texts.get(TEXT_ROOTS) ?? '', values.get(TEXT_STYLES));
     const version = texts.get(TEXT_VERSION);
     if (version !== (roots.some(({ isMap }) => isMap) ? MAP_VERSION : PACKED_VERSION)) {
       throw new VextureError(

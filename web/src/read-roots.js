@@ -1,28 +1,66 @@
 // Reads and validates the list of roots in a packed texture's file (FORMAT.md, B.5).
-import { TEXT_ROOTS } from '../generated/layout.js';
+import { MOST_STYLE_BYTES, TEXT_ROOTS, TEXT_STYLES } from '../generated/layout.js';
 import { REMEDY, VextureError, line } from './errors.js';
+import { inflate } from './inflate.js';
 import { loadMaps, mapParts } from './maps.js';
 
 const MOST_INDEX = 2 ** 32;
 
+/** Before deflated styles: the length of their text. */
+const LENGTH_BYTES = 4;
+
 /**
- * Roots from their JSON text; unknown members are ignored. What maps need is loaded if one is a map.
+ * Roots from their JSON text, and their styles if these are deflated; unknown members are ignored. What maps need is
+ * loaded if one is a map.
  *
  * @param {string} text
+ * @param {Uint8Array} [styles]
  * @returns {Promise<import('./data.js').Root[]>}
  */
-export async function readRoots(text) {
-  let entries;
-  try {
-    entries = JSON.parse(text);
-  } catch (error) {
-    throw new VextureError(`${TEXT_ROOTS} is not JSON (${line(error)}); ${REMEDY}`, TEXT_ROOTS, { cause: error });
-  }
+export async function readRoots(text, styles) {
+  const entries = parsed(text, TEXT_ROOTS);
   if (!Array.isArray(entries) || !entries.length) {
     throw new VextureError(`${TEXT_ROOTS} is ${line(text)}; it must be a list of at least one root; ${REMEDY}`, TEXT_ROOTS);
   }
+  if (styles) {
+    const listed = parsed(await inflated(styles), TEXT_STYLES);
+    if (!Array.isArray(listed) || listed.length !== entries.length) {
+      throw new VextureError(`${TEXT_STYLES} is no list of one style for each of ${entries.length} roots; ${REMEDY}`, TEXT_STYLES);
+    }
+    entries.forEach((entry, place) => isObject(entry) && Object.assign(entry, { style: listed[place] }));
+  }
   if (entries.some((entry) => entry?.map === true)) await loadMaps();
   return entries.map(readRoot);
+}
+
+/**
+ * The text of deflated styles.
+ *
+ * @param {Uint8Array} styles
+ */
+async function inflated(styles) {
+  const whole = styles.length > LENGTH_BYTES;
+  const length = whole ? new DataView(styles.buffer, styles.byteOffset).getUint32(0, true) : 0;
+  if (!length || length > MOST_STYLE_BYTES) {
+    throw new VextureError(
+      `${TEXT_STYLES} says that it has ${length} bytes; the limit is ${MOST_STYLE_BYTES}; ${REMEDY}`,
+      TEXT_STYLES,
+    );
+  }
+  return new TextDecoder().decode(await inflate(styles.subarray(LENGTH_BYTES), length, TEXT_STYLES));
+}
+
+/**
+ * @param {string} text
+ * @param {string} what
+ * @returns {any}
+ */
+function parsed(text, what) {
+  try {
+    return JSON.parse(text);
+  } catch (error) {
+    throw new VextureError(`${what} is not JSON (${line(error)}); ${REMEDY}`, what, { cause: error });
+  }
 }
 
 /**

@@ -48,13 +48,13 @@ export const TEXTS = {
 };
 
 /**
- * The bytes of key/value data.
+ * The bytes of key/value data; texts end with a zero byte.
  *
  * @param {Record<string, string | Uint8Array>} texts
  */
 export function keyValues(texts) {
   const pairs = Object.entries(texts).map(([key, value]) => {
-    const pair = Buffer.concat([Buffer.from(`${key}\0`), Buffer.from(value), Buffer.from([0])]);
+    const pair = Buffer.concat([Buffer.from(`${key}\0`), Buffer.from(value), Buffer.from(typeof value === 'string' ? [0] : [])]);
     const length = Buffer.alloc(4);
     length.writeUInt32LE(pair.length);
     return Buffer.concat([length, pair, Buffer.alloc(-pair.length & 3)]);

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { TEXT_ENCODING, TEXT_ROOTS, TEXT_VERSION } from '../generated/layout.js';
+import { MOST_STYLE_BYTES, TEXT_ENCODING, TEXT_ROOTS, TEXT_STYLES, TEXT_VERSION } from '../generated/layout.js';
 import { readPacked } from '../src/packed.js';
 import { FIELDS, TEXTS, altered, deflateSync, fixture, ktx2, patched } from './files.js';
 import { expectRefusal } from './refused.js';
@@ -198,6 +198,37 @@ describe('the texts', () => {
     const twice = Buffer.from(ktx2([FULL], { 'vexture.one': '1', 'vexture.two': '2', ...TEXTS }));
     twice.write('vexture.one', twice.indexOf('vexture.two'));
     await expectRefusal(readPacked(twice), 'vexture.one', /twice/);
+  });
+});
+
+describe('deflated styles', () => {
+  const text = '[null]';
+  const styles = (/** @type {number} */ length, /** @type {Uint8Array} */ stored) => {
+    const value = Buffer.concat([Buffer.alloc(4), stored]);
+    value.writeUInt32LE(length);
+    return ktx2([FULL], { ...TEXTS, [TEXT_STYLES]: value });
+  };
+
+  test('are those of the roots', async () => {
+    expect((await readPacked(styles(text.length, deflateSync(text)))).roots[0].style).toBe(null);
+    expect((await readPacked(fixture('elements.ktx2'))).roots[0].style?.elements.length).toBeGreaterThan(5);
+  });
+
+  test.each([
+    ['no bytes', 0, deflateSync('')],
+    ['more than may be', MOST_STYLE_BYTES + 1, deflateSync(text)],
+    ['fewer than they say', text.length + 1, deflateSync(text)],
+    ['more than they say', text.length - 1, deflateSync(text)],
+    ['no zlib stream', text.length, Buffer.from(text)],
+    ['no JSON', 1, deflateSync('[')],
+    ['none for a root', 2, deflateSync('[]')],
+    ['no list', 2, deflateSync('{}')],
+  ])('%s', async (_, length, stored) => {
+    await expectRefusal(readPacked(styles(length, stored)), TEXT_STYLES);
+  });
+
+  test('of what is no map', async () => {
+    await expectRefusal(readPacked(styles(4, deflateSync('[{}]'))), `${TEXT_ROOTS}[0].style`);
   });
 });
 

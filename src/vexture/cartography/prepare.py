@@ -1,6 +1,5 @@
 """Layers of a map before their conversion: read, in the map's reference system, coloured, and fitted into a box."""
 
-import json
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -14,6 +13,7 @@ from vexture.cartography.colours import Scale, colours_of, rgba_of
 from vexture.cartography.marks import strokes, width_of, widths_at
 from vexture.cartography.paths import Fit, symbol_paths
 from vexture.cartography.place import placed
+from vexture.cartography.tables import with_legends
 from vexture.cartography.times import Steps, Times, coloured_steps, with_steps
 from vexture.content import about
 from vexture.deadline import within
@@ -28,10 +28,7 @@ from vexture.paint import Paint
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["FILL", "INK", "LEGEND", "MapLayer", "Prepared", "in_memory", "prepared"]
-
-LEGEND: Final = "vexture.legend"
-"""Key of the legends in the metadata of the table."""
+__all__ = ["FILL", "INK", "MapLayer", "Prepared", "in_memory", "prepared"]
 
 FILL, INK, DOT = "#c3cdd6", "#404a54", "#d55e00"
 """Colours of areas, lines and points that none is given for."""
@@ -283,4 +280,4 @@ def _table(painted: list[Painted], legends: list[dict[str, Any]]) -> "pyarrow.Ta
         joined = pa.concat_tables(tables, promote_options="permissive")
     except (pa.ArrowInvalid, pa.ArrowTypeError) as error:
         raise ParameterError(f"the layers' columns differ in type ({error}); choose others by `columns`") from None
-    return joined.replace_schema_metadata({LEGEND: json.dumps(legends)})
+    return joined.cast(with_legends(joined.schema, legends))

@@ -6,6 +6,7 @@ Khronos Data Format Specification, version 1.3.
 
 import struct
 import zlib
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import Final, NamedTuple
 
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from vexture.errors import FormatError
 from vexture.layout import MOST_ROWS, MOST_TEXT_BYTES, ROW_BITS
 
-__all__ = ["MAGIC", "TEXEL_BYTES", "check_size", "read_ktx2", "write_ktx2"]
+__all__ = ["MAGIC", "TEXEL_BYTES", "check_size", "inflated", "read_ktx2", "read_value", "write_ktx2"]
 
 MAGIC: Final = b"\xabKTX 20\xbb\r\n\x1a\n"
 
@@ -83,8 +84,8 @@ def _descriptor() -> bytes:
     return LENGTH.pack(LENGTH.size + size) + head + samples
 
 
-def write_ktx2(texels: NDArray[np.uint32], texts: dict[str, str], deflate: bool = True) -> bytes:
-    """KTX 2.0 file of texels (rows, width, 4), plain or deflated; `texts` are stored as UTF-8 with a zero byte."""
+def write_ktx2(texels: NDArray[np.uint32], texts: Mapping[str, str | bytes], deflate: bool = True) -> bytes:
+    """KTX 2.0 file of texels (rows, width, 4), plain or deflated; texts are stored as UTF-8 with a zero byte."""
     height, width, _ = texels.shape
     raw = np.ascontiguousarray(texels, "<u4").tobytes()
     # level 6 saves 0.2% but takes 1.6 times as long: most of a map's conversion
@@ -101,11 +102,11 @@ def write_ktx2(texels: NDArray[np.uint32], texts: dict[str, str], deflate: bool 
     return HEADER.pack(*header) + level + descriptor + pairs + stored
 
 
-def _key_values(texts: dict[str, str]) -> bytes:
+def _key_values(texts: Mapping[str, str | bytes]) -> bytes:
     """The key/value data: sorted by key, each pair padded to four bytes."""
     pairs = b""
-    for key, value in sorted((key.encode(), value.encode()) for key, value in texts.items()):
-        pair = key + b"\0" + value + b"\0"
+    for key, value in sorted((key.encode(), value) for key, value in texts.items()):
+        pair = key + b"\0" + (value if isinstance(value, bytes) else value.encode() + b"\0")
         pairs += LENGTH.pack(len(pair)) + pair + bytes(-len(pair) % LENGTH.size)
     return pairs
 
@@ -167,9 +168,23 @@ def _read_descriptor(descriptor: bytes) -> None:
         raise FormatError(f"the data format descriptor says {total} bytes and has {len(descriptor)}")
 
 
+def read_value(data: bytes, key: str) -> bytes | None:
+    """The value of a key, which is no text, in a file that `read_ktx2` has read; None without it."""
+    header = _read_header(data)
+    pairs = _part(data, header.kvd_offset, header.kvd_length, "key/value data")
+    return _read_values(pairs).get(key.encode())
+
+
 def _read_texts(pairs: bytes) -> dict[str, str]:
     texts: dict[str, str] = {}
-    met: set[bytes] = set()
+    for key, value in _read_values(pairs).items():
+        with suppress(UnicodeDecodeError):  # other writers may store any bytes under their own keys
+            texts[key.decode()] = value.removesuffix(b"\0").decode()
+    return texts
+
+
+def _read_values(pairs: bytes) -> dict[bytes, bytes]:
+    values: dict[bytes, bytes] = {}
     at = 0
     while at < len(pairs):
         length = LENGTH.unpack_from(pairs, at)[0] if at + LENGTH.size <= len(pairs) else 0
@@ -177,27 +192,23 @@ def _read_texts(pairs: bytes) -> dict[str, str]:
         key, zero, value = pairs[at : at + length].partition(b"\0")
         if not key or not zero or at + length > len(pairs):
             raise FormatError(f"key/value data are damaged at byte {at} of {len(pairs)}")
-        if key in met:
+        if key in values:
             raise FormatError(f"key {key[:40]!r} is there twice; each may be there once")
-        met.add(key)
-        with suppress(UnicodeDecodeError):  # other writers may store any bytes under their own keys
-            texts[key.decode()] = value.removesuffix(b"\0").decode()
+        values[key] = value
         at += length + -length % LENGTH.size
-    return texts
+    return values
 
 
 def _read_image(data: bytes, header: Header) -> NDArray[np.uint32]:
-    offset, length, inflated = LEVEL.unpack_from(data, HEADER.size)
+    offset, length, said = LEVEL.unpack_from(data, HEADER.size)
     size = header.width * header.height * TEXEL_BYTES
     stored = _part(data, offset, length, "image")
     if header.scheme == NONE:
         raw = stored
     else:
-        if inflated != size:
-            raise FormatError(f"uncompressedByteLength is {inflated}; the size in texels makes it {size}")
-        if size > DEFLATE_RATIO * (length + 1):
-            raise FormatError(f"{length} bytes of image; they cannot inflate to {size}")
-        raw = _inflate(stored, size)
+        if said != size:
+            raise FormatError(f"uncompressedByteLength is {said}; the size in texels makes it {size}")
+        raw = inflated(stored, size, "image")
     if len(raw) != size:
         raise FormatError(f"the image has {len(raw)} bytes; its size in texels makes it {size}")
     # a writable copy: kernels are compiled for such arrays, as a conversion makes them
@@ -205,13 +216,15 @@ def _read_image(data: bytes, header: Header) -> NDArray[np.uint32]:
     return texels.reshape(header.height, header.width, CHANNELS)
 
 
-def _inflate(stored: bytes, size: int) -> bytes:
-    """Inflate to exactly `size` bytes, and never to more."""
+def inflated(stored: bytes, size: int, what: str) -> bytes:
+    """Inflate to at most `size` bytes; a `FormatError` names what it is if it is damaged."""
+    if size > DEFLATE_RATIO * (len(stored) + 1):
+        raise FormatError(f"{len(stored)} bytes of {what}; they cannot inflate to {size}")
     stream = zlib.decompressobj()
     try:
         raw = stream.decompress(stored, size + 1)
     except zlib.error as error:
-        raise FormatError(f"the image cannot be inflated ({error})") from None
+        raise FormatError(f"the {what} cannot be inflated ({error})") from None
     if len(raw) == size and (not stream.eof or stream.unused_data):
-        raise FormatError(f"the image's {len(stored)} bytes do not end where they should")
+        raise FormatError(f"the {len(stored)} bytes of {what} do not end where they should")
     return raw

@@ -8,7 +8,7 @@ from vexture import layout
 from vexture.encodings import DEFAULT, REGISTERED, EncodedTexture, find_encoding, owner_of
 from vexture.errors import FormatError
 from vexture.texture.files import read_file
-from vexture.texture.ktx2 import MAGIC, read_ktx2
+from vexture.texture.ktx2 import MAGIC, read_ktx2, read_value
 from vexture.texture.root import read_roots
 from vexture.texture.texture import Texture
 from vexture.texture.walk import REMEDY
@@ -128,7 +128,7 @@ def texture_from(data: bytes, source: str) -> Texture:
                 found, read = repr(texts.get(key))[:80], " and ".join(map(repr, known))
                 raise FormatError(f"{key} is {found}; this program reads {read}; update it or {REMEDY}")
         name = texts.get(layout.TEXT_NAME) or Path(source).name.removesuffix(layout.PACKED_SUFFIX)
-        roots = read_roots(texts.get(layout.TEXT_ROOTS, ""))
+        roots = read_roots(texts.get(layout.TEXT_ROOTS, ""), read_value(data, layout.TEXT_STYLES))
         texture = Texture(texels, roots, name, texts.get(layout.TEXT_SOURCE))
         if texture.version != texts[layout.TEXT_VERSION]:
             raise FormatError(

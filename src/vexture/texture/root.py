@@ -1,21 +1,29 @@
 """A shape of a packed texture, and the description of all shapes in the texture's file."""
 
 import json
-from dataclasses import dataclass, field
-from typing import Any
+import zlib
+from dataclasses import dataclass, field, replace
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import IDENTITY
 from vexture.errors import FormatError, LimitError
-from vexture.layout import TEXT_ROOTS
+from vexture.layout import MOST_STYLE_BYTES, TEXT_ROOTS, TEXT_STYLES
 from vexture.paint import Paint
+from vexture.texture.ktx2 import inflated
 from vexture.texture.style_text import line, numbers, paint_as_json, read_paint, read_style, short, style_as_json
 from vexture.texture.walk import REMEDY
 from vexture.tree.planar.style import Style
 
-__all__ = ["Root", "read_roots", "roots_text"]
+__all__ = ["Root", "deflated_texts", "read_roots", "roots_text"]
+
+WORTH: Final = 512
+"""Bytes of styles from which they are deflated; the texts of smaller files stay readable."""
+
+LENGTH_BYTES: Final = 4
+"""Before deflated styles: the length of their text."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,11 +72,30 @@ def roots_text(roots: tuple[Root, ...]) -> str:
     Raises a `LimitError` if a number is not finite.
     """
     try:
-        text = json.dumps(
-            [_as_json(root) for root in roots], ensure_ascii=False, allow_nan=False, separators=(",", ":")
-        )
+        return _compact([_as_json(root) for root in roots])
     except ValueError:
         raise LimitError("a root's transform, tolerance or paint is not finite; scale the drawing down") from None
+
+
+def deflated_texts(roots: tuple[Root, ...]) -> dict[str, str | bytes]:
+    """Texts of a texture's roots by their keys, with long styles deflated by themselves.
+
+    Raises a `LimitError` if a number is not finite, or the styles are too long.
+    """
+    if any(root.style is not None for root in roots):
+        styles = _compact([None if root.style is None else style_as_json(root.style) for root in roots]).encode()
+        if len(styles) > MOST_STYLE_BYTES:
+            raise LimitError(
+                f"{len(styles)} bytes say what can be restyled; the limit is {MOST_STYLE_BYTES}; use several textures"
+            )
+        if len(styles) >= WORTH:
+            packed = len(styles).to_bytes(LENGTH_BYTES, "little") + zlib.compress(styles)
+            return {TEXT_ROOTS: roots_text(tuple(replace(root, style=None) for root in roots)), TEXT_STYLES: packed}
+    return {TEXT_ROOTS: roots_text(roots)}
+
+
+def _compact(value: Any) -> str:
+    text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return text.encode(errors="backslashreplace").decode()  # a lone surrogate becomes its JSON escape
 
 
@@ -90,18 +117,41 @@ def _as_json(root: Root) -> dict[str, Any]:
     return entry
 
 
-def read_roots(text: str) -> tuple[Root, ...]:
-    """Roots from their JSON text; unknown members are ignored.
+def read_roots(text: str, styles: bytes | None = None) -> tuple[Root, ...]:
+    """Roots from their JSON text, and their styles if these are deflated; unknown members are ignored.
 
     Raises a `FormatError` if the text contradicts FORMAT.md.
     """
-    try:
-        entries = json.loads(text, parse_constant=_refuse_constant)
-    except (ValueError, RecursionError) as error:
-        raise FormatError(f"{TEXT_ROOTS} is not JSON ({line(error)}); {REMEDY}") from None
+    entries = _json(text, TEXT_ROOTS)
     if not isinstance(entries, list) or not entries:
         raise FormatError(f"{TEXT_ROOTS} is {line(text)}; it must be a list of at least one root; {REMEDY}")
+    if styles is not None:
+        listed = _json(_text(styles), TEXT_STYLES)
+        if not isinstance(listed, list) or len(listed) != len(entries):
+            raise FormatError(f"{TEXT_STYLES} is no list of one style for each of {len(entries)} roots; {REMEDY}")
+        entries = [
+            entry | {"style": style} if isinstance(entry, dict) else entry
+            for entry, style in zip(entries, listed, strict=True)
+        ]
     return tuple(_read_root(entry, place) for place, entry in enumerate(entries))
+
+
+def _text(styles: bytes) -> str:
+    """The text of deflated styles."""
+    length = int.from_bytes(styles[:LENGTH_BYTES], "little")
+    if not 0 < length <= MOST_STYLE_BYTES or len(styles) <= LENGTH_BYTES:
+        raise FormatError(f"{TEXT_STYLES} says that it has {length} bytes; the limit is {MOST_STYLE_BYTES}; {REMEDY}")
+    raw = inflated(styles[LENGTH_BYTES:], length, "styles")
+    if len(raw) != length:
+        raise FormatError(f"{TEXT_STYLES} has {len(raw)} bytes and says {length}; {REMEDY}")
+    return raw.decode(errors="replace")
+
+
+def _json(text: str, what: str) -> Any:
+    try:
+        return json.loads(text, parse_constant=_refuse_constant)
+    except (ValueError, RecursionError) as error:
+        raise FormatError(f"{what} is not JSON ({line(error)}); {REMEDY}") from None
 
 
 def _read_root(entry: Any, place: int) -> Root:

@@ -21,7 +21,7 @@ from vexture.texture.files import target_of, write_together
 from vexture.texture.ktx2 import check_size, write_ktx2
 from vexture.texture.pictures import colours_of, coverage_of
 from vexture.texture.planar import read_map
-from vexture.texture.root import Root, roots_text
+from vexture.texture.root import Root, deflated_texts, roots_text
 from vexture.texture.walk import walk
 
 if TYPE_CHECKING:
@@ -339,20 +339,25 @@ class Texture:
 
     def texts(self) -> dict[str, str]:
         """Key/value data of the file (FORMAT.md, B.5), by their keys."""
+        return {**self._texts(), layout.TEXT_ROOTS: roots_text(self.roots)}
+
+    def _texts(self) -> dict[str, str]:
         texts = {
             layout.TEXT_WRITER: WRITER,
             layout.TEXT_VERSION: self.version,
             layout.TEXT_ENCODING: layout.ENCODING_PACKED,
             layout.TEXT_NAME: self.name,
             layout.TEXT_SOURCE: self.source,
-            layout.TEXT_ROOTS: roots_text(self.roots),
         }
         return {key: text.encode(errors="replace").decode() for key, text in texts.items() if text is not None}
 
     def to_ktx2(self, *, deflate: bool = True) -> bytes:
         """Contents of the file; a `LimitError` if the names and transforms of the roots are too long."""
-        texts = self.texts()
-        length = sum(len(key.encode()) + len(text.encode()) + 16 for key, text in texts.items())
+        texts: dict[str, str | bytes] = {**self._texts()}
+        texts |= deflated_texts(self.roots) if deflate else {layout.TEXT_ROOTS: roots_text(self.roots)}
+        length = sum(
+            len(key) + len(text if isinstance(text, bytes) else text.encode()) + 16 for key, text in texts.items()
+        )
         if length > layout.MOST_TEXT_BYTES:
             raise LimitError(
                 f"{self.name}: {length} bytes say what its {len(self.roots)} roots are; the limit is "

@@ -5,18 +5,19 @@ import hashlib
 import json
 import os
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, BinaryIO, Final
 
+from vexture.cartography.tables import TABLES
 from vexture.errors import DeviceError, LimitError
 from vexture.geo.extent import Bounds
 from vexture.layout import PACKED_SUFFIX
 from vexture.texture.files import TEMPORARY, make_folder
 from vexture.tiles.store import Content
 
-__all__ = ["ARCHIVE", "LISTED", "check_target", "write_archive", "write_folder"]
+__all__ = ["ARCHIVE", "LISTED", "check_target", "table_of", "write_archive", "write_folder"]
 
 ARCHIVE: Final = ".pmtiles"
 """Suffix of the one file."""
@@ -29,6 +30,9 @@ MOST_FILES: Final = 200_000
 
 ROOT_BYTES: Final = 16384 - 127
 """The header and the root directory are in the first 16 KiB of an archive."""
+
+Extra = Mapping[Path, Callable[[BinaryIO], None]]
+"""Files that belong to a pyramid, and what writes them."""
 
 Runs = Sequence[tuple[int, int, str]]
 
@@ -43,10 +47,23 @@ def check_target(output: Path) -> None:
         raise DeviceError(f"{output}: holds something else than tiles; name an archive ({ARCHIVE}) or a new folder")
 
 
+def table_of(output: Path, kind: str) -> Path | None:
+    """The file of a pyramid's table of attributes: beside an archive, or in the folder; None if it has none."""
+    if kind == TABLES[-1]:
+        return None
+    return output.with_suffix(f".{kind}") if output.suffix.lower() == ARCHIVE else output / f"table.{kind}"
+
+
 def write_archive(
-    output: Path, runs: Runs, contents: Mapping[str, Content], zooms: Sequence[int], bounds: Bounds, about: Any
+    output: Path,
+    runs: Runs,
+    contents: Mapping[str, Content],
+    zooms: Sequence[int],
+    bounds: Bounds,
+    about: Any,
+    extra: Extra,
 ) -> int:
-    """Write one file, whole or not, and return its size; `bounds` are in degrees."""
+    """Write one file, and those beside it, each whole or not, and return its size; `bounds` are in degrees."""
     from pmtiles.tile import Compression, Entry, TileType, serialize_header
     from pmtiles.writer import optimize_directories
 
@@ -71,23 +88,39 @@ def write_archive(
     header |= {"min_zoom": zooms[0], "max_zoom": zooms[-1], "center_zoom": zooms[0]}
     header |= {"min_lon_e7": west, "min_lat_e7": south, "max_lon_e7": east, "max_lat_e7": north}
     make_folder(output.parent, durable=False)
-    partial = output.with_name(f".{output.name}{TEMPORARY}")
-    try:
-        with partial.open("wb") as file:
-            file.write(serialize_header(header) + root + metadata + leaves)
-            for digest in places:
-                file.write(contents[digest].read())
-            file.flush()
-            os.fsync(file.fileno())
-        partial.replace(output)
-    except BaseException:
-        partial.unlink(missing_ok=True)
-        raise
+
+    def tiles(file: BinaryIO) -> None:
+        file.write(serialize_header(header) + root + metadata + leaves)
+        for digest in places:
+            file.write(contents[digest].read())
+
+    for path, write in {**extra, output: tiles}.items():
+        _write_whole(path, write)
     return output.stat().st_size
 
 
+def _write_whole(path: Path, write: Callable[[BinaryIO], None]) -> None:
+    """Write a file, whole or not."""
+    partial = path.with_name(f".{path.name}{TEMPORARY}")
+    try:
+        with partial.open("wb") as file:
+            write(file)
+            file.flush()
+            os.fsync(file.fileno())
+        partial.replace(path)
+    except BaseException:
+        partial.unlink(missing_ok=True)
+        raise
+
+
 def write_folder(
-    output: Path, runs: Runs, contents: Mapping[str, Content], zooms: Sequence[int], bounds: Bounds, about: Any
+    output: Path,
+    runs: Runs,
+    contents: Mapping[str, Content],
+    zooms: Sequence[int],
+    bounds: Bounds,
+    about: Any,
+    extra: Extra,
 ) -> int:
     """Write a folder with a file for each tile, whole or not, and return the size of what differs."""
     from pmtiles.tile import tileid_to_zxy
@@ -117,6 +150,9 @@ def write_folder(
         "vector_layers": [],
     }
     listed |= {"minzoom": zooms[0], "maxzoom": zooms[-1], "bounds": list(bounds), **about}
+    for path, write in extra.items():
+        with (partial / path.name).open("wb") as file:
+            write(file)
     (partial / LISTED).write_text(json.dumps(listed, indent=1) + "\n")
     old = output.with_name(f".{output.name}.old{TEMPORARY}")
     shutil.rmtree(old, ignore_errors=True)

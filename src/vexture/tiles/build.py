@@ -4,28 +4,33 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import atan, degrees, exp, pi
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, BinaryIO, Final
 
+from vexture.cartography.tables import check_targets
 from vexture.errors import SourceError
 from vexture.geo.extent import Bounds
 from vexture.notes import Note, Notes
 from vexture.texture.files import writable
-from vexture.tiles.archive import ARCHIVE, check_target, write_archive, write_folder
+from vexture.tiles.archive import ARCHIVE, check_target, table_of, write_archive, write_folder
+from vexture.tiles.attributes import Attributes, paints_of, write_table
 from vexture.tiles.grid import HALF, MARGIN, TILE_PIXELS, Tile, last_zoom
 from vexture.tiles.options import TileOptions, digest_of
 from vexture.tiles.partitions import Part, partitioned
 from vexture.tiles.pieces import Pieces
 from vexture.tiles.store import SUFFIX, Store
-from vexture.tiles.subtree import Job, done
+from vexture.tiles.subtree import Job, Made, done
 from vexture.tiles.world import in_world
 
 __all__ = ["VERSION", "MadeTiles", "make_tiles"]
 
-VERSION: Final = 2
+VERSION: Final = 3
 """Of what is kept of unfinished pyramids; what another one wrote is not used."""
 
 MOVES: Final = 0.25
 """Pixels: what a border is off at most, at the zoom of its tile."""
+
+Work = Callable[[Iterator[Job], int], Iterator[Made]]
+"""Does pieces of work, so many of them, in order."""
 
 Told = Callable[[str, int, int], None]
 """Hears what is done, how much of it, and of how much; 0 if nobody knows."""
@@ -52,7 +57,7 @@ def make_tiles(
     source : path
         What `vexture.geo.features.feature_batches` reads.
     output : Path
-        A file ``.pmtiles``, or a folder.
+        A file ``.pmtiles``, or a folder. The table of attributes is beside the one, and in the other.
     options : TileOptions
     told : callable
         Hears how far the work is.
@@ -67,6 +72,7 @@ def make_tiles(
         If the output cannot be written, or who shall do the work is not there.
     """
     check_target(output)
+    check_targets([output, *([table] if (table := table_of(output, options.look.table)) else [])], [Path(source)])
     writable(output.parent)
     key = {"version": VERSION, "source": digest_of(Path(source)), **options.key}
     store = Store(output.with_name(output.name + SUFFIX), key)
@@ -74,7 +80,7 @@ def make_tiles(
         facts = store.read_parts() or _read(source, store, options, told, batches)
         if facts["bounds"] is None:
             store.remove()
-            raise SourceError(f"{source}: it has no polygon in the tiles' projection; give polygons")
+            raise SourceError(f"{source}: {_why_empty(facts['others'])}")
         parts = [Part(Tile(*tile), weight) for *tile, weight in facts["parts"]]
         _work(store, parts, options, told)
         made = _written(store, output, options, facts)
@@ -91,11 +97,14 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
     if batches is None:
         from vexture.geo.features import feature_batches as batches
     notes = Notes()
-    count, boxes = 0, []
+    count, boxes, others = 0, [], 0
+    attributes = Attributes(store.folder, options.look)
 
     def pieces() -> Iterator[Pieces]:
-        nonlocal count
-        for features in batches(source, **options.reading, columns=[], notes=notes):
+        nonlocal count, others
+        for features in batches(source, **options.reading, notes=notes):
+            attributes.add(features)
+            others += len(features.lines.ends) + len(features.points.points)
             found = in_world(features, count, options.max_zoom, notes)
             count += len(features.ids)
             told("reading features", count, 0)
@@ -105,7 +114,11 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
 
     parts = partitioned(pieces(), store.sources, last_zoom(options.max_zoom, options.step), options.step)
     box = shapely.total_bounds(shapely.box(*zip(*boxes, strict=True))).tolist() if boxes else None
-    facts = {"parts": [[*part.tile, part.weight] for part in parts], "bounds": box, "features": count}
+    if others and boxes:
+        notes.remark(f"{others} lines and points are left out, as tiles have polygons only; draw them by vexture map")
+    facts: dict[str, Any] = {"parts": [[*part.tile, part.weight] for part in parts], "bounds": box, "features": count}
+    facts["legends"] = attributes.close(options.layer or Path(source).name.partition(".")[0], notes)
+    facts["others"] = others
     facts["notes"] = [[note.kind, note.message, note.count] for note in notes.listed]
     store.write_parts(facts)
     return facts
@@ -114,19 +127,23 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
 def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> None:
     """Do all the work that is not done: first the parts, then zoom by zoom the geometry and the tiles."""
     leaves = {part.tile for part in parts}
+    pyramid = options.pyramid(paints_of(store.folder))
+
+    def work(jobs: Iterator[Job], count: int) -> Iterator[Made]:
+        return options.who().map(done, pyramid, jobs, count)
 
     def leaf(tile: Tile) -> Job:
         return Job("leaf", tile, ((store.sources / f"{tile.name}.parquet").read_bytes(),))
 
-    _all(store, "leaf", [part.tile for part in sorted(parts, key=lambda part: -part.weight)], leaf, options, told)
-    for zoom in sorted((z for z in options.pyramid.coarse if z < max(tile.z for tile in leaves)), reverse=True):
+    _all(store, "leaf", [part.tile for part in sorted(parts, key=lambda part: -part.weight)], leaf, work, told)
+    for zoom in sorted((z for z in options.coarse if z < max(tile.z for tile in leaves)), reverse=True):
         inner = sorted({tile.parent(zoom) for tile in leaves if tile.z > zoom})
 
         def join(tile: Tile) -> Job:
             names = [_kept(store, part) for part in tile.below(options.step)]
             return Job("join", tile, tuple(store.geometry(name) for name in names if name))
 
-        _all(store, "join", inner, join, options, told)
+        _all(store, "join", inner, join, work, told)
 
         def one(tile: Tile) -> Job:
             around = [(tile, 0.0), *tile.around()]
@@ -134,7 +151,7 @@ def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> 
             return Job("tile", tile, tuple(data for data, _ in found), tuple(shift for _, shift in found))
 
         if zoom >= options.min_zoom:
-            _all(store, "tile", inner, one, options, told)
+            _all(store, "tile", inner, one, work, told)
 
 
 def _kept(store: Store, tile: Tile) -> str | None:
@@ -154,13 +171,11 @@ def _around(store: Store, leaves: set[Tile], tile: Tile) -> bytes | None:
     return None
 
 
-def _all(
-    store: Store, kind: str, tiles: list[Tile], job: Callable[[Tile], Job], options: TileOptions, told: Told
-) -> None:
+def _all(store: Store, kind: str, tiles: list[Tile], job: Callable[[Tile], Job], work: Work, told: Told) -> None:
     """Do all work of a kind that is not done."""
     missing = [tile for tile in tiles if not store.has(f"{kind}-{tile.name}")]
     before = len(tiles) - len(missing)
-    made = options.who().map(done, options.pyramid, (job(tile) for tile in missing), len(missing))
+    made = work((job(tile) for tile in missing), len(missing))
     for number, (tile, found) in enumerate(zip(missing, made, strict=True), before + 1):
         store.add(f"{kind}-{tile.name}", found)
         told(WORDS[kind], number, len(tiles))
@@ -173,14 +188,27 @@ WORDS: Final = {"leaf": "parts", "join": "generalising", "tile": "tiles"}
 def _written(store: Store, output: Path, options: TileOptions, facts: Any) -> MadeTiles:
     """Write the output."""
     runs, contents = store.tiles()
-    zooms = options.pyramid.zooms
+    zooms = options.zooms
     about: dict[str, Any] = {"name": options.name or output.stem, "attribution": options.attribution}
     about["vexture"] = {"margin": MARGIN, "zooms": list(zooms), "sharp": options.max_zoom}
     about["vexture"]["tolerance"] = MOVES / TILE_PIXELS
+    about["vexture"] |= {"legends": legends} if (legends := facts["legends"]) else {}
+    table = table_of(output, options.look.table)
+    extra: dict[Path, Callable[[BinaryIO], None]] = {}
+    if table is not None:
+        about["vexture"]["table"] = table.name
+        extra[table] = lambda file: write_table(file, store.folder, options.look.table, legends)
     write = write_archive if output.suffix.lower() == ARCHIVE else write_folder
-    size = write(output, runs, contents, zooms, _degrees(facts["bounds"]), about)
+    size = write(output, runs, contents, zooms, _degrees(facts["bounds"]), about, extra)
     notes = tuple(Note(*note) for note in facts["notes"])
     return MadeTiles(sum(count for _, count, _ in runs), len(contents), size, facts["features"], notes)
+
+
+def _why_empty(others: int) -> str:
+    """Why there is nothing for tiles, and what to do."""
+    if others:
+        return f"it has {others} lines and points, but no polygon, and tiles have only these; draw it by vexture map"
+    return "it has no polygon in the tiles' projection; give polygons"
 
 
 def _degrees(box: list[float]) -> Bounds:

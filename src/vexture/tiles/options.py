@@ -1,11 +1,15 @@
 """What a user chooses of a pyramid."""
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from vexture.errors import ParameterError, SourceError
+from vexture.tiles.attributes import Look
 from vexture.tiles.grid import check_zooms, coarse, zooms_of
 from vexture.tiles.subtree import Pyramid
 from vexture.workers import Cluster, Here, Processes, Workers
@@ -30,6 +34,8 @@ class TileOptions:
         Of the source, as `vexture.geo.features.feature_batches` has them.
     name, attribution : str
         Told in the metadata.
+    look : Look
+        Colours, and the table of attributes.
     processes : int
         Processes that share the work on this machine.
     scheduler : str or None
@@ -45,6 +51,7 @@ class TileOptions:
     crs: str | None = None
     name: str = ""
     attribution: str = ""
+    look: Look = field(default_factory=Look)
     processes: int = 1
     scheduler: str | None = None
 
@@ -52,22 +59,31 @@ class TileOptions:
         check_zooms(self.min_zoom, self.max_zoom, self.step)
         if self.processes < 1:
             raise ParameterError(f"`processes` is {self.processes}; it must be at least 1")
+        self.look.check()
+
+    def pyramid(self, paints: NDArray[np.uint32]) -> Pyramid:
+        """Its zooms, and the colours of its features."""
+        return Pyramid(self.coarse, self.zooms, self.step, self.max_zoom, paints)
 
     @property
-    def pyramid(self) -> Pyramid:
-        """Its zooms."""
-        zooms = zooms_of(self.min_zoom, self.max_zoom, self.step)
-        return Pyramid(tuple(coarse(self.max_zoom, self.step)), tuple(zooms), self.step, self.max_zoom)
+    def zooms(self) -> tuple[int, ...]:
+        """Zooms that have tiles."""
+        return tuple(zooms_of(self.min_zoom, self.max_zoom, self.step))
 
     @property
-    def reading(self) -> dict[str, str | None]:
+    def coarse(self) -> tuple[int, ...]:
+        """Zooms that are generalised."""
+        return tuple(coarse(self.max_zoom, self.step))
+
+    @property
+    def reading(self) -> dict[str, Any]:
         """Options of the source's reader."""
-        return {"layer": self.layer, "where": self.where, "crs": self.crs, "id": self.id}
+        return {"layer": self.layer, "where": self.where, "crs": self.crs, "id": self.id, "columns": self.look.read}
 
     @property
     def key(self) -> dict[str, Any]:
         """All that what is finished depends on, besides the source."""
-        return {"zooms": [self.min_zoom, self.max_zoom, self.step], **self.reading}
+        return {"zooms": [self.min_zoom, self.max_zoom, self.step], **self.reading, "look": self.look.key}
 
     def who(self) -> Workers:
         """Who does the work."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vexture.tiles.generalise import dissolved, generalised
 from vexture.tiles.grid import MARGIN, Tile, pixel, span, widened
@@ -26,14 +27,15 @@ CROWDED: Final = 16_000
 """Features of a tile before the last zoom, above which smaller ones are merged until there are fewer."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Pyramid:
-    """What all the work shares: the zooms that are generalised, those of tiles, the step, and that of sharp views."""
+    """What all the work shares: generalised zooms, those of tiles, the step, that of sharp views, features' colours."""
 
     coarse: tuple[int, ...]
     zooms: tuple[int, ...]
     step: int
     sharp: int
+    paints: NDArray[np.uint32]
 
     @property
     def most(self) -> int:
@@ -119,7 +121,7 @@ def _descend(pyramid: Pyramid, pieces: Pieces, tile: Tile, zoom: int, made: Made
     if not len(here):
         return
     if (place := covering(here, tile)) >= 0:
-        made.add(*span(tile, zoom), uniform_texture(str(here.ids[place])))
+        made.add(*span(tile, zoom), uniform_texture(here, place, pyramid.paints))
     elif tile.z == zoom:
         _tile(pyramid, here, tile, made)
     else:
@@ -135,9 +137,9 @@ def _tile(pyramid: Pyramid, pieces: Pieces, tile: Tile, made: Made) -> None:
         least *= 2.0
         pieces = generalised(pieces, box, 0.0, least)
     if (place := covering(pieces, tile)) >= 0:
-        made.add(tile.number, 1, uniform_texture(str(pieces.ids[place])))
+        made.add(tile.number, 1, uniform_texture(pieces, place, pyramid.paints))
     elif len(pieces):
-        made.add(tile.number, 1, tile_texture(pieces, tile))
+        made.add(tile.number, 1, tile_texture(pieces, tile, pyramid.paints))
 
 
 def _shifted(pieces: Pieces, by: float) -> Pieces:

@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from vexture.bezier.convert import line_cubics
 from vexture.drawing import IDENTITY, Drawing, Path
@@ -18,12 +18,16 @@ from vexture.tiles.pieces import Pieces
 from vexture.tree.planar.build import build_map
 from vexture.tree.planar.style import style_of
 
-__all__ = ["GREY", "ROOT", "covering", "tile_texture", "uniform_texture"]
+__all__ = ["GREY", "ROOT", "covering", "packed", "tile_texture", "uniform_texture"]
 
 ROOT: Final = "map"
 """Name of the map of polygons in each tile."""
 
-GREY: Final = Paint((0.8, 0.8, 0.8))
+GREY: Final = (0.8, 0.8, 0.8, 1.0)
+"""Colour and opacity of features that none is given for."""
+
+LEVELS: Final = 255
+"""Steps of a colour's parts and of its opacity."""
 
 FULL: Final = 1.0 - 1e-9
 """Part of a tile's square that a polygon covers which covers all of it, but for rounding."""
@@ -50,22 +54,36 @@ def covering(pieces: Pieces, tile: Tile) -> int:
     return int(top[full.argmax()]) if full.any() else -1
 
 
-def tile_texture(pieces: Pieces, tile: Tile) -> bytes:
-    """File of the texture of what is in a tile's square.
+def packed(rgba: ArrayLike) -> NDArray[np.uint32]:
+    """Colours and opacities, (n, 4), as a number each."""
+    parts = np.rint(np.asarray(rgba, np.float64).clip(0.0, 1.0) * LEVELS).astype("u1")
+    return np.ascontiguousarray(parts).view("<u4").ravel().astype(np.uint32)
+
+
+def _paint(paints: NDArray[np.uint32], feature: int) -> Paint:
+    """The colour of a feature; a single one is that of all."""
+    number = int(paints[feature if len(paints) > 1 else 0])
+    red, green, blue, opacity = (part / LEVELS for part in number.to_bytes(4, "little"))
+    return Paint((red, green, blue), opacity)
+
+
+def tile_texture(pieces: Pieces, tile: Tile, paints: NDArray[np.uint32]) -> bytes:
+    """File of the texture of what is in a tile's square, in the colours of the source's features.
 
     Raises a `LimitError` if it has too many features.
     """
     box = square_of(tile)
     size = box[2] - box[0]
     to_source = np.array([[size, 0.0, box[0]], [0.0, size, box[1]]])
-    return _written(Drawing(_paths(pieces, box, size), to_source, ROOT, CRS))
+    return _written(Drawing(_paths(pieces, box, size, paints), to_source, ROOT, CRS))
 
 
-def uniform_texture(feature: str) -> bytes:
-    """File of the texture of a tile in which one feature is everywhere: it names no place, so that all are equal."""
+def uniform_texture(pieces: Pieces, place: int, paints: NDArray[np.uint32]) -> bytes:
+    """File of the texture of a tile in which one piece is everywhere: it names no place, so that all are equal."""
     corners = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
     square = line_cubics(corners, np.roll(corners, -1, axis=0))
-    return _written(Drawing((Path((square,), paint=GREY, element=feature),), IDENTITY.copy(), ROOT))
+    path = Path((square,), paint=_paint(paints, int(pieces.order[place])), element=str(pieces.ids[place]))
+    return _written(Drawing((path,), IDENTITY.copy(), ROOT))
 
 
 def _written(drawing: Drawing) -> bytes:
@@ -77,7 +95,9 @@ def _written(drawing: Drawing) -> bytes:
     return encode([planar], [root], name=ROOT).to_ktx2()
 
 
-def _paths(pieces: Pieces, box: tuple[float, float, float, float], size: float) -> tuple[Path, ...]:
+def _paths(
+    pieces: Pieces, box: tuple[float, float, float, float], size: float, paints: NDArray[np.uint32]
+) -> tuple[Path, ...]:
     """A path for each feature, in the order of the source."""
     features, number = np.unique(pieces.order, return_inverse=True)
     if len(features) > MOST_FEATURES:
@@ -93,15 +113,16 @@ def _paths(pieces: Pieces, box: tuple[float, float, float, float], size: float) 
     inner = ring[1:] == ring[:-1]
     sides = line_cubics(unit[:-1][inner], unit[1:][inner])
     contours = np.split(sides, np.flatnonzero(np.diff(ring[:-1][inner])) + 1)
-    return _grouped(contours, number[by_feature][owner], names)
+    of = [_paint(paints, feature) for feature in features.tolist()]
+    return _grouped(contours, number[by_feature][owner], names, of)
 
 
 def _grouped(
-    contours: list[NDArray[np.float64]], feature: NDArray[np.intp], names: NDArray[np.object_]
+    contours: list[NDArray[np.float64]], feature: NDArray[np.intp], names: NDArray[np.object_], paints: list[Paint]
 ) -> tuple[Path, ...]:
     ends = np.searchsorted(feature, np.arange(len(names)), side="right").tolist()
     starts = [0, *ends[:-1]]
     return tuple(
-        Path(tuple(contours[start:end]), paint=GREY, element=str(name))
-        for start, end, name in zip(starts, ends, names, strict=True)
+        Path(tuple(contours[start:end]), paint=paint, element=str(name))
+        for start, end, name, paint in zip(starts, ends, names, paints, strict=True)
     )
