@@ -2,22 +2,18 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from vexture.cli.messages import one_line, say_notes
-from vexture.cli.options import PATH
+from vexture.cli.options import PATH, colour_options, columns_of, scale_of
 from vexture.errors import ParameterError, counted
 
 if TYPE_CHECKING:
-    import pyarrow
-
     from vexture.cartography import MapLayer
 
 __all__ = ["map"]
-
-TABLES: Final = ("parquet", "arrow", "none")
 
 EXAMPLE = """\b
 Examples:
@@ -25,7 +21,7 @@ Examples:
   vexture map land.fgb roads.fgb --stroke 1px --stroke 40m --crs EPSG:28992 -o delft.ktx2
 """
 
-EACH: Final = "once for all sources, or once for each ('' for none)"
+EACH = "once for all sources, or once for each ('' for none)"
 
 
 @click.command(epilog=EXAMPLE)
@@ -38,13 +34,7 @@ EACH: Final = "once for all sources, or once for each ('' for none)"
 @click.option("--id", "ids", metavar="COLUMN", multiple=True, help="Column of ids.  [default: the format's own]")
 @click.option("--columns", metavar="A,B,...", multiple=True, help="Attributes to keep in the table.  [default: all]")
 @click.option("--color", "--colour", metavar="COLUMN", multiple=True, help="Attribute that colours show.")
-@click.option(
-    "--scale", metavar="KIND", default="auto", show_default=True,
-    help="quantiles, equal, continuous, categories, or the breaks of classes: 10,20,50.",
-)  # fmt: skip
-@click.option("--classes", metavar="N", type=int, default=5, show_default=True, help="Of quantiles and equal.")
-@click.option("--palette", metavar="NAME", help="Of cmap, such as magma or tab10.  [default: for any colour vision]")
-@click.option("--no-data", metavar="COLOR", default="#d9d9d9", show_default=True, help="Of features without a value.")
+@colour_options
 @click.option("--fill", metavar="COLOR", multiple=True, help="One colour of a source.")
 @click.option("--order", metavar="COLUMN", multiple=True, help="Which polygons are above.  [default: the smaller ones]")
 @click.option("--stroke", metavar="500m|1.5px", multiple=True, help="Width of lines.  [default: 1px]")
@@ -54,7 +44,6 @@ EACH: Final = "once for all sources, or once for each ('' for none)"
 @click.option("--snap", metavar="PART", type=float, help="Borders and gaps this near become one.  [default: 3e-6]")
 @click.option("--tolerance", metavar="PART", type=float, help="Most that a border moves.  [default: 2e-5]")
 @click.option("--restyle/--no-restyle", default=True, help="Whether features can be picked and recoloured.")
-@click.option("--table", type=click.Choice(TABLES), default="parquet", show_default=True, help="File of attributes.")
 @click.option("--max-seconds", metavar="S", type=float, default=300.0, show_default=True, help="Most time.")
 @click.option("--json", "as_json", is_flag=True, help="Print facts and the legend as JSON.")
 def map(
@@ -67,15 +56,13 @@ def map(
     """
     with one_line():
         from vexture.cartography import convert_map
+        from vexture.geo.tables import check_targets, table_bytes
         from vexture.layout import PACKED_SUFFIX
         from vexture.texture.files import write_together
 
         if output.suffix.lower() != PACKED_SUFFIX:
             raise ParameterError(f"`output` {output}: textures are KTX2 files; name one that ends in {PACKED_SUFFIX}")
-        targets = [output, *([] if table == "none" else [output.with_suffix(f".{table}")])]
-        for target in targets:
-            if any(target.exists() and source.exists() and target.samefile(source) for source in sources):
-                raise ParameterError(f"{target} is a source itself; give another `output`, or `table` none")
+        check_targets([output, *([] if table == "none" else [output.with_suffix(f".{table}")])], sources)
         layers = _layers(sources, symbol, options)
         kept = {name: options[name] for name in ("crs", "snap", "size", "restyle", "max_seconds")}
         if options["tolerance"] is not None:
@@ -83,7 +70,7 @@ def map(
         done = convert_map(layers, name=output.stem, **kept)
         files = {output: done.conversion.texture.to_ktx2()}
         if table != "none":
-            files[output.with_suffix(f".{table}")] = _table_bytes(done.table, table)
+            files[output.with_suffix(f".{table}")] = table_bytes(done.table, table)
         write_together(files)
         notes = done.conversion.notes
         if as_json:
@@ -105,7 +92,7 @@ def map(
 
 def _layers(sources: tuple[Path, ...], symbol: Path | None, options: dict[str, Any]) -> "list[MapLayer]":
     """The layers that options describe."""
-    from vexture.cartography import MapLayer, Scale
+    from vexture.cartography import MapLayer
     from vexture.reading import read
 
     count = len(sources)
@@ -115,10 +102,7 @@ def _layers(sources: tuple[Path, ...], symbol: Path | None, options: dict[str, A
     layers = []
     for place, source in enumerate(sources):
         own = {name: values[place] for name, values in each.items()}
-        columns = None if own["columns"] is None else tuple(part.strip() for part in own["columns"].split(","))
-        scale = None
-        if own["color"] is not None:
-            scale = Scale(own["color"], *(options[name] for name in ("scale", "palette", "classes", "no_data")))
+        columns, scale = columns_of(own["columns"]), scale_of(own["color"], options)
         shape = {"stroke": own["stroke"] or "1px", "symbol": drawn, "symbol_size": options["symbol_size"]}
         chosen = (own["layer"], own["where"], own["source_crs"], own["ids"], columns, scale, own["fill"], own["order"])
         layers.append(MapLayer(source, *chosen, **shape))
@@ -132,18 +116,3 @@ def _each(values: Sequence[str], count: int, name: str) -> list[str | None]:
         raise ParameterError(f"`{name}` is given {len(values)} times for {count} sources; give it once, or for each")
     every = [*values] * (count if len(values) == 1 else 1) if values else [""] * count
     return [value or None for value in every]
-
-
-def _table_bytes(table: "pyarrow.Table", kind: str) -> bytes:
-    """A table as a file."""
-    import pyarrow as pa
-
-    sink = pa.BufferOutputStream()
-    if kind == "parquet":
-        import pyarrow.parquet as pq
-
-        pq.write_table(table, sink)
-    else:
-        with pa.ipc.new_file(sink, table.schema) as writer:
-            writer.write_table(table)
-    return bytes(sink.getvalue().to_pybytes())

@@ -6,9 +6,9 @@ from math import atan, degrees, exp, pi
 from pathlib import Path
 from typing import Any, BinaryIO, Final
 
-from vexture.cartography.tables import check_targets
-from vexture.errors import SourceError
+from vexture.errors import DeviceError, SourceError, VextureError, reason_of
 from vexture.geo.extent import Bounds
+from vexture.geo.tables import check_targets
 from vexture.notes import Note, Notes
 from vexture.texture.files import writable
 from vexture.tiles.archive import ARCHIVE, check_target, table_of, write_archive, write_folder
@@ -21,7 +21,7 @@ from vexture.tiles.store import SUFFIX, Store
 from vexture.tiles.subtree import Job, Made, done
 from vexture.tiles.world import in_world
 
-__all__ = ["VERSION", "MadeTiles", "make_tiles"]
+__all__ = ["VERSION", "MadeTiles", "make_tiles", "unfinished"]
 
 VERSION: Final = 3
 """Of what is kept of unfinished pyramids; what another one wrote is not used."""
@@ -84,10 +84,26 @@ def make_tiles(
         parts = [Part(Tile(*tile), weight) for *tile, weight in facts["parts"]]
         _work(store, parts, options, told)
         made = _written(store, output, options, facts)
-    finally:
+    except BaseException as error:
         store.close()
+        if not store.has_parts:
+            store.remove()  # reading begins anew
+        if isinstance(error, VextureError) and store.has_parts:
+            raise type(error)(f"{error}; {unfinished(output)}") from None
+        if isinstance(error, OSError):
+            reason = error.strerror or reason_of(error)
+            raise DeviceError(f"{output}: {reason}; make room, or choose another disk; {unfinished(output)}") from None
+        raise
     store.remove()
     return made
+
+
+def unfinished(output: Path) -> str:
+    """What is left of a pyramid that was not finished, and what to do with it."""
+    folder = output.with_name(output.name + SUFFIX)
+    if not folder.exists():
+        return "nothing of it is finished"
+    return f"what is finished is in {folder}, and the same command goes on from there"
 
 
 def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: Any) -> Any:
