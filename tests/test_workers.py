@@ -2,20 +2,18 @@
 
 import hashlib
 import os
-import subprocess
-import sys
-from contextlib import contextmanager
-from pathlib import Path
 
+import netCDF4
+import numpy as np
 import pytest
 from floods import flood, series
 
-from vexture import DeviceError
+from clusters import cluster_of
+from vexture import DeviceError, workers
 from vexture.flood.options import FloodOptions
+from vexture.live.flood import make
 from vexture.workers import Cluster, Here, Processes
 from work import dies, is_forgotten, slow
-
-SECONDS = 60
 
 
 def test_results_are_in_order_from_several_processes():
@@ -51,37 +49,30 @@ def test_work_that_kills_every_process_ends(tmp_path):
         list(Processes(2).map(dies, (tmp_path / "died", True), range(12), 12))
 
 
+def test_steps_of_a_flood_are_the_same_from_several_processes(tmp_path, monkeypatch):
+    """Also those of many curves, which processes hand over in another way, and several of them in a class of depth."""
+    monkeypatch.setattr(workers, "WORTH", 0.0)
+    run = series(tmp_path / "run.nc", [0.2, 0.4])
+    with netCDF4.Dataset(run, "a") as file:
+        rows, columns = file["depth"].shape[1:]
+        x, y = np.meshgrid(np.arange(columns), np.arange(rows))
+        ponds = np.sin(x * np.pi / 10) * np.sin(y * np.pi / 10)  # of a radius of five cells
+        file["depth"][:] = [np.maximum(ponds + level, 0.0) for level in (0.0, 0.2)]
+    here, there = (make(FloodOptions(run, variable="depth", workers=count), print).shapes for count in (1, 2))
+    assert [list(shape.views) for shape in here] == 2 * [["depth", "classes", "level"]]
+    assert [shape.version for shape in here] == [shape.version for shape in there]
+
+
 def test_errors_of_the_work_arrive():
     with pytest.raises(ZeroDivisionError):
         list(Processes(2).map(divmod, 3, iter([1, 0]), 2))
 
 
-@contextmanager
-def running(*words, says):
-    """A part of Dask in a process of its own, once it says something."""
-    command = [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]]
-    found = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
-    with subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, env=found) as process:
-        try:
-            for line in process.stderr:
-                if says in line:
-                    yield process, line
-                    break
-            else:
-                pytest.fail(f"{words} ended with {process.wait(SECONDS)}")
-        finally:
-            process.kill()
-
-
 @pytest.fixture(scope="module")
 def cluster():
     """Address of a scheduler with two workers."""
-    here = ("--host", "127.0.0.1")
-    with running("dask_scheduler", *here, "--port", "0", "--no-dashboard", says="Scheduler at:") as (_, line):
-        address = line.split()[-1]
-        worker = ("dask_worker", address, *here, "--nthreads", "1", "--no-dashboard", "--no-nanny")
-        with running(*worker, says="Registered to:"), running(*worker, says="Registered to:"):
-            yield address
+    with cluster_of(2) as (address, _):
+        yield address
 
 
 def test_a_cluster_makes_the_same_page(cluster, tmp_path):

@@ -32,7 +32,8 @@ from vexture.renderers.cpu import draw
 from vexture.texture.encode import texel_rows
 from vexture.texture.planar import map_texels
 from vexture.tolerance import ROUND
-from vexture.tree.build import SLICE, Bounds, grow, grow_on
+from vexture.tree.bounds import Bounds
+from vexture.tree.build import SLICE, grow, grow_on
 from vexture.tree.cubics import gather
 from vexture.tree.growth import WAITING, Growth, tree_of, with_needed_room
 from vexture.tree.planar.build import build_map, drawing_cubics, grow_map, plant_map, planted, with_room
@@ -129,10 +130,10 @@ def calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
             yield from ((reduced, (contour, ROUND)) for contour in path.contours)
         for tolerance in (0.0, 0.001):
             outlines, bounds = gather(drawing), Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS)
-            yield grow, (*outlines, bounds, SLICE)
-            tree = Growth(*grow.dispatcher(*outlines, bounds, 0)[0])
+            yield grow, (*outlines, bounds, SLICE, 0)
+            tree = Growth(*grow.dispatcher(*outlines, bounds, 0, 0)[0])
             tree.needed[:] = ROOM
-            yield grow_on, (with_needed_room(tree), outlines[2], bounds, SLICE)
+            yield grow_on, (with_needed_room(tree), outlines[2], bounds, SLICE, 0)
         texture = convert(drawing, split=None)
         for flat_view in (0, 1):
             to_unit = np.array([[0.02, 0.0, 0.0], [0.0, -0.02, 1.0], [0.0, 0.0, 1.0]])

@@ -40,22 +40,22 @@ WORLD = (np.array([-180.0, -90.0]), 540.0)
 
 def rings_of(folder: Path) -> list[NDArray[np.float32]]:
     """Corners of each ring, in degrees."""
-    data = np.fromfile(folder / "gshhs_f.dat", "<f4")
-    rings = []
-    for line in (folder / "gshhsmeta_f.dat").read_text().splitlines():
-        _, _, count, _, _, offset, *_ = line.split()
-        first = int(offset) // data.itemsize
-        ring = data[first : first + 2 * int(count)].reshape(-1, 2)
-        rings.append(ring[:-1] if (ring[0] == ring[-1]).all() else ring)
-    return rings
+    data = np.fromfile(folder / "gshhs_f.dat", "<f4").reshape(-1, 2)
+    lines = (line.split() for line in (folder / "gshhsmeta_f.dat").read_text().splitlines())
+    places = [(int(offset) // data.strides[0], int(count)) for _, _, count, _, _, offset, *_ in lines]
+    firsts, counts = np.array(places).T
+    closed = (data[firsts] == data[firsts + counts - 1]).all(axis=1)
+    lasts = firsts + counts - closed
+    return [data[first:last] for first, last in zip(firsts.tolist(), lasts.tolist(), strict=True)]
 
 
 def shoreline(rings: list[NDArray[np.float32]]) -> Drawing:
     """One path of all rings; lakes and islands in lakes alternate."""
     least, side = WORLD
     corners = np.concatenate(rings, dtype=np.float64)
-    corners -= least
-    corners /= side
+    for axis in range(2):  # NumPy is slow in rows of two
+        corners[:, axis] -= least[axis]
+        corners[:, axis] /= side
     np.clip(corners, 0.0, 1.0, out=corners)
     contours = ring_contours(corners, np.cumsum([len(ring) for ring in rings]))
     return Drawing((Shape(contours, FillRule.EVENODD),), name="shoreline")

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
-from vexture.contours import check_contours, joined
+from vexture.contours import check_contours, joined, together
 from vexture.deadline import check_time
 from vexture.errors import SourceError
 from vexture.group import Blend, Group, Mask, groups_around
@@ -145,8 +145,9 @@ class Drawing:
         self._check_groups()
         if np.shape(self.to_source) != (2, 3) or not np.isfinite(self.to_source).all():
             raise SourceError(f"{self.name}: to_source must be a finite (2, 3) array")
-        cubics = joined([contour for path in self.paths for contour in path.contours])
-        if len(cubics) and not (cubics[:, 0].min() >= 0.0 and cubics[:, 0].max() <= 1.0):
+        begins = joined(together([path.contours for path in self.paths]))[:, 0]
+        inside = (begins[:, axis].min() >= 0.0 and begins[:, axis].max() <= 1.0 for axis in range(2))
+        if len(begins) and not all(inside):
             raise SourceError(f"{self.name}: a contour leaves the unit square; clip or scale it first")
 
     def _check_groups(self) -> None:

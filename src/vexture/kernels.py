@@ -109,10 +109,10 @@ def _kept_if_possible(save: Callable[..., None]) -> Callable[..., None]:
 class Kernel:
     """A function over arrays that Numba compiles when it is first called; see `kernel`."""
 
-    def __init__(self, function: Callable[..., Any], allocates: bool, ahead: bool) -> None:
+    def __init__(self, function: Callable[..., Any], allocates: bool, ahead: bool, shares: bool = False) -> None:
         functools.update_wrapper(self, function)
         self.py_func = function
-        self._allocates, self._ahead = allocates, ahead
+        self._allocates, self._ahead, self.shares = allocates, ahead, shares
         self._code: Compiled | None = None
 
     @functools.cached_property
@@ -120,6 +120,7 @@ class Kernel:
         """Numba's function."""
         private = self.py_func.__name__.startswith("_")  # called by kernels only: needs no wrapper for Python
         options = {"error_model": "numpy", "no_cfunc_wrapper": True, "no_cpython_wrapper": private}
+        options["nogil"] = self.shares
         with ONE_AT_A_TIME:
             numba, folder = _numba()
             # read by the decorator; other packages may use Numba too
@@ -152,10 +153,12 @@ def kernel(function: F) -> F: ...
 
 
 @overload
-def kernel(*, allocates: bool = True, ahead: bool = False) -> Callable[[F], F]: ...
+def kernel(*, allocates: bool = True, ahead: bool = False, shares: bool = False) -> Callable[[F], F]: ...
 
 
-def kernel(function: F | None = None, *, allocates: bool = True, ahead: bool = False) -> F | Callable[[F], F]:
+def kernel(
+    function: F | None = None, *, allocates: bool = True, ahead: bool = False, shares: bool = False
+) -> F | Callable[[F], F]:
     """Compile a scalar function over arrays with Numba, cached on disk.
 
     A function whose name begins with an underscore is called by kernels only.
@@ -168,6 +171,9 @@ def kernel(function: F | None = None, *, allocates: bool = True, ahead: bool = F
         of a short function.
     ahead : bool
         True for a function of a plain command, which the wheel of a platform holds compiled.
+    shares : bool
+        True for a function that works long enough to let other threads of Python run meanwhile. Getting the
+        interpreter back from a busy thread may take milliseconds.
 
     Examples
     --------
@@ -177,6 +183,6 @@ def kernel(function: F | None = None, *, allocates: bool = True, ahead: bool = F
     """
 
     def compiled(function: F) -> F:
-        return cast("F", Kernel(function, allocates, ahead))
+        return cast("F", Kernel(function, allocates, ahead, shares))
 
     return compiled if function is None else compiled(function)

@@ -107,9 +107,9 @@ def _value(result: Described, held: Any, release: Callable[[int], None]) -> Any:
 
 
 class Compiled:
-    """A kernel of a code file, whose object file is `machine_code`."""
+    """A kernel of a code file, whose object file is `machine_code`; if it `shares`, other threads run meanwhile."""
 
-    def __init__(self, code: Code, machine_code: bytes) -> None:
+    def __init__(self, code: Code, machine_code: bytes, shares: bool = False) -> None:
         import llvmlite.binding as llvm
 
         self.code = code
@@ -118,7 +118,8 @@ class Compiled:
         self.engine.add_object_file(llvm.ObjectFileRef.from_data(machine_code))
         self.engine.finalize_object()
         # PYFUNCTYPE holds the interpreter's lock, as Numba does
-        self._function = ctypes.PYFUNCTYPE(ctypes.c_int)(self.engine.get_function_address(code.entry))
+        prototype = ctypes.CFUNCTYPE if shares else ctypes.PYFUNCTYPE
+        self._function = prototype(ctypes.c_int)(self.engine.get_function_address(code.entry))
         self._layout = _layout(code.result)
         address = 0 if code.result is None else self.engine.get_function_address(RELEASE)
         self._give_up = ctypes.PYFUNCTYPE(None, ctypes.c_void_p)(address)
@@ -173,5 +174,5 @@ def load(kernel: Any, text: str, arguments: Described, folder: Path = SHIPPED) -
             continue
         platform, features = host()
         if code.platform == platform and features.issuperset(code.features) and _found(code.symbols):
-            return Compiled(code, machine_code)
+            return Compiled(code, machine_code, kernel.shares)
     return None

@@ -113,9 +113,9 @@ class Notes:
         """Note something that is in the result, but not as it should be."""
         self.count("simplified", what)
 
-    def remark(self, sentence: str) -> None:
-        """Note a sentence about the whole."""
-        self.count("remark", sentence)
+    def remark(self, sentence: str, times: int = 1) -> None:
+        """Note a sentence about the whole, or about so many of its parts."""
+        self._add("remark", sentence, times)
 
     def boxed(self, character: str) -> None:
         """Note a character that no font has; all of them become one note."""
@@ -123,8 +123,12 @@ class Notes:
 
     def count(self, kind: Kind, what: str) -> None:
         """Note something once more."""
-        what = printable(what)
-        self._counts[kind][what] = self._counts[kind].get(what, 0) + 1
+        self._add(kind, what, 1)
+
+    def _add(self, kind: Kind, what: str, times: int) -> None:
+        if times:
+            what = printable(what)
+            self._counts[kind][what] = self._counts[kind].get(what, 0) + times
 
     @property
     def boxes(self) -> frozenset[str]:

@@ -101,7 +101,8 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     """Read one source, split it if the parameters say so, and build its trees."""
     from vexture.reading import drawing_of
     from vexture.texture.texture import Root
-    from vexture.tree.build import build_tree, largest_shift
+    from vexture.tree.bounds import largest_shift
+    from vexture.tree.build import build_tree
     from vexture.tree.planar.sheets import Sheet, notes_of_sheets, sheets_of
     from vexture.tree.planar.style import restylable, style_of
 

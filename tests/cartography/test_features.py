@@ -72,9 +72,9 @@ def test_ids_are_unique_and_say_what_they_were():
     frame = squares().assign(code=["x", "x", None, "x"])
     notes = Notes()
     assert read_features(frame, id="code", notes=notes).ids.tolist() == ["x", "x#2", "#2", "x#3"]
-    assert [note.message for note in notes.listed] == [
-        "1 features have no 'code'; their ids are # and their number",
-        "2 features have an id that another had before; theirs end in #2, #3, ...",
+    assert [str(note) for note in notes.listed] == [
+        "a feature has no 'code': its id is # and its number",
+        "a feature has an id that another had before: its own ends in #2, #3, ... (2)",
     ]
 
 
@@ -99,7 +99,7 @@ def test_lines_points_empty_and_broken_geometries():
     assert shapely.area(found.rings.shapes).sum() == pytest.approx(2)
     assert {str(note) for note in notes.listed} == {
         "feature without geometry (2)",
-        "1 of its polygons crossed or overlapped themselves and were repaired",
+        "a polygon that crossed or overlapped itself is repaired",
     }
 
 

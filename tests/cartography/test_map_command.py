@@ -217,7 +217,7 @@ def test_borders_that_are_equal_are_not_touched_and_others_are(monkeypatch):
     assert any("snapped" in message for message in messages(mapped(source.set_geometry(off))))
     assert snapped
     snapped.clear()
-    assert any("lie below" in message for message in messages(mapped(frame(overlapping(), METRES))))
+    assert any("lies below" in message for message in messages(mapped(frame(overlapping(), METRES))))
     assert snapped
 
 

@@ -18,6 +18,7 @@ ELSEWHERE = {
     "from-svg-to-three": "web/test_guide_three.py",
     "coastal-data": "flood/test_guide_coastal.py",
     "fonts": "web/test_guide_fonts.py",
+    "web-maps": "web/test_guide_maps.py",
 }
 TESTS = Path(__file__).parents[1]
 

@@ -1,39 +1,21 @@
 """Tiles by several processes and a cluster: the same bytes, also where they are killed."""
 
 import hashlib
-import os
 import signal
 import subprocess
 import sys
 import time
-from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
 from tile_sources import write_many
 
+from clusters import cluster_of
 from vexture.tiles.build import make_tiles
 from vexture.tiles.options import TileOptions
 from vexture.tiles.store import SUFFIX
 
-SECONDS = 60
 ZOOM = 8
-
-
-@contextmanager
-def running(*words, says):
-    """A part of Dask in a process of its own, once it says something."""
-    command = [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]]
-    with subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as process:
-        try:
-            for line in process.stderr:
-                if says in line:
-                    yield process, line
-                    break
-            else:
-                pytest.fail(f"{words} ended with {process.wait(SECONDS)}")
-        finally:
-            process.kill()
 
 
 @pytest.fixture(scope="module")
@@ -75,21 +57,13 @@ def test_a_killed_run_goes_on_and_ends_with_the_same_bytes(source, made_here, tm
 
 @pytest.mark.long
 def test_a_cluster_makes_the_same_bytes_though_a_worker_is_killed(source, made_here, tmp_path):
-    here = ("--host", "127.0.0.1")
-    with ExitStack() as opened:
-        scheduler = running("dask_scheduler", *here, "--port", "0", "--no-dashboard", says="Scheduler at:")
-        address = opened.enter_context(scheduler)[1].split()[-1]
-        more = ("--nthreads", "1", "--no-dashboard", "--no-nanny")
-        workers = [
-            opened.enter_context(running("dask_worker", address, *here, *more, says="Registered to:"))[0]
-            for _ in range(2)
-        ]
-        killed = []
+    killed = []
+    with cluster_of(2) as (address, workers):
 
         def told(what, number, count):
             if what == "parts" and count > 1 and number == 1 and not killed:
                 killed.append(count)
-                os.kill(workers[0].pid, signal.SIGKILL)
+                workers[0].kill()
 
         output = tmp_path / "parcels.pmtiles"
         make_tiles(source, output, TileOptions(max_zoom=ZOOM, scheduler=address), told)

@@ -18,7 +18,8 @@ from vexture.drawing import Path as Outline
 from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.layout import LATTICE, MOST_CURVES, MOST_DEPTH
 from vexture.renderers.exact import render_exact
-from vexture.tree.build import DEFAULT_CAPACITY, build_tree
+from vexture.tree.bounds import DEFAULT_CAPACITY
+from vexture.tree.build import build_tree
 
 ROOT = Path(__file__).parents[2]
 SHAPES = sorted((ROOT / "examples" / "shapes").glob("*.svg"))

@@ -7,10 +7,11 @@ import pytest
 
 from vexture.contours import ring_contours
 from vexture.drawing import Drawing, FillRule, Path
-from vexture.tree.build import DEFAULT_DEPTH, SLICE, bounds_of, grow_on, new_growth
+from vexture.tree.bounds import DEFAULT_DEPTH, bounds_of
+from vexture.tree.build import SLICE, grow_on, new_growth
 from vexture.tree.cubics import gather
 from vexture.tree.divide import CROWDED, RUN, PiecePool, divide
-from vexture.tree.growth import LAST, WAITING, Growth, tree_of, with_needed_room
+from vexture.tree.growth import LAST, PIECES, WAITING, Growth, tree_of, with_needed_room
 from vexture.tree.tree import MOST_QUADS
 
 
@@ -33,10 +34,10 @@ def grown(drawing, in_runs, tolerance=0.0, max_depth=DEFAULT_DEPTH):
     tree, _ = new_growth(cubics, owner, max_depth, in_runs)
     tree = Growth(*tree)
     runs = int((tree.pool[2][: tree.stack[0, LAST]] < 0).sum())
-    grow_on(tree, rules, bounds, SLICE)
+    grow_on(tree, rules, bounds, SLICE, 0)
     while tree.counts[WAITING] > 0:
         tree = with_needed_room(tree)
-        grow_on(tree, rules, bounds, SLICE)
+        grow_on(tree, rules, bounds, SLICE, 0)
     return tree_of(tree), runs
 
 
@@ -75,7 +76,7 @@ def test_lists_of_few_pieces_hold_no_runs(at_limit):
     growth, child_at = Growth(*tree), np.empty(9, np.int64)
     pool, last = PiecePool(*growth.pool), int(growth.stack[0, LAST])
     middle = np.median(cubics[:, 0], axis=0)
-    divide(pool, 0, last, 0.9 * middle[0], middle[1], 1e-6, len(cubics), at_limit, child_at)
+    divide(pool, 0, last, 0.9 * middle[0], middle[1], 1e-6, int(growth.stack[0, PIECES]), at_limit, child_at)
     lists = [pool.numbers[start:end] for start, end in pairwise(child_at[:5].tolist())]
     crowded = [np.where(numbers < 0, RUN, 1).sum() > CROWDED for numbers in lists]
     assert [bool((numbers < 0).any()) for numbers in lists] == [not at_limit and many for many in crowded]

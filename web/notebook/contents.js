@@ -100,10 +100,14 @@ export class Colored {
     if (root !== this.#root || this.#shapes.size) return false;
     const isNew = coloring !== this.#coloring;
     /** @type {Map<string, Color | 'own'>} */
-    const paints = new Map(isNew ? coloring : []);
+    const paints = new Map();
+    if (isNew) {
+      const known = this.#coloring;
+      for (const [name, color] of coloring ?? []) if (color !== known?.get(name)) paints.set(name, color);
+    }
     for (const name of Object.keys(before)) if (!(name in colors)) paints.set(name, coloring?.get(name) ?? 'own');
     for (const [name, color] of Object.entries(colors)) {
-      if (isNew || String(color) !== String(before[name])) paints.set(name, color);
+      if (paints.has(name) || String(color) !== String(before[name])) paints.set(name, color);
     }
     this.#paint(paints);
     this.#colors = colors;
@@ -119,11 +123,52 @@ export class Colored {
  * @param {{ colors: DataView, places: DataView }} sent the colours, and for each element the place of its own
  * @returns {Coloring}
  */
-export function coloringOf({ elements }, { colors, places }) {
-  const bytes = places.byteLength / elements.length;
-  const read = bytes === 1 ? places.getUint8 : bytes === 2 ? places.getUint16 : places.getUint32;
-  const parts = [0, 1, 2, 3];
-  const known = Array.from({ length: colors.byteLength / 8 }, (_, place) =>
-    /** @type {Color} */ (parts.map((part) => colors.getUint16(8 * place + 2 * part, true) / COLOR_ONE)));
-  return new Map(elements.map(({ name }, number) => [name, known[read.call(places, bytes * number, true)]]));
+export function coloringOf(style, sent) {
+  return new Steps(style, sent, 1).at(0);
+}
+
+/** Colours of all elements at each step of time. */
+export class Steps {
+  #elements;
+  #count;
+  /** @type {(place: number) => Color} of all elements, step after step */
+  #color;
+
+  /**
+   * @param {import('../src/style.js').Style} style
+   * @param {{ colors: DataView, places: DataView }} sent the colours, and for each step and element the place of its own
+   * @param {number} count of the steps
+   */
+  constructor({ elements }, { colors, places }, count) {
+    const bytes = places.byteLength / (elements.length * count);
+    const read = bytes === 1 ? places.getUint8 : bytes === 2 ? places.getUint16 : places.getUint32;
+    const parts = [0, 1, 2, 3];
+    const known = Array.from({ length: colors.byteLength / 8 }, (_, place) =>
+      /** @type {Color} */ (parts.map((part) => colors.getUint16(8 * place + 2 * part, true) / COLOR_ONE)));
+    this.#elements = elements;
+    this.#count = count;
+    this.#color = (place) => known[read.call(places, bytes * place, true)];
+  }
+
+  /** @param {number} time in steps; between two of them colours are mixed @returns {Coloring} */
+  at(time) {
+    const held = Math.min(Math.max(time, 0), this.#count - 1);
+    const first = Math.floor(held);
+    const share = held - first;
+    const size = this.#elements.length;
+    /** @type {(number: number) => Color} */
+    const color = (number) => {
+      const one = this.#color(first * size + number);
+      if (share === 0) return one;
+      const other = this.#color((first + 1) * size + number);
+      return one === other ? one : /** @type {Color} */ (one.map((part, k) => part + share * (other[k] - part)));
+    };
+    return new Map(this.#elements.map(({ name }, number) => [name, color(number)]));
+  }
+}
+
+/** @param {DataView} content a stream of zlib @returns {Promise<DataView>} */
+export async function inflatedView(content) {
+  const bytes = await inflated(new Uint8Array(content.buffer, content.byteOffset, content.byteLength));
+  return new DataView(bytes.buffer);
 }

@@ -1,7 +1,7 @@
 /** A drawing in an element: it follows a model, and tells it how it is moved and what is pointed at. */
 import { element } from '../viewer/dom.js';
 import { panned, toUnit, zoomed } from '../viewer/view.js';
-import { Colored, coloringOf, open, release } from './contents.js';
+import { Colored, Steps, coloringOf, inflatedView, open, release } from './contents.js';
 import { drawnOf, foundAt } from './drawn.js';
 import { listenTo } from './input.js';
 import { Tip, legendOf } from './legend.js';
@@ -10,6 +10,7 @@ import { rectOf, viewOf } from './rect.js';
 import { screenOfPage } from './screen.js';
 import { Sketch } from './sketch.js';
 import { STYLE } from './style.js';
+import { TimeBar } from './time.js';
 
 /**
  * @typedef {import('./widget.js').Model} Model
@@ -28,6 +29,10 @@ export class Stage {
   #message = element('p', { role: 'alert', hidden: true });
   #legend = legendOf(null);
   #tip = new Tip();
+  #time = new TimeBar((time) => {
+    this.model.set('time', time);
+    this.model.save_changes();
+  });
   /** Of the pointer, in pixels. @type {[number, number] | null} */
   #pointer = null;
   /** @type {import('./screen.js').Screen | null} */
@@ -50,6 +55,8 @@ export class Stage {
   #sketch = null;
   /** Of all elements. @type {{ sent: unknown, coloring: import('./contents.js').Coloring | null }} */
   #coloring = { sent: null, coloring: null };
+  /** @type {{ sent: unknown, steps: Promise<Steps> | null }} */
+  #steps = { sent: null, steps: null };
 
   /** @param {Model} model @param {Source} source */
   constructor(model, source) {
@@ -59,8 +66,9 @@ export class Stage {
     this.element = element('div', {
       class: 'vexture-stage', tabindex: 0, role: 'application', 'aria-label': `${model.get('_name')}. ${HINT}`,
       'data-lm-suppress-shortcuts': 'true', // else JupyterLab acts on the keys, too
-    }, style, this.canvas, this.#legend, this.#tip.element, this.#message);
+    }, style, this.canvas, this.#legend, this.#time.element, this.#tip.element, this.#message);
     this.#explain();
+    this.#showTime();
     this.#sized();
     this.#watchSight();
     followPixels(this.canvas, () => this.#redraw(), this.#ended.signal);
@@ -96,6 +104,7 @@ export class Stage {
   /** Take it out of the page, and free its memory. */
   dispose() {
     this.#ended.abort();
+    this.#time.stop();
     this.#screen?.remove(this);
     this.#own?.texture.dispose();
     if (this.#source && this.#content) release(this.#source);
@@ -139,10 +148,19 @@ export class Stage {
     for (const name of ['width', 'height', 'background']) acts[`change:${name}`] = () => this.#sized();
     acts['change:legend'] = () => this.#explain();
     acts['change:tip'] = () => this.#tell();
-    for (const name of ['colors', '_marked', '_coloring', 'root', 'mode']) {
+    acts['change:times'] = () => this.#showTime();
+    for (const name of ['colors', '_marked', '_coloring', '_steps', 'root', 'mode']) {
       acts[`change:${name}`] = () => void this.#color().catch((error) => this.#say(error.message));
     }
+    acts['change:time'] = () => {
+      this.#showTime();
+      void this.#color().catch((error) => this.#say(error.message));
+    };
     this.#on(acts);
+  }
+
+  #showTime() {
+    this.#time.show(this.model.get('times') ?? [], this.model.get('time') ?? 0);
   }
 
   #sized() {
@@ -160,7 +178,7 @@ export class Stage {
     const root = this.model.get('root');
     const colors = { ...this.model.get('colors'), ...this.model.get('_marked') };
     const range = texture.layersOf(root);
-    const coloring = this.#coloringOf(data.roots[range.first], this.model.get('_coloring'));
+    const coloring = await this.#coloringOf(data.roots[range.first], this.model.get('_coloring'), this.model.get('_steps'));
     if (!this.#own?.recolor(colors, coloring, root)) {
       this.#own?.texture.dispose();
       const isOwn = coloring !== null || Object.keys(colors).length > 0;
@@ -175,10 +193,26 @@ export class Stage {
     this.#redraw();
   }
 
-  /** @param {import('../src/data.js').Root} root @param {any} sent @returns {import('./contents.js').Coloring | null} */
-  #coloringOf({ style }, sent) {
+  /**
+   * @param {import('../src/data.js').Root} root
+   * @param {any} sent of one column
+   * @param {any} steps of time
+   * @returns {Promise<import('./contents.js').Coloring | null>}
+   */
+  async #coloringOf({ style }, sent, steps) {
+    if (style && steps) return (await this.#stepsOf(style, steps)).at(this.model.get('time'));
     if (sent !== this.#coloring.sent) this.#coloring = { sent, coloring: style && sent ? coloringOf(style, sent) : null };
     return this.#coloring.coloring;
+  }
+
+  /** @param {import('../src/style.js').Style} style @param {{ colors: DataView, places: DataView }} sent */
+  async #stepsOf(style, sent) {
+    if (sent !== this.#steps.sent || !this.#steps.steps) {
+      const count = this.model.get('times').length;
+      const steps = inflatedView(sent.places).then((places) => new Steps(style, { colors: sent.colors, places }, count));
+      this.#steps = { sent, steps };
+    }
+    return /** @type {Promise<Steps>} */ (this.#steps.steps);
   }
 
   /** @returns {import('../src/vector-texture.js').VectorTexture} */

@@ -13,6 +13,14 @@ export const STYLE = `
 }
 .vexture-stage .vexture-legend { right: 10px; bottom: 10px; max-height: calc(100% - 40px); overflow: hidden; }
 .vexture-stage [hidden] { display: none !important; }
+.vexture-stage .vexture-time {
+  position: absolute; left: 10px; bottom: 10px; display: flex; align-items: center; gap: 8px; padding: 4px 10px 4px 4px; border-radius: 4px;
+  background: rgba(255, 255, 255, 0.92); color: #222; box-shadow: 0 1px 4px rgba(0, 0, 0, 0.3); font: 12px/1.4 system-ui, sans-serif; cursor: default;
+}
+.vexture-time button { width: 28px; height: 24px; padding: 0; border: 0; border-radius: 3px; background: transparent; color: inherit; cursor: pointer; }
+.vexture-time button:hover { background: rgba(0, 0, 0, 0.08); }
+.vexture-time input { width: 180px; margin: 0; }
+.vexture-time output { min-width: 4em; font-variant-numeric: tabular-nums; }
 .vexture-legend figcaption { font-weight: 600; margin-bottom: 4px; }
 .vexture-legend .ramp { width: 160px; height: 12px; }
 .vexture-legend .ends { display: flex; justify-content: space-between; }

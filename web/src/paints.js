@@ -43,8 +43,13 @@ export function readPaints(paints, colors) {
   };
   if (isMap) paints.forEach(read);
   else for (const name of names) read(/** @type {Record<string, Paint>} */ (paints)[name]);
-  for (let i = 0; i < parts.length; i++) parts[i] = nearest(parts[i] * DIGITS) / DIGITS;
+  round(parts);
   return { names, parts };
+}
+
+/** To whole numbers of DIGITS, in place. @param {Float64Array} parts */
+export function round(parts) {
+  for (let i = 0; i < parts.length; i++) parts[i] = nearest(parts[i] * DIGITS) / DIGITS;
 }
 
 /**

@@ -2,7 +2,7 @@
 import { styleOf } from './element-at.js';
 import { VextureError, line } from './errors.js';
 import { MapMeans, listed } from './map-means.js';
-import { readPaints } from './paints.js';
+import { readPaints, round } from './paints.js';
 import { sendRows } from './rows.js';
 import { nearNames } from './select-root.js';
 import { composited } from './style.js';
@@ -48,16 +48,16 @@ export function setPaints(data, first, count, paints, texture, colors) {
 }
 
 /**
- * As `setPaints`, of one map, for who has a texture of their own.
+ * As `setPaints`, of one map, for who has a texture of their own, and colours as numbers.
  *
  * @param {PackedData} data
  * @param {number} root
- * @param {import('./paints.js').PaintList} paints
- * @param {import('./paints.js').Colors} colors
+ * @param {Paints} paints which are rounded
  * @returns {[number, number][]} first and end of each run of rows that may have changed
  */
-export function recolored(data, root, paints, colors) {
-  const { runs } = restyle(data, [root], readPaints(paints, colors));
+export function recolored(data, root, paints) {
+  round(paints.parts);
+  const { runs } = restyle(data, [root], paints);
   return runs.map(([from, end]) => [Math.floor(from / data.width), Math.ceil(end / data.width)]);
 }
 

@@ -103,6 +103,7 @@ test('colours are read, or refused in a line', () => {
   expect(parts('#f00')).toEqual([1, 0, 0, 1]);
   expect(parts('#00ff0033')).toEqual([0, 1, 0, 0.2]);
   expect(parts(0x0000ff)).toEqual([0, 0, 1, 1]);
+  expect(parts('rgb(255, 0,51)')).toEqual([1, 0, 0.2, 1]);
   expect(parts(null)).toEqual([0, 0, 0, 0]);
   expect(() => parts('#ggg')).toThrow('a paint is "#ggg"; give a colour of CSS, four numbers in 0..1, or null');
   const colors = new FeatureColors();
@@ -125,6 +126,14 @@ test('a paint of null hides a feature, whatever a function says of it', () => {
     colors.setPaint(paints);
     return colors.paintOf('a');
   };
-  expect(hidden({ b: '#000' })).toEqual([1, 0, 0, 1]);
-  expect(hidden({ a: null })).toEqual([0, 0, 0, 0]);
+  expect(hidden({ b: '#000' })).toBe('#ff0000');
+  expect(hidden({ a: null })).toBe(null);
+});
+
+test('a paint of undefined takes back what a feature was given', () => {
+  const colors = new FeatureColors();
+  colors.setPaint(() => '#ff0000');
+  colors.setPaint({ a: '#000', b: '#fff' });
+  colors.setPaint({ a: undefined });
+  expect(['a', 'b'].map((id) => colors.paintOf(id))).toEqual(['#ff0000', '#fff']);
 });

@@ -10,7 +10,7 @@ from math import acos, atan2, ceil, cos, hypot, pi, radians, sin, sqrt, tan
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["arc_cubics", "conic_cubics", "ellipse_cubics", "line_cubics", "straight"]
+__all__ = ["arc_cubics", "conic_cubics", "ellipse_cubics", "line_cubics", "straight", "write_lines"]
 
 QUARTER_ERROR = 2.7253e-4
 """Largest distance of one cubic from a quarter of the unit circle."""
@@ -30,12 +30,19 @@ Step = tuple[float, float, float, float, float, float]
 
 def line_cubics(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
     """Straight lines as cubics, (..., 2) -> (..., 4, 2), with inner control points at one and two thirds."""
-    chord = end - start
-    cubics = np.empty((*chord.shape[:-1], 4, 2))
-    cubics[..., 0, :], cubics[..., 3, :] = start, end
-    np.add(start, chord / 3.0, out=cubics[..., 1, :])
-    np.add(start, chord * (2.0 / 3.0), out=cubics[..., 2, :])
+    cubics = np.empty((*np.broadcast_shapes(start.shape, end.shape)[:-1], 4, 2))
+    write_lines(start, end, cubics)
     return cubics
+
+
+def write_lines(start: NDArray[np.float64], end: NDArray[np.float64], cubics: NDArray[np.float64]) -> None:
+    """Write what `line_cubics` returns: one coordinate at a time, because NumPy is slow in rows of two."""
+    for axis in range(2):
+        first, last = start[..., axis], end[..., axis]
+        chord = last - first
+        cubics[..., 0, axis], cubics[..., 3, axis] = first, last
+        np.add(first, chord / 3.0, out=cubics[..., 1, axis])
+        np.add(first, chord * (2.0 / 3.0), out=cubics[..., 2, axis])
 
 
 def straight(cubics: NDArray[np.float64]) -> NDArray[np.bool_]:

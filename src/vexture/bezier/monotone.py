@@ -10,7 +10,7 @@ from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.tolerance import PARAMETER
 
-__all__ = ["MOST_PARTS", "Pieces", "empty_pieces", "monotone_pieces", "turns", "write_monotone"]
+__all__ = ["MOST_PARTS", "Pieces", "empty_pieces", "is_monotone", "monotone_pieces", "turns", "write_monotone"]
 
 MOST_PARTS: Final = 5
 """Most pieces of a cubic, which turns at most twice in x and twice in y."""
@@ -44,9 +44,15 @@ def _is_ordered(curve: NDArray[np.float64], axis: int) -> bool:
 
 
 @kernel(allocates=False)
+def is_monotone(curve: NDArray[np.float64]) -> bool:
+    """Whether the control points never turn in x and in y, so that the cubic does not: above all a line."""
+    return _is_ordered(curve, 0) and _is_ordered(curve, 1)
+
+
+@kernel(allocates=False)
 def turns(curve: NDArray[np.float64], out: NDArray[np.float64]) -> int:
     """Write the parameters at which x or y turns, in rising order; return how many (0 to 4)."""
-    if _is_ordered(curve, 0) and _is_ordered(curve, 1):
+    if is_monotone(curve):
         return 0
     count = turning_points(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], out)
     count += turning_points(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], out[count:])

@@ -1,12 +1,13 @@
 """Maps: features of geographic data as one texture, coloured by their attributes, with a table beside it.
 
 `convert.py` begins; `prepare.py` reads the layers, and `place.py` brings features into the map's reference system;
-`coverage.py` closes gaps between polygons and orders overlaps; `colours.py` chooses colours and makes the legend;
-`marks.py` makes areas of lines and points; `paths.py` makes the drawing.
+`coverage.py` closes gaps between polygons and orders overlaps; `colours.py` chooses colours and makes the legend,
+`times.py` those of each step of time; `marks.py` makes areas of lines and points; `paths.py` makes the drawing.
 """
 
 from vexture.cartography.colours import Scale
 from vexture.cartography.convert import Map, convert_map
 from vexture.cartography.prepare import MapLayer
+from vexture.cartography.times import Times
 
-__all__ = ["Map", "MapLayer", "Scale", "convert_map"]
+__all__ = ["Map", "MapLayer", "Scale", "Times", "convert_map"]

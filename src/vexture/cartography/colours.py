@@ -14,7 +14,7 @@ from vexture.notes import Notes
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["DEFAULT_CLASSES", "NO_DATA", "Scale", "colours_of", "rgba_of"]
+__all__ = ["DEFAULT_CLASSES", "NO_DATA", "Scale", "colours_of", "hex_of", "rgba_of"]
 
 DEFAULT_CLASSES: Final = 5
 MOST_CLASSES: Final = 64
@@ -73,7 +73,7 @@ def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba
         breaks = None if kind in ("quantiles", "equal", "continuous") else _breaks(kind)
         if not is_number:
             raise ParameterError(f"`color` {scale.column!r} holds {column.type}, not numbers; give `scale` categories")
-        values = np.array([np.nan if v is None else float(v) for v in column.to_pylist()])
+        values = np.asarray(column.cast(kind_of).cast(pa.float64(), safe=False).to_numpy(), np.float64)
         if not np.isfinite(values).any():
             raise ParameterError(f"`color` {scale.column!r} holds no number; choose another column")
         rgba, entries = _continuous(values, scale) if kind == "continuous" else _classes(values, kind, breaks, scale)
@@ -82,7 +82,7 @@ def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba
     legend: dict[str, Any] = {"column": scale.column, "scale": "breaks" if kind[:1] in "-+.0123456789" else kind}
     legend["entries"] = entries
     if missing.any():
-        legend["no_data"] = {"color": _hex(rgba_of(scale.no_data, "no_data")), "count": int(missing.sum())}
+        legend["no_data"] = {"color": hex_of(rgba_of(scale.no_data, "no_data")), "count": int(missing.sum())}
     return rgba, legend
 
 
@@ -96,7 +96,8 @@ def rgba_of(text: str, parameter: str) -> Rgba:
     return np.array([*found.rgb, found.alpha])
 
 
-def _hex(rgba: Rgba) -> str:
+def hex_of(rgba: Rgba) -> str:
+    """A colour as CSS writes it."""
     from vexture.paint import Paint
 
     red, green, blue, opacity = (float(part) for part in rgba)
@@ -153,7 +154,7 @@ def _classes(
     edges.append(float(max(known.max(), edges[-1])))
     counts = np.bincount(number[np.isfinite(values)], minlength=len(colours))
     entries = [
-        {"color": _hex(colour), "label": _range(low, high), "from": low, "to": high, "count": int(count)}
+        {"color": hex_of(colour), "label": _range(low, high), "from": low, "to": high, "count": int(count)}
         for colour, (low, high), count in zip(colours, pairwise(edges), counts, strict=True)
     ]
     return rgba, entries
@@ -172,7 +173,7 @@ def _continuous(values: NDArray[np.float64], scale: Scale) -> tuple[Rgba, list[d
     rgba[~np.isfinite(values)] = np.nan
     stops = np.linspace(0.0, 1.0, STOPS)
     shown = zip(_sampled(palette, stops), (low + (high - low) * stops).tolist(), strict=True)
-    return rgba, [{"color": _hex(colour), "label": f"{value:g}", "value": value} for colour, value in shown]
+    return rgba, [{"color": hex_of(colour), "label": f"{value:g}", "value": value} for colour, value in shown]
 
 
 def _categories(values: list[str | None], scale: Scale, notes: Notes) -> tuple[Rgba, list[dict[str, Any]]]:
@@ -193,8 +194,8 @@ def _categories(values: list[str | None], scale: Scale, notes: Notes) -> tuple[R
         )
     place = {value: min(number, len(stops) - 1) for number, value in enumerate(ordered)}
     rgba = np.array([stops[place[v]] if v is not None else np.full(4, np.nan) for v in values]).reshape(-1, 4)
-    entries = [{"color": _hex(stops[k]), "label": value, "count": counts[value]} for k, value in enumerate(own)]
+    entries = [{"color": hex_of(stops[k]), "label": value, "count": counts[value]} for k, value in enumerate(own)]
     if len(own) < len(ordered):
         rest = sum(counts[value] for value in ordered[len(own) :])
-        entries.append({"color": _hex(stops[-1]), "label": OTHER, "count": rest})
+        entries.append({"color": hex_of(stops[-1]), "label": OTHER, "count": rest})
     return rgba, entries

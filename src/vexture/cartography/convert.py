@@ -13,7 +13,7 @@ from vexture.cartography.prepare import FILL, INK, MapLayer, Prepared, in_memory
 from vexture.content import about
 from vexture.deadline import DEFAULT_SECONDS, within
 from vexture.drawing import Drawing, Path
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.layout import MOST_PAINTS
 from vexture.pipeline import Conversion, run
 
@@ -28,11 +28,25 @@ DEFAULT_SIZE: Final = 1024
 
 @dataclass(frozen=True, eq=False)
 class Map:
-    """A map: its conversion with the texture, the table of attributes, and a legend of each coloured layer."""
+    """A map.
+
+    Parameters
+    ----------
+    conversion : Conversion
+        With the texture.
+    table : pyarrow.Table
+        The attributes.
+    legends : tuple of dict
+        Of each coloured layer.
+    times : dict, optional
+        Of a map that changes with time, ready for JSON: ``times``, the names of the steps; ``ids`` of the features;
+        ``colors`` of each step, those of all these; ``legend``.
+    """
 
     conversion: Conversion[Any]
     table: "pyarrow.Table"
     legends: tuple[dict[str, Any], ...]
+    times: dict[str, Any] | None = None
 
 
 def convert_map(
@@ -84,12 +98,25 @@ def converted(
 ) -> Map:
     """Convert layers that are read; parameters and errors are those of `convert_map` and `vexture.convert`."""
     given: dict[str, Any] = {"restyle": restyle, "tolerance": tolerance, "capacity": capacity}
+    if ready.steps is not None and not restyle:
+        raise ParameterError("colours change with `time` only where features can be recoloured; leave `restyle` on")
     with in_memory():
         with within(max_seconds):
             drawing = _drawing(ready, snap)
             _check_count(drawing, restyle)
         done = run(replace(drawing, notes=ready.notes.listed), split="faces", max_seconds=max_seconds, **given)
-    return Map(done, ready.table, ready.legends)
+    return Map(done, ready.table, ready.legends, _times(ready, done.texture.roots))
+
+
+def _times(ready: Prepared, roots: Sequence[Any]) -> dict[str, Any] | None:
+    """The colours of features at each step; without those that lie wholly below others."""
+    if ready.steps is None:
+        return None
+    one, steps = ready.steps
+    drawn = {name for root in roots for name in (root.style.names if root.style else ())}
+    rows = [row for row, name in enumerate(one.names.tolist()) if name in drawn]
+    legend = next(legend for legend in ready.legends if "times" in legend)
+    return replace(steps, rgba=steps.rgba[:, rows]).as_json(one.names[rows].tolist(), legend)
 
 
 def _drawing(ready: Prepared, snap: float | None) -> Drawing:

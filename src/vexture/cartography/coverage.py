@@ -88,10 +88,8 @@ def _say(before: NDArray[Any], after: NDArray[Any], size: float, notes: Notes) -
     change = shapely.area(after) - shapely.area(before)
     least = NOISE * size * size
     lost, won = int((change < -least).sum()), int((change > least).sum())
-    if lost:
-        notes.remark(f"{lost} of its polygons lie below others that overlap them: `order` says which is above")
-    if won:
-        notes.remark(f"{won} of its polygons have grown into narrow gaps beside them")
+    notes.remark("a polygon lies below others that overlap it: `order` says which is above", lost)
+    notes.remark("a polygon has grown into narrow gaps beside it", won)
 
 
 def ranks(features: Features, order: str | None) -> NDArray[np.int64]:

@@ -7,24 +7,35 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.cartography.domain import TURN, WORLD, Domain, domain_of, in_box, is_strained, is_wide
+from vexture.cartography.lines import continuous, lines_in_box, there_and_back, thicker, way_there
 from vexture.errors import SourceError
 from vexture.geo.crs import period, refuse_metres, same_system, shown_bounds, shown_system, system, transformed
 from vexture.geo.extent import Bounds
 from vexture.geo.features import Features, Lines, Points
 from vexture.geo.longitudes import jumping, unwrapped
-from vexture.geo.rings import Rings, cut, moved, refuse_far, repaired, within
+from vexture.geo.rings import Rings, moved, refuse_far, repaired
 from vexture.notes import Notes
 
 __all__ = ["MERCATOR", "placed", "units_per_metre"]
 
 MERCATOR: Final = "EPSG:3857"
-WORLD: Final = "EPSG:4326"
-
 RADIUS: Final = 6378137.0
 """Metres. Of the sphere of Web Mercator."""
 
 MOST_LATITUDE: Final = 85.0511287798066
 """Degrees. At this latitude the world in Web Mercator is a square."""
+
+DEGREES: Final = np.array([TURN, TURN / 2])
+"""Sides of the world in longitude and latitude."""
+
+EVERYWHERE: Final = (-np.inf, -np.inf, np.inf, np.inf)
+"""A side may bulge out of the box of all points."""
+
+LONGEST: Final = 5.0
+"""Degrees of a side of which the ends and the middle tell how a map bends it."""
+
+BEYOND_POINT: Final = "point beyond the map"
 
 DEGREE: Final = 111_320.0
 """Metres in a degree of latitude, as far as widths of strokes need it."""
@@ -40,57 +51,109 @@ def placed(features: Features, crs: str, notes: Notes) -> Features:
         jumps = jumping(rings, turn).any()
         rings = unwrapped(rings, turn)
         rings = repaired(rings, notes) if jumps else rings
+    if turn:
+        features = replace(features, rings=rings, lines=continuous(features.lines, turn))
     if same_system(crs, features.crs):
-        return replace(features, rings=rings)
+        wide = turn is not None and len(rings.ends) > 0 and rings.box[2] - rings.box[0] > turn
+        return (
+            _within(features, Domain((-turn / 2, -turn / 4, turn / 2, turn / 4)), notes) if turn and wide else features
+        )
     if same_system(crs, MERCATOR):
-        return _on_mercator(replace(features, rings=rings), notes)
-    move = _mover(features.crs, crs)
+        return _on_mercator(features, notes)
+    return _projected(features, crs, notes)
+
+
+def _mover(start: str, end: str, before: Move = lambda points: points) -> Move:
+    return lambda points: transformed(before(points), start, end)
+
+
+def _within_turn(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Places with their longitudes above -180 and up to 180."""
+    turns = np.ceil(degrees[:, 0] / TURN - 0.5)
+    return degrees - np.stack([TURN * turns, np.zeros(len(turns))], axis=1)
+
+
+def _projected(features: Features, crs: str, notes: Notes) -> Features:
+    """Features on another map, cut where it is torn."""
+    domain = domain_of(crs)
+    if domain is not None and period(features.crs) is None and is_wide(crs):
+        features = _in_degrees(features)
+    if period(features.crs) == TURN:
+        features = features if domain is None else _within(features, domain, notes)
+        lines = way_there(thicker(there_and_back(features.lines), LONGEST))
+        features = replace(features, rings=thicker(features.rings, LONGEST), lines=lines)
+    move, rings = _mover(features.crs, crs), features.rings
+    is_around = domain is not None and domain.pole != 0.0 and period(features.crs) == TURN
+    if is_around:  # both sides of the antimeridian are one, bit for bit
+        move = _mover(features.crs, crs, _within_turn)
     if len(rings.ends):
         rings = _usable(rings, features.crs, crs, move, notes)
+        rings = repaired(rings, notes) if is_around else rings
     lines, points = _marks(features, move, notes)
     return replace(features, rings=rings, crs=crs, lines=lines, points=points)
 
 
-def _mover(start: str, end: str) -> Move:
-    return lambda points: transformed(points, start, end)
+def _in_degrees(features: Features) -> Features:
+    """Features in longitude and latitude; straight sides stay straight in their own system."""
+    move = _mover(features.crs, WORLD)
+    rings, lines = features.rings, features.lines
+    if len(rings.ends):
+        rings = _mapped(rings, move, DEGREES)
+        refuse_far(rings, f"it has no longitude and latitude; correct it, or the `source_crs` {features.crs[:40]}")
+        rings = unwrapped(rings, TURN)
+    if len(lines.ends):
+        lines = continuous(way_there(_mapped(there_and_back(lines), move, DEGREES)), TURN)
+    points = Points(move(features.points.points), features.points.feature)
+    return Features(rings, features.ids, features.table, WORLD, lines, points)
+
+
+def _within(features: Features, domain: Domain, notes: Notes) -> Features:
+    """What of features, in longitude and latitude, a map can show as a whole."""
+    rings = in_box(features.rings, domain.box, domain.turn)
+    lines, points = lines_in_box(features.lines, domain.box, domain.turn), features.points
+    if domain.pole:
+        there = points.points[:, 1] * domain.pole >= 0.0
+        for _ in range(int((~there).sum())):
+            notes.left_out(BEYOND_POINT)
+        points = Points(points.points[there], points.feature[there])
+        if rings is not features.rings or lines is not features.lines:
+            notes.remark("the map shows the hemisphere around its pole: it is cut off at the equator")
+    return replace(features, rings=rings, lines=lines, points=points)
 
 
 def _on_mercator(features: Features, notes: Notes) -> Features:
     """Features on Web Mercator, which has no poles; beyond the antimeridian it goes on."""
-    turn, rings = period(features.crs), features.rings
-    to_world = _mover(features.crs, WORLD)
-    if len(rings.ends):
-        if turn is None:  # straight sides stay straight in their own system
-            rings = _mapped(rings, to_world, np.array([360.0, 180.0]))
-            refuse_far(rings, f"it has no longitude and latitude; correct it, or the `source_crs` {features.crs[:40]}")
-            rings = unwrapped(rings, 360.0)
+    if period(features.crs) is None:
+        features = _in_degrees(features)
+    rings, lines = features.rings, features.lines
+    low, high = _reach(rings.points, lines.points)
+    whole = bool(high[0] - low[0] > TURN)
+    clipped = bool(low[1] < -MOST_LATITUDE or high[1] > MOST_LATITUDE)
+    if whole or clipped:
+        turn = TURN if whole else None
+        side = TURN / 2 if whole else np.inf
+        box = (-side, -MOST_LATITUDE, side, MOST_LATITUDE)
         before = len(rings.outer)
-        west, south, east, north = rings.box
-        clipped = (south < -MOST_LATITUDE) or (north > MOST_LATITUDE)
-        if east - west > 360.0 or clipped:
-            rings = _world(rings, east - west > 360.0)
+        rings, lines = in_box(rings, box, turn), lines_in_box(lines, box, turn)
+        gone = before - len(np.unique(rings.polygon)) if not whole else 0
+        lost = f", and {gone} polygons are beyond it" if gone > 0 else ""
         if clipped:
-            gone = before - len(np.unique(rings.polygon)) if east - west <= 360.0 else 0
-            lost = f", and {gone} polygons are beyond it" if gone > 0 else ""
             notes.remark(f"Web Mercator ends at {MOST_LATITUDE:.2f} degrees of latitude: it is cut off there{lost}")
-        rings = replace(rings, points=_mercator(rings.points))
+    rings = replace(rings, points=_mercator(rings.points))
 
     def move(points: NDArray[np.float64]) -> NDArray[np.float64]:
-        moved = to_world(points)
-        far = np.abs(moved[:, 1]) > MOST_LATITUDE
-        return _mercator(np.where(far[:, None], np.inf, moved))
+        far = np.abs(points[:, 1]) > MOST_LATITUDE * (1.0 + 1e-12)
+        return _mercator(np.where(far[:, None], np.inf, points))
 
-    lines, points = _marks(features, move, notes)
+    lines, points = _marks(replace(features, lines=lines), move, notes, is_bent=False)
     return replace(features, rings=rings, crs=MERCATOR, lines=lines, points=points)
 
 
-def _world(rings: Rings, whole: bool) -> Rings:
-    """Polygons within the latitudes of Web Mercator and, of the `whole` world, within one turn."""
-    west, _, east, _ = rings.box
-    if whole:
-        west, east = -180.0, 180.0
-    box = (west, -MOST_LATITUDE, east, MOST_LATITUDE)
-    return cut(within(rings, box, 360.0 if whole else None), box)
+def _reach(*points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Least and greatest coordinates of finite points."""
+    every = np.concatenate(points)
+    every = every[np.isfinite(every).all(axis=1)]
+    return (every.min(axis=0), every.max(axis=0)) if len(every) else (np.zeros(2), np.zeros(2))
 
 
 def _mercator(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -101,14 +164,15 @@ def _mercator(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _usable(rings: Rings, start: str, end: str, move: Move, notes: Notes) -> Rings:
-    """Polygons moved; if some have no image, only what lies in the area of use of the new system."""
+    """Polygons moved; if some have no image, or one that is much too large, only those in the system's area of use."""
     rings_there = _mapped(rings, move, None)
-    if np.isfinite(rings_there.points).all():
-        return rings_there
+    finite = bool(np.isfinite(rings_there.points).all())
     area = system(end).area_of_use
+    if finite and (area is None or period(start) != TURN or not is_strained(rings.points, end)):
+        return rings_there
     if area is not None:
         box = _area(area.bounds, start)
-        rings_there = _mapped(cut(within(rings, box, period(start)), box), move, None)
+        rings_there = _mapped(in_box(rings, box, period(start)), move, None)
         notes.remark(f"it is cut off at the area of use of {shown_system(end)}")
     if area is None or not len(rings_there.ends) or not np.isfinite(rings_there.points).all():
         raise SourceError(f"it has no place in {shown_system(end)}; choose another `crs`")
@@ -116,9 +180,10 @@ def _usable(rings: Rings, start: str, end: str, move: Move, notes: Notes) -> Rin
 
 
 def _area(bounds: Bounds, crs: str) -> Bounds:
-    """An area of use in another system."""
-    corners = transformed(np.array([bounds[:2], bounds[2:]], np.float64), WORLD, crs)
-    (west, south), (east, north) = corners.tolist()
+    """An area of use in another system; it may go on beyond the antimeridian."""
+    west, south, east, north = bounds
+    corners = np.array([(west, south), (east + TURN * (east < west), north)], np.float64)
+    (west, south), (east, north) = (corners if period(crs) == TURN else transformed(corners, WORLD, crs)).tolist()
     return (west, south, east, north)
 
 
@@ -130,13 +195,19 @@ def _mapped(rings: Rings, move: Move, size: NDArray[np.float64] | None) -> Rings
         return replace(rings, points=image)
     low, high = known.min(axis=0), known.max(axis=0)
     sides = np.maximum(high - low, 1e-9) if size is None else size
-    return moved(rings, move, (*map(float, low), *map(float, high)), sides)  # type: ignore[arg-type]
+    return moved(rings, move, EVERYWHERE, sides)
 
 
-def _marks(features: Features, move: Move, notes: Notes) -> tuple[Lines, Points]:
-    """Lines and points, moved; those without an image are left out."""
+def _marks(features: Features, move: Move, notes: Notes, *, is_bent: bool = True) -> tuple[Lines, Points]:
+    """Lines, curved where the map bends them, and points; those without an image are left out."""
     lines, spots = features.lines, features.points
-    points = move(lines.points)
+    if len(lines.ends):
+        there_back = there_and_back(lines)
+        moved_rings = (
+            _mapped(there_back, move, None) if is_bent else replace(there_back, points=move(there_back.points))
+        )
+        lines = way_there(moved_rings)
+    points = lines.points
     owner = np.repeat(np.arange(len(lines.ends)), np.diff(lines.ends, prepend=0))
     lost = np.zeros(len(lines.ends), np.bool_)
     lost[owner[~np.isfinite(points).all(axis=1)]] = True
@@ -144,7 +215,7 @@ def _marks(features: Features, move: Move, notes: Notes) -> tuple[Lines, Points]
     moved_lines = Lines(points[kept], np.cumsum(np.diff(lines.ends, prepend=0)[~lost]), lines.feature[~lost])
     places = move(spots.points)
     there = np.isfinite(places).all(axis=1)
-    for what, count in (("line beyond the map", int(lost.sum())), ("point beyond the map", int((~there).sum()))):
+    for what, count in (("line beyond the map", int(lost.sum())), (BEYOND_POINT, int((~there).sum()))):
         for _ in range(count):
             notes.left_out(what)
     return moved_lines, Points(places[there], spots.feature[there])

@@ -13,6 +13,7 @@ from vexture.cartography.colours import Scale, colours_of, rgba_of
 from vexture.cartography.marks import strokes, width_of, widths_at
 from vexture.cartography.paths import Fit, symbol_paths
 from vexture.cartography.place import placed
+from vexture.cartography.times import Steps, Times, coloured_steps, with_steps
 from vexture.content import about
 from vexture.deadline import within
 from vexture.drawing import Drawing, Path
@@ -46,6 +47,8 @@ class MapLayer:
         As in `vexture.geo.features.read_features`; `crs` is that of the source.
     color : Scale, optional
         Colours by an attribute.
+    times : Times, optional
+        What colours show at each step of time; those of the first step are the texture's own.
     fill : str, optional
         One CSS colour for all of it.
     order : str, optional
@@ -65,6 +68,7 @@ class MapLayer:
     id: str | None = None
     columns: tuple[str, ...] | None = None
     color: Scale | None = None
+    times: Times | None = None
     fill: str | None = None
     order: str | None = None
     stroke: str = "1px"
@@ -86,6 +90,7 @@ class Painted:
     features: Features
     names: NDArray[Any]
     rgba: NDArray[np.float64] | None
+    steps: Steps | None
     lines: Rings
     symbols: tuple[Path, ...]
     """In the units of the map."""
@@ -121,6 +126,11 @@ class Prepared:
     crs: str
     name: str
     notes: Notes
+
+    @property
+    def steps(self) -> tuple[Painted, Steps] | None:
+        """The layer that changes with time, and its colours at each step."""
+        return next(((one, one.steps) for one in self.layers if one.steps is not None), None)
 
 
 @contextmanager
@@ -169,15 +179,19 @@ def _read(layer: MapLayer, crs: str, notes: Notes) -> tuple[MapLayer, Features]:
 
 
 def _columns(layer: MapLayer) -> tuple[str, ...] | None:
-    """The columns that a layer keeps or needs."""
-    if layer.columns is None:
+    """The columns that a layer keeps or needs; all, where a pattern chooses some."""
+    if layer.columns is None or (layer.times is not None and layer.times.is_pattern):
         return None
-    needed = (layer.color.column if layer.color else None, layer.order)
-    return tuple(dict.fromkeys([*layer.columns, *(name for name in needed if name is not None)]))
+    stepped = layer.times is not None
+    needed = (layer.color.column if layer.color and not stepped else None, layer.order)
+    steps = layer.times.named() if layer.times is not None else ()
+    return tuple(dict.fromkeys([*layer.columns, *steps, *(name for name in needed if name is not None)]))
 
 
 def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list[Painted], list[dict[str, Any]]]:
     """Names and colours of all features; ids that two layers share get the layer's name before them."""
+    if sum(layer.times is not None for layer, _ in read) > 1:
+        raise ParameterError("`time` is given for several sources; give it for one, and '' for the others")
     every = np.concatenate([features.ids for _, features in read])
     clash = len(set(every.tolist())) < len(every)
     if clash:
@@ -185,13 +199,28 @@ def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list
     painted, legends = [], []
     for layer, features in read:
         names = np.array([f"{layer.name}:{one}" for one in features.ids], object) if clash else features.ids
-        rgba = None
-        if layer.color is not None:
-            with about(layer.name):
+        rgba, steps, legend = None, None, None
+        with about(layer.name):
+            if layer.times is not None:
+                features, steps, legend = _stepped(layer, layer.times, features, notes)
+                rgba = steps.rgba[0]
+            elif layer.color is not None:
                 rgba, legend = colours_of(features.table, layer.color, notes)
+        if legend is not None:
             legends.append({"layer": layer.name, **legend})
-        painted.append(Painted(layer, features, names, rgba, NO_LINES, ()))
+        painted.append(Painted(layer, features, names, rgba, steps, NO_LINES, ()))
     return painted, legends
+
+
+def _stepped(layer: MapLayer, times: Times, features: Features, notes: Notes) -> tuple[Features, Steps, dict[str, Any]]:
+    """Features with the values of all steps, their colours at each, and the legend of these."""
+    features, columns, labels, title = with_steps(features, times, notes)
+    scale = replace(layer.color or Scale(""), column=title)
+    steps, legend = coloured_steps(features.table, columns, labels, scale, notes)
+    if layer.columns is not None and times.is_pattern:
+        kept = {"id", *layer.columns, *columns, layer.order, layer.id}
+        features = replace(features, table=features.table.select([n for n in features.table.column_names if n in kept]))
+    return features, steps, legend
 
 
 def _marked(painted: list[Painted], crs: str, size: int) -> tuple[tuple[Painted, ...], Fit]:

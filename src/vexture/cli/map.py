@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
@@ -11,17 +11,21 @@ from vexture.cli.options import PATH, colour_options, columns_of, scale_of
 from vexture.errors import ParameterError, counted
 
 if TYPE_CHECKING:
-    from vexture.cartography import MapLayer
+    from vexture.cartography import Map, MapLayer
 
 __all__ = ["map"]
+
+TIMES: Final = ".times.json"
+"""Suffix of the file of colours at each step."""
 
 EXAMPLE = """\b
 Examples:
   vexture map counties.gpkg --id GEOID --color population -o counties.ktx2
+  vexture map counties.gpkg --id GEOID --time 'y*' -o years.ktx2
   vexture map land.fgb roads.fgb --stroke 1px --stroke 40m --crs EPSG:28992 -o delft.ktx2
 """
 
-EACH = "once for all sources, or once for each ('' for none)"
+EACH: Final = "once for all sources, or once for each ('' for none)"
 
 
 @click.command(epilog=EXAMPLE)
@@ -34,6 +38,10 @@ EACH = "once for all sources, or once for each ('' for none)"
 @click.option("--id", "ids", metavar="COLUMN", multiple=True, help="Column of ids.  [default: the format's own]")
 @click.option("--columns", metavar="A,B,...", multiple=True, help="Attributes to keep in the table.  [default: all]")
 @click.option("--color", "--colour", metavar="COLUMN", multiple=True, help="Attribute that colours show.")
+@click.option(
+    "--time", metavar="A,B,...|y*|TABLE", multiple=True,
+    help="What colours show at each step: columns, or a Parquet, Arrow or CSV file of id, time and a value.",
+)  # fmt: skip
 @colour_options
 @click.option("--fill", metavar="COLOR", multiple=True, help="One colour of a source.")
 @click.option("--order", metavar="COLUMN", multiple=True, help="Which polygons are above.  [default: the smaller ones]")
@@ -56,21 +64,21 @@ def map(
     """
     with one_line():
         from vexture.cartography import convert_map
-        from vexture.geo.tables import check_targets, table_bytes
+        from vexture.geo.tables import check_targets
         from vexture.layout import PACKED_SUFFIX
         from vexture.texture.files import write_together
 
         if output.suffix.lower() != PACKED_SUFFIX:
             raise ParameterError(f"`output` {output}: textures are KTX2 files; name one that ends in {PACKED_SUFFIX}")
-        check_targets([output, *([] if table == "none" else [output.with_suffix(f".{table}")])], sources)
+        beside = [*([] if table == "none" else [f".{table}"]), *([TIMES] if any(options["time"]) else [])]
+        targets = [output, *(output.with_suffix(suffix) for suffix in beside)]
+        check_targets(targets, sources)
         layers = _layers(sources, symbol, options)
         kept = {name: options[name] for name in ("crs", "snap", "size", "restyle", "max_seconds")}
         if options["tolerance"] is not None:
             kept["tolerance"] = options["tolerance"]
         done = convert_map(layers, name=output.stem, **kept)
-        files = {output: done.conversion.texture.to_ktx2()}
-        if table != "none":
-            files[output.with_suffix(f".{table}")] = table_bytes(done.table, table)
+        files = _files(output, done, table)
         write_together(files)
         notes = done.conversion.notes
         if as_json:
@@ -90,22 +98,42 @@ def map(
         click.echo(f"{shown}: {counted(len(done.table), 'feature')}, {size} bytes, {done.conversion.seconds:.1f} s")
 
 
+def _files(output: Path, done: "Map", table: str) -> dict[Path, bytes]:
+    """The texture, the table, and the colours of each step of time."""
+    from vexture.geo.tables import table_bytes
+
+    files = {output: done.conversion.texture.to_ktx2()}
+    if table != "none":
+        files[output.with_suffix(f".{table}")] = table_bytes(done.table, table)
+    if done.times is not None:
+        import json
+
+        files[output.with_suffix(TIMES)] = json.dumps(done.times, separators=(",", ":")).encode()
+    return files
+
+
 def _layers(sources: tuple[Path, ...], symbol: Path | None, options: dict[str, Any]) -> "list[MapLayer]":
     """The layers that options describe."""
-    from vexture.cartography import MapLayer
+    from vexture.cartography import MapLayer, Times
     from vexture.reading import read
 
     count = len(sources)
     drawn = None if symbol is None else read(symbol)
     each = {name: _each(options[name], count, name) for name in ("layer", "where", "source_crs", "columns", "color")}
-    each |= {name: _each(options[name], count, name) for name in ("ids", "fill", "order", "stroke")}
+    each |= {name: _each(options[name], count, name) for name in ("ids", "time", "fill", "order", "stroke")}
     layers = []
     for place, source in enumerate(sources):
         own = {name: values[place] for name, values in each.items()}
-        columns, scale = columns_of(own["columns"]), scale_of(own["color"], options)
-        shape = {"stroke": own["stroke"] or "1px", "symbol": drawn, "symbol_size": options["symbol_size"]}
-        chosen = (own["layer"], own["where"], own["source_crs"], own["ids"], columns, scale, own["fill"], own["order"])
-        layers.append(MapLayer(source, *chosen, **shape))
+        columns, scale = columns_of(own["columns"]), None
+        if own["color"] is not None and own["time"] is not None:
+            raise ParameterError(f"{source}: colours show its `color` or its `time`; give one of them")
+        if own["color"] is not None or own["time"] is not None:
+            scale = scale_of(own["color"] or "", options)
+        times = None if own["time"] is None else Times(own["time"])
+        shape: dict[str, Any] = {name: own[name] for name in ("fill", "order")}
+        shape |= {"stroke": own["stroke"] or "1px", "symbol": drawn, "symbol_size": options["symbol_size"]}
+        chosen = (own["layer"], own["where"], own["source_crs"], own["ids"], columns, scale)
+        layers.append(MapLayer(source, *chosen, times=times, **shape))
     return layers
 
 

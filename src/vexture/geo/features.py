@@ -187,13 +187,12 @@ def _valid(rings: Rings, turn: float | None, notes: Notes) -> Rings:
     later = np.zeros(len(rings.outer), np.bool_)
     if turn:
         rings, polar = closed_over_poles(rings, turn)
-        if polar:
-            notes.remark(f"polygons around a pole are closed along the antimeridian: {polar}")
+        notes.remark("a polygon around a pole is closed along the antimeridian", polar)
         later = jumping(rings, turn)
     here = rings.taken(np.flatnonzero(~later)) if later.any() else rings
     wrong = int((~shapely.is_valid(here.shapes)).sum())
+    notes.remark("a polygon that crossed or overlapped itself is repaired", wrong)
     if wrong:
-        notes.remark(f"{wrong} of its polygons crossed or overlapped themselves and were repaired")
         here = repaired(here, notes)
     return here.joined(rings.taken(np.flatnonzero(later))) if later.any() else here
 
@@ -228,10 +227,8 @@ def _ids(chunk: Chunk, choice: Choice, seen: dict[str, int], notes: Notes) -> ND
         if before:
             seen[name] = 1
         texts.append(name)
-    if none:
-        notes.remark(f"{none} features have no {chunk.id_column!r}; their ids are # and their number")
-    if again:
-        notes.remark(f"{again} features have an id that another had before; theirs end in #2, #3, ...")
+    notes.remark(f"a feature has no {chunk.id_column!r}: its id is # and its number", none)
+    notes.remark("a feature has an id that another had before: its own ends in #2, #3, ...", again)
     return np.array(texts, object)
 
 

@@ -9,6 +9,7 @@ from vexture.errors import DeviceError, ParameterError
 from vexture.notes import warn_of
 
 if TYPE_CHECKING:
+    from vexture.cartography import Times
     from vexture.notebook.map_widget import MapWidget
 
 __all__ = ["map"]
@@ -25,8 +26,9 @@ NAMES: Final = {"source_crs": "crs"}
 
 def map(
     source: Any,
-    column: str | None = None,
+    column: str | Sequence[str] | None = None,
     *,
+    times: Any = None,
     tooltip: bool | Sequence[str] = True,
     legend: bool = True,
     width: int | None = None,
@@ -41,8 +43,11 @@ def map(
     ----------
     source : GeoDataFrame or path
         A file that ``vexture map`` reads.
-    column : str, optional
-        Attribute that colours show.
+    column : str or sequence of str, optional
+        Attribute that colours show; several, or a pattern such as ``y*``, are those of the steps of time.
+    times : sequence of str, table, DataFrame or path, optional
+        Names of the steps; or a table of ``id``, ``time`` and a value, in place of `column`. With steps a slider is
+        shown, and the trait `time` is the step.
     tooltip : bool or sequence of str
         Attributes that are told of the feature under the pointer; by default all.
     legend : bool
@@ -56,7 +61,8 @@ def map(
     Returns
     -------
     MapWidget
-        Its traits `column`, `selected`, `hovered`, `picked` and `view` change the picture, and tell what users do.
+        Its traits `column`, `time`, `selected`, `hovered`, `picked` and `view` change the picture, and tell what users
+        do.
 
     Raises
     ------
@@ -82,20 +88,21 @@ def map(
         from vexture.notebook.map_widget import MapWidget
     except ModuleNotFoundError as error:
         raise DeviceError(f"map needs the package {error.name}: pip install 'vexture[notebook,map]'") from None
-    from vexture.cartography import MapLayer, Scale
+    from vexture.cartography import MapLayer, Scale, Times
     from vexture.cartography.convert import DEFAULT_SIZE, converted
     from vexture.cartography.place import MERCATOR
     from vexture.cartography.prepare import prepared
     from vexture.deadline import DEFAULT_SECONDS
 
     fields = {name: options.pop(name) for name in OF_SCALE if name in options}
-    column = None if column is None else str(column)
+    changing = _times(column, times, Times)
+    column = None if column is None or changing is not None else str(column)
     scale = Scale(column or "", **{("kind" if name == "scale" else name): value for name, value in fields.items()})
     of_layer = {NAMES.get(name, name): options.pop(name) for name in OF_LAYER if name in options}
     for name in options:
         if name not in OF_MAP:
             raise ParameterError(f"map has no option {name!r}; leave it out")
-    layer = MapLayer(source, color=None if column is None else scale, **of_layer)
+    layer = MapLayer(source, color=None if column is None and changing is None else scale, times=changing, **of_layer)
     title = None if isinstance(source, str | os.PathLike) else "map"
     first: dict[str, Any] = {"crs": MERCATOR, "size": DEFAULT_SIZE, "max_seconds": DEFAULT_SECONDS}
     first |= {given: value for given, value in options.items() if given in first}
@@ -106,3 +113,21 @@ def map(
     traits = {name: value for name, value in shown.items() if value is not None}
     conversion = partial(converted, ready, **later, capacity=CAPACITY)
     return MapWidget(ready, scale, conversion, tooltip=tooltip, has_legend=legend, **traits)
+
+
+def _times(column: Any, times: Any, kind: "type[Times]") -> "Times | None":
+    """What changes with time, of the columns and the names of steps, or of a table."""
+    several = column is not None and (not isinstance(column, str) or kind(column).is_pattern)
+    if several:
+        if times is not None and kind(times).is_table:
+            raise ParameterError("`times` is a table, and `column` names columns of steps; give one of them")
+        return kind(column, None if times is None else tuple(str(each) for each in times))
+    if times is None:
+        return None
+    if not kind(times).is_table:
+        raise ParameterError("`times` names steps; give the `column` of each, or a table of id, time and a value")
+    if column is not None:
+        raise ParameterError(
+            f"`times` has the values, so `column` {column!r} is not shown; leave it out, and set it later"
+        )
+    return kind(times)

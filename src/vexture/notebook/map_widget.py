@@ -18,6 +18,7 @@ from vexture.cartography.colours import colours_of
 from vexture.cartography.prepare import Prepared
 from vexture.errors import ParameterError
 from vexture.notebook.map_picture import map_picture
+from vexture.notebook.map_steps import coded, steps_of
 from vexture.notebook.pending import Pending
 from vexture.notebook.picture import MARGIN, Rect, png_of
 from vexture.notebook.shared import shared
@@ -32,9 +33,6 @@ if TYPE_CHECKING:
     import pyarrow
 
 __all__ = ["MapWidget"]
-
-COLOUR_ONE: Final = 10_000
-"""What 1 of a colour is, as it is sent: colours of elements have four digits."""
 
 MOST_PIXELS: Final = 4096
 """Of a side of a picture."""
@@ -55,7 +53,11 @@ class MapWidget(VectorWidget):
     Attributes
     ----------
     column : str or None
-        Attribute that colours show.
+        Attribute that colours show; None of a map that shows its steps of time.
+    time : float
+        In steps, from 0; between two of them colours are mixed. The slider changes it, and so may Python.
+    times : list of str
+        Names of the steps; none where another column is shown.
     selected : str or None
         Name of a feature, which is shown in another colour; a click selects.
     legend : dict or None
@@ -70,6 +72,9 @@ class MapWidget(VectorWidget):
 
     column = traitlets.Unicode(None, allow_none=True)
     selected = traitlets.Unicode(None, allow_none=True).tag(sync=True)
+    time = traitlets.CFloat(0.0).tag(sync=True)
+    times: Any = traitlets.List(trait=traitlets.Unicode()).tag(sync=True)
+    _steps: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     legend: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     tip: Any = traitlets.List().tag(sync=True)
     _marked = traitlets.Dict().tag(sync=True)
@@ -77,7 +82,7 @@ class MapWidget(VectorWidget):
     _picture: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     _wanted: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     _failure = traitlets.Unicode().tag(sync=True)
-    saved_traits = ("legend", "selected", "_marked", "_coloring")
+    saved_traits = ("legend", "selected", "time", "times", "_marked", "_coloring", "_steps")
 
     def __init__(
         self,
@@ -92,17 +97,21 @@ class MapWidget(VectorWidget):
         self.table, self._notes = ready.table, ready.notes.listed
         self._ids = [str(name) for name in ready.table.column("id").to_pylist()]
         self._row = {name: row for row, name in enumerate(self._ids)}
-        self._told = _told(ready.table, tooltip)
         self._scale, self._has_legend, self._is_recolored = scale, has_legend, False
         self._drawn = map_picture(ready)
         self._rgba = self._drawn.colours(len(self._ids))
+        self._changing = steps_of(ready, self._rgba)
+        self._told = _told(ready.table, tooltip, self._changing.columns if self._changing else ())
         self._style_rows: NDArray[np.intp] | None = None
         self._last: tuple[Size, tuple[float, ...], NDArray[np.float32]] | None = None
         legend = _legend(ready.legends[0]) if ready.legends and has_legend else None
-        own = {"_home": _home(ready.fit.sides), "_name": ready.name, "height": HEIGHT}
-        super().__init__(None, **{**own, **traits}, column=scale.column or None, legend=legend)
+        own: dict[str, Any] = {"times": list(self._changing.labels) if self._changing else []}
+        own |= {"_home": _home(ready.fit.sides), "_name": ready.name, "height": HEIGHT}
+        column = None if self._changing else scale.column or None
+        super().__init__(None, **{**own, **traits}, column=column, legend=legend)
         self._send_picture({"view": self.view, "size": [self.width or PICTURE_WIDTH, self.height]})
         self.observe(self._recolour, "column")
+        self.observe(self._go, "time")
         self.observe(self._mark, "selected")
         self.observe(self._tell, "hovered")
         self.observe(self._select, "picked")
@@ -114,8 +123,10 @@ class MapWidget(VectorWidget):
     @property
     def texture(self) -> Texture:
         """The converted map; it is waited for."""
-        self._pending.result()
-        self._arrived()
+        try:
+            self._pending.result()
+        finally:
+            self._arrived()
         return super().texture
 
     def _arrived(self) -> None:
@@ -134,8 +145,7 @@ class MapWidget(VectorWidget):
             self._texture = texture
             with self.hold_sync():
                 self._source = shared(content)
-                if self._is_recolored:
-                    self._coloring = self._coded()
+                self._send_colours()
                 self._mark({"new": self.selected})
                 self.send_state("colors")  # without those of what is hidden
                 self._picture = None
@@ -151,12 +161,17 @@ class MapWidget(VectorWidget):
         assert self._style_rows is not None
         return frozenset(self._ids[row] for row in self._style_rows.tolist())
 
-    def _coded(self) -> dict[str, Any]:
-        """Colours of the elements of the style: each one once, and the place of each element's among them."""
-        rgba = np.uint16(np.rint(COLOUR_ONE * self._rgba[self._style_rows]))
-        unique, places = np.unique(rgba.view(np.uint64).ravel(), return_inverse=True)
-        kind = np.uint8 if len(unique) <= 1 << 8 else np.uint16 if len(unique) <= 1 << 16 else np.uint32
-        return {"colors": unique.tobytes(), "places": places.astype(kind).tobytes()}
+    def _send_colours(self) -> None:
+        """Send the colours of the elements of the style that are not the texture's: of all steps, or of a column."""
+        if self._style_rows is None:
+            return
+        timed = self._changing is not None and bool(self.times)
+        if timed and self._steps is None:
+            assert self._changing is not None
+            self._steps = self._changing.sent(self._style_rows)
+        elif not timed:
+            self._steps = None
+        self._coloring = coded(self._rgba[self._style_rows]) if self._is_recolored and not timed else None
 
     def _send_picture(self, wanted: Any) -> None:
         """Send a picture of a view, (x, y, width, height), in so many pixels."""
@@ -219,6 +234,14 @@ class MapWidget(VectorWidget):
             )
         return name
 
+    @traitlets.validate("time")
+    def _checked_time(self, proposal: Any) -> float:
+        time = float(proposal["value"])
+        last = len(self._changing.labels) - 1 if self._changing else 0
+        if not 0.0 <= time <= last:
+            raise ParameterError(f"`time` is {time:g}; it must be in 0..{last}, in steps")
+        return time
+
     @traitlets.validate("selected")
     def _checked_selected(self, proposal: Any) -> Any:
         if proposal["value"] is not None and proposal["value"] not in self._row:
@@ -226,33 +249,57 @@ class MapWidget(VectorWidget):
         return proposal["value"]
 
     def _recolour(self, change: Any) -> None:
-        if change["new"] is None:
+        """Show another column, or again the steps of time."""
+        if change["new"] is not None:
+            rgba, legend = self._colours_of(change["new"])
+        elif self._changing is not None:
+            rgba, legend = self._changing.at(self.time), self._changing.legend
+        else:
             return
-        scale = replace(self._scale, column=change["new"])
+        self._rgba, self._is_recolored = rgba, True
+        with self.hold_sync():
+            self.times = list(self._changing.labels) if self._changing and change["new"] is None else []
+            self._send_colours()
+            self._mark({"new": self.selected})
+            self.legend = _legend(legend) if self._has_legend else None
+            self._draw_again()
+
+    def _colours_of(self, column: str) -> tuple[NDArray[np.float64], dict[str, Any]]:
+        scale = replace(self._scale, column=column)
         try:
             rgba, legend = colours_of(self.table, scale, Notes())
         except ParameterError:  # a column of texts: the scale was chosen for another one
             rgba, legend = colours_of(self.table, replace(scale, kind="categories", palette=None), Notes())
-        self._rgba, self._is_recolored = rounded(rgba), True
-        with self.hold_sync():
-            if self._style_rows is not None:
-                self._coloring = self._coded()
-            self._mark({"new": self.selected})
-            self.legend = _legend(legend) if self._has_legend else None
-            if self._picture is not None:
-                self._send_picture({name: self._picture[name] for name in ("view", "size")})
+        return rounded(rgba), legend
+
+    def _go(self, change: Any) -> None:
+        """Another time: the page has its colours, and only a picture in place of the texture is drawn again."""
+        if self._changing is None or not self.times:
+            return
+        self._rgba, self._is_recolored = self._changing.at(change["new"]), True
+        self._draw_again()
+        self._tell({"new": self.hovered})
+
+    def _draw_again(self) -> None:
+        """Draw the picture that stands for the texture."""
+        if self._picture is not None:
+            self._send_picture({name: self._picture[name] for name in ("view", "size")})
 
     def _mark(self, change: Any) -> None:
         """Colour what is selected."""
         name = change["new"]
         self._marked = {name: SELECTED} if name is not None and self._is_seen(name) else {}
-        if "name" in change and self._picture is not None:
-            self._send_picture({name: self._picture[name] for name in ("view", "size")})
+        if "name" in change:
+            self._draw_again()
 
     def _tell(self, change: Any) -> None:
         row = self._row.get((change["new"] or {}).get("element") or "")
         values = {} if row is None else self.table.slice(row, 1).to_pylist()[0]
-        self.tip = [[name, shown(values[name])] for name in self._told if name in values]
+        tip = [[name, shown(values[name])] for name in self._told if name in values]
+        if row is not None and self._changing is not None and self.times:
+            name, value = self._changing.value(self.table, row, self.time)
+            tip.append([name, shown(value)])
+        self.tip = tip
 
     def _select(self, change: Any) -> None:
         found = (change["new"] or {}).get("element")
@@ -278,11 +325,11 @@ def _sent(made: Map) -> tuple[Map, bytes]:
     return made, zlib.compress(made.conversion.texture.to_ktx2(deflate=False))
 
 
-def _told(table: "pyarrow.Table", tooltip: bool | Sequence[str]) -> list[str]:
-    """Attributes that a tip has."""
+def _told(table: "pyarrow.Table", tooltip: bool | Sequence[str], steps: Sequence[str]) -> list[str]:
+    """Attributes that a tip has; those of steps only if they are named."""
     names: list[str] = table.column_names
     if isinstance(tooltip, bool):
-        return names[:MOST_TOLD] if tooltip else []
+        return [name for name in names if name not in steps][:MOST_TOLD] if tooltip else []
     for name in tooltip:
         if name not in names:
             raise ParameterError(f"`tooltip`: there is no column {name!r}; the columns are {', '.join(names[:8])}")

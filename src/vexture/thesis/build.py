@@ -32,7 +32,7 @@ from vexture.thesis.subdivide import Cell, Level, cell_of, children
 from vexture.thesis.tree import CellTree
 from vexture.tolerance import CLOSED
 from vexture.tree.boundary import MOST_RESOLVED, crowded_area
-from vexture.tree.build import check_whole
+from vexture.tree.bounds import check_whole
 from vexture.tree.cubics import gather
 from vexture.tree.tree import MOST_QUADS
 

@@ -6,6 +6,7 @@ from math import atan, degrees, exp, pi
 from pathlib import Path
 from typing import Any, BinaryIO, Final
 
+from vexture.content import about
 from vexture.errors import DeviceError, SourceError, VextureError, reason_of
 from vexture.geo.extent import Bounds
 from vexture.geo.tables import check_targets
@@ -119,7 +120,8 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
     def pieces() -> Iterator[Pieces]:
         nonlocal count, others
         for features in batches(source, **options.reading, notes=notes):
-            attributes.add(features)
+            with about(str(source)):
+                attributes.add(features)
             others += len(features.lines.ends) + len(features.points.points)
             found = in_world(features, count, options.max_zoom, notes)
             count += len(features.ids)
@@ -131,9 +133,10 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
     parts = partitioned(pieces(), store.sources, last_zoom(options.max_zoom, options.step), options.step)
     box = shapely.total_bounds(shapely.box(*zip(*boxes, strict=True))).tolist() if boxes else None
     if others and boxes:
-        notes.remark(f"{others} lines and points are left out, as tiles have polygons only; draw them by vexture map")
+        notes.remark("a line or point is left out, as tiles have polygons only: vexture map draws them", others)
     facts: dict[str, Any] = {"parts": [[*part.tile, part.weight] for part in parts], "bounds": box, "features": count}
-    facts["legends"] = attributes.close(options.layer or Path(source).name.partition(".")[0], notes)
+    with about(str(source)):
+        facts["legends"] = attributes.close(options.layer or Path(source).name.partition(".")[0], notes)
     facts["others"] = others
     facts["notes"] = [[note.kind, note.message, note.count] for note in notes.listed]
     store.write_parts(facts)

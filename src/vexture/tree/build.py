@@ -1,18 +1,17 @@
 """Building a `Tree` from a drawing: cells are divided depth first until each is a leaf."""
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.monotone import Pieces, write_monotone
 from vexture.deadline import check_time
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, ParameterError, SourceError
+from vexture.errors import SourceError
 from vexture.kernels import kernel
-from vexture.layout import LATTICE, MOST_CURVES, MOST_DEPTH
+from vexture.layout import LATTICE, MOST_CURVES
 from vexture.tolerance import CLOSED
+from vexture.tree.bounds import DEFAULT_CAPACITY, DEFAULT_DEPTH, Bounds, bounds_of, check_growth
 from vexture.tree.cubics import gather
 from vexture.tree.divide import CROWDED, PARTS, RUN, PiecePool, divide, holds_runs, list_all
 from vexture.tree.growth import (
@@ -38,54 +37,17 @@ from vexture.tree.growth import (
     with_needed_room,
 )
 from vexture.tree.leaf import DIVIDE, Leaf, Workspace, leaf_of, new_workspace
+from vexture.tree.parts import LARGE, PART, grow_parts, usual_threads
 from vexture.tree.tree import MOST_QUADS, Tree
 from vexture.tree.winding import child_windings, inside
 
-__all__ = [
-    "CELL",
-    "DEFAULT_CAPACITY",
-    "DEFAULT_DEPTH",
-    "SLICE",
-    "Bounds",
-    "bounds_of",
-    "build_tree",
-    "check_growth",
-    "check_whole",
-    "grow",
-    "grow_on",
-    "largest_shift",
-    "new_growth",
-    "root_paths",
-]
-
-DEFAULT_CAPACITY = 8
-"""Pieces in a leaf."""
-
-DEFAULT_DEPTH = 16
-"""Depth limit. Cells of this depth are 1.5e-5 of the drawing wide."""
-
-DISPLACEMENT = 2.0
-"""Lattice units by which a curve may move: its points are rounded when it is cut, and again in its leaf."""
-
-COINCIDENT = 0.25
-"""Share of the largest shift within which the pieces of a crowded cell count as one. Rounding takes half of it."""
+__all__ = ["CELL", "SLICE", "build_tree", "grow", "grow_on", "new_growth", "root_paths"]
 
 SLICE = 300_000
 """Work between two looks at the clock, some 0.1 s: pieces in the cells that are divided, and `CELL` for each cell."""
 
 CELL = 20
 """Work of dividing a cell without pieces, and of its leaves."""
-
-
-class Bounds(NamedTuple):
-    """Limits of a tree."""
-
-    capacity: int  # pieces in a leaf
-    tolerance: float  # unit-square units
-    near: float  # unit-square units within which pieces of a crowded cell are one
-    least_depth: int  # depth of the largest leaf with pieces
-    max_depth: int
-    most_quads: int
 
 
 class Work(NamedTuple):
@@ -145,7 +107,8 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
     at_limit = depth + 1 == bounds.max_depth
     pieces = divide(pool, first, last, xm, ym, grain, stack[top, PIECES], at_limit, child_at)
     touching = present[first_path:last_path]
-    child_windings(pool.points, pool.path, pool.numbers, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
+    lists = (pool.points, pool.path, pool.numbers, pool.owner)
+    child_windings(lists, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
     first_below[quad, 0], first_below[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = last_path
     for child in range(4):
@@ -193,35 +156,51 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
 
 
 @kernel
-def root_paths(points: NDArray[np.float64], path: NDArray[np.int64]) -> tuple[NDArray[np.int64], int, float]:
-    """Paths of the unit square with corner windings 0; move ends into the square, and return by how much at most.
-
-    The number of paths is returned behind their list, which has room for more.
-    """
-    paths = 0
-    for i in range(len(path)):
-        paths += 1 if i == 0 or path[i] != path[i - 1] else 0
-    present, outside, k = np.zeros((5 * paths + 64, 2), np.int64), 0.0, -1
-    for i in range(len(path)):
-        if i == 0 or path[i] != path[i - 1]:
-            k += 1
-            present[k, 0] = path[i]
+def _into_square(points: NDArray[np.float64]) -> float:
+    """Move ends of pieces into the unit square, and return by how much at most."""
+    outside = 0.0
+    for i in range(len(points)):
         for end in (0, 3):
             for axis in range(2):
                 inner = min(max(points[i, end, axis], 0.0), 1.0)
                 outside = max(outside, abs(points[i, end, axis] - inner))
                 points[i, end, axis] = inner
-    return present, paths, outside
+    return outside
 
 
-@kernel(ahead=True)
-def grow_on(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, most_work: int) -> None:
-    """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done."""
+@kernel
+def root_paths(pool: PiecePool, listed: int) -> tuple[NDArray[np.int64], int]:
+    """Paths of the unit square with corner windings 0, with room for more, and their number."""
+    paths, before = 0, -1
+    present = np.zeros((16, 2), np.int64)
+    for counted in (True, False):
+        if not counted:
+            present = np.zeros((5 * paths + 64, 2), np.int64)
+            paths, before = 0, -1
+        for place in range(listed):
+            i = pool.numbers[place]
+            path = pool.path[i] if i >= 0 else pool.owner[RUN * (-1 - i)]
+            if path != before:
+                if not counted:
+                    present[paths, 0] = path
+                paths, before = paths + 1, path
+    return present, paths
+
+
+@kernel(ahead=True, shares=True)
+def grow_on(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, most_work: int, aside: int) -> None:
+    """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done.
+
+    It also ends before a cell whose list is no longer than `aside`.
+    """
     work = Work(np.empty(9, np.int64), np.empty((len(rules), 8), np.int64), new_workspace(len(rules)))
     stack, counts = tree.stack, tree.counts
     while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
         top = counts[WAITING] - 1
-        most_work -= CELL + stack[top, LAST] - stack[top, FIRST]
+        listed = stack[top, LAST] - stack[top, FIRST]
+        if listed <= aside:
+            return
+        most_work -= CELL + listed
         _grow_quad(tree, rules, bounds, work)
     if counts[WAITING] == 0:
         _mean_coverages(tree, counts[QUADS])
@@ -229,11 +208,16 @@ def grow_on(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, most_work: i
 
 @kernel(ahead=True)
 def grow(
-    cubics: NDArray[np.float64], owner: NDArray[np.int64], rules: NDArray[np.int64], bounds: Bounds, most_work: int
+    cubics: NDArray[np.float64],
+    owner: NDArray[np.int64],
+    rules: NDArray[np.int64],
+    bounds: Bounds,
+    most_work: int,
+    aside: int,
 ) -> tuple[Growth, float]:
     """Divide the unit square as `grow_on` does; also returns how far the outline lies outside the unit square."""
     tree, outside = new_growth(cubics, owner, bounds.max_depth, True)
-    grow_on(tree, rules, bounds, most_work)
+    grow_on(tree, rules, bounds, most_work, aside)
     return tree, outside
 
 
@@ -242,17 +226,25 @@ def new_growth(
     cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: int, in_runs: bool
 ) -> tuple[Growth, float]:
     """The unit square with the pieces of cubics, to be divided, and how far the outline lies outside it."""
-    room = (PARTS + 2) * len(cubics) + 64
-    points, path = np.empty((room, 4, 2)), np.empty(room, np.int64)
-    n = write_monotone(cubics, owner, Pieces(points, path, path[:0], points[:0, 0]))
-    present, paths, outside = root_paths(points[:n], path[:n])
+    n = len(cubics)
+    room = (PARTS + 2) * n + 64
     runs = n // RUN if in_runs and n > CROWDED else 0
     pool = PiecePool(
-        points, path, np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64), np.empty((runs, 4))
+        np.empty((room, 4, 2)),
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
+        np.empty((runs, 4)),
+        cubics,
+        owner,
     )
+    listed, pieces = list_all(pool)
+    outside = _into_square(pool.points[:pieces])
+    present, paths = root_paths(pool, listed)
     cells = 4 * max_depth + 4
     stack = np.zeros((cells, 7), np.int64)
-    stack[0, LAST], stack[0, LAST_PATH], stack[0, PIECES] = list_all(pool, n), paths, n
+    stack[0, LAST], stack[0, LAST_PATH], stack[0, PIECES] = listed, paths, pieces
     return Growth(
         pool,
         present,
@@ -261,67 +253,10 @@ def new_growth(
         np.empty((n + 16, 4, 4)),
         np.empty((n + 16, 2), np.int64),
         np.empty((4 * n + 8 * MOST_CURVES, 4, 2)),
-        np.array([1, 0, 0, 1, n]),
+        np.array([1, 0, 0, 1, pieces]),
         np.zeros(1),
-        np.empty(5, np.int64),
+        np.zeros(5, np.int64),
     ), outside
-
-
-def largest_shift(precision: float | None) -> float:
-    """Largest shift of an outline by rounding, in unit-square units, at a `precision` of `build_tree`.
-
-    Examples
-    --------
-    >>> largest_shift(1e-7), round(largest_shift(None), 7)
-    (1e-07, 3.05e-05)
-    """
-    return 0.5 * DISPLACEMENT / LATTICE if precision is None else precision
-
-
-def check_whole(name: str, value: object, most: int, default: int) -> None:
-    """Raise a `ParameterError` unless a parameter is a whole number in 1..`most`."""
-    if isinstance(value, bool) or not (isinstance(value, int | np.integer) and 1 <= value <= most):
-        raise ParameterError(f"`{name}` {value!r} is no whole number in 1..{most}; the default is {default}")
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, float | int | np.number) and not isinstance(value, bool)
-
-
-def bounds_of(
-    tolerance: float,
-    max_depth: int,
-    capacity: int,
-    precision: float | None,
-    most_quads: int,
-    default_capacity: int = DEFAULT_CAPACITY,
-) -> Bounds:
-    """Bounds of a tree from the parameters of `build_tree`; raises a `ParameterError` if one is out of range."""
-    check_whole("max_depth", max_depth, MOST_DEPTH, DEFAULT_DEPTH)
-    check_whole("capacity", capacity, MOST_CURVES, default_capacity)
-    finest = DISPLACEMENT * 0.5**max_depth / LATTICE
-    if not (precision is None or (_is_number(precision) and finest <= precision <= 1.0)):
-        raise ParameterError(
-            f"`precision` {precision!r} is no number in {finest:.1e}..1 (unit-square units), at `max_depth` "
-            f"{max_depth}; leave it out for views up to 1,000 times, or give 1e-7 for 10,000"
-        )
-    least_depth = 1 if precision is None else max(math.ceil(math.log2(DISPLACEMENT / (precision * LATTICE))), 1)
-    if not (_is_number(tolerance) and 0.0 <= tolerance < 1.0):
-        raise ParameterError(
-            f"`tolerance` {tolerance!r} is no number from 0 to below 1 (unit-square units); 0 keeps every piece"
-        )
-    near = COINCIDENT * largest_shift(precision)
-    return Bounds(capacity, float(tolerance), near, least_depth, max_depth, most_quads)
-
-
-def check_growth(tree: Growth, most_quads: int, name: str) -> None:
-    """Raise a `LimitError` if a tree has too many quads or has taken too long."""
-    if tree.counts[QUADS] > most_quads:
-        raise LimitError(
-            f"{name}: {tree.counts[QUADS]} quads at least; the limit is {most_quads}; "
-            "use a smaller `max_depth`, a larger `tolerance` or a larger `precision`"
-        )
-    check_time(name)
 
 
 def build_tree(
@@ -332,6 +267,7 @@ def build_tree(
     capacity: int = DEFAULT_CAPACITY,
     precision: float | None = None,
     most_quads: int = MOST_QUADS,
+    threads: int | None = None,
 ) -> Tree:
     """Quad-tree of a drawing's silhouette. Parameters and errors as in `vexture.convert`.
 
@@ -339,7 +275,8 @@ def build_tree(
     quantisation, within which chains of pieces become one cubic; 0 keeps every piece. The unit square has depth 0. A
     leaf holds more pieces than `capacity` (up to 15) only at the depth limit, or where all of them meet at one point.
     `precision` bounds the displacement by quantisation: leaves with curves are made small enough for it; None forces no
-    depth. A tree of more than `most_quads` raises a `LimitError`, a curve outside the unit square a `SourceError`.
+    depth. Large drawings are shared by so many `threads`, by default one for each processor; the tree is the same with
+    any number. A tree of more than `most_quads` raises a `LimitError`, a curve outside the unit square a `SourceError`.
 
     Examples
     --------
@@ -350,12 +287,23 @@ def build_tree(
     bounds = bounds_of(tolerance, max_depth, capacity, precision, most_quads)
     cubics, owner, rules = gather(drawing)
     check_time(drawing.name)
-    arrays, outside = grow(cubics, owner, rules, bounds, SLICE)
+    aside = PART if len(cubics) > LARGE else 0
+    arrays, outside = grow(cubics, owner, rules, bounds, SLICE, aside)
     if not outside <= CLOSED:  # NaN counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
-    tree = Growth(*arrays)
-    while tree.counts[WAITING] > 0:
-        check_growth(tree, most_quads, drawing.name)
+
+    def check(quads: int) -> None:
+        check_growth(quads, most_quads, drawing.name)
+
+    def step(tree: Growth, aside: int) -> Growth:
+        check(int(tree.counts[QUADS]))
         tree = with_needed_room(tree)
-        grow_on(tree, rules, bounds, SLICE)
+        grow_on(tree, rules, bounds, SLICE, aside)
+        return tree
+
+    tree = Growth(PiecePool(*arrays[0]), *arrays[1:])
+    if aside:
+        return tree_of(grow_parts(tree, step, usual_threads() if threads is None else threads, check))
+    while tree.counts[WAITING] > 0:
+        tree = step(tree, 0)
     return tree_of(tree)

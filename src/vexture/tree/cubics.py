@@ -4,15 +4,18 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.contours import joined
+from vexture.contours import Closed, joined, together
 from vexture.drawing import Drawing, FillRule
 
 __all__ = ["gather"]
+
+MIXED: Final = 0.7548776662466927
+"""Factor that makes one number of several."""
 
 
 def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
@@ -21,17 +24,39 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
     A path that repeats an earlier one bit for bit adds nothing to the silhouette and is left out, and so are copies of
     a contour that do not change where its path is filled.
     """
+    of_paths = [path.contours for path in drawing.paths]
+    if _all_differ(together(of_paths)):
+        return (*_owned(of_paths), np.array([int(path.fill_rule) for path in drawing.paths], dtype=np.int64))
     different: dict[tuple[Any, ...], list[NDArray[np.float64]]] = {}
     names = _names([contour for path in drawing.paths for contour in path.contours])
     for path in drawing.paths:
         bits = list(islice(names, len(path.contours)))
         if (path.fill_rule, *bits) not in different:
             different[path.fill_rule, *bits] = [path.contours[k] for k in _needed(path.fill_rule, bits)]
-    contours = [contour for kept in different.values() for contour in kept]
-    lengths = [sum(map(len, kept)) for kept in different.values()]
-    cubics = joined(contours)
-    owner = np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
-    return cubics, owner, np.array([int(rule) for rule, *_ in different], dtype=np.int64)
+    rules = np.array([int(rule) for rule, *_ in different], dtype=np.int64)
+    return (*_owned([*different.values()]), rules)
+
+
+def _owned(of_paths: Sequence[Sequence[NDArray[np.float64]]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Cubics of some paths, and the path of each."""
+    lengths = [sum(map(len, contours)) for contours in of_paths]
+    return joined(together(of_paths)), np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
+
+
+def _all_differ(contours: Sequence[NDArray[np.float64]]) -> bool:
+    """Whether contours that are parts of one array are certainly no copies: their first handles differ.
+
+    Alike handles give the same number, which is rounded in the same way for each.
+    """
+    if not isinstance(contours, Closed):
+        return False
+    lengths = np.fromiter(map(len, contours), np.int64, len(contours))
+    handles = contours.whole[np.cumsum(lengths) - lengths]
+    numbers = np.zeros(len(handles))
+    for point in range(2):
+        for axis in range(2):
+            numbers = MIXED * numbers + handles[:, point, axis]
+    return len(np.unique(numbers)) == len(numbers)
 
 
 def _names(contours: Sequence[NDArray[np.float64]]) -> Iterator[bytes]:

@@ -8,9 +8,9 @@ hold the point exactly; so is that of an end that lies on the line already. A pi
 **both** its ends are at or beyond the line: a decision by their midpoint fails where it rounds up.
 
 Most pieces of a coast lie, with many neighbours along their contour, far inside one of a cell's children. So the lists
-of crowded cells hold *runs*: a fixed number of pieces that follow one another in the pool, under one negative number. A
-run whose box meets no middle line moves as one; any other becomes its pieces. Lists that leaves may be made of hold
-none.
+of crowded cells hold *runs*: a fixed number of the drawing's own cubics that follow one another, under one negative
+number. A run whose box meets no middle line moves as one; the cubics of any other are copied into the pool. Lists that
+leaves may be made of hold none.
 
 Cells are divided depth first. What a cell appended to the pool and to the lists is discarded when all cells below it
 are done, so both stay small and in the processor's cache.
@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.bezier.monotone import Pieces, is_monotone, write_monotone
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
@@ -41,12 +42,14 @@ CROWDED = 512
 class PiecePool(NamedTuple):
     """The pieces of all cells that are not done, and lists of their numbers."""
 
-    points: NDArray[np.float64]  # (room, 4, 2): pieces
+    points: NDArray[np.float64]  # (room, 4, 2): pieces that are in no run
     path: NDArray[np.int64]  # (room,): the path of each
     numbers: NDArray[np.int64]  # (room,): lists of pieces, one after another; -1 - k is run k
     child: NDArray[np.int64]  # (room,), scratch: the child that each part belongs to
     part: NDArray[np.int64]  # (room,), scratch: the number of each part
     boxes: NDArray[np.float64]  # (runs, 4): least x and y, greatest x and y of each run; no rows if there are none
+    cubics: NDArray[np.float64]  # (n, 4, 2): the drawing's; run k is `RUN` of them from `RUN` k on. Only read
+    owner: NDArray[np.int64]  # (n,): the path of each
 
 
 @kernel(allocates=False)
@@ -71,32 +74,51 @@ def _cut(
 
 
 @kernel(allocates=False)
-def list_all(pool: PiecePool, count: int) -> int:
-    """Write the list of the first `count` pieces, in runs as far as the pool has rows for boxes; return its length.
+def _is_run(cubics: NDArray[np.float64], owner: NDArray[np.int64], box: NDArray[np.float64]) -> bool:
+    """Whether cubics are a run; write its box.
 
-    A run is of one path and does not touch the left or the lower side of the unit square, where windings are counted.
+    They are monotone, of one path and some length, and inside the unit square without its left and lower side, where
+    windings are counted.
     """
-    points, path, numbers, boxes = pool.points, pool.path, pool.numbers, pool.boxes
-    end = 0
-    for k in range(len(boxes)):
-        box, first = boxes[k], RUN * k
-        box[0] = box[1] = np.inf
-        box[2] = box[3] = -np.inf
-        for i in range(first, first + RUN):
-            for axis in range(2):
-                a, d = points[i, 0, axis], points[i, 3, axis]
-                box[axis], box[2 + axis] = min(box[axis], a, d), max(box[2 + axis], a, d)
-        if box[0] > 0.0 and box[1] > 0.0 and path[first] == path[first + RUN - 1]:
+    box[0] = box[1] = np.inf
+    box[2] = box[3] = -np.inf
+    if owner[0] != owner[len(cubics) - 1]:
+        return False
+    for i in range(len(cubics)):
+        x, y, to_x, to_y = cubics[i, 0, 0], cubics[i, 0, 1], cubics[i, 3, 0], cubics[i, 3, 1]
+        if (x == to_x and y == to_y) or not is_monotone(cubics[i]):
+            return False
+        box[0], box[1] = min(box[0], x, to_x), min(box[1], y, to_y)
+        box[2], box[3] = max(box[2], x, to_x), max(box[3], y, to_y)
+    return box[0] > 0.0 and box[1] > 0.0 and box[2] <= 1.0 and box[3] <= 1.0
+
+
+@kernel
+def list_all(pool: PiecePool) -> tuple[int, int]:
+    """List the drawing, in runs as far as the pool has rows for boxes; return the list's length and the pieces."""
+    numbers, boxes, cubics, owner = pool.numbers, pool.boxes, pool.cubics, pool.owner
+    end, pieces = 0, 0
+    for k in range(len(boxes) + 1):
+        first, last = RUN * k, RUN * (k + 1) if k < len(boxes) else len(cubics)
+        if k < len(boxes) and _is_run(cubics[first:last], owner[first:last], boxes[k]):
             numbers[end] = -1 - k
             end += 1
-        else:
-            for i in range(first, first + RUN):
-                numbers[end] = i
-                end += 1
-    for i in range(RUN * len(boxes), count):
-        numbers[end] = i
-        end += 1
-    return end
+            continue
+        points, path = pool.points[pieces:], pool.path[pieces:]
+        count = write_monotone(cubics[first:last], owner[first:last], Pieces(points, path, path[:0], points[:0, 0]))
+        for _ in range(count):
+            numbers[end] = pieces
+            end, pieces = end + 1, pieces + 1
+    return end, pieces
+
+
+@kernel(allocates=False)
+def _add_run(pool: PiecePool, run: int, pieces: int) -> None:
+    """Copy the cubics of a run, given by its negative number, behind so many pieces."""
+    first = RUN * (-1 - run)
+    for k in range(RUN):
+        copy_curve(pool.cubics[first + k], pool.points[pieces + k])
+        pool.path[pieces + k] = pool.owner[first]
 
 
 @kernel(allocates=False)
@@ -164,15 +186,21 @@ def divide(
             owner[parts], part[parts] = (1 if box[0] > xm else 0) + (2 if box[1] > ym else 0), i
             parts += 1
             continue
-        for k in range(RUN * (-1 - i), RUN * -i):
+        _add_run(pool, i, pieces)
+        first_piece, pieces = pieces, pieces + RUN
+        for k in range(first_piece, first_piece + RUN):
             pieces, parts = _divide_piece(pool, k, xm, ym, grain, pieces, parts)
-    _write_lists(pool, last, parts, at_limit, child_at)
-    return pieces
+    return _write_lists(pool, last, pieces, parts, at_limit, child_at)
 
 
 @kernel(allocates=False)
-def _write_lists(pool: PiecePool, start: int, parts: int, at_limit: bool, child_at: NDArray[np.int64]) -> None:
-    """Write the list of each child, in the order of the parts: those of crowded children keep their runs."""
+def _write_lists(
+    pool: PiecePool, start: int, pieces: int, parts: int, at_limit: bool, child_at: NDArray[np.int64]
+) -> int:
+    """Write the list of each child, in the order of the parts: those of crowded children keep their runs.
+
+    Returns the new number of pieces.
+    """
     numbers, owner, part = pool.numbers, pool.child, pool.part
     for column in range(9):
         child_at[column] = 0
@@ -192,12 +220,15 @@ def _write_lists(pool: PiecePool, start: int, parts: int, at_limit: bool, child_
             numbers[child_at[child]] = i
             child_at[child] += 1
             continue
-        for piece in range(RUN * (-1 - i), RUN * -i):
+        _add_run(pool, i, pieces)
+        for piece in range(pieces, pieces + RUN):
             numbers[child_at[child]] = piece
             child_at[child] += 1
+        pieces += RUN
     for child in range(4, 0, -1):  # each start has become the next one's
         child_at[child] = child_at[child - 1]
     child_at[0] = first
+    return pieces
 
 
 @kernel(allocates=False)

@@ -56,7 +56,7 @@ class Growth(NamedTuple):
     # (room, 4, 4): for each cell of each quad: whether a quad, count, corner winding, coverage
     cells: NDArray[np.float64]
     first: NDArray[np.int64]  # (room, 2): first quad below each quad, first curve of its leaves
-    curves: NDArray[np.float64]  # (room, 4, 2), in lattice units
+    curves: NDArray[Any]  # (room, 4, 2), in lattice units: float64, or int32 when they have grown in parts
     counts: NDArray[np.int64]  # (5,)
     deviation: NDArray[np.float64]  # (1,): largest distance of a leaf's outline from the drawing's
     # (5,): rows that the next cell needs of pieces, lists of them, lists of paths, quads and curves
@@ -70,9 +70,9 @@ def has_room(tree: Growth) -> bool:
     last, last_path = tree.stack[top, LAST], tree.stack[top, LAST_PATH]
     listed = last - tree.stack[top, FIRST]
     if len(tree.pool.boxes) > 0:
-        listed = min(RUN * listed, tree.stack[top, PIECES])
+        listed = min(RUN * listed, len(tree.pool.cubics) + tree.stack[top, PIECES])
     parts = PARTS * listed
-    needed[0], needed[1] = tree.stack[top, PIECES] + parts, last + parts
+    needed[0], needed[1] = tree.stack[top, PIECES] + listed + parts, last + parts
     needed[2] = last_path + 4 * (last_path - tree.stack[top, FIRST_PATH])
     needed[3], needed[4] = tree.counts[QUADS] + 4, tree.counts[CURVES] + 4 * MOST_CURVES
     return (
@@ -113,10 +113,10 @@ def first_of(lengths: NDArray[np.int64], start: int) -> NDArray[np.int32]:
 def with_needed_room(tree: Growth) -> Growth:
     """The tree, with at least twice the room where the next cell has none."""
     pieces, numbers, paths, quads, curves = tree.needed.tolist()
-    points, path, listed, child, part, boxes = tree.pool
+    points, path, listed, child, part, boxes, cubics, owner = tree.pool
     listed, child, part = (roomy(rows, numbers) for rows in (listed, child, part))
     return Growth(
-        PiecePool(roomy(points, pieces), roomy(path, pieces), listed, child, part, boxes),
+        PiecePool(roomy(points, pieces), roomy(path, pieces), listed, child, part, boxes, cubics, owner),
         roomy(tree.present, paths),
         tree.stack,
         tree.corner,

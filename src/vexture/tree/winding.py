@@ -17,7 +17,10 @@ from vexture.bezier.area import integral_x_dy
 from vexture.kernels import kernel
 from vexture.tree.divide import RUN
 
-__all__ = ["child_windings", "inside", "winding_area"]
+__all__ = ["Lists", "child_windings", "inside", "winding_area"]
+
+Lists = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]
+"""Pieces, the path of each, lists of their numbers, and the path of each cubic in a run."""
 
 
 @kernel(allocates=False)
@@ -36,9 +39,7 @@ def inside(winding: int, rule: int) -> bool:
 
 @kernel(allocates=False)
 def child_windings(
-    points: NDArray[np.float64],
-    path: NDArray[np.int64],
-    numbers: NDArray[np.int64],
+    lists: Lists,
     child_at: NDArray[np.int64],
     present: NDArray[np.int64],
     x0: float,
@@ -51,10 +52,11 @@ def child_windings(
     """Write the corner windings of a cell's four children to `out` (m or more, 8).
 
     Each row is of one path in `present`: four corner windings, then whether the path has a piece in each child.
-    `numbers` holds one list of pieces for each child, in the order of `present`; `child_at` (5 or more,) is the start
-    of each list and the end of the last. The cell's middle is (xm, ym). Runs, and the first `whole` pieces, which were
-    never cut, end on the lines of no cell: they change no winding at its corners.
+    `lists` hold one of pieces for each child, in the order of `present`; `child_at` (5 or more,) is the start of each
+    list and the end of the last. The cell's middle is (xm, ym). Runs, and the first `whole` pieces, which were never
+    cut, end on the lines of no cell: they change no winding at its corners.
     """
+    points, path, numbers, owner = lists
     whole = whole if x0 > 0.0 and y0 > 0.0 else 0  # they may end on the sides of the unit square
     for k in range(len(present)):
         for column in range(8):
@@ -65,8 +67,8 @@ def child_windings(
         k = 0
         for place in range(child_at[child], child_at[child + 1]):
             i = numbers[place]
-            owner = path[i if i >= 0 else RUN * (-1 - i)]
-            while present[k, 0] != owner:
+            here = path[i] if i >= 0 else owner[RUN * (-1 - i)]
+            while present[k, 0] != here:
                 k += 1
             out[k, 4 + child] = 1
             if i < whole:

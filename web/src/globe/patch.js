@@ -1,12 +1,8 @@
 // The mesh of a part of a sphere: its vertices lie around its own middle, so that float32 serves at every zoom.
 import { BufferGeometry, Float32BufferAttribute } from 'three';
-import { lngLat } from '../tiles/grid.js';
+import { cellsAt, lngLat } from '../tiles/grid.js';
 import { CAP } from '../tiles/tile-shader.js';
 import { onSphere } from './cover.js';
-
-/** Cells along a side at zoom 0, and the fewest. */
-const MOST = 128;
-const FEWEST = 16;
 
 /** How far a skirt reaches beyond its quad, as a part of the quad's side: about two pixels. */
 const SKIRT = 1 / 256;
@@ -20,7 +16,7 @@ const SKIRT = 1 / 256;
  * @returns {{ geometry: BufferGeometry, skirt: BufferGeometry, middle: import('./cover.js').Vec3 }}
  */
 export function patch({ z, x, y }, radius) {
-  const cells = Math.max(MOST >> Math.min(z, 30), FEWEST);
+  const cells = cellsAt(z);
   const side = 2 ** -z;
   const angle = (2 * Math.PI * side) / cells;
   const lower = 1 - angle ** 2 / 2 - (2 * Math.PI * side * SKIRT) / 2;

@@ -1,4 +1,5 @@
 // The mesh of a part of the map: a grid in the tile's own units, with the caps of the poles where it reaches them.
+import { cellsAt } from '../tiles/grid.js';
 
 /** Units along a tile's side in MapLibre. */
 export const EXTENT = 8192;
@@ -7,16 +8,12 @@ export const EXTENT = 8192;
 const NORTH = -32768;
 const SOUTH = 32767;
 
-/** Cells along a side at zoom 0, halved with each zoom as the globe flattens, and the fewest. */
-const MOST = 128;
-const FEWEST = 16;
-
 /**
  * @param {import('../tiles/grid.js').TileId} quad
  * @returns {{ key: string, cells: number, north: boolean, south: boolean }} key: quads of one key share a mesh
  */
 export function meshOf({ z, y }) {
-  const cells = Math.max(MOST >> Math.min(z, 30), FEWEST);
+  const cells = cellsAt(z);
   const north = y === 0;
   const south = y === 2 ** z - 1;
   return { key: `${cells} ${north} ${south}`, cells, north, south };

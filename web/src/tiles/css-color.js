@@ -3,8 +3,14 @@ import { VextureError, line } from '../errors.js';
 
 /** @typedef {[number, number, number, number]} Parts sRGB components and opacity, 0..1 */
 
-/** @type {Map<string, Parts>} */
+/** Colours that have been read before: tables name the same ones again and again. @type {Map<string, Parts>} */
 const KNOWN = new Map();
+
+/** Colours after which they are forgotten. */
+const MOST_KNOWN = 65536;
+
+/** @type {OffscreenCanvasRenderingContext2D | null} */
+let canvas = null;
 
 /**
  * @param {string | number | readonly number[] | null} paint a colour as CSS writes it, 0xrrggbb, or four numbers; null hides
@@ -20,6 +26,7 @@ export function parts(paint) {
   if (typeof paint !== 'string') throw refused(paint);
   const known = KNOWN.get(paint) ?? (paint[0] === '#' ? hex(paint) : written(paint));
   if (!known) throw refused(paint);
+  if (KNOWN.size >= MOST_KNOWN) KNOWN.clear();
   KNOWN.set(paint, known);
   return known;
 }
@@ -36,9 +43,15 @@ function hex(text) {
   return [red, green, blue, opacity];
 }
 
+/** What tables of colours are full of. */
+const RGB = /^rgb\((\d{1,3}), ?(\d{1,3}), ?(\d{1,3})\)$/;
+
 /** A colour in words, as the browser reads it. @param {string} text @returns {Parts | null} */
 function written(text) {
-  const context = new OffscreenCanvas(1, 1).getContext('2d');
+  const [red, green, blue] = RGB.exec(text)?.slice(1).map((part) => Math.min(Number(part) / 255, 1)) ?? [];
+  if (blue !== undefined) return [red, green, blue, 1];
+  canvas ??= new OffscreenCanvas(1, 1).getContext('2d');
+  const context = canvas;
   if (!context) return null;
   const [one, other] = ['#000000', '#ffffff'].map((start) => {
     context.fillStyle = start;

@@ -7,7 +7,8 @@ import { parts } from './css-color.js';
  * @typedef {string | number | readonly number[] | null} FeaturePaint a colour of CSS, 0xrrggbb, or sRGB components and
  *   opacity, 0..1; null hides
  *
- * @typedef {Readonly<Record<string, FeaturePaint>> | ReadonlyMap<string, FeaturePaint>} FeaturePaints by the features' ids
+ * @typedef {Readonly<Record<string, FeaturePaint | undefined>> | ReadonlyMap<string, FeaturePaint | undefined>} FeaturePaints
+ *   by the features' ids; undefined: as before they were given one
  *
  * @typedef {(id: string) => FeaturePaint | undefined} PaintFunction undefined: as it is in the tile
  *
@@ -15,9 +16,6 @@ import { parts } from './css-color.js';
  * @property {string[]} ids of the features
  * @property {FeaturePaint[][]} colors of each step, those of all features
  */
-
-/** Colours come as numbers, so three.js is not needed to read them. */
-const NO_COLORS = /** @type {any} */ ({ Color: class {} });
 
 export class FeatureColors {
   /** Rises with every change. */
@@ -28,12 +26,13 @@ export class FeatureColors {
   #byFunction = null;
   /** @type {((id: string) => boolean) | null} */
   #isHidden = null;
-  /** @type {{ places: Map<string, number>, steps: Float32Array[] } | null} */
+  /** @type {Times | null} */
   #times = null;
   #time = 0;
 
   /**
-   * @param {FeaturePaints | PaintFunction | null} paints those of a table join those before; null: all as in the tiles
+   * @param {FeaturePaints | PaintFunction | null} paints those of a table join those before, undefined takes one back; null: all
+   *   as in the tiles
    */
   setPaint(paints) {
     if (typeof paints === 'function') this.#byFunction = paints;
@@ -42,8 +41,11 @@ export class FeatureColors {
       this.#byFunction = null;
     } else {
       const listed = paints instanceof Map ? [...paints] : Object.entries(paints);
-      for (const [, paint] of listed) if (paint !== 'own') parts(paint); // all or nothing
-      for (const [id, paint] of listed) this.#paints.set(id, paint);
+      for (const [, paint] of listed) if (paint !== 'own' && paint !== undefined) parts(paint); // all or nothing
+      for (const [id, paint] of listed) {
+        if (paint === undefined) this.#paints.delete(id);
+        else this.#paints.set(id, paint);
+      }
     }
     this.version++;
   }
@@ -92,46 +94,84 @@ export class FeatureColors {
     const { data } = loaded;
     if (!data || loaded.colors === this.version) return [];
     loaded.colors = this.version;
-    /** @type {[number, number][]} */
-    const rows = [];
-    data.roots.forEach(({ style }, root) => {
-      if (!style) return;
-      const paints = new Map();
-      for (const { name } of style.elements) if (name && !paints.has(name)) paints.set(name, this.paintOf(name));
-      if (paints.size) rows.push(...mapParts().recolored(data, root, paints, NO_COLORS));
+    return data.roots.flatMap(({ style }, root) => {
+      const named = style ? namedOf(style.elements) : null;
+      if (!named?.names.length) return [];
+      this.#fill(named);
+      return mapParts().recolored(data, root, named);
     });
-    return rows;
   }
 
-  /** The colour of a feature, or 'own'. @param {string} id */
+  /** No array for each feature: all of them may change in every frame. @param {Named} named */
+  #fill(named) {
+    const { names, parts: filled, places } = named;
+    const times = this.#times;
+    if (named.times !== times) {
+      named.times = times;
+      names.forEach((name, k) => (places[k] = times?.places.get(name) ?? -1));
+    }
+    const last = (times?.steps.length ?? 1) - 1;
+    const held = Math.min(Math.max(this.#time, 0), last);
+    const share = held - Math.floor(held);
+    const [one, other] = [times?.steps[Math.floor(held)], times?.steps[Math.ceil(held)]];
+    for (let k = 0; k < names.length; k++) {
+      const at = 4 * places[k];
+      if (!one || !other || at < 0 || this.isHidden(names[k])) write(this.paintOf(names[k]), filled, 4 * k);
+      else for (let c = 0; c < 4; c++) filled[4 * k + c] = one[at + c] + share * (other[at + c] - one[at + c]);
+    }
+  }
+
+  /** The colour of a feature that no time gives one, or 'own'. @param {string} id */
   paintOf(id) {
     if (this.isHidden(id)) return null;
-    const place = this.#times?.places.get(id);
-    if (this.#times && place !== undefined) return mixed(this.#times.steps, this.#time, 4 * place);
-    const paint = this.#paints.has(id) ? this.#paints.get(id) ?? null : this.#byFunction?.(id);
-    if (paint === undefined) return 'own';
-    return paint === 'own' ? paint : parts(paint);
+    const paint = this.#paints.has(id) ? this.#paints.get(id) : this.#byFunction?.(id);
+    return paint === undefined ? 'own' : paint;
   }
 }
 
-/** @param {TimeTable} table */
+/**
+ * @typedef {object} Named The features of a tile, each once, and what they are given.
+ * @property {string[]} names
+ * @property {Float64Array} parts four for each
+ * @property {Int32Array} places of the features in a table of times, or -1
+ * @property {Times | null} times that table
+ *
+ * @typedef {{ places: Map<string, number>, steps: Float32Array[] }} Times
+ */
+
+/** @type {WeakMap<readonly object[], Named>} */
+const NAMED = new WeakMap();
+
+/** @param {import('../style.js').Style['elements']} elements @returns {Named} */
+function namedOf(elements) {
+  const known = NAMED.get(elements);
+  if (known) return known;
+  const names = [...new Set(elements.flatMap(({ name }) => name || []))];
+  const made = { names, parts: new Float64Array(4 * names.length), places: new Int32Array(names.length).fill(-1), times: null };
+  NAMED.set(elements, made);
+  return made;
+}
+
+/**
+ * @param {FeaturePaint | 'own'} paint
+ * @param {Float64Array} filled
+ * @param {number} at
+ */
+function write(paint, filled, at) {
+  if (paint === 'own') filled.fill(NaN, at, at + 4);
+  else filled.set(parts(paint), at);
+}
+
+/** @param {TimeTable} table @returns {Times} */
 function read({ ids, colors }) {
   const wrong = colors.findIndex((step) => step.length !== ids.length);
   if (wrong >= 0 || !colors.length) {
     throw new VextureError(`step ${Math.max(wrong, 0)} has ${colors[wrong]?.length ?? 0} colours; give ${ids.length}, one for each id`, 'times');
   }
-  return { places: new Map(ids.map((id, place) => [id, place])), steps: colors.map((step) => Float32Array.from(step.flatMap(parts))) };
-}
-
-/**
- * @param {Float32Array[]} steps
- * @param {number} time
- * @param {number} at place of the colour in each
- */
-function mixed(steps, time, at) {
-  const held = Math.min(Math.max(time, 0), steps.length - 1);
-  const one = steps[Math.floor(held)];
-  const other = steps[Math.ceil(held)];
-  const share = held - Math.floor(held);
-  return [0, 1, 2, 3].map((k) => one[at + k] + share * (other[at + k] - one[at + k]));
+  const steps = colors.map((step) => {
+    const filled = new Float32Array(4 * ids.length);
+    step.forEach((paint, place) => filled.set(parts(paint), 4 * place));
+    return filled;
+  });
+  return { places: new Map(ids.map((id, place) => [id, place])), steps };
 }

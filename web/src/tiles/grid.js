@@ -16,6 +16,19 @@ export const LEAD = 0.25;
 /** CSS pixels along a tile's side at its own zoom. */
 export const TILE_SIZE = 512;
 
+/** Cells along a side of a quad's mesh at zoom 0, halved every second zoom as the globe flattens, and the most and the fewest. */
+const CELLS = 512;
+const MOST_CELLS = 128;
+const FEWEST_CELLS = 16;
+
+/**
+ * Cells along a side of the mesh of a quad on a sphere, between whose vertices the map is linear: it is off by less than a
+ * hundredth of a pixel, and by an eightieth at zoom 0.
+ *
+ * @param {number} z zoom of the quad
+ */
+export const cellsAt = (z) => Math.min(Math.max(CELLS >> Math.min(Math.ceil(z / 2), 30), FEWEST_CELLS), MOST_CELLS);
+
 /** Name of a tile in maps. @param {TileId} tile */
 export const keyOf = ({ z, x, y }) => `${z}/${x}/${y}`;
 

@@ -17,15 +17,8 @@ from vexture.errors import LimitError, SourceError
 from vexture.kernels import kernel
 from vexture.layout import LATTICE, MOST_PAINTS, PAINT_ONE
 from vexture.tolerance import CLOSED
-from vexture.tree.build import (
-    CELL,
-    DEFAULT_DEPTH,
-    SLICE,
-    Bounds,
-    bounds_of,
-    check_growth,
-    new_growth,
-)
+from vexture.tree.bounds import DEFAULT_DEPTH, Bounds, bounds_of, check_growth
+from vexture.tree.build import CELL, SLICE, new_growth
 from vexture.tree.divide import PARTS, divide
 from vexture.tree.growth import (
     COUNT,
@@ -165,7 +158,8 @@ def _grow_quad(
     grain = 0.5 ** max(depth + 1, bounds.least_depth) / LATTICE
     pieces = divide(pool, row[FIRST], row[LAST], xm, ym, grain, row[PIECES], False, child_at)
     touching = present[rows[0] : rows[1]]
-    child_windings(pool.points, pool.path, pool.numbers, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
+    lists = (pool.points, pool.path, pool.numbers, pool.owner)
+    child_windings(lists, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
     tree.first[quad, 0], tree.first[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = rows[1]
     for child in range(4):
@@ -352,7 +346,7 @@ def build_map(
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
     growth = planted(*root)
     while growth.tree.counts[WAITING] > 0:
-        check_growth(growth.tree, most_quads, drawing.name)
+        check_growth(int(growth.tree.counts[QUADS]), most_quads, drawing.name)
         growth = with_room(growth)
         if faces.counts[1]:
             faces = roomier_faces(faces)

@@ -1,0 +1,118 @@
+"""Maps of the world in other projections: nothing smears where they are torn, poles are whole, lines are curved."""
+
+import geopandas
+import numpy as np
+import pytest
+import shapely
+
+from vexture.cartography import MapLayer, convert_map
+from vexture.cartography.domain import domain_of
+from vexture.cartography.lines import there_and_back, way_there
+from vexture.cartography.place import placed
+from vexture.errors import SourceError
+from vexture.geo.crs import transformed
+from vexture.geo.features import Lines, read_features
+from vexture.notes import Notes
+
+WORLD = "EPSG:4326"
+EQUAL_EARTH, ROBINSON, SOUTH, NORTH = "EPSG:8857", "ESRI:54030", "EPSG:3031", "EPSG:3995"
+
+
+def frame(shapes, crs=WORLD, **columns):
+    return geopandas.GeoDataFrame(columns, geometry=shapes, crs=crs)
+
+
+def in_system(shapes, crs, source=WORLD):
+    """Features of shapes in another system, and the notes."""
+    notes = Notes()
+    return placed(read_features(frame(shapes, source), notes=notes), crs, notes), [str(note) for note in notes.listed]
+
+
+RUSSIA = shapely.box(30, 50, 190, 75)
+ANTARCTICA = shapely.Polygon([(longitude, -70 - 4 * (longitude % 3)) for longitude in range(-180, 181, 5)])
+
+
+@pytest.mark.parametrize("crs", [EQUAL_EARTH, ROBINSON, "+proj=moll +lon_0=-90"])
+def test_what_lies_across_the_edge_of_a_map_is_on_both_sides_of_it(crs):
+    features, _ = in_system([RUSSIA, shapely.box(-170, 0, -20, 10)], crs)
+    rings = features.rings
+    places = np.random.default_rng(2).uniform((-179.9, -89.0), (179.9, 89.0), (2000, 2))
+    tree = shapely.STRtree([RUSSIA, shapely.box(-190, 50, -170, 75), shapely.box(-170, 0, -20, 10)])
+    edge = shapely.union_all([tree.geometries[0], tree.geometries[1], tree.geometries[2]])
+    clear = shapely.distance(shapely.boundary(edge), shapely.points(places)) > 0.5
+    inside = shapely.contains_xy(edge, *places.T)
+    found = shapely.contains_xy(shapely.union_all(rings.shapes), *transformed(places, WORLD, crs).T)
+    assert (found == inside)[clear].all()
+
+
+@pytest.mark.parametrize(("crs", "side"), [(SOUTH, -1), (NORTH, 1), ("EPSG:3571", 1)])
+def test_a_map_around_a_pole_is_its_hemisphere(crs, side):
+    around = shapely.transform(ANTARCTICA, lambda places: places * (1, -side))
+    features, said = in_system([around, shapely.box(10, -30, 50, 30)], crs)
+    pole = transformed(
+        np.array([[0.0, side * 90.0], [77.0, side * 80.0], [180.0, side * 80.0], [0.0, side * 62.0]]), WORLD, crs
+    )
+    (land,) = features.rings.taken(np.flatnonzero(features.feature == 0)).shapes
+    assert shapely.contains_xy(land, *pole.T).tolist() == [True, True, True, False]
+    back = transformed(features.rings.points, crs, WORLD)
+    assert (side * back[:, 1]).min() > -1e-6
+    equator = np.hypot(*transformed(np.array([[30.0, 0.0]]), WORLD, crs)[0])
+    assert np.hypot(*features.rings.points.T).max() == pytest.approx(equator, rel=1e-5)
+    assert any("cut off at the equator" in line for line in said)
+
+
+def test_a_band_around_the_world_is_a_ring_around_its_pole():
+    features, _ = in_system([shapely.box(-180, -90, 180, -60)], SOUTH)
+    radius = np.hypot(*transformed(np.array([[0.0, -60.0]]), WORLD, SOUTH)[0])
+    assert shapely.area(features.rings.shapes).sum() == pytest.approx(np.pi * radius**2, rel=1e-4)
+
+
+def test_domains():
+    assert domain_of("EPSG:3035") is None
+    assert domain_of(SOUTH).pole == -90.0
+    assert np.allclose(domain_of("+proj=moll +lon_0=-90").box, (-270, -90, 90, 90), atol=1e-4)
+
+
+def test_a_line_is_curved_where_a_map_bends_it_and_parted_where_it_is_torn():
+    parallel = shapely.LineString([(-60, 60), (60, 60)])
+    features, _ = in_system([parallel], "EPSG:3035")
+    truth = transformed(np.stack([np.linspace(-60, 60, 2001), np.full(2001, 60.0)], axis=1), WORLD, "EPSG:3035")
+    line = shapely.LineString(features.lines.points)
+    assert shapely.hausdorff_distance(line, shapely.LineString(truth)) < 2e-5 * np.ptp(truth[:, 0])
+    across, _ = in_system([shapely.LineString([(170, 10), (-170, 10)])], EQUAL_EARTH)
+    assert len(across.lines.ends) == 2
+    assert np.abs(np.diff(across.lines.points[: across.lines.ends[0], 0])).max() < 2e6
+    assert across.lines.feature.tolist() == [0, 0]
+
+
+def test_lines_on_web_mercator_go_on_beyond_the_antimeridian_and_end_at_its_edge():
+    features, _ = in_system([shapely.LineString([(179, 10), (-179, 10)])], "EPSG:3857")
+    assert np.ptp(features.lines.points[:, 0]) < 3e5
+    features, said = in_system([shapely.LineString([(0, 80), (0, 90)])], "EPSG:3857")
+    assert features.lines.points[:, 1].max() == pytest.approx(20037508.34, rel=1e-6)
+    assert any("85.05" in line for line in said)
+
+
+def test_there_and_back():
+    lines = Lines(np.arange(10.0).reshape(5, 2), np.array([2, 5]), np.array([4, 7]))
+    rings = there_and_back(lines)
+    assert rings.points[:, 0].tolist() == [0, 2, 4, 6, 8, 6]
+    again = way_there(rings)
+    assert (again.points == lines.points).all()
+    assert again.ends.tolist() == [2, 5]
+    assert again.feature.tolist() == [4, 7]
+
+
+def test_the_world_on_a_map_of_a_country_is_cut_to_where_that_is_used():
+    features, said = in_system([shapely.box(-170, -80, 170, 80), shapely.box(4, 51, 5, 52)], "EPSG:28992")
+    assert any("cut off at the area of use" in line for line in said)
+    assert np.abs(features.rings.points).max() < 1e6
+    with pytest.raises(SourceError, match="no place in EPSG:28992"):
+        in_system([shapely.box(-100, -80, -90, -70)], "EPSG:28992")
+
+
+def test_a_projected_source_is_on_a_map_of_the_world():
+    done = convert_map([MapLayer(frame([shapely.box(0, 3e5, 2e5, 6e5)], "EPSG:28992"))], crs=EQUAL_EARTH)
+    (root,) = done.conversion.texture.roots
+    place = transformed(np.array([[1e5, 4.5e5]]), "EPSG:28992", EQUAL_EARTH)
+    assert done.conversion.texture.element_at((place - root.to_source[:, 2]) / root.to_source[0, 0]).name == ["0"]

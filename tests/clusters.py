@@ -1,0 +1,50 @@
+"""A Dask cluster on this machine, for as long as a test needs it."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+import pytest
+
+__all__ = ["cluster_of"]
+
+SECONDS = 60
+HERE = ("--host", "127.0.0.1", "--no-dashboard")
+
+
+@contextmanager
+def started(*words: str) -> "Iterator[subprocess.Popen[str]]":
+    """A part of Dask in a process of its own, which finds the work in this folder."""
+    command = [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]]
+    folders = filter(None, (str(Path(__file__).parent), os.environ.get("PYTHONPATH")))
+    found = {**os.environ, "PYTHONPATH": os.pathsep.join(folders)}
+    with subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, env=found) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+def line_of(process: "subprocess.Popen[str]", says: str) -> str:
+    """Wait until a part of Dask says something."""
+    assert process.stderr is not None
+    for line in process.stderr:
+        if says in line:
+            return line
+    pytest.fail(f"{process.args} ended with {process.wait(SECONDS)}")
+
+
+@contextmanager
+def cluster_of(workers: int) -> "Iterator[tuple[str, list[subprocess.Popen[str]]]]":
+    """Address of a scheduler, and the processes of its workers, which start side by side."""
+    with ExitStack() as opened:
+        scheduler = opened.enter_context(started("dask_scheduler", *HERE, "--port", "0"))
+        address = line_of(scheduler, "Scheduler at:").split()[-1]
+        words = ("dask_worker", address, *HERE, "--nthreads", "1", "--no-nanny")
+        found = [opened.enter_context(started(*words)) for _ in range(workers)]
+        for worker in found:
+            line_of(worker, "Registered to:")
+        yield address, found

@@ -1,0 +1,105 @@
+"""Large trees grow in parts, in several threads: the same tree with any number of them."""
+
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import fields, replace
+from hashlib import sha256
+from multiprocessing import get_context
+
+import numpy as np
+import pytest
+
+from vexture.contours import ring_contours
+from vexture.deadline import within
+from vexture.drawing import Drawing, FillRule, Path
+from vexture.errors import LimitError
+from vexture.tree import parts
+from vexture.tree.bounds import DEFAULT_DEPTH, bounds_of
+from vexture.tree.build import SLICE, build_tree, grow_on, new_growth
+from vexture.tree.cubics import gather
+from vexture.tree.growth import WAITING, Growth, tree_of, with_needed_room
+from vexture.tree.tree import MOST_QUADS
+
+TOLERANCE = 1e-4
+
+
+def rough(random, size, middle, scale):
+    angle = np.sort(random.random(size)) * 2 * np.pi
+    far = scale * (1.0 + 0.3 * np.cumsum(random.normal(size=size)) / size**0.5)
+    return np.clip(middle + far[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1), 0.0, 1.0)
+
+
+@pytest.fixture(scope="module")
+def coast():
+    """One path of a long ring that meets the sides, many short ones, and one of curves that turn."""
+    random = np.random.default_rng(20)
+    rings = [rough(random, parts.LARGE, (0.5, 0.45), 0.4)]
+    rings += [rough(random, size, random.random(2), 0.03) for size in random.integers(3, 90, 300)]
+    corners = np.concatenate(rings)
+    curved = ring_contours(rough(random, 700, (0.3, 0.6), 0.2), np.array([700]))[0].copy()
+    curved[:, 1:3] += 0.002 * random.normal(size=(700, 2, 2))
+    contours = (*ring_contours(corners, np.cumsum([len(ring) for ring in rings])), curved)
+    return Drawing((Path(contours, FillRule.EVENODD),), name="coast")
+
+
+def digests(tree):
+    values = ((field.name, getattr(tree, field.name)) for field in fields(tree))
+    return {name: sha256(np.ascontiguousarray(value).tobytes()).hexdigest()[:8] for name, value in values}
+
+
+@pytest.fixture(scope="module")
+def whole(coast):
+    """Digests of the tree that has grown in one piece, without runs."""
+    cubics, owner, rules = gather(coast)
+    tree = Growth(*new_growth(cubics, owner, DEFAULT_DEPTH, False)[0])
+    while tree.counts[WAITING] > 0:
+        tree = with_needed_room(tree)
+        grow_on(tree, rules, bounds_of(TOLERANCE, DEFAULT_DEPTH, 8, None, MOST_QUADS), SLICE, 0)
+    return digests(tree_of(tree))
+
+
+@pytest.mark.parametrize("threads", [1, 2, 5])
+def test_a_tree_of_parts_is_that_of_one_piece(coast, whole, threads, monkeypatch):
+    grown = []
+    monkeypatch.setattr(parts, "_grown", lambda *given, grow=parts._grown: grown.append(1) or grow(*given))
+    assert digests(build_tree(coast, tolerance=TOLERANCE, threads=threads)) == whole
+    assert len(grown) > 10
+
+
+def test_small_drawings_start_no_thread(coast, monkeypatch):
+    monkeypatch.setattr(parts.ThreadPoolExecutor, "__init__", None)
+    with pytest.raises(TypeError):
+        build_tree(coast, tolerance=TOLERANCE)
+    (path,) = coast.paths
+    small = Drawing((replace(path, contours=path.contours[1:]),))
+    assert len(build_tree(small, tolerance=TOLERANCE).curves) > 0
+
+
+def test_a_process_that_shares_work_has_one_thread():
+    context = get_context("spawn")
+    with context.Pool(1) as pool:
+        assert pool.apply(parts.usual_threads) == 1
+    assert parts.usual_threads() >= 1
+
+
+def test_limits_hold_in_parts_and_end_their_threads(coast):
+    before = threading.active_count()
+    told = r"^coast: \d+ quads at least; the limit is 900; use a smaller `max_depth`"
+    found = []
+    for threads in (1, 2, 4):
+        with pytest.raises(LimitError, match=told) as error:
+            build_tree(coast, most_quads=900, threads=threads)
+        found.append(str(error.value))
+    assert len(set(found)) == 1
+    with within(0.05), pytest.raises(LimitError, match=r"^coast: converting takes longer than 0\.05 s"):
+        build_tree(coast, threads=2)
+    assert threading.active_count() == before
+
+
+def test_other_threads_run_while_a_tree_grows(coast):
+    """Or parts would wait for one another."""
+    with ThreadPoolExecutor(1) as executor:
+        growing, looks = executor.submit(build_tree, coast, tolerance=TOLERANCE, threads=1), 0
+        while not growing.done():
+            looks += 1
+    assert looks > 1000
