@@ -20,6 +20,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -116,6 +117,7 @@ class _Batch:
 
     def __init__(self, rings: Any, ids: Any) -> None:
         self.rings, self.ids, self.crs = rings, ids, "EPSG:4326"
+        self.lines, self.points = SimpleNamespace(ends=()), SimpleNamespace(points=())
 
 
 def measured(name: str, made: Any, zoom: int, processes: int, folder: Path) -> dict[str, float]:

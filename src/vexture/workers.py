@@ -5,6 +5,8 @@ done again.
 """
 
 import multiprocessing
+import os
+import signal
 import sys
 import time
 from collections import deque
@@ -140,6 +142,7 @@ _given: list[Any] = []
 
 def _share(work: Callable[..., Any], shared: Any) -> None:
     _given[:] = [work, shared]
+    signal.signal(signal.SIGINT, lambda *_: os._exit(1))  # Ctrl-C in a terminal reaches all: one says so
 
 
 def _work(item: Any) -> Any:

@@ -37,7 +37,7 @@ def run(*words):
 
 
 def test_a_killed_run_goes_on_and_ends_with_the_same_bytes(source, made_here, tmp_path):
-    """Killed four times, each time when a few more pieces of work are done."""
+    """Stopped four times, each time when a few more pieces of work are done; by Ctrl-C at last, which says so."""
     output = tmp_path / "parcels.pmtiles"
     words = (source, "-o", output, "--max-zoom", ZOOM, "--processes", "1")
     journal = Path(f"{output}{SUFFIX}") / "journal"
@@ -46,7 +46,13 @@ def test_a_killed_run_goes_on_and_ends_with_the_same_bytes(source, made_here, tm
             while process.poll() is None and not (journal.exists() and journal.read_text().count("\n") >= pieces):
                 time.sleep(0.002)
             assert process.returncode is None
-            process.send_signal(signal.SIGKILL)
+            process.send_signal(signal.SIGINT if pieces == 8 else signal.SIGKILL)
+            said = process.stderr.read()
+    assert process.returncode == 130
+    assert (
+        said
+        == f"vexture: interrupted; what is finished is in {journal.parent}, and the same command goes on from there\n"
+    )
     assert not output.exists()
     with run(*words) as process:
         errors = process.stderr.read()

@@ -2,7 +2,8 @@
 
 import json
 from dataclasses import dataclass
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, ClassVar
 
 import numpy as np
 import shapely
@@ -17,6 +18,8 @@ class Batch:
     rings: Any
     ids: Any
     crs: str = "EPSG:4326"
+    lines: ClassVar = SimpleNamespace(ends=())
+    points: ClassVar = SimpleNamespace(points=())
 
 
 def batch_of(shapes, ids, crs="EPSG:4326"):

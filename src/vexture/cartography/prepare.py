@@ -13,7 +13,6 @@ from vexture.cartography.colours import Scale, colours_of, rgba_of
 from vexture.cartography.marks import strokes, width_of, widths_at
 from vexture.cartography.paths import Fit, symbol_paths
 from vexture.cartography.place import placed
-from vexture.cartography.tables import with_legends
 from vexture.cartography.times import Steps, Times, coloured_steps, with_steps
 from vexture.content import about
 from vexture.deadline import within
@@ -22,6 +21,7 @@ from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.geo.crs import chosen_crs, gis_packages
 from vexture.geo.features import Features, read_features
 from vexture.geo.rings import Rings
+from vexture.geo.tables import with_legends
 from vexture.notes import Notes
 from vexture.paint import Paint
 

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 import click
 
-from vexture.cli.messages import say
+from vexture.cli.messages import INTERRUPTED, say
 
 __all__ = ["COMMANDS", "main"]
 
@@ -28,9 +28,6 @@ PLUGINS: Final = "vexture.commands"
 
 ELSEWHERE: Final = {"report": "the package vexture-evidence adds it: in a clone, pip install ./evidence"}
 """Commands of known distributions, and how to install these."""
-
-INTERRUPTED: Final = 130
-"""Exit code after Ctrl-C: 128 and the signal's number, as shells have it."""
 
 
 class _Commands(click.Group):

@@ -7,17 +7,13 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.cli.messages import one_line, say_notes
-from vexture.cli.options import PATH
+from vexture.cli.options import PATH, colour_options, columns_of, scale_of
 from vexture.errors import ParameterError, counted
 
 if TYPE_CHECKING:
-    import pyarrow
-
     from vexture.cartography import Map, MapLayer
 
 __all__ = ["map"]
-
-TABLES: Final = ("parquet", "arrow", "none")
 
 TIMES: Final = ".times.json"
 """Suffix of the file of colours at each step."""
@@ -46,13 +42,7 @@ EACH: Final = "once for all sources, or once for each ('' for none)"
     "--time", metavar="A,B,...|y*|TABLE", multiple=True,
     help="What colours show at each step: columns, or a Parquet, Arrow or CSV file of id, time and a value.",
 )  # fmt: skip
-@click.option(
-    "--scale", metavar="KIND", default="auto", show_default=True,
-    help="quantiles, equal, continuous, categories, or the breaks of classes: 10,20,50.",
-)  # fmt: skip
-@click.option("--classes", metavar="N", type=int, default=5, show_default=True, help="Of quantiles and equal.")
-@click.option("--palette", metavar="NAME", help="Of cmap, such as magma or tab10.  [default: for any colour vision]")
-@click.option("--no-data", metavar="COLOR", default="#d9d9d9", show_default=True, help="Of features without a value.")
+@colour_options
 @click.option("--fill", metavar="COLOR", multiple=True, help="One colour of a source.")
 @click.option("--order", metavar="COLUMN", multiple=True, help="Which polygons are above.  [default: the smaller ones]")
 @click.option("--stroke", metavar="500m|1.5px", multiple=True, help="Width of lines.  [default: 1px]")
@@ -62,7 +52,6 @@ EACH: Final = "once for all sources, or once for each ('' for none)"
 @click.option("--snap", metavar="PART", type=float, help="Borders and gaps this near become one.  [default: 3e-6]")
 @click.option("--tolerance", metavar="PART", type=float, help="Most that a border moves.  [default: 2e-5]")
 @click.option("--restyle/--no-restyle", default=True, help="Whether features can be picked and recoloured.")
-@click.option("--table", type=click.Choice(TABLES), default="parquet", show_default=True, help="File of attributes.")
 @click.option("--max-seconds", metavar="S", type=float, default=300.0, show_default=True, help="Most time.")
 @click.option("--json", "as_json", is_flag=True, help="Print facts and the legend as JSON.")
 def map(
@@ -75,6 +64,7 @@ def map(
     """
     with one_line():
         from vexture.cartography import convert_map
+        from vexture.geo.tables import check_targets
         from vexture.layout import PACKED_SUFFIX
         from vexture.texture.files import write_together
 
@@ -82,9 +72,7 @@ def map(
             raise ParameterError(f"`output` {output}: textures are KTX2 files; name one that ends in {PACKED_SUFFIX}")
         beside = [*([] if table == "none" else [f".{table}"]), *([TIMES] if any(options["time"]) else [])]
         targets = [output, *(output.with_suffix(suffix) for suffix in beside)]
-        for target in targets:
-            if any(target.exists() and source.exists() and target.samefile(source) for source in sources):
-                raise ParameterError(f"{target} is a source itself; give another `output`, or `table` none")
+        check_targets(targets, sources)
         layers = _layers(sources, symbol, options)
         kept = {name: options[name] for name in ("crs", "snap", "size", "restyle", "max_seconds")}
         if options["tolerance"] is not None:
@@ -112,9 +100,11 @@ def map(
 
 def _files(output: Path, done: "Map", table: str) -> dict[Path, bytes]:
     """The texture, the table, and the colours of each step of time."""
+    from vexture.geo.tables import table_bytes
+
     files = {output: done.conversion.texture.to_ktx2()}
     if table != "none":
-        files[output.with_suffix(f".{table}")] = _table_bytes(done.table, table)
+        files[output.with_suffix(f".{table}")] = table_bytes(done.table, table)
     if done.times is not None:
         import json
 
@@ -124,7 +114,7 @@ def _files(output: Path, done: "Map", table: str) -> dict[Path, bytes]:
 
 def _layers(sources: tuple[Path, ...], symbol: Path | None, options: dict[str, Any]) -> "list[MapLayer]":
     """The layers that options describe."""
-    from vexture.cartography import MapLayer, Scale, Times
+    from vexture.cartography import MapLayer, Times
     from vexture.reading import read
 
     count = len(sources)
@@ -134,12 +124,11 @@ def _layers(sources: tuple[Path, ...], symbol: Path | None, options: dict[str, A
     layers = []
     for place, source in enumerate(sources):
         own = {name: values[place] for name, values in each.items()}
-        columns = None if own["columns"] is None else tuple(part.strip() for part in own["columns"].split(","))
-        scale = None
+        columns, scale = columns_of(own["columns"]), None
         if own["color"] is not None and own["time"] is not None:
             raise ParameterError(f"{source}: colours show its `color` or its `time`; give one of them")
         if own["color"] is not None or own["time"] is not None:
-            scale = Scale(own["color"] or "", *(options[name] for name in ("scale", "palette", "classes", "no_data")))
+            scale = scale_of(own["color"] or "", options)
         times = None if own["time"] is None else Times(own["time"])
         shape: dict[str, Any] = {name: own[name] for name in ("fill", "order")}
         shape |= {"stroke": own["stroke"] or "1px", "symbol": drawn, "symbol_size": options["symbol_size"]}
@@ -155,18 +144,3 @@ def _each(values: Sequence[str], count: int, name: str) -> list[str | None]:
         raise ParameterError(f"`{name}` is given {len(values)} times for {count} sources; give it once, or for each")
     every = [*values] * (count if len(values) == 1 else 1) if values else [""] * count
     return [value or None for value in every]
-
-
-def _table_bytes(table: "pyarrow.Table", kind: str) -> bytes:
-    """A table as a file."""
-    import pyarrow as pa
-
-    sink = pa.BufferOutputStream()
-    if kind == "parquet":
-        import pyarrow.parquet as pq
-
-        pq.write_table(table, sink)
-    else:
-        with pa.ipc.new_file(sink, table.schema) as writer:
-            writer.write_table(table)
-    return bytes(sink.getvalue().to_pybytes())

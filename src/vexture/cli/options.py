@@ -1,7 +1,7 @@
 """Types of options, and options that several commands have."""
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -19,9 +19,12 @@ __all__ = [
     "Rectangle",
     "Sectioned",
     "Tolerance",
+    "colour_options",
+    "columns_of",
     "conversion_options",
     "drawing_kind",
     "font_option",
+    "scale_of",
     "split_of",
     "standard_input",
     "strict_option",
@@ -31,6 +34,7 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
+    from vexture.cartography import Scale
     from vexture.content import FileKind
     from vexture.parameters import Parameters
 
@@ -180,6 +184,43 @@ trace_images_option = click.option(
 
 
 SILHOUETTE_HELP: Final = "the covered area of a drawing, without colours."
+
+
+def colour_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the options of colours by an attribute, and of the table of attributes, to a command."""
+    from vexture.geo.tables import TABLES
+
+    kinds = "quantiles, equal, continuous, categories, or the breaks of classes: 10,20,50."
+    listed = (
+        click.option("--scale", metavar="KIND", default="auto", show_default=True, help=kinds),
+        click.option("--classes", metavar="N", type=int, default=5, show_default=True, help="Of quantiles and equal."),
+        click.option(
+            "--palette", metavar="NAME", help="Of cmap, such as magma or tab10.  [default: for any colour vision]"
+        ),
+        click.option(
+            "--no-data", metavar="COLOR", default="#d9d9d9", show_default=True, help="Of features without a value."
+        ),
+        click.option(
+            "--table", type=click.Choice(TABLES), default=TABLES[0], show_default=True, help="File of attributes."
+        ),
+    )
+    for option in reversed(listed):
+        command = option(command)
+    return command
+
+
+def scale_of(column: str | None, options: Mapping[str, Any]) -> "Scale | None":
+    """The colours by a column that `colour_options` describe; None without a column."""
+    from vexture.cartography.colours import Scale
+
+    if column is None:
+        return None
+    return Scale(column, *(options[name] for name in ("scale", "palette", "classes", "no_data")))
+
+
+def columns_of(text: str | None) -> tuple[str, ...] | None:
+    """Names of columns, separated by commas; None are all."""
+    return None if text is None else tuple(part.strip() for part in text.split(","))
 
 
 def split_of(split: str | None, silhouette: bool | None) -> dict[str, str | None]:

@@ -8,19 +8,20 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vexture.cli.messages import one_line, say_notes
-from vexture.cli.options import PATH
+from vexture.cli.messages import INTERRUPTED, one_line, say, say_notes
+from vexture.cli.options import PATH, colour_options, columns_of, scale_of
 from vexture.errors import counted
 
 if TYPE_CHECKING:
     from vexture.tiles.build import Told
+    from vexture.tiles.options import TileOptions
 
 __all__ = ["tiles"]
 
 EXAMPLE = """\b
 Examples:
   vexture tiles land.gpkg -o land.pmtiles
-  vexture tiles parcels.fgb --id parcel --max-zoom 14 -o parcels.pmtiles
+  vexture tiles parcels.fgb --id parcel --color value --max-zoom 14 -o parcels.pmtiles
   vexture tiles parcels.fgb -o parcels --scheduler tcp://10.0.0.7:8786
 """
 
@@ -35,28 +36,49 @@ Examples:
 @click.option("--where", metavar="CONDITION", help="Only features for which this holds, such as \"kind = 'forest'\".")
 @click.option("--id", metavar="COLUMN", help="Column with the ids of features.  [default: their numbers]")
 @click.option("--crs", metavar="EPSG:N", help="Reference system of the source, if its file does not say it.")
+@click.option("--columns", metavar="A,B,...", help="Attributes to keep in the table.  [default: all]")
+@click.option("--color", "--colour", metavar="COLUMN", help="Attribute that colours show.")
+@colour_options
+@click.option("--fill", metavar="COLOR", help="One colour of all.  [default: grey]")
 @click.option("--name", metavar="TEXT", default="", help="Name of the map.  [default: the output's name]")
 @click.option("--attribution", metavar="TEXT", default="", help="Where the data are from.")
 @click.option("--processes", metavar="N", type=int, help="Processes that share the work.  [default: one a core]")
 @click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler whose workers do the work.")
 @click.option("-q", "--quiet", is_flag=True, help="Print errors only.")
-def tiles(source: Path, output: Path, processes: int | None, quiet: bool, **options: Any) -> None:
+def tiles(source: Path, output: Path, **options: Any) -> None:
     """Make a pyramid of tiles of a map's polygons: one file (PMTiles), or a folder with a TileJSON.
 
-    Each tile is a texture that is sharp far beyond its own zoom. Who is interrupted, or killed, goes on where it was
-    when the same command runs again.
+    Each tile is a texture that is sharp far beyond its own zoom. It has polygons only: lines and points are for
+    `vexture map`. A table of attributes is beside the file, or in the folder. Who is interrupted, or killed, goes on
+    where it was when the same command runs again.
     """
     with one_line():
-        from vexture.tiles.build import make_tiles
-        from vexture.tiles.options import TileOptions
+        from vexture.tiles.build import make_tiles, unfinished
 
-        asked = TileOptions(processes=processes or os.cpu_count() or 1, **options)
-        with ExitStack() as opened:
-            made = make_tiles(source, output, asked, _progress(opened, quiet))
+        quiet = options.pop("quiet")
+        asked = _asked(options)
+        try:
+            with ExitStack() as opened:
+                made = make_tiles(source, output, asked, _progress(opened, quiet))
+        except KeyboardInterrupt:
+            say(f"interrupted; {unfinished(output)}")
+            sys.exit(INTERRUPTED)
         if not quiet:
             say_notes(source, made.notes)
             found = f"{counted(made.features, 'feature')}, {counted(made.tiles, 'tile')}"
             click.echo(f"{output}: {found}, {made.contents} of them different, {made.bytes} bytes")
+
+
+def _asked(options: dict[str, Any]) -> "TileOptions":
+    """What the options ask for."""
+    from vexture.tiles.attributes import Look
+    from vexture.tiles.options import TileOptions
+
+    own = ("color", "scale", "classes", "palette", "no_data", "fill", "columns", "table")
+    given = {name: options.pop(name) for name in own}
+    look = Look(scale_of(given["color"], given), given["fill"], columns_of(given["columns"]), given["table"])
+    processes = options.pop("processes") or os.cpu_count() or 1
+    return TileOptions(look=look, processes=processes, **options)
 
 
 def _progress(opened: ExitStack, quiet: bool) -> "Told":

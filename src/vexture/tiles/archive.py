@@ -10,9 +10,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, BinaryIO, Final
 
-from vexture.cartography.tables import TABLES
 from vexture.errors import DeviceError, LimitError
 from vexture.geo.extent import Bounds
+from vexture.geo.tables import TABLES
 from vexture.layout import PACKED_SUFFIX
 from vexture.texture.files import TEMPORARY, make_folder
 from vexture.tiles.store import Content

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.cartography.colours import Scale, colours_of, rgba_of
-from vexture.cartography.tables import TABLES, cast, with_legends, write_batches
 from vexture.errors import ParameterError
+from vexture.geo.tables import TABLES, cast, with_legends, write_batches
 from vexture.notes import Notes
 from vexture.tiles.texture import GREY, packed
 

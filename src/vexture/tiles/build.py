@@ -6,9 +6,10 @@ from math import atan, degrees, exp, pi
 from pathlib import Path
 from typing import Any, BinaryIO, Final
 
-from vexture.cartography.tables import check_targets
-from vexture.errors import SourceError
+from vexture.content import about
+from vexture.errors import DeviceError, SourceError, VextureError, reason_of
 from vexture.geo.extent import Bounds
+from vexture.geo.tables import check_targets
 from vexture.notes import Note, Notes
 from vexture.texture.files import writable
 from vexture.tiles.archive import ARCHIVE, check_target, table_of, write_archive, write_folder
@@ -21,7 +22,7 @@ from vexture.tiles.store import SUFFIX, Store
 from vexture.tiles.subtree import Job, Made, done
 from vexture.tiles.world import in_world
 
-__all__ = ["VERSION", "MadeTiles", "make_tiles"]
+__all__ = ["VERSION", "MadeTiles", "make_tiles", "unfinished"]
 
 VERSION: Final = 3
 """Of what is kept of unfinished pyramids; what another one wrote is not used."""
@@ -84,10 +85,26 @@ def make_tiles(
         parts = [Part(Tile(*tile), weight) for *tile, weight in facts["parts"]]
         _work(store, parts, options, told)
         made = _written(store, output, options, facts)
-    finally:
+    except BaseException as error:
         store.close()
+        if not store.has_parts:
+            store.remove()  # reading begins anew
+        if isinstance(error, VextureError) and store.has_parts:
+            raise type(error)(f"{error}; {unfinished(output)}") from None
+        if isinstance(error, OSError):
+            reason = error.strerror or reason_of(error)
+            raise DeviceError(f"{output}: {reason}; make room, or choose another disk; {unfinished(output)}") from None
+        raise
     store.remove()
     return made
+
+
+def unfinished(output: Path) -> str:
+    """What is left of a pyramid that was not finished, and what to do with it."""
+    folder = output.with_name(output.name + SUFFIX)
+    if not folder.exists():
+        return "nothing of it is finished"
+    return f"what is finished is in {folder}, and the same command goes on from there"
 
 
 def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: Any) -> Any:
@@ -103,7 +120,8 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
     def pieces() -> Iterator[Pieces]:
         nonlocal count, others
         for features in batches(source, **options.reading, notes=notes):
-            attributes.add(features)
+            with about(str(source)):
+                attributes.add(features)
             others += len(features.lines.ends) + len(features.points.points)
             found = in_world(features, count, options.max_zoom, notes)
             count += len(features.ids)
@@ -115,9 +133,10 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
     parts = partitioned(pieces(), store.sources, last_zoom(options.max_zoom, options.step), options.step)
     box = shapely.total_bounds(shapely.box(*zip(*boxes, strict=True))).tolist() if boxes else None
     if others and boxes:
-        notes.remark(f"{others} lines and points are left out, as tiles have polygons only; draw them by vexture map")
+        notes.remark("a line or point is left out, as tiles have polygons only: vexture map draws them", others)
     facts: dict[str, Any] = {"parts": [[*part.tile, part.weight] for part in parts], "bounds": box, "features": count}
-    facts["legends"] = attributes.close(options.layer or Path(source).name.partition(".")[0], notes)
+    with about(str(source)):
+        facts["legends"] = attributes.close(options.layer or Path(source).name.partition(".")[0], notes)
     facts["others"] = others
     facts["notes"] = [[note.kind, note.message, note.count] for note in notes.listed]
     store.write_parts(facts)

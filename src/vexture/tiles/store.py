@@ -73,6 +73,11 @@ class Store:
             return None
         return json.loads(text)
 
+    @property
+    def has_parts(self) -> bool:
+        """Whether the source is read, so that a later run can go on."""
+        return (self.folder / PARTS).exists()
+
     def write_parts(self, facts: Any) -> None:
         """Tell that all parts of the source are there."""
         self.write(PARTS, json.dumps(facts).encode())

@@ -1,0 +1,214 @@
+"""Pyramids on a Dask cluster: efficiency of two workers, of more by simulation, and workers that are killed.
+
+    python evidence/benchmarks/tiles_cluster.py [--parcels 50000] [--zoom 14] [--kills 10] [--quick]
+
+The parcels are those of `tiles.py`. A scheduler and workers of one thread run on this machine. The simulation takes the
+scheduler's own figures of the run with one worker: how long each piece of work was computed and how long its data were
+on their way. It gives the pieces to more workers as `vexture.workers.Cluster` does: in order, two for each worker at a
+time, while who asked handles one result after the other; a level waits for the one before. `times` repeats the pieces,
+as of a source so many times larger, except where a level has one.
+
+For the kills a process with the same work ends, ten times in one run, at random moments: as often, another starts.
+"""
+
+import argparse
+import hashlib
+import heapq
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from itertools import accumulate
+from pathlib import Path
+from typing import Any, Final
+
+from distributed import Client
+
+from report import write_figures
+from tiles import Source, parcels
+from vexture.tiles.build import make_tiles
+from vexture.tiles.options import TileOptions
+from vexture.workers import AHEAD
+
+GOALS = {"inefficiency_2": 15.0, "inefficiency_64": 15.0, "other_bytes": 0.0}
+MOST_WORKERS: Final = 64
+PATIENCE: Final = 120.0
+"""Seconds for a part of Dask to start."""
+
+
+@contextmanager
+def dask(*words: str, says: str) -> Iterator[tuple[Any, str]]:
+    """A part of Dask in a process of its own, once it says something."""
+    command = [sys.executable, "-m", f"distributed.cli.{words[0]}", *words[1:], "--no-dashboard"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as process:
+        assert process.stderr is not None
+        try:
+            for line in process.stderr:
+                if says in line:
+                    threading.Thread(target=process.stderr.read, daemon=True).start()  # else it waits for a reader
+                    yield process, line
+                    return
+            raise RuntimeError(f"{words[0]} ended")
+        finally:
+            process.kill()
+
+
+@contextmanager
+def cluster(workers: int) -> Iterator[tuple[str, list[Any], ExitStack]]:
+    """Address of a scheduler, its workers, and what ends further ones."""
+    with ExitStack() as opened:
+        local = ("--host", "127.0.0.1")
+        started = opened.enter_context(dask("dask_scheduler", *local, "--port", "0", says="Scheduler at:"))
+        address = started[1].split()[-1]
+        yield address, [worker(address, opened) for _ in range(workers)], opened
+
+
+def worker(address: str, opened: ExitStack) -> Any:
+    """One more worker."""
+    more = ("--host", "127.0.0.1", "--nthreads", "1", "--no-nanny")
+    return opened.enter_context(dask("dask_worker", address, *more, says="Registered to:"))[0]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A piece of work: seconds that it was computed, and those in which its data were on their way."""
+
+    computed: float
+    moved: float
+
+
+def measured(count: int, zoom: int, workers: int, folder: Path) -> tuple[float, float, list[list[Piece]], str]:
+    """Seconds of a run, those in which workers were asked, its pieces of work in phases, and its bytes' digest."""
+    mark, output = folder / "parcels.txt", folder / f"cluster-{workers}.pmtiles"
+    mark.write_text("parcels")
+    moments: list[tuple[str, float]] = []
+    counts: list[int] = []
+
+    def told(what: str, number: int, total: int) -> None:
+        moments.append((what, time.perf_counter()))
+        if total and number == 1:
+            counts.append(total)
+
+    with cluster(workers) as (address, _, _), Client(address, set_as_default=False) as client:
+        client.get_task_stream()  # from now on the scheduler remembers
+        start = time.perf_counter()
+        options = TileOptions(max_zoom=zoom, scheduler=address, name="parcels")
+        make_tiles(mark, output, options, told, batches=Source(lambda: parcels(count)))
+        seconds = time.perf_counter() - start
+        stream = client.get_task_stream()
+    read = max(moment for what, moment in moments if what == "reading features")
+    asked = max(moment for _, moment in moments) - read
+    return seconds, asked, _pieces(stream, counts), hashlib.sha256(output.read_bytes()).hexdigest()
+
+
+def _pieces(stream: Sequence[Any], counts: Sequence[int]) -> list[list[Piece]]:
+    """Pieces of work in the order of their ends, of levels of so many each."""
+    found: list[Piece] = []
+    for task in sorted(stream, key=lambda task: max(one["stop"] for one in task["startstops"])):
+        seconds = {"compute": 0.0, "transfer": 0.0}
+        for one in task["startstops"]:
+            kind = one["action"] if one["action"] in seconds else "transfer"
+            seconds[kind] += one["stop"] - one["start"]
+        found.append(Piece(seconds["compute"], seconds["transfer"]))
+    assert len(found) == sum(counts), "a piece was done twice"
+    ends = list(accumulate(counts))
+    return [found[end - count : end] for end, count in zip(ends, counts, strict=True)]
+
+
+def simulated(pieces: Sequence[Piece], workers: int, handled: float) -> float:
+    """Seconds in which so many workers do pieces of work; who asked takes a part of a second for each of them."""
+    free, ends = [0.0] * workers, [0.0] * len(pieces)
+    now, window = 0.0, AHEAD * workers
+    for number, piece in enumerate(pieces):
+        if number >= window:
+            now = max(now, ends[number - window])
+        now += handled
+        ends[number] = max(now, heapq.heappop(free)) + piece.computed + piece.moved
+        heapq.heappush(free, ends[number])
+    return max(now, *ends)
+
+
+def scaled(phases: Sequence[Sequence[Piece]], times: int, workers: int, handled: float) -> float:
+    """Efficiency of so many workers for a source so many times larger, of 1."""
+
+    def seconds(count: int) -> float:
+        levels = [list(phase) * (times if len(phase) > 1 else 1) for phase in phases]
+        return sum(simulated(sorted(level, key=lambda piece: -piece.computed), count, handled) for level in levels)
+
+    return seconds(1) / seconds(workers) / workers
+
+
+def killed(count: int, zoom: int, kills: int, folder: Path) -> tuple[str, int]:
+    """Digest of a run in which random workers are killed, and how many were."""
+    mark, output = folder / "parcels.txt", folder / "killed.pmtiles"
+    mark.write_text("parcels")
+    chance, done = random.Random(20), threading.Event()
+    deaths = 0
+    with cluster(2) as (address, alive, opened):
+
+        def kill() -> None:
+            nonlocal deaths
+            while deaths < kills and not done.wait(chance.uniform(1.0, 4.0)):
+                victim = alive.pop(chance.randrange(len(alive)))
+                alive.append(worker(address, opened))
+                os.kill(victim.pid, signal.SIGKILL)
+                deaths += 1
+
+        killer = threading.Thread(target=kill)
+
+        def told(what: str, *_: int) -> None:
+            if what == "parts" and killer.ident is None:
+                killer.start()
+
+        options = TileOptions(max_zoom=zoom, scheduler=address, name="parcels")
+        make_tiles(mark, output, options, told, batches=Source(lambda: parcels(count)))
+        done.set()
+        killer.join()
+    return hashlib.sha256(output.read_bytes()).hexdigest(), deaths
+
+
+def main() -> None:
+    """Measure, print and write."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--parcels", type=int, default=50_000)
+    parser.add_argument("--zoom", type=int, default=14)
+    parser.add_argument("--kills", type=int, default=10)
+    parser.add_argument("--quick", action="store_true", help="few parcels, two kills")
+    chosen = parser.parse_args()
+    count, kills = (3_000, 2) if chosen.quick else (chosen.parcels, chosen.kills)
+    figures: dict[str, float] = {}
+    digests = set()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        seconds, asked, phases, digest = measured(count, chosen.zoom, 1, folder)
+        digests.add(digest)
+        pieces = [piece for phase in phases for piece in phase]
+        worked = sum(piece.computed + piece.moved for piece in pieces)
+        handled = max(asked - worked, 0.0) / len(pieces)
+        figures |= {"pieces": len(pieces), "seconds_1": seconds, "asked_1": asked}
+        figures |= {"computed": sum(piece.computed for piece in pieces), "moved": sum(piece.moved for piece in pieces)}
+        figures |= {"longest": max(piece.computed for piece in pieces), "handled_each": handled}
+        seconds, asked_2, _, digest = measured(count, chosen.zoom, 2, folder)
+        digests.add(digest)
+        figures |= {"seconds_2": seconds, "asked_2": asked_2}
+        figures["inefficiency_2"] = 100.0 * (1.0 - asked / asked_2 / 2.0)
+        for times in (1, 4, 16):
+            for workers in (2, 8, MOST_WORKERS):
+                efficiency = scaled(phases, times, workers, handled)
+                figures[f"simulated_{workers}_of_{times}_times"] = 100.0 * efficiency
+        figures["inefficiency_64"] = 100.0 * (1.0 - scaled(phases, 16, MOST_WORKERS, handled))
+        digest, deaths = killed(count, chosen.zoom, kills, folder)
+        digests.add(digest)
+        figures |= {"killed": deaths, "other_bytes": len(digests) - 1}
+    write_figures("tiles_cluster", figures, GOALS)
+
+
+if __name__ == "__main__":
+    main()

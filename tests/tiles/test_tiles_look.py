@@ -1,0 +1,181 @@
+"""Colours of a pyramid's features, the table beside it, and what is said where it cannot be made."""
+
+import errno
+import hashlib
+import json
+import resource
+import subprocess
+import sys
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+import shapely
+from pmtiles.reader import MmapSource, Reader, all_tiles
+from tile_sources import cells
+
+from vexture import ParameterError, SourceError
+from vexture.cartography.colours import Scale, colours_of
+from vexture.errors import DeviceError
+from vexture.notes import Notes
+from vexture.texture.load import texture_from
+from vexture.tiles.attributes import Look
+from vexture.tiles.build import make_tiles
+from vexture.tiles.options import TileOptions
+
+COUNT = 12
+VALUES = [None, *range(1, COUNT)]
+BY_VALUE = Scale("value", classes=3, no_data="#ff000080")
+LOOK = Look(BY_VALUE, table="parquet")
+
+
+def write(path, shapes, **columns):
+    rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+    features = [
+        {"type": "Feature", "properties": row, "geometry": shapely.geometry.mapping(shape)}
+        for row, shape in zip(rows, shapes, strict=True)
+    ]
+    path.write_text(json.dumps({"type": "FeatureCollection", "name": "parcels", "features": features}))
+    return path
+
+
+@pytest.fixture(scope="module")
+def source(tmp_path_factory):
+    names = [f"p{k}" for k in range(COUNT)]
+    shapes = cells(COUNT, (4.0, 51.0, 6.0, 53.0))
+    return write(tmp_path_factory.mktemp("source") / "parcels.geojson", shapes, parcel=names, value=VALUES)
+
+
+def made(source, output, look, **options):
+    return make_tiles(source, output, TileOptions(max_zoom=6, id="parcel", look=look, **options))
+
+
+def colours_in(path):
+    """The colours of all features of all tiles, by their ids."""
+    found = {}
+    with path.open("rb") as file:
+        for _, data in all_tiles(MmapSource(file)):
+            style = texture_from(data, "a tile").roots[0].style
+            for name, rgba in zip(style.names, style.rgba.tolist(), strict=True):
+                found.setdefault(name, set()).add(tuple(rgba))
+    return found
+
+
+def test_features_have_the_colours_of_their_attribute_in_all_tiles(source, tmp_path):
+    made(source, tmp_path / "parcels.pmtiles", LOOK, processes=2)
+    rgba, legend = colours_of(pa.table({"value": VALUES}), BY_VALUE, Notes())
+    found = colours_in(tmp_path / "parcels.pmtiles")
+    assert len(found) == COUNT
+    for place, colour in enumerate(rgba):
+        (shown,) = found[f"p{place}"]
+        assert np.allclose(shown, colour, atol=0.5 / 255)
+    with (tmp_path / "parcels.pmtiles").open("rb") as file:
+        about = Reader(MmapSource(file)).metadata()["vexture"]
+    assert about["legends"] == [{"layer": "parcels", **legend}]
+    assert about["table"] == "parcels.parquet"
+    table = pq.read_table(tmp_path / "parcels.parquet")
+    assert table.column("id").to_pylist() == [f"p{k}" for k in range(COUNT)]
+    assert table.column("value").to_pylist() == VALUES
+    assert json.loads(table.schema.metadata[b"vexture.legend"]) == about["legends"]
+
+
+def test_a_folder_has_its_table_within_and_one_colour_is_that_of_all(source, tmp_path):
+    made(source, tmp_path / "out", Look(fill="teal", columns=("value",), table="arrow"))
+    about = json.loads((tmp_path / "out" / "tiles.json").read_text())["vexture"]
+    assert about["table"] == "table.arrow"
+    assert "legends" not in about
+    with pa.memory_map(str(tmp_path / "out" / "table.arrow")) as file:
+        assert pa.ipc.open_file(file).read_all().column_names == ["id", "value"]
+    tile = next((tmp_path / "out").rglob("*.ktx2"))
+    rgba = texture_from(tile.read_bytes(), "a tile").roots[0].style.rgba
+    assert np.allclose(rgba, (0.0, 128 / 255, 128 / 255, 1.0), atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "stops",
+    [KeyboardInterrupt(), DeviceError("workers died"), OSError(errno.ENOSPC, "No space left on device")],
+    ids=["interrupted", "an error", "a full disk"],
+)
+def test_what_is_finished_is_named_and_has_its_colours_and_its_table(source, tmp_path, stops):
+    made(source, tmp_path / "whole.pmtiles", LOOK)
+    output = tmp_path / "parcels.pmtiles"
+
+    def told(what, *_):
+        if what == "parts":
+            raise stops
+
+    options = TileOptions(max_zoom=6, id="parcel", look=LOOK, name="whole")
+    says = "" if isinstance(stops, KeyboardInterrupt) else r"what is finished is in .*parcels\.pmtiles\.parts, and the"
+    with pytest.raises(KeyboardInterrupt if not says else DeviceError, match=says):
+        make_tiles(source, output, options, told)
+    assert (tmp_path / "parcels.pmtiles.parts").is_dir()
+    made(source, output, LOOK, name="whole")
+    assert colours_in(output) == colours_in(tmp_path / "whole.pmtiles")
+    digests = {hashlib.sha256((tmp_path / f"{name}.parquet").read_bytes()).digest() for name in ("whole", "parcels")}
+    assert len(digests) == 1
+    assert len(list(tmp_path.iterdir())) == 4
+
+
+@pytest.mark.parametrize(
+    ("look", "says"),
+    [
+        (Look(Scale("height")), "parcels.geojson: it has no column 'height' for `color`; there are: id, value"),
+        (Look(Scale("parcel", "equal"), table="parquet"), "holds string, not numbers; give `scale` categories"),
+    ],
+)
+def test_columns_that_cannot_be_colours_are_named_and_nothing_stays(source, tmp_path, look, says):
+    with pytest.raises(ParameterError) as error:
+        made(source, tmp_path / "parcels.pmtiles", look)
+    assert says.partition("; there")[0] in str(error.value)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("look", "says"),
+    [
+        (Look(BY_VALUE, fill="red"), "`color` and `fill` exclude each other"),
+        (Look(fill="reddish"), "`fill` is 'reddish'; give a CSS colour"),
+        (Look(Scale("value", palette="nope")), "the `palette` 'nope' is unknown"),
+        (Look(Scale("value", "steps")), "`scale` is 'steps'"),
+    ],
+)
+def test_looks_are_refused_before_anything_is_read(look, says):
+    with pytest.raises(ParameterError) as error:
+        TileOptions(look=look)
+    assert says in str(error.value)
+
+
+def test_a_table_is_never_written_over_its_source(source, tmp_path):
+    copy = tmp_path / "parcels.parquet"
+    copy.write_bytes(source.read_bytes())
+    with pytest.raises(ParameterError, match=r"parcels\.parquet is a source itself; give another `output`"):
+        made(copy, tmp_path / "parcels.pmtiles", LOOK)
+
+
+def test_lines_and_points_are_left_out_and_said(tmp_path):
+    shapes = [shapely.box(4, 51, 5, 52), shapely.LineString([(4, 51), (5, 52)]), shapely.Point(4, 52)]
+    mixed = write(tmp_path / "mixed.geojson", shapes, parcel=["a", "b", "c"])
+    (note,) = made(mixed, tmp_path / "mixed.pmtiles", Look()).notes
+    assert note.count == 2
+    assert note.message == "a line or point is left out, as tiles have polygons only: vexture map draws them"
+    lines = write(tmp_path / "lines.geojson", shapes[1:], parcel=["b", "c"])
+    with pytest.raises(SourceError, match=r"it has 2 lines and points, but no polygon, .* draw it by vexture map"):
+        made(lines, tmp_path / "lines.pmtiles", Look())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it has no limits of files")
+def test_a_disk_that_is_full_is_one_line(source, tmp_path):
+    """A limit of a file's size stands for a full disk."""
+    output = tmp_path / "parcels.pmtiles"
+    words = [sys.executable, "-m", "vexture", "tiles", source, "-o", output, "--id", "parcel", "--processes", "1"]
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+    done = subprocess.run(words, preexec_fn=limit, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    (line,) = (line for line in done.stderr.splitlines() if "compiling" not in line)
+    assert line.startswith(f"vexture: {output}: File too large; make room, or choose another disk; what is finished is")
+    subprocess.run(words, check=True, capture_output=True)
+    assert {path.name for path in tmp_path.iterdir()} == {"parcels.pmtiles", "parcels.parquet"}
