@@ -122,14 +122,6 @@ def test_a_column_sends_a_byte_for_each_feature():
         assert "#{:02x}{:02x}{:02x}".format(*(round(255 * part) for part in parts[:3])) == legend[kinds[name]]
 
 
-def test_the_bytes_of_the_texture_are_deflated_as_a_whole():
-    chart = shown()
-    content = chart.texture and chart._source.content
-    assert len(content) < 0.8 * len(chart.texture.to_ktx2())
-    (tmp := io.BytesIO()).write(zlib.decompress(content))
-    assert tmp.getvalue()[:7] == b"\xabKTX 20"
-
-
 def test_the_texture_comes_between_the_messages_of_a_kernel(held):
     threads = []
 

@@ -2,7 +2,6 @@
 
 import os
 import threading
-import zlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -321,8 +320,8 @@ def _home(sides: tuple[float, float]) -> Rect:
 
 
 def _sent(made: Map) -> tuple[Map, bytes]:
-    """A map, and the bytes that a page gets: the names of many features are half of a file, which is not deflated."""
-    return made, zlib.compress(made.conversion.texture.to_ktx2(deflate=False))
+    """A map, and the bytes that a page gets."""
+    return made, made.conversion.texture.to_ktx2()
 
 
 def _told(table: "pyarrow.Table", tooltip: bool | Sequence[str], steps: Sequence[str]) -> list[str]:
