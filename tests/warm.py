@@ -13,13 +13,18 @@ import socket
 import subprocess
 import sys
 import tempfile
+from contextlib import suppress
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 __all__ = ["command"]
 
 MOST_WORDS = 1 << 20
 """Bytes of a command with its environment."""
+
+LIBRARIES = ("pyogrio", "pyproj", "rasterio", "scipy.ndimage", "shapely", "xarray")
+"""That commands import for maps and floods, each in a second."""
 
 DRAWING = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><circle cx="4" cy="4" r="3" fill="red"/></svg>'
 
@@ -45,6 +50,9 @@ def serve(address: str) -> None:
     """Import what commands need, and be forked by whoever asks."""
     from vexture.cli.main import main
 
+    for library in LIBRARIES:
+        with suppress(ImportError):  # tests that need it are skipped
+            import_module(library)
     with tempfile.TemporaryDirectory() as folder:
         drawing, texture, picture = (str(Path(folder, name)) for name in ("a.svg", "a.ktx2", "a.png"))
         Path(drawing).write_text(DRAWING)
