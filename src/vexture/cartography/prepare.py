@@ -22,6 +22,7 @@ from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.geo.crs import chosen_crs, gis_packages
 from vexture.geo.features import Features, read_features
 from vexture.geo.rings import Rings
+from vexture.geo.vectors import is_memory
 from vexture.notes import Notes
 from vexture.paint import Paint
 
@@ -158,9 +159,13 @@ class Prepared:
 @contextmanager
 def in_memory() -> Iterator[None]:
     """Say what to do where there is not enough memory."""
+    import shapely
+
     try:
         yield
-    except MemoryError:
+    except (MemoryError, shapely.errors.GEOSException) as error:
+        if not (isinstance(error, MemoryError) or is_memory(error)):
+            raise
         raise LimitError(
             "the map needs more memory than there is; choose fewer features by `where`, fewer `columns`, or make a "
             "pyramid by vexture tiles, which reads them in parts"
