@@ -124,7 +124,9 @@ def test_features_are_found_coloured_and_hidden_without_loading(opened: Callable
 
     assert middle("tiles.setPaint({ [name]: 'rgb(0, 255, 255)' })") == [0, 1, 1]
     assert middle("tiles.setPaint((id) => id === name ? '#f0f' : undefined)") == [0, 1, 1]  # a table comes first
-    assert middle("tiles.setPaint(null); tiles.setFilter([name])") == [1, 1, 1]
+    assert middle("tiles.setPaint(null); tiles.setFilter((id) => id !== name)") == [1, 1, 1]
+    assert middle("tiles.setFilter([name, `none`])") != [1, 1, 1]
+    assert middle("tiles.setFilter([`none`])") == [1, 1, 1]
     assert page.evaluate("tiles.featureAt(map.getCenter())") is None
     times = "{ ids: [name], colors: [['#000000'], ['#ff0000']] }"
     assert middle(f"tiles.setFilter(null); tiles.setTimes({times}); tiles.setTime(1)") == [1, 0, 0]
