@@ -171,7 +171,7 @@ def test_no_frame_is_blank_once_the_parent_is_there(projection: str, opened: Any
     page = opened(view, {"source": "tiles.json"}, url=slow_address)
     path = [
         [*tile_pyramid.lng_lat(0.8 + 0.06 * np.sin(0.4 * k), 0.42 + 0.03 * np.cos(0.3 * k)), 4 - 1.5 * np.cos(0.5 * k)]
-        for k in range(40)
+        for k in range(24)
     ]
     blank, waited, last = page.evaluate(
         """async (places) => {
@@ -200,7 +200,7 @@ def test_the_layer_comes_back_below_its_labels(projection: str, opened: Callable
     first = _pixels(page)
     assert np.allclose(first[128, 128], 0)
     assert np.allclose(first[128, 128 + 30], (0, 1, 1))
-    page.evaluate("map.removeLayer('tiles')")
+    page.evaluate("() => { map.removeLayer('tiles'); }")
     assert page.evaluate("count(255, 0, 255)") > 0.9 * first.shape[0] * first.shape[1]
     page.evaluate("async () => { map.addLayer(tiles, 'mark'); await tiles.ready(); await settled(); }")
     assert np.array_equal(_pixels(page), first)
@@ -214,8 +214,14 @@ def test_the_layer_comes_back_below_its_labels(projection: str, opened: Callable
             await back;
         }"""
     )
-    page.wait_for_function("map.getLayer('tiles') && map.isStyleLoaded()")
-    page.evaluate("async () => { await settled(); await map.once('idle'); }")
+    page.evaluate(
+        """async () => {
+            for (let k = 0; k < 200 && !(map.getLayer('tiles') && (await count(0, 0, 0)) > 900); k++) {
+                await new Promise((resolve) => setTimeout(resolve, 20));
+            }
+            await settled();
+        }"""
+    )
     assert page.evaluate("map.getLayersOrder()") == ["ground", "tiles", "mark"]
     assert np.array_equal(_pixels(page), first)
 
