@@ -102,6 +102,7 @@ def _on_map(place: tuple[float, float]) -> tuple[float, float]:
 def _used_map(page: Any) -> None:
     france, spain, ice = (_on_map(place) for place in (FRANCE, SPAIN, ANTARCTICA))
     _await(page, france, _own(FRANCE))
+    page.get_by_text("Natural Earth").wait_for(state="attached")
     page.mouse.move(*france)
     page.wait_for_function("document.querySelector('#name').value === 'France'")
     page.mouse.click(*france)
