@@ -2,7 +2,7 @@
 
     python evidence/benchmarks/map_time.py [--quick]
 
-3,142 counties of the npm package us-atlas, as a pyramid in MapLibre. A step is `setTime` and the layer's part of the
+3,231 counties of the npm package us-atlas, as a pyramid in MapLibre. A step is `setTime` and the layer's part of the
 frame after it: colours mixed between two months, tables of paints and means written and sent, and all drawn. Drawing
 itself is done in software here, and not counted: what a frame costs without a change is told beside it.
 """

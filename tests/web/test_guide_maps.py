@@ -74,9 +74,9 @@ def _pixels(page: Any) -> np.ndarray:
 
 
 def _at(page: Any, pixel: tuple[float, float]) -> list[int]:
-    scale = page.evaluate("devicePixelRatio")
-    found: list[int] = _pixels(page)[int(pixel[1] * scale), int(pixel[0] * scale)].tolist()
-    return found
+    clip = {"x": int(pixel[0]), "y": int(pixel[1]), "width": 1, "height": 1}
+    with Image.open(io.BytesIO(page.screenshot(clip=clip))) as image:
+        return list(image.convert("RGB").getpixel((0, 0)))
 
 
 def _await(page: Any, pixel: tuple[float, float], colour: str) -> None:
@@ -102,6 +102,7 @@ def _on_map(place: tuple[float, float]) -> tuple[float, float]:
 def _used_map(page: Any) -> None:
     france, spain, ice = (_on_map(place) for place in (FRANCE, SPAIN, ANTARCTICA))
     _await(page, france, _own(FRANCE))
+    page.get_by_text("Natural Earth").wait_for(state="attached")
     page.mouse.move(*france)
     page.wait_for_function("document.querySelector('#name').value === 'France'")
     page.mouse.click(*france)
@@ -130,6 +131,7 @@ def _flat_then_globe(page: Any, screenshot: Callable[..., Path]) -> None:
     screenshot(page, "globe")
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("chromium")
 def test_the_guide_to_maps_in_web_pages_does_what_it_says(
     tmp_path: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path]

@@ -31,8 +31,23 @@ HTML = """<!doctype html><link rel="icon" href="data:,"><link rel="stylesheet" h
 window.start = (...given) => open_(maplibregl, ...given); window.loaded = true;</script>"""
 
 
+MAGENTA = {"version": 8, "sources": {}, "layers": [
+    {"id": "ground", "type": "background", "paint": {"background-color": "#ff00ff"}},
+]}  # fmt: skip
+"""A style whose ground shows in no cell's colour."""
+
+MARKED = {
+    "version": 8,
+    "sources": {"middle": {"type": "geojson", "data": {"type": "Point", "coordinates": tile_pyramid.lng_lat(*MIDDLE)}}},
+    "layers": [
+        *MAGENTA["layers"],
+        {"id": "mark", "type": "circle", "source": "middle", "paint": {"circle-radius": 20, "circle-color": "#000000"}},
+    ],
+}
+
+
 @pytest.fixture(scope="module")
-def address(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def folder(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     library = WEB / "node_modules" / "maplibre-gl" / "dist"
     if not library.is_dir():
         pytest.skip("the packages of web/ are not installed (npm ci --prefix web)")
@@ -43,14 +58,28 @@ def address(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Iter
     for file in library.iterdir():
         (folder / file.name).symlink_to(file)
     (folder / "page.html").write_text(HTML, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def address(folder: Path) -> Iterator[str]:
     with tile_pyramid.served(folder) as url:
+        yield url
+
+
+@pytest.fixture(scope="module")
+def slow_address(folder: Path) -> Iterator[str]:
+    chance = np.random.default_rng(20)
+    with tile_pyramid.served(folder, iter(lambda: float(chance.uniform(0.0, 0.2)), None)) as url:
         yield url
 
 
 @pytest.fixture
 def opened(address: str, open_page: Callable[..., Any]) -> Callable[..., Any]:
-    def opener(view: dict[str, Any], layer: dict[str, Any] | None = None, size: Any = SIZE, **options: Any) -> Any:
-        page = open_page(f"{address}/page.html", size, **options)
+    def opener(
+        view: dict[str, Any], layer: dict[str, Any] | None = None, size: Any = SIZE, url: str = address, **options: Any
+    ) -> Any:
+        page = open_page(f"{url}/page.html", size, **options)
         page.wait_for_function("window.loaded")
         view = {"center": tile_pyramid.lng_lat(*CENTRE), **view}
         page.evaluate("async ([view, layer]) => { await start(view, layer) }", [view, layer or {}])
@@ -104,12 +133,13 @@ def test_a_tilted_map_and_a_globe_have_exact_edges(
     assert map_truth.edges(_pixels(page), truth) < EXACT
 
 
-def test_features_are_found_coloured_and_hidden_without_loading(opened: Callable[..., Any]) -> None:
+@pytest.mark.parametrize("count", [2_000, pytest.param(100_000, marks=pytest.mark.slow)])
+def test_features_are_found_coloured_and_hidden_without_loading(count: int, opened: Callable[..., Any]) -> None:
     page = opened({"zoom": 2, "center": tile_pyramid.lng_lat(*MIDDLE)})
-    places = tile_pyramid.points(500)
-    given = [tile_pyramid.lng_lat(*one) for one in places]
+    places, names = tile_pyramid.named_points(count)
+    given = np.transpose(tile_pyramid.lng_lat(*places.T)).tolist()
     found = page.evaluate("some => some.map((one) => tiles.featureAt(one)?.id ?? null)", given)
-    assert found == [tile_pyramid.name_at(*one) for one in places]
+    assert found == names
     page.mouse.move(128, 128)
     page.mouse.click(128, 128)
     name = tile_pyramid.name_at(*MIDDLE)
@@ -136,23 +166,66 @@ def test_features_are_found_coloured_and_hidden_without_loading(opened: Callable
     assert page.evaluate("tiles.stats.rowsSent") - sent <= 6 * 4 * (texels + 16)
 
 
-def test_no_frame_is_blank_once_the_parent_is_there(opened: Callable[..., Any]) -> None:
-    page = opened({"zoom": 0})
-    seen = page.evaluate(
+@pytest.mark.parametrize("projection", ["mercator", "globe"])
+def test_no_frame_is_blank_once_the_parent_is_there(projection: str, opened: Any, slow_address: str) -> None:
+    style = {**MAGENTA, "projection": {"type": projection}}
+    view = {"zoom": 2.5, "style": style, "center": tile_pyramid.lng_lat(0.8, 0.42)}
+    page = opened(view, {"source": "tiles.json"}, url=slow_address)
+    path = [
+        [*tile_pyramid.lng_lat(0.8 + 0.06 * np.sin(0.4 * k), 0.42 + 0.03 * np.cos(0.3 * k)), 4 - 1.5 * np.cos(0.5 * k)]
+        for k in range(24)
+    ]
+    blank, waited, last = page.evaluate(
         """async (places) => {
-            const blank = [];
+            let [blank, waited] = [0, 0];
             for (const [lng, lat, zoom] of places) {
                 map.jumpTo({ center: [lng, lat], zoom });
-                await frame();
-                const { quads } = { quads: map.coveringTiles({ tileSize: 512 * 2 ** -0.25 }) };
-                const shown = tiles.stats.shown.length;
-                if (shown !== quads.length) blank.push([zoom, shown, quads.length]);
+                blank += await count(255, 0, 255);
+                waited += tiles.stats.running > 0;
             }
-            return blank;
+            await settled();
+            return [blank, waited, tiles.stats.shown.map(({ tile }) => tile.z)];
         }""",
-        [[*tile_pyramid.lng_lat(*(np.array(CENTRE) + 0.003 * k)), 2 + 0.4 * (k % 8)] for k in range(24)],
+        path,
     )
-    assert seen == []
+    assert blank == 0
+    assert waited > 5, "tiles have come at once"
+    assert set(last) == {3 if path[-1][2] >= 3 - 0.25 else 1}, "a stale tile"
+
+
+@pytest.mark.parametrize("projection", ["mercator", "globe"])
+def test_the_layer_comes_back_below_its_labels(projection: str, opened: Callable[..., Any]) -> None:
+    style = {**MARKED, "projection": {"type": projection}}
+    page = opened({"zoom": 4, "style": style, "center": tile_pyramid.lng_lat(*MIDDLE)}, {"before": "mark"})
+    name = tile_pyramid.name_at(*MIDDLE)
+    page.evaluate("async (name) => { tiles.setPaint({ [name]: '#00ffff' }); await frame(); }", name)
+    first = _pixels(page)
+    assert np.allclose(first[128, 128], 0)
+    assert np.allclose(first[128, 128 + 30], (0, 1, 1))
+    page.evaluate("() => { map.removeLayer('tiles'); }")
+    assert page.evaluate("count(255, 0, 255)") > 0.9 * first.shape[0] * first.shape[1]
+    page.evaluate("async () => { map.addLayer(tiles, 'mark'); await tiles.ready(); await settled(); }")
+    assert np.array_equal(_pixels(page), first)
+    page.evaluate(
+        """async () => {
+            const lost = map.getCanvas().getContext('webgl2').getExtension('WEBGL_lose_context');
+            const back = new Promise((resolve) => map.once('webglcontextrestored', resolve));
+            lost.loseContext();
+            await new Promise((resolve) => setTimeout(resolve, 50));
+            lost.restoreContext();
+            await back;
+        }"""
+    )
+    page.evaluate(
+        """async () => {
+            for (let k = 0; k < 200 && !(map.getLayer('tiles') && (await count(0, 0, 0)) > 900); k++) {
+                await new Promise((resolve) => setTimeout(resolve, 20));
+            }
+            await settled();
+        }"""
+    )
+    assert page.evaluate("map.getLayersOrder()") == ["ground", "tiles", "mark"]
+    assert np.array_equal(_pixels(page), first)
 
 
 def test_what_is_not_wanted_is_aborted_and_all_is_freed(opened: Callable[..., Any]) -> None:

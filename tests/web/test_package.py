@@ -22,7 +22,10 @@ MAP_LOAD_LIMIT = 38_200
 MAP_MARKS = ("vextureSheets(int", "convert the drawing with that colour", "plus-lighter")
 """Text of what only planar maps need: their shader, new colours for their elements, their gradients."""
 
-OTHERS = [f"--external:{name}" for name in ("three", "react", "@react-three/fiber")]
+TILE_LOAD_LIMITS = {"vexture/maplibre": 44_500, "vexture/globe": 44_500}
+"""And what a page with a pyramid of tiles loads, all that it loads later included, without MapLibre and three.js."""
+
+OTHERS = [f"--external:{name}" for name in ("three", "react", "@react-three/fiber", "maplibre-gl")]
 """What a page has anyhow."""
 
 WEBGPU_LIMIT = 25_600
@@ -119,6 +122,16 @@ def test_a_page_of_webgpu_loads_little(project: Path) -> None:
     )
     _, sizes, first = _split("nodes.js", project)
     assert 10_000 < sum(sizes[name] for name in first) <= WEBGPU_LIMIT
+
+
+@pytest.mark.parametrize("entry", TILE_LOAD_LIMITS)
+def test_a_page_with_tiles_loads_little(entry: str, project: Path) -> None:
+    name = f"{entry.split('/')[1]}.js"
+    (project / name).write_text(f"export * from '{entry}';\n", encoding="utf-8")
+    outputs, sizes, _ = _split(name, project)
+    assert 20_000 < sum(sizes.values()) <= TILE_LOAD_LIMITS[entry]
+    imported = {one["path"] for some in outputs.values() for one in some["imports"] if one.get("external")}
+    assert imported <= {"three"} if entry == "vexture/globe" else not imported
 
 
 def test_only_its_own_entry_brings_the_encoding_of_the_thesis(project: Path) -> None:

@@ -5,11 +5,13 @@ import http.server
 import json
 import re
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
+from itertools import repeat
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, ClassVar, Final
 
 import numpy as np
 import shapely
@@ -103,12 +105,27 @@ def write(folder: Path) -> None:
 
 def lng_lat(x: float, y: float) -> tuple[float, float]:
     """Degrees of a place in Web Mercator of 0..1."""
-    return 360 * (x - 0.5), float(np.degrees(np.arctan(np.sinh(np.pi * (1 - 2 * y)))))
+    return 360 * (x - 0.5), np.degrees(np.arctan(np.sinh(np.pi * (1 - 2 * y))))
 
 
 def points(count: int, seed: int = 1) -> NDArray[np.float64]:
     """Random places."""
     return np.random.default_rng(seed).uniform(0.02, 0.98, (count, 2))
+
+
+def named_points(count: int) -> tuple[NDArray[np.float64], list[str | None]]:
+    """Random places that are on no border as far as the tiles know, and what shapely says of each."""
+    places = points(count)
+    tree = shapely.STRtree(list(cells().values()))
+    known = list(cells())
+    which, cell = tree.query(shapely.points(places), predicate="within")
+    names: list[str | None] = [None] * count
+    for place, one in zip(which.tolist(), cell.tolist(), strict=True):
+        names[place] = known[one]
+    borders = shapely.union_all([cell.boundary for cell in cells().values()])
+    shapely.prepare(borders)
+    off = ~shapely.dwithin(shapely.points(places), borders, 4 * PRECISION)
+    return places[off], [name for name, is_off in zip(names, off.tolist(), strict=True) if is_off]
 
 
 def name_at(x: float, y: float) -> str | None:
@@ -120,12 +137,15 @@ def name_at(x: float, y: float) -> str | None:
 class _Ranges(http.server.SimpleHTTPRequestHandler):
     extensions_map = {".js": "text/javascript", ".mjs": "text/javascript", ".html": "text/html"}  # noqa: RUF012
     protocol_version = "HTTP/1.1"
+    delays: ClassVar[Iterator[float]] = repeat(0.0)
 
     def log_message(self, *arguments: object) -> None:
         """Say nothing."""
 
     def do_GET(self) -> None:
-        """A part of a file, if one is asked for."""
+        """A part of a file, if one is asked for; tiles take their time."""
+        if ".ktx2" in self.path:
+            time.sleep(next(self.delays))
         found = re.fullmatch(r"bytes=(\d+)-(\d+)", self.headers.get("Range", ""))
         if not found:
             super().do_GET()
@@ -141,9 +161,10 @@ class _Ranges(http.server.SimpleHTTPRequestHandler):
 
 
 @contextmanager
-def served(folder: Path) -> Iterator[str]:
-    """Address of a folder, with ranges."""
-    handler = functools.partial(_Ranges, directory=str(folder))
+def served(folder: Path, delays: Iterator[float] | None = None) -> Iterator[str]:
+    """Address of a folder, with ranges; `delays` are the seconds after which each tile is sent."""
+    slow = type("_Slow", (_Ranges,), {"delays": delays or repeat(0.0)})
+    handler = functools.partial(slow, directory=str(folder))
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
     threading.Thread(target=server.serve_forever, daemon=True).start()
     try:

@@ -42,6 +42,26 @@ describe('a view', () => {
     expect(seen({ '2/0/0': 'ready' })).toEqual(['2/0/0 by 2/0/0']);
   });
 
+  test('is covered once, never coarser with one more tile, and by the deepest ones at the end', () => {
+    let seed = 20;
+    const chance = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+    const view = [...quads, ...[0, 1, 2, 3].flatMap((x) => [0, 1].map((y) => ({ z: 4, x: 8 + x, y: 4 + y })))];
+    for (let round = 0; round < 50; round++) {
+      const waiting = choose(view, ZOOMS, () => undefined).wanted.map(({ key }) => key).slice(1).sort(() => chance() - 0.5);
+      const states = { '0/0/0': 'ready' };
+      let before = view.map(() => 0);
+      for (const key of waiting) {
+        states[key] = 'ready';
+        const { shown } = choose(view, ZOOMS, (one) => states[one]);
+        const depths = view.map((quad) => shown.filter((one) => one.quad === quad).map(({ tile }) => tile.z));
+        expect(depths.map(({ length }) => length)).toEqual(view.map(() => 1));
+        depths.forEach(([z], k) => expect(z).toBeGreaterThanOrEqual(before[k]));
+        before = depths.flat();
+      }
+      expect(before).toEqual(view.map(({ z }) => z));
+    }
+  });
+
   test('asks for parents first, then for what is nearest', () => {
     const { wanted } = choose(quads, ZOOMS, () => undefined);
     expect(wanted.map(({ key }) => key)).toEqual(['0/0/0', '2/0/0', '2/0/1', '2/1/0', '2/1/1']);

@@ -64,6 +64,11 @@ export class VectorGlobe extends Group {
     await this.#pyramid.ready;
   }
 
+  /** Where the data are from, once `ready()`: to be told beside the globe. */
+  get attribution() {
+    return this.#pyramid.client?.source.attribution ?? '';
+  }
+
   /** What it holds and shows. */
   get stats() {
     const { client, shown } = this.#pyramid;

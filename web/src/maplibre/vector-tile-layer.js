@@ -85,6 +85,11 @@ export class VectorTileLayer {
     await this.#pyramid.ready;
   }
 
+  /** Where the data are from, once `ready()`: to be told beside the map. */
+  get attribution() {
+    return this.#pyramid.client?.source.attribution ?? '';
+  }
+
   /** What the layer holds and shows. */
   get stats() {
     const { client, shown } = this.#pyramid;
