@@ -102,6 +102,7 @@ def test_other_threads_run_while_a_tree_grows(coast):
     cubics, owner, rules = gather(coast)
     tree, _ = new_growth(cubics, owner, DEFAULT_DEPTH, True)
     bounds = bounds_of(TOLERANCE, DEFAULT_DEPTH, 8, None, MOST_QUADS)
+    grow_on(Growth(*tree), rules, bounds, 0, 0)  # compiled now, if it was not
     with ThreadPoolExecutor(1) as executor:
         growing, looks = executor.submit(grow_on, Growth(*tree), rules, bounds, 10**9, 0), 0
         while not growing.done():
