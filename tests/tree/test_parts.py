@@ -1,5 +1,6 @@
 """Large trees grow in parts, in several threads: the same tree with any number of them."""
 
+import re
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -10,11 +11,12 @@ from multiprocessing import get_context
 import numpy as np
 import pytest
 
+from vexture import deadline
 from vexture.contours import ring_contours
 from vexture.deadline import within
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import LimitError
-from vexture.tree import parts
+from vexture.tree import bounds, parts
 from vexture.tree.bounds import DEFAULT_DEPTH, bounds_of
 from vexture.tree.build import SLICE, build_tree, grow_on, new_growth
 from vexture.tree.cubics import gather
@@ -84,26 +86,36 @@ def test_a_process_that_shares_work_has_one_thread():
 
 
 def test_limits_hold_in_parts_and_end_their_threads(coast):
-    before = threading.active_count()
-    told = r"^coast: \d+ quads at least; the limit is 900; use a smaller `max_depth`"
-    found = []
+    before, quads = threading.active_count(), len(build_tree(coast, tolerance=TOLERANCE).count)
+    limit, found = quads // 2, set()
     for threads in (1, 2, 4):
-        with pytest.raises(LimitError, match=told) as error:
-            build_tree(coast, most_quads=900, threads=threads)
-        found.append(str(error.value))
-    assert len(set(found)) == 1
+        with pytest.raises(LimitError, match=f"; the limit is {limit}; use a smaller `max_depth`") as error:
+            build_tree(coast, tolerance=TOLERANCE, most_quads=limit, threads=threads)
+        found.add(str(error.value))
+    (told,) = found
+    assert limit < int(re.fullmatch(r"coast: (\d+) quads at least; .*", told)[1]) < 0.9 * quads  # it ends at once
     with within(0.05), pytest.raises(LimitError, match=r"^coast: converting takes longer than 0\.05 s"):
         build_tree(coast, threads=2)
     assert threading.active_count() == before
+
+
+def test_threads_know_when_a_conversion_must_end(coast, monkeypatch):
+    known = []
+    monkeypatch.setattr(bounds, "check_time", lambda name: known.append(deadline._LIMIT.get() is not None))
+    with within(1000.0):
+        build_tree(coast, tolerance=TOLERANCE, threads=2)
+    assert len(known) > 10
+    assert all(known)
 
 
 def test_other_threads_run_while_a_tree_grows(coast):
     """Or parts would wait for one another."""
     cubics, owner, rules = gather(coast)
     tree, _ = new_growth(cubics, owner, DEFAULT_DEPTH, True)
-    bounds = bounds_of(TOLERANCE, DEFAULT_DEPTH, 8, None, MOST_QUADS)
+    limits = bounds_of(TOLERANCE, DEFAULT_DEPTH, 8, None, MOST_QUADS)
+    grow_on(Growth(*tree), rules, limits, 0, 0)  # compiled now, if it was not
     with ThreadPoolExecutor(1) as executor:
-        growing, looks = executor.submit(grow_on, Growth(*tree), rules, bounds, 10**9, 0), 0
+        growing, looks = executor.submit(grow_on, Growth(*tree), rules, limits, 10**9, 0), 0
         while not growing.done():
             time.sleep(0.001)
             looks += 1

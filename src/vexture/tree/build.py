@@ -233,7 +233,8 @@ def new_growth(
     points, path = np.empty((room, 4, 2)), np.empty(room, np.int64)
     numbers, child, part = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64)
     listed, pieces, runs = list_all(PiecePool(points, path, numbers, child, part, boxes, spans, cubics), owner)
-    pool = PiecePool(points, path, numbers, child, part, boxes[:runs], spans[:runs], cubics)
+    read = cubics if runs > 0 else cubics[:0]  # the caller must keep what runs are read from
+    pool = PiecePool(points, path, numbers, child, part, boxes[:runs], spans[:runs], read)
     outside = _into_square(pool.points[:pieces])
     present, paths = root_paths(pool, listed)
     cells = 4 * max_depth + 4

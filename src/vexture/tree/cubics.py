@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vexture.contours import Closed, joined, together
 from vexture.drawing import Drawing, FillRule
 
-__all__ = ["gather"]
+__all__ = ["gather", "owned"]
 
 MIXED: Final = 0.7548776662466927
 """Factor that makes one number of several."""
@@ -26,7 +26,7 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
     """
     of_paths = [path.contours for path in drawing.paths]
     if _all_differ(together(of_paths)):
-        return (*_owned(of_paths), np.array([int(path.fill_rule) for path in drawing.paths], dtype=np.int64))
+        return (*owned(of_paths), np.array([int(path.fill_rule) for path in drawing.paths], dtype=np.int64))
     different: dict[tuple[Any, ...], list[NDArray[np.float64]]] = {}
     names = _names([contour for path in drawing.paths for contour in path.contours])
     for path in drawing.paths:
@@ -34,10 +34,10 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
         if (path.fill_rule, *bits) not in different:
             different[path.fill_rule, *bits] = [path.contours[k] for k in _needed(path.fill_rule, bits)]
     rules = np.array([int(rule) for rule, *_ in different], dtype=np.int64)
-    return (*_owned([*different.values()]), rules)
+    return (*owned([*different.values()]), rules)
 
 
-def _owned(of_paths: Sequence[Sequence[NDArray[np.float64]]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def owned(of_paths: Sequence[Sequence[NDArray[np.float64]]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Cubics of some paths, and the path of each."""
     lengths = [sum(map(len, contours)) for contours in of_paths]
     return joined(together(of_paths)), np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)

@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.contours import joined
 from vexture.deadline import check_time
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
@@ -19,6 +18,7 @@ from vexture.layout import LATTICE, MOST_PAINTS, PAINT_ONE
 from vexture.tolerance import CLOSED
 from vexture.tree.bounds import DEFAULT_DEPTH, Bounds, bounds_of, check_growth
 from vexture.tree.build import CELL, SLICE, new_growth
+from vexture.tree.cubics import owned
 from vexture.tree.divide import PARTS, divide
 from vexture.tree.growth import (
     COUNT,
@@ -294,10 +294,7 @@ def plant_map(cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: 
 
 def drawing_cubics(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Cubics of a drawing, (n, 4, 2), and the number of the path of each, (n,)."""
-    contours = [contour for path in drawing.paths for contour in path.contours]
-    lengths = [sum(map(len, path.contours)) for path in drawing.paths]
-    owner = np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
-    return joined(contours), owner
+    return owned([path.contours for path in drawing.paths])
 
 
 def planted(tree: tuple[Any, ...], *others: Any) -> PlanarGrowth:
