@@ -135,8 +135,9 @@ def test_a_source_larger_than_memory_ends_in_one_line_and_a_part_of_it_is_read(t
             given = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
             run = [sys.executable, "-c", script, str(limit), *command]
             done = subprocess.run(run, capture_output=True, text=True, env=given, check=False)
-            assert (done.returncode, done.stderr.count("\n")) == (1, 1), done.stderr[:2000]
-            assert "more memory than there is; choose fewer features by --where" in done.stderr
+            (line,) = (line for line in done.stderr.splitlines() if "compiling kernels" not in line)
+            assert done.returncode == 1
+            assert "more memory than there is; choose fewer features by --where" in line
         run[3] = "3500"  # of addresses, of which libraries take most
         few = subprocess.run([*run, "--where", "v < 500"], capture_output=True, text=True, env=given, check=False)
         assert few.returncode == 0, few.stderr[:2000]
