@@ -245,11 +245,11 @@ def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
         used = names if choice.where is not None else columns  # a condition may need any of them
         wanted = [*used, geometry]
         if batch is None and choice.where is None:
-            table = file.read(wanted)
+            table = file.read(wanted, use_threads=False)  # a thread that has no memory ends the process
             yield _parquet_chunk(table, np.arange(len(table)), geometry, columns, choice, crs)
             return
         first, kept = 0, []
-        for part in file.iter_batches(batch_size=batch or PART, columns=wanted):
+        for part in file.iter_batches(batch_size=batch or PART, columns=wanted, use_threads=False):
             table, numbers = pa.Table.from_batches([part]), np.arange(first, first + len(part))
             first += len(part)
             if choice.where is not None:
