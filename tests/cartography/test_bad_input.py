@@ -1,5 +1,9 @@
 """Maps of data that is large, damaged or strange: each works, or ends in a line that says what to do."""
 
+import os
+import subprocess
+import sys
+
 import geopandas
 import numpy as np
 import pandas as pd
@@ -7,7 +11,9 @@ import pytest
 import shapely
 
 from vexture.cartography import MapLayer, Scale, convert_map
-from vexture.errors import ParameterError, SourceError
+from vexture.cartography.prepare import in_memory
+from vexture.errors import LimitError, ParameterError, SourceError
+from vexture.geo.vectors import _refuse_broken
 
 METRES = "EPSG:28992"
 BOXES = [shapely.box(k, 0, k + 1, 1) for k in range(4)]
@@ -95,3 +101,43 @@ def test_a_polygon_of_a_million_corners():
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1) * radius[:, None]
     texture = convert_map([MapLayer(frame([1], [shapely.Polygon(ring)]))], crs=METRES).conversion.texture
     assert texture.element_at(np.array([[0.5, 0.5], [0.01, 0.01]])).name.tolist() == ["0", ""]
+
+
+def test_memory_that_runs_out_within_a_library_is_told_apart_from_damage():
+    with pytest.raises(LimitError, match="more memory than there is"), in_memory():
+        raise shapely.errors.GEOSException("std::bad_alloc")
+    with pytest.raises(shapely.errors.GEOSException), in_memory():
+        raise shapely.errors.GEOSException("side location conflict")
+    good = shapely.to_wkb(shapely.box(0, 0, 1, 1))
+    with pytest.raises(MemoryError):
+        _refuse_broken(good, "feature 1")
+    with pytest.raises(SourceError, match="feature 1 is damaged"):
+        _refuse_broken(good[:20], "feature 1")
+
+
+def circles(count, corners=120):
+    angle = np.linspace(0, 2 * np.pi, corners, endpoint=False)
+    ring = 0.4 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    centre = np.stack([np.arange(count) % 200, np.arange(count) // 200], axis=1)
+    shapes = shapely.polygons(centre[:, None] + ring)
+    return geopandas.GeoDataFrame({"v": np.arange(count)}, geometry=shapes, crs="EPSG:28992")
+
+
+@pytest.mark.slow
+def test_a_source_larger_than_memory_ends_in_one_line_and_a_part_of_it_is_read(tmp_path):
+    circles(60_000).to_parquet(tmp_path / "b.parquet")
+    circles(60_000).to_file(tmp_path / "b.gpkg")
+    script = "import resource, sys; from vexture.cli.main import main; n = int(sys.argv.pop(1)) << 20; "
+    script += "resource.setrlimit(resource.RLIMIT_AS, (n, n)); main()"
+    for name in ("b.parquet", "b.gpkg"):
+        command = ["map", str(tmp_path / name), "--crs", "EPSG:28992", "-o", str(tmp_path / "m.ktx2")]
+        for limit in (800, 1000, 1200, 1500):
+            given = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+            run = [sys.executable, "-c", script, str(limit), *command]
+            done = subprocess.run(run, capture_output=True, text=True, env=given, check=False)
+            (line,) = (line for line in done.stderr.splitlines() if "compiling kernels" not in line)
+            assert done.returncode == 1
+            assert "more memory than there is; choose fewer features by --where" in line
+        run[3] = "3500"  # of addresses, of which libraries take most
+        few = subprocess.run([*run, "--where", "v < 500"], capture_output=True, text=True, env=given, check=False)
+        assert few.returncode == 0, few.stderr[:2000]

@@ -8,6 +8,7 @@ import pyarrow.parquet
 import pytest
 import shapely
 from click.testing import CliRunner
+from PIL import Image, ImageDraw
 
 import vexture
 from vexture.cartography import MapLayer, Scale, Times, convert_map
@@ -112,6 +113,19 @@ def test_a_symbol_is_drawn_from_an_svg():
     done = mapped(source, id="code", symbol=square, symbol_size="10m")
     assert names_at(done, np.array([[4.9, 4.9], [5.1, 0.0]])).tolist() == ["a", ""]
     assert done.conversion.drawing.paths[0].paint.hex == "#ff0000"
+
+
+def test_a_picture_of_pixels_is_traced_as_a_symbol(tmp_path):
+    picture = Image.new("RGBA", (64, 64))
+    ImageDraw.Draw(picture).rectangle((0, 0, 63, 31), fill="red")
+    picture.save(tmp_path / "half.png")
+    frame([shapely.Point(0, 0), shapely.Point(100, 100)], METRES, code=["a", "b"]).to_file(tmp_path / "p.gpkg")
+    arguments = ["map", str(tmp_path / "p.gpkg"), "-o", str(tmp_path / "m.ktx2"), "--id", "code", "--crs", METRES]
+    result = CliRunner().invoke(main, [*arguments, "--symbol", str(tmp_path / "half.png"), "--symbol-size", "20m"])
+    assert result.exit_code == 0, result.output
+    (root,) = (texture := vexture.load(tmp_path / "m.ktx2")).roots
+    places = np.array([[5.0, 5.0], [5.0, -5.0], [95.0, 105.0]])
+    assert texture.element_at((places - root.to_source[:, 2]) / root.to_source[0, 0]).name.tolist() == ["a", "", "b"]
 
 
 def classes(values, *scale):

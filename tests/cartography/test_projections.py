@@ -116,3 +116,10 @@ def test_a_projected_source_is_on_a_map_of_the_world():
     (root,) = done.conversion.texture.roots
     place = transformed(np.array([[1e5, 4.5e5]]), "EPSG:28992", EQUAL_EARTH)
     assert done.conversion.texture.element_at((place - root.to_source[:, 2]) / root.to_source[0, 0]).name == ["0"]
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_map_that_cannot_show_all_of_the_world_says_so():
+    with pytest.raises(SourceError, match="some of it has none; choose another `crs`, or features by `where`"):
+        in_system([RUSSIA, shapely.box(-170, -60, -20, 10)], "+proj=ortho +lat_0=40 +lon_0=10")
+    assert in_system([shapely.box(0, 30, 20, 50)], "+proj=ortho +lat_0=40 +lon_0=10")[0].rings.points.size

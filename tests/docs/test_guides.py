@@ -103,6 +103,10 @@ def test_the_guide_for_maps_does_what_it_says(tmp_path: Path) -> None:
     assert [entry["label"] for entry in legend[0]["entries"]] == ["farm", "lake", "town"]
     assert sorted(vexture.load(folder / "both.ktx2").roots[0].style.names) == ["A4", "D", "N", "W"]
     assert (folder / "land.parquet").is_file()
+    years = json.loads((folder / "years.times.json").read_text())
+    assert years["times"] == ["2001", "2002"]
+    assert [len(step) for step in years["colors"]] == [len(years["ids"])] * 2
+    assert vexture.load(folder / "black.ktx2").roots[0].style.names.count("outline") == 1
 
 
 def test_the_guide_for_tiles_does_what_it_says(tmp_path: Path) -> None:

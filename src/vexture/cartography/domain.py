@@ -12,11 +12,14 @@ from vexture.geo.crs import system, transformed
 from vexture.geo.extent import Bounds
 from vexture.geo.rings import Rings, cut, within
 
-__all__ = ["TURN", "WORLD", "Domain", "domain_of", "in_box", "is_strained", "is_wide"]
+__all__ = ["EVER", "TURN", "WORLD", "Domain", "domain_of", "in_box", "is_strained", "is_wide"]
 
 WORLD: Final = "EPSG:4326"
 TURN: Final = 360.0
 POLE: Final = 90.0
+
+EVER: Final = 4.0 * TURN
+"""Degrees to the west or the east that no longitude reaches."""
 
 BESIDE: Final = 1e-5
 """Degrees that a map ends before the meridian where it is torn: datums differ by that."""
@@ -72,14 +75,16 @@ def domain_of(crs: str) -> Domain | None:
     for pole in (POLE, -POLE):
         around = np.array([(longitude, 8 / 9 * pole) for longitude in (0.0, 90.0, 180.0, 270.0)])
         center, *ring = transformed(np.concatenate([[(0.0, pole)], around]), WORLD, crs)
-        radii = np.hypot(*(np.array(ring) - center).T)
-        opposite = np.abs((ring[0] + ring[2]) / 2 - center).max()
+        with np.errstate(invalid="ignore"):
+            radii = np.hypot(*(np.array(ring) - center).T)
+            opposite = np.abs((ring[0] + ring[2]) / 2 - center).max()
         if np.isfinite(radii).all() and radii.max() - radii.min() + opposite < NEAR * radii.max():
-            return Domain((-np.inf, min(pole, 0.0), np.inf, max(pole, 0.0)), pole)
+            return Domain((-EVER, min(pole, 0.0), EVER, max(pole, 0.0)), pole)
     half = TURN / 2 - BESIDE
     sides = np.array([(middle + side * half, latitude) for latitude in (-40.0, 0.0, 40.0) for side in (-1.0, 1.0)])
     places = transformed(sides, WORLD, crs)
-    gaps = np.hypot(*(places[1::2] - places[::2]).T)  # infinite, or not a number, where there is no image
+    with np.errstate(invalid="ignore"):  # not a number where there is no image
+        gaps = np.hypot(*(places[1::2] - places[::2]).T)
     if gaps.max() < NEAR * np.abs(places).max():
         return None
     return Domain((middle - half, -POLE, middle + half, POLE))

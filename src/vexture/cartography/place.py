@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.cartography.domain import TURN, WORLD, Domain, domain_of, in_box, is_strained, is_wide
+from vexture.cartography.domain import EVER, TURN, WORLD, Domain, domain_of, in_box, is_strained, is_wide
 from vexture.cartography.lines import continuous, lines_in_box, there_and_back, thicker, way_there
 from vexture.errors import SourceError
 from vexture.geo.crs import period, refuse_metres, same_system, shown_bounds, shown_system, system, transformed
@@ -131,7 +131,7 @@ def _on_mercator(features: Features, notes: Notes) -> Features:
     clipped = bool(low[1] < -MOST_LATITUDE or high[1] > MOST_LATITUDE)
     if whole or clipped:
         turn = TURN if whole else None
-        side = TURN / 2 if whole else np.inf
+        side = TURN / 2 if whole else EVER
         box = (-side, -MOST_LATITUDE, side, MOST_LATITUDE)
         before = len(rings.outer)
         rings, lines = in_box(rings, box, turn), lines_in_box(lines, box, turn)
@@ -175,8 +175,16 @@ def _usable(rings: Rings, start: str, end: str, move: Move, notes: Notes) -> Rin
         rings_there = _mapped(in_box(rings, box, period(start)), move, None)
         notes.remark(f"it is cut off at the area of use of {shown_system(end)}")
     if area is None or not len(rings_there.ends) or not np.isfinite(rings_there.points).all():
-        raise SourceError(f"it has no place in {shown_system(end)}; choose another `crs`")
+        raise SourceError(
+            f"it has no place in {_named(end)}, or some of it has none; choose another `crs`, or features by `where`"
+        )
     return rings_there
+
+
+def _named(crs: str) -> str:
+    """A system that has a name."""
+    name = shown_system(crs)
+    return "this system" if name == "unknown" else name
 
 
 def _area(bounds: Bounds, crs: str) -> Bounds:
@@ -195,7 +203,8 @@ def _mapped(rings: Rings, move: Move, size: NDArray[np.float64] | None) -> Rings
         return replace(rings, points=image)
     low, high = known.min(axis=0), known.max(axis=0)
     sides = np.maximum(high - low, 1e-9) if size is None else size
-    return moved(rings, move, EVERYWHERE, sides)
+    with np.errstate(invalid="ignore"):  # between two places without an image
+        return moved(rings, move, EVERYWHERE, sides)
 
 
 def _marks(features: Features, move: Move, notes: Notes, *, is_bent: bool = True) -> tuple[Lines, Points]:

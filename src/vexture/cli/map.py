@@ -50,7 +50,7 @@ EACH: Final = "once for all sources, or once for each ('' for none)"
     "--outline", metavar="COLOR", multiple=True, help="Borders of polygons, each drawn once.  [default: none]"
 )
 @click.option("--outline-width", metavar="500m|1.5px", multiple=True, help="Width of outlines.  [default: 1px]")
-@click.option("--symbol", metavar="FILE.svg", type=PATH, help="Drawing at points.  [default: a dot]")
+@click.option("--symbol", metavar="FILE", type=PATH, help="Drawing at points; a picture is traced.  [default: a dot]")
 @click.option("--symbol-size", metavar="2km|8px", default="8px", show_default=True, help="Width of symbols.")
 @click.option("--size", metavar="PX", type=int, default=1024, show_default=True, help="Map side for widths in px.")
 @click.option("--snap", metavar="PART", type=float, help="Borders and gaps this near become one.  [default: 3e-6]")

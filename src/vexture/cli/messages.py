@@ -9,7 +9,7 @@ from typing import Final
 
 import click
 
-from vexture.errors import EXPECTED, printable
+from vexture.errors import EXPECTED, printable, reason_of
 from vexture.notes import Note, line_of
 
 __all__ = ["INTERRUPTED", "as_options", "one_line", "say", "say_notes"]
@@ -55,7 +55,7 @@ def one_line() -> Iterator[None]:
         except BrokenPipeError:
             raise  # click ends in silence: who reads standard output has enough, such as head
         except OSError as error:
-            say(f"{error.filename or 'the output'}: {error.strerror}; choose another file")
+            say(f"{error.filename or 'the output'}: {error.strerror or reason_of(error)}; choose another file")
             sys.exit(1)
         except MemoryError:
             say("out of memory; use a smaller drawing or a smaller --size")

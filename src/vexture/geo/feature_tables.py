@@ -37,6 +37,9 @@ WORLD: Final = "OGC:CRS84"
 GEOMETRY: Final = ("geometry", "geom", "wkb_geometry", "wkb")
 """Columns of Parquet without metadata that may hold geometries."""
 
+PART: Final = 16_384
+"""Features of which a condition chooses some, before more are read."""
+
 MOST_NAMED: Final = 12
 """Columns that a message names."""
 
@@ -240,19 +243,39 @@ def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
         names = [name for name in file.schema_arrow.names if name != geometry]
         columns = choice.kept(names)
         used = names if choice.where is not None else columns  # a condition may need any of them
-        first = 0
         wanted = [*used, geometry]
-        parts = [file.read(wanted)] if batch is None else file.iter_batches(batch_size=batch, columns=wanted)
-        for part in parts:
-            table = part if batch is None else pa.Table.from_batches([part])
-            numbers = np.arange(first, first + len(table))
-            first += len(table)
+        if batch is None and choice.where is None:
+            table = file.read(wanted, use_threads=False)  # a thread that has no memory ends the process
+            yield _parquet_chunk(table, np.arange(len(table)), geometry, columns, choice, crs)
+            return
+        first, kept = 0, []
+        for part in file.iter_batches(batch_size=batch or PART, columns=wanted, use_threads=False):
+            table, numbers = pa.Table.from_batches([part]), np.arange(first, first + len(part))
+            first += len(part)
             if choice.where is not None:
                 rows = _rows_where(table.drop_columns([geometry]), choice.where)
                 table, numbers = table.take(rows), numbers[rows]
-            yield Chunk(table.select(columns), _objects(table.column(geometry)), numbers, crs, choice.id)
+            if batch is None:  # only what is wanted is ever together in memory
+                kept.append((table, numbers))
+            else:
+                yield _parquet_chunk(table, numbers, geometry, columns, choice, crs)
+        if batch is None:
+            tables = [table for table, _ in kept] or [file.schema_arrow.empty_table().select(wanted)]
+            numbers = np.concatenate([np.empty(0, np.int64), *(each for _, each in kept)])
+            yield _parquet_chunk(pa.concat_tables(tables), numbers, geometry, columns, choice, crs)
     except (pa.ArrowInvalid, OSError) as error:
         raise SourceError(f"the Parquet file cannot be read ({shortened(str(error), 120)}); save it again") from None
+
+
+def _parquet_chunk(
+    table: "pyarrow.Table",
+    numbers: NDArray[np.int64],
+    geometry: str,
+    columns: list[str],
+    choice: Choice,
+    crs: str | None,
+) -> Chunk:
+    return Chunk(table.select(columns), _objects(table.column(geometry)), numbers, crs, choice.id)
 
 
 def _geometry_of(schema: Any) -> tuple[str, str | None]:
@@ -282,7 +305,7 @@ def _rows_where(table: "pyarrow.Table", where: str) -> NDArray[np.intp]:
 
     number = "__row"
     numbered = table.append_column(number, pa.array(np.arange(len(table))))
-    with duckdb.connect(config={"enable_external_access": False}) as connection:
+    with duckdb.connect(config={"enable_external_access": False, "threads": 1}) as connection:
         connection.register("features", numbered)
         try:
             found = connection.execute(f"SELECT {number} FROM features WHERE ({where})").fetchnumpy()[number]
