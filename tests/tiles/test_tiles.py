@@ -257,7 +257,7 @@ def test_a_folder_has_a_description(source, tmp_path):
 
 def test_a_source_without_polygons_is_refused(tmp_path):
     source = write_source(tmp_path / "empty.geojson", [shapely.Point(4, 52)], ["a"])
-    with pytest.raises(SourceError, match=r"empty\.geojson: it has no polygon"):
+    with pytest.raises(SourceError, match=r"empty\.geojson: it has lines or points \(1\), but no polygon"):
         make_tiles(source, tmp_path / "empty.pmtiles", TileOptions())
     assert {path.name for path in tmp_path.iterdir()} == {"empty.geojson"}
 

@@ -130,6 +130,34 @@ def write_folder(
         raise LimitError(f"{output}: {count} tiles are too many files; the limit is {MOST_FILES}; write one {ARCHIVE}")
     partial = output.with_name(f".{output.name}{TEMPORARY}")
     shutil.rmtree(partial, ignore_errors=True)
+    try:
+        size = _fill(partial, runs, contents)
+        listed: dict[str, Any] = {
+            "tilejson": "3.0.0",
+            "tiles": [
+                f"{{z}}/{{x}}/{{y}}{PACKED_SUFFIX}?v={hashlib.sha256(json.dumps(runs).encode()).hexdigest()[:16]}"
+            ],
+            "vector_layers": [],
+        }
+        listed |= {"minzoom": zooms[0], "maxzoom": zooms[-1], "bounds": list(bounds), **about}
+        for path, write in extra.items():
+            with (partial / path.name).open("wb") as file:
+                write(file)
+        (partial / LISTED).write_text(json.dumps(listed, indent=1) + "\n")
+    except BaseException:
+        shutil.rmtree(partial, ignore_errors=True)  # it may be what fills the disk
+        raise
+    old = output.with_name(f".{output.name}.old{TEMPORARY}")
+    shutil.rmtree(old, ignore_errors=True)
+    if output.exists():
+        output.rename(old)
+    partial.rename(output)
+    shutil.rmtree(old, ignore_errors=True)
+    return size
+
+
+def _fill(partial: Path, runs: Runs, contents: Mapping[str, Content]) -> int:
+    """Write the tiles of a folder, and return the size of what differs."""
     first_of: dict[str, Path] = {}
     size = 0
     for first, count, digest in runs:
@@ -143,23 +171,6 @@ def write_folder(
             path.write_bytes(contents[digest].read())
             first_of[digest] = path
             size += contents[digest].length
-    version = hashlib.sha256(json.dumps(runs).encode()).hexdigest()[:16]
-    listed: dict[str, Any] = {
-        "tilejson": "3.0.0",
-        "tiles": [f"{{z}}/{{x}}/{{y}}{PACKED_SUFFIX}?v={version}"],
-        "vector_layers": [],
-    }
-    listed |= {"minzoom": zooms[0], "maxzoom": zooms[-1], "bounds": list(bounds), **about}
-    for path, write in extra.items():
-        with (partial / path.name).open("wb") as file:
-            write(file)
-    (partial / LISTED).write_text(json.dumps(listed, indent=1) + "\n")
-    old = output.with_name(f".{output.name}.old{TEMPORARY}")
-    shutil.rmtree(old, ignore_errors=True)
-    if output.exists():
-        output.rename(old)
-    partial.rename(output)
-    shutil.rmtree(old, ignore_errors=True)
     return size
 
 
