@@ -123,8 +123,6 @@ def write_folder(
     extra: Extra,
 ) -> int:
     """Write a folder with a file for each tile, whole or not, and return the size of what differs."""
-    from pmtiles.tile import tileid_to_zxy
-
     count = sum(count for _, count, _ in runs)
     if count > MOST_FILES:
         raise LimitError(f"{output}: {count} tiles are too many files; the limit is {MOST_FILES}; write one {ARCHIVE}")
@@ -132,13 +130,9 @@ def write_folder(
     shutil.rmtree(partial, ignore_errors=True)
     try:
         size = _fill(partial, runs, contents)
-        listed: dict[str, Any] = {
-            "tilejson": "3.0.0",
-            "tiles": [
-                f"{{z}}/{{x}}/{{y}}{PACKED_SUFFIX}?v={hashlib.sha256(json.dumps(runs).encode()).hexdigest()[:16]}"
-            ],
-            "vector_layers": [],
-        }
+        version = hashlib.sha256(json.dumps(runs).encode()).hexdigest()[:16]
+        tiles = [f"{{z}}/{{x}}/{{y}}{PACKED_SUFFIX}?v={version}"]
+        listed: dict[str, Any] = {"tilejson": "3.0.0", "tiles": tiles, "vector_layers": []}
         listed |= {"minzoom": zooms[0], "maxzoom": zooms[-1], "bounds": list(bounds), **about}
         for path, write in extra.items():
             with (partial / path.name).open("wb") as file:
@@ -158,6 +152,8 @@ def write_folder(
 
 def _fill(partial: Path, runs: Runs, contents: Mapping[str, Content]) -> int:
     """Write the tiles of a folder, and return the size of what differs."""
+    from pmtiles.tile import tileid_to_zxy
+
     first_of: dict[str, Path] = {}
     size = 0
     for first, count, digest in runs:
