@@ -8,7 +8,8 @@ on their way. It gives the pieces to more workers as `vexture.workers.Cluster` d
 time, while who asked handles one result after the other; a level waits for the one before. `times` repeats the pieces,
 as of a source so many times larger, except where a level has one.
 
-For the kills a process with the same work ends, ten times in one run, at random moments: as often, another starts.
+Ten times in one run a random worker is killed, at random moments of which two are apart by the longest piece of work or
+more: Dask gives up a piece that four workers have died at. Another worker starts each time.
 """
 
 import argparse
@@ -145,8 +146,8 @@ def scaled(phases: Sequence[Sequence[Piece]], times: int, workers: int, handled:
     return seconds(1) / seconds(workers) / workers
 
 
-def killed(count: int, zoom: int, kills: int, folder: Path) -> tuple[str, int]:
-    """Digest of a run in which random workers are killed, and how many were."""
+def killed(count: int, zoom: int, kills: int, pause: float, folder: Path) -> tuple[str, int]:
+    """Digest of a run in which random workers are killed, some seconds apart, and how many were."""
     mark, output = folder / "parcels.txt", folder / "killed.pmtiles"
     mark.write_text("parcels")
     chance, done = random.Random(20), threading.Event()
@@ -155,7 +156,7 @@ def killed(count: int, zoom: int, kills: int, folder: Path) -> tuple[str, int]:
 
         def kill() -> None:
             nonlocal deaths
-            while deaths < kills and not done.wait(chance.uniform(1.0, 4.0)):
+            while deaths < kills and not done.wait(pause * chance.uniform(1.0, 2.0)):
                 victim = alive.pop(chance.randrange(len(alive)))
                 alive.append(worker(address, opened))
                 os.kill(victim.pid, signal.SIGKILL)
@@ -204,7 +205,8 @@ def main() -> None:
                 efficiency = scaled(phases, times, workers, handled)
                 figures[f"simulated_{workers}_of_{times}_times"] = 100.0 * efficiency
         figures["inefficiency_64"] = 100.0 * (1.0 - scaled(phases, 16, MOST_WORKERS, handled))
-        digest, deaths = killed(count, chosen.zoom, kills, folder)
+        print(figures, flush=True)
+        digest, deaths = killed(count, chosen.zoom, kills, figures["longest"], folder)
         digests.add(digest)
         figures |= {"killed": deaths, "other_bytes": len(digests) - 1}
     write_figures("tiles_cluster", figures, GOALS)
