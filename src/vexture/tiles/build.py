@@ -156,7 +156,7 @@ def _named(source: Any, options: TileOptions) -> Iterator[None]:
 
 
 def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> None:
-    """Do all the work that is not done: first the parts, then zoom by zoom the geometry and the tiles."""
+    """Do all the work that is not done: the parts, zoom by zoom the geometry, and then the tiles of all these zooms."""
     leaves = {part.tile for part in parts}
     pyramid = options.pyramid(paints_of(store.folder))
 
@@ -167,22 +167,23 @@ def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> 
         return Job("leaf", tile, ((store.sources / f"{tile.name}.parquet").read_bytes(),))
 
     _all(store, "leaf", [part.tile for part in sorted(parts, key=lambda part: -part.weight)], leaf, work, told)
-    for zoom in sorted((z for z in options.coarse if z < max(tile.z for tile in leaves)), reverse=True):
-        inner = sorted({tile.parent(zoom) for tile in leaves if tile.z > zoom})
+    above = [zoom for zoom in options.coarse if zoom < max(tile.z for tile in leaves)]
+    inner = {zoom: sorted({tile.parent(zoom) for tile in leaves if tile.z > zoom}) for zoom in above}
 
-        def join(tile: Tile) -> Job:
-            names = [_kept(store, part) for part in tile.below(options.step)]
-            return Job("join", tile, tuple(store.geometry(name) for name in names if name))
+    def join(tile: Tile) -> Job:
+        names = [_kept(store, part) for part in tile.below(options.step)]
+        return Job("join", tile, tuple(store.geometry(name) for name in names if name))
 
-        _all(store, "join", inner, join, work, told)
+    for zoom in reversed(above):
+        _all(store, "join", inner[zoom], join, work, told)
 
-        def one(tile: Tile) -> Job:
-            around = [(tile, 0.0), *tile.around()]
-            found = [(data, shift) for each, shift in around if (data := _around(store, leaves, each))]
-            return Job("tile", tile, tuple(data for data, _ in found), tuple(shift for _, shift in found))
+    def one(tile: Tile) -> Job:
+        around = [(tile, 0.0), *tile.around()]
+        found = [(data, shift) for each, shift in around if (data := _around(store, leaves, each))]
+        return Job("tile", tile, tuple(data for data, _ in found), tuple(shift for _, shift in found))
 
-        if zoom >= options.min_zoom:
-            _all(store, "tile", inner, one, work, told)
+    # all at once, those of low zooms first, which have most in them: no worker waits for them at the end of each zoom
+    _all(store, "tile", [tile for zoom in above if zoom >= options.min_zoom for tile in inner[zoom]], one, work, told)
 
 
 def _kept(store: Store, tile: Tile) -> str | None:
