@@ -33,7 +33,7 @@ FULL: Final = 1.0 - 1e-9
 """Part of a tile's square that a polygon covers which covers all of it, but for rounding."""
 
 PRECISION: Final = 2.0**-17
-"""Parts of a tile's square by which rounding moves a border at most: 0.004 pixels at its zoom, 0.06 four zooms deeper."""
+"""Parts of a tile's square by which rounding moves a border at most: 0.06 pixels in views four zooms deeper."""
 
 MOST_FEATURES: Final = MOST_PAINTS - 1
 """Features of a tile: one paint is nothing."""
