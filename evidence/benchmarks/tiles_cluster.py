@@ -108,17 +108,25 @@ def cores(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
+def _mark(folder: Path) -> Path:
+    """A file that stands for the parcels."""
+    path = folder / "parcels.txt"
+    path.write_text("parcels")
+    return path
+
+
 def measured(count: int, zoom: int, workers: int, folder: Path) -> Run:
     """A run with so many workers."""
-    mark, output = folder / "parcels.txt", folder / f"cluster-{workers}.pmtiles"
-    mark.write_text("parcels")
+    output = folder / f"cluster-{workers}.pmtiles"
     moments: list[float] = []
-    before: list[float] = []
+    handling: list[Any] = []
     counts: list[int] = []
 
     def told(what: str, number: int, total: int) -> None:
         if what == "reading features":
-            moments[:], before[:] = [time.perf_counter()], [cores(pid) for pid in pids]
+            moments.clear()
+        else:
+            handling.append([cores(pid) for pid in pids])
         moments.append(time.perf_counter())
         if total and number == 1:
             counts.append(total)
@@ -126,18 +134,20 @@ def measured(count: int, zoom: int, workers: int, folder: Path) -> Run:
     with cluster(workers) as (address, scheduler, alive, _), Client(address, set_as_default=False) as client:
         client.get_task_stream()  # from now on the scheduler remembers
         pids = [os.getpid(), scheduler.pid, *(process.pid for process in alive)]
+        before = [cores(pid) for pid in pids]
         start = time.perf_counter()
         options = TileOptions(max_zoom=zoom, scheduler=address, name="parcels")
-        make_tiles(mark, output, options, told, batches=Source(lambda: parcels(count)))
+        make_tiles(_mark(folder), output, options, told, batches=Source(lambda: parcels(count)))
         seconds = time.perf_counter() - start
         stream = client.get_task_stream()
         busy = np.array([cores(pid) for pid in pids]) - before
     levels = _levels(stream, counts)
     pieces = sum(counts)
-    share = min(busy[2:].sum() / sum(map(sum, levels)), 1.0)
+    share = min(float(busy[2:].sum()) / sum(map(sum, levels)), 1.0)
     levels = [[piece * share for piece in level] for level in levels]
+    handled = np.subtract(handling[-1], handling[0])[:2].max() / max(pieces - 1, 1)
     digest = hashlib.sha256(output.read_bytes()).hexdigest()
-    return Run(seconds, moments[-1] - moments[0], levels, float(busy[:2].max()) / pieces, digest)
+    return Run(seconds, moments[-1] - moments[0], levels, float(handled), digest)
 
 
 def _levels(stream: Sequence[Any], counts: Sequence[int]) -> list[list[float]]:
@@ -175,15 +185,14 @@ def scaled(run: Run, times: int, workers: int) -> float:
 
 def killed(count: int, zoom: int, kills: int, pause: float, folder: Path) -> tuple[str, int]:
     """Digest of a run in which random workers are killed, some seconds apart, and how many were."""
-    mark, output = folder / "parcels.txt", folder / "killed.pmtiles"
-    mark.write_text("parcels")
+    output = folder / "killed.pmtiles"
     chance, done = random.Random(20), threading.Event()
     deaths = 0
     with cluster(2) as (address, _, alive, opened):
 
         def kill() -> None:
             nonlocal deaths
-            while deaths < kills and not done.wait(pause * chance.uniform(1.0, 2.0)):
+            while deaths < kills and not done.wait(pause * chance.uniform(1.0, 1.5)):
                 victim = alive.pop(chance.randrange(len(alive)))
                 alive.append(worker(address, opened))
                 os.kill(victim.pid, signal.SIGKILL)
@@ -196,7 +205,7 @@ def killed(count: int, zoom: int, kills: int, pause: float, folder: Path) -> tup
                 killer.start()
 
         options = TileOptions(max_zoom=zoom, scheduler=address, name="parcels")
-        make_tiles(mark, output, options, told, batches=Source(lambda: parcels(count)))
+        make_tiles(_mark(folder), output, options, told, batches=Source(lambda: parcels(count)))
         done.set()
         killer.join()
     return hashlib.sha256(output.read_bytes()).hexdigest(), deaths
@@ -215,6 +224,9 @@ def main() -> None:
     digests = set()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
+        make_tiles(
+            _mark(folder), folder / "first.pmtiles", TileOptions(), batches=Source(lambda: parcels(100))
+        )  # compiles
         run = measured(count, chosen.zoom, 1, folder)
         worked = [piece for level in run.levels for piece in level]
         figures |= {"pieces": len(worked), "levels": len(run.levels), "seconds_1": run.seconds, "asked_1": run.asked}
