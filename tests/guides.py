@@ -15,6 +15,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
+from warm import command
+
 ROOT = Path(__file__).parents[1]
 GUIDES = ROOT / "docs" / "guides"
 
@@ -23,6 +25,9 @@ HEADING = re.compile(r"^## (.+)$", re.M)
 
 STAYS = "# until Ctrl-C"
 """Ends a command that goes on in the background."""
+
+STAYING = "vexture-that-stays"
+"""Program that is `vexture` in a process of its own, which can be told to end."""
 
 MEASURED = re.compile(r"[\d.,]+ (ms|bytes)\b|version \w+")
 """What differs from machine to machine."""
@@ -94,7 +99,8 @@ class Reader:
         python = shlex.quote(sys.executable)
         pip = f"{python} -m pip --python {shlex.quote(str(self.folder.parent / 'throwaway' / 'bin' / 'python'))}"
         for name, text in (
-            ("vexture", f"exec {python} -c 'from vexture.cli.main import main; main()' \"$@\""),
+            ("vexture", f'exec {shlex.join(command())} "$@"'),
+            (STAYING, f"exec {python} -c 'from vexture.cli.main import main; main()' \"$@\""),
             ("python3", f'if [ "${{2-}}" = pip ]; then shift 2; exec {pip} "$@"; fi\nexec {python} "$@"'),
         ):
             (programs / name).write_text(f"#!/bin/sh\n{text}\n")
@@ -149,7 +155,7 @@ class Reader:
         self._run(block, "\n".join(before if stays else [*before, last]))
         if stays:
             process = subprocess.Popen(
-                ["bash", "-c", f"exec {self.ported(last)}"],
+                ["bash", "-c", f"exec {re.sub('^vexture(?= )', STAYING, self.ported(last))}"],
                 cwd=self.folder,
                 env=self.environment,
                 stdout=subprocess.PIPE,

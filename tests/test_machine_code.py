@@ -142,7 +142,7 @@ from types import SimpleNamespace
 import numpy as np
 from vexture.machine_code import described, load
 arguments = np.array([0.5, 1.25, -7.75]), 3.0, 2
-kernel = SimpleNamespace(__module__={kernel.__module__!r}, __name__={kernel.__name__!r})
+kernel = SimpleNamespace(__module__={kernel.__module__!r}, __name__={kernel.__name__!r}, shares=False)
 code = load(kernel, {TEXT!r}, described(arguments), Path({str(folder)!r}))
 print(code(*arguments)[1:], 'numba' in sys.modules)
 """

@@ -98,7 +98,8 @@ def test_what_a_worker_of_a_cluster_had_in_hand_when_it_died_is_done_again(clust
 
 
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", pytest.param("nonsense", marks=pytest.mark.slow)])
-def test_a_scheduler_that_is_not_there_is_named(tmp_path, address):
+def test_a_scheduler_that_is_not_there_is_named(tmp_path, address, monkeypatch):
+    monkeypatch.setattr(workers, "PATIENCE", "1s")
     run = series(tmp_path / "run.nc", [0.2])
     outcome = flood("--extent", run, "--variable", "depth", "--scheduler", address, "-o", tmp_path / "page.html")
     assert outcome.returncode == 1

@@ -1,13 +1,16 @@
 """Maps: the feature at any point is shapely's answer; strokes, symbols, colours; and bad input in one line."""
 
+import json
+
 import geopandas
 import numpy as np
+import pyarrow.parquet
 import pytest
 import shapely
 from click.testing import CliRunner
 
 import vexture
-from vexture.cartography import MapLayer, Scale, convert_map
+from vexture.cartography import MapLayer, Scale, Times, convert_map
 from vexture.cartography.colours import colours_of
 from vexture.cartography.place import MOST_LATITUDE, RADIUS
 from vexture.cli.main import main
@@ -194,10 +197,11 @@ def test_the_command_writes_texture_and_table(tmp_path):
     lines.to_file(tmp_path / "roads.fgb")
     arguments = ["map", str(tmp_path / "cells.gpkg"), str(tmp_path / "roads.fgb"), "-o", str(tmp_path / "m.ktx2")]
     arguments += ["--id", "code", "--color", "value", "--color", "", "--crs", METRES, "--stroke", "20m", "--json"]
+    arguments += ["--outline", "white", "--outline", ""]
     result = CliRunner().invoke(main, arguments)
     assert result.exit_code == 0, result.output
     assert '"label"' in result.output
-    assert vexture.load(tmp_path / "m.ktx2").roots[0].style.names[-1] == "road"
+    assert vexture.load(tmp_path / "m.ktx2").roots[0].style.names[-2:] == ("cells:outline", "road")
     assert (tmp_path / "m.parquet").exists()
     wrong = CliRunner().invoke(main, [*arguments, "--order", "a", "--order", "b", "--order", "c"])
     assert wrong.exit_code == 1
@@ -223,3 +227,89 @@ def test_borders_that_are_equal_are_not_touched_and_others_are(monkeypatch):
 
 def overlapping():
     return [shapely.box(0, 0, 600, 600), shapely.box(500, 500, 1000, 1000), shapely.box(1000, 0, 1200, 200)]
+
+
+def test_outlines_are_drawn_once_above_their_polygons_and_not_within_a_feature():
+    halves = shapely.MultiPolygon([shapely.box(200, 0, 250, 100), shapely.box(250, 0, 300, 100)])
+    source = frame([shapely.box(0, 0, 100, 100), shapely.box(100, 0, 200, 100), halves], METRES, code=["a", "b", "c"])
+    done = mapped(source, id="code", outline="#ffffff80", outline_width="10m")
+    at = np.array([[95.5, 50], [94.5, 50], [104.5, 50], [205.5, 50], [250, 50], [300, 104.5], [100, 100], [-4.5, 50]])
+    expected = ["outline", "a", "outline", "c", "c", "outline", "outline", "outline"]
+    assert names_at(done, at).tolist() == expected
+    (path,) = (path for path in done.conversion.drawing.paths if path.element == "outline")
+    assert path.paint.opacity == pytest.approx(128 / 255)
+    assert done.table["id"].to_pylist() == ["a", "b", "c"]
+    again = mapped(frame([shapely.box(0, 0, 9, 9)], METRES, code=["outline"]), id="code", outline="red")
+    assert {path.element for path in again.conversion.drawing.paths} == {"outline", "outline_"}
+    with pytest.raises(ParameterError, match="`outline_width` is '1'"):
+        mapped(source, outline="red", outline_width="1")
+
+
+def test_the_command_writes_the_colours_of_steps(tmp_path):
+    source = cells(12)
+    for year in (9, 10, 11):
+        source[f"y{year}"] = source["value"] + year
+    source.to_file(tmp_path / "cells.gpkg")
+    arguments = ["map", str(tmp_path / "cells.gpkg"), "-o", str(tmp_path / "m.ktx2"), "--id", "code", "--crs", METRES]
+    result = CliRunner().invoke(main, [*arguments, "--time", "y*", "--columns", "value", "--json"])
+    assert result.exit_code == 0, result.output
+    made = json.loads((tmp_path / "m.times.json").read_text())
+    assert made["times"] == ["y9", "y10", "y11"]
+    texture = vexture.load(tmp_path / "m.ktx2")
+    assert made["ids"] == sorted(texture.roots[0].style.names, key=lambda name: int(name[1:]))
+    own = {
+        path.element: path.paint.hex for path in mapped(source, id="code", times=Times("y*")).conversion.drawing.paths
+    }
+    assert made["colors"][0] == [own[name] for name in made["ids"]]
+    assert made["colors"][2] != made["colors"][0]
+    table = pyarrow.parquet.read_table(tmp_path / "m.parquet")
+    assert table.column_names == ["id", "code", "value", "y9", "y10", "y11"]
+    (legend,) = json.loads(table.schema.metadata[b"vexture.legend"])
+    assert (legend["column"], legend["times"]) == ("y", ["y9", "y10", "y11"])
+    both = CliRunner().invoke(main, [*arguments, "--time", "y*", "--color", "value"])
+    assert (both.exit_code, "--color or its --time" in both.output) == (1, True)
+    fixed = CliRunner().invoke(main, [*arguments, "--time", "y*", "--no-restyle"])
+    assert (fixed.exit_code, "leave --restyle on" in fixed.output) == (1, True)
+
+
+def stepped(source, times, **options):
+    return mapped(source, id="code", times=times, **options)
+
+
+def test_a_table_of_times_is_joined_by_ids_and_what_does_not_fit_is_said(tmp_path):
+    source = frame([shapely.box(k, 0, k + 1, 1) for k in range(3)], METRES, code=["01", "02", "03"])
+    rows = ["id,time,people", "01,2001-02,5", "02,2001-01,7", "02,2001-02,8", "02,2001-02,9", "99,2001-01,1"]
+    (tmp_path / "t.csv").write_text("\n".join(rows))
+    done = stepped(source, Times(tmp_path / "t.csv"))
+    assert done.table["2001-01"].to_pylist() == [None, 7, None]
+    assert done.table["2001-02"].to_pylist() == [5, 9, None]
+    assert done.times["colors"][0][0] == done.times["colors"][1][2] == "#d9d9d9"
+    said = " ".join(messages(done))
+    assert "1 ids of the table of times are those of no feature" in said
+    assert "1 rows of the table of times have the id and the time of a later one" in said
+    numbers = pyarrow.table({"id": [1, 2], "time": [10.0, 9.0], "kind": ["a", "b"]})
+    done = stepped(source.assign(code=[1, 2, 3]), Times(numbers))
+    assert done.times["times"] == ["9", "10"]
+    assert [entry["label"] for entry in done.legends[0]["entries"]] == ["a", "b"]
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ({"id": ["x"], "time": [1], "v": [1]}, "no id of the table of `time` is that of a feature"),
+        ({"id": ["c1"], "v": [1]}, "has the columns id, v; it needs id, time and one of values"),
+    ],
+)
+def test_tables_of_times_that_do_not_fit_are_refused(table, words):
+    with pytest.raises((SourceError, ParameterError), match=words):
+        stepped(cells(3), Times(pyarrow.table(table)))
+
+
+def test_one_layer_changes_with_time_and_the_others_stay():
+    points = frame([shapely.Point(500, 500)], METRES, code=["p"])
+    layers = [MapLayer(cells(5), id="code", times=Times(["value", "value2"])), MapLayer(points, id="code")]
+    layers[0].source["value2"] = 1.0
+    done = convert_map(layers, crs=METRES)
+    assert done.times["ids"] == [f"c{k}" for k in range(5)]
+    with pytest.raises(ParameterError, match="`time` is given for several sources"):
+        convert_map([layers[0], layers[0]], crs=METRES)

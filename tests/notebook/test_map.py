@@ -122,14 +122,6 @@ def test_a_column_sends_a_byte_for_each_feature():
         assert "#{:02x}{:02x}{:02x}".format(*(round(255 * part) for part in parts[:3])) == legend[kinds[name]]
 
 
-def test_the_bytes_of_the_texture_are_deflated_as_a_whole():
-    chart = shown()
-    content = chart.texture and chart._source.content
-    assert len(content) < 0.8 * len(chart.texture.to_ktx2())
-    (tmp := io.BytesIO()).write(zlib.decompress(content))
-    assert tmp.getvalue()[:7] == b"\xabKTX 20"
-
-
 def test_the_texture_comes_between_the_messages_of_a_kernel(held):
     threads = []
 
@@ -318,3 +310,22 @@ def test_steps_that_are_not_there_are_refused(column, times, words):
 def test_a_time_beyond_the_steps_is_refused():
     with pytest.raises(ParameterError, match=r"`time` is 3; it must be in 0\.\.2"):
         timed().time = 3
+
+
+def test_outlines_are_in_both_pictures_and_are_no_features(held):
+    chart = shown(outline="black", outline_width="3px", size=300)
+    first = chart.render()
+    assert difference(first, shown().render()) > 0.5
+    held.set()
+    texture = chart.texture
+    assert np.abs(first - chart.render()).mean() < 0.2 / 255
+    assert "outline" in texture.roots[0].style.names
+    chart.picked = {"element": "outline"}
+    chart.hovered = {"element": "outline"}
+    assert (chart.selected, chart.tip) == (None, [])
+    before = chart.render()
+    chart.column = "kind"
+    chart.colors = {"outline": "white"}
+    assert difference(before, chart.render()) > 0.5
+    with pytest.raises(ParameterError, match="no feature 'outline'"):
+        chart.selected = "outline"

@@ -53,7 +53,7 @@ def test_a_tree_of_runs_is_that_of_pieces(sizes, low, tolerance):
     drawing = coast(len(sizes), sizes, rule, low)
     fast, runs = grown(drawing, True, tolerance)
     slow, none = grown(drawing, False, tolerance)
-    assert (runs > 20) == (max(sizes) > RUN)
+    assert 0.5 < runs / sum(-(-size // RUN) for size in sizes) < 1.1
     assert none == 0
     for field in ("is_quad", "count", "winding", "coverage", "curves"):
         assert (getattr(fast, field) == getattr(slow, field)).all(), field
@@ -78,7 +78,8 @@ def test_lists_of_few_pieces_hold_no_runs(at_limit):
     middle = np.median(cubics[:, 0], axis=0)
     divide(pool, 0, last, 0.9 * middle[0], middle[1], 1e-6, int(growth.stack[0, PIECES]), at_limit, child_at)
     lists = [pool.numbers[start:end] for start, end in pairwise(child_at[:5].tolist())]
-    crowded = [np.where(numbers < 0, RUN, 1).sum() > CROWDED for numbers in lists]
+    length = np.diff(pool.runs[:, :2])[:, 0]
+    crowded = [sum(length[-1 - i] if i < 0 else 1 for i in numbers.tolist()) > CROWDED for numbers in lists]
     assert [bool((numbers < 0).any()) for numbers in lists] == [not at_limit and many for many in crowded]
     assert any(crowded)
     assert not all(crowded)

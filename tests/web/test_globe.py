@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import map_truth
 import numpy as np
 import pytest
 import tile_pyramid
@@ -76,6 +77,23 @@ def test_each_pixel_has_the_colour_of_its_place(
     assert checked > 50
 
 
+@pytest.mark.parametrize("height", [0.3, 0.01])
+def test_edges_are_exact(height: float, page: Any) -> None:
+    picture = _look(page, *tile_pyramid.lng_lat(*CENTRE), height)
+    project = """some => some.map(([lng, lat]) => {
+        const [a, b] = [lng, lat].map((degrees) => degrees * Math.PI / 180);
+        const place = camera.position.clone().set(Math.cos(b) * Math.sin(a), Math.sin(b), Math.cos(b) * Math.cos(a));
+        const { x, y } = place.project(camera);
+        return [(x + 1) * innerWidth / 2, (1 - y) * innerHeight / 2];
+    })"""
+    unproject = """some => some.map(([x, y]) =>
+        globe.placeUnder({ x: 2 * x / innerWidth - 1, y: 1 - 2 * y / innerHeight }, camera))"""
+    truth = map_truth.seen(
+        SIZE, lambda some: page.evaluate(project, some), lambda some: page.evaluate(unproject, some), is_curved=True
+    )
+    assert map_truth.edges(picture, truth) < 0.3
+
+
 def test_features_are_found_and_coloured_without_loading(page: Any) -> None:
     before = _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
     places = tile_pyramid.points(300)
@@ -90,7 +108,7 @@ def test_features_are_found_and_coloured_without_loading(page: Any) -> None:
     after = _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
     assert np.allclose(after[SIZE // 2, SIZE // 2], (0, 1, 1))
     assert not np.allclose(before[SIZE // 2, SIZE // 2], (0, 1, 1))
-    page.evaluate("name => { globe.setFilter([name]); }", name)
+    page.evaluate("name => { globe.setFilter((id) => id !== name); }", name)
     assert np.allclose(_look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)[SIZE // 2, SIZE // 2], 1)
     assert page.evaluate("place => globe.featureAt(place)", tile_pyramid.lng_lat(*MIDDLE)) is None
     assert asked == []

@@ -3,6 +3,7 @@
 import base64
 import io
 import json
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,8 @@ from PIL import Image
 import vexture
 
 for package in ("anywidget", "jupyterlab", "ipykernel", "nbformat"):
-    pytest.importorskip(package, reason=f"{package} is not installed (pip install 'vexture[notebook,test]')")
+    if find_spec(package) is None:  # importing JupyterLab takes each process of tests seconds, and one runs it
+        pytest.skip(f"{package} is not installed (pip install 'vexture[notebook,test]')", allow_module_level=True)
 
 pytestmark = [pytest.mark.long, pytest.mark.usefixtures("page_is_built")]
 

@@ -14,9 +14,6 @@ import { VectorTexture } from '../src/vector-texture.js';
 /** What 1 of a colour is, as it is sent. */
 const COLOR_ONE = 10_000;
 
-/** First byte of a file that is deflated as a whole; a texture's own begins otherwise. */
-const DEFLATED = 0x78;
-
 /** @type {Map<string, Entry>} */
 const ENTRIES = new Map();
 
@@ -31,15 +28,8 @@ export function open({ key, content }) {
 /** @param {DataView | ArrayBuffer} content @returns {Promise<Content>} */
 async function read(content) {
   const view = content instanceof ArrayBuffer ? new DataView(content) : content;
-  const bytes = new Uint8Array(view.buffer, view.byteOffset, view.byteLength);
-  const data = await readPacked(bytes[0] === DEFLATED ? await inflated(bytes) : bytes);
+  const data = await readPacked(new Uint8Array(view.buffer, view.byteOffset, view.byteLength));
   return { data, texture: new VectorTexture(data) };
-}
-
-/** @param {Uint8Array} bytes a stream of zlib @returns {Promise<Uint8Array>} */
-async function inflated(bytes) {
-  const stream = new Blob([/** @type {Uint8Array<ArrayBuffer>} */ (bytes)]).stream().pipeThrough(new DecompressionStream('deflate'));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 /** Forget a content that was opened, with its last user. @param {import('./widget.js').Shared} source */
@@ -169,6 +159,7 @@ export class Steps {
 
 /** @param {DataView} content a stream of zlib @returns {Promise<DataView>} */
 export async function inflatedView(content) {
-  const bytes = await inflated(new Uint8Array(content.buffer, content.byteOffset, content.byteLength));
-  return new DataView(bytes.buffer);
+  const bytes = /** @type {Uint8Array<ArrayBuffer>} */ (new Uint8Array(content.buffer, content.byteOffset, content.byteLength));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
+  return new DataView(await new Response(stream).arrayBuffer());
 }

@@ -21,6 +21,12 @@ FAR, FAR_ROUND = 30.0, 3
 MOST_SAMPLES, LEAST_PER_PIECE, MOST_PER_PIECE = 96, 2, 8
 """Points of a run that a fit uses: in all, if there are few pieces, and on each piece."""
 
+LANES = 8
+"""Numbers in the longest vectors of processors: what is left of a loop over points takes as long as two vectors."""
+
+TERMS = 13
+"""Entries of the equations of least squares, of which each point adds a term to each."""
+
 MEASURED = 4
 """Rounds of projection that measure a cubic whose control points were moved into the box of its ends."""
 
@@ -61,22 +67,22 @@ def _solve_symmetric(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
 
 
 @kernel(allocates=False)
-def _residuals(
+def _terms(
     x: NDArray[np.float64],
     y: NDArray[np.float64],
     t: NDArray[np.float64],
     along_weight: float,
     curve: NDArray[np.float64],
-    rows: NDArray[np.float64],
+    terms: NDArray[np.float64],
 ) -> None:
-    """Write the entries xx, xy and yy of each point's metric and its weighted distance from the curve, (5, n).
+    """Write each point's terms of the entries of the equations of `_least_squares`, (13, n).
 
-    The metric is n n^T + along_weight d d^T, with the unit tangent d and the unit normal n. The loop has no sums, so
-    that the compiler handles several points at once.
+    A point's metric is n n^T + along_weight d d^T, with the unit tangent d and the unit normal n. The loop has no sums,
+    so that the compiler handles several points at once.
     """
     x0, x1, x2, x3 = curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0]
     y0, y1, y2, y3 = curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1]
-    for i in range(1, len(t) - 1):
+    for i in range(1, len(t)):
         s, u = 1.0 - t[i], t[i]
         w0, w1, w2, w3 = s * s * s, 3.0 * s * s * u, 3.0 * s * u * u, u * u * u
         off_x = x[i] - w0 * x0 - w1 * x1 - w2 * x2 - w3 * x3
@@ -88,8 +94,13 @@ def _residuals(
         xx = 1.0 if still else (dy * dy + along_weight * dx * dx) / divisor
         yy = 1.0 if still else (dx * dx + along_weight * dy * dy) / divisor
         xy = 0.0 if still else (along_weight - 1.0) * dx * dy / divisor
-        rows[0, i], rows[1, i], rows[2, i] = xx, xy, yy
-        rows[3, i], rows[4, i] = xx * off_x + xy * off_y, xy * off_x + yy * off_y
+        to_x, to_y = xx * off_x + xy * off_y, xy * off_x + yy * off_y
+        w11, w12, w22 = w1 * w1, w1 * w2, w2 * w2
+        terms[0, i], terms[1, i], terms[2, i] = w11 * xx, w11 * xy, w11 * yy
+        terms[3, i], terms[4, i], terms[5, i] = w12 * xx, w12 * xy, w12 * yy
+        terms[6, i], terms[7, i], terms[8, i] = w22 * xx, w22 * xy, w22 * yy
+        terms[9, i], terms[10, i] = w1 * to_x, w1 * to_y
+        terms[11, i], terms[12, i] = w2 * to_x, w2 * to_y
 
 
 @kernel(allocates=False)
@@ -99,37 +110,36 @@ def _least_squares(
     t: NDArray[np.float64],
     along_weight: float,
     curve: NDArray[np.float64],
-    rows: NDArray[np.float64],
+    terms: NDArray[np.float64],
     a: NDArray[np.float64],
     b: NDArray[np.float64],
+    n: int,
 ) -> bool:
     """Move P1 and P2 so that the squared distances across the curve are least; False if undetermined.
 
     Distances along the curve count `along_weight` only, because projection moves the point along the curve anyway. This
     is the tangent distance minimisation of Wang, Pottmann and Liu, "Fitting B-spline curves to point clouds by
     curvature-based squared distance minimization" (ACM TOG 25, 2006). It converges many times faster than distances to
-    fixed parameters.
+    fixed parameters. There are n points; the
+    arrays may be longer. `terms` (`TERMS`, n) is overwritten.
     """
-    _residuals(x, y, t, along_weight, curve, rows)
+    _terms(x, y, t, along_weight, curve, terms)
     xx11, xy11, yy11, xx12, xy12, yy12, xx22, xy22, yy22 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     bx1, by1, bx2, by2 = 0.0, 0.0, 0.0, 0.0
-    for i in range(1, len(t) - 1):
-        s, u = 1.0 - t[i], t[i]
-        w1, w2 = 3.0 * s * s * u, 3.0 * s * u * u
-        xx, xy, yy = rows[0, i], rows[1, i], rows[2, i]
-        xx11 += w1 * w1 * xx
-        xy11 += w1 * w1 * xy
-        yy11 += w1 * w1 * yy
-        xx12 += w1 * w2 * xx
-        xy12 += w1 * w2 * xy
-        yy12 += w1 * w2 * yy
-        xx22 += w2 * w2 * xx
-        xy22 += w2 * w2 * xy
-        yy22 += w2 * w2 * yy
-        bx1 += w1 * rows[3, i]
-        by1 += w1 * rows[4, i]
-        bx2 += w2 * rows[3, i]
-        by2 += w2 * rows[4, i]
+    for i in range(1, n - 1):
+        xx11 += terms[0, i]
+        xy11 += terms[1, i]
+        yy11 += terms[2, i]
+        xx12 += terms[3, i]
+        xy12 += terms[4, i]
+        yy12 += terms[5, i]
+        xx22 += terms[6, i]
+        xy22 += terms[7, i]
+        yy22 += terms[8, i]
+        bx1 += terms[9, i]
+        by1 += terms[10, i]
+        bx2 += terms[11, i]
+        by2 += terms[12, i]
     a[0, 0], a[0, 1], a[0, 2], a[0, 3] = xx11, xy11, xx12, xy12
     a[1, 0], a[1, 1], a[1, 2], a[1, 3] = xy11, yy11, xy12, yy12
     a[2, 0], a[2, 1], a[2, 2], a[2, 3] = xx12, xy12, xx22, xy22
@@ -153,11 +163,30 @@ def project(
     """Move each parameter t, (n,), to the nearest place on the curve by a Newton step; return the largest distance.
 
     `x` and `y` (n,) are the points, of which the first and the last are the curve's ends and stay. `squares` (n,) is
-    overwritten. The first loop has no sums, and arrays of unit stride: the compiler handles several points at once.
+    overwritten.
+    """
+    last = t[-1]
+    distance = _project_all(x, y, t, curve, squares, len(t))
+    t[-1] = last
+    return distance
+
+
+@kernel(allocates=False)
+def _project_all(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    t: NDArray[np.float64],
+    curve: NDArray[np.float64],
+    squares: NDArray[np.float64],
+    n: int,
+) -> float:
+    """`project` n points, and those behind them, if the arrays are longer; the last point moves, too.
+
+    The first loop has no sums, and arrays of unit stride: the compiler handles several points at once.
     """
     x0, x1, x2, x3 = curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0]
     y0, y1, y2, y3 = curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1]
-    for i in range(1, len(t) - 1):
+    for i in range(1, len(t)):
         u = t[i]
         off_x, off_y = cubic_at(x0, x1, x2, x3, u) - x[i], cubic_at(y0, y1, y2, y3, u) - y[i]
         dx, dy = velocity_at(x0, x1, x2, x3, u), velocity_at(y0, y1, y2, y3, u)
@@ -168,9 +197,11 @@ def project(
         u = min(max(u - step, 0.0), 1.0) if slope > 0.0 else u
         off_x, off_y = cubic_at(x0, x1, x2, x3, u) - x[i], cubic_at(y0, y1, y2, y3, u) - y[i]
         t[i], squares[i] = u, off_x * off_x + off_y * off_y
-    worst = 0.0
-    for i in range(1, len(t) - 1):
-        worst = max(worst, squares[i])
+    worst, even, odd = 0.0, 0.0, 0.0
+    for i in range(1, n - 2, 2):  # two chains of comparisons: each waits for the one before it
+        odd, even = max(odd, squares[i]), max(even, squares[i + 1])
+    if n > 2:
+        worst = max(max(odd, even), squares[n - 2])
     return np.sqrt(worst)
 
 
@@ -196,16 +227,18 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
     for k in range(4):
         for axis in range(2):
             curve[k, axis] = (1.0 - k / 3.0) * points[0, axis] + (k / 3.0) * points[n - 1, axis]
-    scratch, a, b = np.empty((9, n)), np.empty((4, 4)), np.empty(4)
-    x, y, t, best_t, rows = scratch[0], scratch[1], scratch[2], scratch[3], scratch[4:]
-    for i in range(n):
-        x[i], y[i] = points[i, 0], points[i, 1]
-    chord_parameters(points, t)
+    width = 1 + (n + LANES - 2) // LANES * LANES  # the points after the first one, in full vectors
+    scratch, a, b = np.empty((4 + TERMS, width)), np.empty((4, 4)), np.empty(4)
+    x, y, t, best_t, terms = scratch[0], scratch[1], scratch[2], scratch[3], scratch[4:]
+    for i in range(width):
+        k = min(i, n - 1)
+        x[i], y[i], t[i] = points[k, 0], points[k, 1], 1.0
+    chord_parameters(points, t[:n])
     best, best_curve = np.inf, np.empty((4, 2))
     along = ALONG
     slow = 0
     for done in range(1, ROUNDS + 1):
-        worst = project(x, y, t, curve, rows[0])
+        worst = _project_all(x, y, t, curve, terms[0], n)
         slow += 1 if worst > SLOW * best else 0
         if worst < best:
             best = worst
@@ -215,7 +248,7 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
             along *= 10.0
         if best <= tolerance or slow == SLOW_ROUNDS or (done == FAR_ROUND and best > FAR * tolerance):
             break
-        if not _least_squares(x, y, t, along, curve, rows, a, b):
+        if not _least_squares(x, y, t, along, curve, terms, a, b, n):
             break
     copy_curve(best_curve, curve)
     return best

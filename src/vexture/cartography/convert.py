@@ -127,6 +127,8 @@ def _drawing(ready: Prepared, snap: float | None) -> Drawing:
             rank = ranks(one.features, one.layer.order)
         rings = covering(one.features.rings, rank, fit.scale, snap, ready.notes)
         paths += area_paths(rings, one.names, one.colours(FILL), rank, fit)
+        border = one.outline
+        paths += area_paths(border.rings, np.array([border.name], object), border.rgba, np.zeros(1, np.int64), fit)
         paths += area_paths(one.lines, one.names, one.colours(INK), np.arange(len(one.features)), fit)
         paths += fitted(iter(one.symbols), fit)
     if not paths:

@@ -12,7 +12,7 @@ from vexture.errors import ParameterError
 from vexture.geo.features import Lines
 from vexture.geo.rings import Rings, rings_of
 
-__all__ = ["Width", "strokes", "width_of", "widths_at"]
+__all__ = ["Width", "outlines", "strokes", "width_of", "widths_at"]
 
 TEXT: Final = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*(px|km|m)\s*")
 
@@ -74,6 +74,34 @@ def strokes(lines: Lines, width: Width, crs: str, pixel: float) -> Rings:
     keep = shapely.get_type_id(parts) == shapely.GeometryType.POLYGON
     of = features[owner[keep]]
     return rings_of(parts[keep], lambda index: f"line {of[index]}", of.astype(np.intp))
+
+
+def outlines(rings: Rings, width: Width, crs: str, pixel: float) -> Rings:
+    """Area of the borders of polygons, each drawn once, as polygons of one feature.
+
+    A border between two parts of the same feature, as along the antimeridian, is none.
+    """
+    import shapely
+
+    points, after = rings.points, rings.following
+    length = rings.ends - rings.starts
+    assert rings.feature is not None
+    of = np.repeat(rings.feature[rings.polygon], length)
+    one, other = points.view(np.complex128).ravel(), points[after].view(np.complex128).ravel()
+    sides = np.stack([np.minimum(one, other), np.maximum(one, other)], axis=1)  # of complex numbers, by x and then y
+    different = one != other
+    sides, of = sides[different], of[different]
+    unique, side = np.unique(sides, axis=0, return_inverse=True)
+    pairs, times = np.unique(np.stack([side.ravel(), of], axis=1), axis=0, return_counts=True)
+    drawn = np.zeros(len(unique), np.bool_)
+    drawn[pairs[times == 1, 0]] = True
+    if not drawn.any():
+        return rings_of(np.empty(0, object), str, np.empty(0, np.intp))
+    ends = unique[drawn].view(np.float64).reshape(-1, 2, 2)
+    merged = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(shapely.linestrings(ends))))
+    places, owner = shapely.get_coordinates(merged, return_index=True)
+    last = np.searchsorted(owner, np.arange(len(merged)), side="right")
+    return strokes(Lines(places, last, np.zeros(len(merged), np.intp)), width, crs, pixel)
 
 
 def _runs(lines: Lines, width: Width, crs: str, pixel: float) -> tuple[NDArray[Any], NDArray[np.intp]]:

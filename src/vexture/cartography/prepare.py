@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, Final
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.cartography.colours import Scale, colours_of, rgba_of
-from vexture.cartography.marks import strokes, width_of, widths_at
+from vexture.cartography.marks import outlines, strokes, width_of, widths_at
 from vexture.cartography.paths import Fit, symbol_paths
 from vexture.cartography.place import placed
 from vexture.cartography.times import Steps, Times, coloured_steps, with_steps
@@ -22,6 +22,7 @@ from vexture.geo.crs import chosen_crs, gis_packages
 from vexture.geo.features import Features, read_features
 from vexture.geo.rings import Rings
 from vexture.geo.tables import with_legends
+from vexture.geo.vectors import is_memory
 from vexture.notes import Notes
 from vexture.paint import Paint
 
@@ -55,6 +56,10 @@ class MapLayer:
         Column by which overlapping polygons are painted, the greatest on top; by default the smaller are on top.
     stroke : str
         Width of lines: ``500m`` on the ground, or ``1.5px`` of a map of the stated size.
+    outline : str, optional
+        CSS colour of the borders of polygons, which are drawn above these, each once.
+    outline_width : str
+        Their width, as of lines.
     symbol : Drawing, optional
         What is drawn at points; a dot by default.
     symbol_size : str
@@ -72,6 +77,8 @@ class MapLayer:
     fill: str | None = None
     order: str | None = None
     stroke: str = "1px"
+    outline: str | None = None
+    outline_width: str = "1px"
     symbol: Drawing | None = None
     symbol_size: str = "8px"
 
@@ -83,6 +90,18 @@ class MapLayer:
 
 
 @dataclass(frozen=True, eq=False)
+class Outline:
+    """Area of the borders of a layer, the name of its element, and its colour, (1, 4)."""
+
+    rings: Rings
+    name: str = ""
+    rgba: NDArray[np.float64] = field(default_factory=lambda: np.zeros((1, 4)))
+
+
+NO_OUTLINE: Final = Outline(NO_LINES)
+
+
+@dataclass(frozen=True, eq=False)
 class Painted:
     """Features in the map's reference system, with their names in the texture, their colours, and areas of marks."""
 
@@ -91,6 +110,7 @@ class Painted:
     names: NDArray[Any]
     rgba: NDArray[np.float64] | None
     steps: Steps | None
+    outline: Outline
     lines: Rings
     symbols: tuple[Path, ...]
     """In the units of the map."""
@@ -136,9 +156,13 @@ class Prepared:
 @contextmanager
 def in_memory() -> Iterator[None]:
     """Say what to do where there is not enough memory."""
+    import shapely
+
     try:
         yield
-    except MemoryError:
+    except (MemoryError, shapely.errors.GEOSException) as error:
+        if not (isinstance(error, MemoryError) or is_memory(error)):
+            raise
         raise LimitError(
             "the map needs more memory than there is; choose fewer features by `where`, fewer `columns`, or make a "
             "pyramid by vexture tiles, which reads them in parts"
@@ -208,7 +232,7 @@ def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list
                 rgba, legend = colours_of(features.table, layer.color, notes)
         if legend is not None:
             legends.append({"layer": layer.name, **legend})
-        painted.append(Painted(layer, features, names, rgba, steps, NO_LINES, ()))
+        painted.append(Painted(layer, features, names, rgba, steps, NO_OUTLINE, NO_LINES, ()))
     return painted, legends
 
 
@@ -231,17 +255,31 @@ def _marked(painted: list[Painted], crs: str, size: int) -> tuple[tuple[Painted,
         raise SourceError("nothing of it lies on the map; choose another `crs`")
     reach = [every.min(axis=0), every.max(axis=0)]
     pixel = (float((reach[1] - reach[0]).max()) or 1.0) / size
-    marked = []
+    marked, taken = [], {str(name) for one in painted for name in one.names}
     for one in painted:
+        outline = _outline(one, len(painted) > 1, taken, crs, pixel)
+        taken.add(outline.name)
         lines = strokes(one.features.lines, width_of(one.layer.stroke, "stroke"), crs, pixel)
         symbols = tuple(_symbols(one, crs, pixel))
-        own = [lines.points, *(np.concatenate(path.contours)[:, 0] for path in symbols)]
+        own = [lines.points, outline.rings.points, *(np.concatenate(path.contours)[:, 0] for path in symbols)]
         reach += [corner for points in own if len(points) for corner in (points.min(axis=0), points.max(axis=0))]
-        marked.append(replace(one, lines=lines, symbols=symbols))
+        marked.append(replace(one, outline=outline, lines=lines, symbols=symbols))
     low, high = np.min(reach, axis=0), np.max(reach, axis=0)
     if not (high > low).all():
         raise SourceError("it has no area on the map; give polygons, or points that differ")
     return tuple(marked), Fit((*map(float, low), *map(float, high)))  # type: ignore[arg-type]
+
+
+def _outline(one: Painted, is_named: bool, taken: set[str], crs: str, pixel: float) -> Outline:
+    """The borders of a layer; the name of their element is that of no feature."""
+    layer, rings = one.layer, one.features.rings
+    width = width_of(layer.outline_width, "outline_width")
+    if layer.outline is None or not len(rings.ends):
+        return NO_OUTLINE
+    name = f"{layer.name}:outline" if is_named else "outline"
+    while name in taken:
+        name += "_"
+    return Outline(outlines(rings, width, crs, pixel), name, rgba_of(layer.outline, "outline")[None])
 
 
 def _symbols(one: Painted, crs: str, pixel: float) -> Iterator[Path]:

@@ -46,6 +46,10 @@ EACH: Final = "once for all sources, or once for each ('' for none)"
 @click.option("--fill", metavar="COLOR", multiple=True, help="One colour of a source.")
 @click.option("--order", metavar="COLUMN", multiple=True, help="Which polygons are above.  [default: the smaller ones]")
 @click.option("--stroke", metavar="500m|1.5px", multiple=True, help="Width of lines.  [default: 1px]")
+@click.option(
+    "--outline", metavar="COLOR", multiple=True, help="Borders of polygons, each drawn once.  [default: none]"
+)
+@click.option("--outline-width", metavar="500m|1.5px", multiple=True, help="Width of outlines.  [default: 1px]")
 @click.option("--symbol", metavar="FILE.svg", type=PATH, help="Drawing at points.  [default: a dot]")
 @click.option("--symbol-size", metavar="2km|8px", default="8px", show_default=True, help="Width of symbols.")
 @click.option("--size", metavar="PX", type=int, default=1024, show_default=True, help="Map side for widths in px.")
@@ -120,7 +124,8 @@ def _layers(sources: tuple[Path, ...], symbol: Path | None, options: dict[str, A
     count = len(sources)
     drawn = None if symbol is None else read(symbol)
     each = {name: _each(options[name], count, name) for name in ("layer", "where", "source_crs", "columns", "color")}
-    each |= {name: _each(options[name], count, name) for name in ("ids", "time", "fill", "order", "stroke")}
+    each |= {name: _each(options[name], count, name) for name in ("ids", "time", "fill", "order")}
+    each |= {name: _each(options[name], count, name) for name in ("stroke", "outline", "outline_width")}
     layers = []
     for place, source in enumerate(sources):
         own = {name: values[place] for name, values in each.items()}
@@ -130,8 +135,13 @@ def _layers(sources: tuple[Path, ...], symbol: Path | None, options: dict[str, A
         if own["color"] is not None or own["time"] is not None:
             scale = scale_of(own["color"] or "", options)
         times = None if own["time"] is None else Times(own["time"])
-        shape: dict[str, Any] = {name: own[name] for name in ("fill", "order")}
-        shape |= {"stroke": own["stroke"] or "1px", "symbol": drawn, "symbol_size": options["symbol_size"]}
+        shape: dict[str, Any] = {name: own[name] for name in ("fill", "order", "outline")}
+        shape |= {
+            "stroke": own["stroke"] or "1px",
+            "outline_width": own["outline_width"] or "1px",
+            "symbol": drawn,
+            "symbol_size": options["symbol_size"],
+        }
         chosen = (own["layer"], own["where"], own["source_crs"], own["ids"], columns, scale)
         layers.append(MapLayer(source, *chosen, times=times, **shape))
     return layers

@@ -43,6 +43,9 @@ MOST_NAMED: Final = 12
 REFUSALS: Final = ("Invalid SQL", "no such column", "syntax error")
 """What GDAL says of a condition, at once or, where it is a database's, when it reads."""
 
+WRAPPING: Final = "Unknown error: Wrapping"
+"""What Arrow says where there is no memory for an object."""
+
 READ: Final = "give GeoPackage, GeoParquet, FlatGeobuf, a shapefile, GeoJSON or TopoJSON"
 
 
@@ -122,6 +125,11 @@ def _content(source: str | os.PathLike[str] | bytes) -> tuple[bytes | str, bool]
             raise SourceError("a shapefile is several files; give them together as a .zip")
         large = Path(source).stat().st_size > LARGEST_FILE
         return (os.fspath(source) if large else whole_shapefile(Path(source))), False
+    if not isinstance(source, bytes) and Path(source).is_file() and Path(source).stat().st_size > LARGEST_FILE:
+        raise SourceError(
+            f"the file is larger than {LARGEST_FILE:,} bytes, the most that is read at once; convert it to FlatGeobuf, "
+            "GeoPackage or GeoParquet, which are read in parts"
+        )
     content = read_bytes(source)
     if content.startswith(ZIP):
         return zipped_shapefiles(content), False
@@ -210,7 +218,14 @@ def _refused(where: str, names: list[str]) -> str:
 
 def _objects(column: Any) -> NDArray[Any]:
     """WKB as objects, None where there is none."""
-    return np.asarray(column.to_numpy(zero_copy_only=False), object)
+    import pyarrow as pa
+
+    try:
+        return np.asarray(column.to_numpy(zero_copy_only=False), object)
+    except pa.ArrowException as error:
+        if WRAPPING in str(error)[: 2 * len(WRAPPING)]:  # the rest of this message is the geometry
+            raise MemoryError from None
+        raise
 
 
 def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 from threading import Lock
-from typing import Any, Final
+from typing import Any, Final, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +39,7 @@ __all__ = [
     "chosen_layer",
     "gdal_errors",
     "gdal_reason",
+    "is_memory",
     "parsed_wkb",
     "parts_of",
     "read_areas",
@@ -58,6 +59,9 @@ AREAL: Final = ("Polygon", "Surface", "Unknown", "GeometryCollection", "Triangle
 
 QUIET: Final = Lock()
 """Held while Python's warnings are silenced: the filter is common to all threads."""
+
+NO_MEMORY: Final = "bad_alloc"
+"""What GEOS and GDAL say where there is none."""
 
 MOST_NAMED: Final = 12
 """Layers that a message names."""
@@ -172,6 +176,8 @@ def gdal_errors() -> Iterator[None]:
             OSError,
             NameError,
         ) as error:  # the last is pyogrio's for a bad .prj
+            if is_memory(error):
+                raise MemoryError from None
             raise SourceError(f"GDAL cannot read it ({gdal_reason(error)}); save it again") from None
 
 
@@ -219,8 +225,26 @@ def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArra
         whole = shapely.from_wkb(shapes[given], on_invalid="fix")
     broken = shapely.is_missing(whole)
     if broken.any():
-        raise SourceError(f"feature {feature[int(broken.argmax())] + 1} is damaged; save the file again")
+        first = int(broken.argmax())
+        _refuse_broken(shapes[given][first], f"feature {feature[first] + 1}")
     return whole, feature
+
+
+def _refuse_broken(shape: bytes, name: str) -> NoReturn:
+    """Say why a geometry was not read: there was no memory for it, or it is damaged."""
+    import shapely
+
+    try:
+        shapely.from_wkb(shape)  # which fails again only if it is damaged
+    except shapely.errors.GEOSException as error:
+        if not is_memory(error):
+            raise SourceError(f"{name} is damaged; save the file again") from None
+    raise MemoryError
+
+
+def is_memory(error: Exception) -> bool:
+    """Whether GEOS had not enough memory."""
+    return NO_MEMORY in str(error)
 
 
 def parts_of(whole: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:

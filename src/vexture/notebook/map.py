@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 __all__ = ["map"]
 
 OF_SCALE: Final = ("scale", "palette", "classes", "no_data")
-OF_LAYER: Final = ("layer", "where", "source_crs", "id", "columns", "fill", "order", "stroke", "symbol", "symbol_size")
+OF_LAYER: Final = (
+    *("layer", "where", "source_crs", "id", "columns", "fill", "order", "stroke"),
+    *("outline", "outline_width", "symbol", "symbol_size"),
+)
 OF_MAP: Final = ("crs", "snap", "size", "tolerance", "max_seconds")
 CAPACITY: Final = 15
 """Pieces in a leaf: more than by default, as the bytes are sent to the page at once."""
@@ -55,8 +58,9 @@ def map(
         As of `vexture.show`.
     **options
         Of the colours (`vexture.cartography.Scale`): ``scale``, ``palette``, ``classes``, ``no_data``. Of what is drawn
-        (`MapLayer`): ``layer``, ``where``, ``id``, ``columns``, ``fill``, ``order``, ``stroke``, ``symbol``,
-        ``symbol_size``, ``source_crs``. Of the map (`convert_map`): ``crs``, ``snap``, ``size``, ``tolerance``.
+        (`MapLayer`): ``layer``, ``where``, ``id``, ``columns``, ``fill``, ``order``, ``stroke``, ``outline``,
+        ``outline_width``, ``symbol``, ``symbol_size``, ``source_crs``. Of the map (`convert_map`): ``crs``, ``snap``,
+        ``size``, ``tolerance``.
 
     Returns
     -------

@@ -20,7 +20,7 @@ CHORDS = 8
 
 @dataclass(frozen=True, eq=False)
 class _Sheet:
-    """Sides, the colours of their owners, (c, 4), and the row of each of these in the map's table."""
+    """Sides, the colours of their owners, (c, 4), and the row of each in the map's table, which outlines follow."""
 
     sides: Sides
     rgba: NDArray[np.float64]
@@ -36,7 +36,7 @@ class MapPicture:
     def draw(self, rgba: NDArray[np.float64] | None, size: Size, view: ViewLike) -> NDArray[np.float32]:
         """Premultiplied sRGB and opacity of each pixel, (height, width, 4), top row first.
 
-        `rgba`, (f, 4), are other colours of the rows of the table.
+        `rgba`, (f, 4), are other colours of the rows of the table, and then of the outlines of layers.
         """
         picture = np.zeros(1, np.float32)
         for sheet in self.sheets:
@@ -45,7 +45,7 @@ class MapPicture:
         return picture
 
     def colours(self, count: int) -> NDArray[np.float64]:
-        """Colours of the rows of the table, (count, 4)."""
+        """Colours of the rows of the table, and then of the outlines of layers, (count, 4)."""
         rgba = np.zeros((count, 4))
         for sheet in self.sheets:
             rgba[sheet.rows] = sheet.rgba
@@ -55,15 +55,16 @@ class MapPicture:
 def map_picture(ready: Prepared) -> MapPicture:
     """The areas, the lines and the symbols of each layer."""
     sheets: list[_Sheet] = []
-    first = 0
+    first, borders = 0, sum(len(one.features) for one in ready.layers)
     for one in ready.layers:
         rows = np.arange(first, first + len(one.features))
         first += len(one.features)
-        sheets += [
-            _Sheet(_ring_sides(rings, ready.fit), one.colours(colour), rows)
-            for rings, colour in ((one.features.rings, FILL), (one.lines, INK))
-            if len(rings.ends)
-        ]
+        parts = [(one.features.rings, one.colours(FILL), rows)]
+        if len(one.outline.rings.ends):
+            parts.append((one.outline.rings, one.outline.rgba, np.array([borders])))
+            borders += 1
+        parts.append((one.lines, one.colours(INK), rows))
+        sheets += [_Sheet(_ring_sides(rings, ready.fit), rgba, of) for rings, rgba, of in parts if len(rings.ends)]
         if one.symbols:
             sheets.append(_symbols(one, ready.fit, rows))
     return MapPicture(tuple(sheets))

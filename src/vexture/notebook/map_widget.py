@@ -2,7 +2,6 @@
 
 import os
 import threading
-import zlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -95,7 +94,8 @@ class MapWidget(VectorWidget):
         **traits: Any,
     ) -> None:
         self.table, self._notes = ready.table, ready.notes.listed
-        self._ids = [str(name) for name in ready.table.column("id").to_pylist()]
+        borders = [one.outline.name for one in ready.layers if len(one.outline.rings.ends)]
+        self._ids = [*(str(name) for name in ready.table.column("id").to_pylist()), *borders]
         self._row = {name: row for row, name in enumerate(self._ids)}
         self._scale, self._has_legend, self._is_recolored = scale, has_legend, False
         self._drawn = map_picture(ready)
@@ -151,6 +151,11 @@ class MapWidget(VectorWidget):
                 self._picture = None
         # last, as a warning may be an error
         warn_of(self._name, [note for note in made.conversion.notes if note not in self._notes])
+
+    def _feature(self, name: str | None) -> int | None:
+        """The row of a feature in the table."""
+        row = self._row.get(name or "")
+        return row if row is not None and row < len(self.table) else None
 
     def _is_seen(self, name: str) -> bool:
         """Whether a feature is in the texture, as far as that is known: some lie wholly below others."""
@@ -244,7 +249,7 @@ class MapWidget(VectorWidget):
 
     @traitlets.validate("selected")
     def _checked_selected(self, proposal: Any) -> Any:
-        if proposal["value"] is not None and proposal["value"] not in self._row:
+        if proposal["value"] is not None and self._feature(proposal["value"]) is None:
             raise ParameterError(f"there is no feature {proposal['value']!r}; names are in the column `id` of `table`")
         return proposal["value"]
 
@@ -270,7 +275,8 @@ class MapWidget(VectorWidget):
             rgba, legend = colours_of(self.table, scale, Notes())
         except ParameterError:  # a column of texts: the scale was chosen for another one
             rgba, legend = colours_of(self.table, replace(scale, kind="categories", palette=None), Notes())
-        return rounded(rgba), legend
+        borders = self._rgba[len(rgba) :]  # of outlines, which no column colours
+        return np.concatenate([rounded(rgba), borders]), legend
 
     def _go(self, change: Any) -> None:
         """Another time: the page has its colours, and only a picture in place of the texture is drawn again."""
@@ -293,7 +299,7 @@ class MapWidget(VectorWidget):
             self._draw_again()
 
     def _tell(self, change: Any) -> None:
-        row = self._row.get((change["new"] or {}).get("element") or "")
+        row = self._feature((change["new"] or {}).get("element"))
         values = {} if row is None else self.table.slice(row, 1).to_pylist()[0]
         tip = [[name, shown(values[name])] for name in self._told if name in values]
         if row is not None and self._changing is not None and self.times:
@@ -303,7 +309,7 @@ class MapWidget(VectorWidget):
 
     def _select(self, change: Any) -> None:
         found = (change["new"] or {}).get("element")
-        self.selected = found if found in self._row else None
+        self.selected = found if self._feature(found) is not None else None
 
 
 def _legend(found: dict[str, Any]) -> dict[str, Any]:
@@ -321,8 +327,8 @@ def _home(sides: tuple[float, float]) -> Rect:
 
 
 def _sent(made: Map) -> tuple[Map, bytes]:
-    """A map, and the bytes that a page gets: the names of many features are half of a file, which is not deflated."""
-    return made, zlib.compress(made.conversion.texture.to_ktx2(deflate=False))
+    """A map, and the bytes that a page gets."""
+    return made, made.conversion.texture.to_ktx2()
 
 
 def _told(table: "pyarrow.Table", tooltip: bool | Sequence[str], steps: Sequence[str]) -> list[str]:

@@ -162,7 +162,7 @@ def children(
         twice_end = _cut(once, once_end, 1, ym, twice)
         _sort_by_child(twice, twice_end, xm, ym, out, end, child_at)
         windings = np.empty((len(cell.present), 8), np.int64)
-        lists = (out.points, out.path, places, out.path)
+        lists = (out.points, out.path, places, windings)  # no runs
         child_windings(lists, child_at, cell.present, x0, y0, xm, ym, 0, windings)
         for child in range(4):
             here = _copy_present(cell, child, windings, rules, present, paths)

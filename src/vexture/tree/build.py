@@ -13,7 +13,7 @@ from vexture.layout import LATTICE, MOST_CURVES
 from vexture.tolerance import CLOSED
 from vexture.tree.bounds import DEFAULT_CAPACITY, DEFAULT_DEPTH, Bounds, bounds_of, check_growth
 from vexture.tree.cubics import gather
-from vexture.tree.divide import CROWDED, PARTS, RUN, PiecePool, divide, holds_runs, list_all
+from vexture.tree.divide import CROWDED, PARTS, PiecePool, divide, holds_runs, list_all
 from vexture.tree.growth import (
     COUNT,
     COVERAGE,
@@ -107,7 +107,7 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
     at_limit = depth + 1 == bounds.max_depth
     pieces = divide(pool, first, last, xm, ym, grain, stack[top, PIECES], at_limit, child_at)
     touching = present[first_path:last_path]
-    lists = (pool.points, pool.path, pool.numbers, pool.owner)
+    lists = (pool.points, pool.path, pool.numbers, pool.runs)
     child_windings(lists, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
     first_below[quad, 0], first_below[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = last_path
@@ -179,7 +179,7 @@ def root_paths(pool: PiecePool, listed: int) -> tuple[NDArray[np.int64], int]:
             paths, before = 0, -1
         for place in range(listed):
             i = pool.numbers[place]
-            path = pool.path[i] if i >= 0 else pool.owner[RUN * (-1 - i)]
+            path = pool.path[i] if i >= 0 else pool.runs[-1 - i, 2]
             if path != before:
                 if not counted:
                     present[paths, 0] = path
@@ -228,18 +228,12 @@ def new_growth(
     """The unit square with the pieces of cubics, to be divided, and how far the outline lies outside it."""
     n = len(cubics)
     room = (PARTS + 2) * n + 64
-    runs = n // RUN if in_runs and n > CROWDED else 0
-    pool = PiecePool(
-        np.empty((room, 4, 2)),
-        np.empty(room, np.int64),
-        np.empty(room, np.int64),
-        np.empty(room, np.int64),
-        np.empty(room, np.int64),
-        np.empty((runs, 4)),
-        cubics,
-        owner,
-    )
-    listed, pieces = list_all(pool)
+    rows = n if in_runs and n > CROWDED else 0
+    boxes, spans = np.empty((rows, 4)), np.empty((rows, 3), np.int64)
+    points, path = np.empty((room, 4, 2)), np.empty(room, np.int64)
+    numbers, child, part = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64)
+    listed, pieces, runs = list_all(PiecePool(points, path, numbers, child, part, boxes, spans, cubics), owner)
+    pool = PiecePool(points, path, numbers, child, part, boxes[:runs], spans[:runs], cubics)
     outside = _into_square(pool.points[:pieces])
     present, paths = root_paths(pool, listed)
     cells = 4 * max_depth + 4
@@ -289,6 +283,7 @@ def build_tree(
     check_time(drawing.name)
     aside = PART if len(cubics) > LARGE else 0
     arrays, outside = grow(cubics, owner, rules, bounds, SLICE, aside)
+    del owner  # 8 bytes for each cubic
     if not outside <= CLOSED:  # NaN counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
 

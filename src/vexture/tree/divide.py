@@ -8,9 +8,9 @@ hold the point exactly; so is that of an end that lies on the line already. A pi
 **both** its ends are at or beyond the line: a decision by their midpoint fails where it rounds up.
 
 Most pieces of a coast lie, with many neighbours along their contour, far inside one of a cell's children. So the lists
-of crowded cells hold *runs*: a fixed number of the drawing's own cubics that follow one another, under one negative
-number. A run whose box meets no middle line moves as one; the cubics of any other are copied into the pool. Lists that
-leaves may be made of hold none.
+of crowded cells hold *runs*: a few of the drawing's own cubics that follow one another, under one negative number. A
+run whose box meets no middle line moves as one; the cubics of any other are copied into the pool. Lists that leaves may
+be made of hold none.
 
 Cells are divided depth first. What a cell appended to the pool and to the lists is discarded when all cells below it
 are done, so both stay small and in the processor's cache.
@@ -33,7 +33,7 @@ PARTS = 4
 
 
 RUN = 16
-"""Pieces in a run."""
+"""Most pieces in a run."""
 
 CROWDED = 512
 """Pieces. A shorter list holds no runs."""
@@ -48,8 +48,8 @@ class PiecePool(NamedTuple):
     child: NDArray[np.int64]  # (room,), scratch: the child that each part belongs to
     part: NDArray[np.int64]  # (room,), scratch: the number of each part
     boxes: NDArray[np.float64]  # (runs, 4): least x and y, greatest x and y of each run; no rows if there are none
-    cubics: NDArray[np.float64]  # (n, 4, 2): the drawing's; run k is `RUN` of them from `RUN` k on. Only read
-    owner: NDArray[np.int64]  # (n,): the path of each
+    runs: NDArray[np.int64]  # (runs, 3): first cubic of each run, the cubic after its last, and its path
+    cubics: NDArray[np.float64]  # (n, 4, 2): the drawing's, only to be read
 
 
 @kernel(allocates=False)
@@ -74,16 +74,14 @@ def _cut(
 
 
 @kernel(allocates=False)
-def _is_run(cubics: NDArray[np.float64], owner: NDArray[np.int64], box: NDArray[np.float64]) -> bool:
-    """Whether cubics are a run; write its box.
+def _is_run(cubics: NDArray[np.float64], box: NDArray[np.float64]) -> bool:
+    """Whether cubics that follow one another are a run; write its box.
 
-    They are monotone, of one path and some length, and inside the unit square without its left and lower side, where
-    windings are counted.
+    They are monotone, of some length, and inside the unit square without its left and lower side, where windings are
+    counted.
     """
     box[0] = box[1] = np.inf
     box[2] = box[3] = -np.inf
-    if owner[0] != owner[len(cubics) - 1]:
-        return False
     for i in range(len(cubics)):
         x, y, to_x, to_y = cubics[i, 0, 0], cubics[i, 0, 1], cubics[i, 3, 0], cubics[i, 3, 1]
         if (x == to_x and y == to_y) or not is_monotone(cubics[i]):
@@ -93,32 +91,50 @@ def _is_run(cubics: NDArray[np.float64], owner: NDArray[np.int64], box: NDArray[
     return box[0] > 0.0 and box[1] > 0.0 and box[2] <= 1.0 and box[3] <= 1.0
 
 
+@kernel(allocates=False)
+def _run_end(cubics: NDArray[np.float64], owner: NDArray[np.int64], first: int) -> int:
+    """Number of the cubic after those of a run that may start with a given one: they are of one contour."""
+    last = first + 1
+    while last < min(first + RUN, len(cubics)) and owner[last] == owner[first]:
+        if cubics[last, 0, 0] != cubics[last - 1, 3, 0] or cubics[last, 0, 1] != cubics[last - 1, 3, 1]:
+            break
+        last += 1
+    return last
+
+
 @kernel
-def list_all(pool: PiecePool) -> tuple[int, int]:
-    """List the drawing, in runs as far as the pool has rows for boxes; return the list's length and the pieces."""
-    numbers, boxes, cubics, owner = pool.numbers, pool.boxes, pool.cubics, pool.owner
-    end, pieces = 0, 0
-    for k in range(len(boxes) + 1):
-        first, last = RUN * k, RUN * (k + 1) if k < len(boxes) else len(cubics)
-        if k < len(boxes) and _is_run(cubics[first:last], owner[first:last], boxes[k]):
-            numbers[end] = -1 - k
-            end += 1
+def list_all(pool: PiecePool, owner: NDArray[np.int64]) -> tuple[int, int, int]:
+    """List a drawing, in runs if the pool has rows for them; return the list's length, and how many pieces and runs.
+
+    `owner` (n,) is the path of each cubic.
+    """
+    numbers, cubics = pool.numbers, pool.cubics
+    end, pieces, runs, first = 0, 0, 0, 0
+    while first < len(cubics):
+        last = _run_end(cubics, owner, first) if len(pool.boxes) > 0 else len(cubics)
+        if len(pool.boxes) > 0 and _is_run(cubics[first:last], pool.boxes[runs]):
+            pool.runs[runs, 0], pool.runs[runs, 1], pool.runs[runs, 2] = first, last, owner[first]
+            numbers[end] = -1 - runs
+            end, runs, first = end + 1, runs + 1, last
             continue
         points, path = pool.points[pieces:], pool.path[pieces:]
         count = write_monotone(cubics[first:last], owner[first:last], Pieces(points, path, path[:0], points[:0, 0]))
         for _ in range(count):
             numbers[end] = pieces
             end, pieces = end + 1, pieces + 1
-    return end, pieces
+        first = last
+    return end, pieces, runs
 
 
 @kernel(allocates=False)
-def _add_run(pool: PiecePool, run: int, pieces: int) -> None:
-    """Copy the cubics of a run, given by its negative number, behind so many pieces."""
-    first = RUN * (-1 - run)
-    for k in range(RUN):
-        copy_curve(pool.cubics[first + k], pool.points[pieces + k])
-        pool.path[pieces + k] = pool.owner[first]
+def _add_run(pool: PiecePool, number: int, pieces: int) -> int:
+    """Copy the cubics of a run, of a negative number, behind so many pieces; return the new number of pieces."""
+    run = pool.runs[-1 - number]
+    for i in range(run[0], run[1]):
+        copy_curve(pool.cubics[i], pool.points[pieces])
+        pool.path[pieces] = run[2]
+        pieces += 1
+    return pieces
 
 
 @kernel(allocates=False)
@@ -186,9 +202,9 @@ def divide(
             owner[parts], part[parts] = (1 if box[0] > xm else 0) + (2 if box[1] > ym else 0), i
             parts += 1
             continue
-        _add_run(pool, i, pieces)
-        first_piece, pieces = pieces, pieces + RUN
-        for k in range(first_piece, first_piece + RUN):
+        copied = pieces
+        pieces = last_copied = _add_run(pool, i, pieces)
+        for k in range(copied, last_copied):
             pieces, parts = _divide_piece(pool, k, xm, ym, grain, pieces, parts)
     return _write_lists(pool, last, pieces, parts, at_limit, child_at)
 
@@ -206,7 +222,7 @@ def _write_lists(
         child_at[column] = 0
     for k in range(parts):
         child_at[owner[k]] += 1
-        child_at[5 + owner[k]] += 1 if part[k] >= 0 else RUN
+        child_at[5 + owner[k]] += 1 if part[k] >= 0 else pool.runs[-1 - part[k], 1] - pool.runs[-1 - part[k], 0]
     for child in range(4):
         if at_limit or child_at[5 + child] <= CROWDED:
             child_at[child] = child_at[5 + child]
@@ -220,11 +236,11 @@ def _write_lists(
             numbers[child_at[child]] = i
             child_at[child] += 1
             continue
-        _add_run(pool, i, pieces)
-        for piece in range(pieces, pieces + RUN):
+        copied = pieces
+        pieces = _add_run(pool, i, pieces)
+        for piece in range(copied, pieces):
             numbers[child_at[child]] = piece
             child_at[child] += 1
-        pieces += RUN
     for child in range(4, 0, -1):  # each start has become the next one's
         child_at[child] = child_at[child - 1]
     child_at[0] = first

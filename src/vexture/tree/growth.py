@@ -113,10 +113,10 @@ def first_of(lengths: NDArray[np.int64], start: int) -> NDArray[np.int32]:
 def with_needed_room(tree: Growth) -> Growth:
     """The tree, with at least twice the room where the next cell has none."""
     pieces, numbers, paths, quads, curves = tree.needed.tolist()
-    points, path, listed, child, part, boxes, cubics, owner = tree.pool
+    points, path, listed, child, part, boxes, spans, cubics = tree.pool
     listed, child, part = (roomy(rows, numbers) for rows in (listed, child, part))
     return Growth(
-        PiecePool(roomy(points, pieces), roomy(path, pieces), listed, child, part, boxes, cubics, owner),
+        PiecePool(roomy(points, pieces), roomy(path, pieces), listed, child, part, boxes, spans, cubics),
         roomy(tree.present, paths),
         tree.stack,
         tree.corner,

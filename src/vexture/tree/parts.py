@@ -12,7 +12,7 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextvars import copy_context
 from threading import Event
-from typing import Any, Final, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,13 +34,13 @@ from vexture.tree.growth import (
 
 __all__ = ["LARGE", "PART", "grow_parts", "usual_threads"]
 
-LARGE: Final = 1 << 17
+LARGE = 1 << 17
 """Cubics. Smaller drawings take no longer than threads need to be worth it."""
 
-PART: Final = 2048
+PART = 2048
 """Longest list, of pieces and runs, of a cell that is the root of a part: some 10 ms of work."""
 
-AHEAD: Final = 2
+AHEAD = 2
 """Parts for each thread: one grows while the next is set aside."""
 
 Step = Callable[[Growth, int], Growth]

@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 
 from vexture.bezier.area import integral_x_dy
 from vexture.kernels import kernel
-from vexture.tree.divide import RUN
 
 __all__ = ["Lists", "child_windings", "inside", "winding_area"]
 
 Lists = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]
-"""Pieces, the path of each, lists of their numbers, and the path of each cubic in a run."""
+"""Pieces, the path of each, lists of their numbers, and runs, as in a `PiecePool`."""
 
 
 @kernel(allocates=False)
@@ -56,7 +55,7 @@ def child_windings(
     list and the end of the last. The cell's middle is (xm, ym). Runs, and the first `whole` pieces, which were never
     cut, end on the lines of no cell: they change no winding at its corners.
     """
-    points, path, numbers, owner = lists
+    points, path, numbers, runs = lists
     whole = whole if x0 > 0.0 and y0 > 0.0 else 0  # they may end on the sides of the unit square
     for k in range(len(present)):
         for column in range(8):
@@ -67,8 +66,8 @@ def child_windings(
         k = 0
         for place in range(child_at[child], child_at[child + 1]):
             i = numbers[place]
-            here = path[i] if i >= 0 else owner[RUN * (-1 - i)]
-            while present[k, 0] != here:
+            owner = path[i] if i >= 0 else runs[-1 - i, 2]
+            while present[k, 0] != owner:
                 k += 1
             out[k, 4 + child] = 1
             if i < whole:

@@ -104,12 +104,12 @@ export class VectorGlobe extends Group {
   }
 
   /**
-   * Hide features.
+   * Show some features only; others are neither seen nor picked.
    *
-   * @param {Iterable<string> | ((id: string) => boolean) | null} hidden ids, or whether one is hidden; null: none
+   * @param {Iterable<string> | ((id: string) => boolean) | null} shown ids, or whether one is shown; null: all
    */
-  setFilter(hidden) {
-    this.#pyramid.colors.setFilter(hidden);
+  setFilter(shown) {
+    this.#pyramid.colors.setFilter(shown);
   }
 
   /**

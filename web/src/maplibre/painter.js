@@ -12,6 +12,12 @@ import { EXTENT, meshOf, quadMesh } from './quad-mesh.js';
  * @property {(name: string) => WebGLUniformLocation | null} at
  */
 
+/**
+ * Units of a tile by which it reaches over its neighbours of other zooms, a part of a pixel: where their sides have different
+ * vertices, single pixels would belong to none. What shines through would be seen twice there, so that it has none.
+ */
+const OVERLAP = 0.25;
+
 /** MapLibre's projection moves the vertices; the offset in the tile's square goes with them. */
 const vertexShader = (/** @type {Render['shaderData']} */ { vertexShaderPrelude, define }) => `#version 300 es
 ${vertexShaderPrelude}
@@ -19,14 +25,18 @@ ${define}
 layout(location = 0) in vec2 tilePosition;
 uniform vec2 tileRest;
 uniform float tileScale;
+uniform float tileOverlap;
 out vec2 tileOffset;
 void main() {
+    vec2 place = tilePosition + tileOverlap * (step(vec2(${EXTENT}.0), tilePosition) - step(tilePosition, vec2(0.0)));
     float south = tilePosition.y;
     if (south < 0.0 || south > ${EXTENT}.0) { // a pole's cap shows what is just within the grid
         south = south < 0.0 ? ${(EXTENT * CAP).toFixed(1)} : ${(EXTENT * (1 - CAP)).toFixed(1)};
+    } else {
+        south = place.y;
     }
-    tileOffset = tileRest + tileScale * vec2(tilePosition.x, -south);
-    gl_Position = projectTile(tilePosition, tilePosition);
+    tileOffset = tileRest + tileScale * vec2(place.x, -south);
+    gl_Position = projectTile(place, place);
 }`;
 
 export class TilePainter {
@@ -65,6 +75,7 @@ export class TilePainter {
    */
   draw(shown, render, margin, opacity) {
     const gl = this.#gl;
+    const isMixed = shown.some(({ quad }) => quad.z !== shown[0].quad.z);
     for (const { quad, loaded } of shown) {
       const data = /** @type {import('../data.js').PackedData} */ (loaded.data);
       const { program, at } = this.#program(render.shaderData, data.roots.some(({ hasGradients }) => hasGradients));
@@ -78,6 +89,7 @@ export class TilePainter {
       gl.uniform2f(at('tileRest'), ...rest);
       gl.uniform1f(at('tileScale'), side / EXTENT);
       gl.uniform1f(at('tileOpacity'), opacity);
+      gl.uniform1f(at('tileOverlap'), isMixed && opacity === 1 ? OVERLAP : 0);
       const { array, count } = this.#mesh(quad);
       gl.bindVertexArray(array);
       for (const root of data.roots) {

@@ -111,12 +111,12 @@ export class VectorTileLayer {
   }
 
   /**
-   * Hide features.
+   * Show some features only; others are neither seen nor picked.
    *
-   * @param {Iterable<string> | ((id: string) => boolean) | null} hidden their ids, or whether one is hidden; null: none
+   * @param {Iterable<string> | ((id: string) => boolean) | null} shown their ids, or whether one is shown; null: all
    */
-  setFilter(hidden) {
-    this.#pyramid.colors.setFilter(hidden);
+  setFilter(shown) {
+    this.#pyramid.colors.setFilter(shown);
     this.#map?.triggerRepaint();
   }
 

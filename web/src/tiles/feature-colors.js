@@ -25,7 +25,7 @@ export class FeatureColors {
   /** @type {PaintFunction | null} */
   #byFunction = null;
   /** @type {((id: string) => boolean) | null} */
-  #isHidden = null;
+  #isShown = null;
   /** @type {Times | null} */
   #times = null;
   #time = 0;
@@ -50,12 +50,12 @@ export class FeatureColors {
     this.version++;
   }
 
-  /** @param {Iterable<string> | ((id: string) => boolean) | null} hidden ids, or whether one is hidden; null: none */
-  setFilter(hidden) {
-    if (hidden === null || typeof hidden === 'function') this.#isHidden = hidden;
+  /** @param {Iterable<string> | ((id: string) => boolean) | null} shown ids, or whether one is shown; null: all */
+  setFilter(shown) {
+    if (shown === null || typeof shown === 'function') this.#isShown = shown;
     else {
-      const ids = new Set(hidden);
-      this.#isHidden = (id) => ids.has(id);
+      const ids = new Set(shown);
+      this.#isShown = (id) => ids.has(id);
     }
     this.version++;
   }
@@ -81,7 +81,7 @@ export class FeatureColors {
 
   /** @param {string} id */
   isHidden(id) {
-    return this.#isHidden?.(id) ?? false;
+    return !(this.#isShown?.(id) ?? true);
   }
 
   /**

@@ -158,7 +158,7 @@ def _grow_quad(
     grain = 0.5 ** max(depth + 1, bounds.least_depth) / LATTICE
     pieces = divide(pool, row[FIRST], row[LAST], xm, ym, grain, row[PIECES], False, child_at)
     touching = present[rows[0] : rows[1]]
-    lists = (pool.points, pool.path, pool.numbers, pool.owner)
+    lists = (pool.points, pool.path, pool.numbers, pool.runs)
     child_windings(lists, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
     tree.first[quad, 0], tree.first[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = rows[1]
