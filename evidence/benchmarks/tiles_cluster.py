@@ -3,12 +3,14 @@
     python evidence/benchmarks/tiles_cluster.py [--parcels 50000] [--zoom 14] [--kills 10] [--quick]
 
 The parcels are those of `tiles.py`. A scheduler and workers of one thread run on this machine. The simulation takes the
-scheduler's own figures of the run with one worker: how long each piece of work was computed and how long its data were
-on their way. It gives the pieces to more workers as `vexture.workers.Cluster` does: in order, two for each worker at a
-time, while who asked handles one result after the other; a level waits for the one before. `times` repeats the pieces,
-as of a source so many times larger, except where a level has one.
+scheduler's own figures of the run with one worker: how long each piece of work was computed, times the share of that in
+which the worker had a core, as other programs may have run. It gives the pieces to more workers as
+`vexture.workers.Cluster` does: in order, two for each worker at a time, while who asked, and the scheduler, handle one
+result after the other, for as long as they computed per piece; a level waits for the one before. `times` repeats the
+pieces, as of a source so many times larger, except where a level has one.
 
-For the kills a process with the same work ends, ten times in one run, at random moments: as often, another starts.
+Ten times in one run a random worker is killed, at random moments of which two are apart by the longest piece of work or
+more: Dask gives up a piece that four workers have died at. Another worker starts each time.
 """
 
 import argparse
@@ -29,6 +31,7 @@ from itertools import accumulate
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
 from distributed import Client
 
 from report import write_figures
@@ -61,13 +64,13 @@ def dask(*words: str, says: str) -> Iterator[tuple[Any, str]]:
 
 
 @contextmanager
-def cluster(workers: int) -> Iterator[tuple[str, list[Any], ExitStack]]:
-    """Address of a scheduler, its workers, and what ends further ones."""
+def cluster(workers: int) -> Iterator[tuple[str, Any, list[Any], ExitStack]]:
+    """Address of a scheduler, its process, those of its workers, and what ends further ones."""
     with ExitStack() as opened:
         local = ("--host", "127.0.0.1")
         started = opened.enter_context(dask("dask_scheduler", *local, "--port", "0", says="Scheduler at:"))
         address = started[1].split()[-1]
-        yield address, [worker(address, opened) for _ in range(workers)], opened
+        yield address, started[0], [worker(address, opened) for _ in range(workers)], opened
 
 
 def worker(address: str, opened: ExitStack) -> Any:
@@ -77,52 +80,87 @@ def worker(address: str, opened: ExitStack) -> Any:
 
 
 @dataclass(frozen=True)
-class Piece:
-    """A piece of work: seconds that it was computed, and those in which its data were on their way."""
+class Run:
+    """A run on a cluster.
 
-    computed: float
-    moved: float
+    Parameters
+    ----------
+    seconds, asked : float
+        Of all, and of that in which workers were asked.
+    levels : list of list of float
+        Seconds that each piece of work was computed.
+    handled : float
+        Seconds of a core for each piece, of who asked or of the scheduler: those of the busier one.
+    digest : str
+        Of the bytes.
+    """
+
+    seconds: float
+    asked: float
+    levels: list[list[float]]
+    handled: float
+    digest: str
 
 
-def measured(count: int, zoom: int, workers: int, folder: Path) -> tuple[float, float, list[list[Piece]], str]:
-    """Seconds of a run, those in which workers were asked, its pieces of work in phases, and its bytes' digest."""
-    mark, output = folder / "parcels.txt", folder / f"cluster-{workers}.pmtiles"
-    mark.write_text("parcels")
-    moments: list[tuple[str, float]] = []
+def cores(pid: int) -> float:
+    """Seconds of cores that a process has had."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def _mark(folder: Path) -> Path:
+    """A file that stands for the parcels."""
+    path = folder / "parcels.txt"
+    path.write_text("parcels")
+    return path
+
+
+def measured(count: int, zoom: int, workers: int, folder: Path) -> Run:
+    """A run with so many workers."""
+    output = folder / f"cluster-{workers}.pmtiles"
+    moments: list[float] = []
+    handling: list[Any] = []
     counts: list[int] = []
 
     def told(what: str, number: int, total: int) -> None:
-        moments.append((what, time.perf_counter()))
+        if what == "reading features":
+            moments.clear()
+        else:
+            handling.append([cores(pid) for pid in pids])
+        moments.append(time.perf_counter())
         if total and number == 1:
             counts.append(total)
 
-    with cluster(workers) as (address, _, _), Client(address, set_as_default=False) as client:
+    with cluster(workers) as (address, scheduler, alive, _), Client(address, set_as_default=False) as client:
         client.get_task_stream()  # from now on the scheduler remembers
+        pids = [os.getpid(), scheduler.pid, *(process.pid for process in alive)]
+        before = [cores(pid) for pid in pids]
         start = time.perf_counter()
         options = TileOptions(max_zoom=zoom, scheduler=address, name="parcels")
-        make_tiles(mark, output, options, told, batches=Source(lambda: parcels(count)))
+        make_tiles(_mark(folder), output, options, told, batches=Source(lambda: parcels(count)))
         seconds = time.perf_counter() - start
         stream = client.get_task_stream()
-    read = max(moment for what, moment in moments if what == "reading features")
-    asked = max(moment for _, moment in moments) - read
-    return seconds, asked, _pieces(stream, counts), hashlib.sha256(output.read_bytes()).hexdigest()
+        busy = np.array([cores(pid) for pid in pids]) - before
+    levels = _levels(stream, counts)
+    pieces = sum(counts)
+    share = min(float(busy[2:].sum()) / sum(map(sum, levels)), 1.0)
+    levels = [[piece * share for piece in level] for level in levels]
+    handled = np.subtract(handling[-1], handling[0])[:2].max() / max(pieces - 1, 1)
+    digest = hashlib.sha256(output.read_bytes()).hexdigest()
+    return Run(seconds, moments[-1] - moments[0], levels, float(handled), digest)
 
 
-def _pieces(stream: Sequence[Any], counts: Sequence[int]) -> list[list[Piece]]:
-    """Pieces of work in the order of their ends, of levels of so many each."""
-    found: list[Piece] = []
+def _levels(stream: Sequence[Any], counts: Sequence[int]) -> list[list[float]]:
+    """Seconds of pieces of work in the order of their ends, of levels of so many each."""
+    found: list[float] = []
     for task in sorted(stream, key=lambda task: max(one["stop"] for one in task["startstops"])):
-        seconds = {"compute": 0.0, "transfer": 0.0}
-        for one in task["startstops"]:
-            kind = one["action"] if one["action"] in seconds else "transfer"
-            seconds[kind] += one["stop"] - one["start"]
-        found.append(Piece(seconds["compute"], seconds["transfer"]))
+        found.append(sum(one["stop"] - one["start"] for one in task["startstops"]))
     assert len(found) == sum(counts), "a piece was done twice"
     ends = list(accumulate(counts))
     return [found[end - count : end] for end, count in zip(ends, counts, strict=True)]
 
 
-def simulated(pieces: Sequence[Piece], workers: int, handled: float) -> float:
+def simulated(pieces: Sequence[float], workers: int, handled: float) -> float:
     """Seconds in which so many workers do pieces of work; who asked takes a part of a second for each of them."""
     free, ends = [0.0] * workers, [0.0] * len(pieces)
     now, window = 0.0, AHEAD * workers
@@ -130,32 +168,31 @@ def simulated(pieces: Sequence[Piece], workers: int, handled: float) -> float:
         if number >= window:
             now = max(now, ends[number - window])
         now += handled
-        ends[number] = max(now, heapq.heappop(free)) + piece.computed + piece.moved
+        ends[number] = max(now, heapq.heappop(free)) + piece
         heapq.heappush(free, ends[number])
     return max(now, *ends)
 
 
-def scaled(phases: Sequence[Sequence[Piece]], times: int, workers: int, handled: float) -> float:
+def scaled(run: Run, times: int, workers: int) -> float:
     """Efficiency of so many workers for a source so many times larger, of 1."""
 
     def seconds(count: int) -> float:
-        levels = [list(phase) * (times if len(phase) > 1 else 1) for phase in phases]
-        return sum(simulated(sorted(level, key=lambda piece: -piece.computed), count, handled) for level in levels)
+        levels = [level * (times if len(level) > 1 else 1) for level in run.levels]
+        return sum(simulated(sorted(level, reverse=True), count, run.handled) for level in levels)
 
     return seconds(1) / seconds(workers) / workers
 
 
-def killed(count: int, zoom: int, kills: int, folder: Path) -> tuple[str, int]:
-    """Digest of a run in which random workers are killed, and how many were."""
-    mark, output = folder / "parcels.txt", folder / "killed.pmtiles"
-    mark.write_text("parcels")
+def killed(count: int, zoom: int, kills: int, pause: float, folder: Path) -> tuple[str, int]:
+    """Digest of a run in which random workers are killed, some seconds apart, and how many were."""
+    output = folder / "killed.pmtiles"
     chance, done = random.Random(20), threading.Event()
     deaths = 0
-    with cluster(2) as (address, alive, opened):
+    with cluster(2) as (address, _, alive, opened):
 
         def kill() -> None:
             nonlocal deaths
-            while deaths < kills and not done.wait(chance.uniform(1.0, 4.0)):
+            while deaths < kills and not done.wait(pause * chance.uniform(1.0, 1.5)):
                 victim = alive.pop(chance.randrange(len(alive)))
                 alive.append(worker(address, opened))
                 os.kill(victim.pid, signal.SIGKILL)
@@ -168,7 +205,7 @@ def killed(count: int, zoom: int, kills: int, folder: Path) -> tuple[str, int]:
                 killer.start()
 
         options = TileOptions(max_zoom=zoom, scheduler=address, name="parcels")
-        make_tiles(mark, output, options, told, batches=Source(lambda: parcels(count)))
+        make_tiles(_mark(folder), output, options, told, batches=Source(lambda: parcels(count)))
         done.set()
         killer.join()
     return hashlib.sha256(output.read_bytes()).hexdigest(), deaths
@@ -187,24 +224,23 @@ def main() -> None:
     digests = set()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        seconds, asked, phases, digest = measured(count, chosen.zoom, 1, folder)
-        digests.add(digest)
-        pieces = [piece for phase in phases for piece in phase]
-        worked = sum(piece.computed + piece.moved for piece in pieces)
-        handled = max(asked - worked, 0.0) / len(pieces)
-        figures |= {"pieces": len(pieces), "seconds_1": seconds, "asked_1": asked}
-        figures |= {"computed": sum(piece.computed for piece in pieces), "moved": sum(piece.moved for piece in pieces)}
-        figures |= {"longest": max(piece.computed for piece in pieces), "handled_each": handled}
-        seconds, asked_2, _, digest = measured(count, chosen.zoom, 2, folder)
-        digests.add(digest)
-        figures |= {"seconds_2": seconds, "asked_2": asked_2}
-        figures["inefficiency_2"] = 100.0 * (1.0 - asked / asked_2 / 2.0)
-        for times in (1, 4, 16):
+        make_tiles(
+            _mark(folder), folder / "first.pmtiles", TileOptions(), batches=Source(lambda: parcels(100))
+        )  # compiles
+        run = measured(count, chosen.zoom, 1, folder)
+        worked = [piece for level in run.levels for piece in level]
+        figures |= {"pieces": len(worked), "levels": len(run.levels), "seconds_1": run.seconds, "asked_1": run.asked}
+        figures |= {"computed": sum(worked), "longest": max(worked), "handled_each": run.handled}
+        two = measured(count, chosen.zoom, 2, folder)
+        digests |= {run.digest, two.digest}
+        figures |= {"seconds_2": two.seconds, "asked_2": two.asked}
+        figures["inefficiency_2"] = 100.0 * (1.0 - run.asked / two.asked / 2.0)
+        for times in (1, 8, 64):
             for workers in (2, 8, MOST_WORKERS):
-                efficiency = scaled(phases, times, workers, handled)
-                figures[f"simulated_{workers}_of_{times}_times"] = 100.0 * efficiency
-        figures["inefficiency_64"] = 100.0 * (1.0 - scaled(phases, 16, MOST_WORKERS, handled))
-        digest, deaths = killed(count, chosen.zoom, kills, folder)
+                figures[f"simulated_{workers}_of_{times}_times"] = 100.0 * scaled(run, times, workers)
+        figures["inefficiency_64"] = 100.0 * (1.0 - scaled(run, 64, MOST_WORKERS))
+        print(figures, flush=True)
+        digest, deaths = killed(count, chosen.zoom, kills, figures["longest"], folder)
         digests.add(digest)
         figures |= {"killed": deaths, "other_bytes": len(digests) - 1}
     write_figures("tiles_cluster", figures, GOALS)

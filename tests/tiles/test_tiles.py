@@ -13,6 +13,7 @@ from tile_sources import batches_of, cells, write_source
 
 from vexture import ParameterError, SourceError
 from vexture.geo.crs import transformed
+from vexture.geo.rings import cut, rings_of
 from vexture.tiles.build import make_tiles
 from vexture.tiles.generalise import generalised
 from vexture.tiles.grid import CRS, HALF, MARGIN, Tile, last_zoom, pixel, span, zooms_of
@@ -211,6 +212,8 @@ def test_a_corner_beside_the_side_of_a_box_is_cut():
     found = pieces_of([shapely.Polygon(coast)]).within(box)
     wanted = shapely.intersection(shapely.Polygon(coast), shapely.box(*box)).area
     assert shapely.area(found.shapes).sum() == pytest.approx(wanted)
+    rings = cut(rings_of(np.array([shapely.Polygon(coast)]), str), box)
+    assert shapely.area(rings.shapes).sum() == pytest.approx(wanted)
 
 
 def test_borders_move_no_farther_than_the_tolerance():
@@ -257,7 +260,7 @@ def test_a_folder_has_a_description(source, tmp_path):
 
 def test_a_source_without_polygons_is_refused(tmp_path):
     source = write_source(tmp_path / "empty.geojson", [shapely.Point(4, 52)], ["a"])
-    with pytest.raises(SourceError, match=r"empty\.geojson: it has no polygon"):
+    with pytest.raises(SourceError, match=r"empty\.geojson: it has lines or points \(1\), but no polygon"):
         make_tiles(source, tmp_path / "empty.pmtiles", TileOptions())
     assert {path.name for path in tmp_path.iterdir()} == {"empty.geojson"}
 

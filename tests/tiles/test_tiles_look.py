@@ -3,7 +3,6 @@
 import errno
 import hashlib
 import json
-import resource
 import subprocess
 import sys
 
@@ -86,7 +85,7 @@ def test_a_folder_has_its_table_within_and_one_colour_is_that_of_all(source, tmp
     assert about["table"] == "table.arrow"
     assert "legends" not in about
     with pa.memory_map(str(tmp_path / "out" / "table.arrow")) as file:
-        assert pa.ipc.open_file(file).read_all().column_names == ["id", "value"]
+        assert pa.ipc.open_file(file).read_all().column_names == ["id", "parcel", "value"]
     tile = next((tmp_path / "out").rglob("*.ktx2"))
     rgba = texture_from(tile.read_bytes(), "a tile").roots[0].style.rgba
     assert np.allclose(rgba, (0.0, 128 / 255, 128 / 255, 1.0), atol=1e-6)
@@ -106,7 +105,9 @@ def test_what_is_finished_is_named_and_has_its_colours_and_its_table(source, tmp
             raise stops
 
     options = TileOptions(max_zoom=6, id="parcel", look=LOOK, name="whole")
-    says = "" if isinstance(stops, KeyboardInterrupt) else r"what is finished is in .*parcels\.pmtiles\.parts, and the"
+    says = (
+        None if isinstance(stops, KeyboardInterrupt) else r"what is finished is in .*parcels\.pmtiles\.parts, and the"
+    )
     with pytest.raises(KeyboardInterrupt if not says else DeviceError, match=says):
         make_tiles(source, output, options, told)
     assert (tmp_path / "parcels.pmtiles.parts").is_dir()
@@ -120,14 +121,14 @@ def test_what_is_finished_is_named_and_has_its_colours_and_its_table(source, tmp
 @pytest.mark.parametrize(
     ("look", "says"),
     [
-        (Look(Scale("height")), "parcels.geojson: it has no column 'height' for `color`; there are: id, value"),
+        (Look(Scale("height")), "parcels.geojson: it has no column 'height' for `color`; there are: parcel, value"),
         (Look(Scale("parcel", "equal"), table="parquet"), "holds string, not numbers; give `scale` categories"),
     ],
 )
 def test_columns_that_cannot_be_colours_are_named_and_nothing_stays(source, tmp_path, look, says):
     with pytest.raises(ParameterError) as error:
         made(source, tmp_path / "parcels.pmtiles", look)
-    assert says.partition("; there")[0] in str(error.value)
+    assert says in str(error.value)
     assert not list(tmp_path.iterdir())
 
 
@@ -160,7 +161,9 @@ def test_lines_and_points_are_left_out_and_said(tmp_path):
     assert note.count == 2
     assert note.message == "a line or point is left out, as tiles have polygons only: vexture map draws them"
     lines = write(tmp_path / "lines.geojson", shapes[1:], parcel=["b", "c"])
-    with pytest.raises(SourceError, match=r"it has 2 lines and points, but no polygon, .* draw it by vexture map"):
+    with pytest.raises(
+        SourceError, match=r"lines\.geojson: it has lines or points \(2\), but no polygon, .* draw it by"
+    ):
         made(lines, tmp_path / "lines.pmtiles", Look())
 
 
@@ -171,7 +174,9 @@ def test_a_disk_that_is_full_is_one_line(source, tmp_path):
     words = [sys.executable, "-m", "vexture", "tiles", source, "-o", output, "--id", "parcel", "--processes", "1"]
 
     def limit():
-        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20480, 20480))
 
     done = subprocess.run(words, preexec_fn=limit, capture_output=True, text=True, check=False)
     assert done.returncode == 1

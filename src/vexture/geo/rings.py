@@ -18,6 +18,7 @@ from vexture.tolerance import ROUND
 
 __all__ = [
     "Rings",
+    "clipped",
     "cut",
     "moved",
     "oriented",
@@ -238,15 +239,26 @@ def within(rings: Rings, box: Bounds, turn: float | None) -> Rings:
     return found
 
 
-def cut(rings: Rings, box: Bounds) -> Rings:
-    """Polygons clipped to a box."""
+def clipped(shapes: NDArray[Any], box: Bounds) -> NDArray[Any]:
+    """Parts of polygons in a box; those that the fast way fails at, as it does at some corners, by the slow one."""
     import shapely
 
+    try:
+        return np.asarray(shapely.clip_by_rect(shapes, *box))
+    except shapely.errors.GEOSException:
+        if len(shapes) == 1:
+            return np.asarray(shapely.intersection(shapely.make_valid(shapes), shapely.box(*box)))
+        middle = len(shapes) // 2
+        return np.concatenate([clipped(shapes[:middle], box), clipped(shapes[middle:], box)])
+
+
+def cut(rings: Rings, box: Bounds) -> Rings:
+    """Polygons clipped to a box."""
     beyond = (rings.boxes[:, 0] < box[:2]).any(axis=1) | (rings.boxes[:, 1] > box[2:]).any(axis=1)
     if not beyond.any():
         return rings
     leaving = np.flatnonzero(beyond)
-    pieces, owner = _polygons(shapely.clip_by_rect(rings.taken(leaving).shapes, *box))
+    pieces, owner = _polygons(clipped(rings.taken(leaving).shapes, box))
     feature = None if rings.feature is None else rings.feature[leaving[owner]]
     return rings.taken(np.flatnonzero(~beyond)).joined(
         rings_of(pieces, lambda index: rings.place(int(leaving[owner[index]])), feature)

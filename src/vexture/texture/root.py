@@ -19,8 +19,8 @@ from vexture.tree.planar.style import Style
 
 __all__ = ["Root", "deflated_texts", "read_roots", "roots_text"]
 
-WORTH: Final = 512
-"""Bytes of styles from which they are deflated; the texts of smaller files stay readable."""
+WORTH: Final = 200
+"""Bytes of styles from which they are deflated: shorter ones take more room so."""
 
 LENGTH_BYTES: Final = 4
 """Before deflated styles: the length of their text."""

@@ -123,13 +123,37 @@ def write_folder(
     extra: Extra,
 ) -> int:
     """Write a folder with a file for each tile, whole or not, and return the size of what differs."""
-    from pmtiles.tile import tileid_to_zxy
-
     count = sum(count for _, count, _ in runs)
     if count > MOST_FILES:
         raise LimitError(f"{output}: {count} tiles are too many files; the limit is {MOST_FILES}; write one {ARCHIVE}")
     partial = output.with_name(f".{output.name}{TEMPORARY}")
     shutil.rmtree(partial, ignore_errors=True)
+    try:
+        size = _fill(partial, runs, contents)
+        version = hashlib.sha256(json.dumps(runs).encode()).hexdigest()[:16]
+        tiles = [f"{{z}}/{{x}}/{{y}}{PACKED_SUFFIX}?v={version}"]
+        listed: dict[str, Any] = {"tilejson": "3.0.0", "tiles": tiles, "vector_layers": []}
+        listed |= {"minzoom": zooms[0], "maxzoom": zooms[-1], "bounds": list(bounds), **about}
+        for path, write in extra.items():
+            with (partial / path.name).open("wb") as file:
+                write(file)
+        (partial / LISTED).write_text(json.dumps(listed, indent=1) + "\n")
+    except BaseException:
+        shutil.rmtree(partial, ignore_errors=True)  # it may be what fills the disk
+        raise
+    old = output.with_name(f".{output.name}.old{TEMPORARY}")
+    shutil.rmtree(old, ignore_errors=True)
+    if output.exists():
+        output.rename(old)
+    partial.rename(output)
+    shutil.rmtree(old, ignore_errors=True)
+    return size
+
+
+def _fill(partial: Path, runs: Runs, contents: Mapping[str, Content]) -> int:
+    """Write the tiles of a folder, and return the size of what differs."""
+    from pmtiles.tile import tileid_to_zxy
+
     first_of: dict[str, Path] = {}
     size = 0
     for first, count, digest in runs:
@@ -143,23 +167,6 @@ def write_folder(
             path.write_bytes(contents[digest].read())
             first_of[digest] = path
             size += contents[digest].length
-    version = hashlib.sha256(json.dumps(runs).encode()).hexdigest()[:16]
-    listed: dict[str, Any] = {
-        "tilejson": "3.0.0",
-        "tiles": [f"{{z}}/{{x}}/{{y}}{PACKED_SUFFIX}?v={version}"],
-        "vector_layers": [],
-    }
-    listed |= {"minzoom": zooms[0], "maxzoom": zooms[-1], "bounds": list(bounds), **about}
-    for path, write in extra.items():
-        with (partial / path.name).open("wb") as file:
-            write(file)
-    (partial / LISTED).write_text(json.dumps(listed, indent=1) + "\n")
-    old = output.with_name(f".{output.name}.old{TEMPORARY}")
-    shutil.rmtree(old, ignore_errors=True)
-    if output.exists():
-        output.rename(old)
-    partial.rename(output)
-    shutil.rmtree(old, ignore_errors=True)
     return size
 
 

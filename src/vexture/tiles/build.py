@@ -1,13 +1,15 @@
 """A pyramid of tiles: from a source to one file or a folder."""
 
+import os
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from math import atan, degrees, exp, pi
 from pathlib import Path
 from typing import Any, BinaryIO, Final
 
 from vexture.content import about
-from vexture.errors import DeviceError, SourceError, VextureError, reason_of
+from vexture.errors import DeviceError, ParameterError, SourceError, VextureError, reason_of
 from vexture.geo.extent import Bounds
 from vexture.geo.tables import check_targets
 from vexture.notes import Note, Notes
@@ -24,7 +26,7 @@ from vexture.tiles.world import in_world
 
 __all__ = ["VERSION", "MadeTiles", "make_tiles", "unfinished"]
 
-VERSION: Final = 3
+VERSION: Final = 4
 """Of what is kept of unfinished pyramids; what another one wrote is not used."""
 
 MOVES: Final = 0.25
@@ -92,7 +94,7 @@ def make_tiles(
         if isinstance(error, VextureError) and store.has_parts:
             raise type(error)(f"{error}; {unfinished(output)}") from None
         if isinstance(error, OSError):
-            reason = error.strerror or reason_of(error)
+            reason = os.strerror(error.errno) if error.errno else reason_of(error)
             raise DeviceError(f"{output}: {reason}; make room, or choose another disk; {unfinished(output)}") from None
         raise
     store.remove()
@@ -120,8 +122,7 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
     def pieces() -> Iterator[Pieces]:
         nonlocal count, others
         for features in batches(source, **options.reading, notes=notes):
-            with about(str(source)):
-                attributes.add(features)
+            attributes.add(features)
             others += len(features.lines.ends) + len(features.points.points)
             found = in_world(features, count, options.max_zoom, notes)
             count += len(features.ids)
@@ -130,21 +131,32 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
                 boxes.append(shapely.total_bounds(found.shapes))
                 yield found
 
-    parts = partitioned(pieces(), store.sources, last_zoom(options.max_zoom, options.step), options.step)
+    with _named(source, options):
+        parts = partitioned(pieces(), store.sources, last_zoom(options.max_zoom, options.step), options.step)
+        legends = attributes.close(options.layer or Path(source).name.partition(".")[0], notes)
     box = shapely.total_bounds(shapely.box(*zip(*boxes, strict=True))).tolist() if boxes else None
     if others and boxes:
         notes.remark("a line or point is left out, as tiles have polygons only: vexture map draws them", others)
     facts: dict[str, Any] = {"parts": [[*part.tile, part.weight] for part in parts], "bounds": box, "features": count}
-    with about(str(source)):
-        facts["legends"] = attributes.close(options.layer or Path(source).name.partition(".")[0], notes)
-    facts["others"] = others
+    facts |= {"legends": legends, "others": others}
     facts["notes"] = [[note.kind, note.message, note.count] for note in notes.listed]
     store.write_parts(facts)
     return facts
 
 
+@contextmanager
+def _named(source: Any, options: TileOptions) -> Iterator[None]:
+    """Put the name of the source in front of errors about it; the one column that is read is that of colours."""
+    with about(str(source)):
+        try:
+            yield
+        except ParameterError as error:
+            own = "`columns`" if options.look.has_table else "`color`"
+            raise ParameterError(str(error).replace("`columns`", own)) from None
+
+
 def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> None:
-    """Do all the work that is not done: first the parts, then zoom by zoom the geometry and the tiles."""
+    """Do all the work that is not done: the parts, zoom by zoom the geometry, and then the tiles of all these zooms."""
     leaves = {part.tile for part in parts}
     pyramid = options.pyramid(paints_of(store.folder))
 
@@ -155,22 +167,23 @@ def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> 
         return Job("leaf", tile, ((store.sources / f"{tile.name}.parquet").read_bytes(),))
 
     _all(store, "leaf", [part.tile for part in sorted(parts, key=lambda part: -part.weight)], leaf, work, told)
-    for zoom in sorted((z for z in options.coarse if z < max(tile.z for tile in leaves)), reverse=True):
-        inner = sorted({tile.parent(zoom) for tile in leaves if tile.z > zoom})
+    above = [zoom for zoom in options.coarse if zoom < max(tile.z for tile in leaves)]
+    inner = {zoom: sorted({tile.parent(zoom) for tile in leaves if tile.z > zoom}) for zoom in above}
 
-        def join(tile: Tile) -> Job:
-            names = [_kept(store, part) for part in tile.below(options.step)]
-            return Job("join", tile, tuple(store.geometry(name) for name in names if name))
+    def join(tile: Tile) -> Job:
+        names = [_kept(store, part) for part in tile.below(options.step)]
+        return Job("join", tile, tuple(store.geometry(name) for name in names if name))
 
-        _all(store, "join", inner, join, work, told)
+    for zoom in reversed(above):
+        _all(store, "join", inner[zoom], join, work, told)
 
-        def one(tile: Tile) -> Job:
-            around = [(tile, 0.0), *tile.around()]
-            found = [(data, shift) for each, shift in around if (data := _around(store, leaves, each))]
-            return Job("tile", tile, tuple(data for data, _ in found), tuple(shift for _, shift in found))
+    def one(tile: Tile) -> Job:
+        around = [(tile, 0.0), *tile.around()]
+        found = [(data, shift) for each, shift in around if (data := _around(store, leaves, each))]
+        return Job("tile", tile, tuple(data for data, _ in found), tuple(shift for _, shift in found))
 
-        if zoom >= options.min_zoom:
-            _all(store, "tile", inner, one, work, told)
+    # all at once, those of low zooms first, which have most in them: no worker waits for them at the end of each zoom
+    _all(store, "tile", [tile for zoom in above if zoom >= options.min_zoom for tile in inner[zoom]], one, work, told)
 
 
 def _kept(store: Store, tile: Tile) -> str | None:
@@ -226,7 +239,7 @@ def _written(store: Store, output: Path, options: TileOptions, facts: Any) -> Ma
 def _why_empty(others: int) -> str:
     """Why there is nothing for tiles, and what to do."""
     if others:
-        return f"it has {others} lines and points, but no polygon, and tiles have only these; draw it by vexture map"
+        return f"it has lines or points ({others}), but no polygon, and tiles have only these; draw it by vexture map"
     return "it has no polygon in the tiles' projection; give polygons"
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.geo.extent import Bounds
+from vexture.geo.rings import clipped
 
 __all__ = ["SCHEMA_NAMES", "Pieces", "joined", "schema"]
 
@@ -55,7 +56,7 @@ class Pieces:
         if not leaves.any():
             return found
         shapes = found.shapes.copy()
-        shapes[leaves] = _clipped(shapes[leaves], box)
+        shapes[leaves] = clipped(shapes[leaves], box)
         return found.with_shapes(shapes)
 
     @property
@@ -96,19 +97,6 @@ class Pieces:
         import pyarrow.parquet as pq
 
         return cls.of_table(pq.ParquetFile(BytesIO(data)).read(use_threads=False))
-
-
-def _clipped(shapes: NDArray[Any], box: Bounds) -> NDArray[Any]:
-    """Parts of polygons in a box; those that the fast way fails at, as it does at some corners, by the slow one."""
-    import shapely
-
-    try:
-        return np.asarray(shapely.clip_by_rect(shapes, *box))
-    except shapely.errors.GEOSException:
-        if len(shapes) == 1:
-            return np.asarray(shapely.intersection(shapely.make_valid(shapes), shapely.box(*box)))
-        middle = len(shapes) // 2
-        return np.concatenate([_clipped(shapes[:middle], box), _clipped(shapes[middle:], box)])
 
 
 def joined(parts: "list[Pieces]") -> Pieces:

@@ -61,8 +61,12 @@ class Store:
         """Write a file, whole or not."""
         path = self.folder / name
         partial = path.with_name(path.name + TEMPORARY)
-        partial.write_bytes(data)
-        partial.replace(path)
+        try:
+            partial.write_bytes(data)
+            partial.replace(path)
+        except BaseException:
+            partial.unlink(missing_ok=True)  # it may be what fills the disk
+            raise
 
     def read_parts(self) -> Any:
         """What was written about the parts of the source, if all of them are there."""

@@ -32,8 +32,8 @@ LEVELS: Final = 255
 FULL: Final = 1.0 - 1e-9
 """Part of a tile's square that a polygon covers which covers all of it, but for rounding."""
 
-PRECISION: Final = 2.0**-19
-"""Parts of a tile's square by which rounding moves a border at most: 0.02 pixels in views four zooms deeper."""
+PRECISION: Final = 2.0**-17
+"""Parts of a tile's square by which rounding moves a border at most: 0.06 pixels in views four zooms deeper."""
 
 MOST_FEATURES: Final = MOST_PAINTS - 1
 """Features of a tile: one paint is nothing."""
