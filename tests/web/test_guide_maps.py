@@ -20,6 +20,7 @@ from vexture.errors import VextureError
 
 PORTS = ("5174", "5175")
 SIZE = (480, 720)
+BALL = 240
 FRANCE, SPAIN, ANTARCTICA = (2.0, 46.5), (-4.0, 40.0), (40.0, -72.0)
 PALETTE = ("#f2d7a6", "#c9dba6", "#e3b8a8", "#b9cfb0", "#e6cf8f")
 SEA, RED = "#cfe3ee", "#d1495b"
@@ -76,7 +77,8 @@ def _pixels(page: Any) -> np.ndarray:
 def _at(page: Any, pixel: tuple[float, float]) -> list[int]:
     clip = {"x": int(pixel[0]), "y": int(pixel[1]), "width": 1, "height": 1}
     with Image.open(io.BytesIO(page.screenshot(clip=clip))) as image:
-        return list(image.convert("RGB").getpixel((0, 0)))
+        found: list[int] = np.asarray(image.convert("RGB"))[0, 0].tolist()
+    return found
 
 
 def _await(page: Any, pixel: tuple[float, float], colour: str) -> None:
@@ -147,9 +149,9 @@ def test_the_guide_to_maps_in_web_pages_does_what_it_says(
         page = open_page(_answered(reader.ports["5174"]), SIZE)
         _used_map(page)
         _flat_then_globe(page, screenshot)
-        ball = open_page(f"{_answered(reader.ports['5175'])}/globe.html", SIZE)
-        middle = (SIZE[0] / 2, SIZE[1] / 2)
-        _await(ball, (SIZE[0] / 2 - 30, SIZE[1] / 2 + 20), PALETTE[12 % len(PALETTE)])  # Algeria
+        ball = open_page(f"{_answered(reader.ports['5175'])}/globe.html", (BALL, BALL))
+        middle = (BALL / 2, BALL / 2)
+        _await(ball, (BALL / 2 - 10, BALL / 2 + 7), PALETTE[12 % len(PALETTE)])  # Algeria
         screenshot(ball, "ball")
         ball.mouse.move(*middle)
         _await(ball, middle, RED)
