@@ -198,7 +198,7 @@ def killed(count: int, zoom: int, kills: int, pause: float, folder: Path) -> tup
                 os.kill(victim.pid, signal.SIGKILL)
                 deaths += 1
 
-        killer = threading.Thread(target=kill)
+        killer = threading.Thread(target=kill, daemon=True)
 
         def told(what: str, *_: int) -> None:
             if what == "parts" and killer.ident is None:

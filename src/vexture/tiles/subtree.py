@@ -17,9 +17,11 @@ from vexture.tiles.texture import covering, tile_texture, uniform_texture
 
 __all__ = ["Job", "Made", "Pyramid", "done"]
 
-MOVED: Final = 0.215
-"""Pixels by which generalising may move a border at a zoom, with all that was done for higher zooms before; with what
-rounding does in views three zooms deeper, 0.03 pixels, that is less than a quarter."""
+MOVED: Final = 0.24
+"""Pixels by which generalising may move a border at a zoom, with all that was done for higher zooms before."""
+
+LAST: Final = 0.215
+"""The same of the last zoom, in whose views, up to three zooms deeper, rounding may move it by 0.03 pixels."""
 
 LEAST: Final = 1.0
 """Pixels across a square whose area the smallest feature has."""
@@ -104,7 +106,8 @@ def _leaf(pyramid: Pyramid, tile: Tile, pieces: Pieces, made: Made) -> None:
     for zoom in pyramid.zooms:
         if zoom >= tile.z:
             least = (LEAST * pixel(zoom)) ** 2 if zoom < pyramid.most else 0.0
-            detail = generalised(pieces, around, MOVED * pyramid.pixel(zoom), least)
+            moved = MOVED if zoom < pyramid.most else LAST
+            detail = generalised(pieces, around, moved * pyramid.pixel(zoom), least)
             _descend(pyramid, detail, tile, zoom, made)
     if tile.z > 0:
         made.geometry = _at_zoom(pyramid, pieces.within(tile.box), tile, tile.box).to_bytes()
