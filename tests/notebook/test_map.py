@@ -329,3 +329,10 @@ def test_outlines_are_in_both_pictures_and_are_no_features(held):
     assert difference(before, chart.render()) > 0.5
     with pytest.raises(ParameterError, match="no feature 'outline'"):
         chart.selected = "outline"
+
+
+def test_a_column_whose_name_looks_like_a_pattern_is_a_column():
+    chart = shown(fields(5).rename(columns={"value": "share [%] *"}), "share [%] *")
+    assert (chart.column, chart.times) == ("share [%] *", [])
+    frame = fields(5).rename(columns={"value": "share [%] 1"}).assign(**{"share [%] 2": 1.0, "share x 3": 1.0})
+    assert shown(frame, "share [%]*").times == ["share [%] 1", "share [%] 2"]

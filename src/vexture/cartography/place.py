@@ -203,8 +203,7 @@ def _mapped(rings: Rings, move: Move, size: NDArray[np.float64] | None) -> Rings
         return replace(rings, points=image)
     low, high = known.min(axis=0), known.max(axis=0)
     sides = np.maximum(high - low, 1e-9) if size is None else size
-    with np.errstate(invalid="ignore"):  # between two places without an image
-        return moved(rings, move, EVERYWHERE, sides)
+    return moved(rings, move, EVERYWHERE, sides)
 
 
 def _marks(features: Features, move: Move, notes: Notes, *, is_bent: bool = True) -> tuple[Lines, Points]:

@@ -4,7 +4,6 @@ import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from fnmatch import fnmatchcase
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -23,7 +22,9 @@ if TYPE_CHECKING:
 __all__ = ["STEP_COLUMNS", "Steps", "Times", "coloured_steps", "with_steps"]
 
 TABLES: Final = (".parquet", ".arrow", ".feather", ".csv")
-PATTERN: Final = "*?["
+ANY: Final = "*"
+"""In a pattern of names, what stands for anything."""
+
 ID: Final = "id"
 TIME: Final = "time"
 
@@ -69,12 +70,13 @@ class Times:
     @property
     def is_pattern(self) -> bool:
         """Whether a text stands for several columns."""
-        return isinstance(self.source, str) and not self.is_table and any(sign in self.source for sign in PATTERN)
+        return isinstance(self.source, str) and not self.is_table and ANY in self.source
 
     def columns(self, names: Sequence[str]) -> list[str]:
         """The columns of a layer, in the order of the steps; those of a pattern as their numbers rise."""
         if self.is_pattern:
-            found = sorted((name for name in names if fnmatchcase(name, self.source)), key=_natural)
+            like = re.compile(".*".join(re.escape(part) for part in self.source.split(ANY)), re.DOTALL)
+            found = sorted((name for name in names if like.fullmatch(name)), key=_natural)
             if not found:
                 raise ParameterError(f"no column is like {self.source!r} of `time`; there are: {', '.join(names[:12])}")
             return found

@@ -99,7 +99,7 @@ def map(
     from vexture.deadline import DEFAULT_SECONDS
 
     fields = {name: options.pop(name) for name in OF_SCALE if name in options}
-    changing = _times(column, times, Times)
+    changing = _times(source, column, times, Times)
     column = None if column is None or changing is not None else str(column)
     scale = Scale(column or "", **{("kind" if name == "scale" else name): value for name, value in fields.items()})
     of_layer = {NAMES.get(name, name): options.pop(name) for name in OF_LAYER if name in options}
@@ -119,9 +119,10 @@ def map(
     return MapWidget(ready, scale, conversion, tooltip=tooltip, has_legend=legend, **traits)
 
 
-def _times(column: Any, times: Any, kind: "type[Times]") -> "Times | None":
+def _times(source: Any, column: Any, times: Any, kind: "type[Times]") -> "Times | None":
     """What changes with time, of the columns and the names of steps, or of a table."""
-    several = column is not None and (not isinstance(column, str) or kind(column).is_pattern)
+    is_column = isinstance(column, str) and column in getattr(source, "columns", ())  # whatever signs its name has
+    several = column is not None and not is_column and (not isinstance(column, str) or kind(column).is_pattern)
     if several:
         if times is not None and kind(times).is_table:
             raise ParameterError("`times` is a table, and `column` names columns of steps; give one of them")
