@@ -38,17 +38,19 @@ const COLORINGS = new WeakMap();
  * @param {import('three').DataTexture} texture of the texels
  * @param {import('./paints.js').Colors} colors
  * @returns {boolean} whether something became visible that was not, or the reverse: then nothing is sent
- * @throws {VextureError} if one is no paint, and as `restyle`
+ * @throws {VextureError} if one is no paint, and as `check`
  */
 export function setPaints(data, first, count, paints, texture, colors) {
   const places = Array.from({ length: count }, (_, k) => first + k);
-  const { appears, runs } = restyle(data, places, readPaints(paints, colors));
+  const read = readPaints(paints, colors);
+  const { appears, runs } = restyle(data, places, read, (colorings, found) => check(data.name, colorings, found, read));
   for (const [from, end] of appears ? [] : runs) sendRows(texture, Math.floor(from / data.width), Math.ceil(end / data.width));
   return appears;
 }
 
 /**
- * As `setPaints`, of one map, for who has a texture of their own, and colours as numbers.
+ * As `setPaints`, of one map, for who has a texture of their own, colours as numbers, and knows the names. Where an element
+ * does not stay opaque, what it hides is not there to be seen.
  *
  * @param {PackedData} data
  * @param {number} root
@@ -57,7 +59,7 @@ export function setPaints(data, first, count, paints, texture, colors) {
  */
 export function recolored(data, root, paints) {
   round(paints.parts);
-  const { runs } = restyle(data, [root], paints);
+  const { runs } = restyle(data, [root], paints, () => {});
   return runs.map(([from, end]) => [Math.floor(from / data.width), Math.ceil(end / data.width)]);
 }
 
@@ -67,14 +69,14 @@ export function recolored(data, root, paints) {
  * @param {PackedData} data
  * @param {number[]} places of the roots, maps with a style
  * @param {Paints} paints
+ * @param {(colorings: Coloring[], found: Int32Array[]) => void} checked throws if it may not be; before anything is changed
  * @returns {{ appears: boolean, runs: [number, number][] }} whether something became visible that was not, or the reverse;
  *   first and end of each run of texels that may have changed
- * @throws {VextureError} if no element has a name, or one that hides others would not stay opaque
  */
-function restyle(data, places, { names, parts }) {
+function restyle(data, places, { names, parts }, checked) {
   const colorings = places.map((place) => coloringOf(data, data.roots[place]));
   const found = colorings.map((coloring) => firstElements(coloring, names));
-  check(data.name, colorings, found, { names, parts });
+  checked(colorings, found);
   let appears = false;
   colorings.forEach((coloring, c) => { // the loops are functions of their own: V8 compiles a loop anew if more work follows it
     recolor(coloring, found[c], parts);
@@ -140,6 +142,7 @@ function firstElements({ named }, names) {
  * @param {Coloring[]} colorings
  * @param {Int32Array[]} found of each, the first element of each name, or -1
  * @param {Paints} paints
+ * @throws {VextureError} if no element has a name, or one that hides others would not stay opaque
  */
 function check(texture, colorings, found, { names, parts }) {
   for (let k = 0; k < names.length; k++) {

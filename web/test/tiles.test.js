@@ -6,6 +6,8 @@ import { FeatureColors } from '../src/tiles/feature-colors.js';
 import { parts } from '../src/tiles/css-color.js';
 import { ancestor, fixed, keyOf, lngLat, mercator, placeIn, squareOf } from '../src/tiles/grid.js';
 import { RequestQueue } from '../src/tiles/queue.js';
+import { readPacked } from '../src/packed.js';
+import { fixture } from './files.js';
 
 const ZOOMS = [0, 2, 4];
 const later = () => new Promise((resolve) => setTimeout(resolve, 5));
@@ -87,6 +89,14 @@ describe('requests', () => {
     expect([aborted, queue.running]).toEqual([['a', 'b', 'd'], 0]);
   });
 
+  test('are made once, though they are wanted again while they run', async () => {
+    const started = [];
+    const queue = new RequestQueue(async (item) => void started.push(item) ?? later(), () => {}, () => {});
+    for (let frame = 0; frame < 3; frame++) queue.want([{ key: 'a', item: 'a' }]);
+    await expect.poll(() => queue.running).toBe(0);
+    expect(started).toEqual(['a']);
+  });
+
   test('are tried again, and told when they fail for good', async () => {
     let tried = 0;
     const failed = [];
@@ -148,6 +158,29 @@ test('a paint of null hides a feature, whatever a function says of it', () => {
   };
   expect(hidden({ b: '#000' })).toBe('#ff0000');
   expect(hidden({ a: null })).toBe(null);
+});
+
+test('a feature is hidden though the tile does not have what lies below it', async () => {
+  const data = await readPacked(fixture('elements.ktx2'));
+  const { elements } = data.roots[0].style;
+  elements[0].hides = true;
+  const colors = new FeatureColors();
+  colors.setFilter((id) => id !== elements[0].name);
+  expect(colors.apply({ data, colors: 0 })).not.toEqual([]);
+  expect(data.roots[0].style.elements[0].opacity).toBe(0);
+});
+
+test('what is not seen is not picked', () => {
+  const colors = new FeatureColors();
+  colors.setPaint({ a: null });
+  const seen = () => ['a', 'b', 'c'].filter((id) => colors.isSeen(id));
+  expect(seen()).toEqual(['b', 'c']);
+  colors.setFilter((id) => id !== 'b');
+  expect(seen()).toEqual(['c']);
+  colors.setTimes({ ids: ['a', 'b', 'c'], colors: [['#fff', '#fff', null], ['#fff', '#fff', '#000']] });
+  expect(seen()).toEqual(['a']);
+  colors.setTime(0.5);
+  expect(seen()).toEqual(['a', 'c']);
 });
 
 test('a paint of undefined takes back what a feature was given', () => {

@@ -1,5 +1,5 @@
 import { CustomBlending, GLSL3, Group, Matrix4, Mesh, OneFactor, OneMinusSrcAlphaFactor, RawShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
-import { VextureError } from '../errors.js';
+import { VextureError, line } from '../errors.js';
 import { prepareRows, sendRows } from '../rows.js';
 import { keyOf, mercator } from '../tiles/grid.js';
 import { Pyramid } from '../tiles/pyramid.js';
@@ -84,6 +84,7 @@ export class VectorGlobe extends Group {
    */
   update(camera, height) {
     if (!camera.isPerspectiveCamera) throw new VextureError('the camera is no PerspectiveCamera; give one', 'camera');
+    if (!(height > 0)) throw new VextureError(`the height is ${line(height)}; give that of the picture in pixels`, 'height');
     this.updateWorldMatrix(true, false);
     camera.updateWorldMatrix(true, false);
     const scale = new Matrix4().makeScale(this.#radius, this.#radius, this.#radius);

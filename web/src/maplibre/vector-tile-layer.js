@@ -54,7 +54,7 @@ export class VectorTileLayer {
   #opacity = 1;
   /** @type {Map<string, Set<(event: any) => void>>} */
   #listeners = new Map();
-  /** @type {string | null} */
+  /** The event by which a feature came under the pointer. @type {FeatureEvent | null} */
   #hovered = null;
   /** Layers above it, from below. @type {string[]} */
   #above = [];
@@ -221,16 +221,22 @@ export class VectorTileLayer {
   #pointed = (/** @type {import('maplibre-gl').MapMouseEvent} */ { lngLat, point }) => {
     if (!this.#listeners.get('hover')?.size) return;
     const feature = this.#under(lngLat, point);
-    if ((feature?.id ?? null) === this.#hovered) return;
-    this.#hovered = feature?.id ?? null;
-    this.#emit('hover', { feature, lngLat, point });
+    if (feature?.id === this.#hovered?.feature?.id) return;
+    const event = { feature, lngLat, point };
+    this.#hovered = feature && event;
+    this.#emit('hover', event);
   };
 
   #left = (/** @type {import('maplibre-gl').MapMouseEvent} */ { lngLat, point }) => {
-    if (this.#hovered === null) return;
-    this.#hovered = null;
-    this.#emit('hover', { feature: null, lngLat, point });
+    this.#leave({ feature: null, lngLat, point });
   };
+
+  /** @param {FeatureEvent} event */
+  #leave(event) {
+    if (!this.#hovered) return;
+    this.#hovered = null;
+    this.#emit('hover', event);
+  }
 
   #clicked = (/** @type {import('maplibre-gl').MapMouseEvent} */ { lngLat, point }) => {
     if (this.#listeners.get('click')?.size) this.#emit('click', { feature: this.#under(lngLat, point), lngLat, point });
@@ -274,6 +280,7 @@ export class VectorTileLayer {
     map.off('mousemove', this.#pointed);
     map.off('mouseout', this.#left);
     map.off('click', this.#clicked);
+    if (this.#hovered) this.#leave({ ...this.#hovered, feature: null });
     if (this.#painter?.isLost) this.#return(map);
     else {
       this.#pyramid.dispose();

@@ -80,8 +80,23 @@ export class FeatureColors {
   }
 
   /** @param {string} id */
-  isHidden(id) {
+  #isHidden(id) {
     return !(this.#isShown?.(id) ?? true);
+  }
+
+  /** Whether a feature has a colour now, so that it can be picked. @param {string} id */
+  isSeen(id) {
+    const place = this.#times?.places.get(id) ?? -1;
+    if (!this.#times || place < 0 || this.#isHidden(id)) return this.paintOf(id) !== null;
+    const [one, other, share] = this.#step();
+    return one[4 * place + 3] > 0 || (share > 0 && other[4 * place + 3] > 0);
+  }
+
+  /** The steps of times before and after the time, and how far it is from one to the other. @returns {[Float32Array, Float32Array, number]} */
+  #step() {
+    const steps = /** @type {Times} */ (this.#times).steps;
+    const held = Math.min(Math.max(this.#time, 0), steps.length - 1);
+    return [steps[Math.floor(held)], steps[Math.ceil(held)], held - Math.floor(held)];
   }
 
   /**
@@ -110,20 +125,17 @@ export class FeatureColors {
       named.times = times;
       names.forEach((name, k) => (places[k] = times?.places.get(name) ?? -1));
     }
-    const last = (times?.steps.length ?? 1) - 1;
-    const held = Math.min(Math.max(this.#time, 0), last);
-    const share = held - Math.floor(held);
-    const [one, other] = [times?.steps[Math.floor(held)], times?.steps[Math.ceil(held)]];
+    const [one, other, share] = times?.steps.length ? this.#step() : [null, null, 0];
     for (let k = 0; k < names.length; k++) {
       const at = 4 * places[k];
-      if (!one || !other || at < 0 || this.isHidden(names[k])) write(this.paintOf(names[k]), filled, 4 * k);
+      if (!one || !other || at < 0 || this.#isHidden(names[k])) write(this.paintOf(names[k]), filled, 4 * k);
       else for (let c = 0; c < 4; c++) filled[4 * k + c] = one[at + c] + share * (other[at + c] - one[at + c]);
     }
   }
 
   /** The colour of a feature that no time gives one, or 'own'. @param {string} id */
   paintOf(id) {
-    if (this.isHidden(id)) return null;
+    if (this.#isHidden(id)) return null;
     const paint = this.#paints.has(id) ? this.#paints.get(id) : this.#byFunction?.(id);
     return paint === undefined ? 'own' : paint;
   }

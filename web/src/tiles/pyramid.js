@@ -80,7 +80,7 @@ export class Pyramid {
     const { data, tile } = loaded;
     const [u, v] = squareOf(x, y, tile, this.client.source.margin);
     const found = elementAt(data, 0, data.roots.length, u, v);
-    return found?.name && !this.colors.isHidden(found.name) ? { id: found.name } : null;
+    return found?.name && this.colors.isSeen(found.name) ? { id: found.name } : null;
   }
 
   /**

@@ -50,7 +50,7 @@ export class RequestQueue {
    * @param {{ key: string, item: Item }[]} wanted
    */
   want(wanted) {
-    this.#wanted = wanted;
+    this.#wanted = wanted.filter(({ key }) => !this.#running.has(key));
     const keys = new Set(wanted.map(({ key }) => key));
     for (const [key, controller] of this.#running) {
       if (keys.has(key)) continue;
