@@ -114,3 +114,28 @@ def test_parquet_without_geometries_says_so(tmp_path):
     pq.write_table(read_features(squares(), notes=Notes()).table, tmp_path / "a.parquet")
     with pytest.raises(SourceError, match="no geometries"):
         read_features(tmp_path / "a.parquet", notes=Notes())
+
+
+def test_a_source_that_names_its_reference_system_keeps_it(tmp_path):
+    """GeoJSON is said to be in degrees by its format, whatever it holds: there the given system counts."""
+    notes = Notes()
+    found = read_features(saved(squares(), tmp_path, "gpkg"), crs="EPSG:4326", notes=notes)
+    assert found.crs == "EPSG:28992"
+    assert [str(note) for note in notes.listed] == [
+        "it names its own reference system, EPSG:28992, so `crs` EPSG:4326 is not used"
+    ]
+    text = squares().set_crs(None, allow_override=True).to_json().encode()
+    assert read_features(text, crs="EPSG:28992", notes=Notes()).crs == "EPSG:28992"
+
+
+def test_rings_of_two_corners_and_infinite_ids():
+    ring = {"type": "Polygon", "coordinates": [[[0, 0], [1, 1], [0, 0]]]}
+    square = {"type": "Polygon", "coordinates": [[[2, 2], [3, 2], [3, 3], [2, 2]]]}
+    features = [{"type": "Feature", "properties": {}, "geometry": geometry} for geometry in (ring, square)]
+    notes = Notes()
+    text = json.dumps({"type": "FeatureCollection", "features": features}).encode()
+    found = read_features(text, notes=notes)
+    assert (len(found), found.feature.tolist()) == (2, [1])
+    assert [str(note) for note in notes.listed] == ["polygon with a ring of fewer than three corners"]
+    frame = squares().assign(code=[1.0, np.inf, 2.5, 1e20])
+    assert read_features(frame, id="code", notes=Notes()).ids.tolist() == ["1", "inf", "2.5", "100000000000000000000"]

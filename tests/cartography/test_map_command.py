@@ -327,3 +327,29 @@ def test_one_layer_changes_with_time_and_the_others_stay():
     assert done.times["ids"] == [f"c{k}" for k in range(5)]
     with pytest.raises(ParameterError, match="`time` is given for several sources"):
         convert_map([layers[0], layers[0]], crs=METRES)
+
+
+def test_layers_of_one_name_are_told_apart():
+    done = convert_map(
+        [MapLayer(cells(5), id="code", color=Scale("value")), MapLayer(cells(5, 4), id="code")], crs=METRES
+    )
+    ids = done.table.column("id").to_pylist()
+    assert ids == [f"{layer}:c{k}" for layer in ("map", "map#2") for k in range(5)]
+    assert set(done.conversion.texture.roots[0].style.names) <= set(ids)
+    assert done.table.column("layer").unique().to_pylist() == ["map", "map#2"]
+
+
+@pytest.mark.parametrize("kind", ["parquet", "arrow"])
+def test_a_table_replaces_only_tables_of_maps(kind, tmp_path):
+    cells(5).to_file(tmp_path / "land.gpkg")
+    command = ["map", str(tmp_path / "land.gpkg"), "-o", str(tmp_path / "land.ktx2"), "--table", kind]
+    table = tmp_path / f"land.{kind}"
+    (cells(3).to_parquet if kind == "parquet" else cells(3).to_feather)(table)
+    before = table.read_bytes()
+    done = CliRunner().invoke(main, command)
+    assert done.exit_code == 1
+    assert f"land.{kind} is there, and no table of a map; give another --output, or --table none" in done.output
+    assert table.read_bytes() == before
+    assert not (tmp_path / "land.ktx2").exists()
+    table.unlink()
+    assert [CliRunner().invoke(main, command).exit_code for _ in range(2)] == [0, 0]

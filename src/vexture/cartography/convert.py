@@ -72,7 +72,7 @@ def convert_map(
     size : int
         Pixels of the larger side of the map, for widths in pixels.
     restyle : bool
-        Colours can be changed and features picked by their ids; up to 65,535 features.
+        Colours can be changed and features picked by their ids.
     tolerance, max_seconds
         As in `vexture.convert`.
     name : str, optional

@@ -106,6 +106,9 @@ class Painted:
     """Features in the map's reference system, with their names in the texture, their colours, and areas of marks."""
 
     layer: MapLayer
+    label: str
+    """The layer's name, by which it is told from the others."""
+
     features: Features
     names: NDArray[Any]
     rgba: NDArray[np.float64] | None
@@ -221,8 +224,8 @@ def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list
     if clash:
         notes.remark("layers share ids, so elements are named LAYER:ID")
     painted, legends = [], []
-    for layer, features in read:
-        names = np.array([f"{layer.name}:{one}" for one in features.ids], object) if clash else features.ids
+    for label, (layer, features) in zip(_labels([layer for layer, _ in read]), read, strict=True):
+        names = np.array([f"{label}:{one}" for one in features.ids], object) if clash else features.ids
         rgba, steps, legend = None, None, None
         with about(layer.name):
             if layer.times is not None:
@@ -231,9 +234,21 @@ def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list
             elif layer.color is not None:
                 rgba, legend = colours_of(features.table, layer.color, notes)
         if legend is not None:
-            legends.append({"layer": layer.name, **legend})
-        painted.append(Painted(layer, features, names, rgba, steps, NO_OUTLINE, NO_LINES, ()))
+            legends.append({"layer": label, **legend})
+        painted.append(Painted(layer, label, features, names, rgba, steps, NO_OUTLINE, NO_LINES, ()))
     return painted, legends
+
+
+def _labels(layers: Sequence[MapLayer]) -> list[str]:
+    """Names of layers; one that another had before gets a number."""
+    labels = list[str]()
+    for layer in layers:
+        label, number = layer.name, 1
+        while label in labels:
+            number += 1
+            label = f"{layer.name}#{number}"
+        labels.append(label)
+    return labels
 
 
 def _stepped(layer: MapLayer, times: Times, features: Features, notes: Notes) -> tuple[Features, Steps, dict[str, Any]]:
@@ -276,7 +291,7 @@ def _outline(one: Painted, is_named: bool, taken: set[str], crs: str, pixel: flo
     width = width_of(layer.outline_width, "outline_width")
     if layer.outline is None or not len(rings.ends):
         return NO_OUTLINE
-    name = f"{layer.name}:outline" if is_named else "outline"
+    name = f"{one.label}:outline" if is_named else "outline"
     while name in taken:
         name += "_"
     return Outline(outlines(rings, width, crs, pixel), name, rgba_of(layer.outline, "outline")[None])
@@ -312,7 +327,7 @@ def _table(painted: list[Painted], legends: list[dict[str, Any]]) -> "pyarrow.Ta
         if len(painted) > 1:
             names = [f"{name}_" if name == "layer" else name for name in table.column_names]
             table = table.rename_columns(names)
-            table = table.add_column(1, "layer", pa.array([one.layer.name] * len(table), pa.string()))
+            table = table.add_column(1, "layer", pa.array([one.label] * len(table), pa.string()))
         tables.append(table)
     try:
         joined = pa.concat_tables(tables, promote_options="permissive")

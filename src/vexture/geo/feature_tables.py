@@ -88,6 +88,9 @@ class Chunk:
     fallback: str | None = field(default=None)
     """Reference system of coordinates that can be degrees, where the source names none."""
 
+    is_told: bool = False
+    """Whether the source itself names its reference system, rather than its format."""
+
     def taken(self, rows: NDArray[np.intp]) -> "Chunk":
         """Some of the rows, all of which are in bounds."""
         part = replace(self, table=self.table.take(rows), shapes=self.shapes[rows], numbers=self.numbers[rows])
@@ -165,7 +168,14 @@ def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None
     with ExitStack() as stack:
         with _condition(choice.where, names), gdal_errors():
             meta, reader = stack.enter_context(raw.open_arrow(content, **options))
-        of = (meta["fid_column"] or "OGC_FID", meta["geometry_name"] or "wkb_geometry", own, topology, meta["crs"])
+        of = (
+            meta["fid_column"] or "OGC_FID",
+            meta["geometry_name"] or "wkb_geometry",
+            own,
+            topology,
+            is_json,
+            meta["crs"],
+        )
         while True:  # nothing of GDAL's is held while who asked works with what it got
             with _condition(choice.where, names), gdal_errors():
                 table = (
@@ -178,14 +188,23 @@ def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None
 
 
 def _arrow_chunk(
-    table: "pyarrow.Table", number: str, geometry: str, own: str | None, topology: bool, crs: str | None
+    table: "pyarrow.Table", number: str, geometry: str, own: str | None, topology: bool, is_json: bool, crs: str | None
 ) -> Chunk:
     """A table of GDAL."""
     numbers = np.asarray(table.column(number).to_numpy(), np.int64)
     shapes = _objects(table.column(geometry))
     kept = table.drop_columns([number, geometry])
     _check_texts(kept)
-    return Chunk(kept, shapes, numbers, crs, own, bounded=True, fallback=WORLD if topology else None)
+    return Chunk(
+        kept,
+        shapes,
+        numbers,
+        crs,
+        own,
+        bounded=True,
+        fallback=WORLD if topology else None,
+        is_told=crs is not None and not is_json,
+    )
 
 
 def _check_texts(table: "pyarrow.Table") -> None:
@@ -275,7 +294,8 @@ def _parquet_chunk(
     choice: Choice,
     crs: str | None,
 ) -> Chunk:
-    return Chunk(table.select(columns), _objects(table.column(geometry)), numbers, crs, choice.id)
+    shapes = _objects(table.column(geometry))
+    return Chunk(table.select(columns), shapes, numbers, crs, choice.id, is_told=crs not in (None, WORLD))
 
 
 def _geometry_of(schema: Any) -> tuple[str, str | None]:
@@ -284,7 +304,7 @@ def _geometry_of(schema: Any) -> tuple[str, str | None]:
     if metadata is None:
         found = [name for name in schema.names if name.lower() in GEOMETRY]
         if not found:
-            raise SourceError("the Parquet file has no geometries (no metadata `geo`); save it as GeoParquet")
+            raise SourceError('the Parquet file has no geometries (no metadata named "geo"); save it as GeoParquet')
         return found[0], None
     try:
         geo = json.loads(metadata)
@@ -292,7 +312,7 @@ def _geometry_of(schema: Any) -> tuple[str, str | None]:
         column = geo["columns"][name]
         encoding, crs = column["encoding"], column.get("crs", WORLD)
     except (ValueError, KeyError, TypeError, AttributeError):
-        raise SourceError("the metadata `geo` of the Parquet file is damaged; save it again") from None
+        raise SourceError('the metadata "geo" of the Parquet file are damaged; save it again') from None
     if encoding != "WKB" or name not in schema.names:
         raise SourceError(f"its geometries are {encoding!r}; save it as GeoParquet with geometries in WKB")
     return str(name), crs if crs is None or isinstance(crs, str) else json.dumps(crs)
@@ -331,7 +351,8 @@ def _frame(frame: Any, choice: Choice) -> Chunk:
     table = pa.table(others) if others else pa.table({"row": np.arange(len(shapes))})
     rows = np.arange(len(shapes)) if choice.where is None else _rows_where(table, choice.where)
     crs = None if frame.crs is None else str(frame.crs.to_wkt())
-    return Chunk(table.take(rows).select(columns), shapes[rows], rows.astype(np.int64), crs, choice.id, parsed=True)
+    part = table.take(rows).select(columns)
+    return Chunk(part, shapes[rows], rows.astype(np.int64), crs, choice.id, parsed=True, is_told=crs is not None)
 
 
 def _arrow_of(values: Any) -> Any:

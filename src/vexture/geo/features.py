@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import ParameterError
-from vexture.geo.crs import chosen_crs, gis_packages, period
+from vexture.geo.crs import chosen_crs, gis_packages, period, same_system, shown_system
 from vexture.geo.extent import Bounds
 from vexture.geo.feature_tables import Choice, Chunk, chunks_of
 from vexture.geo.geojson import UNLOCATED
@@ -167,15 +167,28 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     parts, of = parts_of(whole)
     kinds, feature = shapely.get_type_id(parts), owner[of].astype(np.intp)
     ids = _ids(chunk, choice, seen, notes)
+    short = _short(parts, notes)
+    parts, kinds, feature = parts[~short], kinds[~short], feature[~short]
     owners = feature[kinds == 3]
     rings = rings_of(parts[kinds == 3], lambda index: f"feature {ids[owners[index]]}", owners)
     refuse_far(rings, "correct it")
     lines = (kinds == shapely.GeometryType.LINESTRING) | (kinds == shapely.GeometryType.LINEARRING)
     spots = (kinds == shapely.GeometryType.POINT) & ~shapely.is_empty(parts)
-    system = chosen_crs(crs, chunk.crs(rings.points))
+    system = _system(chunk, rings, crs, notes)
     rings = _valid(rings, period(system), notes)
     points = Points(shapely.get_coordinates(parts[spots]), feature[spots])
     return Features(rings, ids, _table(chunk, ids), system, _lines(parts[lines], feature[lines]), points)
+
+
+def _system(chunk: Chunk, rings: Rings, given: str | None, notes: Notes) -> str:
+    """Reference system of a chunk: that which its source names, or else the one that is given for it."""
+    found = chunk.crs(rings.points)
+    if given is None or not chunk.is_told:
+        return chosen_crs(given, found)
+    system = chosen_crs(None, found)
+    if not same_system(chosen_crs(given, None), system):
+        notes.remark(f"it names its own reference system, {shown_system(system)}, so `crs` {given[:40]} is not used")
+    return system
 
 
 def _valid(rings: Rings, turn: float | None, notes: Notes) -> Rings:
@@ -197,6 +210,18 @@ def _valid(rings: Rings, turn: float | None, notes: Notes) -> Rings:
     return here.joined(rings.taken(np.flatnonzero(later))) if later.any() else here
 
 
+def _short(parts: NDArray[Any], notes: Notes) -> NDArray[np.bool_]:
+    """Polygons with a ring of fewer than three corners, which enclose nothing."""
+    import shapely
+
+    rings, owner = shapely.get_rings(parts, return_index=True)
+    found = np.zeros(len(parts), np.bool_)
+    found[owner[shapely.get_num_coordinates(rings) < 4]] = True
+    for _ in range(int(found.sum())):
+        notes.left_out("polygon with a ring of fewer than three corners")
+    return found
+
+
 def _lines(lines: NDArray[Any], feature: NDArray[np.intp]) -> Lines:
     import shapely
 
@@ -212,7 +237,10 @@ def _ids(chunk: Chunk, choice: Choice, seen: dict[str, int], notes: Notes) -> ND
         return np.array([str(number) for number in chunk.numbers.tolist()], object)
     column = chunk.table.column(chunk.id_column)
     if pa.types.is_floating(column.type):
-        values = [None if v is None else str(int(v)) if v == int(v) else str(v) for v in column.to_pylist()]
+        values = [
+            None if v is None else f"{v:.0f}" if v == np.rint(v) and abs(v) < np.inf else str(v)
+            for v in column.to_pylist()
+        ]
     else:
         values = [None if value is None else str(value) for value in column.to_pylist()]
     texts, again, none = [], 0, 0

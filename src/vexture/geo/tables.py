@@ -54,10 +54,28 @@ def cast(table: "pyarrow.Table", schema: "pyarrow.Schema") -> "pyarrow.Table":
 
 
 def check_targets(targets: Iterable[Path], sources: Iterable[Path]) -> None:
-    """Raise a `ParameterError` if a file that is written is a source."""
+    """Raise a `ParameterError` if a file that is written is a source, or would replace a table of somebody else's."""
     for target in targets:
         if any(target.exists() and source.exists() and target.samefile(source) for source in sources):
             raise ParameterError(f"{target} is a source itself; give another `output`, or `table` none")
+        if target.suffix[1:] in TABLES and target.exists() and not _is_own(target):
+            raise ParameterError(f"{target} is there, and no table of a map; give another `output`, or `table` none")
+
+
+def _is_own(place: Path) -> bool:
+    """Whether a file is a table as maps have them."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        if place.suffix == ".parquet":
+            metadata = pq.read_schema(place).metadata
+        else:
+            with pa.OSFile(str(place)) as file:
+                metadata = pa.ipc.open_file(file).schema.metadata
+    except (pa.ArrowException, OSError):
+        return False
+    return LEGEND.encode() in (metadata or {})
 
 
 @contextmanager
