@@ -70,7 +70,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "gltf": BASE | {"content", "drawing", "layout", "parameters", "pipeline", "svg", "texture"},
     "cartography": SOURCES | {"geo", "layout", "pipeline", "reading", "svg"},
     "flood": BASE | {"content", "drawing", "geo", "notes", "paint", "renderers", "workers"},
-    "tiles": SOURCES | {"geo", "layout", "texture", "tree", "workers"},
+    "tiles": SOURCES | {"cartography", "geo", "layout", "texture", "tree", "workers"},
     "live": SOURCES
     | {"encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading"}
     | {"svg", "texture", "tree", "workers"},

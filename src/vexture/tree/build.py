@@ -191,14 +191,14 @@ def root_paths(pool: PiecePool, listed: int) -> tuple[NDArray[np.int64], int]:
 def grow_on(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, most_work: int, aside: int) -> None:
     """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done.
 
-    It also ends before a cell whose list is no longer than `aside`.
+    It also ends before a cell whose list is no longer than `aside`, unless that is 0.
     """
     work = Work(np.empty(9, np.int64), np.empty((len(rules), 8), np.int64), new_workspace(len(rules)))
     stack, counts = tree.stack, tree.counts
     while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
         top = counts[WAITING] - 1
         listed = stack[top, LAST] - stack[top, FIRST]
-        if listed <= aside:
+        if 0 < aside and listed <= aside:
             return
         most_work -= CELL + listed
         _grow_quad(tree, rules, bounds, work)
