@@ -198,7 +198,7 @@ def grow_on(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, most_work: i
     while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
         top = counts[WAITING] - 1
         listed = stack[top, LAST] - stack[top, FIRST]
-        if 0 < aside and listed <= aside:
+        if aside > 0 and listed <= aside:
             return
         most_work -= CELL + listed
         _grow_quad(tree, rules, bounds, work)
