@@ -80,6 +80,18 @@ def test_entries_of_legends_are_told_apart_and_hold_something(values, kind, labe
         assert all(entry["count"] for entry in entries)
 
 
+@pytest.mark.parametrize("layers", [MapLayer("x.gpkg"), ["x.gpkg"], "x.gpkg", frame([1] * 4)])
+def test_what_is_no_list_of_layers_is_refused(layers):
+    with pytest.raises(ParameterError, match="no list of layers; give one"):
+        convert_map(layers)
+
+
+def test_the_colour_of_a_layer_is_a_scale_or_a_column():
+    assert MapLayer("x.gpkg", color="v").color == Scale("v")
+    with pytest.raises(ParameterError, match="`color` is a int; give a Scale"):
+        MapLayer("x.gpkg", color=3)
+
+
 def test_a_series_of_geometries_has_no_attributes():
     done = convert_map([MapLayer(geopandas.GeoSeries(BOXES, crs=METRES))], crs=METRES)
     assert done.conversion.texture.roots[0].style.names == ("0", "1", "2", "3")
