@@ -7,13 +7,16 @@ import sys
 import geopandas
 import numpy as np
 import pandas as pd
+import pyarrow as pa
 import pytest
 import shapely
 
 from vexture.cartography import MapLayer, Scale, convert_map
+from vexture.cartography.colours import colours_of
 from vexture.cartography.prepare import in_memory
 from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.geo.vectors import _refuse_broken
+from vexture.notes import Notes
 
 METRES = "EPSG:28992"
 BOXES = [shapely.box(k, 0, k + 1, 1) for k in range(4)]
@@ -44,6 +47,49 @@ def legend(source, column="v", **options):
 )
 def test_values_of_every_kind_have_colours(values, labels):
     assert legend(frame(values)) == labels
+
+
+@pytest.mark.parametrize(
+    ("values", "kind", "labels"),
+    [
+        ([1.0, 1.5, 2.0, 2.0, 2.0, 2.0, 2.000000000000001, 3.0], "quantiles", ["1 - 1.7", "1.7 - 3"]),
+        ([1, 1, 1, 2, 2, 2], "quantiles", ["1 - 2", "2"]),
+        ([1, 10], "quantiles", ["1 - 2.8", "2.8 - 10"]),
+        ([1, 4, 8], "100,200", ["1 - 100", "100 - 200", ">= 200"]),
+        ([300, 400], "100,200", ["< 100", "100 - 200", "200 - 400"]),
+        (
+            [1000001, 1000003, 1000005],
+            "1000002,1000004",
+            ["1000001 - 1000002", "1000002 - 1000004", "1000004 - 1000005"],
+        ),
+        ([5, 5], "continuous", ["5"]),
+        ([1.0, 2.5, 1.0], "categories", ["1", "2.5"]),
+        (pd.to_datetime(["2001-01-01", "2001-01-02", None]), "categories", ["2001-01-01", "2001-01-02"]),
+        (
+            pd.to_datetime(["2001-01-01 00:00", "2001-01-02 12:00"]),
+            "auto",
+            ["2001-01-01 00:00:00", "2001-01-02 12:00:00"],
+        ),
+    ],
+)
+def test_entries_of_legends_are_told_apart_and_hold_something(values, kind, labels):
+    table = pa.table({"v": pa.Array.from_pandas(pd.Series(values))})
+    entries = colours_of(table, Scale("v", kind), Notes())[1]["entries"]
+    assert [entry["label"] for entry in entries] == labels
+    if kind == "quantiles":
+        assert all(entry["count"] for entry in entries)
+
+
+@pytest.mark.parametrize("layers", [MapLayer("x.gpkg"), ["x.gpkg"], "x.gpkg", frame([1] * 4)])
+def test_what_is_no_list_of_layers_is_refused(layers):
+    with pytest.raises(ParameterError, match="no list of layers; give one"):
+        convert_map(layers)
+
+
+def test_the_colour_of_a_layer_is_a_scale_or_a_column():
+    assert MapLayer("x.gpkg", color="v").color == Scale("v")
+    with pytest.raises(ParameterError, match="`color` is a int; give a Scale"):
+        MapLayer("x.gpkg", color=3)
 
 
 def test_a_series_of_geometries_has_no_attributes():

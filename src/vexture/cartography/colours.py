@@ -28,6 +28,11 @@ OTHER: Final = "other"
 STOPS: Final = 9
 """Colours in the legend of a continuous scale."""
 
+DIGITS: Final = range(6, 13)
+"""Significant digits of numbers in a legend: as few as tell them apart; what more would tell apart is noise."""
+
+MIDNIGHT: Final = " 00:00:00"
+
 Rgba = NDArray[np.float64]
 
 
@@ -68,7 +73,7 @@ def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba
     is_number = any(test(kind_of) for test in (pa.types.is_integer, pa.types.is_floating, pa.types.is_decimal))
     kind = scale.kind if scale.kind != "auto" else "quantiles" if is_number else "categories"
     if kind == "categories":
-        rgba, entries = _categories([None if v is None else str(v) for v in column.to_pylist()], scale, notes)
+        rgba, entries = _categories(_names(column.to_pylist()), scale, notes)
     else:
         breaks = None if kind in ("quantiles", "equal", "continuous") else _breaks(kind)
         if not is_number:
@@ -141,11 +146,7 @@ def _classes(
     known = values[np.isfinite(values)]
     if not 2 <= scale.classes <= MOST_CLASSES:
         raise ParameterError(f"`classes` is {scale.classes}; it must be in 2..{MOST_CLASSES}")
-    if breaks is None:
-        parts = np.linspace(0.0, 1.0, scale.classes + 1)[1:-1]
-        low, high = known.min(), known.max()
-        breaks = np.unique(np.quantile(known, parts) if kind == "quantiles" else low + (high - low) * parts)
-        breaks = breaks[breaks > low]
+    breaks = _told_apart(_found_breaks(known, kind, scale.classes) if breaks is None else breaks)
     colours = _sampled(_palette(scale.palette, SEQUENTIAL), np.linspace(0.0, 1.0, len(breaks) + 1))
     number = np.searchsorted(breaks, values, side="right")
     rgba = colours[number]
@@ -153,15 +154,48 @@ def _classes(
     edges = [float(min(known.min(), breaks[0])) if len(breaks) else float(known.min()), *breaks.tolist()]
     edges.append(float(max(known.max(), edges[-1])))
     counts = np.bincount(number[np.isfinite(values)], minlength=len(colours))
+    labels = _ranges(edges, counts)
     entries = [
-        {"color": hex_of(colour), "label": _range(low, high), "from": low, "to": high, "count": int(count)}
-        for colour, (low, high), count in zip(colours, pairwise(edges), counts, strict=True)
+        {"color": hex_of(colour), "label": label, "from": low, "to": high, "count": int(count)}
+        for colour, label, (low, high), count in zip(colours, labels, pairwise(edges), counts, strict=True)
     ]
     return rgba, entries
 
 
-def _range(low: float, high: float) -> str:
-    return f"{low:g}" if low == high else f"{low:g} - {high:g}"
+def _found_breaks(known: NDArray[np.float64], kind: str, classes: int) -> NDArray[np.float64]:
+    """Inner breaks of quantiles, none of which holds nothing, or of equal steps."""
+    parts = np.linspace(0.0, 1.0, classes + 1)[1:-1]
+    low, high = known.min(), known.max()
+    breaks = np.unique(np.quantile(known, parts) if kind == "quantiles" else low + (high - low) * parts)
+    breaks = _told_apart(np.append(low, breaks))[1:]
+    if kind == "quantiles":
+        _, first = np.unique(np.searchsorted(np.sort(known), breaks), return_index=True)
+        breaks = breaks[first]
+    return breaks
+
+
+def _told_apart(rising: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The first of numbers that read the same."""
+    _, first = np.unique([f"{value:.{DIGITS[-1]}g}" for value in rising.tolist()], return_index=True)
+    return rising[np.sort(first)]
+
+
+def _texts(numbers: list[float]) -> list[str]:
+    """Numbers in as few digits as tell them apart."""
+    most = len({f"{number:.{DIGITS[-1]}g}" for number in numbers})
+    tried = ([f"{number:.{digits}g}" for number in numbers] for digits in DIGITS)
+    return next(texts for texts in tried if len(set(texts)) == most)
+
+
+def _ranges(edges: list[float], counts: NDArray[np.int64]) -> list[str]:
+    """Labels of classes; beyond the data, the first and the last have one end."""
+    pairs = list(pairwise(_texts(edges)))
+    labels = [low if low == high else f"{low} - {high}" for low, high in pairs]
+    for place, sign in ((0, "<"), (-1, ">=")):
+        low, high = pairs[place]
+        if low == high and not counts[place]:
+            labels[place] = f"{sign} {low}"
+    return labels
 
 
 def _continuous(values: NDArray[np.float64], scale: Scale) -> tuple[Rgba, list[dict[str, Any]]]:
@@ -172,8 +206,22 @@ def _continuous(values: NDArray[np.float64], scale: Scale) -> tuple[Rgba, list[d
     rgba = _sampled(palette, part)
     rgba[~np.isfinite(values)] = np.nan
     stops = np.linspace(0.0, 1.0, STOPS)
-    shown = zip(_sampled(palette, stops), (low + (high - low) * stops).tolist(), strict=True)
-    return rgba, [{"color": hex_of(colour), "label": f"{value:g}", "value": value} for colour, value in shown]
+    values = (low + (high - low) * stops).tolist()
+    shown = {label: at for at, label in reversed(list(enumerate(_texts(values))))}  # the first of each
+    colours = _sampled(palette, stops)
+    return rgba, [
+        {"color": hex_of(colours[at]), "label": label, "value": values[at]}
+        for label, at in sorted(shown.items(), key=lambda item: item[1])
+    ]
+
+
+def _names(values: list[Any]) -> list[str | None]:
+    """Values as names of categories: whole numbers have no decimals, and days no time."""
+    whole = [int(v) if isinstance(v, float) and v.is_integer() else v for v in values]
+    names = [None if v is None else str(v) for v in whole]
+    if all(name is None or name.endswith(MIDNIGHT) for name in names):
+        return [None if name is None else name.removesuffix(MIDNIGHT) for name in names]
+    return names
 
 
 def _categories(values: list[str | None], scale: Scale, notes: Notes) -> tuple[Rgba, list[dict[str, Any]]]:

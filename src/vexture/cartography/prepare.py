@@ -46,8 +46,8 @@ class MapLayer:
     source : path, bytes or GeoDataFrame
     layer, where, crs, id, columns
         As in `vexture.geo.features.read_features`; `crs` is that of the source.
-    color : Scale, optional
-        Colours by an attribute.
+    color : Scale or str, optional
+        Colours by an attribute; a text is the column of a scale with defaults.
     times : Times, optional
         What colours show at each step of time; those of the first step are the texture's own.
     fill : str, optional
@@ -81,6 +81,12 @@ class MapLayer:
     outline_width: str = "1px"
     symbol: Drawing | None = None
     symbol_size: str = "8px"
+
+    def __post_init__(self) -> None:
+        if isinstance(self.color, str):
+            object.__setattr__(self, "color", Scale(self.color))
+        elif not isinstance(self.color, Scale | None):
+            raise ParameterError(f"`color` is a {type(self.color).__name__}; give a Scale, or the name of a column")
 
     @property
     def name(self) -> str:
@@ -175,6 +181,8 @@ def in_memory() -> Iterator[None]:
 @gis_packages()
 def prepared(layers: Sequence[MapLayer], *, crs: str, size: int, name: str | None, max_seconds: float) -> Prepared:
     """Read layers; parameters and errors are those of `vexture.cartography.convert_map`."""
+    if not isinstance(layers, Sequence) or not all(isinstance(layer, MapLayer) for layer in layers):
+        raise ParameterError("`layers` is no list of layers; give one, such as [MapLayer(source)]")
     if not layers:
         raise ParameterError("a map of no sources; give at least one")
     if size < 1:
