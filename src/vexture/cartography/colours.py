@@ -206,11 +206,11 @@ def _continuous(values: NDArray[np.float64], scale: Scale) -> tuple[Rgba, list[d
     rgba = _sampled(palette, part)
     rgba[~np.isfinite(values)] = np.nan
     stops = np.linspace(0.0, 1.0, STOPS)
-    values = (low + (high - low) * stops).tolist()
-    shown = {label: at for at, label in reversed(list(enumerate(_texts(values))))}  # the first of each
+    held: list[float] = (low + (high - low) * stops).tolist()
+    shown = {label: at for at, label in reversed(list(enumerate(_texts(held))))}  # the first of each
     colours = _sampled(palette, stops)
     return rgba, [
-        {"color": hex_of(colours[at]), "label": label, "value": values[at]}
+        {"color": hex_of(colours[at]), "label": label, "value": held[at]}
         for label, at in sorted(shown.items(), key=lambda item: item[1])
     ]
 
