@@ -14,6 +14,7 @@ import vexture
 from vexture.cartography import MapLayer, Scale, Times, convert_map
 from vexture.cartography.colours import colours_of
 from vexture.cartography.place import MOST_LATITUDE, RADIUS
+from vexture.cartography.times import with_steps
 from vexture.cli.main import main
 from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.geo.features import read_features
@@ -305,6 +306,16 @@ def test_a_table_of_times_is_joined_by_ids_and_what_does_not_fit_is_said(tmp_pat
     done = stepped(source.assign(code=[1, 2, 3]), Times(numbers))
     assert done.times["times"] == ["9", "10"]
     assert [entry["label"] for entry in done.legends[0]["entries"]] == ["a", "b"]
+
+
+def test_rows_without_a_time_and_infinite_values_are_counted():
+    for times in (["a", "", None], [1.0, np.nan, None]):
+        notes, features = Notes(), read_features(cells(3), id="code", notes=Notes())
+        table = pyarrow.table({"id": ["c0", "c1", "c2"], "time": times, "v": [np.inf, 1.0, 2.0]})
+        assert len(with_steps(features, Times(table), notes)[1]) == 1
+        said = [str(note) for note in notes.listed]
+        assert "a row of the table of times has no time, and does not count (2)" in said
+        assert "a value of the table of times is infinite, and has the colour of no data" in said
 
 
 @pytest.mark.parametrize(

@@ -193,7 +193,10 @@ def _joined(features: Features, source: Any, notes: Notes) -> tuple[dict[str, An
     if len(others) != 1 or len(table.column_names) != 3:
         names = ", ".join(table.column_names[:12])
         raise ParameterError(f"the table of `time` has the columns {names}; it needs id, time and one of values")
-    given = table.column(TIME).combine_chunks()
+    given = _without_blanks(table.column(TIME).combine_chunks())
+    if given.null_count == len(given):
+        raise SourceError("no row of the table of `time` has a time; fill in the column time")
+    notes.remark("a row of the table of times has no time, and does not count", given.null_count)
     times, labels = _sorted(pc.drop_null(pc.unique(given)))
     step = pc.index_in(given, value_set=times)
     row = pc.index_in(_as_texts(table.column(ID)), value_set=pa.array(features.ids.tolist(), pa.string()))
@@ -208,11 +211,24 @@ def _joined(features: Features, source: Any, notes: Notes) -> tuple[dict[str, An
     if again := len(steps) - int((place >= 0).sum()):
         notes.remark(f"{again} rows of the table of times have the id and the time of a later one, which counts")
     values, columns = table.column(others[0]).combine_chunks(), dict[str, Any]()
+    if pa.types.is_floating(values.type):
+        infinite = pc.sum(pc.is_inf(values)).as_py() or 0
+        notes.remark("a value of the table of times is infinite, and has the colour of no data", infinite)
     for label, one in zip(labels, place, strict=True):
         columns[_free(label, {*features.table.column_names, *columns})] = values.take(
             pa.array(one, pa.int64(), mask=one < 0)
         )
     return columns, labels, others[0]
+
+
+def _without_blanks(times: Any) -> Any:
+    """Times of which empty texts, and what is no number, are null."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    is_text = pa.types.is_string(times.type) or pa.types.is_large_string(times.type)
+    blank = pc.equal(times, "") if is_text else pc.is_null(times, nan_is_null=True)
+    return pc.if_else(pc.fill_null(blank, True), pa.scalar(None, times.type), times)
 
 
 def _sorted(times: Any) -> tuple[Any, tuple[str, ...]]:
