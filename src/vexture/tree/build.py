@@ -46,6 +46,9 @@ __all__ = ["CELL", "SLICE", "build_tree", "grow", "grow_on", "new_growth", "root
 SLICE = 300_000
 """Work between two looks at the clock, some 0.1 s: pieces in the cells that are divided, and `CELL` for each cell."""
 
+IN_RUNS = 1 << 14
+"""Cubics. A smaller drawing gains nothing from runs, which keep crowded cells from being leaves, as of copies."""
+
 CELL = 20
 """Work of dividing a cell without pieces, and of its leaves."""
 
@@ -216,7 +219,7 @@ def grow(
     aside: int,
 ) -> tuple[Growth, float]:
     """Divide the unit square as `grow_on` does; also returns how far the outline lies outside the unit square."""
-    tree, outside = new_growth(cubics, owner, bounds.max_depth, True)
+    tree, outside = new_growth(cubics, owner, bounds.max_depth, len(cubics) > IN_RUNS)
     grow_on(tree, rules, bounds, most_work, aside)
     return tree, outside
 
