@@ -125,7 +125,7 @@ class Painted:
     """In the units of the map."""
 
     def colours(self, default: str) -> NDArray[np.float64]:
-        """Colour and opacity of each feature, (f, 4), 0..1: by its attribute, or else of all, `default` a CSS colour."""
+        """Colour and opacity of each feature, (f, 4): by its attribute, or else of all; `default` is a CSS colour."""
         if self.rgba is not None:
             return self.rgba
         return np.tile(rgba_of(self.layer.fill or default, "fill"), (len(self.features), 1))
