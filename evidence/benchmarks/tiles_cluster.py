@@ -45,6 +45,9 @@ MOST_WORKERS: Final = 64
 PATIENCE: Final = 120.0
 """Seconds for a part of Dask to start."""
 
+IDLE: Final = 5.0
+"""Seconds in which nothing is asked, to see what a scheduler and who listens to it take then."""
+
 
 @contextmanager
 def dask(*words: str, says: str) -> Iterator[tuple[Any, str]]:
@@ -86,11 +89,12 @@ class Run:
     Parameters
     ----------
     seconds, asked : float
-        Of all, and of that in which workers were asked.
+        Of all, with the reading of the source; and from the first piece of work's start to the last one's end.
     levels : list of list of float
         Seconds that each piece of work was computed.
     handled : float
-        Seconds of a core for each piece, of who asked or of the scheduler: those of the busier one.
+        Seconds of a core for each piece, of who asked or of the scheduler: those of the busier one, without what it
+        takes when nobody asks.
     digest : str
         Of the bytes.
     """
@@ -118,23 +122,21 @@ def _mark(folder: Path) -> Path:
 def measured(count: int, zoom: int, workers: int, folder: Path) -> Run:
     """A run with so many workers."""
     output = folder / f"cluster-{workers}.pmtiles"
-    moments: list[float] = []
     handling: list[Any] = []
     counts: list[int] = []
 
     def told(what: str, number: int, total: int) -> None:
-        if what == "reading features":
-            moments.clear()
-        else:
-            handling.append([cores(pid) for pid in pids])
-        moments.append(time.perf_counter())
+        if what != "reading features":
+            handling.append((time.perf_counter(), np.array([cores(pid) for pid in pids[:2]])))
         if total and number == 1:
             counts.append(total)
 
     with cluster(workers) as (address, scheduler, alive, _), Client(address, set_as_default=False) as client:
         client.get_task_stream()  # from now on the scheduler remembers
         pids = [os.getpid(), scheduler.pid, *(process.pid for process in alive)]
-        before = [cores(pid) for pid in pids]
+        before = np.array([cores(pid) for pid in pids])
+        time.sleep(IDLE)
+        idle = (np.array([cores(pid) for pid in pids]) - before)[:2] / IDLE
         start = time.perf_counter()
         options = TileOptions(max_zoom=zoom, scheduler=address, name="parcels")
         make_tiles(_mark(folder), output, options, told, batches=Source(lambda: parcels(count)))
@@ -145,9 +147,12 @@ def measured(count: int, zoom: int, workers: int, folder: Path) -> Run:
     pieces = sum(counts)
     share = min(float(busy[2:].sum()) / sum(map(sum, levels)), 1.0)
     levels = [[piece * share for piece in level] for level in levels]
-    handled = np.subtract(handling[-1], handling[0])[:2].max() / max(pieces - 1, 1)
+    (first, had), (last, has) = handling[0], handling[-1]
+    handled = max(float((has - had - idle * (last - first)).max()), 0.0) / max(pieces - 1, 1)
+    ends = [(one["start"], one["stop"]) for task in stream for one in task["startstops"]]
+    asked = max(stop for _, stop in ends) - min(begin for begin, _ in ends)
     digest = hashlib.sha256(output.read_bytes()).hexdigest()
-    return Run(seconds, moments[-1] - moments[0], levels, float(handled), digest)
+    return Run(seconds, asked, levels, handled, digest)
 
 
 def _levels(stream: Sequence[Any], counts: Sequence[int]) -> list[list[float]]:

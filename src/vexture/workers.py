@@ -35,6 +35,9 @@ MOST_DEATHS: Final = 3
 PATIENCE: Final = "5s"
 """For a scheduler's first answer."""
 
+FRESH: Final = 2.0
+"""Seconds for which the number of a cluster's workers is believed: each question costs an answer's time."""
+
 
 class Workers(Protocol):
     """Who does the work."""
@@ -176,15 +179,19 @@ class Cluster:
                 return _result(future, lambda: again(item), self._address)
 
             waiting: deque[tuple[Item, Any]] = deque()
+            room, asked = 0, -FRESH
             for item in items:
                 waiting.append((item, submitted(item)))
-                if len(waiting) >= AHEAD * max(1, sum(client.nthreads().values())):
+                if time.monotonic() - asked >= FRESH:
+                    room, asked = AHEAD * max(1, sum(client.nthreads().values())), time.monotonic()
+                if len(waiting) >= room:
                     yield first()
             while waiting:
                 yield first()
 
     def _client(self) -> Any:
         try:
+            import dask
             from distributed import Client
             from distributed.comm.addressing import parse_address, parse_host_port
         except ImportError:
@@ -196,6 +203,7 @@ class Cluster:
             raise DeviceError(
                 f"`scheduler` {self._address}: no Dask scheduler answers there ({error}); start one, or correct it"
             ) from None
+        dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"})  # items bring their data with them
         if not client.nthreads():
             client.close()
             raise DeviceError(

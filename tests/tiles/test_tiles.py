@@ -188,6 +188,32 @@ def test_small_features_become_part_of_neighbours():
     assert shapely.area(found.shapes).sum() == pytest.approx(whole.area, rel=1e-6)
 
 
+def town():
+    """Blocks of 30 m, each a feature: with streets they are 1.2 km by 1.2 km. Far off, an island of 20 m."""
+    west, south = (corner.ravel() for corner in np.meshgrid(*[np.arange(36) * 100.0 / 3.0] * 2))
+    blocks = shapely.box(west, south, west + 30.0, south + 30.0)
+    return pieces_of([*blocks, shapely.box(5000.0, 5000.0, 5020.0, 5020.0)])
+
+
+@pytest.mark.parametrize("pixel", [40.0, 100.0, 170.0, 600.0])
+def test_a_town_of_small_blocks_is_seen_from_afar(pixel):
+    box = (-10_240.0, -10_240.0, 10_240.0, 10_240.0)
+    found = generalised(town(), box, 0.24 * pixel, pixel**2)
+    area = shapely.area(found.shapes)
+    blocks = shapely.area(shapely.intersection(found.shapes, shapely.box(-pixel, -pixel, 1800.0, 1800.0))).sum()
+    assert blocks == pytest.approx(36**2 * 900.0, rel=0.02)
+    assert len(found) <= 36**2 * 900.0 / (pixel**2 / 4.0) + 1
+    assert shapely.union_all(found.shapes).area == pytest.approx(area.sum())  # no square lies on another
+    assert (area.sum() > blocks + 1.0) == (pixel == 40.0)  # the island alone has less than a quarter of a larger pixel
+    # beside the border of two tiles, both have the same
+    border = 4.0 * pixel * round(600.0 / (4.0 * pixel))
+    near = (border - 8.0 * pixel, -10_240.0, border + 8.0 * pixel, 10_240.0)
+    tiles = [(-10_240.0, box[1], border + 16.0 * pixel, box[3]), (border - 16.0 * pixel, box[1], 10_240.0, box[3])]
+    one, other = (generalised(town().within(tile), tile, 0.24 * pixel, pixel**2).within(near) for tile in tiles)
+    assert set(shapely.to_wkb(one.shapes)) == set(shapely.to_wkb(other.shapes))
+    assert len(one)
+
+
 def test_a_ring_that_touches_itself_may_vanish():
     """A long loop and a tiny one that share a corner, in one ring: nothing but a side back and forth is left."""
     tiny, large = [(0.0, 0.0), (0.1, 0.1), (0.0, 0.1)], [(0.0, 0.0), (-3.0, 0.3), (-3.0, -0.3)]

@@ -26,7 +26,7 @@ from vexture.tiles.world import in_world
 
 __all__ = ["VERSION", "MadeTiles", "make_tiles", "unfinished"]
 
-VERSION: Final = 5
+VERSION: Final = 6
 """Of what is kept of unfinished pyramids; what another one wrote is not used."""
 
 MOVES: Final = 0.25

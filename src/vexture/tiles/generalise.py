@@ -13,6 +13,7 @@ from vexture.geo.extent import Bounds
 from vexture.tiles.arcs import simplified
 from vexture.tiles.neighbours import shared_lengths
 from vexture.tiles.pieces import Pieces, joined
+from vexture.tiles.specks import gathered
 
 __all__ = ["dissolved", "generalised"]
 
@@ -32,19 +33,19 @@ def generalised(pieces: Pieces, box: Bounds, tolerance: float, least: float) -> 
     tolerance : float
         Metres by which a border may move.
     least : float
-        Square metres. A smaller polygon becomes part of the neighbour with which it shares most of its border; without
-        one it goes. Smaller holes are filled. With 0, all features stay.
+        Square metres. A smaller polygon becomes part of the neighbour with which it shares most of its border; those
+        without one are gathered (`vexture.tiles.specks`). Smaller holes are filled. With 0, all features stay.
     """
     import shapely
 
-    kept = _merged(dissolved(pieces), box, least)
-    if not len(kept):
-        return kept
-    shapes = _repaired(simplified(kept.shapes, box, tolerance, least))
-    if least == 0.0:
-        gone = shapely.is_empty(shapes)
-        shapes[gone] = kept.shapes[gone]
-    return kept.with_shapes(shapes)
+    kept, specks = _merged(dissolved(pieces), box, least)
+    if len(kept):
+        shapes = _repaired(simplified(kept.shapes, box, tolerance, least))
+        if least == 0.0:
+            gone = shapely.is_empty(shapes)
+            shapes[gone] = kept.shapes[gone]
+        kept = kept.with_shapes(shapes)
+    return joined([kept, gathered(specks, least)]) if len(specks) else kept
 
 
 def _repaired(shapes: NDArray[Any]) -> NDArray[Any]:
@@ -79,24 +80,25 @@ def _united(pieces: Pieces, group: NDArray[np.intp]) -> Pieces:
     return pieces.taken(first).with_shapes(shapes)
 
 
-def _merged(pieces: Pieces, box: Bounds, least: float) -> Pieces:
-    """Without polygons that are too small: they are part of a neighbour, or gone."""
+def _merged(pieces: Pieces, box: Bounds, least: float) -> tuple[Pieces, Pieces]:
+    """Polygons without those that are too small, which are part of a neighbour; and those that have none."""
     import shapely
 
+    none = pieces.taken(np.zeros(len(pieces), np.bool_))
     if not len(pieces):
-        return pieces
+        return pieces, none
     area = shapely.area(pieces.shapes)
     bounds = shapely.bounds(pieces.shapes).reshape(-1, 4)
     inside = (bounds[:, :2] > box[:2]).all(axis=1) & (bounds[:, 2:] < box[2:]).all(axis=1)
     if not (inside & (area < least)).any():
-        return pieces
+        return pieces, none
     label, whole, goes_on = _labels(pieces.shapes, area, ~inside, least)
     stays = ((whole >= least) | goes_on)[label]
     sizes = np.bincount(label, minlength=len(label))[label]
     several = np.flatnonzero(stays & (sizes > 1))
     several = several[np.argsort(label[several] != several, kind="stable")]  # whose feature it is comes first
     groups = np.unique(label[several], return_inverse=True)[1]
-    return joined([pieces.taken(stays & (sizes == 1)), _united(pieces.taken(several), groups)])
+    return joined([pieces.taken(stays & (sizes == 1)), _united(pieces.taken(several), groups)]), pieces.taken(~stays)
 
 
 def _labels(
