@@ -9,8 +9,8 @@ which the worker had a core, as other programs may have run. It gives the pieces
 result after the other, for as long as they computed per piece; a level waits for the one before. `times` repeats the
 pieces, as of a source so many times larger, except where a level has one.
 
-Ten times in one run a random worker is killed, at random moments of which two are apart by the longest piece of work or
-more: Dask gives up a piece that four workers have died at. Another worker starts each time.
+Ten times in one run a random worker is killed, at random moments of which two are about as far apart as the longest piece
+of work takes: Dask gives up a piece that four workers have died at. Another worker starts each time.
 """
 
 import argparse
@@ -197,7 +197,7 @@ def killed(count: int, zoom: int, kills: int, pause: float, folder: Path) -> tup
 
         def kill() -> None:
             nonlocal deaths
-            while deaths < kills and not done.wait(pause * chance.uniform(1.0, 1.5)):
+            while deaths < kills and not done.wait(pause * chance.uniform(0.7, 1.2)):
                 victim = alive.pop(chance.randrange(len(alive)))
                 alive.append(worker(address, opened))
                 os.kill(victim.pid, signal.SIGKILL)
