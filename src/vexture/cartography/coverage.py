@@ -9,6 +9,7 @@ from vexture.errors import ParameterError
 from vexture.geo.features import Features
 from vexture.geo.rings import Rings, rings_of, shared
 from vexture.geo.snap import DEFAULT_SNAP, MOST_SNAP
+from vexture.geo.validity import made_valid
 from vexture.notes import Notes
 
 __all__ = ["covering", "ranks"]
@@ -62,7 +63,7 @@ def _cleaned(rings: Rings, rank: NDArray[np.int64], size: float, width: float, n
     assert rings.feature is not None
     shapes = rings.shapes
     wrong = ~shapely.is_valid(shapes)
-    shapes[wrong] = shapely.make_valid(shapes[wrong], method="structure", keep_collapsed=False)
+    shapes[wrong] = made_valid(shapes[wrong])
     try:
         found = shapely.coverage_invalid_edges(shapes, gap_width=width)
         amiss = ~shapely.is_empty(found)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vexture.errors import SourceError
 from vexture.geo.rings import Rings, rings_of
+from vexture.geo.validity import made_valid
 
 __all__ = ["closed_over_poles", "jumping", "unwrapped"]
 
@@ -145,7 +146,7 @@ def _closed(rings: Rings, polygon: int, turns: NDArray[np.float64], turn: float)
     for ring in np.flatnonzero(rings.polygon == polygon):
         here = slice(rings.starts[ring], rings.ends[ring])
         area = shapely.Polygon(_over_pole(rings.points[here], turns[here], turn))
-        areas.append(area if area.is_valid else shapely.make_valid(area, method="structure", keep_collapsed=False))
+        areas.append(area if area.is_valid else made_valid(np.array([area]))[0])
     return reduce(shapely.symmetric_difference, areas)
 
 

@@ -13,6 +13,7 @@ from vexture.errors import SourceError, reason_of
 from vexture.geo.extent import Bounds
 from vexture.geo.geojson import LARGEST
 from vexture.geo.snap import snapped
+from vexture.geo.validity import made_valid
 from vexture.notes import Notes
 from vexture.tolerance import ROUND
 
@@ -178,11 +179,12 @@ def repaired(rings: Rings, notes: Notes) -> Rings:
     valid = shapely.is_valid(shapes)
     if valid.all():
         return rings
-    broken, made = np.flatnonzero(~valid), []
+    broken = np.flatnonzero(~valid)
+    made: list[Any] = []
     for index in broken:
         _refuse_tangle(shapes[index], rings.place(int(index)))
         try:
-            made.append(shapely.make_valid(shapes[index], method="structure", keep_collapsed=False))
+            made.extend(made_valid(shapes[index : index + 1]))
         except shapely.errors.GEOSException as error:
             place = rings.place(int(index)) or "its polygon"
             raise SourceError(f"{place} cannot be repaired ({reason_of(error)}); correct its rings") from None

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.geo.extent import Bounds
+from vexture.geo.validity import made_valid
 from vexture.tiles.arcs import simplified
 from vexture.tiles.neighbours import shared_lengths
 from vexture.tiles.pieces import Pieces, joined
@@ -54,7 +55,7 @@ def _repaired(shapes: NDArray[Any]) -> NDArray[Any]:
 
     broken = np.flatnonzero(~shapely.is_valid(shapes))
     if len(broken):
-        shapes[broken] = shapely.make_valid(shapes[broken], method="structure", keep_collapsed=False)
+        shapes[broken] = made_valid(shapes[broken])
     return shapes
 
 
