@@ -5,6 +5,8 @@ import pytest
 import shapely
 
 from vexture.geo import validity
+from vexture.geo.rings import repaired, rings_of
+from vexture.notes import Notes
 
 
 @pytest.fixture
@@ -54,3 +56,15 @@ def test_thousands_of_holes_are_repaired_ring_by_ring(monkeypatch):
     assert found[0].is_valid
     holes = shapely.union_all([shapely.Polygon(hole) for hole in shape.interiors])
     assert found[0].area == pytest.approx(1600.0 - holes.area)
+
+
+def test_heavy_polygons_come_in_parts(monkeypatch):
+    monkeypatch.setattr(validity, "HEAVY", 100)
+    rings = rings_of(np.array([holed(LATTICE), shapely.box(50, 0, 60, 10)]), str, np.array([7, 8]))
+    found = repaired(rings, Notes())
+    assert set(found.feature) == {7, 8}
+    assert len(found.outer) > 4
+    assert shapely.is_valid(found.shapes).all()
+    assert shapely.area(found.shapes).sum() == pytest.approx(1600.0 - len(LATTICE) + 100.0)
+    assert shapely.union_all(found.shapes).area == pytest.approx(1600.0 - len(LATTICE) + 100.0)
+    assert not validity.is_heavy(found.shapes).any()

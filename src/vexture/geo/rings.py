@@ -13,7 +13,7 @@ from vexture.errors import SourceError, reason_of
 from vexture.geo.extent import Bounds
 from vexture.geo.geojson import LARGEST
 from vexture.geo.snap import snapped
-from vexture.geo.validity import made_valid
+from vexture.geo.validity import is_heavy, made_valid, parted
 from vexture.notes import Notes
 from vexture.tolerance import ROUND
 
@@ -169,14 +169,15 @@ def refuse_far(rings: Rings, remedy: str) -> None:
 
 
 def repaired(rings: Rings, notes: Notes) -> Rings:
-    """Valid polygons: shapely repairs those whose rings cross or leave their outer ring.
+    """Valid polygons: shapely repairs those whose rings cross or leave their outer ring. Heavy ones come in parts.
 
     Polygons that enclose no area are left out, with a note.
     """
     import shapely
 
     shapes = rings.shapes
-    valid = shapely.is_valid(shapes)
+    valid = ~is_heavy(shapes)
+    valid[valid] = shapely.is_valid(shapes[valid])
     if valid.all():
         return rings
     broken = np.flatnonzero(~valid)
@@ -184,7 +185,8 @@ def repaired(rings: Rings, notes: Notes) -> Rings:
     for index in broken:
         _refuse_tangle(shapes[index], rings.place(int(index)))
         try:
-            made.extend(made_valid(shapes[index : index + 1]))
+            whole = made_valid(shapes[index : index + 1])[0]
+            made.append(shapely.geometrycollections(parted(whole)))
         except shapely.errors.GEOSException as error:
             place = rings.place(int(index)) or "its polygon"
             raise SourceError(f"{place} cannot be repaired ({reason_of(error)}); correct its rings") from None

@@ -5,10 +5,45 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["made_valid"]
+__all__ = ["is_heavy", "made_valid", "parted"]
 
 MANY_HOLES: Final = 500
-"""Holes above which GEOS's own repair is not used: minutes for all lakes of a continent, by the square of their number."""
+"""Holes above which GEOS's own repair is not used: by their square, it takes minutes for the lakes of a continent."""
+
+HEAVY: Final = 2e7
+"""Holes times corners of the outer ring above which a polygon is parted: GEOS looks for each hole at each corner, also
+to see whether a polygon is valid, and whether it fits to its neighbours."""
+
+
+def is_heavy(shapes: NDArray[Any]) -> NDArray[np.bool_]:
+    """Which polygons are to be parted, before anything is asked of them."""
+    import shapely
+
+    holes = shapely.get_num_interior_rings(shapes)
+    corners = shapely.get_num_points(shapely.get_exterior_ring(shapes))
+    heavy: NDArray[np.bool_] = holes.astype(np.float64) * corners > HEAVY
+    return heavy
+
+
+def parted(shape: Any) -> list[Any]:
+    """Parts of a valid geometry's polygons, side by side: those that are heavy are halved until none is."""
+    import shapely
+
+    waiting, done = list(shapely.get_parts(shapely.get_parts(shape))), []
+    while waiting:
+        part = waiting.pop()
+        if not is_heavy(np.array([part]))[0]:
+            done.append(part)
+            continue
+        west, south, east, north = part.bounds
+        x, y = (west + east) / 2.0, (south + north) / 2.0
+        if east - west > north - south:
+            halves = [(west, south, x, north), (x, south, east, north)]
+        else:
+            halves = [(west, south, east, y), (west, y, east, north)]
+        for half in halves:
+            waiting.extend(shapely.get_parts(shapely.clip_by_rect(part, *half)))
+    return done
 
 
 def made_valid(shapes: NDArray[Any]) -> NDArray[Any]:
@@ -46,5 +81,8 @@ def _by_rings(shape: Any) -> Any:
     shapely.prepare(outer)
     reaches = shapely.intersects(outer, rings[1:])
     whole = shapely.difference(outer, shapely.disjoint_subset_union_all(rings[1:][reaches]))
+    if reaches.all():
+        return whole
     # a hole outside is land: so GEOS's own repair has it
-    return shapely.union_all([whole, *rings[1:][~reaches]]) if not reaches.all() else whole
+    parts = shapely.get_parts([whole, shapely.union_all(rings[1:][~reaches])])
+    return shapely.multipolygons(parts[~shapely.is_empty(parts)])
