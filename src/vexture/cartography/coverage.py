@@ -35,7 +35,9 @@ def covering(rings: Rings, rank: NDArray[np.int64], size: float, snap: float | N
         Gets what was snapped and closed, and how many polygons overlap.
     """
     width = (DEFAULT_SNAP if snap is None else snap) * size
-    if not len(rings.ends) or (0.0 < width <= MOST_SNAP * size and _is_clean(rings, width)):
+    if rings.feature is None or len(np.unique(rings.feature)) < 2:
+        return rings  # one feature has no neighbours
+    if 0.0 < width <= MOST_SNAP * size and _is_clean(rings, width):
         return rings
     rings = shared(rings, size, snap, notes)
     if snap == 0.0 or len(rings.outer) < 2:

@@ -5,7 +5,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["is_heavy", "made_valid", "parted"]
+__all__ = ["is_heavy", "made_valid", "parted", "united"]
 
 MANY_HOLES: Final = 500
 """Holes above which GEOS's own repair is not used: by their square, it takes minutes for the lakes of a continent."""
@@ -68,6 +68,16 @@ def made_valid(shapes: NDArray[Any]) -> NDArray[Any]:
     for place in np.flatnonzero(many).tolist():
         made[place] = _by_rings(shapes[place])
     return made
+
+
+def united(shapes: NDArray[Any]) -> Any:
+    """The union of polygons, also of those that clipping has left with a corner on a side."""
+    import shapely
+
+    try:
+        return shapely.union_all(shapes)
+    except shapely.errors.GEOSException:
+        return shapely.union_all(made_valid(np.asarray(shapes, object)))
 
 
 def _by_rings(shape: Any) -> Any:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.geo.extent import Bounds
-from vexture.geo.validity import made_valid
+from vexture.geo.validity import made_valid, united
 from vexture.tiles.arcs import simplified
 from vexture.tiles.neighbours import shared_lengths
 from vexture.tiles.pieces import Pieces, joined
@@ -66,8 +66,6 @@ def dissolved(pieces: Pieces) -> Pieces:
 
 def _united(pieces: Pieces, group: NDArray[np.intp]) -> Pieces:
     """One shape for each group of pieces; it is of the feature of the group's first piece."""
-    import shapely
-
     if not len(pieces):
         return pieces
     order = np.argsort(group, kind="stable")
@@ -77,7 +75,7 @@ def _united(pieces: Pieces, group: NDArray[np.intp]) -> Pieces:
     shapes = pieces.shapes[first].copy()
     for place in np.flatnonzero(counts > 1).tolist():
         members = order[starts[place] : starts[place] + counts[place]]
-        shapes[place] = shapely.union_all(pieces.shapes[members])
+        shapes[place] = united(pieces.shapes[members])
     return pieces.taken(first).with_shapes(shapes)
 
 
