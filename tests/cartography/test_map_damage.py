@@ -90,7 +90,7 @@ def test_data_far_from_where_a_system_is_meant_for_say_so():
     (said,) = map(str, found)
     assert said.startswith("some of it is far outside of the area of use of EPSG:28992 (Netherlands - onshore")
     assert said.endswith("choose another `crs`")
-    for crs in ("EPSG:5070", "EPSG:3857", "EPSG:8857"):
+    for crs in ("EPSG:5070", "EPSG:3857", "EPSG:8857", "EPSG:3995"):
         assert convert_map([MapLayer(counties)], crs=crs).conversion.notes == ()
     points = frame([shapely.Point(x, 35) for x in (-110, -90)], "EPSG:4326")
     (said,) = map(str, convert_map([MapLayer(points)], crs=METRES).conversion.notes)

@@ -51,17 +51,18 @@ def test_a_legend_is_a_title_on_a_phone_until_it_is_tapped(open_page: Any, tmp_p
     box = legend.bounding_box()
     assert box["width"] * box["height"] < 0.03 * PHONE[0] * 500
     assert legend.inner_text() == "kind"
-    screenshot(page)
+    screenshot(page, "phone")
     legend.locator("summary").click()
     assert len(legend.locator(".entry").all()) == 10
     assert legend.locator(".entry").first.is_visible()
+    screenshot(page, "open")
     legend.locator("summary").focus()
     page.keyboard.press("Enter")
     assert not legend.locator(".entry").first.is_visible()
     wide = open_page(address, DESK)
     wide.wait_for_function(DRAWN)
     assert wide.locator(".vexture-legend .entry").last.is_visible()
-    screenshot(wide)
+    screenshot(wide, "desk")
 
 
 def test_legend_and_time_lie_beside_each_other(open_page: Any, tmp_path: Any, screenshot: Any) -> None:
@@ -70,7 +71,7 @@ def test_legend_and_time_lie_beside_each_other(open_page: Any, tmp_path: Any, sc
         page = open_page(address, size)
         page.wait_for_function(DRAWN)
         assert not overlap(page, ".vexture-legend", ".vexture-time")
-        screenshot(page)
+        screenshot(page, str(size[0]))
 
 
 @pytest.mark.filterwarnings("ignore:.*no feature has a value")

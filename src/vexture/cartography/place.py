@@ -194,9 +194,9 @@ def _usable(rings: Rings, start: str, end: str, move: Move, notes: Notes) -> Rin
 
 
 def _say_far(points: NDArray[np.float64], start: str, end: str, notes: Notes) -> None:
-    """Note that a map is not meant for some places."""
-    area = system(end).area_of_use
-    if area is not None and is_far(transformed(points, start, WORLD), end):
+    """Note that a map is not meant for some places; one around a pole is known to show a hemisphere."""
+    area, domain = system(end).area_of_use, domain_of(end)
+    if area is not None and not (domain and domain.pole) and is_far(transformed(points, start, WORLD), end):
         name = area.name.rstrip(".") if len(area.name) <= MOST_LETTERS else f"{area.name[:MOST_LETTERS]}..."
         notes.remark(
             f"some of it is far outside of the area of use of {shown_system(end)} ({name}), where shapes and sizes may "

@@ -58,7 +58,7 @@ class MapLayer:
     stroke : str
         Width of lines: ``500m`` on the ground, or ``1.5px`` of a map of the stated size.
     outline : str, optional
-        CSS colour of the borders of polygons, which are drawn above these, each once.
+        CSS colour of the borders of polygons, which are drawn above these, each once; not of the edge of the world.
     outline_width : str
         Their width, as of lines.
     symbol : Drawing, optional

@@ -60,7 +60,7 @@ def map(
         Of the colours (`vexture.cartography.Scale`): ``scale``, ``palette``, ``classes``, ``no_data``. Of what is drawn
         (`MapLayer`): ``layer``, ``where``, ``id``, ``columns``, ``fill``, ``order``, ``stroke``, ``outline``,
         ``outline_width``, ``symbol``, ``symbol_size``, ``source_crs``. Of the map (`convert_map`): ``crs``, ``snap``,
-        ``size``, ``tolerance``.
+        ``size``, ``tolerance``. By default ``id`` is the index of a GeoDataFrame that has one of its own.
 
     Returns
     -------
