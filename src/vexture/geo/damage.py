@@ -3,6 +3,7 @@
 import json
 from typing import Any, Final
 
+from vexture.content import SHAPEFILE
 from vexture.errors import SourceError
 
 __all__ = ["HEADER", "missing_arcs", "refuse_cut"]
@@ -20,10 +21,12 @@ def refuse_cut(name: str, start: bytes, size: int) -> None:
 
     Examples
     --------
-    >>> refuse_cut("a.shp", bytes(24) + (100).to_bytes(4) + bytes(72), 150)
+    >>> refuse_cut("a.shp", SHAPEFILE + bytes(20) + (100).to_bytes(4) + bytes(72), 150)
     Traceback (most recent call last):
     vexture.errors.SourceError: a.shp is damaged: it has 150 of the 200 bytes that it says; copy it again
     """
+    if not start.startswith(SHAPEFILE):
+        return  # GDAL says what is wrong
     said = WORD * int.from_bytes(start[LENGTH], "big", signed=True)
     if size < said:
         raise SourceError(f"{name} is damaged: it has {size:,} of the {said:,} bytes that it says; copy it again")
