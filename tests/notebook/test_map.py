@@ -30,6 +30,9 @@ def none_is_left():
     import ipywidgets
 
     yield
+    for thread in threading.enumerate():
+        if thread.name == "vexture map":
+            thread.join(30)  # else it may arrive while its widget is being closed
     ipywidgets.Widget.close_all()
 
 
