@@ -4,6 +4,7 @@ Public functions turn notes into a `SourceWarning`, commands print them, servers
 remarks are losses: the result differs from the source.
 """
 
+import sys
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +13,20 @@ from typing import Any, Final, Literal, NamedTuple
 
 from vexture.errors import SourceError, SourceWarning, printable
 
-__all__ = ["MOST_SUBJECTS", "Box", "Kind", "Note", "Notes", "Subject", "called", "check_losses", "line_of", "warn_of"]
+__all__ = [
+    "MOST_SUBJECTS",
+    "Box",
+    "Kind",
+    "Note",
+    "Notes",
+    "Subject",
+    "called",
+    "check_losses",
+    "line_of",
+    "place_of_caller",
+    "warn_at",
+    "warn_of",
+]
 
 Kind = Literal["left out", "simplified", "invalid", "remark"]
 
@@ -187,6 +201,18 @@ def warn_of(source: str, notes: Sequence[Note], *, stacklevel: int = 2) -> None:
     """Issue one `SourceWarning` of all notes about a source; `stacklevel` 2 is the caller of the calling function."""
     if line := line_of(source, notes):
         warnings.warn(line, SourceWarning, stacklevel=stacklevel + 1)
+
+
+def place_of_caller(depth: int) -> tuple[str, int]:
+    """File and line where the function that calls this was called; `depth` 1 is its own caller."""
+    frame = sys._getframe(depth + 1)
+    return frame.f_code.co_filename, frame.f_lineno
+
+
+def warn_at(place: tuple[str, int], source: str, notes: Sequence[Note]) -> None:
+    """Issue the warning of `warn_of` for a line of long ago: what it asked for is done beside it."""
+    if line := line_of(source, notes):
+        warnings.warn_explicit(line, SourceWarning, *place)
 
 
 def check_losses(source: str, notes: Sequence[Note], *, is_empty: bool, strict: bool = False) -> None:

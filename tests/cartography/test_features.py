@@ -122,7 +122,7 @@ def test_a_source_that_names_its_reference_system_keeps_it(tmp_path):
     found = read_features(saved(squares(), tmp_path, "gpkg"), crs="EPSG:4326", notes=notes)
     assert found.crs == "EPSG:28992"
     assert [str(note) for note in notes.listed] == [
-        "it names its own reference system, EPSG:28992, so `crs` EPSG:4326 is not used"
+        "it names its own reference system, EPSG:28992, so EPSG:4326 is not used for it"
     ]
     text = squares().set_crs(None, allow_override=True).to_json().encode()
     assert read_features(text, crs="EPSG:28992", notes=Notes()).crs == "EPSG:28992"

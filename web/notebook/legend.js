@@ -1,5 +1,6 @@
 /** What a map has beside its picture: a legend of its colours, and what is known of the feature under the pointer. */
 import { element } from '../viewer/dom.js';
+import { keepEvents } from './own-events.js';
 
 /**
  * @typedef {import('./widget.js').Model} Model
@@ -9,13 +10,24 @@ import { element } from '../viewer/dom.js';
 /** Pixels between the pointer and what is told of the feature under it. */
 const APART = 14;
 
-/** @param {Legend | null | undefined} legend @returns {HTMLElement} empty without a legend */
-export function legendOf(legend) {
-  const box = element('figure', { class: 'vexture-legend', hidden: !legend });
+/** Pages that are narrower have the legend closed at first: a tap on its title opens it. */
+const NARROW = '(max-width: 480px)';
+
+/** @returns {boolean} whether a legend is open before somebody has opened or closed it */
+export const isWide = () => !matchMedia(NARROW).matches;
+
+/**
+ * @param {Legend | null | undefined} legend
+ * @param {boolean} open
+ * @returns {HTMLDetailsElement} empty without a legend
+ */
+export function legendOf(legend, open) {
+  const title = element('summary', {}, legend?.title ?? '');
+  const box = element('details', { class: 'vexture-legend', hidden: !legend, open }, title);
+  keepEvents(title);
   if (!legend) return box;
-  box.append(element('figcaption', {}, legend.title));
-  if (legend.kind === 'continuous') {
-    const steps = legend.entries.filter(({ label }) => label !== 'no data');
+  const steps = legend.kind === 'continuous' ? legend.entries.filter(({ label }) => label !== 'no data') : [];
+  if (steps.length > 0) {
     const ramp = element('div', { class: 'ramp' });
     ramp.style.background = `linear-gradient(to right, ${steps.map(({ color }) => color).join(', ')})`;
     const ends = element('div', { class: 'ends' }, ...[steps[0], steps[steps.length - 1]].map(({ label }) => element('span', {}, label)));

@@ -4,7 +4,7 @@ import { panned, toUnit, zoomed } from '../viewer/view.js';
 import { Colored, Steps, coloringOf, inflatedView, open, release } from './contents.js';
 import { drawnOf, foundAt } from './drawn.js';
 import { listenTo } from './input.js';
-import { Tip, legendOf } from './legend.js';
+import { Tip, isWide, legendOf } from './legend.js';
 import { followPixels } from './pixels.js';
 import { rectOf, viewOf } from './rect.js';
 import { screenOfPage } from './screen.js';
@@ -27,7 +27,7 @@ export class Stage {
   /** What is drawn; null before it is there. @type {import('../viewer/drawing.js').ShownDrawing | null} */
   shown = null;
   #message = element('p', { role: 'alert', hidden: true });
-  #legend = legendOf(null);
+  #legend = legendOf(null, isWide());
   #tip = new Tip();
   #time = new TimeBar((time) => {
     this.model.set('time', time);
@@ -304,7 +304,7 @@ export class Stage {
   }
 
   #explain() {
-    const legend = legendOf(this.model.get('legend'));
+    const legend = legendOf(this.model.get('legend'), this.#legend.open);
     this.#legend.replaceWith(legend);
     this.#legend = legend;
   }

@@ -21,7 +21,14 @@ export const STYLE = `
 .vexture-time button:hover { background: rgba(0, 0, 0, 0.08); }
 .vexture-time input { width: 180px; margin: 0; }
 .vexture-time output { min-width: 4em; font-variant-numeric: tabular-nums; }
-.vexture-legend figcaption { font-weight: 600; margin-bottom: 4px; }
+.vexture-legend summary { font-weight: 600; pointer-events: auto; cursor: pointer; list-style: none; }
+.vexture-legend summary::after { content: '▸'; margin-left: 6px; color: #666; }
+.vexture-legend[open] summary { margin-bottom: 4px; }
+.vexture-legend[open] summary::after { content: '▾'; }
+.vexture-legend summary:focus-visible { outline: 2px solid var(--jp-brand-color1, #1976d2); outline-offset: 2px; }
+@media (max-width: 480px) {
+  .vexture-stage:has(> .vexture-time:not([hidden])) .vexture-legend { bottom: 52px; max-height: calc(100% - 82px); }
+}
 .vexture-legend .ramp { width: 160px; height: 12px; }
 .vexture-legend .ends { display: flex; justify-content: space-between; }
 .vexture-legend .entry { display: flex; align-items: center; gap: 6px; white-space: nowrap; }

@@ -1,14 +1,12 @@
 /** The time of a map that has steps: a slider, and a button that lets it run. */
 import { element } from '../viewer/dom.js';
+import { keepEvents } from './own-events.js';
 
 /** Steps a second while it runs. */
 const PACE = 4;
 
 const PLAY = '▶';
 const PAUSE = '❚❚';
-
-/** What the stage would take for a move of the picture. */
-const OWN = ['pointerdown', 'pointermove', 'pointerup', 'wheel', 'keydown', 'dblclick'];
 
 export class TimeBar {
   #label = element('output', {});
@@ -24,7 +22,7 @@ export class TimeBar {
   /** @param {(time: number) => void} go called with a time in steps that was chosen */
   constructor(go) {
     this.#go = go;
-    for (const name of OWN) this.element.addEventListener(name, (event) => event.stopPropagation());
+    keepEvents(this.element);
   }
 
   /** @param {string[]} names of the steps; none hide it @param {number} time in steps */

@@ -1,6 +1,7 @@
 """Colours of features by an attribute: classes, a continuous scale or categories; and their legend."""
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Final
@@ -24,12 +25,21 @@ SEQUENTIAL: Final = "viridis"
 QUALITATIVE: Final = "okabeito:okabeito"
 """Palettes that are told apart with any kind of colour blindness."""
 
+FURTHER: Final = (
+    *("#552200", "#0000aa", "#884444", "#9966ff", "#aabb99"),
+    *("#7700ee", "#332255", "#bb1188", "#aaffaa"),
+)
+"""What follows the seven colours of that palette where there are more categories: with any kind of colour blindness, no
+two of all these are nearer to each other than two of the seven."""
+
 OTHER: Final = "other"
 STOPS: Final = 9
 """Colours in the legend of a continuous scale."""
 
 DIGITS: Final = range(6, 13)
 """Significant digits of numbers in a legend: as few as tell them apart; what more would tell apart is noise."""
+
+KINDS: Final = "give quantiles, equal, continuous, categories or rising breaks such as 10,20,50"
 
 MIDNIGHT: Final = " 00:00:00"
 
@@ -44,8 +54,8 @@ class Scale:
     ----------
     column : str
     kind : str
-        ``quantiles`` or ``equal`` (classes), ``continuous``, ``categories``, or the inner breaks of classes such as
-        ``10,20,50``; ``auto`` is ``categories`` of text and truth values, ``quantiles`` of numbers.
+        ``quantiles`` or ``equal`` (classes), ``continuous``, ``categories``, or the inner breaks of classes, such as
+        ``10,20,50`` or a list; ``auto`` is ``categories`` of text and truth values, ``quantiles`` of numbers.
     palette : str, optional
         Name of a palette of cmap; colour-blind-safe by default.
     classes : int
@@ -58,6 +68,17 @@ class Scale:
     palette: str | None = None
     classes: int = DEFAULT_CLASSES
     no_data: str = NO_DATA
+
+    def __post_init__(self) -> None:
+        if isinstance(self.kind, Sequence | np.ndarray) and not isinstance(self.kind, str):
+            object.__setattr__(self, "kind", ",".join(str(each) for each in self.kind))
+        if not isinstance(self.kind, str) or not self.kind:
+            raise ParameterError(f"`scale` is {self.kind!r}; {KINDS}")
+        whole = str(self.classes).strip().removesuffix(".0")
+        if not whole.isdecimal() or not 2 <= int(whole) <= MOST_CLASSES:
+            raise ParameterError(f"`classes` is {self.classes!r}; it must be in 2..{MOST_CLASSES}")
+        object.__setattr__(self, "classes", int(whole))
+        object.__setattr__(self, "column", str(self.column))
 
 
 def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba, dict[str, Any]]:
@@ -76,13 +97,18 @@ def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba
         rgba, entries = _categories(_names(column.to_pylist()), scale, notes)
     else:
         breaks = None if kind in ("quantiles", "equal", "continuous") else _breaks(kind)
-        if not is_number:
+        if not is_number and column.null_count < len(column):
             raise ParameterError(f"`color` {scale.column!r} holds {column.type}, not numbers; give `scale` categories")
         values = np.asarray(column.cast(kind_of).cast(pa.float64(), safe=False).to_numpy(), np.float64)
         if not np.isfinite(values).any():
-            raise ParameterError(f"`color` {scale.column!r} holds no number; choose another column")
-        rgba, entries = _continuous(values, scale) if kind == "continuous" else _classes(values, kind, breaks, scale)
+            rgba, entries = np.full((len(values), 4), np.nan), []
+        elif kind == "continuous":
+            rgba, entries = _continuous(values, scale)
+        else:
+            rgba, entries = _classes(values, kind, breaks, scale)
     missing = np.isnan(rgba[:, 0])
+    if len(missing) and missing.all():
+        notes.remark(f"no feature has a value in {scale.column!r}, so all have the colour of no data")
     rgba[missing] = rgba_of(scale.no_data, "no_data")
     legend: dict[str, Any] = {"column": scale.column, "scale": "breaks" if kind[:1] in "-+.0123456789" else kind}
     legend["entries"] = entries
@@ -95,7 +121,7 @@ def rgba_of(text: str, parameter: str) -> Rgba:
     """A CSS colour."""
     from vexture.svg.colors import parse_color
 
-    found = parse_color(text)
+    found = parse_color(text) if isinstance(text, str) else None
     if found is None or isinstance(found, str):
         raise ParameterError(f"`{parameter}` is {text!r}; give a CSS colour, such as white or #f4f1e8")
     return np.array([*found.rgb, found.alpha])
@@ -133,9 +159,7 @@ def _breaks(text: str) -> NDArray[np.float64]:
     except ValueError:
         breaks = np.empty(0)
     if not len(breaks) or not np.isfinite(breaks).all() or (np.diff(breaks) <= 0).any():
-        raise ParameterError(
-            f"`scale` is {text!r}; give quantiles, equal, continuous, categories or rising breaks such as 10,20,50"
-        )
+        raise ParameterError(f"`scale` is {text!r}; {KINDS}")
     return breaks
 
 
@@ -144,8 +168,6 @@ def _classes(
 ) -> tuple[Rgba, list[dict[str, Any]]]:
     """Colours of classes, each from a break up to, but without, the next."""
     known = values[np.isfinite(values)]
-    if not 2 <= scale.classes <= MOST_CLASSES:
-        raise ParameterError(f"`classes` is {scale.classes}; it must be in 2..{MOST_CLASSES}")
     breaks = _told_apart(_found_breaks(known, kind, scale.classes) if breaks is None else breaks)
     colours = _sampled(_palette(scale.palette, SEQUENTIAL), np.linspace(0.0, 1.0, len(breaks) + 1))
     number = np.searchsorted(breaks, values, side="right")
@@ -216,7 +238,8 @@ def _continuous(values: NDArray[np.float64], scale: Scale) -> tuple[Rgba, list[d
 
 
 def _names(values: list[Any]) -> list[str | None]:
-    """Values as names of categories: whole numbers have no decimals, and days no time."""
+    """Values as names of categories: whole numbers have no decimals, days no time, and what is no number no name."""
+    values = [None if v != v else v for v in values]
     whole = [int(v) if isinstance(v, float) and v.is_integer() else v for v in values]
     names = [None if v is None else str(v) for v in whole]
     if all(name is None or name.endswith(MIDNIGHT) for name in names):
@@ -229,7 +252,8 @@ def _categories(values: list[str | None], scale: Scale, notes: Notes) -> tuple[R
     palette = _palette(scale.palette, QUALITATIVE)
     stops = np.array([tuple(color.rgba) for color in palette.iter_colors()], np.float64)
     if scale.palette is None:
-        stops = stops[1:]  # black is for lines and words
+        further = np.array([rgba_of(colour, "palette") for colour in FURTHER])
+        stops = np.concatenate([stops[1:], further])  # black is for lines and words
     counts = Counter(value for value in values if value is not None)
     ordered = [value for value, _ in sorted(counts.items(), key=lambda item: (-item[1], item[0]))]
     if palette.interpolation == "linear":

@@ -125,7 +125,8 @@ def _drawing(ready: Prepared, snap: float | None) -> Drawing:
     for one in ready.layers:
         with about(one.layer.name):
             rank = ranks(one.features, one.layer.order)
-        rings = covering(one.features.rings, rank, fit.scale, snap, ready.notes)
+        ordered = one.layer.order is not None
+        rings = covering(one.features.rings, rank, fit.scale, snap, ready.notes, is_ordered=ordered)
         paths += area_paths(rings, one.names, one.colours(FILL), rank, fit)
         border = one.outline
         paths += area_paths(border.rings, np.array([border.name], object), border.rgba, np.zeros(1, np.int64), fit)

@@ -18,7 +18,9 @@ NOISE: Final = 1e-9
 """Parts of the map's larger side: overlaps of less area than this times that side squared are not counted."""
 
 
-def covering(rings: Rings, rank: NDArray[np.int64], size: float, snap: float | None, notes: Notes) -> Rings:
+def covering(
+    rings: Rings, rank: NDArray[np.int64], size: float, snap: float | None, notes: Notes, *, is_ordered: bool = False
+) -> Rings:
     """Polygons with shared borders; gaps no wider than `snap` are closed, overlaps go to the feature of higher rank.
 
     Parameters
@@ -33,6 +35,8 @@ def covering(rings: Rings, rank: NDArray[np.int64], size: float, snap: float | N
         0 leaves all as it is.
     notes : Notes
         Gets what was snapped and closed, and how many polygons overlap.
+    is_ordered : bool
+        Whether the order was asked for: then it is no news that polygons lie below others.
     """
     width = (DEFAULT_SNAP if snap is None else snap) * size
     if rings.feature is None or len(np.unique(rings.feature)) < 2:
@@ -42,7 +46,7 @@ def covering(rings: Rings, rank: NDArray[np.int64], size: float, snap: float | N
     rings = shared(rings, size, snap, notes)
     if snap == 0.0 or len(rings.outer) < 2:
         return rings
-    return _cleaned(rings, rank, size, width, notes)
+    return _cleaned(rings, rank, size, width, notes, is_ordered)
 
 
 def _is_clean(rings: Rings, width: float) -> bool:
@@ -58,7 +62,7 @@ def _is_clean(rings: Rings, width: float) -> bool:
         return False
 
 
-def _cleaned(rings: Rings, rank: NDArray[np.int64], size: float, width: float, notes: Notes) -> Rings:
+def _cleaned(rings: Rings, rank: NDArray[np.int64], size: float, width: float, notes: Notes, is_ordered: bool) -> Rings:
     """Polygons without gaps, and without overlaps."""
     import shapely
 
@@ -77,21 +81,22 @@ def _cleaned(rings: Rings, rank: NDArray[np.int64], size: float, width: float, n
     except (shapely.errors.GEOSException, ValueError):
         notes.remark("gaps between its polygons are as they were: they could not be closed")
         return rings
-    _say(shapes, clean, size, notes)
+    _say(shapes, clean, size, notes, is_ordered)
     parts, owner = shapely.get_parts(clean, return_index=True)
     keep = (shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)
     origin = owner[keep]
     return rings_of(parts[keep], lambda index: rings.place(int(origin[index])), rings.feature[origin])
 
 
-def _say(before: NDArray[Any], after: NDArray[Any], size: float, notes: Notes) -> None:
+def _say(before: NDArray[Any], after: NDArray[Any], size: float, notes: Notes, is_ordered: bool) -> None:
     """Note how many polygons lost or won an area."""
     import shapely
 
     change = shapely.area(after) - shapely.area(before)
     least = NOISE * size * size
     lost, won = int((change < -least).sum()), int((change > least).sum())
-    notes.remark("a polygon lies below others that overlap it: `order` says which is above", lost)
+    if not is_ordered:
+        notes.remark("a polygon lies below others that overlap it: `order` says which is above", lost)
     notes.remark("a polygon has grown into narrow gaps beside it", won)
 
 
@@ -115,11 +120,11 @@ def ranks(features: Features, order: str | None) -> NDArray[np.int64]:
             known = ", ".join(features.table.column_names)
             raise ParameterError(f"it has no column {order!r} for `order`; there are: {known}")
         try:
-            found = pc.sort_indices(features.table, [(order, "ascending")])
+            found = pc.sort_indices(features.table.column(order))
         except (pa.ArrowInvalid, pa.ArrowNotImplementedError, pa.ArrowTypeError):
             raise ParameterError(f"`order` {order!r} cannot be sorted; name a column of numbers or text") from None
         sequence = np.asarray(found, np.int64)
-        nulls = np.asarray(features.table.column(order).is_null())[sequence]
+        nulls = np.asarray(features.table.column(order).is_null(nan_is_null=True))[sequence]
         sequence = np.append(sequence[nulls], sequence[~nulls])  # what has no value is below
     rank = np.empty(len(features), np.int64)
     rank[sequence] = np.arange(len(features))

@@ -12,7 +12,19 @@ from vexture.geo.crs import system, transformed
 from vexture.geo.extent import Bounds
 from vexture.geo.rings import Rings, cut, within
 
-__all__ = ["EVER", "TURN", "WORLD", "Domain", "domain_of", "in_box", "is_strained", "is_wide"]
+__all__ = [
+    "EVER",
+    "POLE",
+    "TURN",
+    "WORLD",
+    "Domain",
+    "domain_of",
+    "in_box",
+    "is_far",
+    "is_strained",
+    "is_wide",
+    "within_turn",
+]
 
 WORLD: Final = "EPSG:4326"
 TURN: Final = 360.0
@@ -32,6 +44,9 @@ WIDE: Final = 0.9
 
 MOST_STRAIN: Final = 100.0
 """Times by which areas may be larger than on the ground, before only the area of use of a system is shown."""
+
+LEAST_SIDE: Final = 2.0
+"""Degrees. As far as its own sides from an area of use, and from a small one so far, is not far outside of it."""
 
 MOST_SAMPLES: Final = 10_000
 
@@ -94,6 +109,31 @@ def is_wide(crs: str) -> bool:
     """Whether maps in a system are of the world or of a hemisphere."""
     area = system(crs).area_of_use
     return area is None or area.east - area.west > WIDE * TURN
+
+
+def within_turn(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Places with their longitudes above -180 and up to 180."""
+    turns = np.ceil(degrees[:, 0] / TURN - 0.5)
+    return degrees - np.stack([TURN * turns, np.zeros(len(turns))], axis=1)
+
+
+def is_far(degrees: NDArray[np.float64], crs: str) -> bool:
+    """Whether some of the places, in longitude and latitude, are far outside of a system's area of use.
+
+    Examples
+    --------
+    >>> is_far(np.array([[12.0, 55.0]]), "EPSG:28992"), is_far(np.array([[8.0, 54.0]]), "EPSG:28992")
+    (True, False)
+    """
+    area = system(crs).area_of_use
+    if area is None or not len(degrees):
+        return False
+    east = area.east + TURN * (area.east < area.west)
+    middle = np.array([(area.west + east) / 2, (area.south + area.north) / 2])
+    sides = np.array([east - area.west, area.north - area.south])
+    known = degrees[np.isfinite(degrees).all(axis=1)]
+    beyond = np.abs(within_turn(known - (middle[0], 0.0)) - (0.0, middle[1])) - sides / 2
+    return bool((beyond > np.maximum(sides, LEAST_SIDE)).any())
 
 
 def _middle(crs: str) -> float:

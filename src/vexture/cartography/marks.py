@@ -7,6 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.cartography.edges import along_edge
 from vexture.cartography.place import units_per_metre
 from vexture.errors import ParameterError
 from vexture.geo.features import Lines
@@ -39,7 +40,7 @@ def width_of(text: str, parameter: str) -> Width:
     >>> width_of("2km", "stroke"), width_of("1.5px", "stroke")
     (Width(value=2000.0, is_pixels=False), Width(value=1.5, is_pixels=True))
     """
-    match = TEXT.fullmatch(text)
+    match = TEXT.fullmatch(text) if isinstance(text, str) else None
     if match is None or not float(match[1]) > 0.0:
         raise ParameterError(f"`{parameter}` is {text!r}; give a width above 0 such as 500m, 2km or 1.5px")
     return Width(float(match[1]) * (1000.0 if match[2] == "km" else 1.0), match[2] == "px")
@@ -79,7 +80,7 @@ def strokes(lines: Lines, width: Width, crs: str, pixel: float) -> Rings:
 def outlines(rings: Rings, width: Width, crs: str, pixel: float) -> Rings:
     """Area of the borders of polygons, each drawn once, as polygons of one feature.
 
-    A border between two parts of the same feature, as along the antimeridian, is none.
+    A border between two parts of the same feature, as along the antimeridian, is none, nor is the edge of the world.
     """
     import shapely
 
@@ -95,6 +96,7 @@ def outlines(rings: Rings, width: Width, crs: str, pixel: float) -> Rings:
     pairs, times = np.unique(np.stack([side.ravel(), of], axis=1), axis=0, return_counts=True)
     drawn = np.zeros(len(unique), np.bool_)
     drawn[pairs[times == 1, 0]] = True
+    drawn[drawn] = ~along_edge(unique[drawn].view(np.float64).reshape(-1, 2, 2), crs)
     if not drawn.any():
         return rings_of(np.empty(0, object), str, np.empty(0, np.intp))
     ends = unique[drawn].view(np.float64).reshape(-1, 2, 2)

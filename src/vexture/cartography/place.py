@@ -7,7 +7,18 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.cartography.domain import EVER, TURN, WORLD, Domain, domain_of, in_box, is_strained, is_wide
+from vexture.cartography.domain import (
+    EVER,
+    TURN,
+    WORLD,
+    Domain,
+    domain_of,
+    in_box,
+    is_far,
+    is_strained,
+    is_wide,
+    within_turn,
+)
 from vexture.cartography.lines import continuous, lines_in_box, there_and_back, thicker, way_there
 from vexture.errors import SourceError
 from vexture.geo.crs import period, refuse_metres, same_system, shown_bounds, shown_system, system, transformed
@@ -17,7 +28,7 @@ from vexture.geo.longitudes import jumping, unwrapped
 from vexture.geo.rings import Rings, moved, refuse_far, repaired
 from vexture.notes import Notes
 
-__all__ = ["MERCATOR", "placed", "units_per_metre"]
+__all__ = ["MERCATOR", "RADIUS", "placed", "units_per_metre"]
 
 MERCATOR: Final = "EPSG:3857"
 RADIUS: Final = 6378137.0
@@ -35,6 +46,9 @@ EVERYWHERE: Final = (-np.inf, -np.inf, np.inf, np.inf)
 LONGEST: Final = 5.0
 """Degrees of a side of which the ends and the middle tell how a map bends it."""
 
+MOST_LETTERS: Final = 60
+"""Of the name of an area in a message."""
+
 BEYOND_POINT: Final = "point beyond the map"
 
 DEGREE: Final = 111_320.0
@@ -47,7 +61,8 @@ def placed(features: Features, crs: str, notes: Notes) -> Features:
     """Features in another reference system; what has no place there is cut off or left out, with a note."""
     rings, turn = features.rings, period(features.crs)
     if turn and len(rings.ends):
-        refuse_metres(rings.points, features.crs, f"the coordinates {shown_bounds(rings.box, features.crs)}")
+        what = f"the coordinates {shown_bounds(rings.box, features.crs)}"
+        refuse_metres(rings.points, features.crs, what, name="source_crs")
         jumps = jumping(rings, turn).any()
         rings = unwrapped(rings, turn)
         rings = repaired(rings, notes) if jumps else rings
@@ -67,12 +82,6 @@ def _mover(start: str, end: str, before: Move = lambda points: points) -> Move:
     return lambda points: transformed(before(points), start, end)
 
 
-def _within_turn(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Places with their longitudes above -180 and up to 180."""
-    turns = np.ceil(degrees[:, 0] / TURN - 0.5)
-    return degrees - np.stack([TURN * turns, np.zeros(len(turns))], axis=1)
-
-
 def _projected(features: Features, crs: str, notes: Notes) -> Features:
     """Features on another map, cut where it is torn."""
     domain = domain_of(crs)
@@ -85,10 +94,12 @@ def _projected(features: Features, crs: str, notes: Notes) -> Features:
     move, rings = _mover(features.crs, crs), features.rings
     is_around = domain is not None and domain.pole != 0.0 and period(features.crs) == TURN
     if is_around:  # both sides of the antimeridian are one, bit for bit
-        move = _mover(features.crs, crs, _within_turn)
+        move = _mover(features.crs, crs, within_turn)
     if len(rings.ends):
         rings = _usable(rings, features.crs, crs, move, notes)
         rings = repaired(rings, notes) if is_around else rings
+    else:
+        _say_far(np.concatenate([features.lines.points, features.points.points]), features.crs, crs, notes)
     lines, points = _marks(features, move, notes)
     return replace(features, rings=rings, crs=crs, lines=lines, points=points)
 
@@ -104,7 +115,7 @@ def _in_degrees(features: Features) -> Features:
     if len(lines.ends):
         lines = continuous(way_there(_mapped(there_and_back(lines), move, DEGREES)), TURN)
     points = Points(move(features.points.points), features.points.feature)
-    return Features(rings, features.ids, features.table, WORLD, lines, points)
+    return replace(features, rings=rings, crs=WORLD, lines=lines, points=points)
 
 
 def _within(features: Features, domain: Domain, notes: Notes) -> Features:
@@ -169,6 +180,7 @@ def _usable(rings: Rings, start: str, end: str, move: Move, notes: Notes) -> Rin
     finite = bool(np.isfinite(rings_there.points).all())
     area = system(end).area_of_use
     if finite and (area is None or period(start) != TURN or not is_strained(rings.points, end)):
+        _say_far(rings.boxes.reshape(-1, 2), start, end, notes)
         return rings_there
     if area is not None:
         box = _area(area.bounds, start)
@@ -179,6 +191,17 @@ def _usable(rings: Rings, start: str, end: str, move: Move, notes: Notes) -> Rin
             f"it has no place in {_named(end)}, or some of it has none; choose another `crs`, or features by `where`"
         )
     return rings_there
+
+
+def _say_far(points: NDArray[np.float64], start: str, end: str, notes: Notes) -> None:
+    """Note that a map is not meant for some places; one around a pole is known to show a hemisphere."""
+    area, domain = system(end).area_of_use, domain_of(end)
+    if area is not None and not (domain and domain.pole) and is_far(transformed(points, start, WORLD), end):
+        name = area.name.rstrip(".") if len(area.name) <= MOST_LETTERS else f"{area.name[:MOST_LETTERS]}..."
+        notes.remark(
+            f"some of it is far outside of the area of use of {shown_system(end)} ({name}), where shapes and sizes may "
+            "be wrong; choose another `crs`"
+        )
 
 
 def _named(crs: str) -> str:

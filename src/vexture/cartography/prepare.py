@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.cartography.colours import Scale, colours_of, rgba_of
+from vexture.cartography.edges import together
 from vexture.cartography.marks import outlines, strokes, width_of, widths_at
 from vexture.cartography.paths import Fit, symbol_paths
 from vexture.cartography.place import placed
@@ -19,7 +20,7 @@ from vexture.deadline import within
 from vexture.drawing import Drawing, Path
 from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.geo.crs import chosen_crs, gis_packages
-from vexture.geo.features import Features, read_features
+from vexture.geo.features import ID, Features, read_features
 from vexture.geo.rings import Rings
 from vexture.geo.tables import with_legends
 from vexture.geo.vectors import is_memory
@@ -57,7 +58,7 @@ class MapLayer:
     stroke : str
         Width of lines: ``500m`` on the ground, or ``1.5px`` of a map of the stated size.
     outline : str, optional
-        CSS colour of the borders of polygons, which are drawn above these, each once.
+        CSS colour of the borders of polygons, which are drawn above these, each once; not of the edge of the world.
     outline_width : str
         Their width, as of lines.
     symbol : Drawing, optional
@@ -87,6 +88,16 @@ class MapLayer:
             object.__setattr__(self, "color", Scale(self.color))
         elif not isinstance(self.color, Scale | None):
             raise ParameterError(f"`color` is a {type(self.color).__name__}; give a Scale, or the name of a column")
+        if self.fill is not None and (self.color is not None or self.times is not None):
+            raise ParameterError("colours by an attribute and `fill` exclude each other; leave one out")
+        if not isinstance(self.symbol, Drawing | None):
+            raise ParameterError(f"`symbol` is {self.symbol!r}; give a drawing, such as vexture.read('symbol.svg')")
+        for name in ("id", "order"):  # columns of a GeoDataFrame may be numbers
+            if isinstance(value := getattr(self, name), int):
+                object.__setattr__(self, name, str(value))
+        if self.columns is not None:
+            columns = (self.columns,) if isinstance(self.columns, str | int) else self.columns
+            object.__setattr__(self, "columns", tuple(str(column) for column in columns))
 
     @property
     def name(self) -> str:
@@ -186,17 +197,18 @@ def prepared(layers: Sequence[MapLayer], *, crs: str, size: int, name: str | Non
         raise ParameterError("`layers` is no list of layers; give one, such as [MapLayer(source)]")
     if not layers:
         raise ParameterError("a map of no sources; give at least one")
-    if size < 1:
-        raise ParameterError(f"`size` is {size}; it must be 1 or more pixels")
+    if not isinstance(size, int) or size < 1:
+        raise ParameterError(f"`size` is {size!r}; it must be 1 or more pixels")
     notes, crs = Notes(), chosen_crs(crs, None)
     with within(max_seconds), in_memory():
-        painted, legends = _coloured([_read(layer, crs, notes) for layer in layers], notes)
-        marked, fit = _marked(painted, crs, size)
+        placed_there = together([_read(layer, crs, notes) for layer in layers], crs)
+        painted, legends = _coloured(list(zip(layers, placed_there, strict=True)), notes)
+        marked, fit = _marked(painted, crs, size, notes)
     table = _table(painted, legends)
     return Prepared(marked, fit, tuple(legends), table, crs, name or layers[0].name, notes)
 
 
-def _read(layer: MapLayer, crs: str, notes: Notes) -> tuple[MapLayer, Features]:
+def _read(layer: MapLayer, crs: str, notes: Notes) -> Features:
     """Features of a layer, in the map's reference system."""
     with about(str(layer.source) if isinstance(layer.source, str | FilePath) else layer.name):
         options = {"layer": layer.layer, "where": layer.where, "id": layer.id, "columns": _columns(layer)}
@@ -211,7 +223,7 @@ def _read(layer: MapLayer, crs: str, notes: Notes) -> tuple[MapLayer, Features]:
             raise SourceError(f"{reason}; there is nothing to draw")
         if not (len(features.rings.ends) or len(features.lines.ends) or len(features.points.points)):
             raise SourceError("none of its features has a geometry that can be drawn; there is nothing to draw")
-        return layer, placed(features, crs, notes)
+        return placed(features, crs, notes)
 
 
 def _columns(layer: MapLayer) -> tuple[str, ...] | None:
@@ -221,7 +233,8 @@ def _columns(layer: MapLayer) -> tuple[str, ...] | None:
     stepped = layer.times is not None
     needed = (layer.color.column if layer.color and not stepped else None, layer.order)
     steps = layer.times.named() if layer.times is not None else ()
-    return tuple(dict.fromkeys([*layer.columns, *steps, *(name for name in needed if name is not None)]))
+    own = (name for name in needed if name not in (None, ID))  # ids are there in any case
+    return tuple(dict.fromkeys([*layer.columns, *steps, *own]))
 
 
 def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list[Painted], list[dict[str, Any]]]:
@@ -241,6 +254,7 @@ def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list
                 features, steps, legend = _stepped(layer, layer.times, features, notes)
                 rgba = steps.rgba[0]
             elif layer.color is not None:
+                features.refuse_numbers(layer.color.column)
                 rgba, legend = colours_of(features.table, layer.color, notes)
         if legend is not None:
             legends.append({"layer": label, **legend})
@@ -271,7 +285,7 @@ def _stepped(layer: MapLayer, times: Times, features: Features, notes: Notes) ->
     return features, steps, legend
 
 
-def _marked(painted: list[Painted], crs: str, size: int) -> tuple[tuple[Painted, ...], Fit]:
+def _marked(painted: list[Painted], crs: str, size: int, notes: Notes) -> tuple[tuple[Painted, ...], Fit]:
     """Layers with the areas of their lines and points, and the box of all."""
     boxes = [np.concatenate([f.rings.points, f.lines.points, f.points.points]) for f in (p.features for p in painted)]
     every = np.concatenate(boxes)
@@ -281,7 +295,7 @@ def _marked(painted: list[Painted], crs: str, size: int) -> tuple[tuple[Painted,
     pixel = (float((reach[1] - reach[0]).max()) or 1.0) / size
     marked, taken = [], {str(name) for one in painted for name in one.names}
     for one in painted:
-        outline = _outline(one, len(painted) > 1, taken, crs, pixel)
+        outline = _outline(one, len(painted) > 1, taken, crs, pixel, notes)
         taken.add(outline.name)
         lines = strokes(one.features.lines, width_of(one.layer.stroke, "stroke"), crs, pixel)
         symbols = tuple(_symbols(one, crs, pixel))
@@ -294,7 +308,7 @@ def _marked(painted: list[Painted], crs: str, size: int) -> tuple[tuple[Painted,
     return tuple(marked), Fit((*map(float, low), *map(float, high)))  # type: ignore[arg-type]
 
 
-def _outline(one: Painted, is_named: bool, taken: set[str], crs: str, pixel: float) -> Outline:
+def _outline(one: Painted, is_named: bool, taken: set[str], crs: str, pixel: float, notes: Notes) -> Outline:
     """The borders of a layer; the name of their element is that of no feature."""
     layer, rings = one.layer, one.features.rings
     width = width_of(layer.outline_width, "outline_width")
@@ -302,6 +316,7 @@ def _outline(one: Painted, is_named: bool, taken: set[str], crs: str, pixel: flo
         return NO_OUTLINE
     name = f"{one.label}:outline" if is_named else "outline"
     while name in taken:
+        notes.remark(f"a feature is named {name!r} already, so the element of outlines is '{name}_'")
         name += "_"
     return Outline(outlines(rings, width, crs, pixel), name, rgba_of(layer.outline, "outline")[None])
 

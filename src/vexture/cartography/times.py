@@ -114,7 +114,7 @@ class Steps:
     rgba: NDArray[np.float64]
 
     def at(self, time: float) -> NDArray[np.float64]:
-        """Colours at a time in steps, (f, 4); between two steps they are mixed.
+        """Colours at a time in steps, (f, 4); between two steps they are mixed in sRGB, as those of palettes.
 
         Examples
         --------

@@ -2,12 +2,13 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from time import perf_counter
 from typing import TYPE_CHECKING, Any, Final
 
 import click
 
 from vexture.cli.messages import one_line, say_notes
-from vexture.cli.options import PATH, colour_options, columns_of, scale_of
+from vexture.cli.options import PATH, colour_options, columns_of, refuse_idle_colours, scale_of
 from vexture.errors import ParameterError, counted
 
 if TYPE_CHECKING:
@@ -66,6 +67,7 @@ def map(
     SOURCE is a GeoPackage, GeoParquet, FlatGeobuf, shapefile, GeoJSON or TopoJSON; several are layers, drawn in order.
     Features are elements of the texture, named by their ids.
     """
+    start = perf_counter()
     with one_line():
         from vexture.cartography import convert_map
         from vexture.geo.tables import check_targets
@@ -99,7 +101,7 @@ def map(
         say_notes(output.name, notes)
         size = sum(len(content) for content in files.values())
         shown = ", ".join(str(place) for place in files)
-        click.echo(f"{shown}: {counted(len(done.table), 'feature')}, {size} bytes, {done.conversion.seconds:.1f} s")
+        click.echo(f"{shown}: {counted(len(done.table), 'feature')}, {size} bytes, {perf_counter() - start:.1f} s")
 
 
 def _files(output: Path, done: "Map", table: str) -> dict[Path, bytes]:
@@ -126,6 +128,11 @@ def _layers(sources: tuple[Path, ...], symbol: Path | None, options: dict[str, A
     each = {name: _each(options[name], count, name) for name in ("layer", "where", "source_crs", "columns", "color")}
     each |= {name: _each(options[name], count, name) for name in ("ids", "time", "fill", "order")}
     each |= {name: _each(options[name], count, name) for name in ("stroke", "outline", "outline_width")}
+    if not any(each["color"] + each["time"]):
+        refuse_idle_colours(options, "`color` or `time`")
+    if any(each["outline_width"]) and not any(each["outline"]):
+        width = next(filter(None, each["outline_width"]))
+        raise ParameterError(f"`outline_width` {width}, but no outlines; give their colour by `outline`")
     layers = []
     for place, source in enumerate(sources):
         own = {name: values[place] for name, values in each.items()}
@@ -133,6 +140,10 @@ def _layers(sources: tuple[Path, ...], symbol: Path | None, options: dict[str, A
         if own["color"] is not None and own["time"] is not None:
             raise ParameterError(f"{source}: colours show its `color` or its `time`; give one of them")
         if own["color"] is not None or own["time"] is not None:
+            if own["fill"] is not None:
+                raise ParameterError(
+                    f"{source}: `fill` and colours by an attribute exclude each other; give '' for one"
+                )
             scale = scale_of(own["color"] or "", options)
         times = None if own["time"] is None else Times(own["time"])
         shape: dict[str, Any] = {name: own[name] for name in ("fill", "order", "outline")}

@@ -24,6 +24,7 @@ __all__ = [
     "conversion_options",
     "drawing_kind",
     "font_option",
+    "refuse_idle_colours",
     "scale_of",
     "split_of",
     "standard_input",
@@ -49,7 +50,8 @@ class Place(click.Path):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path."""
         if value == "":
-            raise click.ClickException("the name of a file is empty; give one")
+            named = f" of {param.opts[-1]}" if param is not None and param.opts[-1].startswith("-") else ""
+            raise click.ClickException(f"the name of a file{named} is empty; give one")
         return super().convert(value, param, ctx)
 
 
@@ -186,20 +188,22 @@ trace_images_option = click.option(
 SILHOUETTE_HELP: Final = "the covered area of a drawing, without colours."
 
 
+OF_SCALE: Final = ("scale", "palette", "classes", "no_data")
+"""Options of colours by an attribute."""
+
+
 def colour_options(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options of colours by an attribute, and of the table of attributes, to a command."""
     from vexture.geo.tables import TABLES
 
     kinds = "quantiles, equal, continuous, categories, or the breaks of classes: 10,20,50."
     listed = (
-        click.option("--scale", metavar="KIND", default="auto", show_default=True, help=kinds),
-        click.option("--classes", metavar="N", type=int, default=5, show_default=True, help="Of quantiles and equal."),
+        click.option("--scale", metavar="KIND", help=f"{kinds}  [default: by the kind of values]"),
+        click.option("--classes", metavar="N", type=int, help="Of quantiles and equal.  [default: 5]"),
         click.option(
             "--palette", metavar="NAME", help="Of cmap, such as magma or tab10.  [default: for any colour vision]"
         ),
-        click.option(
-            "--no-data", metavar="COLOR", default="#d9d9d9", show_default=True, help="Of features without a value."
-        ),
+        click.option("--no-data", metavar="COLOR", help="Of features without a value.  [default: #d9d9d9]"),
         click.option(
             "--table", type=click.Choice(TABLES), default=TABLES[0], show_default=True, help="File of attributes."
         ),
@@ -215,7 +219,15 @@ def scale_of(column: str | None, options: Mapping[str, Any]) -> "Scale | None":
 
     if column is None:
         return None
-    return Scale(column, *(options[name] for name in ("scale", "palette", "classes", "no_data")))
+    given = {name: options[name] for name in OF_SCALE if options[name] is not None}
+    return Scale(column, **{"kind" if name == "scale" else name: value for name, value in given.items()})
+
+
+def refuse_idle_colours(options: Mapping[str, Any], causes: str = "`color`") -> None:
+    """Raise a `ParameterError` for an option of colours by an attribute where there are none."""
+    for name in OF_SCALE:
+        if options[name] is not None:
+            raise ParameterError(f"`{name}` {options[name]} is of colours by an attribute; name its column by {causes}")
 
 
 def columns_of(text: str | None) -> tuple[str, ...] | None:

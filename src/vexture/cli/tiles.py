@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vexture.cli.messages import INTERRUPTED, one_line, say, say_notes
-from vexture.cli.options import PATH, colour_options, columns_of, scale_of
+from vexture.cli.options import PATH, colour_options, columns_of, refuse_idle_colours, scale_of
 from vexture.errors import counted
 
 if TYPE_CHECKING:
@@ -76,6 +76,8 @@ def _asked(options: dict[str, Any]) -> "TileOptions":
 
     own = ("color", "scale", "classes", "palette", "no_data", "fill", "columns", "table")
     given = {name: options.pop(name) for name in own}
+    if given["color"] is None:
+        refuse_idle_colours(given)
     look = Look(scale_of(given["color"], given), given["fill"], columns_of(given["columns"]), given["table"])
     processes = options.pop("processes") or os.cpu_count() or 1
     return TileOptions(look=look, processes=processes, **options)

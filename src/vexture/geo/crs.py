@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from math import pi
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,11 +88,18 @@ def chosen_crs(given: str | None, found: str | None) -> str:
     raises `ParameterError`, one of the file `SourceError`.
     """
     if given:
-        return _shortest(given)
+        return _shortest(_text_of(given))
     if not found:
         raise MissingReferenceError("it names no reference system of its coordinates; give `crs` EPSG:...")
     with _of_the_file():
         return _shortest(found)
+
+
+def _text_of(given: Any) -> str:
+    """Text of a system, of which the number in the list of EPSG, or an object of pyproj, will do."""
+    if isinstance(given, str):
+        return given
+    return f"EPSG:{given}" if isinstance(given, int) or not hasattr(given, "to_wkt") else str(given.to_wkt())
 
 
 @contextmanager
@@ -156,14 +163,16 @@ def shown_system(crs: str) -> str:
     return crs if len(crs) <= 40 else system(crs).name
 
 
-def refuse_metres(points: NDArray[np.float64], crs: str, what: str, error: type[Exception] = SourceError) -> None:
-    """Refuse coordinates that cannot be degrees in a geographic system."""
+def refuse_metres(
+    points: NDArray[np.float64], crs: str, what: str, error: type[Exception] = SourceError, *, name: str = "crs"
+) -> None:
+    """Refuse coordinates that cannot be degrees in a geographic system; `name` is the parameter for another one."""
     found = system(crs)
     if not found.is_geographic or not len(points):
         return
     far = np.abs(points).max(axis=0) * found.axis_info[0].unit_conversion_factor
     if far[0] > LONGITUDE or far[1] > LATITUDE:
-        raise error(f"{what} cannot be longitudes and latitudes; name the system that they are in by `crs` EPSG:...")
+        raise error(f"{what} cannot be longitudes and latitudes; name the system that they are in by `{name}` EPSG:...")
 
 
 def frame_of(bounds: Bounds | None, extent: Bounds, crs: str) -> Frame:

@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 
 from vexture.content import FLATGEOBUF, LARGEST_FILE, SHAPEFILE, SQLITE, ZIP, read_bytes, start_of
 from vexture.errors import ParameterError, SourceError, shortened
+from vexture.geo.damage import HEADER, missing_arcs, refuse_cut
 from vexture.geo.extent import Bounds
+from vexture.geo.frames import arrow_of, labels_of
 from vexture.geo.vectors import (
     APPLICATION,
     GEOPACKAGES,
@@ -91,10 +93,17 @@ class Chunk:
     is_told: bool = False
     """Whether the source itself names its reference system, rather than its format."""
 
+    labels: NDArray[Any] | None = None
+    """Names that the source has for its features, where no column has their ids: the index of a GeoDataFrame."""
+
+    damaged: int = 0
+    """Geometries that are not whole, in the source and not only here."""
+
     def taken(self, rows: NDArray[np.intp]) -> "Chunk":
         """Some of the rows, all of which are in bounds."""
+        labels = None if self.labels is None else self.labels[rows]
         part = replace(self, table=self.table.take(rows), shapes=self.shapes[rows], numbers=self.numbers[rows])
-        return replace(part, bounded=True)
+        return replace(part, labels=labels, bounded=True)
 
     def crs(self, points: NDArray[np.float64]) -> str | None:
         """What the source says, or what its coordinates allow."""
@@ -129,8 +138,12 @@ def _content(source: str | os.PathLike[str] | bytes) -> tuple[bytes | str, bool]
     if start.startswith(SHAPEFILE):
         if isinstance(source, bytes):
             raise SourceError("a shapefile is several files; give them together as a .zip")
-        large = Path(source).stat().st_size > LARGEST_FILE
-        return (os.fspath(source) if large else whole_shapefile(Path(source))), False
+        size = Path(source).stat().st_size
+        if size <= LARGEST_FILE:
+            return whole_shapefile(Path(source)), False
+        with Path(source).open("rb") as file:
+            refuse_cut(Path(source).name, file.read(HEADER), size)
+        return os.fspath(source), False
     if not isinstance(source, bytes) and Path(source).is_file() and Path(source).stat().st_size > LARGEST_FILE:
         raise SourceError(
             f"the file is larger than {LARGEST_FILE:,} bytes, the most that is read at once; convert it to FlatGeobuf, "
@@ -165,6 +178,7 @@ def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None
     options: dict[str, Any] = {"layer": name, "columns": columns, "where": choice.where, "bbox": choice.bounds}
     options |= {"return_fids": True, "batch_size": batch or 65_536, "use_pyarrow": True}
     topology = is_json and not info["crs"]
+    damaged = missing_arcs(content) if topology and isinstance(content, bytes) else 0
     with ExitStack() as stack:
         with _condition(choice.where, names), gdal_errors():
             meta, reader = stack.enter_context(raw.open_arrow(content, **options))
@@ -182,7 +196,8 @@ def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None
                     reader.read_all() if batch is None else pa.Table.from_batches([*islice(reader, 1)], reader.schema)
                 )
             if batch is None or len(table):
-                yield _arrow_chunk(table, *of)
+                yield replace(_arrow_chunk(table, *of), damaged=damaged)
+                damaged = 0
             if batch is None or not len(table):
                 return
 
@@ -346,24 +361,17 @@ def _frame(frame: Any, choice: Choice) -> Chunk:
         again = next(name for name in columns if columns.count(name) > 1)
         raise ParameterError(f"it has several columns {again!r}; rename all but one")
     given = {} if frame.ndim == 1 else dict(zip(columns, (frame[name] for name in frame.columns), strict=True))
-    others = {name: _arrow_of(values) for name, values in given.items() if str(values.dtype) != "geometry"}
+    others = {name: arrow_of(values) for name, values in given.items() if str(values.dtype) != "geometry"}
+    labels = labels_of(frame.index)
+    if labels is not None and choice.id == frame.index.name and choice.id not in others:
+        choice = replace(choice, id=None)
     columns = choice.kept([*others])
     table = pa.table(others) if others else pa.table({"row": np.arange(len(shapes))})
     rows = np.arange(len(shapes)) if choice.where is None else _rows_where(table, choice.where)
     crs = None if frame.crs is None else str(frame.crs.to_wkt())
     part = table.take(rows).select(columns)
-    return Chunk(part, shapes[rows], rows.astype(np.int64), crs, choice.id, parsed=True, is_told=crs is not None)
-
-
-def _arrow_of(values: Any) -> Any:
-    """A column of pandas; one that Arrow has no type for, as of numbers and texts together, is its values as texts."""
-    import pyarrow as pa
-
-    try:
-        return pa.array(values, from_pandas=True)
-    except (pa.ArrowInvalid, pa.ArrowTypeError, pa.ArrowNotImplementedError):
-        known = ~values.isna()
-        return pa.array([str(value) if there else None for value, there in zip(values, known, strict=True)])
+    chunk = Chunk(part, shapes[rows], rows.astype(np.int64), crs, choice.id, parsed=True, is_told=crs is not None)
+    return chunk if labels is None else replace(chunk, labels=labels[rows])
 
 
 def _split(chunk: Chunk, batch: int | None) -> Iterator[Chunk]:
@@ -371,5 +379,6 @@ def _split(chunk: Chunk, batch: int | None) -> Iterator[Chunk]:
     step = batch or max(len(chunk.numbers), 1)
     for first in range(0, max(len(chunk.numbers), 1), step):
         rows = slice(first, first + step)
-        part = chunk.table.slice(first, step)
-        yield replace(chunk, table=part, shapes=chunk.shapes[rows], numbers=chunk.numbers[rows])
+        part = replace(chunk, table=chunk.table.slice(first, step), shapes=chunk.shapes[rows])
+        labels = None if chunk.labels is None else chunk.labels[rows]
+        yield replace(part, numbers=chunk.numbers[rows], labels=labels)

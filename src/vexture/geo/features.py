@@ -20,7 +20,10 @@ from vexture.notes import Notes
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["BATCH", "Features", "Lines", "Points", "feature_batches", "read_features"]
+__all__ = ["BATCH", "ID", "Features", "Lines", "Points", "feature_batches", "read_features"]
+
+ID: Final = "id"
+"""Column of a table that has the ids of features."""
 
 BATCH: Final = 65_536
 """Features that are in memory at once when they are streamed."""
@@ -69,6 +72,8 @@ class Features:
     crs: str
     lines: Lines
     points: Points
+    is_numbered: bool = False
+    """Whether ids are no more than the numbers of features, as their source has none."""
 
     @property
     def feature(self) -> NDArray[np.intp]:
@@ -78,6 +83,14 @@ class Features:
 
     def __len__(self) -> int:
         return len(self.ids)
+
+    def refuse_numbers(self, column: str) -> None:
+        """Raise a `ParameterError` where colours are to show ids that are only numbers."""
+        if column == ID and self.is_numbered:
+            others = self.table.column_names[1:]
+            is_there = any(name.rstrip("_") == ID for name in others)
+            remedy = f"give `id` {ID} as well" if is_there else f"there are: {', '.join(others) or 'none'}"
+            raise ParameterError(f"`color` is {ID!r}, but its features have numbers rather than ids; {remedy}")
 
 
 @gis_packages()
@@ -104,7 +117,8 @@ def read_features(
     crs : str, optional
         Reference system of the source, if it does not say it itself.
     id : str, optional
-        Column that identifies features; by default the format's own id, or else the feature's number, from 0.
+        Column that identifies features; by default the format's own id, the index of a GeoDataFrame if it is one of
+        its own and tells rows apart, or else the feature's number, from 0.
     columns : sequence of str, optional
         Attributes to keep; all by default.
     bounds : tuple of float, optional
@@ -150,6 +164,7 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     """Features of a chunk; `seen` counts the ids of those before it."""
     import shapely
 
+    notes.remark("the file is damaged: a geometry refers to arcs that it does not have", chunk.damaged)
     if chunk.parsed:
         given = ~(shapely.is_missing(chunk.shapes) | shapely.is_empty(chunk.shapes))
         whole, owner = chunk.shapes[given], np.flatnonzero(given)
@@ -177,7 +192,8 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     system = _system(chunk, rings, crs, notes)
     rings = _valid(rings, period(system), notes)
     points = Points(shapely.get_coordinates(parts[spots]), feature[spots])
-    return Features(rings, ids, _table(chunk, ids), system, _lines(parts[lines], feature[lines]), points)
+    numbered = chunk.id_column is None and chunk.labels is None
+    return Features(rings, ids, _table(chunk, ids), system, _lines(parts[lines], feature[lines]), points, numbered)
 
 
 def _system(chunk: Chunk, rings: Rings, given: str | None, notes: Notes) -> str:
@@ -186,8 +202,9 @@ def _system(chunk: Chunk, rings: Rings, given: str | None, notes: Notes) -> str:
     if given is None or not chunk.is_told:
         return chosen_crs(given, found)
     system = chosen_crs(None, found)
-    if not same_system(chosen_crs(given, None), system):
-        notes.remark(f"it names its own reference system, {shown_system(system)}, so `crs` {given[:40]} is not used")
+    if not same_system(other := chosen_crs(given, None), system):
+        own, unused = shown_system(system), shown_system(other)
+        notes.remark(f"it names its own reference system, {own}, so {unused} is not used for it")
     return system
 
 
@@ -233,6 +250,8 @@ def _ids(chunk: Chunk, choice: Choice, seen: dict[str, int], notes: Notes) -> ND
     """The id of each feature as a text; one that was there before gets a number."""
     import pyarrow as pa
 
+    if chunk.id_column is None and chunk.labels is not None:
+        return chunk.labels
     if chunk.id_column is None:
         return np.array([str(number) for number in chunk.numbers.tolist()], object)
     column = chunk.table.column(chunk.id_column)

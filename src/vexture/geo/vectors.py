@@ -31,6 +31,7 @@ from vexture.content import (
     start_of,
 )
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.geo.damage import refuse_cut
 from vexture.geo.geojson import UNLOCATED, areas_of
 from vexture.geo.rings import Rings, rings_of
 from vexture.notes import Notes
@@ -141,6 +142,8 @@ def _zipped(files: dict[str, bytes]) -> bytes:
     for stem in stems:
         if f"{stem}.shx" not in named:
             raise SourceError(f"the shapefile {stem}.shp lacks its {stem}.shx; keep its files together")
+        for name in (f"{stem}.shp", f"{stem}.shx"):
+            refuse_cut(name, named[name], len(named[name]))
     packed = BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
         for name, content in named.items():
@@ -227,7 +230,10 @@ def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArra
     if broken.any():
         first = int(broken.argmax())
         _refuse_broken(shapes[given][first], f"feature {feature[first] + 1}")
-    return whole, feature
+    empty = shapely.is_empty(whole)
+    for _ in range(int(empty.sum())):
+        notes.left_out(UNLOCATED)
+    return whole[~empty], feature[~empty]
 
 
 def _refuse_broken(shape: bytes, name: str) -> NoReturn:

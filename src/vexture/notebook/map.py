@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from vexture.errors import DeviceError, ParameterError
-from vexture.notes import warn_of
+from vexture.notes import place_of_caller, warn_at
 
 if TYPE_CHECKING:
     from vexture.cartography import Times
@@ -60,7 +60,7 @@ def map(
         Of the colours (`vexture.cartography.Scale`): ``scale``, ``palette``, ``classes``, ``no_data``. Of what is drawn
         (`MapLayer`): ``layer``, ``where``, ``id``, ``columns``, ``fill``, ``order``, ``stroke``, ``outline``,
         ``outline_width``, ``symbol``, ``symbol_size``, ``source_crs``. Of the map (`convert_map`): ``crs``, ``snap``,
-        ``size``, ``tolerance``.
+        ``size``, ``tolerance``. By default ``id`` is the index of a GeoDataFrame that has one of its own.
 
     Returns
     -------
@@ -99,6 +99,8 @@ def map(
     from vexture.deadline import DEFAULT_SECONDS
 
     fields = {name: options.pop(name) for name in OF_SCALE if name in options}
+    if column is not None and (isinstance(column, str) or not isinstance(column, Sequence)):
+        column = str(column)  # of a GeoDataFrame it may be a number
     changing = _times(source, column, times, Times)
     column = None if column is None or changing is not None else str(column)
     scale = Scale(column or "", **{("kind" if name == "scale" else name): value for name, value in fields.items()})
@@ -111,17 +113,19 @@ def map(
     first: dict[str, Any] = {"crs": MERCATOR, "size": DEFAULT_SIZE, "max_seconds": DEFAULT_SECONDS}
     first |= {given: value for given, value in options.items() if given in first}
     ready = prepared([layer], name=title, **first)
-    warn_of(ready.name, ready.notes.listed)
+    asked_at = place_of_caller(1)
+    warn_at(asked_at, ready.name, ready.notes.listed)
     later = {given: value for given, value in options.items() if given not in ("crs", "size")}
     shown = {"width": width, "height": height, "background": background, "view": view}
     traits = {name: value for name, value in shown.items() if value is not None}
     conversion = partial(converted, ready, **later, capacity=CAPACITY)
-    return MapWidget(ready, scale, conversion, tooltip=tooltip, has_legend=legend, **traits)
+    return MapWidget(ready, scale, conversion, asked_at=asked_at, tooltip=tooltip, has_legend=legend, **traits)
 
 
 def _times(source: Any, column: Any, times: Any, kind: "type[Times]") -> "Times | None":
     """What changes with time, of the columns and the names of steps, or of a table."""
-    is_column = isinstance(column, str) and column in getattr(source, "columns", ())  # whatever signs its name has
+    names = {str(name) for name in getattr(source, "columns", ())}
+    is_column = isinstance(column, str) and column in names  # whatever signs its name has
     several = column is not None and not is_column and (not isinstance(column, str) or kind(column).is_pattern)
     if several:
         if times is not None and kind(times).is_table:

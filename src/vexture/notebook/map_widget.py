@@ -22,7 +22,7 @@ from vexture.notebook.pending import Pending
 from vexture.notebook.picture import MARGIN, Rect, png_of
 from vexture.notebook.shared import shared
 from vexture.notebook.widget import HEIGHT, PICTURE_WIDTH, PNG, VectorWidget
-from vexture.notes import Notes, warn_of
+from vexture.notes import Notes, warn_at
 from vexture.renderers.view import Size, window
 from vexture.texture.restyle import components
 from vexture.texture.texture import Texture
@@ -89,6 +89,7 @@ class MapWidget(VectorWidget):
         scale: Scale,
         conversion: Callable[[], Map],
         *,
+        asked_at: tuple[str, int],
         tooltip: bool | Sequence[str] = True,
         has_legend: bool = True,
         **traits: Any,
@@ -97,7 +98,7 @@ class MapWidget(VectorWidget):
         borders = [one.outline.name for one in ready.layers if len(one.outline.rings.ends)]
         self._ids = [*(str(name) for name in ready.table.column("id").to_pylist()), *borders]
         self._row = {name: row for row, name in enumerate(self._ids)}
-        self._scale, self._has_legend, self._is_recolored = scale, has_legend, False
+        self._scale, self._has_legend, self._is_recolored, self._asked_at = scale, has_legend, False, asked_at
         self._drawn = map_picture(ready)
         self._rgba = self._drawn.colours(len(self._ids))
         self._changing = steps_of(ready, self._rgba)
@@ -150,7 +151,7 @@ class MapWidget(VectorWidget):
                 self.send_state("colors")  # without those of what is hidden
                 self._picture = None
         # last, as a warning may be an error
-        warn_of(self._name, [note for note in made.conversion.notes if note not in self._notes])
+        warn_at(self._asked_at, self._name, [note for note in made.conversion.notes if note not in self._notes])
 
     def _feature(self, name: str | None) -> int | None:
         """The row of a feature in the table."""
@@ -336,10 +337,11 @@ def _told(table: "pyarrow.Table", tooltip: bool | Sequence[str], steps: Sequence
     names: list[str] = table.column_names
     if isinstance(tooltip, bool):
         return [name for name in names if name not in steps][:MOST_TOLD] if tooltip else []
-    for name in tooltip:
+    told = [tooltip] if isinstance(tooltip, str) else [str(name) for name in tooltip]
+    for name in told:
         if name not in names:
             raise ParameterError(f"`tooltip`: there is no column {name!r}; the columns are {', '.join(names[:8])}")
-    return [*tooltip]
+    return told
 
 
 def shown(value: Any) -> str:

@@ -93,6 +93,7 @@ class Attributes:
         """Append those of some features."""
         if self._look.color is not None:
             name = self._look.color.column
+            features.refuse_numbers(name)
             if name not in features.table.column_names:
                 colours_of(features.table, self._look.color, Notes())  # says which there are
             self._coloured.append(features.table.column(name))

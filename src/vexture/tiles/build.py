@@ -83,7 +83,7 @@ def make_tiles(
         facts = store.read_parts() or _read(source, store, options, told, batches)
         if facts["bounds"] is None:
             store.remove()
-            raise SourceError(f"{source}: {_why_empty(facts['others'])}")
+            raise SourceError(f"{source}: {_why_empty(facts, options.where)}")
         parts = [Part(Tile(*tile), weight) for *tile, weight in facts["parts"]]
         _work(store, parts, options, told)
         made = _written(store, output, options, facts)
@@ -236,9 +236,11 @@ def _written(store: Store, output: Path, options: TileOptions, facts: Any) -> Ma
     return MadeTiles(sum(count for _, count, _ in runs), len(contents), size, facts["features"], notes)
 
 
-def _why_empty(others: int) -> str:
+def _why_empty(facts: Any, where: str | None) -> str:
     """Why there is nothing for tiles, and what to do."""
-    if others:
+    if not facts["features"]:
+        return f"no feature meets `where` {where!r}; correct it" if where else "it has no features; give some"
+    if others := facts["others"]:
         return f"it has lines or points ({others}), but no polygon, and tiles have only these; draw it by vexture map"
     return "it has no polygon in the tiles' projection; give polygons"
 

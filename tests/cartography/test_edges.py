@@ -1,0 +1,78 @@
+"""The edge of the world: what lies near it is together, and is no border of anything."""
+
+import geopandas
+import numpy as np
+import pytest
+import shapely
+
+from vexture.cartography import MapLayer, convert_map
+from vexture.cartography.marks import outlines, width_of
+from vexture.cartography.place import RADIUS, placed
+from vexture.geo.crs import transformed
+from vexture.geo.features import read_features
+from vexture.notes import Notes
+
+WORLD = "EPSG:4326"
+FIJI = shapely.MultiPolygon([shapely.box(177, -19, 180, -17), shapely.box(-180, -19, -178, -17)])
+
+
+def frame(shapes, **columns):
+    return geopandas.GeoDataFrame(columns or {"v": range(len(shapes))}, geometry=shapes, crs=WORLD)
+
+
+@pytest.mark.parametrize("crs", ["EPSG:3857", WORLD])
+def test_points_and_lines_are_beside_the_polygons_across_the_antimeridian(crs):
+    marks = [shapely.Point(-179, -16), shapely.LineString([(-179.5, -20), (-178.5, -20)]), shapely.Point(178, -16)]
+    turn = 2 * np.pi * RADIUS if crs == "EPSG:3857" else 360.0
+    layers = [MapLayer(frame([FIJI])), MapLayer(frame(marks))]
+    for given in (layers, [MapLayer(frame([FIJI, *marks]))]):
+        done = convert_map(given, crs=crs)
+        assert done.conversion.drawing.to_source[0, 0] == pytest.approx(turn * 5 / 360, rel=0.05)
+    alone = convert_map([layers[1]], crs=crs)
+    assert alone.conversion.drawing.to_source[0, 0] == pytest.approx(turn * 4 / 360, rel=0.3)
+
+
+def test_what_goes_around_the_world_stays_where_it_is():
+    marks = [shapely.Point(x, 10) for x in range(-170, 180, 20)]
+    done = convert_map([MapLayer(frame([FIJI])), MapLayer(frame(marks))])
+    assert done.conversion.drawing.to_source[0, 0] > 2 * np.pi * RADIUS * 0.95
+
+
+def bordered(shapes, crs):
+    """The area of the outlines of polygons on a map, less than half a degree wide."""
+    rings = placed(read_features(frame(shapes), notes=Notes()), crs, Notes()).rings
+    return shapely.union_all(outlines(rings, width_of("2px", "width"), crs, 0.2 if crs == WORLD else 2e4).shapes)
+
+
+BAND = shapely.box(-179.999, 20, 179, 30)
+
+
+@pytest.mark.parametrize(
+    ("crs", "across", "shapes"),
+    [
+        ("EPSG:3857", 180.0, [FIJI, BAND]),
+        (WORLD, 180.0, [FIJI, BAND]),
+        ("EPSG:8857", 179.9999, [FIJI]),
+        ("ESRI:54030", 179.9999, [shapely.box(170, -30, 190, -10)]),
+    ],
+)
+def test_a_map_of_the_world_has_no_outlines_where_it_is_cut(crs, across, shapes):
+    drawn = bordered(shapes, crs)
+    _, south, _, north = shapes[0].bounds
+    *cut, real = transformed(np.array([*((across, y) for y in np.arange(south + 1, north)), (178, south)]), WORLD, crs)
+    assert not shapely.intersects_xy(drawn, *np.transpose(cut)).any()
+    assert shapely.intersects_xy(drawn, *real)
+
+
+def test_neither_a_pole_nor_the_equator_around_a_hemisphere_is_a_border():
+    ice = shapely.box(-180, -90, 180, -70)
+    for crs in (WORLD, "EPSG:8857"):
+        pole, coast = transformed(np.array([(10.0, -90.0), (10.0, -70.0)]), WORLD, crs)
+        drawn = bordered([ice], crs)
+        assert not shapely.intersects_xy(drawn, *pole)
+        assert shapely.intersects_xy(drawn, *coast)
+    africa = shapely.box(10, -30, 40, 30)
+    drawn = bordered([africa, shapely.box(-100, -80, -90, -70)], "EPSG:3031")
+    equator, side = transformed(np.array([(25.0, -0.001), (10.0, -20.0)]), WORLD, "EPSG:3031")
+    assert not shapely.intersects_xy(drawn, *equator)
+    assert shapely.intersects_xy(drawn, *side)

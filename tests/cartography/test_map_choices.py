@@ -1,0 +1,205 @@
+"""Choices of a map that would have no effect, colours of ids, of nothing and of many categories."""
+
+from dataclasses import replace
+
+import geopandas
+import numpy as np
+import pyarrow as pa
+import pytest
+import shapely
+from click.testing import CliRunner
+
+from vexture.cartography import MapLayer, Scale, Times, convert_map
+from vexture.cartography.colours import FURTHER, QUALITATIVE, colours_of, rgba_of
+from vexture.cartography.coverage import ranks
+from vexture.cli.main import main
+from vexture.errors import ParameterError
+from vexture.geo.features import read_features
+from vexture.notes import Notes
+
+METRES = "EPSG:28992"
+
+
+def squares(**columns):
+    count = len(next(iter(columns.values())))
+    shapes = [shapely.box(100 * k, 0, 100 * k + 100, 100) for k in range(count)]
+    return geopandas.GeoDataFrame(columns, geometry=shapes, crs=METRES)
+
+
+@pytest.fixture
+def command(tmp_path):
+    """Runs a command on a source of two squares; the exit code and what is printed."""
+    squares(name=["a", "b"], v=[1.0, 2.0]).to_file(tmp_path / "land.gpkg")
+
+    def run(name, *arguments):
+        target = tmp_path / ("o.ktx2" if name == "map" else "o.pmtiles")
+        given = [name, str(tmp_path / "land.gpkg"), "-o", str(target), *arguments]
+        if name == "tiles":
+            given += ["--max-zoom", "4", "--processes", "1"]
+        done = CliRunner().invoke(main, given)
+        assert target.exists() == (done.exit_code == 0)
+        return done.exit_code, done.output
+
+    return run
+
+
+@pytest.mark.parametrize("name", ["map", "tiles"])
+@pytest.mark.parametrize(
+    ("option", "value"), [("scale", "equal"), ("classes", "3"), ("palette", "magma"), ("no-data", "red")]
+)
+def test_options_of_colours_without_a_column_are_refused(command, name, option, value):
+    code, output = command(name, f"--{option}", value)
+    assert code == 1
+    assert f"--{option} {value} is of colours by an attribute; name its column by --color" in output
+    assert command(name, f"--{option}", value, "--color", "v")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--outline-width", "2px"), "--outline-width 2px, but no outlines; give their colour by --outline"),
+        (("--fill", "red", "--color", "v"), "--fill and colours by an attribute exclude each other; give '' for one"),
+        (("--fill", "red", "--time", "v"), "--fill and colours by an attribute exclude each other; give '' for one"),
+        (("--symbol", ""), "the name of a file of --symbol is empty"),
+        (("--scale", "", "--color", "v"), "--scale is ''; give quantiles"),
+        (("--color", "id"), "its features have numbers rather than ids; there are: name, v"),
+        (("--color", "id", "--columns", "name"), "its features have numbers rather than ids; there are: name"),
+    ],
+)
+def test_options_without_effect_are_refused_in_a_line(command, arguments, words):
+    code, output = command("map", *arguments)
+    assert (code, output.count("\n")) == (1, 1)
+    assert words in output
+
+
+def test_a_fill_and_colours_exclude_each_other_in_a_layer():
+    for colours in ({"color": "v"}, {"times": Times("v,w")}):
+        with pytest.raises(ParameterError, match="`fill` exclude each other"):
+            MapLayer("land.gpkg", fill="red", **colours)
+
+
+def test_colours_by_ids_need_ids(command):
+    source = squares(id=["a", "b"])
+    with pytest.raises(ParameterError, match="give `id` id as well"):
+        convert_map([MapLayer(source, color="id")], crs=METRES)
+    done = convert_map([MapLayer(source, id="id", color="id")], crs=METRES)
+    assert [entry["label"] for entry in done.legends[0]["entries"]] == ["a", "b"]
+    assert "its features have numbers rather than ids" in command("tiles", "--color", "id")[1]
+
+
+@pytest.mark.parametrize("kind", ["auto", "quantiles", "continuous", "categories", "1,2"])
+@pytest.mark.parametrize(
+    "values", [pa.array([None, None], pa.float64()), pa.array([np.nan, np.nan]), pa.nulls(2), pa.nulls(2, pa.string())]
+)
+def test_a_column_without_a_value_has_the_colour_of_no_data(values, kind):
+    notes = Notes()
+    rgba, legend = colours_of(pa.table({"v": values}), Scale("v", kind, no_data="red"), notes)
+    assert rgba.tolist() == [[1.0, 0.0, 0.0, 1.0]] * 2
+    assert (legend["entries"], legend["no_data"]["count"]) == ([], 2)
+    assert str(notes.listed[0]) == "no feature has a value in 'v', so all have the colour of no data"
+
+
+def test_what_is_no_number_is_no_category_and_lies_below():
+    table = pa.table({"v": pa.array([2.0, np.nan, None, 1.0])})
+    _, legend = colours_of(table, Scale("v", "categories"), Notes())
+    assert [entry["label"] for entry in legend["entries"]] == ["1", "2"]
+    assert legend["no_data"]["count"] == 2
+    features = read_features(squares(v=[2.0, 5.0, 1.0]), notes=Notes())
+    with_nan = replace(features, table=features.table.set_column(1, "v", pa.array([2.0, np.nan, 1.0])))
+    assert ranks(with_nan, "v").tolist() == [2, 0, 1]
+
+
+# How the three kinds of dichromats see linear light (Machado, Oliveira and Fernandes, 2009, severity 1).
+SIGHTS = (
+    np.eye(3),
+    [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+    [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+    [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
+)
+# Oklab (Ottosson, 2020).
+CONES = [
+    [0.4122214708, 0.5363325363, 0.0514459929],
+    [0.2119034982, 0.6806995451, 0.1073969566],
+    [0.0883024619, 0.2817188376, 0.6299787005],
+]
+LAB = [
+    [0.2104542553, 0.7936177850, -0.0040720468],
+    [1.9779984951, -2.4285922050, 0.4505937099],
+    [0.0259040371, 0.7827717662, -0.8086757660],
+]
+
+
+def least_difference(rgb):
+    """Of two of some colours, as whoever tells them apart worst sees them."""
+    light = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    found = []
+    for sight in SIGHTS:
+        seen = np.clip(light @ np.transpose(sight), 0, 1)
+        lab = np.cbrt(seen @ np.transpose(CONES)) @ np.transpose(LAB)
+        apart = np.linalg.norm(lab[:, None] - lab[None], axis=2)
+        found.append(apart[np.triu_indices(len(rgb), 1)].min())
+    return min(found)
+
+
+def test_sixteen_categories_are_told_apart_with_any_colour_vision_as_well_as_seven():
+    import cmap
+
+    seven = np.array([tuple(colour.rgba)[:3] for colour in cmap.Colormap(QUALITATIVE).iter_colors()])[1:]
+    many = np.array([rgba_of(colour, "colour")[:3] for colour in FURTHER])
+    assert least_difference(np.concatenate([seven, many])) >= least_difference(seven)
+    notes = Notes()
+    values = pa.table({"v": [f"c{k:02}" for k in range(16)]})
+    rgba, legend = colours_of(values, Scale("v"), notes)
+    assert len(np.unique(rgba, axis=0)) == len(legend["entries"]) == 16
+    assert np.allclose(rgba[:7, :3], seven, atol=1e-3), "fewer categories look as before"
+    assert notes.listed == ()
+    colours_of(pa.table({"v": [f"c{k:02}" for k in range(18)]}), Scale("v"), notes)
+    assert "18 categories of 'v', but 16 colours: the 3 least common ones share the last" in str(notes.listed[0])
+
+
+def test_numbers_that_are_no_texts_work_or_are_told_in_a_line():
+    assert Scale("v", [10, 20.5]).kind == "10,20.5"
+    assert Scale("v", classes="5").classes == 5
+    for wrong in ({"classes": "many"}, {"classes": 1}, {"kind": 3}, {"kind": ""}):
+        with pytest.raises(ParameterError, match=r"`(classes|scale)` is"):
+            Scale("v", **wrong)
+    source = squares(v=[1.0, 2.0])
+    for wrong in ({"outline": "red", "outline_width": 2}, {"stroke": 3}, {"outline": 3}, {"fill": 3}):
+        name = [*wrong][-1]
+        with pytest.raises(ParameterError, match=f"`{name}` is {wrong[name]}; give a"):
+            convert_map([MapLayer(source if name != "stroke" else roads(), **wrong)], crs=METRES)
+
+
+def roads():
+    return geopandas.GeoDataFrame(geometry=[shapely.LineString([(0, 0), (100, 100)])], crs=METRES)
+
+
+def test_columns_with_numbers_for_names_are_named_by_them():
+    source = squares(v=[1.0, 2.0]).rename(columns={"v": 0})
+    done = convert_map([MapLayer(source, id=0, order=0, columns=[0], color=Scale(0))], crs=METRES)
+    assert done.table.column_names == ["id", "0"]
+    assert done.table["id"].to_pylist() == ["1", "2"]
+
+
+def test_an_outline_beside_a_feature_of_its_name_says_what_it_is_called():
+    notes = convert_map([MapLayer(squares(code=["outline"]), id="code", outline="red")], crs=METRES).conversion.notes
+    assert [str(note) for note in notes] == [
+        "a feature is named 'outline' already, so the element of outlines is 'outline_'"
+    ]
+
+
+def test_the_index_of_a_frame_is_the_ids_where_it_tells_more_than_numbers():
+    source = squares(v=[1.0, 2.0, 3.0])
+    assert read_features(source, notes=Notes()).ids.tolist() == ["0", "1", "2"]
+    named = source.set_index(pa.array(["c", "a", "b"]).to_pandas().rename("code"))
+    assert read_features(named, where="v > 1", notes=Notes()).ids.tolist() == ["a", "b"]
+    assert read_features(named, id="code", notes=Notes()).ids.tolist() == ["c", "a", "b"]
+    assert read_features(named, bounds=(210, 10, 220, 20), notes=Notes()).ids.tolist() == ["b"]
+    assert read_features(source[1:], notes=Notes()).ids.tolist() == ["1", "2"]
+    assert read_features(source[1:].geometry, notes=Notes()).ids.tolist() == ["1", "2"]
+    assert read_features(named, id="v", notes=Notes()).ids.tolist() == ["1", "2", "3"]
+    twice = source.set_index([["a", "a", "b"]])
+    assert read_features(twice, notes=Notes()).ids.tolist() == ["0", "1", "2"]
+    two = source.set_index([["a", "a", "b"], [1, 2, 3]])
+    assert read_features(two, notes=Notes()).ids.tolist() == ["0", "1", "2"]
+    assert convert_map([MapLayer(named, color="id")], crs=METRES).table["id"].to_pylist() == ["c", "a", "b"]

@@ -1,0 +1,104 @@
+"""Sources of which a part is missing say so, and options that are wrong are called by their names."""
+
+import json
+
+import geopandas
+import pytest
+import shapely
+from click.testing import CliRunner
+
+from vexture.cartography import MapLayer, convert_map
+from vexture.cli.main import main
+from vexture.errors import ParameterError, SourceError
+from vexture.geo.feature_tables import Choice, chunks_of
+from vexture.geo.features import read_features
+from vexture.notes import Notes
+
+METRES = "EPSG:28992"
+
+
+def frame(shapes, crs=METRES, **columns):
+    return geopandas.GeoDataFrame(columns or {"v": range(len(shapes))}, geometry=shapes, crs=crs)
+
+
+def squares(count=3):
+    return frame([shapely.box(k, 0, k + 1, 1) for k in range(count)])
+
+
+@pytest.mark.parametrize("kind", ["gpkg", "parquet", "frame"])
+def test_empty_geometries_are_counted_with_those_that_are_none(kind, tmp_path):
+    source = frame([shapely.box(0, 0, 1, 1), shapely.Polygon(), None, shapely.MultiPolygon()])
+    if kind != "frame":
+        place = tmp_path / f"land.{kind}"
+        (source.to_parquet if kind == "parquet" else source.to_file)(place)
+        source = place
+    notes = Notes()
+    assert len(read_features(source, notes=notes).rings.outer) == 1
+    assert [str(note) for note in notes.listed] == ["feature without geometry (3)"]
+
+
+@pytest.mark.parametrize(("part", "most"), [("shp", 1 << 30), ("shx", 1 << 30), ("shp", 50)])
+def test_a_shapefile_that_is_cut_off_is_damaged(part, most, tmp_path, monkeypatch):
+    squares().to_file(tmp_path / "land.shp")
+    place = tmp_path / f"land.{part}"
+    content = place.read_bytes()
+    assert len(read_features(tmp_path / "land.shp", notes=Notes())) == 3
+    place.write_bytes(content[:-8])
+    monkeypatch.setattr("vexture.geo.feature_tables.LARGEST_FILE", most)
+    with pytest.raises(SourceError, match=rf"land\.{part} is damaged: it has \d+ of the {len(content)} bytes"):
+        read_features(tmp_path / "land.shp", notes=Notes())
+
+
+def topology(*arcs):
+    made = [{"type": "Polygon", "id": f"{k}", "arcs": each} for k, each in enumerate(arcs)]
+    held = {"land": {"type": "GeometryCollection", "geometries": made}}
+    ring = [[4, 52], [5, 52], [5, 53], [4, 53], [4, 52]]
+    return json.dumps({"type": "Topology", "objects": held, "arcs": [ring]}).encode()
+
+
+def test_arcs_that_a_topology_does_not_have_are_said():
+    notes = Notes()
+    read_features(topology([[0]], [[7]], [[0], [-9]]), notes=notes)
+    assert "the file is damaged: a geometry refers to arcs that it does not have (2)" in map(str, notes.listed)
+    whole = Notes()
+    read_features(topology([[0]], [[-1]]), notes=whole)
+    assert whole.listed == ()
+    (_, *later) = chunks_of(topology(*[[[0]]] * 3, [[7]]), Choice(), 2)
+    assert [chunk.damaged for chunk in later] == [0]
+
+
+def test_metres_that_are_said_to_be_degrees_name_the_option_of_the_source():
+    far = frame([shapely.box(1000, 1000, 2000, 2000)], "EPSG:4326")
+    with pytest.raises(SourceError, match=r"cannot be longitudes and latitudes; name .* by `source_crs` EPSG"):
+        convert_map([MapLayer(far)])
+    done = convert_map([MapLayer(squares(), crs="EPSG:4326")], crs=METRES)
+    (said,) = map(str, done.conversion.notes)
+    assert said == "it names its own reference system, EPSG:28992, so EPSG:4326 is not used for it"
+
+
+def test_tiles_of_no_feature_say_why(tmp_path):
+    squares().to_file(tmp_path / "land.gpkg")
+    given = ["tiles", str(tmp_path / "land.gpkg"), "-o", str(tmp_path / "o.pmtiles"), "--processes", "1"]
+    done = CliRunner().invoke(main, [*given, "--where", "v > 7"])
+    assert (done.exit_code, "no feature meets --where 'v > 7'; correct it" in done.output) == (1, True)
+    assert [path.name for path in tmp_path.iterdir()] == ["land.gpkg"]
+
+
+def test_data_far_from_where_a_system_is_meant_for_say_so():
+    counties = frame([shapely.box(x, 35, x + 2, 37) for x in range(-110, -80, 2)], "EPSG:4326")
+    found = convert_map([MapLayer(counties)], crs=METRES).conversion.notes
+    (said,) = map(str, found)
+    assert said.startswith("some of it is far outside of the area of use of EPSG:28992 (Netherlands - onshore")
+    assert said.endswith("choose another `crs`")
+    for crs in ("EPSG:5070", "EPSG:3857", "EPSG:8857", "EPSG:3995"):
+        assert convert_map([MapLayer(counties)], crs=crs).conversion.notes == ()
+    points = frame([shapely.Point(x, 35) for x in (-110, -90)], "EPSG:4326")
+    (said,) = map(str, convert_map([MapLayer(points)], crs=METRES).conversion.notes)
+    assert "far outside of the area of use" in said
+    beside = frame([shapely.box(2, 49, 9, 54)], "EPSG:4326")
+    assert convert_map([MapLayer(beside)], crs=METRES).conversion.notes == ()
+
+
+def test_unknown_columns_of_ids_are_still_refused():
+    with pytest.raises(ParameterError, match="no column 'code' for `id`; there are: v"):
+        read_features(squares().set_index([["a", "b", "c"]]), id="code", notes=Notes())
