@@ -157,6 +157,7 @@ def photographed(folder: Path, shown: list[Example]) -> bool:
                 page.goto((folder / example.name / "index.html").as_uri())
                 page.add_style_tag(content="#stage { position: fixed !important; inset: 0; z-index: 9 }")
                 if example.libraries:
+                    page.evaluate("document.getElementById('run').click()")  # again, in the size of the picture
                     page.wait_for_function("document.documentElement.dataset.state === 'ran'", timeout=60_000)
                 page.wait_for_timeout(6_000 if example.page else 2_500)
                 content = page.locator("#stage").screenshot(timeout=120_000)
@@ -193,7 +194,7 @@ def write_licences(folder: Path, shown: list[Example]) -> None:
     sources = {source for one in shown for source in one.sources}
     data = {
         ICONS: {"lucide"},
-        COUNTIES: {"counties.geojson", "counties-in-degrees.geojson"},
+        COUNTIES: {"counties.geojson", "counties.topojson"},
         WORLD: {"land.svg", "countries.json"},
     }
     for package, made in data.items():

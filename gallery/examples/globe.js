@@ -13,13 +13,12 @@ const camera = new THREE.PerspectiveCamera(35, 1, 1, 100);
 
 // stars, all around and far behind
 const away = Array.from({ length: 1500 }, () => new THREE.Vector3().randomDirection().setLength(50));
-const sky = new THREE.PointsMaterial({ color: 0xffffff, size: 1.5, sizeAttenuation: false, transparent: true, opacity: 0.5 });
+const sky = new THREE.PointsMaterial({ color: 0xffffff, size: 1.5, sizeAttenuation: false, transparent: true, opacity: 0.8 });
 const sea = new THREE.Mesh(new THREE.SphereGeometry(0.998, 128, 64), new THREE.MeshBasicMaterial({ color: 0x1f4a6b }));
 scene.add(new THREE.Points(new THREE.BufferGeometry().setFromPoints(away), sky), sea);
 
 // the map, whole, as bytes; with an address as its source, a page asks for what it shows
-const source = await (await fetch('countries.pmtiles')).blob();
-const globe = new VectorGlobe({ source });
+const globe = new VectorGlobe({ source: await (await fetch('countries.pmtiles')).blob() });
 const palette = ['#e9c793', '#b7cf95', '#dfa78f', '#a8c3a0', '#dcbf6b', '#c9b6d0'];
 const number = (id) => [...id].reduce((sum, letter) => (31 * sum + letter.codePointAt(0)) % 65537, 7);
 globe.setPaint((id) => palette[number(id) % palette.length]);
@@ -37,8 +36,7 @@ let hovered = null;
 function highlight() {
   const id = globe.featureUnder(pointer, camera)?.id ?? null;
   if (id === hovered) return;
-  if (hovered) globe.setPaint({ [hovered]: undefined }); // its own colour again
-  if (id) globe.setPaint({ [id]: '#ff5c4c' });
+  globe.setPaint({ ...(hovered && { [hovered]: undefined }), ...(id && { [id]: '#ff5c4c' }) }); // undefined: as before
   hovered = id;
   label.textContent = id ?? '';
 }
@@ -48,7 +46,7 @@ function fit() {
 }
 addEventListener('resize', fit);
 fit();
-camera.position.set(0.6, 1.4, 1.9).setLength(camera.aspect > 1 ? 4 : 6);
+camera.position.set(0.6, 1.4, 1.9).setLength(camera.aspect > 1 ? 3.7 : 6);
 renderer.setAnimationLoop(() => {
   const height = controls.getDistance() - 1;
   controls.rotateSpeed = controls.zoomSpeed = Math.min(1, height);

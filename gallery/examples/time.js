@@ -3,7 +3,7 @@ import { VectorTileLayer } from 'vexture/maplibre';
 
 document.body.insertAdjacentHTML('beforeend', `<div id="map" style="height: 100%"></div>
   <div style="position: fixed; left: 1rem; top: 1rem; padding: .5rem .8rem; border-radius: .5rem; background: #fffd; width: 13rem">
-    <strong id="month"></strong> <output id="name"></output>
+    <strong id="month" style="display: block"></strong> <output id="name"></output>
     <input id="time" type="range" min="0" max="119" step="any" value="0" aria-label="Month" style="width: 100%"></div>`);
 const [month, name, slider] = ['month', 'name', 'time'].map((id) => document.getElementById(id));
 
@@ -12,7 +12,7 @@ const cities = { Seattle: [-122.33, 47.61], 'Los Angeles': [-118.24, 34.05], Den
 const features = Object.entries(cities).map(([label, coordinates]) =>
   ({ type: 'Feature', properties: { label }, geometry: { type: 'Point', coordinates } }));
 const map = new Map({
-  container: 'map', bounds: [[-125, 24], [-66.5, 49.5]], fitBoundsOptions: { padding: 20 }, attributionControl: false,
+  container: 'map', bounds: [[-125, 24], [-66.5, 49.5]], fitBoundsOptions: { padding: 20 }, maxZoom: 14, attributionControl: false,
   style: {
     version: 8,
     sources: { cities: { type: 'geojson', data: { type: 'FeatureCollection', features } } },
@@ -32,9 +32,10 @@ counties.ready().then(() => map.addControl(new AttributionControl({ customAttrib
 // an invented rate of each county in 120 months: given once, and then a time changes a few bytes of each county in view
 const places = await (await fetch('counties.json')).json();
 const ids = Object.keys(places);
-const shades = Array.from({ length: 65 }, (_, k) => `hsl(${220 - 200 * (k / 64)} ${50 + k / 3}% ${28 + 40 * Math.sin(k / 30)}%)`);
-const rate = ([lng, lat], t) => 0.5 + 0.3 * Math.sin(lng / 7 - t / 6) * Math.cos(lat / 4 + t / 19) + 0.2 * Math.sin(9 * lng + lat);
-const colors = Array.from({ length: 120 }, (_, t) => ids.map((id) => shades[Math.round(64 * rate(places[id], t))]));
+const stops = [[0.16, 0.18, 0.45], [0.2, 0.5, 0.6], [0.65, 0.8, 0.6], [0.98, 0.86, 0.42], [0.98, 0.86, 0.42]]; // sRGB
+const shade = (r) => stops[Math.floor(3 * r)].map((low, c) => low + ((3 * r) % 1) * (stops[Math.floor(3 * r) + 1][c] - low));
+const rate = ([lng, lat], t) => 0.5 + 0.4 * Math.sin(lng / 7 - t / 6) * Math.cos(lat / 4 + t / 19) + 0.1 * Math.sin(997 * lng);
+const colors = Array.from({ length: 120 }, (_, t) => ids.map((id) => [...shade(rate(places[id], t)), 1]));
 counties.setTimes({ ids, colors });
 
 let [hovered, kept] = [null, null];
