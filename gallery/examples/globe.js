@@ -26,7 +26,7 @@ scene.add(globe);
 
 const controls = new OrbitControls(camera, renderer.domElement);
 controls.autoRotate = !matchMedia('(prefers-reduced-motion: reduce)').matches;
-Object.assign(controls, { enableDamping: true, enablePan: false, minDistance: 1.01, maxDistance: 6, autoRotateSpeed: 0.4 });
+Object.assign(controls, { enableDamping: true, enablePan: false, minDistance: 1.02, maxDistance: 6, autoRotateSpeed: 0.4 });
 controls.addEventListener('start', () => (controls.autoRotate = false));
 
 const pointer = new THREE.Vector2(9, 9); // beside the picture

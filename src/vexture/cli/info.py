@@ -61,14 +61,8 @@ def _tile_lines(facts: dict[str, Any]) -> Iterator[str]:
     largest = facts["largest"] and "{tile}, {bytes} bytes".format(**facts["largest"])
     columns = facts["columns"] and ", ".join(facts["columns"])
     told = {"name": facts["name"], "attribution": facts["attribution"], "zooms": zooms, "bounds": bounds}
-    told |= {"tiles": f"{facts['tiles']}, {facts['contents']} of them different"}
-    told |= {
-        "size": f"{facts['bytes']} bytes",
-        "largest": largest,
-        "table": facts["table"],
-        "features": facts["features"],
-        "columns": columns,
-    }
+    told |= {"tiles": f"{facts['tiles']}, {facts['contents']} of them different", "size": f"{facts['bytes']} bytes"}
+    told |= {"largest": largest, "table": facts["table"], "features": facts["features"], "columns": columns}
     yield from (f"{name:<12}{printable(str(value))}" for name, value in told.items() if value is not None)
     for legend in facts["legends"]:
         of = f"{legend['layer']}, " if len(facts["legends"]) > 1 else ""
