@@ -85,8 +85,9 @@ def facts_of(path: Path) -> dict[str, Any]:
 
 def _checked(path: Path, about: Any) -> dict[str, Any]:
     """Metadata, if they are those of a pyramid of vexture."""
-    own = about.get("vexture") if isinstance(about, dict) else None
-    zooms = own.get("zooms") if isinstance(own, dict) else None
+    known: dict[str, Any] = about if isinstance(about, dict) else {}
+    own = known["vexture"] if isinstance(known.get("vexture"), dict) else {}
+    zooms = own.get("zooms")
     if not isinstance(zooms, list) or not zooms or not all(isinstance(zoom, int) for zoom in zooms):
         raise FormatError(f"{path}: its metadata have no pyramid of vexture; {REMEDY}")
     table = own.get("table")
@@ -95,7 +96,7 @@ def _checked(path: Path, about: Any) -> dict[str, Any]:
     legends = own.get("legends", [])
     if not isinstance(legends, list) or not all(map(_is_legend, legends)):
         raise FormatError(f"{path}: its legends are not those of vexture; {REMEDY}")
-    return about
+    return known
 
 
 def _is_legend(legend: Any) -> bool:
@@ -139,8 +140,8 @@ def _of_archive(path: Path) -> tuple[dict[str, Any], list[float], Tiles]:
                 raise FormatError(f"{path}: {error}") from None
             except DAMAGED as error:
                 raise FormatError(f"{path}: is damaged ({reason_of(error)}); copy it again, or {REMEDY}") from None
-    names = ("min_lon_e7", "min_lat_e7", "max_lon_e7", "max_lat_e7")
-    return about, [header[name] / 1e7 for name in names], found
+    bounds = (header["min_lon_e7"], header["min_lat_e7"], header["max_lon_e7"], header["max_lat_e7"])
+    return about, [value / 1e7 for value in bounds], found
 
 
 DAMAGED: Final = (ValueError, EOFError, IndexError, OverflowError, gzip.BadGzipFile, zlib.error, RecursionError)
