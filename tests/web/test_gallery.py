@@ -205,6 +205,7 @@ def wander(page: Any, places: Iterable[tuple[float, float]], said: Callable[[], 
     raise AssertionError("nothing is said")
 
 
+@pytest.mark.long
 def test_a_map_through_time_names_a_county_and_keeps_it(run: Callable[..., Any]) -> None:
     page = run("time", (1280, 800))
     frame = page.frames[1]
@@ -223,8 +224,8 @@ def test_a_map_through_time_names_a_county_and_keeps_it(run: Callable[..., Any])
     frame.wait_for_function("document.getElementById('month').textContent === 'January 2020'")
     page.wait_for_timeout(200)
     assert told().split(":")[0] == kept.split(":")[0] != told()
-    changed = np.abs(pixels(page) - before).max(axis=2) > 20
-    assert changed[:, : changed.shape[1] // 3].mean() > 0.01
+    changed = (np.abs(pixels(page) - before).max(axis=2) > 20)[SIZE[1] // 2 :]  # below the panel
+    assert changed[:, : changed.shape[1] // 3].mean() > 0.005
     assert not changed[:, changed.shape[1] // 2 :].any()  # a quick build has California only
     box = page.locator("#stage").bounding_box()
     page.mouse.click(box["x"] + 0.7 * box["width"], box["y"] + 0.9 * box["height"])
@@ -235,7 +236,7 @@ def test_a_map_through_time_names_a_county_and_keeps_it(run: Callable[..., Any])
 
 @pytest.mark.slow
 def test_a_globe_highlights_the_country_under_the_pointer(run: Callable[..., Any]) -> None:
-    page = run("globe", (800, 600))
+    page = run("globe", (480, 480))
     frame = page.frames[1]
     red = ((0xFF, 0x5C, 0x4C), 4)
     for country, place in (("Libya", (0.5, 0.56)), ("", (0.02, 0.02)), ("Libya", (0.5, 0.56))):
