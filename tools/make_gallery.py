@@ -56,7 +56,7 @@ LUCIDE_OF_GLYPH: Final = (1_594, 3 * 2**20, 998_000)
 
 CREDITS: Final = (
     'Icons: <a href="https://lucide.dev">Lucide</a> (ISC). Counties: '
-    '<a href="https://github.com/topojson/us-atlas">us-atlas</a>, of the Census Bureau; land: '
+    '<a href="https://github.com/topojson/us-atlas">us-atlas</a>, of the Census Bureau; land and countries: '
     '<a href="https://github.com/topojson/world-atlas">world-atlas</a>, of Natural Earth (both ISC). Coastline: GSHHG '
     '(LGPL). <a href="lib/LICENSES.txt">Licences</a> of these and of the libraries.'
 )
