@@ -9,16 +9,17 @@ from pathlib import Path
 
 import pytest
 
-__all__ = ["cluster_of"]
+__all__ = ["HERE", "cluster_of", "line_of", "started"]
 
 SECONDS = 60
 HERE = ("--host", "127.0.0.1", "--no-dashboard")
+"""Options of a scheduler and of workers that nobody else sees."""
 
 
 @contextmanager
 def started(*words: str) -> "Iterator[subprocess.Popen[str]]":
-    """A part of Dask in a process of its own, which finds the work in this folder."""
-    command = [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]]
+    """What `dask` does with some words, in a process of its own, which finds the work in this folder."""
+    command = [sys.executable, "-m", "dask", *words]
     folders = filter(None, (str(Path(__file__).parent), os.environ.get("PYTHONPATH")))
     found = {**os.environ, "PYTHONPATH": os.pathsep.join(folders)}
     with subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, env=found) as process:
@@ -41,9 +42,9 @@ def line_of(process: "subprocess.Popen[str]", says: str) -> str:
 def cluster_of(workers: int) -> "Iterator[tuple[str, list[subprocess.Popen[str]]]]":
     """Address of a scheduler, and the processes of its workers, which start side by side."""
     with ExitStack() as opened:
-        scheduler = opened.enter_context(started("dask_scheduler", *HERE, "--port", "0"))
+        scheduler = opened.enter_context(started("scheduler", *HERE, "--port", "0"))
         address = line_of(scheduler, "Scheduler at:").split()[-1]
-        words = ("dask_worker", address, *HERE, "--nthreads", "1", "--no-nanny")
+        words = ("worker", address, *HERE, "--nthreads", "1", "--no-nanny")
         found = [opened.enter_context(started(*words)) for _ in range(workers)]
         for worker in found:
             line_of(worker, "Registered to:")

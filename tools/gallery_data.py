@@ -4,6 +4,7 @@ import base64
 import json
 import shutil
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, Final
@@ -29,6 +30,9 @@ STAMPS: Final = 6
 SMALLER: Final = 0.1
 """Side of a stamp, in sides of its postcard."""
 
+FIRST_CITY: Final = "510"
+"""Codes of the Census Bureau from here on are of cities that are no part of a county."""
+
 TURN: Final = 360.0
 """Degrees around the earth."""
 
@@ -51,25 +55,49 @@ def rings_of(topology: dict[str, Any], geometry: dict[str, Any]) -> Iterable[lis
         yield [np.concatenate([arcs[one] if one >= 0 else arcs[~one][::-1] for one in ring]) for ring in polygon]
 
 
-def counties(folder: Path, *, quick: bool) -> None:
-    """Write the counties of the United States as GeoJSON; a quick build takes one state."""
-    topology = json.loads((COUNTIES.installed() / "counties-albers-10m.json").read_text(encoding="utf-8"))
+def named_counties(file: str, *, quick: bool) -> dict[str, Any]:
+    """The counties of the United States with the names of their states, as TopoJSON; a quick build takes one state.
+
+    A city that is no part of the county of its name is told from it.
+    """
+    topology: dict[str, Any] = json.loads((COUNTIES.installed() / file).read_text(encoding="utf-8"))
     states = {one["id"]: one["properties"]["name"] for one in topology["objects"]["states"]["geometries"]}
+    found = [one for one in topology["objects"]["counties"]["geometries"] if not quick or one["id"].startswith("06")]
+    names = [f"{one['properties']['name']}, {states[one['id'][:2]]}" for one in found]
+    count = Counter(names)
+    for name, one in zip(names, found, strict=True):
+        is_city = count[name] > 1 and one["id"][2:] >= FIRST_CITY
+        one["properties"]["name"] = name.replace(",", " (city),", 1) if is_city else name
+    topology["objects"] = {"counties": topology["objects"]["counties"] | {"geometries": found}}
+    return topology
+
+
+def counties(folder: Path, *, quick: bool) -> None:
+    """Write the counties of the United States as GeoJSON, in Albers' projection."""
+    topology = named_counties("counties-albers-10m.json", quick=quick)
     features = []
     for one in topology["objects"]["counties"]["geometries"]:
-        if quick and not one["id"].startswith("06"):
-            continue
         polygons = [[(ring * (1, -1)).round(3).tolist() for ring in rings] for rings in rings_of(topology, one)]
-        name = f"{one['properties']['name']}, {states[one['id'][:2]]}"
-        features.append(
-            {
-                "type": "Feature",
-                "properties": {"name": name},
-                "geometry": {"type": "MultiPolygon", "coordinates": polygons},
-            }
-        )
+        geometry = {"type": "MultiPolygon", "coordinates": polygons}
+        features.append({"type": "Feature", "properties": one["properties"], "geometry": geometry})
     text = json.dumps({"type": "FeatureCollection", "features": features})
     (folder / "counties.geojson").write_text(text, encoding="utf-8")
+
+
+def counties_in_degrees(folder: Path, *, quick: bool) -> None:
+    """Write the counties in degrees as TopoJSON, and about where each of them is."""
+    topology = named_counties("counties-10m.json", quick=quick)
+    (folder / "counties.topojson").write_text(json.dumps(topology), encoding="utf-8")
+    places = {}
+    for one in topology["objects"]["counties"]["geometries"]:
+        for largest in sorted((rings[0] for rings in rings_of(topology, one)), key=len)[-1:]:
+            places[one["properties"]["name"]] = ((largest.min(axis=0) + largest.max(axis=0)) / 2).round(2).tolist()
+    (folder / "counties.json").write_text(json.dumps(places, separators=(",", ":")), encoding="utf-8")
+
+
+def countries(folder: Path, *, quick: bool) -> None:
+    """Copy the countries of the world."""
+    shutil.copyfile(WORLD.installed() / f"countries-{'110m' if quick else '50m'}.json", folder / "countries.json")
 
 
 def unrolled(ring: Any) -> list[Any]:
@@ -216,6 +244,8 @@ def van(folder: Path, *, quick: bool) -> None:
 
 SOURCES: Final[dict[str, Callable[..., None]]] = {
     "counties.geojson": counties,
+    "counties.topojson": counties_in_degrees,
+    "countries.json": countries,
     "land.svg": land,
     "lucide": icons,
     "postcard.svg": postcard,

@@ -9,12 +9,13 @@ import argparse
 import base64
 import contextlib
 import io
+import json
 import os
 import shutil
 import subprocess
 import sys
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import click
 import numpy as np
@@ -28,7 +29,7 @@ from vexture.cli.main import main as command
 __all__ = ["main"]
 
 WEB: Final = ROOT / "web"
-ENTRIES: Final = ("gltf", "react", "water", "webgpu")
+ENTRIES: Final = ("globe", "gltf", "maplibre", "react", "water", "webgpu")
 """Entries of the npm package beside the main one that the gallery shows."""
 
 LICENSED: Final = (
@@ -41,8 +42,13 @@ LICENSED: Final = (
     "zustand",
     "suspend-react",
     "its-fine",
+    "maplibre-gl",
+    "pmtiles",
 )
 """Packages in the bundles."""
+
+HOLDS_OTHERS: Final = ("maplibre-gl",)
+"""Those that hold what they depend on."""
 
 THUMBNAIL: Final = (640, 400)
 LUCIDE_OF_GLYPH: Final = (1_594, 3 * 2**20, 998_000)
@@ -50,7 +56,7 @@ LUCIDE_OF_GLYPH: Final = (1_594, 3 * 2**20, 998_000)
 
 CREDITS: Final = (
     'Icons: <a href="https://lucide.dev">Lucide</a> (ISC). Counties: '
-    '<a href="https://github.com/topojson/us-atlas">us-atlas</a>, of the Census Bureau; land: '
+    '<a href="https://github.com/topojson/us-atlas">us-atlas</a>, of the Census Bureau; land and countries: '
     '<a href="https://github.com/topojson/world-atlas">world-atlas</a>, of Natural Earth (both ISC). Coastline: GSHHG '
     '(LGPL). <a href="lib/LICENSES.txt">Licences</a> of these and of the libraries.'
 )
@@ -151,6 +157,7 @@ def photographed(folder: Path, shown: list[Example]) -> bool:
                 page.goto((folder / example.name / "index.html").as_uri())
                 page.add_style_tag(content="#stage { position: fixed !important; inset: 0; z-index: 9 }")
                 if example.libraries:
+                    page.evaluate("document.getElementById('run').click()")  # again, in the size of the picture
                     page.wait_for_function("document.documentElement.dataset.state === 'ran'", timeout=60_000)
                 page.wait_for_timeout(6_000 if example.page else 2_500)
                 content = page.locator("#stage").screenshot(timeout=120_000)
@@ -162,16 +169,36 @@ def photographed(folder: Path, shown: list[Example]) -> bool:
     return True
 
 
+def described(name: str) -> Any:
+    """What a package says of itself."""
+    return json.loads((WEB / "node_modules" / name / "package.json").read_text(encoding="utf-8"))
+
+
+def held() -> list[str]:
+    """Packages in those that hold others; types are not in them."""
+    names = {one for holder in HOLDS_OTHERS for one in described(holder)["dependencies"]}
+    return sorted(name for name in names if not name.startswith("@types/"))
+
+
+def licence_of(name: str) -> str:
+    """The licence of a package of web/; or else the one kept here, or what it is called."""
+    found = [*(WEB / "node_modules" / name).glob("LICENSE*"), *(GALLERY / "libraries").glob(f"{name}.LICENSE")]
+    if not found:
+        return f"{described(name)['license']}, by {described(name)['author']}"
+    return found[0].read_text(encoding="utf-8").strip()
+
+
 def write_licences(folder: Path, shown: list[Example]) -> None:
     """Write the licences of what is bundled and converted."""
-    parts = []
-    for name in LICENSED:
-        text = next((WEB / "node_modules" / name).glob("LICENSE*"))
-        parts.append(f"{name}\n\n{text.read_text(encoding='utf-8').strip()}\n")
+    parts = [f"{name}\n\n{licence_of(name)}\n" for name in [*LICENSED, *held()]]
     sources = {source for one in shown for source in one.sources}
-    data = {"lucide": ICONS, "counties.geojson": COUNTIES, "land.svg": WORLD}
-    for source, package in data.items():
-        if source in sources:
+    data = {
+        ICONS: {"lucide"},
+        COUNTIES: {"counties.geojson", "counties.topojson"},
+        WORLD: {"land.svg", "countries.json"},
+    }
+    for package, made in data.items():
+        if made & sources:
             parts.append(f"{package.name}\n\n{(package.installed() / 'LICENSE').read_text(encoding='utf-8').strip()}\n")
     (folder / "lib" / "LICENSES.txt").write_text("\n".join(parts), encoding="utf-8")
 

@@ -27,9 +27,11 @@
     return `data:text/javascript,${encodeURIComponent(`export const { ${names} } = ${all};${main}`)}`;
   }
 
-  const { DefaultLoadingManager } = modules.three ?? modules['three/webgpu'];
   const files = globalThis.galleryFiles ?? {};
-  DefaultLoadingManager.setURLModifier((url) => files[url] ?? url);
+  const { DefaultLoadingManager } = modules.three ?? modules['three/webgpu'] ?? {};
+  DefaultLoadingManager?.setURLModifier((url) => files[url] ?? url);
+  const { fetch } = globalThis;
+  globalThis.fetch = (what, options) => fetch(files[what] ?? what, options);
 
   const append = (type, text) => document.body.append(Object.assign(document.createElement('script'), { type, textContent: text }));
   const imports = Object.fromEntries(Object.keys(modules).map((name) => [name, forwarded(name)]));

@@ -3,7 +3,7 @@
 import io
 import runpy
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -108,6 +108,8 @@ SEEN: dict[str, tuple[tuple[int, int, int], float, float]] = {
     "decals": ((0xE8, 0xB1, 0x00), 70, 0.01),
     "road": ((250, 250, 240), 20, 0.01),
     "choropleth": ((0x10, 0x16, 0x1D), 4, 0.2),
+    "time": ((0xDB, 0xE5, 0xEA), 4, 0.3),
+    "globe": ((0x1F, 0x4A, 0x6B), 4, 0.1),
     "water": ((0x20, 0x60, 0x78), 50, 0.1),
     "sphere": ((0x1D, 0x5C, 0x86), 60, 0.05),
     "live": ((0xE8, 0xA2, 0x00), 50, 0.01),
@@ -189,6 +191,58 @@ def test_a_choropleth_tells_the_county_under_the_pointer(run: Callable[..., Any]
     page.frames[1].wait_for_function("document.querySelector('output').textContent.endsWith(', California')")
     page.wait_for_timeout(200)
     assert share(pixels(page), (0xFF, 0x5C, 0x4C), 8) > 0.001
+
+
+def wander(page: Any, places: Iterable[tuple[float, float]], said: Callable[[], bool]) -> None:
+    """Move the pointer over places of the stage, given as parts of its sides, until something is said."""
+    box = page.locator("#stage").bounding_box()
+    for _ in range(20):  # tiles may still be on their way
+        for x, y in places:
+            page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
+            page.wait_for_timeout(100)
+            if said():
+                return
+    raise AssertionError("nothing is said")
+
+
+@pytest.mark.long
+def test_a_map_through_time_names_a_county_and_keeps_it(run: Callable[..., Any]) -> None:
+    page = run("time", (1280, 800))
+    frame = page.frames[1]
+
+    def told() -> str:
+        return str(frame.locator("#name").text_content())
+
+    along = [(x, 0.5) for x in np.linspace(0.03, 0.2, 9).tolist()]
+    wander(page, along, lambda: ", California: " in told())
+    page.mouse.down()
+    page.mouse.up()
+    frame.wait_for_selector(".maplibregl-marker")
+    wander(page, [(0.7, 0.9)], lambda: ", California: " in told())
+    kept, before = told(), pixels(page)
+    frame.evaluate("document.getElementById('time').value = 60")
+    frame.wait_for_function("document.getElementById('month').textContent === 'January 2020'")
+    page.wait_for_timeout(200)
+    assert told().split(":")[0] == kept.split(":")[0] != told()
+    changed = (np.abs(pixels(page) - before).max(axis=2) > 20)[SIZE[1] // 2 :]  # below the panel
+    assert changed[:, : changed.shape[1] // 3].mean() > 0.005
+    assert not changed[:, changed.shape[1] // 2 :].any()  # a quick build has California only
+    box = page.locator("#stage").bounding_box()
+    page.mouse.click(box["x"] + 0.7 * box["width"], box["y"] + 0.9 * box["height"])
+    frame.wait_for_function("!document.querySelector('.maplibregl-marker')")
+    assert told().startswith("Point at a county")
+    assert page.locator("#note").text_content() == ""
+
+
+@pytest.mark.slow
+def test_a_globe_highlights_the_country_under_the_pointer(run: Callable[..., Any]) -> None:
+    page = run("globe", (480, 480))
+    frame = page.frames[1]
+    red = ((0xFF, 0x5C, 0x4C), 4)
+    for country, place in (("Libya", (0.5, 0.56)), ("", (0.02, 0.02)), ("Libya", (0.5, 0.56))):
+        wander(page, [place], lambda country=country: frame.locator("output").text_content() == country)
+        page.wait_for_timeout(200)
+        assert (share(pixels(page), *red) > 0.002) is bool(country)
 
 
 def test_a_phone_shows_the_picture_first(run: Callable[..., Any]) -> None:

@@ -5,7 +5,9 @@ import { choose } from '../src/tiles/choose.js';
 import { FeatureColors } from '../src/tiles/feature-colors.js';
 import { parts } from '../src/tiles/css-color.js';
 import { ancestor, fixed, keyOf, lngLat, mercator, placeIn, squareOf } from '../src/tiles/grid.js';
+import { Pyramid } from '../src/tiles/pyramid.js';
 import { RequestQueue } from '../src/tiles/queue.js';
+import { openTiles } from '../src/tiles/source.js';
 import { readPacked } from '../src/packed.js';
 import { fixture } from './files.js';
 
@@ -189,4 +191,47 @@ test('a paint of undefined takes back what a feature was given', () => {
   colors.setPaint({ a: '#000', b: '#fff' });
   colors.setPaint({ a: undefined });
   expect(['a', 'b'].map((id) => colors.paintOf(id))).toEqual(['#ff0000', '#fff']);
+});
+
+describe('an archive in memory', () => {
+  const archive = fixture('parcels.pmtiles');
+  const { signal } = new AbortController();
+  const place = [mercator(4.5, 52.5), mercator(5.5, 52.5)];
+
+  test.each([
+    ['bytes', archive],
+    ['a part of a buffer', new Uint8Array([...archive.slice(0, 9), ...archive]).subarray(9)],
+    ['a buffer', archive.buffer.slice(archive.byteOffset, archive.byteOffset + archive.length)],
+    ['a blob', new Blob([archive])],
+    ['a file of a user', new File([archive], 'mine.pmtiles')],
+  ])('is a pyramid: %s', async (_, given) => {
+    const source = await openTiles(given);
+    expect(source).toMatchObject({ name: 'parcels', attribution: 'a survey', zooms: [0, 2, 4] });
+    const [[x, y]] = place;
+    const file = await source.load({ z: 4, x: Math.floor(16 * x), y: Math.floor(16 * y) }, signal);
+    expect((await readPacked(file)).roots[0].style.elements.map(({ name }) => name).sort()).toEqual(['east', 'west']);
+    expect(await source.load({ z: 4, x: 0, y: 0 }, signal)).toBe(null);
+  });
+
+  test('is taken where an address is, and so is a source of one', async () => {
+    for (const given of [new Blob([archive]), await openTiles(archive)]) {
+      const pyramid = new Pyramid(given, {});
+      await pyramid.ready;
+      const found = () => place.map(([x, y]) => pyramid.featureAt(x, y)?.id);
+      for (let k = 0; k < 500 && !found()[0]; k++) {
+        pyramid.update([{ z: 0, x: 0, y: 0, distance: 0 }], () => {});
+        await later();
+      }
+      expect(found()).toEqual(['west', 'east']);
+      pyramid.dispose();
+    }
+  });
+
+  test('says what is wrong with it in a line', async () => {
+    const says = (/** @type {any} */ given) => openTiles(given).then(() => '', ({ message }) => message);
+    expect(await says(new TextEncoder().encode('<svg/>'.repeat(99)))).toMatch(/^the archive: cannot be read \(.*\); give all bytes of a \.pmtiles$/);
+    expect(await says(archive.slice(0, 200))).toMatch(/^the archive: cannot be read \(.*\); give all bytes of a \.pmtiles$/);
+    expect(await says(undefined)).toMatch(/^the archive: cannot be read \(.*\); give all bytes of a \.pmtiles$/);
+    await expect(new Pyramid(/** @type {any} */ (undefined), {}).ready).rejects.toThrow('give all bytes of a .pmtiles');
+  });
 });

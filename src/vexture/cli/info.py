@@ -9,7 +9,7 @@ import click
 
 from vexture.cli.messages import one_line
 from vexture.cli.options import PATH, STANDARD, drawing_kind, standard_input
-from vexture.errors import FormatError
+from vexture.errors import FormatError, counted, printable
 
 __all__ = ["info"]
 
@@ -20,26 +20,54 @@ EXAMPLE = """\b
 Examples:
   vexture info logo.ktx2
   vexture info logo.ktx2 --json | jq .texels
+  vexture info parcels.pmtiles
 """
 
 
 @click.command(epilog=EXAMPLE)
-@click.argument("texture", metavar="TEXTURE|-", type=PATH)
+@click.argument("texture", metavar="TEXTURE|TILES|-", type=PATH)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def info(texture: Path, as_json: bool) -> None:
-    """Describe a texture."""
+    """Describe a texture, or a pyramid of tiles: a file (PMTiles), or a folder."""
     with one_line():
         from vexture.content import start_of
         from vexture.texture.load import load_any, texture_from
 
+        lines = _lines
         if texture == Path(STANDARD):
             facts = texture_from(standard_input(), "standard input").info()
+        elif (tiles := _tiles(texture)) is not None:
+            facts, lines = tiles, _tile_lines
         else:
             if drawing_kind(texture) is not None:
                 what = "it is not a texture" if start_of(texture) else "it is empty"
                 raise FormatError(f"{texture}: {what}; give a texture, which vexture convert makes from a drawing")
             facts = load_any(texture).info()
-        click.echo(json.dumps(facts, indent=2) if as_json else "\n".join(_lines(facts)))
+        click.echo(json.dumps(facts, indent=2) if as_json else "\n".join(lines(facts)))
+
+
+def _tiles(path: Path) -> dict[str, Any] | None:
+    """What a pyramid of tiles is; None if the path is of none."""
+    from vexture.tiles.facts import facts_of, is_pyramid
+
+    return facts_of(path) if is_pyramid(path) else None
+
+
+def _tile_lines(facts: dict[str, Any]) -> Iterator[str]:
+    """Facts about a pyramid for people: one in a line; values that are missing are left out."""
+    sharp = facts["sharp"]
+    zooms = ", ".join(map(str, facts["zooms"])) + (f"; exact up to views of {sharp}" if sharp is not None else "")
+    bounds = facts["bounds"] and "west {:.6g}, south {:.6g}, east {:.6g}, north {:.6g}".format(*facts["bounds"])
+    largest = facts["largest"] and "{tile}, {bytes} bytes".format(**facts["largest"])
+    columns = facts["columns"] and ", ".join(facts["columns"])
+    told = {"name": facts["name"], "attribution": facts["attribution"], "zooms": zooms, "bounds": bounds}
+    told |= {"tiles": f"{facts['tiles']}, {facts['contents']} of them different", "size": f"{facts['bytes']} bytes"}
+    told |= {"largest": largest, "table": facts["table"], "features": facts["features"], "columns": columns}
+    yield from (f"{name:<12}{printable(str(value))}" for name, value in told.items() if value is not None)
+    for legend in facts["legends"]:
+        of = f"{legend['layer']}, " if len(facts["legends"]) > 1 else ""
+        entries = len(legend["entries"])
+        yield printable(f"{'legend':<12}{of}{legend['column']}: {legend['scale']}, {counted(entries, 'colour')}")
 
 
 def _lines(facts: dict[str, Any]) -> Iterator[str]:

@@ -8,14 +8,16 @@ import shutil
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, BinaryIO, Final
+from typing import TYPE_CHECKING, Any, BinaryIO, Final
 
 from vexture.errors import DeviceError, LimitError
 from vexture.geo.extent import Bounds
 from vexture.geo.tables import TABLES
 from vexture.layout import PACKED_SUFFIX
 from vexture.texture.files import TEMPORARY, make_folder
-from vexture.tiles.store import Content
+
+if TYPE_CHECKING:
+    from vexture.tiles.store import Content
 
 __all__ = ["ARCHIVE", "LISTED", "check_target", "table_of", "write_archive", "write_folder"]
 
@@ -57,7 +59,7 @@ def table_of(output: Path, kind: str) -> Path | None:
 def write_archive(
     output: Path,
     runs: Runs,
-    contents: Mapping[str, Content],
+    contents: "Mapping[str, Content]",
     zooms: Sequence[int],
     bounds: Bounds,
     about: Any,
@@ -116,7 +118,7 @@ def _write_whole(path: Path, write: Callable[[BinaryIO], None]) -> None:
 def write_folder(
     output: Path,
     runs: Runs,
-    contents: Mapping[str, Content],
+    contents: "Mapping[str, Content]",
     zooms: Sequence[int],
     bounds: Bounds,
     about: Any,
@@ -150,7 +152,7 @@ def write_folder(
     return size
 
 
-def _fill(partial: Path, runs: Runs, contents: Mapping[str, Content]) -> int:
+def _fill(partial: Path, runs: Runs, contents: "Mapping[str, Content]") -> int:
     """Write the tiles of a folder, and return the size of what differs."""
     from pmtiles.tile import tileid_to_zxy
 

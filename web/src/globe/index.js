@@ -15,5 +15,6 @@ export { VectorGlobe } from './vector-globe.js';
 /** @typedef {import('../tiles/feature-colors.js').TimeTable} TimeTable */
 /** @typedef {import('../tiles/grid.js').TileId} TileId */
 /** @typedef {import('../tiles/pyramid.js').Feature} Feature */
+/** @typedef {import('../tiles/source.js').TileArchive} TileArchive */
 /** @typedef {import('../tiles/source.js').TileSource} TileSource */
 /** @typedef {import('../tiles/choose.js').Quad} Quad */

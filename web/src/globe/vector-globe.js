@@ -13,8 +13,8 @@ import { patch } from './patch.js';
  * @typedef {import('../tiles/pyramid.js').Feature} Feature
  *
  * @typedef {object} VectorGlobeOptions What a globe shows, and how much it may keep and ask for.
- * @property {string | import('../tiles/source.js').TileSource} source address of a `.pmtiles` or a TileJSON, `textureSource`
- *   of one texture, or a source of your own
+ * @property {string | import('../tiles/source.js').TileArchive | import('../tiles/source.js').TileSource} source address of a
+ *   `.pmtiles` or a TileJSON, the bytes of a `.pmtiles`, `textureSource` of one texture, or a source of your own
  * @property {number} [radius] 1 by default
  * @property {() => void} [onChange] something has been loaded: draw another frame
  * @property {(error: unknown) => void} [onError] something cannot be had; by default the console's

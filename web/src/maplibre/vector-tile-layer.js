@@ -13,8 +13,8 @@ import { TilePainter } from './painter.js';
  *
  * @typedef {object} VectorTileLayerOptions What a layer shows, and how much it may keep and ask for.
  * @property {string} id of the layer
- * @property {string | import('../tiles/source.js').TileSource} source address of a `.pmtiles` or a TileJSON, or a source of
- *   your own
+ * @property {string | import('../tiles/source.js').TileArchive | import('../tiles/source.js').TileSource} source address of a
+ *   `.pmtiles` or a TileJSON, the bytes of a `.pmtiles`, or a source of your own
  * @property {number} [opacity] of all of it, 0..1
  * @property {number} [budget] bytes of tiles that are kept
  * @property {number} [most] requests at once

@@ -13,7 +13,12 @@ import { openTiles } from './source.js';
  * @property {string} id its name
  *
  * @typedef {{ quad: import('./choose.js').Quad, loaded: LoadedTile }[]} View what is shown
+ *
+ * @typedef {string | import('./source.js').TileArchive | import('./source.js').TileSource} Given
  */
+
+/** @param {Given} given @returns {given is import('./source.js').TileSource} */
+const isSource = (given) => !!(/** @type {any} */ (given)?.load);
 
 export class Pyramid {
   /** @type {TileClient | null} */
@@ -23,7 +28,7 @@ export class Pyramid {
   #controller = new AbortController();
 
   /**
-   * @param {string | import('./source.js').TileSource} source an address, or what `openTiles` has made of it
+   * @param {Given} source an address, the bytes of an archive, or what `openTiles` has made of them
    * @param {import('./client.js').AllTileOptions} options
    * @param {FeatureColors} [colors] those of a pyramid before it
    */
@@ -35,12 +40,12 @@ export class Pyramid {
   }
 
   /**
-   * @param {string | import('./source.js').TileSource} given
+   * @param {Given} given
    * @param {import('./client.js').AllTileOptions} options
    */
   async #open(given, options) {
     const { signal } = this.#controller;
-    const [source] = await Promise.all([typeof given === 'string' ? openTiles(given, signal) : given, loadMaps()]);
+    const [source] = await Promise.all([isSource(given) ? given : openTiles(given, signal), loadMaps()]);
     if (signal.aborted) return null;
     this.client = new TileClient(source, options);
     options.onChange?.();

@@ -1,5 +1,5 @@
-// Where the tiles of a pyramid come from: a PMTiles archive, or a folder with a TileJSON.
-import { PMTiles } from 'pmtiles';
+// Where the tiles of a pyramid come from: a PMTiles archive, there or in memory, or a folder with a TileJSON.
+import { FileSource, PMTiles } from 'pmtiles';
 import { PACKED_FILE_LIMIT } from '../../generated/layout.js';
 import { VextureError, line } from '../errors.js';
 import { fetchBytes } from '../fetching.js';
@@ -14,37 +14,49 @@ import { fetchBytes } from '../fetching.js';
  *   null: nothing is there
  */
 
+/**
+ * @typedef {ArrayBuffer | Uint8Array | Blob} TileArchive The contents of a `.pmtiles`, or a `File` of a user.
+ */
+
 /** A tile in which nothing is may have no file. */
 const NOTHING = ['status 404', 'status 204', 'status 410'];
 
 /** Longest TileJSON, in bytes. */
 const LONGEST = 2 ** 22;
 
+/** What messages call an archive that has no address. */
+const HELD = 'the archive';
+
 /**
- * A pyramid by its address: `map.pmtiles`, or a TileJSON.
+ * A pyramid by its address, `map.pmtiles` or a TileJSON, or by the contents of a `.pmtiles`, which a page may hold.
  *
- * @param {string} url
+ * @param {string | TileArchive} given
  * @param {AbortSignal} [signal]
  * @returns {Promise<TileSource>}
  * @throws {VextureError} if it cannot be fetched, or is no pyramid of vexture
  */
-export async function openTiles(url, signal = new AbortController().signal) {
-  const path = new URL(url, globalThis.location?.href).href;
-  return /\.pmtiles(?:$|[?#])/.test(path) ? archive(path) : folder(path, signal);
+export async function openTiles(given, signal = new AbortController().signal) {
+  if (typeof given !== 'string') {
+    const file = new File([/** @type {BlobPart} */ (given)], HELD);
+    return archive(new FileSource(file), HELD, 'give all bytes of a .pmtiles');
+  }
+  const path = new URL(given, globalThis.location?.href).href;
+  return /\.pmtiles(?:$|[?#])/.test(path) ? archive(path, path, 'check the address, and that its server answers range requests') : folder(path, signal);
 }
 
 /**
- * @param {string} url
+ * @param {string | FileSource} given
+ * @param {string} url or what it is called
+ * @param {string} remedy
  * @returns {Promise<TileSource>}
  */
-async function archive(url) {
-  const tiles = new PMTiles(url);
+async function archive(given, url, remedy) {
+  const tiles = new PMTiles(given);
   let metadata;
   try {
     metadata = await tiles.getMetadata();
   } catch (error) {
-    throw new VextureError(`${url}: cannot be read (${line(error)}); check the address, and that its server answers range requests`,
-      'url', { cause: error });
+    throw new VextureError(`${url}: cannot be read (${line(error)}); ${remedy}`, 'url', { cause: error });
   }
   const load = async (/** @type {import('./grid.js').TileId} */ { z, x, y }, /** @type {AbortSignal} */ signal) => {
     const found = await tiles.getZxy(z, x, y, signal);
