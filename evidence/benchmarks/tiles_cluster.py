@@ -9,8 +9,8 @@ which the worker had a core, as other programs may have run. It gives the pieces
 result after the other, for as long as they computed per piece; a level waits for the one before. `times` repeats the
 pieces, as of a source so many times larger, except where a level has one.
 
-Ten times in one run a random worker is killed, at random moments of which two are about as far apart as the longest piece
-of work takes: Dask gives up a piece that four workers have died at. Another worker starts each time.
+Ten times in one run a random worker is killed, at random moments of which two are about as far apart as the longest
+piece of work takes: Dask gives up a piece that four workers have died at. Another worker starts each time.
 """
 
 import argparse

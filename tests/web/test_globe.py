@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 
 PAGE = Path(__file__).parent / "pages" / "globe.js"
 SIZE = 256
+STEPS = 3
+"""By which a colour may be off, of a byte's: an eye sees no rim of this."""
+
 HTML = """<!doctype html><link rel="icon" href="data:,"><body style="margin:0">
 <script type="module" src="page.js"></script>"""
 CENTRE = tile_pyramid.meeting()
@@ -22,11 +25,18 @@ MIDDLE = (CENTRE[0] + 0.01, CENTRE[1] + 0.02)
 
 
 @pytest.fixture(scope="module")
-def address(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def folder(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("globe")
     bundle(PAGE, folder / "page.js")
-    os.symlink(tile_folder / "map.pmtiles", folder / "map.pmtiles")
+    for name in ("tiles.json", "map.pmtiles", *map(str, tile_pyramid.ZOOMS)):
+        os.symlink(tile_folder / name, folder / name)
+    tile_pyramid.write_land(folder / "land")
     (folder / "page.html").write_text(HTML, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def address(folder: Path) -> Iterator[str]:
     with tile_pyramid.served(folder) as url:
         yield url
 
@@ -77,7 +87,7 @@ def test_each_pixel_has_the_colour_of_its_place(
     assert checked > 50
 
 
-@pytest.mark.parametrize("height", [0.3, 0.01])
+@pytest.mark.parametrize("height", [0.5, 0.3, 0.01])
 def test_edges_are_exact(height: float, page: Any) -> None:
     picture = _look(page, *tile_pyramid.lng_lat(*CENTRE), height)
     project = """some => some.map(([lng, lat]) => {
@@ -92,6 +102,61 @@ def test_edges_are_exact(height: float, page: Any) -> None:
         SIZE, lambda some: page.evaluate(project, some), lambda some: page.evaluate(unproject, some), is_curved=True
     )
     assert map_truth.edges(picture, truth) < 0.3
+
+
+def test_no_frame_is_blank_once_the_parent_is_there(folder: Path, open_page: Callable[..., Any]) -> None:
+    chance = np.random.default_rng(20)
+    path = [
+        [
+            *tile_pyramid.lng_lat(0.8 + 0.06 * np.sin(0.4 * k), 0.42 + 0.03 * np.cos(0.3 * k)),
+            0.3 * 2 ** (1.3 * np.cos(0.5 * k)),
+        ]
+        for k in range(24)
+    ]
+    with tile_pyramid.served(folder, iter(lambda: float(chance.uniform(0.0, 0.2)), None)) as url:
+        page = open_page(f"{url}/page.html?tiles.json", (SIZE, SIZE))
+        page.wait_for_function("window.globe")
+        blank, waited, last = page.evaluate(
+            """async (places) => {
+                renderer.setClearColor(0xff00ff);
+                await look(...places[0]);
+                let [blank, waited] = [0, 0];
+                for (const place of places) {
+                    aim(...place);
+                    blank += await count(255, 0, 255);
+                    waited += globe.stats.running > 0;
+                }
+                await look(...places.at(-1));
+                return [blank, waited, globe.stats.shown.map(({ quad, tile }) => [quad.z, tile.z])];
+            }""",
+            path,
+        )
+    assert blank == 0
+    assert waited > 5, "tiles have come at once"
+    assert {tile for quad, tile in last if quad >= 3} == {3}, "a stale tile"
+
+
+@pytest.mark.parametrize(
+    ("lat", "height", "seen"),
+    [
+        (90, 3.0, 0.6),
+        (-90, 0.5, 2),
+        (90, 0.2, 2),
+        (-80, 0.3, 1),
+        (85.05, 0.01, 2),
+        (-85.05, 0.001, 2),
+        (85.05, 1e-5, 2),
+    ],
+)
+def test_the_caps_of_the_poles_have_no_rim(
+    lat: float, height: float, seen: float, address: str, open_page: Callable[..., Any]
+) -> None:
+    page = open_page(f"{address}/page.html?land/tiles.json", (SIZE, SIZE))
+    page.wait_for_function("window.globe")
+    picture = _look(page, 20.0, lat, height)
+    along = (np.arange(SIZE) + 0.5) / (SIZE / 2) - 1
+    far = np.hypot(*np.meshgrid(along, along))
+    assert 255 * np.abs(picture - tile_pyramid.COLOURS[0])[far < seen].max() < STEPS
 
 
 def test_features_are_found_and_coloured_without_loading(page: Any) -> None:
@@ -123,3 +188,36 @@ def test_all_is_freed(page: Any) -> None:
         0,
         0,
     ]
+
+
+@pytest.mark.parametrize(
+    ("act", "message"),
+    [
+        ("new globe.constructor()", "the source is undefined; give the address of a .pmtiles or a TileJSON, or "),
+        ("new globe.constructor({ source: 'a.pmtiles', radius: 0 })", "the radius is 0; give a number above 0"),
+        ("globe.featureAt([4, NaN])", "the place is [4,null]; give [lng, lat] or { lng, lat } in degrees, "),
+        ("globe.featureUnder(null, camera)", "the pointer is null; give { x, y }, -1 to 1"),
+        ("globe.update(undefined, 5)", "the camera is no PerspectiveCamera; give one"),
+        ("textureSource('world.ktx2')", 'the texture is "world.ktx2"; give the contents of its file, an ArrayBuffer'),
+    ],
+)
+def test_what_cannot_be_is_refused(act: str, message: str, page: Any) -> None:
+    said = page.evaluate(f"() => {{ try {{ {act} }} catch (error) {{ return `${{error}}` }} }}")
+    assert said.startswith(f"VextureError: {message}")
+
+
+def test_a_function_that_throws_is_told_once(page: Any) -> None:
+    place = tile_pyramid.lng_lat(*MIDDLE)
+    first = _look(page, *place, 0.5)
+    told = page.evaluate(
+        """async (place) => {
+            const errors = [];
+            replace({ source: 'map.pmtiles', onError: (error) => errors.push(error.message) });
+            globe.setPaint(() => { throw new Error('no') });
+            await look(...place, 0.5);
+            return errors.map((message) => message.replace(/".*"/, '...'));
+        }""",
+        place,
+    )
+    assert told == ["the paint function throws for ... (no); mend it; such features are drawn without it"]
+    assert np.array_equal(_look(page, *place, 0.5), first)

@@ -103,6 +103,17 @@ def write(folder: Path) -> None:
         writer.finalize(header, METADATA)
 
 
+def write_land(folder: Path) -> None:
+    """Write a pyramid of one tile: land everywhere, cut off where the grid ends, as `vexture tiles` does it."""
+    low, high = MARGIN / (1 + 2 * MARGIN), (1 + MARGIN) / (1 + 2 * MARGIN)
+    world = Drawing.polygon([(0.0, low), (1.0, low), (1.0, high), (0.0, high)])
+    paths = tuple(replace(path, paint=Paint(COLOURS[0]), element="land") for path in world.paths)
+    folder.mkdir()
+    vexture.convert(Drawing(paths, name="land"), split="faces", restyle=True).save(folder / "0.ktx2")
+    told = {"tiles": ["{z}.ktx2"], "vexture": {"margin": MARGIN, "zooms": [0]}}
+    (folder / "tiles.json").write_text(json.dumps(told), encoding="utf-8")
+
+
 def lng_lat(x: float, y: float) -> tuple[float, float]:
     """Degrees of a place in Web Mercator of 0..1."""
     return 360 * (x - 0.5), np.degrees(np.arctan(np.sinh(np.pi * (1 - 2 * y))))

@@ -44,11 +44,20 @@ export function shortened(text) {
 }
 
 /**
- * An untrusted value as part of a one-line message: an error's own message, anything else as JSON.
+ * An untrusted value as part of a one-line message: an error's own message, anything else as JSON if it has any.
  *
  * @param {unknown} value
  * @returns {string}
  */
 export function line(value) {
-  return shortened(value instanceof Error ? value.message : (JSON.stringify(value) ?? String(value)));
+  return shortened(value instanceof Error ? value.message : typeof value === 'number' ? String(value) : json(value));
+}
+
+/** @param {unknown} value */
+function json(value) {
+  try {
+    return JSON.stringify(value) ?? String(value);
+  } catch { // it is a bigint, or holds itself
+    return String(value);
+  }
 }

@@ -2,8 +2,6 @@ import { describe, expect, test } from 'vitest';
 import { cover } from '../src/globe/cover.js';
 import { TileClient } from '../src/tiles/client.js';
 import { choose } from '../src/tiles/choose.js';
-import { FeatureColors } from '../src/tiles/feature-colors.js';
-import { parts } from '../src/tiles/css-color.js';
 import { ancestor, fixed, keyOf, lngLat, mercator, placeIn, squareOf } from '../src/tiles/grid.js';
 import { Pyramid } from '../src/tiles/pyramid.js';
 import { RequestQueue } from '../src/tiles/queue.js';
@@ -131,18 +129,6 @@ test('an empty tile is known, a failed one is asked for again', async () => {
   expect([...client.tiles]).toEqual([]);
 });
 
-test('colours are read, or refused in a line', () => {
-  expect(parts('#f00')).toEqual([1, 0, 0, 1]);
-  expect(parts('#00ff0033')).toEqual([0, 1, 0, 0.2]);
-  expect(parts(0x0000ff)).toEqual([0, 0, 1, 1]);
-  expect(parts('rgb(255, 0,51)')).toEqual([1, 0, 0.2, 1]);
-  expect(parts(null)).toEqual([0, 0, 0, 0]);
-  expect(() => parts('#ggg')).toThrow('a paint is "#ggg"; give a colour of CSS, four numbers in 0..1, or null');
-  const colors = new FeatureColors();
-  expect(() => colors.setTimes({ ids: ['a', 'b'], colors: [['#000']] })).toThrow('step 0 has 1 colours; give 2, one for each id');
-  expect(() => colors.setTime(NaN)).toThrow('the time is null; give the number of a step');
-});
-
 test('a camera above a globe sees few quads, the deepest below it', () => {
   const eye = { position: [0, 0, 1.001], planes: [[1, 0, -1, 1.001], [-1, 0, -1, 1.001], [0, 1, -1, 1.001], [0, -1, -1, 1.001]], pixels: 500 };
   const found = cover(/** @type {any} */ (eye));
@@ -151,52 +137,10 @@ test('a camera above a globe sees few quads, the deepest below it', () => {
   expect(found.some((quad) => keyOf(quad) === keyOf(ancestor({ z: 30, x: Math.floor(x * 2 ** 30), y: Math.floor(y * 2 ** 30) }, quad.z)))).toBe(true);
 });
 
-test('a paint of null hides a feature, whatever a function says of it', () => {
-  const hidden = (/** @type {any} */ paints) => {
-    const colors = new FeatureColors();
-    colors.setPaint(() => '#ff0000');
-    colors.setPaint(paints);
-    return colors.paintOf('a');
-  };
-  expect(hidden({ b: '#000' })).toBe('#ff0000');
-  expect(hidden({ a: null })).toBe(null);
-});
-
-test('a feature is hidden though the tile does not have what lies below it', async () => {
-  const data = await readPacked(fixture('elements.ktx2'));
-  const { elements } = data.roots[0].style;
-  elements[0].hides = true;
-  const colors = new FeatureColors();
-  colors.setFilter((id) => id !== elements[0].name);
-  expect(colors.apply({ data, colors: 0 })).not.toEqual([]);
-  expect(data.roots[0].style.elements[0].opacity).toBe(0);
-});
-
-test('what is not seen is not picked', () => {
-  const colors = new FeatureColors();
-  colors.setPaint({ a: null });
-  const seen = () => ['a', 'b', 'c'].filter((id) => colors.isSeen(id));
-  expect(seen()).toEqual(['b', 'c']);
-  colors.setFilter((id) => id !== 'b');
-  expect(seen()).toEqual(['c']);
-  colors.setTimes({ ids: ['a', 'b', 'c'], colors: [['#fff', '#fff', null], ['#fff', '#fff', '#000']] });
-  expect(seen()).toEqual(['a']);
-  colors.setTime(0.5);
-  expect(seen()).toEqual(['a', 'c']);
-});
-
-test('a paint of undefined takes back what a feature was given', () => {
-  const colors = new FeatureColors();
-  colors.setPaint(() => '#ff0000');
-  colors.setPaint({ a: '#000', b: '#fff' });
-  colors.setPaint({ a: undefined });
-  expect(['a', 'b'].map((id) => colors.paintOf(id))).toEqual(['#ff0000', '#fff']);
-});
-
 describe('an archive in memory', () => {
   const archive = fixture('parcels.pmtiles');
   const { signal } = new AbortController();
-  const place = [mercator(4.5, 52.5), mercator(5.5, 52.5)];
+  const places = /** @type {[number, number][]} */ ([[4.5, 52.5], [5.5, 52.5]]);
 
   test.each([
     ['bytes', archive],
@@ -207,7 +151,7 @@ describe('an archive in memory', () => {
   ])('is a pyramid: %s', async (_, given) => {
     const source = await openTiles(given);
     expect(source).toMatchObject({ name: 'parcels', attribution: 'a survey', zooms: [0, 2, 4] });
-    const [[x, y]] = place;
+    const [x, y] = mercator(...places[0]);
     const file = await source.load({ z: 4, x: Math.floor(16 * x), y: Math.floor(16 * y) }, signal);
     expect((await readPacked(file)).roots[0].style.elements.map(({ name }) => name).sort()).toEqual(['east', 'west']);
     expect(await source.load({ z: 4, x: 0, y: 0 }, signal)).toBe(null);
@@ -215,9 +159,9 @@ describe('an archive in memory', () => {
 
   test('is taken where an address is, and so is a source of one', async () => {
     for (const given of [new Blob([archive]), await openTiles(archive)]) {
-      const pyramid = new Pyramid(given, {});
+      const pyramid = new Pyramid({ source: given });
       await pyramid.ready;
-      const found = () => place.map(([x, y]) => pyramid.featureAt(x, y)?.id);
+      const found = () => places.map((place) => pyramid.featureAt(place)?.id);
       for (let k = 0; k < 500 && !found()[0]; k++) {
         pyramid.update([{ z: 0, x: 0, y: 0, distance: 0 }], () => {});
         await later();
@@ -231,7 +175,10 @@ describe('an archive in memory', () => {
     const says = (/** @type {any} */ given) => openTiles(given).then(() => '', ({ message }) => message);
     expect(await says(new TextEncoder().encode('<svg/>'.repeat(99)))).toMatch(/^the archive: cannot be read \(.*\); give all bytes of a \.pmtiles$/);
     expect(await says(archive.slice(0, 200))).toMatch(/^the archive: cannot be read \(.*\); give all bytes of a \.pmtiles$/);
-    expect(await says(undefined)).toMatch(/^the archive: cannot be read \(.*\); give all bytes of a \.pmtiles$/);
-    await expect(new Pyramid(/** @type {any} */ (undefined), {}).ready).rejects.toThrow('give all bytes of a .pmtiles');
+    for (const given of [undefined, [1, 2], new Uint16Array(9)]) {
+      expect(await says(given)).toMatch(/^the source is .*; give the address of a \.pmtiles or a TileJSON, or the bytes of a \.pmtiles$/);
+    }
+    expect(await says('http://[')).toMatch(/^the source is "http:\/\/\["; give the address/);
+    await expect(new Pyramid({ source: archive.slice(0, 200) }).ready).rejects.toThrow('give all bytes of a .pmtiles');
   });
 });

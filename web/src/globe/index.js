@@ -9,6 +9,7 @@ export { textureSource } from './texture-source.js';
 export { VectorGlobe } from './vector-globe.js';
 
 /** @typedef {import('./vector-globe.js').VectorGlobeOptions} VectorGlobeOptions */
+/** @typedef {import('../tiles/feature-colors.js').FeatureId} FeatureId */
 /** @typedef {import('../tiles/feature-colors.js').FeaturePaint} FeaturePaint */
 /** @typedef {import('../tiles/feature-colors.js').FeaturePaints} FeaturePaints */
 /** @typedef {import('../tiles/feature-colors.js').PaintFunction} PaintFunction */

@@ -1,4 +1,5 @@
 // One texture as a pyramid of a single tile.
+import { VextureError, line } from '../errors.js';
 
 /**
  * A source of one texture that shows the whole world in Web Mercator.
@@ -8,5 +9,8 @@
  * @returns {import('../tiles/source.js').TileSource}
  */
 export function textureSource(file, { margin = 0, name = 'globe' } = {}) {
+  if (!(file instanceof ArrayBuffer || file instanceof Uint8Array)) {
+    throw new VextureError(`the texture is ${line(file)}; give the contents of its file, an ArrayBuffer`, 'file');
+  }
   return { name, attribution: '', zooms: [0], margin, load: async () => new Uint8Array(file) };
 }

@@ -1,7 +1,7 @@
 import { CustomBlending, GLSL3, Group, Matrix4, Mesh, OneFactor, OneMinusSrcAlphaFactor, RawShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
 import { VextureError, line } from '../errors.js';
 import { prepareRows, sendRows } from '../rows.js';
-import { keyOf, mercator } from '../tiles/grid.js';
+import { keyOf } from '../tiles/grid.js';
 import { Pyramid } from '../tiles/pyramid.js';
 import { lookup, paintOf, tileShader } from '../tiles/tile-shader.js';
 import { wordTexture } from '../upload.js';
@@ -46,12 +46,16 @@ export class VectorGlobe extends Group {
   /** @type {Map<string, { group: Group, loaded: LoadedTile, geometries: import('three').BufferGeometry[] }>} */
   #patches = new Map();
 
-  /** @param {VectorGlobeOptions} options */
+  /**
+   * @param {VectorGlobeOptions} options
+   * @throws {VextureError} if one of them cannot be
+   */
   constructor(options) {
     super();
-    const onError = options.onError ?? console.error;
-    this.#radius = options.radius ?? 1;
-    this.#pyramid = new Pyramid(options.source, {
+    const { onError = console.error, radius = 1 } = options ?? {};
+    if (!Number.isFinite(radius) || radius <= 0) throw new VextureError(`the radius is ${line(radius)}; give a number above 0`, 'radius');
+    this.#radius = radius;
+    this.#pyramid = new Pyramid({
       ...options,
       onError,
       onDrop: (loaded) => this.#drop(loaded),
@@ -83,7 +87,7 @@ export class VectorGlobe extends Group {
    * @param {number} height of the picture in CSS pixels
    */
   update(camera, height) {
-    if (!camera.isPerspectiveCamera) throw new VextureError('the camera is no PerspectiveCamera; give one', 'camera');
+    if (!camera?.isPerspectiveCamera) throw new VextureError('the camera is no PerspectiveCamera; give one', 'camera');
     if (!(height > 0)) throw new VextureError(`the height is ${line(height)}; give that of the picture in pixels`, 'height');
     this.updateWorldMatrix(true, false);
     camera.updateWorldMatrix(true, false);
@@ -101,9 +105,11 @@ export class VectorGlobe extends Group {
   }
 
   /**
-   * Colours by the features' ids: a table, whose paints join those before, or a function; null: as in the tiles.
+   * Colours by the features' ids: a table, whose paints join those before and come before the colours of `setTimes`; or a
+   * function, which is asked where neither has one; null: as in the tiles.
    *
    * @param {import('../tiles/feature-colors.js').FeaturePaints | import('../tiles/feature-colors.js').PaintFunction | null} paints
+   * @throws {VextureError} if one is no colour
    */
   setPaint(paints) {
     this.#pyramid.colors.setPaint(paints);
@@ -112,16 +118,17 @@ export class VectorGlobe extends Group {
   /**
    * Show some features only; others are neither seen nor picked.
    *
-   * @param {Iterable<string> | ((id: string) => boolean) | null} shown ids, or whether one is shown; null: all
+   * @param {Iterable<import('../tiles/feature-colors.js').FeatureId> | ((id: string) => boolean) | null} shown ids, or whether one is shown; null: all
    */
   setFilter(shown) {
     this.#pyramid.colors.setFilter(shown);
   }
 
   /**
-   * The colours of features at each step of time, which those of `setPaint` give way to.
+   * The colours of features at each step of time; null: no more. A table of `setPaint` comes before them, a function after.
    *
    * @param {import('../tiles/feature-colors.js').TimeTable | null} table
+   * @throws {VextureError} if a step has another number of colours than there are ids, or one is no colour
    */
   setTimes(table) {
     this.#pyramid.colors.setTimes(table);
@@ -139,11 +146,12 @@ export class VectorGlobe extends Group {
   /**
    * The feature at a place; null where nothing is.
    *
-   * @param {[number, number]} place longitude and latitude in degrees
+   * @param {{ lng: number, lat: number } | [number, number]} place longitude and latitude in degrees
    * @returns {Feature | null}
+   * @throws {VextureError} if it is no place
    */
-  featureAt([lng, lat]) {
-    return this.#pyramid.featureAt(...mercator(lng, lat));
+  featureAt(place) {
+    return this.#pyramid.featureAt(place);
   }
 
   /**
@@ -154,7 +162,7 @@ export class VectorGlobe extends Group {
    */
   lngLatOf(point) {
     const { x, y, z } = this.worldToLocal(point.clone()).normalize();
-    return [(180 / Math.PI) * Math.atan2(x, z), (180 / Math.PI) * Math.asin(y)];
+    return [(180 / Math.PI) * Math.atan2(x, z), (180 / Math.PI) * Math.asin(Math.min(Math.max(y, -1), 1))];
   }
 
   /**
@@ -164,7 +172,9 @@ export class VectorGlobe extends Group {
    * @param {import('three').PerspectiveCamera} camera
    * @returns {[number, number] | null} longitude and latitude in degrees
    */
-  placeUnder({ x, y }, camera) {
+  placeUnder(pointer, camera) {
+    const { x, y } = pointer ?? {};
+    if (!Number.isFinite(x) || !Number.isFinite(y)) throw new VextureError(`the pointer is ${line(pointer)}; give { x, y }, -1 to 1`, 'pointer');
     this.updateWorldMatrix(true, false);
     camera.updateWorldMatrix(true, false);
     const from = this.worldToLocal(new Vector3().setFromMatrixPosition(camera.matrixWorld));
@@ -216,7 +226,7 @@ export class VectorGlobe extends Group {
     const { geometry, skirt, middle } = patch(quad, this.#radius);
     const data = /** @type {import('../data.js').PackedData} */ (loaded.data);
     const group = new Group();
-    const { base, rest, side } = lookup(quad, loaded.tile, this.#pyramid.client?.source.margin ?? 0);
+    const { base, rest, side, ends } = lookup(quad, loaded.tile, this.#pyramid.client?.source.margin ?? 0);
     const fragmentShader = tileShader(data.roots.some(({ hasGradients }) => hasGradients));
     data.roots.forEach((root, order) => {
       const uniforms = {
@@ -224,6 +234,7 @@ export class VectorGlobe extends Group {
         tileRoot: { value: root.quad },
         tileBase: { value: Uint32Array.from(base) },
         tileRest: { value: new Vector2(...rest) },
+        tileEnds: { value: new Vector2(...ends) },
         tileScale: { value: side },
         tilePaint: { value: new Vector4(...paintOf(root)) },
         tileOpacity: { value: 1 },

@@ -10,6 +10,7 @@ export { VectorTileLayer } from './vector-tile-layer.js';
 /** @typedef {import('./vector-tile-layer.js').VectorTileLayerOptions} VectorTileLayerOptions */
 /** @typedef {import('./vector-tile-layer.js').FeatureEvent} FeatureEvent */
 /** @typedef {import('./vector-tile-layer.js').LayerEvents} LayerEvents */
+/** @typedef {import('../tiles/feature-colors.js').FeatureId} FeatureId */
 /** @typedef {import('../tiles/feature-colors.js').FeaturePaint} FeaturePaint */
 /** @typedef {import('../tiles/feature-colors.js').FeaturePaints} FeaturePaints */
 /** @typedef {import('../tiles/feature-colors.js').PaintFunction} PaintFunction */

@@ -18,7 +18,7 @@ import { EXTENT, meshOf, quadMesh } from './quad-mesh.js';
  */
 const OVERLAP = 0.25;
 
-/** MapLibre's projection moves the vertices; the offset in the tile's square goes with them. */
+/** MapLibre's projection moves the vertices; the offset in the tile's square goes with them. A pole's cap shows what is just within the grid. */
 const vertexShader = (/** @type {Render['shaderData']} */ { vertexShaderPrelude, define }) => `#version 300 es
 ${vertexShaderPrelude}
 ${define}
@@ -30,7 +30,7 @@ out vec2 tileOffset;
 void main() {
     vec2 place = tilePosition + tileOverlap * (step(vec2(${EXTENT}.0), tilePosition) - step(tilePosition, vec2(0.0)));
     float south = tilePosition.y;
-    if (south < 0.0 || south > ${EXTENT}.0) { // a pole's cap shows what is just within the grid
+    if (south < 0.0 || south > ${EXTENT}.0) {
         south = south < 0.0 ? ${(EXTENT * CAP).toFixed(1)} : ${(EXTENT * (1 - CAP)).toFixed(1)};
     } else {
         south = place.y;
@@ -84,9 +84,10 @@ export class TilePainter {
       gl.activeTexture(gl.TEXTURE0);
       gl.bindTexture(gl.TEXTURE_2D, this.#texture(loaded));
       gl.uniform1i(at('vextureTexels'), 0);
-      const { base, rest, side } = lookup(quad, loaded.tile, margin);
+      const { base, rest, side, ends } = lookup(quad, loaded.tile, margin);
       gl.uniform2ui(at('tileBase'), ...base);
       gl.uniform2f(at('tileRest'), ...rest);
+      gl.uniform2f(at('tileEnds'), ...ends);
       gl.uniform1f(at('tileScale'), side / EXTENT);
       gl.uniform1f(at('tileOpacity'), opacity);
       gl.uniform1f(at('tileOverlap'), isMixed && opacity === 1 ? OVERLAP : 0);

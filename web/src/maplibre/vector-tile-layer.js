@@ -6,6 +6,7 @@ import { TilePainter } from './painter.js';
 
 /**
  * @typedef {import('maplibre-gl').Map} MapLibreMap
+ * @typedef {import('../tiles/feature-colors.js').FeatureId} FeatureId
  * @typedef {import('../tiles/feature-colors.js').FeaturePaints} FeaturePaints
  * @typedef {import('../tiles/feature-colors.js').PaintFunction} PaintFunction
  * @typedef {import('../tiles/feature-colors.js').TimeTable} TimeTable
@@ -29,6 +30,9 @@ import { TilePainter } from './painter.js';
  * @typedef {{ hover: FeatureEvent, click: FeatureEvent, error: { error: unknown, tile?: import('../tiles/grid.js').TileId } }} LayerEvents
  *   What listeners of each event get.
  */
+
+/** What a layer tells of. */
+const EVENTS = ['hover', 'click', 'error'];
 
 /** The first version of MapLibre that says which tiles cover a view. */
 const OLDEST = '5.7';
@@ -56,13 +60,18 @@ export class VectorTileLayer {
   #listeners = new Map();
   /** The event by which a feature came under the pointer. @type {FeatureEvent | null} */
   #hovered = null;
-  /** Layers above it, from below. @type {string[]} */
-  #above = [];
+  /** The layers of the map when it was drawn last, from below. @type {string[]} */
+  #order = [];
 
-  /** @param {VectorTileLayerOptions} options */
+  /**
+   * @param {VectorTileLayerOptions} options
+   * @throws {VextureError} if one of them cannot be
+   */
   constructor(options) {
+    const { id } = options ?? {};
+    if (typeof id !== 'string' || !id) throw new VextureError(`the layer's id is ${line(id)}; give a text`, 'id');
     /** Its name in MapLibre. @type {string} */
-    this.id = options.id;
+    this.id = id;
     this.#options = options;
     this.#pyramid = this.#open(new FeatureColors());
     this.setOpacity(options.opacity ?? 1);
@@ -70,7 +79,7 @@ export class VectorTileLayer {
 
   /** @param {FeatureColors} colors */
   #open(colors) {
-    const pyramid = new Pyramid(this.#options.source, {
+    const pyramid = new Pyramid({
       ...this.#options,
       onChange: () => this.#map?.triggerRepaint(),
       onDrop: (loaded) => this.#painter?.drop(loaded),
@@ -105,7 +114,8 @@ export class VectorTileLayer {
   }
 
   /**
-   * Colours by the features' ids: a table, whose paints join those before, or a function; null: as in the tiles.
+   * Colours by the features' ids: a table, whose paints join those before and come before the colours of `setTimes`; or a
+   * function, which is asked where neither has one; null: as in the tiles.
    *
    * @param {FeaturePaints | PaintFunction | null} paints
    * @throws {VextureError} if one is no colour
@@ -118,7 +128,7 @@ export class VectorTileLayer {
   /**
    * Show some features only; others are neither seen nor picked.
    *
-   * @param {Iterable<string> | ((id: string) => boolean) | null} shown their ids, or whether one is shown; null: all
+   * @param {Iterable<FeatureId> | ((id: string) => boolean) | null} shown their ids, or whether one is shown; null: all
    */
   setFilter(shown) {
     this.#pyramid.colors.setFilter(shown);
@@ -126,10 +136,10 @@ export class VectorTileLayer {
   }
 
   /**
-   * The colours of features at each step of time, which those of `setPaint` give way to.
+   * The colours of features at each step of time; null: no more. A table of `setPaint` comes before them, a function after.
    *
    * @param {TimeTable | null} table
-   * @throws {VextureError} if a step has another number of colours than there are ids
+   * @throws {VextureError} if a step has another number of colours than there are ids, or one is no colour
    */
   setTimes(table) {
     this.#pyramid.colors.setTimes(table);
@@ -162,10 +172,10 @@ export class VectorTileLayer {
    *
    * @param {{ lng: number, lat: number } | [number, number]} place
    * @returns {Feature | null}
+   * @throws {VextureError} if it is no place
    */
   featureAt(place) {
-    const [lng, lat] = Array.isArray(place) ? place : [place.lng, place.lat];
-    return this.#pyramid.featureAt(...mercator(lng, lat));
+    return this.#pyramid.featureAt(place);
   }
 
   /** Ask again for tiles that could not be had. */
@@ -177,10 +187,13 @@ export class VectorTileLayer {
    * Listen to an event.
    *
    * @template {keyof LayerEvents} Type
-   * @param {Type} type `hover`: another feature is pointed at, or none; `click`; `error`: something cannot be had
+   * @param {Type} type `hover`: another feature is pointed at, or none; `click`; `error`: something cannot be had, or a function
+   *   of yours throws
    * @param {(event: LayerEvents[Type]) => void} listener
+   * @throws {VextureError} if there is no such event
    */
   on(type, listener) {
+    if (!EVENTS.includes(type)) throw new VextureError(`the event is ${line(type)}; give one of ${EVENTS.join(', ')}`, 'event');
     const known = this.#listeners.get(type) ?? new Set();
     this.#listeners.set(type, known.add(listener));
     return this;
@@ -242,18 +255,31 @@ export class VectorTileLayer {
     if (this.#listeners.get('click')?.size) this.#emit('click', { feature: this.#under(lngLat, point), lngLat, point });
   };
 
-  /**
-   * MapLibre drops custom layers with a lost context: this one comes back by itself, where it was, with its tiles.
-   *
-   * @param {MapLibreMap} map
-   */
-  #return(map) {
-    const above = this.#above;
-    const add = () => {
-      if (!map.getLayer(this.id)) map.addLayer(this, above.find((id) => map.getLayer(id)));
-    };
-    map.once('webglcontextrestored', () => (map.style?._loaded ? add() : map.once('style.load', add)));
+  /** What it hears of its map. @type {[any, (event: any) => void][]} */
+  get #heard() {
+    return [['mousemove', this.#pointed], ['mouseout', this.#left], ['click', this.#clicked], ['style.load', this.#restyled], ['remove', this.#end]];
   }
+
+  /**
+   * Another style is there, or the same one after a lost context. MapLibre drops custom layers with the old one, or leaves them
+   * below all that is new: this one comes back by itself, where it was, with its tiles.
+   */
+  #restyled = () => {
+    const map = this.#map;
+    if (!map) return; // removed by who has heard of it before
+    const at = this.#order.indexOf(this.id);
+    const above = this.#order.slice(at + 1);
+    /** @type {(id: string) => unknown} */
+    const layerOf = (id) => /** @type {any} */ (map.getLayer(id))?.implementation;
+    const other = above.map(layerOf).find((one) => one instanceof VectorTileLayer);
+    if (other) other.#restyled(); // if it has been left below, it is at its place first
+    const order = map.getLayersOrder().filter((id) => id !== this.id);
+    const below = this.#order.slice(0, at).findLast((id) => order.includes(id));
+    const next = above.find((id) => order.includes(id)) ?? (above.length && below ? order[order.indexOf(below) + 1] : undefined);
+    if (!map.getLayer(this.id)) map.addLayer(this, next);
+    else if (layerOf(this.id) === this) map.moveLayer(this.id, next);
+    else this.#end(); // the style has another one of this name
+  };
 
   /**
    * Called by MapLibre. A layer that was removed opens its pyramid again, with the colours that it had.
@@ -262,33 +288,39 @@ export class VectorTileLayer {
    * @param {WebGL2RenderingContext} gl
    */
   onAdd(map, gl) {
-    if (typeof map.coveringTiles !== 'function' || !(gl instanceof WebGL2RenderingContext)) {
-      throw new VextureError(`maplibre-gl ${map.version} is too old; use version ${OLDEST} or newer`, 'map');
+    const isOld = typeof map.coveringTiles !== 'function' || !(gl instanceof WebGL2RenderingContext);
+    if (isOld || (this.#map && this.#map !== map)) {
+      map.removeLayer(this.id);
+      throw new VextureError(isOld ? `maplibre-gl ${map.version} is too old; use version ${OLDEST} or newer`
+        : `the layer "${this.id}" is on another map; make another VectorTileLayer for this one`, 'map');
     }
     if (this.#pyramid.isClosed) this.#pyramid = this.#open(this.#pyramid.colors);
+    if (!this.#map) for (const [type, listener] of this.#heard) map.on(type, listener);
     this.#map = map;
-    this.#painter = new TilePainter(gl);
-    map.on('mousemove', this.#pointed);
-    map.on('mouseout', this.#left);
-    map.on('click', this.#clicked);
+    this.#painter ??= new TilePainter(gl); // it was not removed where another style has dropped it
+    this.#order = map.getLayersOrder();
   }
 
-  /** Called by MapLibre. */
-  onRemove() {
-    const map = this.#map;
-    if (!map) return;
-    map.off('mousemove', this.#pointed);
-    map.off('mouseout', this.#left);
-    map.off('click', this.#clicked);
+  /**
+   * Called by MapLibre.
+   *
+   * @param {MapLibreMap} map
+   */
+  onRemove(map) {
+    if (map !== this.#map) return; // it has been refused
     if (this.#hovered) this.#leave({ ...this.#hovered, feature: null });
-    if (this.#painter?.isLost) this.#return(map);
-    else {
-      this.#pyramid.dispose();
-      this.#painter?.dispose();
-    }
+    if (this.#painter?.isLost) this.#painter = null;
+    else this.#end();
+  }
+
+  /** Its map has no use for it any more. */
+  #end = () => {
+    for (const [type, listener] of this.#heard) this.#map?.off(type, listener);
+    this.#pyramid.dispose();
+    this.#painter?.dispose();
     this.#painter = null;
     this.#map = null;
-  }
+  };
 
   /**
    * Called by MapLibre for each frame.
@@ -300,8 +332,7 @@ export class VectorTileLayer {
     const { client } = this.#pyramid;
     const painter = this.#painter;
     if (!client || !painter || !this.#map) return;
-    const order = this.#map.getLayersOrder();
-    this.#above = order.slice(order.indexOf(this.id) + 1);
+    this.#order = this.#map.getLayersOrder();
     const shown = this.#pyramid.update(this.#quads(this.#map), (loaded, rows) => painter.send(loaded, rows));
     painter.draw(shown, render, client.source.margin, this.#opacity);
   }

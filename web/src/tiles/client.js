@@ -19,7 +19,7 @@ import { RequestQueue } from './queue.js';
  * @typedef {object} TileClientOptions
  * @property {number} [budget] bytes of texels that are kept; what the view shows is never dropped
  * @property {() => void} [onChange] another tile is there: draw again
- * @property {(error: unknown, tile: TileId) => void} [onError] a tile cannot be had; its parent stays
+ * @property {(error: unknown, tile?: TileId) => void} [onError] a tile cannot be had, so that its parent stays; or what else fails
  * @property {(tile: LoadedTile) => void} [onDrop] a tile is dropped: free what the GPU has of it
  *
  * @typedef {TileClientOptions & import('./queue.js').QueueOptions} AllTileOptions

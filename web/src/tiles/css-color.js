@@ -14,26 +14,27 @@ let canvas = null;
 
 /**
  * @param {string | number | readonly number[] | null} paint a colour as CSS writes it, 0xrrggbb, or four numbers; null hides
+ * @param {() => string} [what] names it in messages
  * @returns {Parts}
  * @throws {VextureError} if it is no colour
  */
-export function parts(paint) {
+export function parts(paint, what = () => 'a paint') {
   if (paint === null || paint === 'none') return [0, 0, 0, 0];
   if (typeof paint === 'number' && Number.isInteger(paint) && paint >= 0 && paint <= 0xffffff) {
     return [(paint >> 16) / 255, ((paint >> 8) & 255) / 255, (paint & 255) / 255, 1];
   }
   if (Array.isArray(paint) && paint.length === 4 && paint.every((part) => part >= 0 && part <= 1)) return /** @type {Parts} */ (paint);
-  if (typeof paint !== 'string') throw refused(paint);
+  if (typeof paint !== 'string') throw refused(paint, what());
   const known = KNOWN.get(paint) ?? (paint[0] === '#' ? hex(paint) : written(paint));
-  if (!known) throw refused(paint);
+  if (!known) throw refused(paint, what());
   if (KNOWN.size >= MOST_KNOWN) KNOWN.clear();
   KNOWN.set(paint, known);
   return known;
 }
 
-/** @param {unknown} paint */
-const refused = (paint) =>
-  new VextureError(`a paint is ${line(paint)}; give a colour of CSS, four numbers in 0..1, or null`, 'paint');
+/** @param {unknown} paint @param {string} what */
+const refused = (paint, what) =>
+  new VextureError(`${what} is ${line(paint)}; give a colour of CSS, four numbers in 0..1, or null`, 'paint');
 
 /** @param {string} text @returns {Parts | null} */
 function hex(text) {

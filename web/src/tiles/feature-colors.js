@@ -1,31 +1,49 @@
 // The colours of features by their ids: paints, a filter, steps of time. Each tile takes from it what it shows.
-import { VextureError, line } from '../errors.js';
+import { VextureError, line, shortened } from '../errors.js';
 import { mapParts } from '../maps.js';
 import { parts } from './css-color.js';
 
 /**
+ * @typedef {import('./css-color.js').Parts} Parts
+ *
+ * @typedef {string | number} FeatureId a number stands for its text
+ *
  * @typedef {string | number | readonly number[] | null} FeaturePaint a colour of CSS, 0xrrggbb, or sRGB components and
  *   opacity, 0..1; null hides
  *
- * @typedef {Readonly<Record<string, FeaturePaint | undefined>> | ReadonlyMap<string, FeaturePaint | undefined>} FeaturePaints
+ * @typedef {Readonly<Record<FeatureId, FeaturePaint | undefined>> | ReadonlyMap<FeatureId, FeaturePaint | undefined>} FeaturePaints
  *   by the features' ids; undefined: as before they were given one
  *
  * @typedef {(id: string) => FeaturePaint | undefined} PaintFunction undefined: as it is in the tile
  *
  * @typedef {object} TimeTable The colours of features at each step of time.
- * @property {string[]} ids of the features
+ * @property {FeatureId[]} ids of the features, each once
  * @property {FeaturePaint[][]} colors of each step, those of all features
  */
 
+/** @type {Parts} */
+const HIDDEN = [0, 0, 0, 0];
+
+/** As it is in the tile. @type {Parts} */
+const OWN = [NaN, NaN, NaN, NaN];
+
+/**
+ * The colour of a feature is that of the table of paints, if it has one; else that of the time; else that of the paint
+ * function; else the tile's own. What the filter leaves out has none.
+ */
 export class FeatureColors {
   /** Rises with every change. */
   version = 0;
-  /** @type {Map<string, FeaturePaint>} */
+  /** Hears of each function of the page that throws, once. @type {(error: unknown) => void} */
+  onError = console.error;
+  /** @type {Map<string, Parts>} */
   #paints = new Map();
-  /** @type {PaintFunction | null} */
+  /** @type {((id: string) => Parts) | null} */
   #byFunction = null;
   /** @type {((id: string) => boolean) | null} */
   #isShown = null;
+  /** Functions that have thrown. @type {WeakSet<Function>} */
+  #told = new WeakSet();
   /** @type {Times | null} */
   #times = null;
   #time = 0;
@@ -33,28 +51,38 @@ export class FeatureColors {
   /**
    * @param {FeaturePaints | PaintFunction | null} paints those of a table join those before, undefined takes one back; null: all
    *   as in the tiles
+   * @throws {VextureError} if they are neither, or one is no colour: then nothing is changed
    */
   setPaint(paints) {
-    if (typeof paints === 'function') this.#byFunction = paints;
+    if (typeof paints === 'function') this.#byFunction = (id) => partsOf(paints(id), id) ?? OWN;
     else if (paints === null) {
       this.#paints.clear();
       this.#byFunction = null;
     } else {
+      const isTable = paints instanceof Map || (isObject(paints) && !(Symbol.iterator in paints));
+      if (!isTable) throw new VextureError(`the paints are ${line(paints)}; give an object or a Map of ids and colours, a function, or null`, 'paints');
+      /** @type {[FeatureId, FeaturePaint | undefined][]} */
       const listed = paints instanceof Map ? [...paints] : Object.entries(paints);
-      for (const [, paint] of listed) if (paint !== 'own' && paint !== undefined) parts(paint); // all or nothing
-      for (const [id, paint] of listed) {
-        if (paint === undefined) this.#paints.delete(id);
-        else this.#paints.set(id, paint);
+      const read = listed.map(([given, paint]) => [textOf(given, 'the paints'), partsOf(paint, String(given))]);
+      for (const [id, paint] of /** @type {[string, Parts | undefined][]} */ (read)) {
+        if (paint) this.#paints.set(id, paint);
+        else this.#paints.delete(id);
       }
     }
     this.version++;
   }
 
-  /** @param {Iterable<string> | ((id: string) => boolean) | null} shown ids, or whether one is shown; null: all */
+  /**
+   * @param {Iterable<FeatureId> | ((id: string) => boolean) | null} shown ids, or whether one is shown; null: all
+   * @throws {VextureError} if it is none of these
+   */
   setFilter(shown) {
     if (shown === null || typeof shown === 'function') this.#isShown = shown;
     else {
-      const ids = new Set(shown);
+      if (!isObject(shown) || !(Symbol.iterator in shown)) {
+        throw new VextureError(`the filter is ${line(shown)}; give a list of ids, a function, or null`, 'filter');
+      }
+      const ids = new Set([...shown].map((id) => textOf(id, 'the filter')));
       this.#isShown = (id) => ids.has(id);
     }
     this.version++;
@@ -62,7 +90,7 @@ export class FeatureColors {
 
   /** @param {TimeTable | null} table */
   setTimes(table) {
-    this.#times = table && read(table);
+    this.#times = table === null ? null : read(table);
     this.version++;
   }
 
@@ -79,17 +107,47 @@ export class FeatureColors {
     return this.#time;
   }
 
-  /** @param {string} id */
-  #isHidden(id) {
-    return !(this.#isShown?.(id) ?? true);
+  /**
+   * What a function of the page says of a feature, or what else is taken where it throws: a frame goes on.
+   *
+   * @template Answer
+   * @param {(id: string) => Answer} asked
+   * @param {string} id
+   * @param {string} what names the function
+   * @param {Answer} otherwise
+   */
+  #answer(asked, id, what, otherwise) {
+    try {
+      return asked(id);
+    } catch (error) {
+      if (!this.#told.has(asked)) { // later: who hears of it may change the colours
+        const said = `${what} throws for "${shortened(id)}" (${line(error)}); mend it; such features are drawn without it`;
+        const told = error instanceof VextureError ? error : new VextureError(said, what, { cause: error });
+        queueMicrotask(() => this.onError(told));
+      }
+      this.#told.add(asked);
+      return otherwise;
+    }
+  }
+
+  /** The colour of a feature that comes before that of the time. @param {string} id @returns {Parts | undefined} */
+  #above(id) {
+    if (this.#isShown && !this.#answer(this.#isShown, id, 'the filter', true)) return HIDDEN;
+    return this.#paints.get(id);
+  }
+
+  /** The colour of a feature that no time gives one. @param {string} id @returns {Parts} */
+  #below(id) {
+    return this.#byFunction ? this.#answer(this.#byFunction, id, 'the paint function', OWN) : OWN;
   }
 
   /** Whether a feature has a colour now, so that it can be picked. @param {string} id */
   isSeen(id) {
-    const place = this.#times?.places.get(id) ?? -1;
-    if (!this.#times || place < 0 || this.#isHidden(id)) return this.paintOf(id) !== null;
+    const paint = this.#above(id);
+    const at = 4 * (this.#times?.places.get(id) ?? -1) + 3;
+    if (paint || at < 0) return !((paint ?? this.#below(id))[3] <= 0);
     const [one, other, share] = this.#step();
-    return one[4 * place + 3] > 0 || (share > 0 && other[4 * place + 3] > 0);
+    return one[at] > 0 || (share > 0 && other[at] > 0);
   }
 
   /** The steps of times before and after the time, and how far it is from one to the other. @returns {[Float32Array, Float32Array, number]} */
@@ -125,19 +183,13 @@ export class FeatureColors {
       named.times = times;
       names.forEach((name, k) => (places[k] = times?.places.get(name) ?? -1));
     }
-    const [one, other, share] = times?.steps.length ? this.#step() : [null, null, 0];
+    const [one, other, share] = times ? this.#step() : [null, null, 0];
     for (let k = 0; k < names.length; k++) {
       const at = 4 * places[k];
-      if (!one || !other || at < 0 || this.#isHidden(names[k])) write(this.paintOf(names[k]), filled, 4 * k);
+      const paint = this.#above(names[k]);
+      if (paint || !one || !other || at < 0) filled.set(paint ?? this.#below(names[k]), 4 * k);
       else for (let c = 0; c < 4; c++) filled[4 * k + c] = one[at + c] + share * (other[at + c] - one[at + c]);
     }
-  }
-
-  /** The colour of a feature that no time gives one, or 'own'. @param {string} id */
-  paintOf(id) {
-    if (this.#isHidden(id)) return null;
-    const paint = this.#paints.has(id) ? this.#paints.get(id) : this.#byFunction?.(id);
-    return paint === undefined ? 'own' : paint;
   }
 }
 
@@ -164,26 +216,42 @@ function namedOf(elements) {
   return made;
 }
 
-/**
- * @param {FeaturePaint | 'own'} paint
- * @param {Float64Array} filled
- * @param {number} at
- */
-function write(paint, filled, at) {
-  if (paint === 'own') filled.fill(NaN, at, at + 4);
-  else filled.set(parts(paint), at);
+/** @param {unknown} value @returns {value is object} */
+const isObject = (value) => typeof value === 'object' && value !== null;
+
+/** @param {unknown} id @param {string} where */
+function textOf(id, where) {
+  if (typeof id === 'string' || Number.isFinite(id)) return String(id);
+  throw new VextureError(`an id of ${where} is ${line(id)}; give a text or a number`, 'id');
 }
 
+/** @param {string} id @param {string} [when] */
+const paintOf = (id, when = '') => `the paint of "${shortened(id)}"${when}`;
+
+/** @param {FeaturePaint | undefined} paint @param {string} id @returns {Parts | undefined} */
+const partsOf = (paint, id) => (paint === undefined ? paint : paint === 'own' ? OWN : parts(paint, () => paintOf(id)));
+
 /** @param {TimeTable} table @returns {Times} */
-function read({ ids, colors }) {
+function read(table) {
+  const { ids, colors } = table ?? {};
+  if (![ids, colors, ...(Array.isArray(colors) ? colors : [])].every(Array.isArray)) {
+    throw new VextureError(`the times are ${line(table)}; give { ids, colors }, a list and one for each step, or null`, 'times');
+  }
   const wrong = colors.findIndex((step) => step.length !== ids.length);
   if (wrong >= 0 || !colors.length) {
     throw new VextureError(`step ${Math.max(wrong, 0)} has ${colors[wrong]?.length ?? 0} colours; give ${ids.length}, one for each id`, 'times');
   }
-  const steps = colors.map((step) => {
+  /** @type {Map<string, number>} */
+  const places = new Map();
+  ids.forEach((given, place) => {
+    const id = textOf(given, 'the times');
+    if (places.has(id)) throw new VextureError(`the times have the id "${shortened(id)}" twice; give it once`, 'times');
+    places.set(id, place);
+  });
+  const steps = colors.map((step, number) => {
     const filled = new Float32Array(4 * ids.length);
-    step.forEach((paint, place) => filled.set(parts(paint), 4 * place));
+    ids.forEach((id, place) => filled.set(parts(step[place], () => paintOf(String(id), ` in step ${number}`)), 4 * place));
     return filled;
   });
-  return { places: new Map(ids.map((id, place) => [id, place])), steps };
+  return { places, steps };
 }

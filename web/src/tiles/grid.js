@@ -18,12 +18,12 @@ export const TILE_SIZE = 512;
 
 /** Cells along a side of a quad's mesh at zoom 0, halved every second zoom as the globe flattens, and the most and the fewest. */
 const CELLS = 512;
-const MOST_CELLS = 128;
+const MOST_CELLS = 192;
 const FEWEST_CELLS = 16;
 
 /**
  * Cells along a side of the mesh of a quad on a sphere, between whose vertices the map is linear: it is off by less than a
- * hundredth of a pixel, and by an eightieth at zoom 0.
+ * hundredth of a pixel, and by a fiftieth at zoom 0.
  *
  * @param {number} z zoom of the quad
  */

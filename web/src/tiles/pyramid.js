@@ -3,7 +3,8 @@ import { elementAt } from '../element-at.js';
 import { loadMaps } from '../maps.js';
 import { TileClient } from './client.js';
 import { FeatureColors } from './feature-colors.js';
-import { ancestor, squareOf } from './grid.js';
+import { ancestor, mercator, squareOf } from './grid.js';
+import { checkOptions, placeOf } from './options.js';
 import { openTiles } from './source.js';
 
 /**
@@ -14,7 +15,10 @@ import { openTiles } from './source.js';
  *
  * @typedef {{ quad: import('./choose.js').Quad, loaded: LoadedTile }[]} View what is shown
  *
- * @typedef {string | import('./source.js').TileArchive | import('./source.js').TileSource} Given
+ * @typedef {string | import('./source.js').TileArchive | import('./source.js').TileSource} Given an address, the bytes of an
+ *   archive, or what `openTiles` has made of them
+ *
+ * @typedef {{ source: Given } & import('./client.js').AllTileOptions} PyramidOptions
  */
 
 /** @param {Given} given @returns {given is import('./source.js').TileSource} */
@@ -28,14 +32,16 @@ export class Pyramid {
   #controller = new AbortController();
 
   /**
-   * @param {Given} source an address, the bytes of an archive, or what `openTiles` has made of them
-   * @param {import('./client.js').AllTileOptions} options
+   * @param {PyramidOptions} options
    * @param {FeatureColors} [colors] those of a pyramid before it
+   * @throws {VextureError} if an option cannot be
    */
-  constructor(source, options, colors = new FeatureColors()) {
+  constructor(options, colors = new FeatureColors()) {
+    checkOptions(options);
     this.colors = colors;
+    colors.onError = (error) => options.onError?.(error);
     /** When its metadata are there. @type {Promise<TileClient | null>} */
-    this.ready = this.#open(source, options);
+    this.ready = this.#open(options.source, options);
     this.ready.catch(() => {}); // who waits for it gets the error, too
   }
 
@@ -73,13 +79,13 @@ export class Pyramid {
   }
 
   /**
-   * The feature that is seen at a place of Web Mercator; null where nothing is, or nothing is loaded.
+   * The feature that is seen at a place; null where nothing is, or nothing is loaded.
    *
-   * @param {number} x
-   * @param {number} y
+   * @param {{ lng: number, lat: number } | [number, number]} place in degrees
    * @returns {Feature | null}
    */
-  featureAt(x, y) {
+  featureAt(place) {
+    const [x, y] = mercator(...placeOf(place));
     const loaded = this.#tileAt(x, y);
     if (!loaded?.data || !this.client) return null;
     const { data, tile } = loaded;

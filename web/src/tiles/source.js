@@ -27,6 +27,12 @@ const LONGEST = 2 ** 22;
 /** What messages call an archive that has no address. */
 const HELD = 'the archive';
 
+/** What can be opened. */
+export const GIVEN = 'the address of a .pmtiles or a TileJSON, or the bytes of a .pmtiles';
+
+/** @param {unknown} given @returns {given is TileArchive} */
+export const isArchive = (given) => given instanceof ArrayBuffer || given instanceof Uint8Array || given instanceof Blob;
+
 /**
  * A pyramid by its address, `map.pmtiles` or a TileJSON, or by the contents of a `.pmtiles`, which a page may hold.
  *
@@ -37,10 +43,16 @@ const HELD = 'the archive';
  */
 export async function openTiles(given, signal = new AbortController().signal) {
   if (typeof given !== 'string') {
+    if (!isArchive(given)) throw new VextureError(`the source is ${line(given)}; give ${GIVEN}`, 'source');
     const file = new File([/** @type {BlobPart} */ (given)], HELD);
     return archive(new FileSource(file), HELD, 'give all bytes of a .pmtiles');
   }
-  const path = new URL(given, globalThis.location?.href).href;
+  let path;
+  try {
+    path = new URL(given, globalThis.location?.href).href;
+  } catch (error) {
+    throw new VextureError(`the source is ${line(given)}; give ${GIVEN}`, 'source', { cause: error });
+  }
   return /\.pmtiles(?:$|[?#])/.test(path) ? archive(path, path, 'check the address, and that its server answers range requests') : folder(path, signal);
 }
 
@@ -96,6 +108,11 @@ async function folder(url, signal) {
   return { ...described_, load };
 }
 
+/** Whether zooms rise, and the margin is a part of a tile. @param {{ zooms?: any, margin?: any }} source */
+export const isGrid = ({ zooms, margin }) =>
+  Array.isArray(zooms) && zooms.length > 0 && margin >= 0 && margin < 1 &&
+  zooms.every((z, k) => Number.isInteger(z) && z > (k ? zooms[k - 1] : -1) && z <= 30);
+
 /**
  * What the metadata of a pyramid say.
  *
@@ -105,8 +122,7 @@ async function folder(url, signal) {
  */
 function described(metadata, url) {
   const { margin, zooms } = metadata?.vexture ?? {};
-  const rises = Array.isArray(zooms) && zooms.every((z, k) => Number.isInteger(z) && z > (k ? zooms[k - 1] : -1) && z <= 30);
-  if (!rises || !zooms.length || !(margin >= 0 && margin < 1)) {
+  if (!isGrid({ zooms, margin })) {
     throw new VextureError(`${url}: its metadata have no pyramid of vexture; make one with vexture tiles`, 'vexture');
   }
   return { name: String(metadata.name ?? url), attribution: String(metadata.attribution ?? ''), zooms, margin };
