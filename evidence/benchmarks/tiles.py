@@ -30,6 +30,7 @@ from report import write_figures
 from vexture.geo.rings import rings_of
 from vexture.notes import Notes
 from vexture.tiles.build import make_tiles
+from vexture.tiles.facts import facts_of
 from vexture.tiles.options import TileOptions
 
 GOALS = {"coast_seconds": 600.0, "coast_bytes_per_edge": 4.0, "parcels_seconds": 900.0, "other_bytes": 0.0}
@@ -129,6 +130,10 @@ def measured(name: str, made: Any, zoom: int, processes: int, folder: Path) -> d
     found = make_tiles(mark, output, TileOptions(max_zoom=zoom, processes=processes, name=name), batches=source)
     seconds = time.perf_counter() - start
     largest = max(resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    levels = {
+        f"{name}_z{level['zoom']}_bytes_per_edge": level["bytes"] / max(source.edges, 1)
+        for level in facts_of(output)["levels"]
+    }
     return {
         f"{name}_seconds": seconds,
         f"{name}_edges": source.edges,
@@ -137,6 +142,7 @@ def measured(name: str, made: Any, zoom: int, processes: int, folder: Path) -> d
         f"{name}_contents": found.contents,
         f"{name}_megabytes": found.bytes / 1e6,
         f"{name}_peak_megabytes": largest / 1e3,
+        **levels,
     }
 
 

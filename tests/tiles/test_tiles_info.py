@@ -72,6 +72,11 @@ def test_an_archive_is_what_its_tiles_say(archive):
     sizes = {key: len(tile) for key, tile in tiles.items()}
     assert facts["tiles"] == len(tiles)
     assert facts["contents"] == len({hashlib.sha256(tile).digest() for tile in tiles.values()}) < len(tiles)
+    assert [level["zoom"] for level in facts["levels"]] == facts["zooms"]
+    for level in facts["levels"]:
+        here = [tile for (zoom, _, _), tile in tiles.items() if zoom == level["zoom"]]
+        assert (level["tiles"], level["contents"]) == (len(here), len(set(here)))
+        assert level["bytes"] == sum(map(len, set(here)))
     assert facts["largest"]["bytes"] == max(sizes.values())
     assert sizes[tuple(map(int, facts["largest"]["tile"].split("/")))] == max(sizes.values())
     assert facts["bytes"] == archive.stat().st_size
@@ -84,7 +89,9 @@ def test_an_archive_is_what_its_tiles_say(archive):
 
 
 def test_people_get_lines(archive, tmp_path):
-    lines = dict(line.split(maxsplit=1) for line in info(archive).stdout.splitlines())
+    said = info(archive).stdout
+    assert "zoom 6      {tiles} tiles, {bytes} bytes\n".format(**told(archive)["levels"][3]) in said
+    lines = dict(line.split(maxsplit=1) for line in said.splitlines())
     facts = told(archive)
     assert lines["zooms"] == "0, 2, 4, 6; exact up to views of 7"
     assert lines["tiles"] == f"{facts['tiles']}, {facts['contents']} of them different"
@@ -103,6 +110,10 @@ def test_a_folder_is_the_same_pyramid_also_where_equal_tiles_are_copies(archive,
     one, other = told(archive), told(folder)
     alike = ("zooms", "sharp", "tiles", "contents", "features")
     assert [other[key] for key in alike] == [one[key] for key in alike]
+    counts = ("zoom", "tiles", "contents")
+    assert [[level[key] for key in counts] for level in other["levels"]] == [
+        [level[key] for key in counts] for level in one["levels"]
+    ]
     assert other["table"] == "table.arrow"
     assert np.allclose(other["bounds"], one["bounds"], atol=1e-6)
     digests = {hashlib.sha256(tile.read_bytes()).digest(): tile.stat().st_size for tile in folder.rglob("*.ktx2")}

@@ -62,6 +62,8 @@ def _tile_lines(facts: dict[str, Any]) -> Iterator[str]:
     columns = facts["columns"] and ", ".join(facts["columns"])
     told = {"name": facts["name"], "attribution": facts["attribution"], "zooms": zooms, "bounds": bounds}
     told |= {"tiles": f"{facts['tiles']}, {facts['contents']} of them different", "size": f"{facts['bytes']} bytes"}
+    for level in facts["levels"]:
+        told[f"zoom {level['zoom']}"] = f"{counted(level['tiles'], 'tile')}, {level['bytes']} bytes"
     told |= {"largest": largest, "table": facts["table"], "features": facts["features"], "columns": columns}
     yield from (f"{name:<12}{printable(str(value))}" for name, value in told.items() if value is not None)
     for legend in facts["legends"]:

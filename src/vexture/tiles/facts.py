@@ -5,8 +5,9 @@ import hashlib
 import json
 import mmap
 import zlib
+from collections import defaultdict
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
@@ -31,15 +32,29 @@ Bytes = Callable[[int, int], bytes]
 """Bytes of a file: from where, and how many."""
 
 
+@dataclass
+class Level:
+    """What is counted of the tiles of a zoom."""
+
+    tiles: int = 0
+    sizes: dict[Any, int] = field(default_factory=dict)
+
+    def add(self, tiles: int, content: Any, size: int) -> None:
+        """Count equal tiles: what tells their content from others, and the bytes of that."""
+        self.tiles += tiles
+        self.sizes[content] = size
+
+
 @dataclass(frozen=True)
 class Tiles:
-    """What is counted of tiles."""
+    """What is counted of tiles: equal ones are one content, and `bytes` those of the archive or of all contents."""
 
     tiles: int
     contents: int
     bytes: int
     largest: str
     largest_bytes: int
+    levels: dict[int, Level]
 
 
 def is_pyramid(path: Path) -> bool:
@@ -75,6 +90,10 @@ def facts_of(path: Path) -> dict[str, Any]:
     }
     facts |= {"zooms": own["zooms"], "sharp": own.get("sharp"), "bounds": bounds}
     facts |= {"tiles": found.tiles, "contents": found.contents, "bytes": found.bytes}
+    facts["levels"] = [
+        {"zoom": zoom, "tiles": level.tiles, "contents": len(level.sizes), "bytes": sum(level.sizes.values())}
+        for zoom, level in sorted(found.levels.items())
+    ]
     facts["largest"] = {"tile": found.largest, "bytes": found.largest_bytes} if found.tiles else None
     table = own.get("table")
     facts["table"] = table
@@ -153,15 +172,27 @@ def _counted(header: Any, read: Bytes, size: int) -> Tiles:
     from pmtiles.tile import tileid_to_zxy
 
     count, longest, largest, places = 0, 0, 0, set()
+    levels: defaultdict[int, Level] = defaultdict(Level)
     for entry in _entries(header, read, header["root_offset"], header["root_length"], 0):
         end = header["tile_data_offset"] + entry.offset + entry.length
         if end > size:
             read(end, 0)  # says that it breaks off
         count += entry.run_length
         places.add(entry.offset)
+        for zoom, tiles in _zooms(entry.tile_id, entry.run_length):
+            levels[zoom].add(tiles, entry.offset, entry.length)
         if entry.length > longest:
             longest, largest = entry.length, entry.tile_id
-    return Tiles(count, len(places), size, "/".join(map(str, tileid_to_zxy(largest))), longest)
+    return Tiles(count, len(places), size, "/".join(map(str, tileid_to_zxy(largest))), longest, levels)
+
+
+def _zooms(tile: int, count: int) -> Iterator[tuple[int, int]]:
+    """How many tiles of each zoom there are in a run: the 4^z numbers of zoom z follow those of the zooms before."""
+    while count > 0:
+        zoom = (3 * tile + 1).bit_length() - 1 >> 1
+        here = min(count, (4 ** (zoom + 1) - 1) // 3 - tile)
+        yield zoom, here
+        tile, count = tile + here, count - here
 
 
 def _entries(header: Any, read: Bytes, offset: int, length: int, depth: int) -> Iterator[Any]:
@@ -188,6 +219,7 @@ def _of_folder(path: Path) -> tuple[dict[str, Any], Any, Tiles]:
     files = sorted(path.glob(f"[0-9]*/[0-9]*/[0-9]*{PACKED_SUFFIX}"))
     sizes: dict[bytes, int] = {}
     known: dict[tuple[int, int], bytes] = {}
+    levels: defaultdict[int, Level] = defaultdict(Level)
     longest, largest = 0, ""
     for file in files:
         told = file.stat()
@@ -195,11 +227,12 @@ def _of_folder(path: Path) -> tuple[dict[str, Any], Any, Tiles]:
         if place not in known:
             known[place] = hashlib.sha256(file.read_bytes()).digest()
         sizes[known[place]] = told.st_size
+        levels[int(file.parts[-3])].add(1, known[place], told.st_size)
         if told.st_size > longest:
             longest, largest = told.st_size, file.relative_to(path).with_suffix("").as_posix()
     bounds = about.get("bounds")
     box = bounds if _is_box(bounds) else None
-    return about, box, Tiles(len(files), len(sizes), sum(sizes.values()), largest, longest)
+    return about, box, Tiles(len(files), len(sizes), sum(sizes.values()), largest, longest, levels)
 
 
 def _told_by(table: Path | None) -> tuple[int | None, list[str] | None]:
