@@ -30,6 +30,11 @@ HTML = """<!doctype html><link rel="icon" href="data:,"><link rel="stylesheet" h
 <script type="module">import * as maplibregl from './maplibre-gl.mjs'; import './page.js';
 window.start = (...given) => open_(maplibregl, ...given); window.loaded = true;</script>"""
 
+FLOOR = """<!doctype html><link rel="icon" href="data:,"><link rel="stylesheet" href="floor/maplibre-gl.css">
+<style>html, body, #map { margin: 0; width: 100%; height: 100% }</style><div id="map"></div>
+<script src="floor/maplibre-gl.js"></script><script type="module">import './page.js';
+window.start = (...given) => open_(maplibregl, ...given); window.loaded = true;</script>"""
+"""The oldest MapLibre that the package promises to work with."""
 
 MAGENTA = {"version": 8, "sources": {}, "layers": [
     {"id": "ground", "type": "background", "paint": {"background-color": "#ff00ff"}},
@@ -58,7 +63,9 @@ def folder(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     bundle(PAGE, folder / "page.js")
     for file in library.iterdir():
         (folder / file.name).symlink_to(file)
+    (folder / "floor").symlink_to(WEB / "node_modules" / "maplibre-gl-floor" / "dist")
     (folder / "page.html").write_text(HTML, encoding="utf-8")
+    (folder / "floor.html").write_text(FLOOR, encoding="utf-8")
     return folder
 
 
@@ -78,9 +85,14 @@ def slow_address(folder: Path) -> Iterator[str]:
 @pytest.fixture
 def opened(address: str, open_page: Callable[..., Any]) -> Callable[..., Any]:
     def opener(
-        view: dict[str, Any], layer: dict[str, Any] | None = None, size: Any = SIZE, url: str = address, **options: Any
+        view: dict[str, Any],
+        layer: dict[str, Any] | None = None,
+        size: Any = SIZE,
+        url: str = address,
+        name: str = "page",
+        **options: Any,
     ) -> Any:
-        page = open_page(f"{url}/page.html", size, **options)
+        page = open_page(f"{url}/{name}.html", size, **options)
         page.wait_for_function("window.loaded")
         view = {"center": tile_pyramid.lng_lat(*CENTRE), **view}
         page.evaluate("async ([view, layer]) => { await start(view, layer) }", [view, layer or {}])
@@ -109,6 +121,17 @@ def test_a_flat_map_is_the_exact_one(zoom: float, opened: Callable[..., Any]) ->
     truth = _exact(zoom)
     assert map_truth.edges(_pixels(page), truth) < EXACT
     assert {one["tile"]["z"] for one in page.evaluate("tiles.stats.shown")} == {1 if zoom < 2 else 3}
+
+
+@pytest.mark.parametrize("projection", ["mercator", "globe"])
+def test_the_oldest_maplibre_shows_what_the_newest_does(projection: str, opened: Callable[..., Any]) -> None:
+    pictures = []
+    for name in ("page", "floor"):
+        page = opened({"zoom": 2.7, "projection": projection}, name=name)
+        pictures.append(_pixels(page))
+    assert page.evaluate("maplibregl.getVersion()").startswith("5.7.")
+    assert np.abs(pictures[0] - pictures[1]).mean() < EXACT / 255
+    assert len(np.unique(pictures[1].reshape(-1, 3), axis=0)) > len(tile_pyramid.COLOURS)
 
 
 @pytest.mark.parametrize(

@@ -334,7 +334,10 @@ export class VectorTileLayer {
     if (!client || !painter || !this.#map) return;
     this.#order = this.#map.getLayersOrder();
     const shown = this.#pyramid.update(this.#quads(this.#map), (loaded, rows) => painter.send(loaded, rows));
-    painter.draw(shown, render, client.source.margin, this.#opacity);
+    const { transform } = /** @type {any} */ (this.#map);
+    // versions before 6 have it there
+    const getProjectionData = render.getProjectionData ?? ((/** @type {any} */ given) => transform.getProjectionData(given));
+    painter.draw(shown, { ...render, getProjectionData }, client.source.margin, this.#opacity);
   }
 
   /** @param {MapLibreMap} map @returns {import('../tiles/choose.js').Quad[]} */
