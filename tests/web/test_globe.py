@@ -31,6 +31,7 @@ def folder(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name in ("tiles.json", "map.pmtiles", *map(str, tile_pyramid.ZOOMS)):
         os.symlink(tile_folder / name, folder / name)
     tile_pyramid.write_land(folder / "land")
+    tile_pyramid.write_land(folder / "band", 85.0)
     (folder / "page.html").write_text(HTML, encoding="utf-8")
     return folder
 
@@ -157,6 +158,61 @@ def test_the_caps_of_the_poles_have_no_rim(
     along = (np.arange(SIZE) + 0.5) / (SIZE / 2) - 1
     far = np.hypot(*np.meshgrid(along, along))
     assert 255 * np.abs(picture - tile_pyramid.COLOURS[0])[far < seen].max() < STEPS
+
+
+@pytest.mark.parametrize(("lat", "height"), [(90, 0.2), (-90, 0.4)])
+def test_a_cap_is_as_the_end_of_the_grid(
+    lat: float, height: float, address: str, open_page: Callable[..., Any]
+) -> None:
+    page = open_page(f"{address}/page.html?band/tiles.json", (SIZE, SIZE))
+    page.wait_for_function("window.globe")
+    picture = _look(page, 20.0, lat, height)
+    for y, x in np.ndindex(16, 16):
+        pointer = {"x": x / 8 - 15 / 16, "y": 15 / 16 - y / 8}
+        place, found = page.evaluate("one => [globe.placeUnder(one, camera), globe.featureUnder(one, camera)]", pointer)
+        if place and abs(abs(place[1]) - 85) > 0.1:
+            assert (picture[16 * y + 8, 16 * x + 8] < 1).any() == bool(found) == (abs(place[1]) < 85)
+    assert page.evaluate("[90, -90].map((lat) => globe.featureAt([20, lat]))") == [None, None]
+
+
+def test_the_end_of_the_grid_is_picked_at_the_poles(address: str, open_page: Callable[..., Any]) -> None:
+    page = open_page(f"{address}/page.html?land/tiles.json", (SIZE, SIZE))
+    page.wait_for_function("window.globe")
+    _look(page, 20.0, 90, 3)
+    assert page.evaluate("[90, -90].map((lat) => globe.featureAt([20, lat])?.id)") == ["land", "land"]
+
+
+def test_a_linear_target_has_linear_colours(page: Any) -> None:
+    picture = _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.01)[SIZE // 2, SIZE // 2]
+    linear = page.evaluate(
+        """size => {
+            const target = new THREE.WebGLRenderTarget(size, size, { type: THREE.FloatType });
+            renderer.setRenderTarget(target);
+            renderer.render(scene, camera);
+            renderer.setRenderTarget(null);
+            const pixel = new Float32Array(4);
+            renderer.readRenderTargetPixels(target, size / 2, size / 2, 1, 1, pixel);
+            return [...pixel];
+        }""",
+        SIZE,
+    )
+    assert linear[:3] == pytest.approx(((picture + 0.055) / 1.055) ** 2.4, abs=0.01)
+    assert linear[3] == 1
+
+
+def test_a_logarithmic_depth_buffer_shows_it_too(page: Any) -> None:
+    first = _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
+    page.evaluate(
+        """() => {
+            replaceRenderer(new THREE.WebGLRenderer({ preserveDrawingBuffer: true, logarithmicDepthBuffer: true }));
+            const sea = new THREE.MeshBasicMaterial({ color: 0 });
+            scene.add(new THREE.Mesh(new THREE.SphereGeometry(0.998, 128, 64), sea));
+        }"""
+    )
+    second = _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
+    assert np.allclose(second[SIZE // 2, SIZE // 2], first[SIZE // 2, SIZE // 2])
+    seen = (first < 1).any(axis=-1)
+    assert (second == first).all(axis=-1)[seen].mean() > 0.99
 
 
 def test_features_are_found_and_coloured_without_loading(page: Any) -> None:

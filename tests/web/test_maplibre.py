@@ -60,6 +60,7 @@ def folder(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name in ("tiles.json", "map.pmtiles", *map(str, tile_pyramid.ZOOMS)):
         (folder / name).symlink_to(tile_folder / name)
     tile_pyramid.write_land(folder / "land")
+    tile_pyramid.write_land(folder / "band", 85.0)
     bundle(PAGE, folder / "page.js")
     for file in library.iterdir():
         (folder / file.name).symlink_to(file)
@@ -163,6 +164,43 @@ def test_the_caps_of_the_poles_have_no_rim(lat: float, zoom: float, opened: Call
     view = {"zoom": zoom, "center": [20, lat], "projection": "globe"}
     page = opened(view, {"source": "land/tiles.json"})
     assert 255 * np.abs(_pixels(page) - tile_pyramid.COLOURS[0]).max() < 3
+
+
+@pytest.mark.parametrize(("lat", "zoom"), [(80, 0.5), (-80, 0)])
+def test_a_cap_is_as_the_end_of_the_grid(lat: float, zoom: float, opened: Callable[..., Any]) -> None:
+    view = {"zoom": zoom, "center": [150, lat], "projection": "globe"}
+    page = opened(view, {"source": "band/tiles.json"})
+    picture = _pixels(page)
+    latitudes = (83.0, 84.0, *np.arange(86, 90, 0.25).tolist())
+    places = [(150 + turn, at if lat > 0 else -at) for turn in (-40, 0, 40) for at in latitudes]
+    asked = "some => some.map((at) => { const { x, y } = map.project(at); return [x, y, !!tiles.featureAt(at)]; })"
+    for (_, at), (x, y, is_found) in zip(places, page.evaluate(asked, places), strict=True):
+        assert (picture[int(y), int(x)] < 1).any() == is_found == (abs(at) < 85), (at, x, y)
+
+
+@pytest.mark.parametrize(
+    "colour",
+    [
+        "rgb(255 0 0 / 0.5)",
+        "color(display-p3 1 0 0)",
+        "color(srgb 1 0 0 / 0.5)",
+        "oklch(0.7 0.1 200)",
+        "oklch(0.7 0.1 200 / 0.9)",
+        "lab(50 20 20 / 0.5)",
+        "color-mix(in srgb, red, blue)",
+    ],
+)
+def test_colours_of_any_space_are_as_the_browser_has_them(colour: str, opened: Callable[..., Any]) -> None:
+    page = opened({"zoom": 2, "center": tile_pyramid.lng_lat(*MIDDLE)})
+    page.evaluate("colour => tiles.setPaint(() => colour)", colour)
+    said = page.evaluate(
+        """colour => { document.body.style.color = `color-mix(in srgb, ${colour}, ${colour})`;
+        return getComputedStyle(document.body).color.match(/[-\\d.]+(e-?\\d+)?/g).map(Number) }""",
+        colour,
+    )
+    red, green, blue, opacity = [*said, 1.0][:4]
+    seen = np.clip((red, green, blue), 0, 1) * opacity + 1 - opacity
+    assert _pixels(page)[128, 128] == pytest.approx(seen, abs=1.5 / 255)
 
 
 @pytest.mark.parametrize("count", [2_000, pytest.param(100_000, marks=pytest.mark.slow)])

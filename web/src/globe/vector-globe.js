@@ -1,4 +1,4 @@
-import { CustomBlending, GLSL3, Group, Matrix4, Mesh, OneFactor, OneMinusSrcAlphaFactor, RawShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
+import { CustomBlending, GLSL3, Group, Matrix4, Mesh, OneFactor, OneMinusSrcAlphaFactor, ShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
 import { VextureError, line } from '../errors.js';
 import { prepareRows, sendRows } from '../rows.js';
 import { keyOf } from '../tiles/grid.js';
@@ -24,17 +24,29 @@ import { patch } from './patch.js';
  * @property {number} [pause] milliseconds before the first retry
  */
 
-const VERTEX = `precision highp float;
-in vec3 position;
+const VERTEX = `#include <common>
+#include <logdepthbuf_pars_vertex>
 in vec2 tilePlace;
-uniform mat4 modelViewMatrix;
-uniform mat4 projectionMatrix;
 uniform vec2 tileRest;
 uniform float tileScale;
 out vec2 tileOffset;
 void main() {
     tileOffset = tileRest + tileScale * vec2(tilePlace.x, -tilePlace.y);
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    #include <logdepthbuf_vertex>
+}`;
+
+/** A tile's colour, which is of sRGB, as three.js's own materials give theirs to the screen or a target. @param {boolean} gradients */
+const fragment = (gradients) => `#include <logdepthbuf_pars_fragment>
+${tileShader(gradients).replace('void main()', 'void tileMain()')}
+#define gl_FragColor tileColor
+void main() {
+    tileMain();
+    tileColor = vextureLight(tileColor);
+    #include <tonemapping_fragment>
+    #include <colorspace_fragment>
+    #include <premultiplied_alpha_fragment>
+    #include <logdepthbuf_fragment>
 }`;
 
 /** A map of `vexture tiles` on a sphere. Call `update(camera, height)` before each frame. */
@@ -227,7 +239,7 @@ export class VectorGlobe extends Group {
     const data = /** @type {import('../data.js').PackedData} */ (loaded.data);
     const group = new Group();
     const { base, rest, side, ends } = lookup(quad, loaded.tile, this.#pyramid.client?.source.margin ?? 0);
-    const fragmentShader = tileShader(data.roots.some(({ hasGradients }) => hasGradients));
+    const fragmentShader = fragment(data.roots.some(({ hasGradients }) => hasGradients));
     data.roots.forEach((root, order) => {
       const uniforms = {
         vextureTexels: { value: this.#texture(loaded) },
@@ -239,7 +251,7 @@ export class VectorGlobe extends Group {
         tilePaint: { value: new Vector4(...paintOf(root)) },
         tileOpacity: { value: 1 },
       };
-      const material = new RawShaderMaterial({ glslVersion: GLSL3, vertexShader: VERTEX, fragmentShader, uniforms, transparent: true, premultipliedAlpha: true,
+      const material = new ShaderMaterial({ glslVersion: GLSL3, vertexShader: VERTEX, fragmentShader, uniforms, transparent: true, premultipliedAlpha: true,
         blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor });
       [geometry, skirt].forEach((shape, isSkirt) => {
         const mesh = new Mesh(shape, material);

@@ -1,4 +1,5 @@
 // A pyramid as a page uses it: opened, its features coloured and asked for. The renderers are built upon it.
+import { LATTICE } from '../../generated/layout.js';
 import { elementAt } from '../element-at.js';
 import { loadMaps } from '../maps.js';
 import { TileClient } from './client.js';
@@ -20,6 +21,9 @@ import { openTiles } from './source.js';
  *
  * @typedef {{ source: Given } & import('./client.js').AllTileOptions} PyramidOptions
  */
+
+/** Parts of a tile's side within which its outlines are exact. */
+const ROUNDED = LATTICE / 2;
 
 /** @param {Given} given @returns {given is import('./source.js').TileSource} */
 const isSource = (given) => !!(/** @type {any} */ (given)?.load);
@@ -89,7 +93,8 @@ export class Pyramid {
     const loaded = this.#tileAt(x, y);
     if (!loaded?.data || !this.client) return null;
     const { data, tile } = loaded;
-    const [u, v] = squareOf(x, y, tile, this.client.source.margin);
+    const edge = 2 ** -tile.z / ROUNDED; // what is cut off at the grid's end may end before it
+    const [u, v] = squareOf(x, Math.min(Math.max(y, edge), 1 - edge), tile, this.client.source.margin);
     const found = elementAt(data, 0, data.roots.length, u, v);
     return found?.name && this.colors.isSeen(found.name) ? { id: found.name } : null;
   }
