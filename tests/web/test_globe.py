@@ -238,7 +238,7 @@ def test_features_are_found_and_coloured_without_loading(page: Any) -> None:
 def test_all_is_freed(page: Any) -> None:
     _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
     assert page.evaluate("renderer.info.memory.textures") > 0
-    page.evaluate("globe.dispose()")
+    page.evaluate("globe.dispose(); globe.update(camera, innerHeight); globe.retry();")
     assert page.evaluate("[renderer.info.memory.textures, renderer.info.memory.geometries, globe.children.length]") == [
         0,
         0,
@@ -254,6 +254,15 @@ def test_all_is_freed(page: Any) -> None:
         ("globe.featureAt([4, NaN])", "the place is [4,null]; give [lng, lat] or { lng, lat } in degrees, "),
         ("globe.featureUnder(null, camera)", "the pointer is null; give { x, y }, -1 to 1"),
         ("globe.update(undefined, 5)", "the camera is no PerspectiveCamera; give one"),
+        ("globe.update(new THREE.OrthographicCamera(), 5)", "the camera is no PerspectiveCamera; give one"),
+        ("globe.update(camera, Infinity)", "the height is Infinity; give that of the picture in pixels, 16384 at most"),
+        ("globe.placeUnder({ x: 0, y: 0 })", "the camera is no PerspectiveCamera; give one"),
+        (
+            "globe.featureUnder({ x: 0, y: 0 }, new THREE.OrthographicCamera())",
+            "the camera is no PerspectiveCamera; give one",
+        ),
+        ("globe.lngLatOf()", "the point is undefined; give a Vector3"),
+        ("scene.clone()", "a VectorGlobe cannot be cloned; make another one of the same source"),
         ("textureSource('world.ktx2')", 'the texture is "world.ktx2"; give the contents of its file, an ArrayBuffer'),
     ],
 )

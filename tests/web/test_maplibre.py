@@ -445,6 +445,8 @@ def test_a_function_that_throws_stops_no_frame(opened: Callable[..., Any]) -> No
     [
         ("{ source: 'map.pmtiles' }", "the layer's id is undefined; give a text"),
         ("{ id: 'a', most: 0, source: 'map.pmtiles' }", "most is 0; give a number of 1 or more"),
+        ("{ id: 'a', opacity: '0.5', source: 'map.pmtiles' }", 'the opacity is "0.5"; give 0 to 1'),
+        ("{ id: 'a', opacity: null, source: 'map.pmtiles' }", "the opacity is null; give 0 to 1"),
         ("{ id: 'a' }", "the source is undefined; give the address of a .pmtiles or a TileJSON, or "),
     ],
 )
@@ -456,3 +458,33 @@ def test_options_that_cannot_be_are_refused(options: str, message: str, opened: 
     assert said.startswith(f"VextureError: {message}")
     asked = page.evaluate("() => { try { tiles.on('hovered', () => {}) } catch (error) { return error.message } }")
     assert asked == 'the event is "hovered"; give one of hover, click, error'
+    asked = page.evaluate("() => { try { tiles.on('click', 5) } catch (error) { return error.message } }")
+    assert asked == "the listener is 5; give a function"
+
+
+def test_a_hidden_layer_is_not_picked(opened: Callable[..., Any]) -> None:
+    page = opened({"zoom": 2, "center": tile_pyramid.lng_lat(*MIDDLE)})
+    name = tile_pyramid.name_at(*MIDDLE)
+    found = "tiles.featureAt(map.getCenter())?.id ?? null"
+    page.mouse.move(128, 128)
+    page.evaluate("map.setLayoutProperty('tiles', 'visibility', 'none'); settled()")
+    page.mouse.move(129, 128)
+    page.mouse.click(129, 128)
+    assert page.evaluate("events") == [["hover", name], ["hover", ""], ["click", ""]]
+    assert page.evaluate(found) is None
+    page.evaluate("map.setLayoutProperty('tiles', 'visibility', 'visible')")
+    assert page.evaluate(found) == name
+    page.evaluate("map.setLayerZoomRange('tiles', 4, 9)")
+    assert page.evaluate(found) is None
+
+
+def test_a_listener_that_throws_does_not_silence_the_others(opened: Callable[..., Any]) -> None:
+    page = opened({"zoom": 2, "center": tile_pyramid.lng_lat(*MIDDLE)}, errors=True)
+    page.evaluate(
+        """() => { window.heard = 0;
+        tiles.on('click', () => { throw new Error('mine') }).on('click', () => heard++);
+        map.on('click', () => heard++); }"""
+    )
+    page.mouse.click(128, 128)
+    assert page.evaluate("heard") == 2
+    assert page.errors == ["mine"]

@@ -13,7 +13,7 @@ import { patch } from './patch.js';
  * @typedef {import('../tiles/pyramid.js').Feature} Feature
  *
  * @typedef {object} VectorGlobeOptions What a globe shows, and how much it may keep and ask for.
- * @property {string | import('../tiles/source.js').TileArchive | import('../tiles/source.js').TileSource} source address of a
+ * @property {string | URL | import('../tiles/source.js').TileArchive | import('../tiles/source.js').TileSource} source address of a
  *   `.pmtiles` or a TileJSON, the bytes of a `.pmtiles`, `textureSource` of one texture, or a source of your own
  * @property {number} [radius] 1 by default
  * @property {() => void} [onChange] something has been loaded: draw another frame
@@ -35,6 +35,9 @@ void main() {
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     #include <logdepthbuf_vertex>
 }`;
+
+/** Above all screens, in CSS pixels: a much greater one would ask for all tiles. */
+const MOST_HEIGHT = 16384;
 
 /** A tile's colour, which is of sRGB, as three.js's own materials give theirs to the screen or a target. @param {boolean} gradients */
 const fragment = (gradients) => `#include <logdepthbuf_pars_fragment>
@@ -72,7 +75,6 @@ export class VectorGlobe extends Group {
       onError,
       onDrop: (loaded) => this.#drop(loaded),
     });
-    this.#pyramid.ready.catch(onError);
   }
 
   /** When the pyramid's metadata are there. @returns {Promise<void>} */
@@ -99,8 +101,10 @@ export class VectorGlobe extends Group {
    * @param {number} height of the picture in CSS pixels
    */
   update(camera, height) {
-    if (!camera?.isPerspectiveCamera) throw new VextureError('the camera is no PerspectiveCamera; give one', 'camera');
-    if (!(height > 0)) throw new VextureError(`the height is ${line(height)}; give that of the picture in pixels`, 'height');
+    checkCamera(camera);
+    if (!(height > 0 && height <= MOST_HEIGHT)) {
+      throw new VextureError(`the height is ${line(height)}; give that of the picture in pixels, ${MOST_HEIGHT} at most`, 'height');
+    }
     this.updateWorldMatrix(true, false);
     camera.updateWorldMatrix(true, false);
     const scale = new Matrix4().makeScale(this.#radius, this.#radius, this.#radius);
@@ -173,6 +177,7 @@ export class VectorGlobe extends Group {
    * @returns {[number, number]} degrees
    */
   lngLatOf(point) {
+    if (!point?.isVector3) throw new VextureError(`the point is ${line(point)}; give a Vector3`, 'point');
     const { x, y, z } = this.worldToLocal(point.clone()).normalize();
     return [(180 / Math.PI) * Math.atan2(x, z), (180 / Math.PI) * Math.asin(Math.min(Math.max(y, -1), 1))];
   }
@@ -187,6 +192,7 @@ export class VectorGlobe extends Group {
   placeUnder(pointer, camera) {
     const { x, y } = pointer ?? {};
     if (!Number.isFinite(x) || !Number.isFinite(y)) throw new VextureError(`the pointer is ${line(pointer)}; give { x, y }, -1 to 1`, 'pointer');
+    checkCamera(camera);
     this.updateWorldMatrix(true, false);
     camera.updateWorldMatrix(true, false);
     const from = this.worldToLocal(new Vector3().setFromMatrixPosition(camera.matrixWorld));
@@ -208,6 +214,21 @@ export class VectorGlobe extends Group {
   featureUnder(pointer, camera) {
     const place = this.placeUnder(pointer, camera);
     return place && this.featureAt(place);
+  }
+
+  /** Ask again for what could not be had: tiles, or the metadata. */
+  retry() {
+    this.#pyramid.retry();
+  }
+
+  /**
+   * A globe loads tiles for its own camera.
+   *
+   * @returns {never}
+   * @throws {VextureError} always
+   */
+  clone() {
+    throw new VextureError('a VectorGlobe cannot be cloned; make another one of the same source', 'clone');
   }
 
   /** Abort what is being loaded, and free the GPU memory. */
@@ -290,6 +311,11 @@ export class VectorGlobe extends Group {
     this.#textures.get(loaded)?.dispose();
     this.#textures.delete(loaded);
   }
+}
+
+/** @param {any} camera @throws {VextureError} if it is none with a perspective */
+function checkCamera(camera) {
+  if (!camera?.isPerspectiveCamera) throw new VextureError('the camera is no PerspectiveCamera; give one', 'camera');
 }
 
 /**
