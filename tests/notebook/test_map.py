@@ -301,8 +301,6 @@ def test_a_table_of_ids_times_and_values_is_shown():
         ("z*", None, "no column is like 'z\\*' of `column`"),
         (["y8", "y7"], None, "no column 'y7' for `column`"),
         (["y8", "y9"], ["2008"], "1 name for 2 steps"),
-        (["y8", "y9"], ["a", "a"], "`times` names two steps 'a'"),
-        ("nothing", None, "no column 'nothing' for `column`"),
         (None, ["2008"], "give the `column` of each"),
         ("kind", "table.csv", "`column` 'kind' is not shown"),
         (["y8", "kind"], None, "differ in type"),

@@ -60,7 +60,8 @@ class Scale:
     column : str
     kind : str
         ``quantiles`` or ``equal`` (classes), ``continuous``, ``categories``, or the inner breaks of classes, such as
-        ``10,20,50`` or a list; ``auto`` is ``categories`` of text and truth values, ``quantiles`` of numbers.
+        ``10,20,50`` or a list; ``auto`` is ``categories`` of text and truth values, ``quantiles`` of numbers. The order
+        of categories is that of a column that has its own, such as a `pandas.Categorical`, or else they rise.
     palette : str, optional
         Name of a palette of cmap; colour-blind-safe by default.
     classes : int
@@ -99,7 +100,9 @@ def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba
     is_number = any(test(kind_of) for test in (pa.types.is_integer, pa.types.is_floating, pa.types.is_decimal))
     kind = scale.kind if scale.kind != "auto" else "quantiles" if is_number else "categories"
     if kind == "categories":
-        rgba, entries = _categories(texts_of(column.to_pylist()), _order(column), scale, notes)
+        values = column.to_pylist()
+        names = texts_of(values)
+        rgba, entries = _categories(names, _order(column, dict(zip(names, values, strict=True))), scale, notes)
     else:
         breaks = None if kind in ("quantiles", "equal", "continuous") else _breaks(kind)
         if not is_number and column.null_count < len(column):
@@ -274,15 +277,14 @@ def _continuous(values: NDArray[np.float64], scale: Scale) -> tuple[Rgba, list[d
     ]
 
 
-def _order(column: "pyarrow.ChunkedArray") -> list[str]:
+def _order(column: "pyarrow.ChunkedArray", values: dict[str | None, Any]) -> list[str]:
     """Names of categories as a dictionary has them, or else as numbers, days and texts rise."""
     import pyarrow as pa
 
     if pa.types.is_dictionary(column.type):
         chunks = column.unify_dictionaries().chunks
         return [name for name in texts_of(chunks[0].dictionary.to_pylist()) if name is not None] if chunks else []
-    values = column.to_pylist()
-    found = {name: value for name, value in zip(texts_of(values), values, strict=True) if name is not None}
+    found = {name: value for name, value in values.items() if name is not None}
     try:
         return sorted(found, key=found.__getitem__)
     except TypeError:  # lists of several kinds of things

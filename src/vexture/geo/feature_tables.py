@@ -367,7 +367,8 @@ def _frame(frame: Any, choice: Choice) -> Chunk:
     others = {name: arrow_of(values) for name, values in given.items() if str(values.dtype) != "geometry"}
     labels, why = labels_of(frame.index)
     if why:  # what its levels tell is not lost
-        levels = {str(name): frame.index.get_level_values(name) for name in frame.index.names if name is not None}
+        named = [(number, str(name)) for number, name in enumerate(frame.index.names) if name is not None]
+        levels = {name: frame.index.get_level_values(number) for number, name in named}
         others = {name: arrow_of(level.to_series()) for name, level in levels.items() if name not in columns} | others
     if labels is not None and choice.id == frame.index.name and choice.id not in others:
         choice = replace(choice, id=None)
