@@ -149,3 +149,45 @@ def opened_flood(open_page: Callable[..., Any], flood_pages: dict[str, str]) -> 
         return page
 
     return opener
+
+
+@pytest.fixture(scope="session")
+def map_folder(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of a map of MapLibre, with its tiles."""
+    import maplibre_page
+
+    folder = tmp_path_factory.mktemp("maplibre")
+    maplibre_page.write_page(folder, tile_folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def map_address(map_folder: Path) -> Iterator[str]:
+    """Its address."""
+    import tile_pyramid
+
+    with tile_pyramid.served(map_folder) as url:
+        yield url
+
+
+@pytest.fixture
+def opened_map(map_address: str, open_page: Callable[..., Any]) -> Callable[..., Any]:
+    """Open the page of a map with a layer of tiles, when all is there."""
+    import maplibre_page
+    import tile_pyramid
+
+    def opener(
+        view: dict[str, Any],
+        layer: dict[str, Any] | None = None,
+        size: Any = maplibre_page.SIZE,
+        url: str = map_address,
+        name: str = "page",
+        **options: Any,
+    ) -> Any:
+        page = open_page(f"{url}/{name}.html", size, **options)
+        page.wait_for_function("window.loaded")
+        view = {"center": tile_pyramid.lng_lat(*maplibre_page.CENTRE), **view}
+        page.evaluate("async ([view, layer]) => { await start(view, layer) }", [view, layer or {}])
+        return page
+
+    return opener
