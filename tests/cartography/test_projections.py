@@ -45,6 +45,31 @@ def test_what_lies_across_the_edge_of_a_map_is_on_both_sides_of_it(crs):
     assert (found == inside)[clear].all()
 
 
+@pytest.mark.parametrize("crs", ["ESRI:54052", "+proj=igh_o +lon_0=100", "+proj=imoll +lon_0=-30", "+proj=healpix"])
+def test_an_interrupted_map_is_cut_at_its_lobes(crs):
+    world = [shapely.box(-180, -90, 180, -62), shapely.box(-75, -30, 20, 81), shapely.box(-180, 20, 180, 40)]
+    features, said = in_system([*world, shapely.LineString([(-170, 61), (0, 61), (170, 61)])], crs)
+    assert not said
+    places = np.random.default_rng(3).uniform((-179.9, -89.0), (179.9, 89.0), (3000, 2))
+    on_map, shapes = transformed(places, WORLD, crs), shapely.union_all(features.rings.shapes)
+    clear = shapely.distance(shapely.union_all(shapely.boundary(world)), shapely.points(places)) > 0.5
+    inside = shapely.contains_xy(shapely.union_all(world), *places.T)
+    assert (shapely.contains_xy(shapes, *on_map.T) == inside)[clear].all()
+    longest = 0.05 * np.ptp(on_map[:, 0])
+    rings = features.rings
+    assert np.hypot(*(rings.points[rings.following] - rings.points).T).max() < longest
+    assert len(features.lines.ends) > 1
+    assert np.hypot(*np.diff(features.lines.points[: features.lines.ends[0]], axis=0).T).max() < longest
+
+
+@pytest.mark.parametrize("crs", ["+proj=isea", "+proj=bertin1953"])
+def test_what_lies_across_a_tear_at_no_meridian_is_told(crs):
+    bands = [shapely.box(-180, south, 180, south + 20) for south in range(-80, 80, 20)]
+    _, said = in_system(bands, crs)
+    assert any("torn, and is smeared over the map; choose another `crs`" in line for line in said)
+    assert not in_system([shapely.box(10, 40, 12, 42)], crs)[1]
+
+
 @pytest.mark.parametrize(("crs", "side"), [(SOUTH, -1), (NORTH, 1), ("EPSG:3571", 1)])
 def test_a_map_around_a_pole_is_its_hemisphere(crs, side):
     around = shapely.transform(ANTARCTICA, lambda places: places * (1, -side))

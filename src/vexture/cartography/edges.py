@@ -88,6 +88,9 @@ def along_edge(sides: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
         high, widest = POLE, np.inf  # at the edge either side may have been found
         torn = np.abs(longitude) >= (TURN / 2 - NEAR if domain.pole == 0.0 else np.inf)
         cut_at = POLE if domain.pole == 0.0 else 0.0
+        for west, south, east, north in domain.slits:
+            beside = np.abs(within_turn(degrees - ((west + east) / 2, 0.0))[:, 0]) <= NEAR
+            torn |= beside & (south - NEAR <= degrees[:, 1]) & (degrees[:, 1] <= north + NEAR)
         on = np.stack([torn, np.abs(latitude - cut_at) <= NEAR], axis=1)
     else:
         return np.zeros(len(sides), np.bool_)

@@ -12,14 +12,17 @@ from vexture.cartography.domain import (
     TURN,
     WORLD,
     Domain,
+    cut_open,
     domain_of,
     in_box,
     is_far,
     is_strained,
     is_wide,
+    torn_sides,
     within_turn,
+    without,
 )
-from vexture.cartography.lines import continuous, lines_in_box, there_and_back, thicker, way_there
+from vexture.cartography.lines import continuous, lines_changed, lines_in_box, there_and_back, thicker, way_there
 from vexture.errors import SourceError
 from vexture.geo.crs import period, refuse_metres, same_system, shown_bounds, shown_system, system, transformed
 from vexture.geo.extent import Bounds
@@ -91,6 +94,8 @@ def _projected(features: Features, crs: str, notes: Notes) -> Features:
         features = features if domain is None else _within(features, domain, notes)
         lines = way_there(thicker(there_and_back(features.lines), LONGEST))
         features = replace(features, rings=thicker(features.rings, LONGEST), lines=lines)
+        if is_wide(crs):
+            _say_torn(features, crs, notes)
     move, rings = _mover(features.crs, crs), features.rings
     is_around = domain is not None and domain.pole != 0.0 and period(features.crs) == TURN
     if is_around:  # both sides of the antimeridian are one, bit for bit
@@ -129,7 +134,27 @@ def _within(features: Features, domain: Domain, notes: Notes) -> Features:
         points = Points(points.points[there], points.feature[there])
         if rings is not features.rings or lines is not features.lines:
             notes.remark("the map shows the hemisphere around its pole: it is cut off at the equator")
+    if domain.slits and len(rings.ends):
+        rings = cut_open(rings, domain.slits)
+    if domain.slits and len(lines.ends):
+        lines = lines_changed(lines, without(domain.slits))
     return replace(features, rings=rings, lines=lines, points=points)
+
+
+def _say_torn(features: Features, crs: str, notes: Notes) -> None:
+    """Note how many features, in longitude and latitude, lie across a tear that is at no meridian."""
+    parts = [features.rings] if len(features.rings.ends) else []
+    parts += [there_and_back(features.lines)] if len(features.lines.ends) else []
+    for rings in parts:
+        torn = torn_sides(np.stack([rings.points, rings.points[rings.following]], axis=1), crs)
+        assert rings.feature is not None
+        point = np.flatnonzero(torn)
+        ring = np.searchsorted(rings.ends, point, side="right")
+        wrong = np.unique(rings.feature[rings.polygon[ring]])
+        notes.remark(
+            f"a feature lies where {shown_system(crs)} is torn, and is smeared over the map; choose another `crs`",
+            len(wrong),
+        )
 
 
 def _on_mercator(features: Features, notes: Notes) -> Features:
