@@ -65,6 +65,7 @@ BAND = shapely.box(-179.999, 20, 179, 30)
         (WORLD, 180.0, [FIJI, BAND]),
         ("EPSG:8857", 179.9999, [FIJI]),
         ("ESRI:54030", 179.9999, [shapely.box(170, -30, 190, -10)]),
+        ("+proj=ortho +lat_0=0 +lon_0=90", 179.89, [shapely.box(170, 20, 190, 40)]),
         ("ESRI:54052", -39.9999, [shapely.box(-50, 20, 20, 40), shapely.box(170, 20, 179, 30)]),
     ],
 )

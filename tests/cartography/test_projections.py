@@ -144,7 +144,42 @@ def test_a_projected_source_is_on_a_map_of_the_world():
 
 
 @pytest.mark.filterwarnings("error")
-def test_a_map_that_cannot_show_all_of_the_world_says_so():
-    with pytest.raises(SourceError, match="some of it has none; choose another `crs`, or features by `where`"):
-        in_system([RUSSIA, shapely.box(-170, -60, -20, 10)], "+proj=ortho +lat_0=40 +lon_0=10")
-    assert in_system([shapely.box(0, 30, 20, 50)], "+proj=ortho +lat_0=40 +lon_0=10")[0].rings.points.size
+@pytest.mark.parametrize(
+    ("crs", "middle", "radius"),
+    [
+        ("+proj=ortho +lat_0=40 +lon_0=10", (10, 40), 89.9),
+        ("ESRI:102038", (-72.533, 42.533), 89.9),
+        ("+proj=ortho +lat_0=0 +lon_0=170", (170, 0), 89.9),
+        ("ESRI:102034", (0, 90), 65),
+        ("+proj=geos +h=35785831 +lon_0=-75", (-75, 0), 81),
+        ("+proj=nsper +h=3000000 +lat_0=-50 +lon_0=20", (20, -50), 47),
+    ],
+)
+def test_a_map_of_one_side_of_the_globe_is_cut_at_its_rim(crs, middle, radius):
+    world = [RUSSIA, shapely.box(-170, -60, -20, 10), ANTARCTICA, shapely.box(-180, 20, 180, 40)]
+    around = shapely.LineString([(-170, 15), (0, 15), (170, 15)])
+    marks = [
+        around,
+        shapely.LineString([(middle[0], -80), (middle[0], 80)]),
+        *map(shapely.Point, [middle, (middle[0] + 180, 0)]),
+    ]
+    features, said = in_system([*world, *marks], crs)
+    assert any("one side of the globe: it is cut off" in line for line in said)
+    assert "point beyond the map" in said
+    places = np.random.default_rng(4).uniform((-179.9, -89.0), (179.9, 89.0), (3000, 2))
+    cap = domain_of(crs).cap
+    seen = cap.distance(places) < cap.radius - 0.5
+    assert cap.radius == pytest.approx(radius, abs=1)
+    world += [
+        shapely.box(-190, 50, -170, 75),
+        shapely.Polygon([*ANTARCTICA.exterior.coords[:-1], (180, -90), (-180, -90)]),
+    ]
+    world.remove(ANTARCTICA)
+    clear = seen & (shapely.distance(shapely.union_all(shapely.boundary(world)), shapely.points(places)) > 0.5)
+    found = shapely.contains_xy(shapely.union_all(features.rings.shapes), *transformed(places, WORLD, crs).T)
+    assert (found == shapely.contains_xy(shapely.union_all(world), *places.T))[clear].all()
+    assert shapely.is_valid(features.rings.shapes).all()
+    line = cap.distance(transformed(features.lines.points, crs, WORLD))
+    assert len(line) > 2
+    assert line.max() < cap.radius + 0.05
+    assert not in_system([shapely.box(middle[0], middle[1] - 3, middle[0] + 1, middle[1] - 1)], crs)[1]

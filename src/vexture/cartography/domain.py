@@ -1,4 +1,4 @@
-"""What of the world a map can show as a whole: up to where it is torn, or the half of it around a pole."""
+"""What of the world a map can show as a whole: up to where it is torn, or the side of it around a pole or a place."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -9,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.cartography.caps import WORLD, Cap, cap_of
 from vexture.geo.crs import system, transformed
 from vexture.geo.extent import Bounds
 from vexture.geo.rings import Rings, cut, rings_of, within
@@ -30,7 +31,6 @@ __all__ = [
     "without",
 ]
 
-WORLD: Final = "EPSG:4326"
 TURN: Final = 360.0
 POLE: Final = 90.0
 
@@ -72,13 +72,16 @@ class Domain:
     box : tuple of float
         West, south, east, north; of a hemisphere, whose meridians meet, all longitudes.
     pole : float
-        Latitude of the pole in the middle of a hemisphere; 0 of another map.
+        Latitude of the pole in a hemisphere or a cap; 0 of another map.
+    cap : Cap, optional
+        What a map shows that looks at the globe from one side.
     slits : tuple of tuple of float
         Narrow boxes where an interrupted map is torn, each from a pole towards the equator.
     """
 
     box: Bounds
     pole: float = 0.0
+    cap: Cap | None = None
     slits: tuple[Bounds, ...] = ()
 
     @property
@@ -102,6 +105,8 @@ def domain_of(crs: str) -> Domain | None:
     if not found.is_projected:
         return None
     middle = _middle(crs)
+    if (cap := cap_of(crs, middle)) is not None:
+        return Domain((-EVER, -POLE, EVER, POLE), cap.pole, cap)
     for pole in (POLE, -POLE):
         around = np.array([(longitude, 8 / 9 * pole) for longitude in (0.0, 90.0, 180.0, 270.0)])
         center, *ring = transformed(np.concatenate([[(0.0, pole)], around]), WORLD, crs)
@@ -221,14 +226,14 @@ def without(slits: tuple[Bounds, ...]) -> Callable[[NDArray[Any]], NDArray[Any]]
     return lambda shapes: np.asarray(shapely.difference(shapes, whole))
 
 
-def torn_sides(sides: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
-    """Sides, (n, 2, 2) in longitude and latitude, across which a map is torn: of the nearest places there, too."""
-    first, last = sides[:, 0].copy(), sides[:, 1].copy()
-    ends = transformed(sides.reshape(-1, 2), WORLD, crs).reshape(-1, 2, 2)
-    known = ends[np.isfinite(ends).all(axis=(1, 2))].reshape(-1, 2)
+def torn_sides(rings: Rings, crs: str) -> NDArray[np.bool_]:
+    """Whether a map is torn across the side after each point, in longitude and latitude."""
+    first, last = rings.points.copy(), rings.points[rings.following]
+    places = transformed(rings.points, WORLD, crs)
+    known = places[np.isfinite(places).all(axis=1)]
     least = JUMP * float(np.ptp(known, axis=0).max()) if len(known) else np.inf
     with np.errstate(invalid="ignore"):
-        torn: NDArray[np.bool_] = np.hypot(*(ends[:, 1] - ends[:, 0]).T) > least
+        torn: NDArray[np.bool_] = np.hypot(*(places[rings.following] - places).T) > least
         for _ in range(HALVINGS if torn.any() else 0):
             west, east = first[torn], last[torn]
             half = (west + east) / 2

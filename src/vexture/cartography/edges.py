@@ -18,6 +18,9 @@ __all__ = ["along_edge", "together"]
 NEAR: Final = 1e-4
 """Degrees: what is nearer to the edge lies on it. Maps end a little before the meridian where they are torn."""
 
+AT_RIM: Final = 0.02
+"""Degrees: what is nearer to the rim of one side of the globe lies on it."""
+
 ROUNDED: Final = 1e-9
 """Parts of the world by which rounding moves its edge."""
 
@@ -92,6 +95,8 @@ def along_edge(sides: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
             beside = np.abs(within_turn(degrees - ((west + east) / 2, 0.0))[:, 0]) <= NEAR
             torn |= beside & (south - NEAR <= degrees[:, 1]) & (degrees[:, 1] <= north + NEAR)
         on = np.stack([torn, np.abs(latitude - cut_at) <= NEAR], axis=1)
+        if domain.cap is not None:
+            on = np.stack([domain.cap.distance(degrees) >= domain.cap.radius - AT_RIM, np.zeros_like(torn)], axis=1)
     else:
         return np.zeros(len(sides), np.bool_)
     both: NDArray[np.bool_] = np.all(on.reshape(-1, 2, 2), axis=1)

@@ -61,6 +61,8 @@ def lines_changed(lines: Lines, change: Callable[[NDArray[Any]], NDArray[Any]]) 
 
     owner = np.repeat(np.arange(len(lines.ends)), np.diff(lines.ends, prepend=0))
     parts, of = shapely.get_parts(change(shapely.linestrings(lines.points, indices=owner)), return_index=True)
+    keep = (shapely.get_type_id(parts) == shapely.GeometryType.LINESTRING) & ~shapely.is_empty(parts)
+    parts, of = parts[keep], of[keep]
     points, owner = shapely.get_coordinates(parts, return_index=True)
     return Lines(points, np.searchsorted(owner, np.arange(len(parts)), side="right"), lines.feature[of])
 

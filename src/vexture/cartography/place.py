@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.cartography.caps import Cap
 from vexture.cartography.domain import (
     EVER,
     TURN,
@@ -125,13 +126,12 @@ def _in_degrees(features: Features) -> Features:
 
 def _within(features: Features, domain: Domain, notes: Notes) -> Features:
     """What of features, in longitude and latitude, a map can show as a whole."""
+    if domain.cap is not None:
+        return _within_cap(features, domain.cap, notes)
     rings = in_box(features.rings, domain.box, domain.turn)
     lines, points = lines_in_box(features.lines, domain.box, domain.turn), features.points
     if domain.pole:
-        there = points.points[:, 1] * domain.pole >= 0.0
-        for _ in range(int((~there).sum())):
-            notes.left_out(BEYOND_POINT)
-        points = Points(points.points[there], points.feature[there])
+        points = _points_where(points, points.points[:, 1] * domain.pole >= 0.0, notes)
         if rings is not features.rings or lines is not features.lines:
             notes.remark("the map shows the hemisphere around its pole: it is cut off at the equator")
     if domain.slits and len(rings.ends):
@@ -141,15 +141,30 @@ def _within(features: Features, domain: Domain, notes: Notes) -> Features:
     return replace(features, rings=rings, lines=lines, points=points)
 
 
+def _within_cap(features: Features, cap: Cap, notes: Notes) -> Features:
+    """What of features a map shows that looks at the globe from one side."""
+    rings, lines = cap.of_rings(features.rings), cap.of_lines(features.lines)
+    points = _points_where(features.points, cap.distance(features.points.points) <= cap.radius, notes)
+    if rings is not features.rings or lines is not features.lines:
+        middle = f"latitude {cap.latitude:.4g}, longitude {cap.longitude:.4g}"
+        notes.remark(f"the map shows one side of the globe: it is cut off {cap.radius:.3g} degrees from {middle}")
+    return replace(features, rings=rings, lines=lines, points=points)
+
+
+def _points_where(points: Points, there: NDArray[np.bool_], notes: Notes) -> Points:
+    """The points that a map shows."""
+    for _ in range(int((~there).sum())):
+        notes.left_out(BEYOND_POINT)
+    return Points(points.points[there], points.feature[there])
+
+
 def _say_torn(features: Features, crs: str, notes: Notes) -> None:
     """Note how many features, in longitude and latitude, lie across a tear that is at no meridian."""
     parts = [features.rings] if len(features.rings.ends) else []
     parts += [there_and_back(features.lines)] if len(features.lines.ends) else []
     for rings in parts:
-        torn = torn_sides(np.stack([rings.points, rings.points[rings.following]], axis=1), crs)
         assert rings.feature is not None
-        point = np.flatnonzero(torn)
-        ring = np.searchsorted(rings.ends, point, side="right")
+        ring = np.searchsorted(rings.ends, np.flatnonzero(torn_sides(rings, crs)), side="right")
         wrong = np.unique(rings.feature[rings.polygon[ring]])
         notes.remark(
             f"a feature lies where {shown_system(crs)} is torn, and is smeared over the map; choose another `crs`",
