@@ -5,17 +5,13 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Final
 
 import click
 
 from vexture.errors import EXPECTED, printable, reason_of
 from vexture.notes import Note, line_of
 
-__all__ = ["INTERRUPTED", "as_options", "one_line", "say", "say_notes"]
-
-INTERRUPTED: Final = 130
-"""Exit code after Ctrl-C: 128 and the signal's number, as shells have it."""
+__all__ = ["as_options", "one_line", "say", "say_notes"]
 
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter in a message of the library."""
