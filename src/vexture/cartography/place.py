@@ -32,7 +32,7 @@ from vexture.geo.longitudes import jumping, unwrapped
 from vexture.geo.rings import Rings, moved, refuse_far, repaired
 from vexture.notes import Notes
 
-__all__ = ["MERCATOR", "RADIUS", "placed", "units_per_metre"]
+__all__ = ["MERCATOR", "RADIUS", "placed", "unit_of", "units_per_metre"]
 
 MERCATOR: Final = "EPSG:3857"
 RADIUS: Final = 6378137.0
@@ -290,6 +290,18 @@ def _marks(features: Features, move: Move, notes: Notes, *, is_bent: bool = True
         for _ in range(count):
             notes.left_out(what)
     return moved_lines, Points(places[there], spots.feature[there])
+
+
+def unit_of(crs: str) -> str:
+    """Unit of a system's coordinates, for a message.
+
+    Examples
+    --------
+    >>> unit_of("EPSG:3857"), unit_of("EPSG:4326")
+    ('m', 'degree')
+    """
+    name = str(system(crs).axis_info[0].unit_name)
+    return "m" if name == "metre" else name
 
 
 def units_per_metre(points: NDArray[np.float64], crs: str) -> NDArray[np.float64]:
