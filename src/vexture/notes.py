@@ -140,7 +140,7 @@ class Notes:
         self.count("left out", what)
 
     def features(self, kind: Kind, what: str, ids: Iterable[object]) -> None:
-        """Note something about a feature of each id.
+        """Note something about the feature of each id, of several equal ones once.
 
         Examples
         --------
@@ -149,7 +149,7 @@ class Notes:
         >>> line_of("a.gpkg", notes.listed)
         'a.gpkg: a polygon is repaired (2: 07, 12)'
         """
-        names = [str(one) for one in ids]
+        names = list(dict.fromkeys(map(str, ids)))
         self._add(kind, what, len(names))
         if names:
             known = self._named.setdefault((kind, printable(what)), {})

@@ -250,7 +250,11 @@ def test_borders_that_are_equal_are_not_touched_and_others_are(monkeypatch):
 def test_notes_name_the_features(tmp_path):
     bows = [shapely.Polygon([(x, 0), (x + 90, 90), (x + 90, 0), (x, 90)]) for x in range(2000, 2600, 100)]
     source = tmp_path / "land.parquet"
-    shapes = [*overlapping(), *bows]
+    shapes = [
+        *overlapping(),
+        *bows[:-1],
+        shapely.MultiPolygon([bows[-1], shapely.transform(bows[-1], lambda xy: xy + 200)]),
+    ]
     frame(shapes, METRES, code=[f"c{k}" for k in range(len(shapes))]).to_parquet(source)
     arguments = ["map", str(source), "--id", "code", "--crs", METRES, "-o", str(tmp_path / "out.ktx2")]
     told = CliRunner().invoke(main, arguments).stderr

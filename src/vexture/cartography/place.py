@@ -159,17 +159,15 @@ def _points_where(points: Points, there: NDArray[np.bool_], notes: Notes) -> Poi
 
 
 def _say_torn(features: Features, crs: str, notes: Notes) -> None:
-    """Note how many features, in longitude and latitude, lie across a tear that is at no meridian."""
+    """Note which features, in longitude and latitude, lie across a tear that is at no meridian."""
     parts = [features.rings] if len(features.rings.ends) else []
     parts += [there_and_back(features.lines)] if len(features.lines.ends) else []
     for rings in parts:
         assert rings.feature is not None
         ring = np.searchsorted(rings.ends, np.flatnonzero(torn_sides(rings, crs)), side="right")
         wrong = np.unique(rings.feature[rings.polygon[ring]])
-        notes.remark(
-            f"a feature lies where {shown_system(crs)} is torn, and is smeared over the map; choose another `crs`",
-            len(wrong),
-        )
+        said = f"a feature lies where {_named(crs)} is torn, and is smeared over the map; choose another `crs`"
+        notes.features("remark", said, features.ids[wrong])
 
 
 def _on_mercator(features: Features, notes: Notes) -> Features:
