@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vexture.cli.messages import INTERRUPTED, one_line, say, say_notes
+from vexture.cli.interrupt import INTERRUPTED
+from vexture.cli.messages import one_line, say, say_notes
 from vexture.cli.options import PATH, colour_options, columns_of, refuse_idle_colours, scale_of
 from vexture.errors import counted
 
