@@ -17,10 +17,12 @@ from tile_sources import cells
 from vexture import ParameterError, SourceError
 from vexture.cartography.colours import Scale, colours_of
 from vexture.errors import DeviceError
+from vexture.geo.crs import transformed
 from vexture.notes import Notes
 from vexture.texture.load import texture_from
 from vexture.tiles.attributes import Look
 from vexture.tiles.build import make_tiles
+from vexture.tiles.grid import CRS
 from vexture.tiles.options import TileOptions
 
 COUNT = 12
@@ -118,10 +120,50 @@ def test_what_is_finished_is_named_and_has_its_colours_and_its_table(source, tmp
     assert len(list(tmp_path.iterdir())) == 4
 
 
+@pytest.fixture(params=[1, -1], ids=["in order", "reversed"])
+def overlapping(request, tmp_path):
+    """Boxes that overlap; the largest feature has two, and is partly beyond the antimeridian."""
+    shapes = {
+        "small": shapely.box(172, 1, 173, 2),
+        "big": shapely.box(171, 0, 181, 10),
+        "bigger": shapely.MultiPolygon([shapely.box(176, 5, 183, 14), shapely.box(160, 5, 167, 14)]),
+        "beside": shapely.box(150, 0, 155, 10),
+    }
+    names = list(shapes)[:: request.param]
+    level = {"small": 1.5, "big": 2.5, "bigger": None, "beside": 3.5}
+    columns = {"parcel": names, "level": [level[name] for name in names], "word": [name[::-1] for name in names]}
+    return write(tmp_path / "source.geojson", [shapes[name] for name in names], **columns)
+
+
+@pytest.mark.parametrize(
+    ("order", "seen"),
+    [
+        (None, ["small", "big", "big", "bigger", "bigger", "beside"]),  # the smaller above
+        ("level", ["big", "big", "big", "bigger", "bigger", "beside"]),  # what has no value is below
+        ("word", ["small", "bigger", "bigger", "bigger", "bigger", "beside"]),
+    ],
+)
+def test_overlaps_are_in_an_order_that_is_not_that_of_the_file(overlapping, order, seen, tmp_path):
+    places = [(172.5, 1.5), (177.0, 6.0), (-179.5, 6.0), (-178.0, 6.0), (163.0, 7.0), (152.0, 5.0)]
+    metres = transformed(np.array(places), "EPSG:4326", CRS)
+    made(overlapping, tmp_path / "made.pmtiles", Look(order=order))
+    checked = 0
+    with (tmp_path / "made.pmtiles").open("rb") as file:
+        for (z, _, _), data in all_tiles(MmapSource(file)):
+            texture = texture_from(data, "a tile")
+            to = texture.roots[0].to_source
+            unit = (metres - to[:, 2]) / to[:, :2].diagonal()
+            there = ((unit > 0.0) & (unit < 1.0)).all(axis=1) & (z > 0)
+            assert texture.element_at(unit[there]).name.tolist() == np.array(seen)[there].tolist()
+            checked += int(there.sum())
+    assert checked >= 2 * len(places)
+
+
 @pytest.mark.parametrize(
     ("look", "says"),
     [
         (Look(Scale("height")), "parcels.geojson: it has no column 'height' for `color`; there are: parcel, value"),
+        (Look(order="height"), "parcels.geojson: it has no column 'height' for `order`; there are: parcel, value"),
         (Look(Scale("parcel", "equal"), table="parquet"), "holds string, not numbers; give `scale` categories"),
     ],
 )

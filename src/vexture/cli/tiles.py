@@ -39,6 +39,7 @@ Examples:
 @click.option("--columns", metavar="A,B,...", help="Attributes to keep in the table.  [default: all]")
 @click.option("--color", "--colour", metavar="COLUMN", help="Attribute that colours show.")
 @colour_options
+@click.option("--order", metavar="COLUMN", help="Which polygons are above.  [default: the smaller ones]")
 @click.option("--fill", metavar="COLOR", help="One colour of all.  [default: grey]")
 @click.option("--name", metavar="TEXT", default="", help="Name of the map.  [default: the output's name]")
 @click.option("--attribution", metavar="TEXT", default="", help="Where the data are from.")
@@ -74,11 +75,12 @@ def _asked(options: dict[str, Any]) -> "TileOptions":
     from vexture.tiles.attributes import Look
     from vexture.tiles.options import TileOptions
 
-    own = ("color", "scale", "classes", "palette", "no_data", "fill", "columns", "table")
+    own = ("color", "scale", "classes", "palette", "no_data", "fill", "columns", "order", "table")
     given = {name: options.pop(name) for name in own}
     if given["color"] is None:
         refuse_idle_colours(given)
-    look = Look(scale_of(given["color"], given), given["fill"], columns_of(given["columns"]), given["table"])
+    scale, columns = scale_of(given["color"], given), columns_of(given["columns"])
+    look = Look(scale, given["fill"], columns, given["order"], given["table"])
     processes = options.pop("processes") or os.cpu_count() or 1
     return TileOptions(look=look, processes=processes, **options)
 

@@ -35,7 +35,7 @@ class TileOptions:
     name, attribution : str
         Told in the metadata.
     look : Look
-        Colours, and the table of attributes.
+        Colours, what is above, and the table of attributes.
     processes : int
         Processes that share the work on this machine.
     scheduler : str or None
@@ -61,9 +61,9 @@ class TileOptions:
             raise ParameterError(f"`processes` is {self.processes}; it must be at least 1")
         self.look.check()
 
-    def pyramid(self, paints: NDArray[np.uint32]) -> Pyramid:
-        """Its zooms, and the colours of its features."""
-        return Pyramid(self.coarse, self.zooms, self.step, self.max_zoom, paints)
+    def pyramid(self, paints: NDArray[np.uint32], ranks: NDArray[np.uint32]) -> Pyramid:
+        """Its zooms, and the colours and the order of its features."""
+        return Pyramid(self.coarse, self.zooms, self.step, self.max_zoom, paints, ranks)
 
     @property
     def zooms(self) -> tuple[int, ...]:
@@ -84,6 +84,11 @@ class TileOptions:
     def key(self) -> dict[str, Any]:
         """All that what is finished depends on, besides the source."""
         return {"zooms": [self.min_zoom, self.max_zoom, self.step], **self.reading, "look": self.look.key}
+
+    def check_workers(self) -> None:
+        """Raise a `DeviceError` if who shall do the work is not there."""
+        if self.scheduler is not None:
+            Cluster(self.scheduler).check()
 
     def who(self) -> Workers:
         """Who does the work."""
