@@ -1,7 +1,9 @@
 """A pyramid of tiles: each names the feature that is there, neighbours fit, and what was killed ends with its bytes."""
 
+import errno
 import hashlib
 import json
+import os
 from itertools import product
 
 import numpy as np
@@ -11,7 +13,7 @@ from pmtiles.reader import MmapSource, Reader, all_tiles
 from pmtiles.tile import tileid_to_zxy
 from tile_sources import batches_of, cells, write_source
 
-from vexture import ParameterError, SourceError
+from vexture import DeviceError, ParameterError, SourceError
 from vexture.geo.crs import transformed
 from vexture.geo.rings import cut, rings_of
 from vexture.tiles.build import make_tiles
@@ -289,6 +291,25 @@ def test_a_source_without_polygons_is_refused(tmp_path):
     with pytest.raises(SourceError, match=r"empty\.geojson: it has lines or points \(1\), but no polygon"):
         make_tiles(source, tmp_path / "empty.pmtiles", TileOptions())
     assert {path.name for path in tmp_path.iterdir()} == {"empty.geojson"}
+
+
+def test_a_wrong_scheduler_is_refused_before_anything_is_begun(source, tmp_path):
+    with pytest.raises(DeviceError, match="`scheduler` foo: no Dask scheduler answers there") as error:
+        make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(scheduler="foo"))
+    assert "finished" not in str(error.value)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("number", "remedy"),
+    [(errno.ENOSPC, "make room, or choose another disk"), (errno.EACCES, "correct that, or write elsewhere")],
+)
+def test_only_a_full_disk_needs_room(source, tmp_path, number, remedy):
+    def told(*_):
+        raise OSError(number, "as the disk says")
+
+    with pytest.raises(DeviceError, match=f"{os.strerror(number)}; {remedy}; nothing of it is finished"):
+        make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(), told)
 
 
 @pytest.mark.parametrize(
