@@ -4,6 +4,7 @@ import errno
 import hashlib
 import json
 import os
+import tracemalloc
 from itertools import product
 
 import numpy as np
@@ -13,11 +14,12 @@ from pmtiles.reader import MmapSource, Reader, all_tiles
 from pmtiles.tile import tileid_to_zxy
 from tile_sources import batches_of, cells, write_source
 
-from vexture import DeviceError, ParameterError, SourceError
+from vexture import DeviceError, LimitError, ParameterError, SourceError
 from vexture.geo.crs import transformed
 from vexture.geo.rings import cut, rings_of
+from vexture.tiles import generalise
 from vexture.tiles.build import make_tiles
-from vexture.tiles.generalise import generalised
+from vexture.tiles.generalise import dissolved, generalised
 from vexture.tiles.grid import CRS, HALF, MARGIN, Tile, last_zoom, pixel, span, zooms_of
 from vexture.tiles.options import TileOptions
 from vexture.tiles.pieces import Pieces
@@ -298,6 +300,39 @@ def test_a_wrong_scheduler_is_refused_before_anything_is_begun(source, tmp_path)
         make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(scheduler="foo"))
     assert "finished" not in str(error.value)
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "error", [MemoryError(), OSError(errno.ENOMEM, "no"), shapely.errors.GEOSException("bad_alloc")]
+)
+def test_too_little_memory_is_said_with_what_helps(source, tmp_path, error):
+    def told(what, *_):
+        if what == "parts":
+            raise error
+
+    remedy = "not enough memory; give `processes` 1, a larger `max_zoom`, which parts it finer, or .* `where`; what is"
+    with pytest.raises(LimitError, match=remedy):
+        make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(), told)
+
+
+def test_many_points_are_simplified_in_parts(monkeypatch):
+    """As if memory had no room for all at once: no border moves farther, and shared ones stay shared."""
+    monkeypatch.setattr(generalise, "MOST_POINTS", 5_000)
+    shapes = shapely.segmentize(cells(60, (0.0, 0.0, 1000.0, 1000.0)), 0.5)
+    pieces = pieces_of(shapes)
+    assert pieces.points > 50_000
+    tracemalloc.start()
+    box = (-1.0, -1.0, 1001.0, 1001.0)
+    found = dissolved(generalised(pieces, box, 1.0, 0.0))
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 100 * pieces.points
+    assert found.points < 1000
+    assert sorted(found.order.tolist()) == list(range(len(shapes)))
+    assert shapely.area(found.shapes).sum() == pytest.approx(1e6, rel=1e-9)
+    assert shapely.coverage_is_valid(found.shapes)
+    before, after = shapely.boundary(shapes), shapely.boundary(found.shapes[np.argsort(found.order)])
+    assert shapely.hausdorff_distance(before, after).max() <= 1.0
 
 
 @pytest.mark.parametrize(

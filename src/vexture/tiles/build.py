@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any, BinaryIO, Final
 
 from vexture.content import about
-from vexture.errors import DeviceError, ParameterError, SourceError, VextureError, reason_of
+from vexture.errors import DeviceError, LimitError, ParameterError, SourceError, VextureError, reason_of
 from vexture.geo.extent import Bounds
 from vexture.geo.tables import check_targets
+from vexture.geo.vectors import is_memory
 from vexture.notes import Note, Notes
 from vexture.texture.files import writable
 from vexture.tiles.archive import ARCHIVE, check_target, table_of, write_archive, write_folder
@@ -97,15 +98,30 @@ def make_tiles(
         store.close()
         if not store.has_parts:
             store.remove()  # reading begins anew
-        if isinstance(error, VextureError) and store.has_parts:
-            raise type(error)(f"{error}; {unfinished(output)}") from None
-        if isinstance(error, OSError):
-            reason = os.strerror(error.errno) if error.errno else reason_of(error)
-            remedy = "make room, or choose another disk" if error.errno in FULL else "correct that, or write elsewhere"
-            raise DeviceError(f"{output}: {reason}; {remedy}; {unfinished(output)}") from None
+        if isinstance(error, VextureError) and not store.has_parts:
+            raise
+        if isinstance(error, Exception) and (kind_and_reason := _reason(error, output)) is not None:
+            kind, reason = kind_and_reason
+            raise kind(f"{reason}; {unfinished(output)}") from None
         raise
     store.remove()
     return made
+
+
+def _reason(error: Exception, output: Path) -> tuple[type[VextureError], str] | None:
+    """What a user can do about an error, and the class of the error that says so; None if nothing."""
+    if isinstance(error, VextureError):
+        return type(error), str(error)
+    if isinstance(error, MemoryError) or is_memory(error) or getattr(error, "errno", None) == errno.ENOMEM:
+        return LimitError, (
+            f"{output}: there is not enough memory; give `processes` 1, a larger `max_zoom`, which parts it finer, "
+            "or choose fewer features by `where`"
+        )
+    if isinstance(error, OSError):
+        reason = os.strerror(error.errno) if error.errno else reason_of(error)
+        remedy = "make room, or choose another disk" if error.errno in FULL else "correct that, or write elsewhere"
+        return DeviceError, f"{output}: {reason}; {remedy}"
+    return None
 
 
 def unfinished(output: Path) -> str:
