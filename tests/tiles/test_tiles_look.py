@@ -6,16 +6,19 @@ import json
 import subprocess
 import sys
 
+import geopandas
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 import shapely
+from click.testing import CliRunner
 from pmtiles.reader import MmapSource, Reader, all_tiles
 from tile_sources import cells
 
 from vexture import ParameterError, SourceError
 from vexture.cartography.colours import Scale, colours_of
+from vexture.cli.main import main
 from vexture.errors import DeviceError
 from vexture.geo.crs import transformed
 from vexture.notes import Notes
@@ -194,6 +197,27 @@ def test_a_table_is_never_written_over_its_source(source, tmp_path):
     copy.write_bytes(source.read_bytes())
     with pytest.raises(ParameterError, match=r"parcels\.parquet is a source itself; give another `output`"):
         made(copy, tmp_path / "parcels.pmtiles", LOOK)
+
+
+@pytest.mark.parametrize("option", ["--source-crs", "--crs"])
+def test_the_system_of_a_source_is_named_as_in_maps(tmp_path, option):
+    """By its former name, too."""
+    shape = shapely.box(80_000, 440_000, 90_000, 450_000)
+    geopandas.GeoDataFrame({"parcel": ["a"]}, geometry=[shape], crs="EPSG:28992").to_file(tmp_path / "metres.shp")
+    (tmp_path / "metres.prj").unlink()
+    words = ["tiles", str(tmp_path / "metres.shp"), "-o", str(tmp_path / "out.pmtiles"), "--max-zoom", "4"]
+    wrong = CliRunner().invoke(main, words)
+    assert "give --source-crs EPSG:..." in wrong.stderr
+    done = CliRunner().invoke(main, [*words, option, "EPSG:28992"])
+    assert done.exit_code == 0, done.stderr
+    with (tmp_path / "out.pmtiles").open("rb") as file:
+        assert 4.2e7 < Reader(MmapSource(file)).header()["min_lon_e7"] < 4.4e7
+    assert option == "--source-crs" or option not in CliRunner().invoke(main, ["tiles", "--help"]).stdout.split()
+
+
+def test_no_processes_are_refused(source, tmp_path):
+    words = ["tiles", str(source), "-o", str(tmp_path / "out.pmtiles"), "--processes", "0"]
+    assert "--processes is 0; it must be at least 1" in CliRunner().invoke(main, words).stderr
 
 
 def test_lines_and_points_are_left_out_and_said(tmp_path):

@@ -179,7 +179,10 @@ def _named(source: Any, options: TileOptions) -> Iterator[None]:
             yield
         except ParameterError as error:
             named = (name for name, column in columns.items() if f"no column {column!r} " in str(error))
-            raise ParameterError(str(error).replace("`columns`", f"`{next(named, 'columns')}`")) from None
+            said = str(error).replace("`columns`", f"`{next(named, 'columns')}`").replace("`crs`", "`source_crs`")
+            raise type(error)(said) from None
+        except VextureError as error:
+            raise type(error)(str(error).replace("`crs`", "`source_crs`")) from None
 
 
 def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> None:

@@ -30,8 +30,8 @@ class TileOptions:
         The smallest zoom that has tiles.
     step : int
         2 or 3: zooms from one level to the next.
-    layer, where, id, crs : str or None
-        Of the source, as `vexture.geo.features.feature_batches` has them.
+    layer, where, id, source_crs : str or None
+        Of the source, as `vexture.geo.features.feature_batches` has them; the last is its `crs`.
     name, attribution : str
         Told in the metadata.
     look : Look
@@ -48,7 +48,7 @@ class TileOptions:
     layer: str | None = None
     where: str | None = None
     id: str | None = None
-    crs: str | None = None
+    source_crs: str | None = None
     name: str = ""
     attribution: str = ""
     look: Look = field(default_factory=Look)
@@ -78,7 +78,13 @@ class TileOptions:
     @property
     def reading(self) -> dict[str, Any]:
         """Options of the source's reader."""
-        return {"layer": self.layer, "where": self.where, "crs": self.crs, "id": self.id, "columns": self.look.read}
+        return {
+            "layer": self.layer,
+            "where": self.where,
+            "crs": self.source_crs,
+            "id": self.id,
+            "columns": self.look.read,
+        }
 
     @property
     def key(self) -> dict[str, Any]:
