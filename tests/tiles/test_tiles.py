@@ -15,6 +15,7 @@ from pmtiles.tile import tileid_to_zxy
 from tile_sources import batches_of, cells, write_source
 
 from vexture import DeviceError, LimitError, ParameterError, SourceError
+from vexture.geo import validity
 from vexture.geo.crs import transformed
 from vexture.geo.rings import cut, rings_of
 from vexture.tiles import generalise
@@ -335,6 +336,22 @@ def test_many_points_are_simplified_in_parts(monkeypatch):
     assert shapely.hausdorff_distance(before, after).max() <= 1.0
 
 
+def test_a_polygon_of_many_holes_is_parted_and_keeps_them(monkeypatch):
+    """Two combs whose teeth are cut apart by the first halves, with holes also on the lines between these."""
+    monkeypatch.setattr(validity, "HEAVY", 3_000.0)
+    west, south = (corner.ravel() for corner in np.meshgrid(*[np.arange(24) * 4.0 + 1.0] * 2))
+    holes = shapely.box(west, south, west + 2.5, south + 2.5)
+    teeth = shapely.box(np.arange(6) * 16.0 + 11.9, 30.0, np.arange(6) * 16.0 + 12.9, 200.0)
+    gaps = shapely.union_all(np.append(teeth[::2], shapely.affinity.translate(shapely.union_all(teeth[1::2]), 0, -135)))
+    whole = shapely.box(0.0, 0.0, 97.0, 97.0) - shapely.union_all([shapely.union_all(holes), gaps])
+    parts = np.array(validity.parted(whole))
+    assert len(parts) > 20
+    assert not validity.is_heavy(parts).any()
+    assert shapely.is_valid(parts).all()
+    assert shapely.area(parts).sum() == pytest.approx(whole.area)
+    assert shapely.union_all(parts).symmetric_difference(whole).area == pytest.approx(0.0, abs=1e-9)
+
+
 @pytest.mark.parametrize(
     ("number", "remedy"),
     [(errno.ENOSPC, "make room, or choose another disk"), (errno.EACCES, "correct that, or write elsewhere")],
@@ -343,7 +360,9 @@ def test_only_a_full_disk_needs_room(source, tmp_path, number, remedy):
     def told(*_):
         raise OSError(number, "as the disk says")
 
-    with pytest.raises(DeviceError, match=f"{os.strerror(number)}; {remedy}; nothing of it is finished"):
+    with pytest.raises(
+        DeviceError, match=f"{os.strerror(number)}; {remedy}; nothing of it is finished, and reading begins anew"
+    ):
         make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(), told)
 
 

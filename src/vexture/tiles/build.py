@@ -128,7 +128,7 @@ def unfinished(output: Path) -> str:
     """What is left of a pyramid that was not finished, and what to do with it."""
     folder = output.with_name(output.name + SUFFIX)
     if not folder.exists():
-        return "nothing of it is finished"
+        return "nothing of it is finished, and reading begins anew"
     return f"what is finished is in {folder}, and the same command goes on from there"
 
 
