@@ -3,6 +3,7 @@
 import errno
 import hashlib
 import json
+import os
 import subprocess
 import sys
 
@@ -19,7 +20,7 @@ from tile_sources import cells
 from vexture import ParameterError, SourceError
 from vexture.cartography.colours import Scale, colours_of
 from vexture.cli.main import main
-from vexture.errors import DeviceError
+from vexture.errors import DeviceError, LimitError
 from vexture.geo.crs import transformed
 from vexture.notes import Notes
 from vexture.texture.load import texture_from
@@ -231,6 +232,40 @@ def test_lines_and_points_are_left_out_and_said(tmp_path):
         SourceError, match=r"lines\.geojson: it has lines or points \(2\), but no polygon, .* draw it by"
     ):
         made(lines, tmp_path / "lines.pmtiles", Look())
+
+
+def test_a_wrong_scheduler_is_refused_before_anything_is_begun(source, tmp_path):
+    with pytest.raises(DeviceError, match="`scheduler` foo: no Dask scheduler answers there") as error:
+        make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(scheduler="foo"))
+    assert "finished" not in str(error.value)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "error", [MemoryError(), OSError(errno.ENOMEM, "no"), shapely.errors.GEOSException("bad_alloc")]
+)
+def test_too_little_memory_is_said_with_what_helps(source, tmp_path, error):
+    def told(what, *_):
+        if what == "parts":
+            raise error
+
+    remedy = "not enough memory; give `processes` 1, a larger `max_zoom`, which parts it finer, or .* `where`; what is"
+    with pytest.raises(LimitError, match=remedy):
+        make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(), told)
+
+
+@pytest.mark.parametrize(
+    ("number", "remedy"),
+    [(errno.ENOSPC, "make room, or choose another disk"), (errno.EACCES, "correct that, or write elsewhere")],
+)
+def test_only_a_full_disk_needs_room(source, tmp_path, number, remedy):
+    def told(*_):
+        raise OSError(number, "as the disk says")
+
+    with pytest.raises(
+        DeviceError, match=f"{os.strerror(number)}; {remedy}; nothing of it is finished, and reading begins anew"
+    ):
+        make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(), told)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="it has no limits of files")
