@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
+from vexture.content import renaming
 from vexture.errors import DeviceError, ParameterError
 from vexture.notes import place_of_caller, warn_at
 
@@ -25,6 +26,9 @@ CAPACITY: Final = 15
 
 NAMES: Final = {"source_crs": "crs"}
 """Options whose layers have another name for them."""
+
+OF_STEPS: Final = {"times": "column", "labels": "times"}
+"""Where `column` names those of steps, what it and their names are called by layers."""
 
 
 def map(
@@ -86,7 +90,7 @@ def map(
     >>> shown = map(fields, "yield", id="id", crs="EPSG:28992", classes=2)
     >>> shown.selected = "b"
     >>> [entry["label"] for entry in shown.legend["entries"]]
-    ['4 - 6.5', '6.5 - 9']
+    ['4 - 6', '7 - 9']
     """
     try:
         from vexture.notebook.map_widget import MapWidget
@@ -112,7 +116,8 @@ def map(
     title = None if isinstance(source, str | os.PathLike) else "map"
     first: dict[str, Any] = {"crs": MERCATOR, "size": DEFAULT_SIZE, "max_seconds": DEFAULT_SECONDS}
     first |= {given: value for given, value in options.items() if given in first}
-    ready = prepared([layer], name=title, **first)
+    with renaming({"color": "column"} if changing is None or changing.is_table else OF_STEPS):
+        ready = prepared([layer], name=title, **first)
     asked_at = place_of_caller(1)
     warn_at(asked_at, ready.name, ready.notes.listed)
     later = {given: value for given, value in options.items() if given not in ("crs", "size")}
@@ -130,7 +135,8 @@ def _times(source: Any, column: Any, times: Any, kind: "type[Times]") -> "Times 
     if several:
         if times is not None and kind(times).is_table:
             raise ParameterError("`times` is a table, and `column` names columns of steps; give one of them")
-        return kind(column, None if times is None else tuple(str(each) for each in times))
+        with renaming(OF_STEPS):
+            return kind(column, None if times is None else tuple(times))
     if times is None:
         return None
     if not kind(times).is_table:
