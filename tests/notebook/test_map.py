@@ -146,10 +146,10 @@ def test_the_texture_comes_between_the_messages_of_a_kernel(held):
 def test_a_conversion_that_fails_says_so_in_the_page_and_in_python():
     chart = shown(tolerance=0.0, max_seconds=5.0)
     assert chart.texture is not None
-    failing = shown(snap=0.5)
-    with pytest.raises(ParameterError, match=r"`snap` is 0.5"):
+    failing = shown(tolerance=5.0)
+    with pytest.raises(ParameterError, match=r"`tolerance` 5.0"):
         failing.texture  # noqa: B018  # raises
-    assert "`snap` is 0.5" in failing._failure
+    assert failing._failure.startswith("`tolerance` 5.0")
     assert failing.render().shape == (200, 300, 4)
 
 

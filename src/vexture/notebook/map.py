@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from vexture.content import renaming
 from vexture.errors import DeviceError, ParameterError
+from vexture.notebook.map_options import check_later, check_looks, column_of, unknown
 from vexture.notes import place_of_caller, warn_at
 
 if TYPE_CHECKING:
@@ -21,6 +22,10 @@ OF_LAYER: Final = (
     *("outline", "outline_width", "symbol", "symbol_size"),
 )
 OF_MAP: Final = ("crs", "snap", "size", "tolerance", "max_seconds")
+OPTIONS: Final = (*OF_SCALE, *OF_LAYER, *OF_MAP)
+MARKS: Final = {"stroke": "2px"}
+"""Lines that are hit and whose colours are told apart."""
+
 CAPACITY: Final = 15
 """Pieces in a leaf: more than by default, as the bytes are sent to the page at once."""
 
@@ -36,7 +41,7 @@ def map(
     column: str | Sequence[str] | None = None,
     *,
     times: Any = None,
-    tooltip: bool | Sequence[str] = True,
+    tooltip: bool | Sequence[str] | None = True,
     legend: bool = True,
     width: int | None = None,
     height: int | None = None,
@@ -56,7 +61,7 @@ def map(
         Names of the steps; or a table of ``id``, ``time`` and a value, in place of `column`. With steps a slider is
         shown, and the trait `time` is the step.
     tooltip : bool or sequence of str
-        Attributes that are told of the feature under the pointer; by default all.
+        Attributes that are told of the feature under the pointer; by default the first twelve, and that of the colours.
     legend : bool
     width, height, background, view
         As of `vexture.show`.
@@ -64,7 +69,8 @@ def map(
         Of the colours (`vexture.cartography.Scale`): ``scale``, ``palette``, ``classes``, ``no_data``. Of what is drawn
         (`MapLayer`): ``layer``, ``where``, ``id``, ``columns``, ``fill``, ``order``, ``stroke``, ``outline``,
         ``outline_width``, ``symbol``, ``symbol_size``, ``source_crs``. Of the map (`convert_map`): ``crs``, ``snap``,
-        ``size``, ``tolerance``. By default ``id`` is the index of a GeoDataFrame that has one of its own.
+        ``size``, ``tolerance``. By default ``id`` is the index of a GeoDataFrame that has one of its own, lines are
+        ``2px`` wide, and pixels are those of a map as large as the widget is high (``size``).
 
     Returns
     -------
@@ -94,34 +100,36 @@ def map(
     """
     try:
         from vexture.notebook.map_widget import MapWidget
+        from vexture.notebook.widget import HEIGHT
     except ModuleNotFoundError as error:
         raise DeviceError(f"map needs the package {error.name}: pip install 'vexture[notebook,map]'") from None
     from vexture.cartography import MapLayer, Scale, Times
-    from vexture.cartography.convert import DEFAULT_SIZE, converted
+    from vexture.cartography.convert import converted
     from vexture.cartography.place import MERCATOR
     from vexture.cartography.prepare import prepared
     from vexture.deadline import DEFAULT_SECONDS
 
+    for name in options:
+        if name not in OPTIONS:
+            raise unknown(name, OPTIONS)
+    shown = {"width": width, "height": height, "background": background, "view": view}
+    check_looks(shown, legend)
+    check_later(options)
     fields = {name: options.pop(name) for name in OF_SCALE if name in options}
-    if column is not None and (isinstance(column, str) or not isinstance(column, Sequence)):
-        column = str(column)  # of a GeoDataFrame it may be a number
+    column = column_of(column)
     changing = _times(source, column, times, Times)
     column = None if column is None or changing is not None else str(column)
     scale = Scale(column or "", **{("kind" if name == "scale" else name): value for name, value in fields.items()})
-    of_layer = {NAMES.get(name, name): options.pop(name) for name in OF_LAYER if name in options}
-    for name in options:
-        if name not in OF_MAP:
-            raise ParameterError(f"map has no option {name!r}; leave it out")
+    of_layer = MARKS | {NAMES.get(name, name): options.pop(name) for name in OF_LAYER if name in options}
     layer = MapLayer(source, color=None if column is None and changing is None else scale, times=changing, **of_layer)
     title = None if isinstance(source, str | os.PathLike) else "map"
-    first: dict[str, Any] = {"crs": MERCATOR, "size": DEFAULT_SIZE, "max_seconds": DEFAULT_SECONDS}
+    first: dict[str, Any] = {"crs": MERCATOR, "size": height or HEIGHT, "max_seconds": DEFAULT_SECONDS}
     first |= {given: value for given, value in options.items() if given in first}
     with renaming({"color": "column"} if changing is None or changing.is_table else OF_STEPS):
         ready = prepared([layer], name=title, **first)
     asked_at = place_of_caller(1)
     warn_at(asked_at, ready.name, ready.notes.listed)
     later = {given: value for given, value in options.items() if given not in ("crs", "size")}
-    shown = {"width": width, "height": height, "background": background, "view": view}
     traits = {name: value for name, value in shown.items() if value is not None}
     conversion = partial(converted, ready, **later, capacity=CAPACITY)
     return MapWidget(ready, scale, conversion, asked_at=asked_at, tooltip=tooltip, has_legend=legend, **traits)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 import traitlets
@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from vexture.cartography import Map, Scale
 from vexture.cartography.colours import colours_of
 from vexture.cartography.prepare import Prepared
-from vexture.errors import ParameterError
+from vexture.errors import ParameterError, VextureError
+from vexture.notebook.map_options import attributes
 from vexture.notebook.map_picture import map_picture
 from vexture.notebook.map_steps import coded, steps_of
 from vexture.notebook.pending import Pending
@@ -27,9 +28,6 @@ from vexture.renderers.view import Size, window
 from vexture.texture.restyle import components
 from vexture.texture.texture import Texture
 from vexture.tree.planar.style import rounded
-
-if TYPE_CHECKING:
-    import pyarrow
 
 __all__ = ["MapWidget"]
 
@@ -69,8 +67,8 @@ class MapWidget(VectorWidget):
         As of `VectorWidget`.
     """
 
-    column = traitlets.Unicode(None, allow_none=True)
-    selected = traitlets.Unicode(None, allow_none=True).tag(sync=True)
+    column = traitlets.CUnicode(None, allow_none=True)
+    selected = traitlets.CUnicode(None, allow_none=True).tag(sync=True)
     time = traitlets.CFloat(0.0).tag(sync=True)
     times: Any = traitlets.List(trait=traitlets.Unicode()).tag(sync=True)
     _steps: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
@@ -90,7 +88,7 @@ class MapWidget(VectorWidget):
         conversion: Callable[[], Map],
         *,
         asked_at: tuple[str, int],
-        tooltip: bool | Sequence[str] = True,
+        tooltip: bool | Sequence[str] | None = True,
         has_legend: bool = True,
         **traits: Any,
     ) -> None:
@@ -102,7 +100,7 @@ class MapWidget(VectorWidget):
         self._drawn = map_picture(ready)
         self._rgba = self._drawn.colours(len(self._ids))
         self._changing = steps_of(ready, self._rgba)
-        self._told = _told(ready.table, tooltip, self._changing.columns if self._changing else ())
+        self._told = attributes(ready.table.column_names, tooltip)
         self._style_rows: NDArray[np.intp] | None = None
         self._last: tuple[Size, tuple[float, ...], NDArray[np.float32]] | None = None
         legend = _legend(ready.legends[0]) if ready.legends and has_legend else None
@@ -136,7 +134,7 @@ class MapWidget(VectorWidget):
             if self._texture is not None or self.comm is None:
                 return
             if self._pending.error is not None:
-                self._failure = str(self._pending.error)
+                self._failure = _said(self._pending.error)
                 return
             made, content = self._pending.result()
             texture = made.conversion.texture
@@ -214,8 +212,7 @@ class MapWidget(VectorWidget):
 
     def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
         """Red, green, blue and opacity of colours by the names of features."""
-        if not isinstance(colours, Mapping):
-            raise ParameterError("the colours are no mapping of names, such as {'4': 'red'}")
+        colours = _by_names(colours)
         for name in colours:
             if name not in self._row:
                 raise ParameterError(f"there is no feature {name!r}; names are in the column `id` of `table`")
@@ -240,6 +237,12 @@ class MapWidget(VectorWidget):
             )
         return name
 
+    @traitlets.validate("colors")
+    def _checked_colours(self, proposal: Any) -> Any:
+        named = _by_names(proposal["value"])
+        self.components(named)
+        return named
+
     @traitlets.validate("time")
     def _checked_time(self, proposal: Any) -> float:
         time = float(proposal["value"])
@@ -261,7 +264,8 @@ class MapWidget(VectorWidget):
         elif self._changing is not None:
             rgba, legend = self._changing.at(self.time), self._changing.legend
         else:
-            return
+            self.column = change["old"]
+            raise ParameterError("`column` is None, and the map has no steps of time; give the name of a column")
         self._rgba, self._is_recolored = rgba, True
         with self.hold_sync():
             self.times = list(self._changing.labels) if self._changing and change["new"] is None else []
@@ -302,11 +306,20 @@ class MapWidget(VectorWidget):
     def _tell(self, change: Any) -> None:
         row = self._feature((change["new"] or {}).get("element"))
         values = {} if row is None else self.table.slice(row, 1).to_pylist()[0]
-        tip = [[name, shown(values[name])] for name in self._told if name in values]
+        tip = [[name, shown(values[name])] for name in self._told_now() if name in values]
         if row is not None and self._changing is not None and self.times:
             name, value = self._changing.value(self.table, row, self.time)
             tip.append([name, shown(value)])
         self.tip = tip
+
+    def _told_now(self) -> list[str]:
+        """Attributes that a tip tells: without a choice the id, that of the colours, and the first of the others."""
+        if self._told is not None:
+            return self._told
+        steps = self._changing.columns if self._changing else ()
+        others = [name for name in self.table.column_names if name not in steps]
+        first = [others[0], *([self.column] if self.column is not None else [])]
+        return list(dict.fromkeys([*first, *others]))[:MOST_TOLD]
 
     def _select(self, change: Any) -> None:
         found = (change["new"] or {}).get("element")
@@ -332,16 +345,16 @@ def _sent(made: Map) -> tuple[Map, bytes]:
     return made, made.conversion.texture.to_ktx2()
 
 
-def _told(table: "pyarrow.Table", tooltip: bool | Sequence[str], steps: Sequence[str]) -> list[str]:
-    """Attributes that a tip has; those of steps only if they are named."""
-    names: list[str] = table.column_names
-    if isinstance(tooltip, bool):
-        return [name for name in names if name not in steps][:MOST_TOLD] if tooltip else []
-    told = [tooltip] if isinstance(tooltip, str) else [str(name) for name in tooltip]
-    for name in told:
-        if name not in names:
-            raise ParameterError(f"`tooltip`: there is no column {name!r}; the columns are {', '.join(names[:8])}")
-    return told
+def _by_names(colours: Any) -> dict[str, Any]:
+    """Colours by names as texts: those of an index may be numbers."""
+    if not isinstance(colours, Mapping):
+        raise ParameterError("the colours are no mapping of names, such as {'4': 'red'}")
+    return {str(name): colour for name, colour in colours.items()}
+
+
+def _said(error: BaseException) -> str:
+    """An error as a page says it: what is none of ours says nothing without its kind."""
+    return str(error) if isinstance(error, VextureError | ParameterError) else f"{type(error).__name__}: {error}"
 
 
 def shown(value: Any) -> str:
@@ -349,11 +362,11 @@ def shown(value: Any) -> str:
 
     Examples
     --------
-    >>> shown(3.0), shown(1234567.891), shown(None)
-    ('3', '1,234,567.89', '–')
+    >>> shown(3.0), shown(2020), shown(1234567.891), shown(None)
+    ('3', '2020', '1234567.89', '–')
     """
     if value is None:
         return "–"
     if isinstance(value, float):
-        return f"{value:,.6g}" if abs(value) < 1e6 else f"{value:,.2f}"
-    return f"{value:,}" if isinstance(value, int) and not isinstance(value, bool) else str(value)[:LONGEST]
+        return f"{value:.6g}" if abs(value) < 1e6 else f"{value:.2f}"
+    return str(value)[:LONGEST]
