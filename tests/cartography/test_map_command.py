@@ -328,8 +328,8 @@ def test_a_table_of_times_is_joined_by_ids_and_what_does_not_fit_is_said(tmp_pat
     assert done.table["2001-02"].to_pylist() == [5, 9, None]
     assert done.times["colors"][0][0] == done.times["colors"][1][2] == "#d9d9d9"
     said = " ".join(messages(done))
-    assert "1 ids of the table of times are those of no feature" in said
-    assert "1 rows of the table of times have the id and the time of a later one" in said
+    assert "no feature has 1 id of the table of times, such as " in said
+    assert "the table of times has 1 row with the id and the time of a later one" in said
     numbers = pyarrow.table({"id": [1, 2], "time": [10.0, 9.0], "kind": ["a", "b"]})
     done = stepped(source.assign(code=[1, 2, 3]), Times(numbers))
     assert done.times["times"] == ["9", "10"]

@@ -207,18 +207,24 @@ def _joined(features: Features, source: Any, notes: Notes) -> tuple[dict[str, An
         raise SourceError("no row of the table of `times` has a time; fill in the column time")
     notes.remark("a row of the table of times has no time, and does not count", int((steps < 0).sum()))
     codes, ids = _coded(table.column(ID), ID)
+    notes.remark("a row of the table of times has no id, and does not count", int((codes < 0).sum()))
     row_of = {name: row for row, name in enumerate(features.ids.tolist())}
-    found = np.array([*(row_of.get(name, -1) for name in texts_of(ids.to_pylist())), -1], np.int64)
+    names = texts_of(ids.to_pylist())
+    found = np.array([*(row_of.get(name, -1) for name in names), -1], np.int64)
     rows = found[codes]
     known = (rows >= 0) & (steps >= 0)
     if not known.any():
         raise SourceError(f"no id of the table of `times` is that of a feature, such as {features.ids[0]}; choose `id`")
-    if lost := len(np.unique(codes[rows < 0])):
-        notes.remark(f"{lost} ids of the table of times are those of no feature")
+    lost = [names[code] for code in np.unique(codes[(rows < 0) & (codes >= 0)]).tolist()]
+    if lost:
+        told = shortened(lost[0], 40)
+        notes.remark(f"no feature has {counted(len(lost), 'id')} of the table of times, such as {told}")
     place = np.full((len(labels), len(features)), -1, np.int64)
     place[steps[known], rows[known]] = np.flatnonzero(known)
     if again := int(known.sum() - (place >= 0).sum()):
-        notes.remark(f"{again} rows of the table of times have the id and the time of a later one, which counts")
+        notes.remark(
+            f"the table of times has {counted(again, 'row')} with the id and the time of a later one, which counts"
+        )
     values, columns = table.column(others[0]).combine_chunks(), dict[str, Any]()
     for label, one in zip(labels, place, strict=True):
         columns[_free(label, {*features.table.column_names, *columns})] = values.take(
