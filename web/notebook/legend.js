@@ -10,21 +10,14 @@ import { keepEvents } from './own-events.js';
 /** Pixels between the pointer and what is told of the feature under it. */
 const APART = 14;
 
-/** Pages that are narrower have the legend closed at first: a tap on its title opens it. */
-const NARROW = '(max-width: 480px)';
-
-/** @returns {boolean} whether a legend is open before somebody has opened or closed it */
-export const isWide = () => !matchMedia(NARROW).matches;
-
 /**
  * @param {Legend | null | undefined} legend
  * @param {boolean} open
  * @returns {HTMLDetailsElement} empty without a legend
  */
 export function legendOf(legend, open) {
-  const title = element('summary', {}, legend?.title ?? '');
-  const box = element('details', { class: 'vexture-legend', hidden: !legend, open }, title);
-  keepEvents(title);
+  const box = element('details', { class: 'vexture-legend', hidden: !legend, open }, element('summary', {}, legend?.title ?? ''));
+  keepEvents(box);
   if (!legend) return box;
   const steps = legend.kind === 'continuous' ? legend.entries.filter(({ label }) => label !== 'no data') : [];
   if (steps.length > 0) {
@@ -37,25 +30,31 @@ export function legendOf(legend, open) {
   for (const { label, color } of legend.entries) {
     const patch = element('i', {});
     patch.style.background = color;
-    box.append(element('div', { class: 'entry' }, patch, label));
+    box.append(element('div', { class: 'entry', title: label }, patch, element('span', {}, label)));
   }
   return box;
 }
 
-/** Facts about a feature beside the pointer. */
+/** Facts about a feature beside the pointer; of elements that no notebook styles, as JupyterLab does lists. */
 export class Tip {
-  element = element('dl', { class: 'vexture-tip', hidden: true });
+  element = element('div', { class: 'vexture-tip', hidden: true });
 
   /** @param {[string, string][] | null | undefined} facts @param {[number, number] | null} place in pixels @param {HTMLElement} stage */
   show(facts, place, stage) {
     const shown = Boolean(facts?.length && place);
     this.element.hidden = !shown;
     if (!shown || !place) return;
-    this.element.replaceChildren(...(facts ?? []).flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
+    this.element.replaceChildren(...(facts ?? []).flatMap(([name, value]) => [element('div', { class: 'name' }, name), element('div', {}, value)]));
     const { clientWidth: width, clientHeight: height } = stage;
+    while (this.element.offsetHeight > height && this.element.childElementCount > 2) this.#shorten();
     const [x, y] = place;
     const left = x + APART + this.element.offsetWidth > width ? x - APART - this.element.offsetWidth : x + APART;
     const top = y + APART + this.element.offsetHeight > height ? y - APART - this.element.offsetHeight : y + APART;
     this.element.style.translate = `${Math.max(0, left)}px ${Math.max(0, top)}px`;
+  }
+
+  /** Leave out the last fact. */
+  #shorten() {
+    for (let k = 0; k < 2; k++) this.element.lastElementChild?.remove();
   }
 }

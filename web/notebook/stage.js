@@ -4,9 +4,10 @@ import { panned, toUnit, zoomed } from '../viewer/view.js';
 import { Colored, Steps, coloringOf, inflatedView, open, release } from './contents.js';
 import { drawnOf, foundAt } from './drawn.js';
 import { listenTo } from './input.js';
-import { Tip, isWide, legendOf } from './legend.js';
+import { Tip, legendOf } from './legend.js';
 import { followPixels } from './pixels.js';
 import { rectOf, viewOf } from './rect.js';
+import { followRoom } from './room.js';
 import { screenOfPage } from './screen.js';
 import { Sketch } from './sketch.js';
 import { STYLE } from './style.js';
@@ -27,7 +28,7 @@ export class Stage {
   /** What is drawn; null before it is there. @type {import('../viewer/drawing.js').ShownDrawing | null} */
   shown = null;
   #message = element('p', { role: 'alert', hidden: true });
-  #legend = legendOf(null, isWide());
+  #legend = legendOf(null, false);
   #tip = new Tip();
   #time = new TimeBar((time) => {
     this.model.set('time', time);
@@ -71,6 +72,7 @@ export class Stage {
     this.#showTime();
     this.#sized();
     this.#watchSight();
+    followRoom(this.element, (isWide) => this.#legend.toggleAttribute('open', isWide), this.#ended.signal);
     followPixels(this.canvas, () => this.#redraw(), this.#ended.signal);
     this.#follow();
     listenTo(this.element, this, this.#ended.signal);
