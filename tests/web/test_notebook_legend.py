@@ -145,3 +145,19 @@ def test_a_small_map_has_no_more_beside_it_than_it_has_room_for(open_page: Any, 
     stage.evaluate("stage => { stage.style.height = '24px'; }")
     legend.wait_for(state="hidden")
     page.locator(".vexture-time").wait_for(state="hidden")
+
+
+def test_a_saved_page_tells_of_the_feature_under_the_pointer(open_page: Any, tmp_path: Any) -> None:
+    page = open_page(saved(tmp_path, column="y*"), DESK)
+    page.wait_for_function(DRAWN)
+    page.mouse.move(DESK[0] / 2 + 5, DESK[1] / 2 - 5)
+    tip = page.locator(".vexture-tip")
+    tip.wait_for()
+    assert tip.inner_text().split("\n")[:4] == ["y1", "55", "id", "55"]
+    page.locator(".vexture-time input").evaluate(
+        "slider => { slider.value = 1; slider.dispatchEvent(new Event('input')); }"
+    )
+    page.wait_for_function("() => document.querySelector('.vexture-tip').innerText.startsWith('y2')")
+    assert tip.inner_text().split("\n")[:2] == ["y2", "44"]
+    page.locator(".vexture-legend").hover()
+    tip.wait_for(state="hidden")
