@@ -109,6 +109,8 @@ def test_ids_and_columns_may_be_numbers():
         ("column", 7, "no column '7'"),
         ("colors", ["red"], r"`colors` is \['red'\]; give a mapping"),
         ("colors", {9: "red"}, "no feature '9'"),
+        ("mode", "flat", "`mode` is 'flat'; give 'paint' or 'silhouette'"),
+        ("time", "x", "`time` is 'x'; give a number"),
         ("width", "50%", "`width` is '50%'; give a whole number"),
     ):
         with pytest.raises(ParameterError, match=words):

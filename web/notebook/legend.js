@@ -10,6 +10,15 @@ import { keepEvents } from './own-events.js';
 /** Pixels between the pointer and what is told of the feature under it. */
 const APART = 14;
 
+/** Part of a narrow stage that a legend may cover without having been opened: a tap on its title opens it. */
+const COVERED = 0.1;
+
+/** Open a legend where it leaves enough of the map. @param {HTMLDetailsElement} legend @param {HTMLElement} stage @param {boolean} isWide */
+export function openIfSmall(legend, stage, isWide) {
+  legend.open = true; // so that it has its size
+  legend.open = isWide || legend.offsetWidth * legend.offsetHeight < COVERED * stage.clientWidth * stage.clientHeight;
+}
+
 /**
  * @param {Legend | null | undefined} legend
  * @param {boolean} open

@@ -1,6 +1,6 @@
 /** What a stage has room for beside its picture. */
 
-/** Pixels of width up to which the legend is closed at first: a tap on its title opens it. */
+/** Pixels of width up to which a stage is narrow. */
 const NARROW = 480;
 
 /** Pixels of height below which there is no legend, and below which there is no time. */

@@ -4,7 +4,7 @@ import { panned, toUnit, zoomed } from '../viewer/view.js';
 import { Colored, Steps, coloringOf, inflatedView, open, release } from './contents.js';
 import { drawnOf, foundAt } from './drawn.js';
 import { listenTo } from './input.js';
-import { Tip, legendOf } from './legend.js';
+import { Tip, legendOf, openIfSmall } from './legend.js';
 import { followPixels } from './pixels.js';
 import { rectOf, viewOf } from './rect.js';
 import { followRoom } from './room.js';
@@ -72,7 +72,7 @@ export class Stage {
     this.#showTime();
     this.#sized();
     this.#watchSight();
-    followRoom(this.element, (isWide) => this.#legend.toggleAttribute('open', isWide), this.#ended.signal);
+    followRoom(this.element, (isWide) => openIfSmall(this.#legend, this.element, isWide), this.#ended.signal);
     followPixels(this.canvas, () => this.#redraw(), this.#ended.signal);
     this.#follow();
     listenTo(this.element, this, this.#ended.signal);

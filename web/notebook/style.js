@@ -13,7 +13,7 @@ export const STYLE = `
 }
 .vexture-stage .vexture-legend {
   right: 10px; bottom: 10px; max-width: min(24em, 100% - 20px); max-height: calc(100% - 20px); overflow: auto; overscroll-behavior: contain;
-  cursor: default;
+  scrollbar-width: thin; cursor: default;
 }
 .vexture-stage:has(> .vexture-time:not([hidden])) .vexture-legend { bottom: 52px; max-height: calc(100% - 62px); }
 .vexture-stage.low .vexture-legend, .vexture-stage.flat .vexture-time { display: none; }

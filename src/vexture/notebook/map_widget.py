@@ -22,7 +22,7 @@ from vexture.notebook.pending import Pending
 from vexture.notebook.picture import MARGIN, Rect, png_of
 from vexture.notebook.shared import shared
 from vexture.notebook.tip import Tips
-from vexture.notebook.traits import Label
+from vexture.notebook.traits import Label, Number
 from vexture.notebook.widget import HEIGHT, PICTURE_WIDTH, PNG, VectorWidget
 from vexture.notes import Notes, warn_at
 from vexture.renderers.view import Size, window
@@ -64,7 +64,7 @@ class MapWidget(VectorWidget):
 
     column = Label(None, allow_none=True)
     selected = Label(None, allow_none=True).tag(sync=True)
-    time = traitlets.CFloat(0.0).tag(sync=True)
+    time = Number(0.0).tag(sync=True)
     times: Any = traitlets.List(trait=traitlets.Unicode()).tag(sync=True)
     _steps: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     legend: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)

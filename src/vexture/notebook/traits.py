@@ -8,7 +8,7 @@ import traitlets
 
 from vexture.errors import ParameterError, shortened
 
-__all__ = ["Background", "Colours", "Label", "Pixels", "Rectangle", "pixels", "told"]
+__all__ = ["Background", "Choice", "Colours", "Label", "Number", "Pixels", "Rectangle", "pixels", "told"]
 
 PIXELS: Final = "give a whole number of pixels, 1 or more"
 LONGEST: Final = 60
@@ -80,6 +80,21 @@ class Label(_Told, traitlets.Unicode):  # type: ignore[type-arg]
         if not np.isscalar(value) and not hasattr(value, "isoformat"):
             raise TypeError
         return str(value)
+
+
+class Choice(_Told, traitlets.Enum):  # type: ignore[type-arg]
+    """One of some words."""
+
+    @property
+    def remedy(self) -> str:  # type: ignore[override]
+        """The words."""
+        return f"give {' or '.join(map(repr, self.values or ()))}"
+
+
+class Number(_Told, traitlets.CFloat):  # type: ignore[type-arg]
+    """A number."""
+
+    remedy = "give a number"
 
 
 class Background(_Told, traitlets.Unicode):  # type: ignore[type-arg]

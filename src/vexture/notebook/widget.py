@@ -18,7 +18,7 @@ from vexture.live.shelf import TEXTURE_TYPE, File
 from vexture.notebook.colours import coloured, components_of
 from vexture.notebook.picture import MODES, Mode, home_of, png_of, seen
 from vexture.notebook.shared import Shared, shared
-from vexture.notebook.traits import Background, Colours, Pixels, Rectangle
+from vexture.notebook.traits import Background, Choice, Colours, Pixels, Rectangle
 from vexture.renderers.view import Size, window
 from vexture.svg.colors import Color, parse_color
 from vexture.texture.choose import layers_of
@@ -89,7 +89,7 @@ class VectorWidget(anywidget.AnyWidget):
     _name = traitlets.Unicode().tag(sync=True)
     view = Rectangle().tag(sync=True)
     root = traitlets.Union([traitlets.Int(), traitlets.Unicode()], allow_none=True, default_value=None).tag(sync=True)
-    mode = traitlets.Enum(MODES, MODES[0]).tag(sync=True)
+    mode = Choice(MODES, MODES[0]).tag(sync=True)
     colors = Colours().tag(sync=True, to_json=_colours_to_json)
     background = Background("white").tag(sync=True)
     width = Pixels(None, allow_none=True).tag(sync=True)
@@ -137,7 +137,7 @@ class VectorWidget(anywidget.AnyWidget):
             As of `vexture.render`.
         """
         shown = self.coloured()
-        mode: Mode = self.mode  # type: ignore[assignment]
+        mode: Mode = self.mode
         return seen(shown, size or (self.width or PICTURE_WIDTH, self.height), self.view, mode, self.root)
 
     def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
