@@ -1,16 +1,17 @@
 """The content of a source file: its bytes, and the kind of file that they are."""
 
 import os
+import re
 import warnings
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from enum import StrEnum
 from io import BytesIO
 from pathlib import Path
 from typing import Final
 
-from vexture.errors import DeviceError, LimitError, ParameterError, SourceError
+from vexture.errors import EXPECTED, DeviceError, LimitError, ParameterError, SourceError
 
 __all__ = [
     "BEFORE_MARKUP",
@@ -32,6 +33,7 @@ __all__ = [
     "known_kind",
     "picture_size",
     "read_bytes",
+    "renaming",
     "start_of",
     "unpacked",
 ]
@@ -199,3 +201,21 @@ def about(source: str) -> Iterator[None]:
         yield
     except (SourceError, LimitError, DeviceError, ParameterError) as error:
         raise type(error)(f"{source}: {error}") from None
+
+
+@contextmanager
+def renaming(names: Mapping[str, str]) -> Iterator[None]:
+    """Let errors call parameters as who is called does, rather than as what it calls.
+
+    Examples
+    --------
+    >>> with renaming({"color": "column"}):
+    ...     raise ParameterError("it has no column 'a' for `color`")
+    Traceback (most recent call last):
+    vexture.errors.ParameterError: it has no column 'a' for `column`
+    """
+    try:
+        yield
+    except EXPECTED as error:
+        text = re.sub(r"`(\w+)`", lambda found: f"`{names.get(found[1], found[1])}`", str(error))
+        raise type(error)(text) from None

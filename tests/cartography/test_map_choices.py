@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import geopandas
 import numpy as np
+import pandas as pd
 import pyarrow as pa
 import pytest
 import shapely
@@ -13,8 +14,8 @@ from vexture.cartography import MapLayer, Scale, Times, convert_map
 from vexture.cartography.colours import FURTHER, QUALITATIVE, colours_of, rgba_of
 from vexture.cartography.coverage import ranks
 from vexture.cli.main import main
-from vexture.errors import ParameterError
-from vexture.geo.features import read_features
+from vexture.errors import ParameterError, SourceError
+from vexture.geo.features import feature_batches, read_features
 from vexture.notes import Notes
 
 METRES = "EPSG:28992"
@@ -154,7 +155,38 @@ def test_sixteen_categories_are_told_apart_with_any_colour_vision_as_well_as_sev
     assert np.allclose(rgba[:7, :3], seven, atol=1e-3), "fewer categories look as before"
     assert notes.listed == ()
     colours_of(pa.table({"v": [f"c{k:02}" for k in range(18)]}), Scale("v"), notes)
-    assert "18 categories of 'v', but 16 colours: the 3 least common ones share the last" in str(notes.listed[0])
+    assert "18 categories of 'v', but 16 colours: the 2 least common ones share a grey" in str(notes.listed[0])
+
+
+@pytest.mark.parametrize(
+    ("values", "labels"), [([1, 2, 10, 9, 9], "1 2 9 10"), ([2003, 2001, 2003, 2002], "2001 2002 2003")]
+)
+def test_categories_of_numbers_rise(values, labels):
+    _, legend = colours_of(pa.table({"v": values}), Scale("v", "categories"), Notes())
+    assert [entry["label"] for entry in legend["entries"]] == labels.split()
+
+
+def test_common_categories_have_colours_in_their_order_and_the_others_a_grey_that_is_not_that_of_no_data():
+    for palette in (None, "tab10"):
+        names = [f"c{k:02}" for k in range(20)]
+        own = 16 if palette is None else 10
+        table = pa.table({"v": [*reversed(names), *names[2 : 2 + own], None]})
+        _, legend = colours_of(table, Scale("v", palette=palette), Notes())
+        *entries, other = legend["entries"]
+        assert [entry["label"] for entry in entries] == names[2 : 2 + own]
+        assert (other["label"], other["count"]) == ("other", 20 - own)
+        colours = [rgba_of(entry["color"], "color")[:3] for entry in [*entries, legend["no_data"]]]
+        assert np.linalg.norm(colours - rgba_of(other["color"], "color")[:3], axis=1).min() > 0.2
+    table = pa.table({"v": [*names, "other", "other"]})
+    labels = [entry["label"] for entry in colours_of(table, Scale("v"), Notes())[1]["entries"]]
+    assert (labels.count("other"), labels[-1]) == (1, "5 more")
+
+
+def test_an_infinite_value_and_a_palette_of_several_names(caplog):
+    notes = Notes()
+    colours_of(pa.table({"v": [1.0, np.inf, -np.inf]}), Scale("v", palette="coolwarm_r"), notes)
+    assert [str(note) for note in notes.listed] == ["a value of 'v' is infinite, and has the colour of no data (2)"]
+    assert not caplog.records
 
 
 def test_numbers_that_are_no_texts_work_or_are_told_in_a_line():
@@ -198,8 +230,34 @@ def test_the_index_of_a_frame_is_the_ids_where_it_tells_more_than_numbers():
     assert read_features(source[1:], notes=Notes()).ids.tolist() == ["1", "2"]
     assert read_features(source[1:].geometry, notes=Notes()).ids.tolist() == ["1", "2"]
     assert read_features(named, id="v", notes=Notes()).ids.tolist() == ["1", "2", "3"]
-    twice = source.set_index([["a", "a", "b"]])
-    assert read_features(twice, notes=Notes()).ids.tolist() == ["0", "1", "2"]
-    two = source.set_index([["a", "a", "b"], [1, 2, 3]])
-    assert read_features(two, notes=Notes()).ids.tolist() == ["0", "1", "2"]
+    days = source.set_index(pd.date_range("2020-01-01", periods=3))
+    assert read_features(days, notes=Notes()).ids.tolist() == ["2020-01-01", "2020-01-02", "2020-01-03"]
     assert convert_map([MapLayer(named, color="id")], crs=METRES).table["id"].to_pylist() == ["c", "a", "b"]
+
+
+@pytest.mark.parametrize(
+    ("index", "why"),
+    [
+        (pd.Index(["a", "a", "b"], name="kind"), "has labels that are equal"),
+        (pd.Index([1, "1", 2], name="kind"), "has labels that are equal"),
+        (pd.Index([0.5, None, 2], name="kind"), "lacks labels"),
+        (pd.MultiIndex.from_arrays([["a", "a", "b"], [1, 2, 3]], names=["kind", None]), "has several levels"),
+    ],
+)
+def test_an_index_that_is_not_the_ids_says_why_and_is_an_attribute(index, why):
+    notes = Notes()
+    found = read_features(squares(v=[1.0, 2.0, 3.0]).set_index(index), notes=notes)
+    assert found.ids.tolist() == ["0", "1", "2"]
+    assert found.table.column_names == ["id", "kind", "v"]
+    assert [str(note) for note in notes.listed] == [
+        f"its index {why}, so ids are the numbers of rows; name a column of ids by `id`"
+    ]
+    for column, count in ((None, 1), ("v", 0)):
+        source, later = squares(v=[1.0, 2.0, 3.0]).set_index(index), Notes()
+        assert len(list(feature_batches(source, id=column, batch=1, notes=later))) == 3
+        assert [note.count for note in later.listed] == [1] * count
+
+
+def test_a_frame_without_a_reference_system_may_be_given_one():
+    with pytest.raises(SourceError, match=r"give `source_crs` EPSG:\.\.\., or set it by set_crs"):
+        convert_map([MapLayer(squares(v=[1.0]).set_crs(None, allow_override=True))])

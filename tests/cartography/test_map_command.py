@@ -284,6 +284,8 @@ def test_the_command_writes_the_colours_of_steps(tmp_path):
     assert (legend["column"], legend["times"]) == ("y", ["y9", "y10", "y11"])
     both = CliRunner().invoke(main, [*arguments, "--time", "y*", "--color", "value"])
     assert (both.exit_code, "--color or its --time" in both.output) == (1, True)
+    none = CliRunner().invoke(main, [*arguments, "--time", "y9,y8"])
+    assert (none.exit_code, "it has no column 'y8' for --time; there are" in none.output) == (1, True)
     fixed = CliRunner().invoke(main, [*arguments, "--time", "y*", "--no-restyle"])
     assert (fixed.exit_code, "leave --restyle on" in fixed.output) == (1, True)
 
@@ -316,13 +318,14 @@ def test_rows_without_a_time_and_infinite_values_are_counted():
         assert len(with_steps(features, Times(table), notes)[1]) == 1
         said = [str(note) for note in notes.listed]
         assert "a row of the table of times has no time, and does not count (2)" in said
-        assert "a value of the table of times is infinite, and has the colour of no data" in said
+    said = messages(stepped(cells(3), Times(table)))
+    assert "a value of 'v' is infinite, and has the colour of no data" in said
 
 
 @pytest.mark.parametrize(
     ("table", "words"),
     [
-        ({"id": ["x"], "time": [1], "v": [1]}, "no id of the table of `time` is that of a feature"),
+        ({"id": ["x"], "time": [1], "v": [1]}, "no id of the table of `times` is that of a feature"),
         ({"id": ["c1"], "v": [1]}, "has the columns id, v; it needs id, time and one of values"),
     ],
 )
@@ -337,7 +340,7 @@ def test_one_layer_changes_with_time_and_the_others_stay():
     layers[0].source["value2"] = 1.0
     done = convert_map(layers, crs=METRES)
     assert done.times["ids"] == [f"c{k}" for k in range(5)]
-    with pytest.raises(ParameterError, match="`time` is given for several sources"):
+    with pytest.raises(ParameterError, match="`times` is given for several sources"):
         convert_map([layers[0], layers[0]], crs=METRES)
 
 

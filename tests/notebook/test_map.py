@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from closing import no_loop_of_a_browser, none_is_left  # noqa: F401  # of all tests
 from PIL import Image
 
 import vexture
@@ -281,8 +282,8 @@ def test_a_table_of_ids_times_and_values_is_shown():
 @pytest.mark.parametrize(
     ("column", "times", "words"),
     [
-        ("z*", None, "no column is like 'z\\*' of `time`"),
-        (["y8", "y7"], None, "no column 'y7' for `time`"),
+        ("z*", None, "no column is like 'z\\*' of `column`"),
+        (["y8", "y7"], None, "no column 'y7' for `column`"),
         (["y8", "y9"], ["2008"], "1 name for 2 steps"),
         (None, ["2008"], "give the `column` of each"),
         ("kind", "table.csv", "`column` 'kind' is not shown"),

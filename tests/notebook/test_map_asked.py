@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from closing import no_loop_of_a_browser, none_is_left  # noqa: F401  # of all tests
 
 import vexture
 from vexture.errors import ParameterError
@@ -50,6 +51,7 @@ def test_wrong_arguments_are_told_in_the_cell(name, value, words):
     ("column", "words"),
     [
         ([], "empty list"),
+        ("", "no column ''"),
         (squares().v, "is a Series of values, .* add them as a column"),
         (np.arange(4.0), "is a ndarray of values, .* add them as a column"),
         ([1, 2, 3, 4], "is a list of values"),
@@ -96,7 +98,7 @@ def test_a_frame_without_geometries_is_told_to_get_some():
 def test_ids_and_columns_may_be_numbers():
     frame = squares().set_axis(range(10, 14)).assign(w="a").rename(columns={"w": 1})
     chart = vexture.map(frame, "v")
-    for given in (11, np.int64(11), "11"):
+    for given in (11, np.int64(11), 11.0, "11"):
         chart.selected = given
         assert chart.selected == "11"
     chart.colors = {12: "red", np.int64(13): "blue"}

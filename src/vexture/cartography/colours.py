@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import DeviceError, ParameterError
+from vexture.geo.frames import texts_of
 from vexture.notes import Notes
 
 if TYPE_CHECKING:
@@ -33,15 +34,19 @@ FURTHER: Final = (
 two of all these are nearer to each other than two of the seven."""
 
 OTHER: Final = "other"
+GREYS: Final = ("#777777", "#a8a8a8", "#404040")
+"""Colours of the categories that have none of their own: the first that is like none of the palette."""
+
 STOPS: Final = 9
 """Colours in the legend of a continuous scale."""
 
 DIGITS: Final = range(6, 13)
 """Significant digits of numbers in a legend: as few as tell them apart; what more would tell apart is noise."""
 
-KINDS: Final = "give quantiles, equal, continuous, categories or rising breaks such as 10,20,50"
+MOST_WHOLE: Final = 1e15
+"""Numbers below this are written without an exponent, and whole ones are known to the last digit."""
 
-MIDNIGHT: Final = " 00:00:00"
+KINDS: Final = "give quantiles, equal, continuous, categories or rising breaks such as 10,20,50"
 
 Rgba = NDArray[np.float64]
 
@@ -55,7 +60,8 @@ class Scale:
     column : str
     kind : str
         ``quantiles`` or ``equal`` (classes), ``continuous``, ``categories``, or the inner breaks of classes, such as
-        ``10,20,50`` or a list; ``auto`` is ``categories`` of text and truth values, ``quantiles`` of numbers.
+        ``10,20,50`` or a list; ``auto`` is ``categories`` of text and truth values, ``quantiles`` of numbers. The order
+        of categories is that of a column that has its own, such as a `pandas.Categorical`, or else they rise.
     palette : str, optional
         Name of a palette of cmap; colour-blind-safe by default.
     classes : int
@@ -94,12 +100,16 @@ def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba
     is_number = any(test(kind_of) for test in (pa.types.is_integer, pa.types.is_floating, pa.types.is_decimal))
     kind = scale.kind if scale.kind != "auto" else "quantiles" if is_number else "categories"
     if kind == "categories":
-        rgba, entries = _categories(_names(column.to_pylist()), scale, notes)
+        values = column.to_pylist()
+        names = texts_of(values)
+        rgba, entries = _categories(names, _order(column, dict(zip(names, values, strict=True))), scale, notes)
     else:
         breaks = None if kind in ("quantiles", "equal", "continuous") else _breaks(kind)
         if not is_number and column.null_count < len(column):
             raise ParameterError(f"`color` {scale.column!r} holds {column.type}, not numbers; give `scale` categories")
         values = np.asarray(column.cast(kind_of).cast(pa.float64(), safe=False).to_numpy(), np.float64)
+        infinite = int(np.isinf(values).sum())
+        notes.remark(f"a value of {scale.column!r} is infinite, and has the colour of no data", infinite)
         if not np.isfinite(values).any():
             rgba, entries = np.full((len(values), 4), np.nan), []
         elif kind == "continuous":
@@ -141,11 +151,20 @@ def _palette(name: str | None, default: str) -> Any:
     except ModuleNotFoundError:
         raise DeviceError("palettes need the package cmap: pip install 'vexture[map]'") from None
     try:
-        return cmap.Colormap(name or default)
+        return cmap.Colormap(_full(name or default, cmap.Colormap.catalog()))
     except (ValueError, TypeError):
         raise ParameterError(
             f"the `palette` {name!r} is unknown; choose one of cmap, such as viridis or tab10"
         ) from None
+
+
+def _full(name: Any, catalog: Any) -> Any:
+    """The full name of a palette; of a short one that several have, cmap warns."""
+    stem = str(name).removesuffix("_r")
+    try:
+        return catalog.resolve(stem) + str(name)[len(stem) :]
+    except KeyError:
+        return name
 
 
 def _sampled(palette: Any, at: NDArray[np.float64]) -> Rgba:
@@ -168,6 +187,7 @@ def _classes(
 ) -> tuple[Rgba, list[dict[str, Any]]]:
     """Colours of classes, each from a break up to, but without, the next."""
     known = values[np.isfinite(values)]
+    are_whole = breaks is None and _are_whole(known)
     breaks = _told_apart(_found_breaks(known, kind, scale.classes) if breaks is None else breaks)
     colours = _sampled(_palette(scale.palette, SEQUENTIAL), np.linspace(0.0, 1.0, len(breaks) + 1))
     number = np.searchsorted(breaks, values, side="right")
@@ -176,7 +196,7 @@ def _classes(
     edges = [float(min(known.min(), breaks[0])) if len(breaks) else float(known.min()), *breaks.tolist()]
     edges.append(float(max(known.max(), edges[-1])))
     counts = np.bincount(number[np.isfinite(values)], minlength=len(colours))
-    labels = _ranges(edges, counts)
+    labels = _of_whole(edges) if are_whole else _ranges(edges, counts)
     entries = [
         {"color": hex_of(colour), "label": label, "from": low, "to": high, "count": int(count)}
         for colour, label, (low, high), count in zip(colours, labels, pairwise(edges), counts, strict=True)
@@ -185,10 +205,14 @@ def _classes(
 
 
 def _found_breaks(known: NDArray[np.float64], kind: str, classes: int) -> NDArray[np.float64]:
-    """Inner breaks of quantiles, none of which holds nothing, or of equal steps."""
+    """Inner breaks of quantiles, none of which holds nothing, or of equal steps; whole ones of whole numbers."""
     parts = np.linspace(0.0, 1.0, classes + 1)[1:-1]
     low, high = known.min(), known.max()
-    breaks = np.unique(np.quantile(known, parts) if kind == "quantiles" else low + (high - low) * parts)
+    breaks = np.quantile(known, parts) if kind == "quantiles" else low + (high - low) * parts
+    above = known[known > low]
+    if kind == "quantiles" and len(above):  # many that are equal to the least are a class of their own
+        breaks = np.where(breaks <= low, above.min(), breaks)
+    breaks = np.unique(np.ceil(breaks.round(6)) if _are_whole(known) else breaks)
     breaks = _told_apart(np.append(low, breaks))[1:]
     if kind == "quantiles":
         _, first = np.unique(np.searchsorted(np.sort(known), breaks), return_index=True)
@@ -196,17 +220,33 @@ def _found_breaks(known: NDArray[np.float64], kind: str, classes: int) -> NDArra
     return breaks
 
 
+def _are_whole(known: NDArray[np.float64]) -> bool:
+    """Whether numbers count things or years; in pandas they are floats where one is missing."""
+    return bool((known == np.rint(known)).all() and np.abs(known).max() < MOST_WHOLE)
+
+
 def _told_apart(rising: NDArray[np.float64]) -> NDArray[np.float64]:
     """The first of numbers that read the same."""
-    _, first = np.unique([f"{value:.{DIGITS[-1]}g}" for value in rising.tolist()], return_index=True)
+    _, first = np.unique([_text(value, DIGITS[-1]) for value in rising.tolist()], return_index=True)
     return rising[np.sort(first)]
+
+
+def _text(number: float, digits: int) -> str:
+    """A number in so many significant digits; what is before the point is there in full."""
+    return f"{number:.0f}" if 10**digits <= abs(number) < MOST_WHOLE else f"{number:.{digits}g}"
 
 
 def _texts(numbers: list[float]) -> list[str]:
     """Numbers in as few digits as tell them apart."""
-    most = len({f"{number:.{DIGITS[-1]}g}" for number in numbers})
-    tried = ([f"{number:.{digits}g}" for number in numbers] for digits in DIGITS)
+    most = len({_text(number, DIGITS[-1]) for number in numbers})
+    tried = ([_text(number, digits) for number in numbers] for digits in DIGITS)
     return next(texts for texts in tried if len(set(texts)) == most)
+
+
+def _of_whole(edges: list[float]) -> list[str]:
+    """Labels of classes of whole numbers, of which only the last has its upper end."""
+    ends = [*(above - 1 for above in edges[1:-1]), edges[-1]]
+    return [f"{low:.0f}" if low >= high else f"{low:.0f} - {high:.0f}" for low, high in zip(edges, ends, strict=False)]
 
 
 def _ranges(edges: list[float], counts: NDArray[np.int64]) -> list[str]:
@@ -227,47 +267,63 @@ def _continuous(values: NDArray[np.float64], scale: Scale) -> tuple[Rgba, list[d
     part = np.where(np.isfinite(values), (values - low) / ((high - low) or 1.0), 0.0)
     rgba = _sampled(palette, part)
     rgba[~np.isfinite(values)] = np.nan
-    stops = np.linspace(0.0, 1.0, STOPS)
-    held: list[float] = (low + (high - low) * stops).tolist()
+    at = np.linspace(low, high, STOPS)
+    held: list[float] = (np.unique(np.rint(at)) if _are_whole(known) else at).tolist()
     shown = {label: at for at, label in reversed(list(enumerate(_texts(held))))}  # the first of each
-    colours = _sampled(palette, stops)
+    colours = _sampled(palette, (np.array(held) - low) / ((high - low) or 1.0))
     return rgba, [
         {"color": hex_of(colours[at]), "label": label, "value": held[at]}
         for label, at in sorted(shown.items(), key=lambda item: item[1])
     ]
 
 
-def _names(values: list[Any]) -> list[str | None]:
-    """Values as names of categories: whole numbers have no decimals, days no time, and what is no number no name."""
-    values = [None if v != v else v for v in values]
-    whole = [int(v) if isinstance(v, float) and v.is_integer() else v for v in values]
-    names = [None if v is None else str(v) for v in whole]
-    if all(name is None or name.endswith(MIDNIGHT) for name in names):
-        return [None if name is None else name.removesuffix(MIDNIGHT) for name in names]
-    return names
+def _order(column: "pyarrow.ChunkedArray", values: dict[str | None, Any]) -> list[str]:
+    """Names of categories as a dictionary has them, or else as numbers, days and texts rise."""
+    import pyarrow as pa
+
+    if pa.types.is_dictionary(column.type):
+        chunks = column.unify_dictionaries().chunks
+        return [name for name in texts_of(chunks[0].dictionary.to_pylist()) if name is not None] if chunks else []
+    found = {name: value for name, value in values.items() if name is not None}
+    try:
+        return sorted(found, key=found.__getitem__)
+    except TypeError:  # lists of several kinds of things
+        return sorted(found)
 
 
-def _categories(values: list[str | None], scale: Scale, notes: Notes) -> tuple[Rgba, list[dict[str, Any]]]:
-    """Colours of the most common values; those that are left share one."""
+def _categories(
+    values: list[str | None], order: list[str], scale: Scale, notes: Notes
+) -> tuple[Rgba, list[dict[str, Any]]]:
+    """Colours of categories in their order; where there are too many, the less common ones share a grey."""
     palette = _palette(scale.palette, QUALITATIVE)
     stops = np.array([tuple(color.rgba) for color in palette.iter_colors()], np.float64)
     if scale.palette is None:
         further = np.array([rgba_of(colour, "palette") for colour in FURTHER])
         stops = np.concatenate([stops[1:], further])  # black is for lines and words
     counts = Counter(value for value in values if value is not None)
-    ordered = [value for value, _ in sorted(counts.items(), key=lambda item: (-item[1], item[0]))]
+    own = [value for value in order if value in counts]
     if palette.interpolation == "linear":
-        stops = _sampled(palette, np.linspace(0.0, 1.0, max(len(ordered), 1)))
-    own = ordered if len(ordered) <= len(stops) else ordered[: len(stops) - 1]
-    if len(own) < len(ordered):
+        stops = _sampled(palette, np.linspace(0.0, 1.0, max(len(own), 1)))
+    if rare := max(len(own) - len(stops), 0):
         notes.remark(
-            f"{len(ordered)} categories of {scale.column!r}, but {len(stops)} colours: the {len(ordered) - len(own)} "
-            "least common ones share the last; give a larger `palette`"
+            f"{len(own)} categories of {scale.column!r}, but {len(stops)} colours: the {rare} least common ones share "
+            "a grey; give a larger `palette`"
         )
-    place = {value: min(number, len(stops) - 1) for number, value in enumerate(ordered)}
-    rgba = np.array([stops[place[v]] if v is not None else np.full(4, np.nan) for v in values]).reshape(-1, 4)
+        common = set(sorted(own, key=lambda value: -counts[value])[: len(stops)])
+        own = [value for value in own if value in common]
+    place = {value: number for number, value in enumerate(own)}
+    grey = _grey(stops)
+    none = np.full(4, np.nan)
+    rgba = np.array([none if v is None else stops[place[v]] if v in place else grey for v in values]).reshape(-1, 4)
     entries = [{"color": hex_of(stops[k]), "label": value, "count": counts[value]} for k, value in enumerate(own)]
-    if len(own) < len(ordered):
-        rest = sum(counts[value] for value in ordered[len(own) :])
-        entries.append({"color": hex_of(stops[-1]), "label": OTHER, "count": rest})
+    if rare:
+        rest = counts.total() - sum(counts[value] for value in own)
+        label = f"{rare} more" if OTHER in place else OTHER
+        entries.append({"color": hex_of(grey), "label": label, "count": rest})
     return rgba, entries
+
+
+def _grey(stops: Rgba) -> Rgba:
+    """A grey that is like none of some colours."""
+    greys = [rgba_of(grey, "palette") for grey in GREYS]
+    return max(greys, key=lambda grey: min(float(np.linalg.norm((stops - grey)[:, :3], axis=1).min()), 0.2))

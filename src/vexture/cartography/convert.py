@@ -99,7 +99,7 @@ def converted(
     """Convert layers that are read; parameters and errors are those of `convert_map` and `vexture.convert`."""
     given: dict[str, Any] = {"restyle": restyle, "tolerance": tolerance, "capacity": capacity}
     if ready.steps is not None and not restyle:
-        raise ParameterError("colours change with `time` only where features can be recoloured; leave `restyle` on")
+        raise ParameterError("colours change with `times` only where features can be recoloured; leave `restyle` on")
     with in_memory():
         with within(max_seconds):
             drawing = _drawing(ready, snap)

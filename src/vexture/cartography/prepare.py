@@ -15,7 +15,7 @@ from vexture.cartography.marks import outlines, strokes, width_of, widths_at
 from vexture.cartography.paths import Fit, symbol_paths
 from vexture.cartography.place import placed
 from vexture.cartography.times import Steps, Times, coloured_steps, with_steps
-from vexture.content import about
+from vexture.content import about, renaming
 from vexture.deadline import within
 from vexture.drawing import Drawing, Path
 from vexture.errors import LimitError, ParameterError, SourceError
@@ -219,12 +219,8 @@ def _read(layer: MapLayer, crs: str, notes: Notes) -> Features:
     """Features of a layer, in the map's reference system."""
     with about(str(layer.source) if isinstance(layer.source, str | FilePath) else layer.name):
         options = {"layer": layer.layer, "where": layer.where, "id": layer.id, "columns": _columns(layer)}
-        try:
+        with renaming({"crs": "source_crs"}):
             features = read_features(layer.source, crs=layer.crs, notes=notes, **options)  # type: ignore[arg-type]
-        except (SourceError, ParameterError) as error:
-            if "`crs`" not in str(error):
-                raise
-            raise type(error)(str(error).replace("`crs`", "`source_crs`")) from None
         if not len(features):
             reason = f"no feature meets `where` {layer.where!r}" if layer.where else "it has no features"
             raise SourceError(f"{reason}; there is nothing to draw")
@@ -247,7 +243,7 @@ def _columns(layer: MapLayer) -> tuple[str, ...] | None:
 def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list[Painted], list[dict[str, Any]]]:
     """Names and colours of all features; ids that two layers share get the layer's name before them."""
     if sum(layer.times is not None for layer, _ in read) > 1:
-        raise ParameterError("`time` is given for several sources; give it for one, and '' for the others")
+        raise ParameterError("`times` is given for several sources; give it for one, and '' for the others")
     every = np.concatenate([features.ids for _, features in read])
     clash = len(set(every.tolist())) < len(every)
     if clash:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from vexture.cartography.colours import Scale, colours_of, hex_of
 from vexture.errors import LimitError, ParameterError, SourceError, counted, shortened
 from vexture.geo.features import Features
+from vexture.geo.frames import arrow_of, texts_of
 from vexture.notes import Notes
 
 if TYPE_CHECKING:
@@ -58,6 +59,13 @@ class Times:
     source: Any
     labels: tuple[str, ...] | None = None
 
+    def __post_init__(self) -> None:
+        if self.labels is not None:
+            labels = tuple(str(label) for label in texts_of(self.labels))
+            if again := [label for label in labels if labels.count(label) > 1]:
+                raise ParameterError(f"`labels` names two steps {again[0]!r}; name each otherwise")
+            object.__setattr__(self, "labels", labels)
+
     @property
     def is_table(self) -> bool:
         """Whether the values are in a table beside the layer."""
@@ -78,14 +86,16 @@ class Times:
             like = re.compile(".*".join(re.escape(part) for part in self.source.split(ANY)), re.DOTALL)
             found = sorted((name for name in names if like.fullmatch(name)), key=_natural)
             if not found:
-                raise ParameterError(f"no column is like {self.source!r} of `time`; there are: {', '.join(names[:12])}")
+                raise ParameterError(
+                    f"no column is like {self.source!r} of `times`; there are: {', '.join(names[:12])}"
+                )
             return found
         wanted = list(self.named())
         for name in wanted:
             if name not in names:
-                raise ParameterError(f"it has no column {name!r} for `time`; there are: {', '.join(names[:12])}")
+                raise ParameterError(f"it has no column {name!r} for `times`; there are: {', '.join(names[:12])}")
         if len(set(wanted)) < len(wanted):
-            raise ParameterError(f"`time` names a column twice: {', '.join(wanted)[:80]}; name each once")
+            raise ParameterError(f"`times` names a column twice: {', '.join(wanted)[:80]}; name each once")
         return wanted
 
     def named(self) -> tuple[str, ...]:
@@ -151,12 +161,12 @@ def with_steps(features: Features, times: Times, notes: Notes) -> tuple[Features
     if len(names) * len(features) > MOST_COLOURS:
         raise LimitError(
             f"{len(names):,} steps of {len(features):,} features are more than {MOST_COLOURS:,} colours; choose fewer "
-            "steps by `time`, or fewer features by `where`"
+            "steps by `times`, or fewer features by `where`"
         )
-    labels = found if times.labels is None else tuple(str(label) for label in times.labels)
+    labels = found if times.labels is None else times.labels
     if len(labels) != len(names):
         count = f"{counted(len(labels), 'name')} for {counted(len(names), 'step')}"
-        raise ParameterError(f"`times` has {count}; give as many names as steps")
+        raise ParameterError(f"`labels` has {count}; give as many names as steps")
     return features, names, labels, title
 
 
@@ -172,7 +182,7 @@ def coloured_steps(
         )
     except (pa.ArrowInvalid, pa.ArrowTypeError):
         kinds = ", ".join(sorted({str(table.column(name).type) for name in columns}))
-        raise ParameterError(f"the columns of `time` differ in type ({kinds}); choose columns of one type") from None
+        raise ParameterError(f"the columns of `times` differ in type ({kinds}); choose columns of one type") from None
     rgba, legend = colours_of(chunked, scale, notes)
     legend |= {"times": list(labels), STEP_COLUMNS: list(columns)}
     return Steps(labels, tuple(columns), rgba.reshape(len(columns), len(table), 4)), legend
@@ -180,40 +190,36 @@ def coloured_steps(
 
 def _natural(name: str) -> list[tuple[int, Any]]:
     """Key by which numbers in names are sorted as numbers."""
-    return [(0, int(part)) if part.isdigit() else (1, part) for part in DIGITS.split(name) if part]
+    return [(0, int(part)) if part.isdecimal() else (1, part) for part in DIGITS.split(name) if part]
 
 
 def _joined(features: Features, source: Any, notes: Notes) -> tuple[dict[str, Any], tuple[str, ...], str]:
     """Columns of a table's values, one for each of its times; the times, and the name of the values."""
     import pyarrow as pa
-    import pyarrow.compute as pc
 
     table = _table(source)
     others = [name for name in table.column_names if name not in (ID, TIME)]
     if len(others) != 1 or len(table.column_names) != 3:
         names = ", ".join(table.column_names[:12])
-        raise ParameterError(f"the table of `time` has the columns {names}; it needs id, time and one of values")
-    given = _without_blanks(table.column(TIME).combine_chunks())
-    if given.null_count == len(given):
-        raise SourceError("no row of the table of `time` has a time; fill in the column time")
-    notes.remark("a row of the table of times has no time, and does not count", given.null_count)
-    times, labels = _sorted(pc.drop_null(pc.unique(given)))
-    step = pc.index_in(given, value_set=times)
-    row = pc.index_in(_as_texts(table.column(ID)), value_set=pa.array(features.ids.tolist(), pa.string()))
-    known = np.asarray(pc.and_(row.is_valid(), step.is_valid()))
+        raise ParameterError(f"the table of `times` has the columns {names}; it needs id, time and one of values")
+    steps, labels = _steps(table.column(TIME))
+    if not labels:
+        raise SourceError("no row of the table of `times` has a time; fill in the column time")
+    notes.remark("a row of the table of times has no time, and does not count", int((steps < 0).sum()))
+    codes, ids = _coded(table.column(ID), ID)
+    row_of = {name: row for row, name in enumerate(features.ids.tolist())}
+    found = np.array([*(row_of.get(name, -1) for name in texts_of(ids.to_pylist())), -1], np.int64)
+    rows = found[codes]
+    known = (rows >= 0) & (steps >= 0)
     if not known.any():
-        raise SourceError(f"no id of the table of `time` is that of a feature, such as {features.ids[0]}; choose `id`")
-    if lost := len(pc.unique(table.column(ID).filter(pc.is_null(row)))):
+        raise SourceError(f"no id of the table of `times` is that of a feature, such as {features.ids[0]}; choose `id`")
+    if lost := len(np.unique(codes[rows < 0])):
         notes.remark(f"{lost} ids of the table of times are those of no feature")
     place = np.full((len(labels), len(features)), -1, np.int64)
-    steps, rows = (np.asarray(each.filter(pa.array(known)).cast(pa.int64())) for each in (step, row))
-    place[steps, rows] = np.flatnonzero(known)
-    if again := len(steps) - int((place >= 0).sum()):
+    place[steps[known], rows[known]] = np.flatnonzero(known)
+    if again := int(known.sum() - (place >= 0).sum()):
         notes.remark(f"{again} rows of the table of times have the id and the time of a later one, which counts")
     values, columns = table.column(others[0]).combine_chunks(), dict[str, Any]()
-    if pa.types.is_floating(values.type):
-        infinite = pc.sum(pc.is_inf(values)).as_py() or 0
-        notes.remark("a value of the table of times is infinite, and has the colour of no data", infinite)
     for label, one in zip(labels, place, strict=True):
         columns[_free(label, {*features.table.column_names, *columns})] = values.take(
             pa.array(one, pa.int64(), mask=one < 0)
@@ -221,26 +227,45 @@ def _joined(features: Features, source: Any, notes: Notes) -> tuple[dict[str, An
     return columns, labels, others[0]
 
 
-def _without_blanks(times: Any) -> Any:
-    """Times of which empty texts, and what is no number, are null."""
+def _coded(column: Any, name: str) -> tuple[NDArray[np.int64], Any]:
+    """The place of each value of a column among those that there are, -1 where there is none; and these."""
     import pyarrow as pa
-    import pyarrow.compute as pc
 
-    is_text = pa.types.is_string(times.type) or pa.types.is_large_string(times.type)
-    blank = pc.equal(times, "") if is_text else pc.is_null(times, nan_is_null=True)
-    return pc.if_else(pc.fill_null(blank, True), pa.scalar(None, times.type), times)
+    try:
+        column = column.unify_dictionaries() if pa.types.is_dictionary(column.type) else column.dictionary_encode()
+    except pa.ArrowNotImplementedError:
+        raise ParameterError(
+            f"the column {name} of the table of `times` holds {column.type}; give numbers, dates or texts"
+        ) from None
+    coded = column.combine_chunks()
+    coded = coded.chunk(0) if isinstance(coded, pa.ChunkedArray) else coded
+    return np.asarray(coded.indices.cast(pa.int64()).fill_null(-1)), coded.dictionary
 
 
-def _sorted(times: Any) -> tuple[Any, tuple[str, ...]]:
-    """Times in their order, and as names; texts are sorted as their numbers rise."""
+def _steps(column: Any) -> tuple[NDArray[np.int64], tuple[str, ...]]:
+    """The step of each row, -1 where it has no time, and the names of the steps."""
     import pyarrow as pa
-    import pyarrow.compute as pc
 
-    if pa.types.is_string(times.type) or pa.types.is_large_string(times.type):
-        texts = sorted(times.to_pylist(), key=_natural)
-        return pa.array(texts, times.type), tuple(texts)
-    ordered = times.take(pc.sort_indices(times))
-    return ordered, tuple(_text(value) for value in ordered.to_pylist())
+    codes, coded = _coded(column, TIME)
+    times = coded.to_pylist()
+    used = [code for code in np.unique(codes).tolist() if code >= 0 and texts_of([times[code]])[0]]
+    if not (pa.types.is_dictionary(column.type) and column.type.ordered):
+        keys = dict(zip(used, _keys([times[code] for code in used]), strict=True))
+        used.sort(key=keys.__getitem__)
+    step = np.full(len(times) + 1, -1, np.int64)  # the last is that of no time
+    step[used] = np.arange(len(used))
+    return step[codes], tuple(str(name) for name in texts_of([times[code] for code in used]))
+
+
+def _keys(times: list[Any]) -> list[Any]:
+    """What times are sorted by: texts as numbers, or else as the numbers in them."""
+    if not all(isinstance(time, str) for time in times):
+        return times
+    try:
+        numbers = [float(time) for time in times]
+    except ValueError:
+        numbers = [np.nan]
+    return [_natural(time) for time in times] if np.isnan(numbers).any() else numbers
 
 
 def _free(name: str, taken: set[str]) -> str:
@@ -250,24 +275,6 @@ def _free(name: str, taken: set[str]) -> str:
     return name
 
 
-def _text(value: Any) -> str:
-    """A time as a name: midnight is a day, and a number has no empty decimals."""
-    text = f"{value:g}" if isinstance(value, float) and abs(value) < 1e6 else str(value)
-    return text.removesuffix(" 00:00:00")
-
-
-def _as_texts(column: Any) -> Any:
-    """Ids as texts."""
-    import pyarrow as pa
-
-    column = column.combine_chunks()
-    if pa.types.is_dictionary(column.type):
-        column = column.dictionary_decode()
-    if pa.types.is_floating(column.type):
-        column = column.cast(pa.int64(), safe=False)
-    return column.cast(pa.string())
-
-
 def _table(source: Any) -> "pyarrow.Table":
     """A table of ids, times and values."""
     import pyarrow as pa
@@ -275,7 +282,7 @@ def _table(source: Any) -> "pyarrow.Table":
     if isinstance(source, pa.Table):
         return source
     if not isinstance(source, str | os.PathLike):
-        return pa.Table.from_pandas(source, preserve_index=False).replace_schema_metadata(None)
+        return _of_frame(source)
     path = Path(source)
     try:
         if path.suffix.lower() == ".csv":
@@ -296,3 +303,13 @@ def _table(source: Any) -> "pyarrow.Table":
         raise SourceError(f"{path}: cannot be read as a table ({reason}); give Parquet, Arrow or CSV") from None
     except pa.ArrowInvalid as error:
         raise SourceError(f"{path}: cannot be read as a table ({shortened(str(error), 120)}); save it again") from None
+
+
+def _of_frame(frame: Any) -> "pyarrow.Table":
+    """The columns of a DataFrame, without geometries."""
+    import pyarrow as pa
+
+    if not hasattr(frame, "items"):
+        raise ParameterError(f"`times` is a {type(frame).__name__}; give a DataFrame of pandas or a table of Arrow")
+    columns = [(str(name), values) for name, values in frame.items() if str(values.dtype) != "geometry"]
+    return pa.table([arrow_of(values) for _, values in columns], [name for name, _ in columns])

@@ -70,6 +70,7 @@ def map(
     start = perf_counter()
     with one_line():
         from vexture.cartography import convert_map
+        from vexture.content import renaming
         from vexture.geo.tables import check_targets
         from vexture.layout import PACKED_SUFFIX
         from vexture.texture.files import write_together
@@ -83,7 +84,8 @@ def map(
         kept = {name: options[name] for name in ("crs", "snap", "size", "restyle", "max_seconds")}
         if options["tolerance"] is not None:
             kept["tolerance"] = options["tolerance"]
-        done = convert_map(layers, name=output.stem, **kept)
+        with renaming({"times": "time"}):
+            done = convert_map(layers, name=output.stem, **kept)
         files = _files(output, done, table)
         write_together(files)
         notes = done.conversion.notes

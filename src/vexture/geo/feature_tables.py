@@ -96,6 +96,9 @@ class Chunk:
     labels: NDArray[Any] | None = None
     """Names that the source has for its features, where no column has their ids: the index of a GeoDataFrame."""
 
+    unlabelled: str = ""
+    """Why the index of a GeoDataFrame is not its features' ids."""
+
     damaged: int = 0
     """Geometries that are not whole, in the source and not only here."""
 
@@ -362,7 +365,11 @@ def _frame(frame: Any, choice: Choice) -> Chunk:
         raise ParameterError(f"it has several columns {again!r}; rename all but one")
     given = {} if frame.ndim == 1 else dict(zip(columns, (frame[name] for name in frame.columns), strict=True))
     others = {name: arrow_of(values) for name, values in given.items() if str(values.dtype) != "geometry"}
-    labels = labels_of(frame.index)
+    labels, why = labels_of(frame.index)
+    if why:  # what its levels tell is not lost
+        named = [(number, str(name)) for number, name in enumerate(frame.index.names) if name is not None]
+        levels = {name: frame.index.get_level_values(number) for number, name in named}
+        others = {name: arrow_of(level.to_series()) for name, level in levels.items() if name not in columns} | others
     if labels is not None and choice.id == frame.index.name and choice.id not in others:
         choice = replace(choice, id=None)
     columns = choice.kept([*others])
@@ -371,7 +378,7 @@ def _frame(frame: Any, choice: Choice) -> Chunk:
     crs = None if frame.crs is None else str(frame.crs.to_wkt())
     part = table.take(rows).select(columns)
     chunk = Chunk(part, shapes[rows], rows.astype(np.int64), crs, choice.id, parsed=True, is_told=crs is not None)
-    return chunk if labels is None else replace(chunk, labels=labels[rows])
+    return replace(chunk, labels=None if labels is None else labels[rows], unlabelled=why)
 
 
 def _split(chunk: Chunk, batch: int | None) -> Iterator[Chunk]:
@@ -382,3 +389,4 @@ def _split(chunk: Chunk, batch: int | None) -> Iterator[Chunk]:
         part = replace(chunk, table=chunk.table.slice(first, step), shapes=chunk.shapes[rows])
         labels = None if chunk.labels is None else chunk.labels[rows]
         yield replace(part, numbers=chunk.numbers[rows], labels=labels)
+        chunk = replace(chunk, unlabelled="")  # it is told once

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import ParameterError
-from vexture.geo.crs import chosen_crs, gis_packages, period, same_system, shown_system
+from vexture.geo.crs import MissingReferenceError, chosen_crs, gis_packages, period, same_system, shown_system
 from vexture.geo.extent import Bounds
 from vexture.geo.feature_tables import Choice, Chunk, chunks_of
+from vexture.geo.frames import texts_of
 from vexture.geo.geojson import UNLOCATED
 from vexture.geo.longitudes import closed_over_poles, jumping
 from vexture.geo.rings import Rings, refuse_far, repaired, rings_of
@@ -165,6 +166,8 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     import shapely
 
     notes.remark("the file is damaged: a geometry refers to arcs that it does not have", chunk.damaged)
+    if chunk.unlabelled and chunk.id_column is None:
+        notes.remark(f"its index {chunk.unlabelled}, so ids are the numbers of rows; name a column of ids by `id`")
     if chunk.parsed:
         given = ~(shapely.is_missing(chunk.shapes) | shapely.is_empty(chunk.shapes))
         whole, owner = chunk.shapes[given], np.flatnonzero(given)
@@ -200,7 +203,12 @@ def _system(chunk: Chunk, rings: Rings, given: str | None, notes: Notes) -> str:
     """Reference system of a chunk: that which its source names, or else the one that is given for it."""
     found = chunk.crs(rings.points)
     if given is None or not chunk.is_told:
-        return chosen_crs(given, found)
+        try:
+            return chosen_crs(given, found)
+        except MissingReferenceError as error:
+            if not chunk.parsed:
+                raise
+            raise MissingReferenceError(f"{error}, or set it by set_crs") from None
     system = chosen_crs(None, found)
     if not same_system(other := chosen_crs(given, None), system):
         own, unused = shown_system(system), shown_system(other)
@@ -248,20 +256,11 @@ def _lines(lines: NDArray[Any], feature: NDArray[np.intp]) -> Lines:
 
 def _ids(chunk: Chunk, choice: Choice, seen: dict[str, int], notes: Notes) -> NDArray[Any]:
     """The id of each feature as a text; one that was there before gets a number."""
-    import pyarrow as pa
-
     if chunk.id_column is None and chunk.labels is not None:
         return chunk.labels
     if chunk.id_column is None:
         return np.array([str(number) for number in chunk.numbers.tolist()], object)
-    column = chunk.table.column(chunk.id_column)
-    if pa.types.is_floating(column.type):
-        values = [
-            None if v is None else f"{v:.0f}" if v == np.rint(v) and abs(v) < np.inf else str(v)
-            for v in column.to_pylist()
-        ]
-    else:
-        values = [None if value is None else str(value) for value in column.to_pylist()]
+    values = texts_of(chunk.table.column(chunk.id_column).to_pylist())
     texts, again, none = [], 0, 0
     for value, number in zip(values, chunk.numbers.tolist(), strict=True):
         name = f"#{number}" if value is None or value == "" else value

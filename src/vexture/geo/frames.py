@@ -1,28 +1,81 @@
-"""Columns and indices of GeoDataFrames."""
+"""Columns and indices of GeoDataFrames, and the texts by which ids, times and categories are known."""
 
-from typing import Any
+from collections.abc import Iterable
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["arrow_of", "labels_of"]
+__all__ = ["arrow_of", "labels_of", "texts_of"]
+
+MIDNIGHT: Final = " 00:00:00"
 
 
-def labels_of(index: Any) -> NDArray[Any] | None:
-    """The labels of an index as texts, where they tell rows apart and are more than their numbers."""
-    if index.nlevels > 1 or index.hasnans or not index.is_unique:
-        return None
-    labels = np.array([str(label) for label in index.tolist()], object)
+def texts_of(values: Iterable[Any]) -> list[str | None]:
+    """Values as texts: whole numbers have no decimals, days no time, and what is missing or no number no text.
+
+    Examples
+    --------
+    >>> texts_of([2.0, 0.5, None, float("nan"), "a"])
+    ['2', '0.5', None, None, 'a']
+    """
+    texts = [None if value is None or value != value else _text(value) for value in values]
+    if all(text is None or text.endswith(MIDNIGHT) for text in texts):
+        return [None if text is None else text.removesuffix(MIDNIGHT) for text in texts]
+    return texts
+
+
+def _text(value: Any) -> str:
+    return str(int(value) if isinstance(value, float | np.floating) and value.is_integer() else value)
+
+
+def labels_of(index: Any) -> tuple[NDArray[Any] | None, str]:
+    """The labels of an index as texts, where they tell rows apart and are more than their numbers.
+
+    Where they do not tell rows apart, there are none, and the second text says why.
+    """
+    if index.nlevels > 1:
+        return None, "has several levels"
+    if index.hasnans:
+        return None, "lacks labels"
+    labels = np.array(texts_of(index.tolist()), object)
+    if len(set(labels.tolist())) < len(labels):
+        return None, "has labels that are equal"
     is_number = [str(number) for number in range(len(labels))] == labels.tolist()
-    return None if is_number or len(set(labels)) < len(labels) else labels
+    return None if is_number else labels, ""
 
 
 def arrow_of(values: Any) -> Any:
-    """A column of pandas; one that Arrow has no type for, as of numbers and texts together, is its values as texts."""
+    """A column of pandas; one that Arrow has no type for, as of numbers and texts together, is its values as texts.
+
+    Numbers beyond 64 bits are floats, categories keep their order, and periods and intervals are texts.
+    """
+    import pyarrow as pa
+
+    if hasattr(values, "cat"):
+        codes = values.cat.codes.to_numpy()
+        names = arrow_of(values.cat.categories.to_series())
+        return pa.DictionaryArray.from_arrays(pa.array(codes, mask=codes < 0), names, ordered=values.cat.ordered)
+    try:
+        found = pa.array(values, from_pandas=True)
+    except OverflowError:
+        return _floats(values)
+    except (pa.ArrowInvalid, pa.ArrowTypeError, pa.ArrowNotImplementedError):
+        return _as_texts(values)
+    return _as_texts(values) if isinstance(found.type, pa.BaseExtensionType) else found
+
+
+def _floats(values: Any) -> Any:
     import pyarrow as pa
 
     try:
-        return pa.array(values, from_pandas=True)
-    except (pa.ArrowInvalid, pa.ArrowTypeError, pa.ArrowNotImplementedError):
-        known = ~values.isna()
-        return pa.array([str(value) if there else None for value, there in zip(values, known, strict=True)])
+        return pa.array(values.astype(float), from_pandas=True)
+    except (TypeError, ValueError):
+        return _as_texts(values)
+
+
+def _as_texts(values: Any) -> Any:
+    import pyarrow as pa
+
+    known = ~values.isna()
+    return pa.array([str(value) if there else None for value, there in zip(values, known, strict=True)], pa.string())

@@ -6,6 +6,7 @@ from typing import Any, Final
 
 from vexture.cartography import Scale, Times
 from vexture.cartography.colours import colours_of
+from vexture.content import renaming
 from vexture.errors import ParameterError
 from vexture.geo.snap import MOST_SNAP
 from vexture.notebook.picture import MARGIN
@@ -17,6 +18,7 @@ __all__ = [
     "OF_LAYER",
     "OF_MAP",
     "OF_SCALE",
+    "OF_STEPS",
     "check_scale",
     "check_source",
     "checked",
@@ -31,6 +33,9 @@ OF_LAYER: Final = (
     *("outline", "outline_width", "symbol", "symbol_size"),
 )
 OF_MAP: Final = ("crs", "snap", "size", "tolerance", "max_seconds")
+
+OF_STEPS: Final = {"times": "column", "labels": "times"}
+"""Where `column` names those of steps, what it and their names are called by layers."""
 
 THEIRS: Final = {
     "palette": ("cmap",),
@@ -134,7 +139,8 @@ def times_of(source: Any, column: str | list[str] | None, times: Any) -> Times |
         if times is not None and Times(times).is_table:
             raise ParameterError("`times` is a table, and `column` names columns of steps; give one of them")
         steps: Any = times.split(",") if isinstance(times, str) else times
-        return Times(column, None if steps is None else tuple(str(each) for each in steps))
+        with renaming(OF_STEPS):
+            return Times(column, None if steps is None else tuple(steps))
     if times is None:
         return None
     if not Times(times).is_table:

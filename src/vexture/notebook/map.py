@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
+from vexture.content import renaming
 from vexture.errors import DeviceError
 from vexture.notes import place_of_caller, warn_at
 
@@ -86,7 +87,7 @@ def map(
     >>> shown = map(fields, "yield", id="id", crs="EPSG:28992", classes=2)
     >>> shown.selected = "b"
     >>> [entry["label"] for entry in shown.legend["entries"]]
-    ['4 - 6.5', '6.5 - 9']
+    ['4 - 6', '7 - 9']
     """
     try:
         from vexture.notebook.map_widget import MapWidget
@@ -100,6 +101,7 @@ def map(
     from vexture.notebook.asked import (
         OF_LAYER,
         OF_SCALE,
+        OF_STEPS,
         check_scale,
         check_source,
         checked,
@@ -112,19 +114,23 @@ def map(
     changing = times_of(source, column, times)
     given = checked(options, column, legend, has_colours=column is not None or changing is not None)
     check_source(source)
-    name = column if isinstance(column, str) and changing is None else ""
-    scale = Scale(name, **{SCALE_NAMES.get(each, each): given.pop(each) for each in OF_SCALE if each in given})
-    if not name and changing is None:
+    shown = column if isinstance(column, str) and changing is None else None
+    scale = Scale(
+        shown or "",
+        **{SCALE_NAMES.get(each, each): given.pop(each) for each in OF_SCALE if each in given},
+    )
+    if shown is None and changing is None:
         check_scale(scale)
     of_layer = {"stroke": STROKE, **{NAMES.get(each, each): given.pop(each) for each in OF_LAYER if each in given}}
-    layer = MapLayer(source, color=scale if name or changing is not None else None, times=changing, **of_layer)
+    layer = MapLayer(source, color=None if shown is None and changing is None else scale, times=changing, **of_layer)
     title = None if isinstance(source, str | os.PathLike) else "map"
     size = size_of(given.pop("size", None), width, height)
     seconds = given.get("max_seconds", DEFAULT_SECONDS)
-    ready = prepared([layer], name=title, crs=given.pop("crs", MERCATOR), size=size, max_seconds=seconds)
+    with renaming({"color": "column"} if changing is None or changing.is_table else OF_STEPS):
+        ready = prepared([layer], name=title, crs=given.pop("crs", MERCATOR), size=size, max_seconds=seconds)
     asked_at = place_of_caller(1)
     warn_at(asked_at, ready.name, ready.notes.listed)
-    shown = {"width": width, "height": height, "background": background, "view": view}
-    traits = {name: value for name, value in shown.items() if value is not None}
+    asked = {"width": width, "height": height, "background": background, "view": view}
+    traits = {name: value for name, value in asked.items() if value is not None}
     conversion = partial(converted, ready, **given, capacity=CAPACITY)
     return MapWidget(ready, scale, conversion, asked_at=asked_at, tooltip=tooltip, has_legend=legend, **traits)

@@ -7,6 +7,7 @@ import numpy as np
 import traitlets
 
 from vexture.errors import ParameterError, shortened
+from vexture.geo.frames import texts_of
 
 __all__ = ["Background", "Choice", "Colours", "Label", "Number", "Pixels", "Rectangle", "pixels", "told"]
 
@@ -44,6 +45,17 @@ def pixels(name: str, value: Any) -> int:
     return int(value)
 
 
+def text_of(label: Any) -> str:
+    """A label as the text by which a feature is known.
+
+    Examples
+    --------
+    >>> text_of(11), text_of(np.float64(11.0)), text_of("a")
+    ('11', '11', 'a')
+    """
+    return str(texts_of([label])[0])
+
+
 class _Told(traitlets.TraitType[Any, Any]):
     """A trait that says what to give."""
 
@@ -79,7 +91,7 @@ class Label(_Told, traitlets.Unicode):  # type: ignore[type-arg]
     def _coerced(self, value: Any) -> str:
         if not np.isscalar(value) and not hasattr(value, "isoformat"):
             raise TypeError
-        return str(value)
+        return text_of(value)
 
 
 class Choice(_Told, traitlets.Enum):  # type: ignore[type-arg]
@@ -123,4 +135,4 @@ class Colours(_Told, traitlets.Dict):
     def _coerced(self, value: Any) -> dict[str, Any]:
         if not isinstance(value, Mapping):
             raise TypeError
-        return {str(name): colour for name, colour in value.items()}
+        return {text_of(name): colour for name, colour in value.items()}

@@ -1,9 +1,11 @@
-"""What each test of widgets leaves behind: nothing."""
+"""Fixtures of all tests of a module that imports them: none leaves a widget behind."""
 
 import asyncio
 import threading
 
 import pytest
+
+__all__ = ["no_loop_of_a_browser", "none_is_left"]
 
 
 @pytest.fixture(autouse=True)
