@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-__all__ = ["HERE", "cluster_of", "line_of", "started"]
+__all__ = ["HERE", "cluster_of", "line_of", "scheduler_alone", "started", "workers_of"]
 
 SECONDS = 60
 HERE = ("--host", "127.0.0.1", "--no-dashboard")
@@ -39,13 +39,25 @@ def line_of(process: "subprocess.Popen[str]", says: str) -> str:
 
 
 @contextmanager
-def cluster_of(workers: int) -> "Iterator[tuple[str, list[subprocess.Popen[str]]]]":
-    """Address of a scheduler, and the processes of its workers, which start side by side."""
+def scheduler_alone() -> "Iterator[tuple[subprocess.Popen[str], str]]":
+    """A scheduler's process, and its address."""
+    with started("scheduler", *HERE, "--port", "0") as scheduler:
+        yield scheduler, line_of(scheduler, "Scheduler at:").split()[-1]
+
+
+@contextmanager
+def workers_of(address: str, count: int) -> "Iterator[list[subprocess.Popen[str]]]":
+    """Processes of workers of a scheduler, which start side by side."""
     with ExitStack() as opened:
-        scheduler = opened.enter_context(started("scheduler", *HERE, "--port", "0"))
-        address = line_of(scheduler, "Scheduler at:").split()[-1]
         words = ("worker", address, *HERE, "--nthreads", "1", "--no-nanny")
-        found = [opened.enter_context(started(*words)) for _ in range(workers)]
+        found = [opened.enter_context(started(*words)) for _ in range(count)]
         for worker in found:
             line_of(worker, "Registered to:")
+        yield found
+
+
+@contextmanager
+def cluster_of(workers: int) -> "Iterator[tuple[str, list[subprocess.Popen[str]]]]":
+    """Address of a scheduler, and the processes of its workers."""
+    with scheduler_alone() as (_, address), workers_of(address, workers) as found:
         yield address, found

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 import types
 from collections.abc import Callable
 from pathlib import Path
@@ -72,6 +73,31 @@ def test_a_conversion_ends_in_a_line(scribble: Path, tmp_path: Path, jobs: int) 
     ended = subprocess.run([sys.executable, "-c", PRESSED, *arguments], capture_output=True, text=True, timeout=60)
     assert (ended.returncode, ended.stderr) == (130, LINE)
     assert not (tmp_path / "out").exists()
+
+
+EARLY = """
+import runpy, signal, sys
+
+class Presser:
+    def find_spec(self, name, path=None, target=None):
+        if name == pressed:
+            signal.raise_signal(signal.SIGINT)
+
+sys.meta_path.insert(0, Presser())
+pressed, sys.argv[1:] = sys.argv[1], ["--help"]
+"""
+"""Ctrl-C while the modules of the command line are imported."""
+
+
+@pytest.mark.parametrize("module", ["vexture.cli.main", "click", "vexture.cli.map"])
+def test_it_ends_while_its_modules_are_imported(module: str) -> None:
+    program = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text())["project"]["scripts"]["vexture"]
+    home, function = program.split(":")
+    for start in (f"from {home} import {function}; {function}()", "runpy.run_module('vexture', run_name='__main__')"):
+        ended = subprocess.run(
+            [sys.executable, "-c", EARLY + start, module], capture_output=True, text=True, timeout=60
+        )
+        assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", LINE)
 
 
 def test_it_ends_while_kernels_are_compiled(scribble: Path, tmp_path: Path) -> None:

@@ -2,18 +2,19 @@
 
 import hashlib
 import os
+from contextlib import ExitStack
 
 import netCDF4
 import numpy as np
 import pytest
 from floods import flood, series
 
-from clusters import cluster_of
+from clusters import cluster_of, scheduler_alone, workers_of
 from vexture import DeviceError, workers
 from vexture.flood.options import FloodOptions
 from vexture.live.flood import make
 from vexture.workers import Cluster, Here, Processes
-from work import dies, is_forgotten, slow
+from work import dies, is_forgotten, slow, waits
 
 
 def test_results_are_in_order_from_several_processes():
@@ -91,10 +92,32 @@ def test_what_a_scheduler_forgot_is_done_again(cluster, tmp_path):
     assert (tmp_path / "once").exists()
 
 
+def test_an_error_of_the_work_is_not_one_of_the_scheduler(cluster):
+    with pytest.raises(FileNotFoundError, match="lost"):
+        list(Cluster(cluster).map(waits, 2, range(4), 4))
+
+
 def test_what_a_worker_of_a_cluster_had_in_hand_when_it_died_is_done_again(cluster, tmp_path):
     """The last test with these workers: one of them dies."""
     assert list(Cluster(cluster).map(dies, (tmp_path / "died", False), range(12), 12)) == [k * k for k in range(12)]
     assert (tmp_path / "died").exists()
+
+
+@pytest.mark.parametrize(("dead", "state"), [("scheduler", "no longer answers"), ("workers", "has no workers left")])
+def test_a_cluster_that_dies_at_work_is_named_and_dask_is_silent(dead, state, monkeypatch, capfd):
+    monkeypatch.setattr(workers, "PATIENCE", "1s")
+    with ExitStack() as opened:
+        scheduler, address = opened.enter_context(scheduler_alone())
+        found = opened.enter_context(workers_of(address, 1))
+        results = Cluster(address).map(waits, None, range(12), 12)
+        assert [next(results), next(results)] == [0, 1]
+        for process in [scheduler] if dead == "scheduler" else found:
+            process.kill()
+        with pytest.raises(DeviceError) as error:
+            list(results)
+    remedy = "start it again, with workers, then type the command again"
+    assert str(error.value) == f"`scheduler` {address}: it {state}; {remedy}"
+    assert capfd.readouterr().err == ""
 
 
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", pytest.param("nonsense", marks=pytest.mark.slow)])

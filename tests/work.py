@@ -41,3 +41,11 @@ def forget(dask_scheduler, key):
     """Let a scheduler tell all who wait for a piece of work that it is cancelled."""
     for client in {each.client_key for each in dask_scheduler.tasks[key].who_wants}:
         dask_scheduler.report({"op": "cancelled-keys", "keys": [key], "reason": "already forgotten"}, client=client)
+
+
+def waits(shared, item):
+    """Work that takes a while, of which a piece fails as a disk does."""
+    time.sleep(0.3)
+    if item == shared:
+        raise FileNotFoundError(2, "No such file", "lost.nc")
+    return item

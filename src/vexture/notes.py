@@ -6,12 +6,12 @@ remarks are losses: the result differs from the source.
 
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any, Final, Literal, NamedTuple
 
-from vexture.errors import SourceError, SourceWarning, printable
+from vexture.errors import SourceError, SourceWarning, printable, shortened
 
 __all__ = [
     "MOST_SUBJECTS",
@@ -41,8 +41,14 @@ HEADINGS: Final[dict[Kind, str]] = {
 MOST_NAMED: Final = 8
 """Notes of one kind that a line names; the others are counted."""
 
+MOST_IDS: Final = 5
+"""Ids of features that a line names of each note."""
+
 MOST_SUBJECTS: Final = 32
 """Elements that a note names; the others are counted."""
+
+MOST_LETTERS: Final = 40
+"""Of an id in a line."""
 
 Box = tuple[float, float, float, float]
 """Least x and y, largest x and y, in the unit square, y up."""
@@ -70,19 +76,28 @@ class Note:
         How often.
     elements : tuple of Subject
         The first 32 elements that it is about, where the reader knows them.
+    is_named : bool
+        Whether a line names the first of the elements: they are features, and their names the user's ids.
 
     Examples
     --------
     >>> str(Note("left out", "<text>", 2))
     '<text> (2)'
+    >>> str(Note("left out", "feature without geometry", 1, (Subject("07003", None),), is_named=True))
+    'feature without geometry (1: 07003)'
     """
 
     kind: Kind
     message: str
     count: int = 1
     elements: tuple[Subject, ...] = ()
+    is_named: bool = False
 
     def __str__(self) -> str:
+        if self.is_named and self.elements:
+            first = [shortened(printable(subject.name), MOST_LETTERS) for subject in self.elements[:MOST_IDS]]
+            more = ", ..." if self.count > len(first) else ""
+            return f"{self.message} ({self.count}: {', '.join(first)}{more})"
         return f"{self.message} ({self.count})" if self.count > 1 else self.message
 
     @property
@@ -118,10 +133,27 @@ class Notes:
     def __init__(self) -> None:
         self._counts: dict[Kind, dict[str, int]] = {kind: {} for kind in HEADINGS}
         self._boxed: dict[str, int] = {}  # characters that no font has
+        self._named: dict[tuple[Kind, str], dict[str, None]] = {}  # the first ids of features of each note
 
     def left_out(self, what: str) -> None:
         """Note something that is not supported, and so paints nothing or has no effect."""
         self.count("left out", what)
+
+    def features(self, kind: Kind, what: str, ids: Iterable[object]) -> None:
+        """Note something about the feature of each id, of several equal ones once.
+
+        Examples
+        --------
+        >>> notes = Notes()
+        >>> notes.features("remark", "a polygon is repaired", ["07", "12"])
+        >>> line_of("a.gpkg", notes.listed)
+        'a.gpkg: a polygon is repaired (2: 07, 12)'
+        """
+        names = list(dict.fromkeys(map(str, ids)))
+        self._add(kind, what, len(names))
+        if names:
+            known = self._named.setdefault((kind, printable(what)), {})
+            known.update(dict.fromkeys(names[: MOST_SUBJECTS - len(known)]))
 
     def simplified(self, what: str) -> None:
         """Note something that is in the result, but not as it should be."""
@@ -165,7 +197,11 @@ class Notes:
     @property
     def listed(self) -> tuple[Note, ...]:
         """All notes by kind, each kind in the order of their first occurrence."""
-        found = [Note(kind, what, count) for kind, things in self._counts.items() for what, count in things.items()]
+        found = list[Note]()
+        for kind, things in self._counts.items():
+            for what, count in things.items():
+                about = tuple(Subject(name, None) for name in self._named.get((kind, what), ()))
+                found.append(Note(kind, what, count, about, is_named=bool(about)))
         at = next((k for k, note in enumerate(found) if note.kind in ("invalid", "remark")), len(found))
         return (*found[:at], *self.of_boxes, *found[at:])
 

@@ -4,6 +4,7 @@ Results come in the order of the work, and are the same wherever it was done. Wh
 done again.
 """
 
+import logging
 import multiprocessing
 import os
 import signal
@@ -13,6 +14,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError, Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from typing import Any, Final, Protocol, TypeVar
 
 from vexture.errors import DeviceError
@@ -34,6 +36,12 @@ MOST_DEATHS: Final = 3
 
 PATIENCE: Final = "5s"
 """For a scheduler's first answer."""
+
+NO_WORKERS: Final = "No valid workers"
+"""In what Dask says of a scheduler without any."""
+
+TALKATIVE: Final = ("distributed.client", "distributed.batched", "distributed.core")
+"""Logs of Dask that tell tracebacks of lost connections, of which an error says one line."""
 
 FRESH: Final = 2.0
 """Seconds for which the number of a cluster's workers is believed: each question costs an answer's time."""
@@ -164,32 +172,51 @@ class Cluster:
     ) -> Iterator[Result]:
         """Results; Dask does the work of a worker that dies again."""
         with self._client() as client:
-            held = client.scatter(shared, broadcast=True, hash=False)
+            held = self._asked(client.scatter, shared, broadcast=True, hash=False)
 
             def submitted(item: Item) -> Any:
-                return client.submit(work, held, item, pure=False)
+                return self._asked(client.submit, work, held, item, pure=False)
 
             def again(item: Item) -> Any:
                 nonlocal held  # what all share may be lost with the worker, too
-                held = client.scatter(shared, broadcast=True, hash=False)
+                held = self._asked(client.scatter, shared, broadcast=True, hash=False)
                 return submitted(item)
 
             def first() -> Any:
                 item, future = waiting.popleft()
-                return _result(future, lambda: again(item), self._address)
+                return self._result(future, lambda: again(item))
 
             waiting: deque[tuple[Item, Any]] = deque()
             room, asked = 0, -FRESH
             for item in items:
                 waiting.append((item, submitted(item)))
                 if time.monotonic() - asked >= FRESH:
-                    room, asked = AHEAD * max(1, sum(client.nthreads().values())), time.monotonic()
+                    room, asked = AHEAD * max(1, sum(self._asked(client.nthreads).values())), time.monotonic()
                 if len(waiting) >= room:
                     yield first()
             while waiting:
                 yield first()
 
-    def _client(self) -> Any:
+    def check(self) -> None:
+        """Raise a `DeviceError` if it does not answer, or has no workers."""
+        with self._client():
+            pass
+
+    @contextmanager
+    def _client(self) -> Iterator[Any]:
+        """A client, which says nothing by itself."""
+        logs = [logging.getLogger(name) for name in TALKATIVE]
+        before = [log.disabled for log in logs]
+        for log in logs:
+            log.disabled = True  # their level is set when Dask is imported
+        try:
+            with self._connected() as client:
+                yield client
+        finally:
+            for log, disabled in zip(logs, before, strict=True):
+                log.disabled = disabled
+
+    def _connected(self) -> Any:
         try:
             import dask
             from distributed import Client
@@ -211,21 +238,37 @@ class Cluster:
             )
         return client
 
-
-def _result(future: Any, again: Callable[[], Any], address: str) -> Any:
-    """Result of work; a scheduler may forget that of a worker that dies as it is fetched: then it is done `again`."""
-    from distributed import KilledWorker
-
-    for _ in range(MOST_DEATHS):
+    def _asked(self, what: Callable[..., Any], *words: Any, **named: Any) -> Any:
+        """The scheduler's answer; it may have died, or all of its workers."""
         try:
-            return future.result()
-        except CancelledError as error:
-            why: Exception = error
-            future = again()
-        except KilledWorker as error:
-            why = error
-            break
-    raise DeviceError(
-        f"`scheduler` {address}: workers died at the same work, as they do without memory ({why}); "
-        "start workers with more"
-    )
+            return what(*words, **named)
+        except OSError as error:  # so are those of connections, and of time
+            raise self._gone(error) from None
+
+    def _gone(self, error: OSError) -> DeviceError:
+        state = "has no workers left" if NO_WORKERS in str(error) else "no longer answers"
+        return DeviceError(
+            f"`scheduler` {self._address}: it {state}; start it again, with workers, then type the command again"
+        )
+
+    def _result(self, future: Any, again: Callable[[], Any]) -> Any:
+        """Result of work; a scheduler may forget that of a worker that dies as it is fetched: then it is done again."""
+        from distributed import KilledWorker
+
+        for _ in range(MOST_DEATHS):
+            try:
+                return future.result()
+            except OSError as error:
+                if future.status == "error":
+                    raise  # the work's own
+                raise self._gone(error) from None
+            except CancelledError as error:
+                why: Exception = error
+                future = again()
+            except KilledWorker as error:
+                why = error
+                break
+        raise DeviceError(
+            f"`scheduler` {self._address}: workers died at the same work, as they do without memory ({why}); "
+            "start workers with more"
+        )

@@ -32,6 +32,17 @@ def test_points_and_lines_are_beside_the_polygons_across_the_antimeridian(crs):
     assert alone.conversion.drawing.to_source[0, 0] == pytest.approx(turn * 4 / 360, rel=0.3)
 
 
+@pytest.mark.parametrize(("crs", "unit"), [("EPSG:3857", np.pi * RADIUS / 180), (WORLD, 1.0)])
+def test_most_of_a_map_across_the_antimeridian_is_where_its_system_has_it(crs, unit):
+    counties = [shapely.box(x, 30, x + 5, 45) for x in range(-120, -70, 5)]
+    aleutians = shapely.MultiPolygon([shapely.box(172, 51, 180, 53), shapely.box(-180, 51, -165, 53)])
+    marks = [shapely.Point(144.7, 13.5), shapely.LineString([(-160, 20), (-155, 20)])]
+    for given, west in (([*counties, aleutians], 172), ([*counties, aleutians, *marks], 144.7)):
+        to_source = convert_map([MapLayer(frame(given))], crs=crs).conversion.drawing.to_source
+        assert to_source[0, 2] == pytest.approx((west - 360) * unit, rel=0.01)
+        assert to_source[0, 0] + to_source[0, 2] == pytest.approx(-70 * unit, rel=0.01)
+
+
 def test_what_goes_around_the_world_stays_where_it_is():
     marks = [shapely.Point(x, 10) for x in range(-170, 180, 20)]
     done = convert_map([MapLayer(frame([FIJI])), MapLayer(frame(marks))])
@@ -54,6 +65,8 @@ BAND = shapely.box(-179.999, 20, 179, 30)
         (WORLD, 180.0, [FIJI, BAND]),
         ("EPSG:8857", 179.9999, [FIJI]),
         ("ESRI:54030", 179.9999, [shapely.box(170, -30, 190, -10)]),
+        ("+proj=ortho +lat_0=0 +lon_0=90", 179.89, [shapely.box(170, 20, 190, 40)]),
+        ("ESRI:54052", -39.9999, [shapely.box(-50, 20, 20, 40), shapely.box(170, 20, 179, 30)]),
     ],
 )
 def test_a_map_of_the_world_has_no_outlines_where_it_is_cut(crs, across, shapes):

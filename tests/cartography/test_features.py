@@ -73,8 +73,8 @@ def test_ids_are_unique_and_say_what_they_were():
     notes = Notes()
     assert read_features(frame, id="code", notes=notes).ids.tolist() == ["x", "x#2", "#2", "x#3"]
     assert [str(note) for note in notes.listed] == [
-        "a feature has no 'code': its id is # and its number",
-        "a feature has an id that another had before: its own ends in #2, #3, ... (2)",
+        "a feature has no 'code': its id is # and its number (1: #2)",
+        "a feature has an id that another had before: its own ends in #2, #3, ... (2: x#2, x#3)",
     ]
 
 
@@ -98,9 +98,17 @@ def test_lines_points_empty_and_broken_geometries():
     assert (found.lines.feature.tolist(), found.points.feature.tolist()) == ([0], [1, 1])
     assert shapely.area(found.rings.shapes).sum() == pytest.approx(2)
     assert {str(note) for note in notes.listed} == {
-        "feature without geometry (2)",
-        "a polygon that crossed or overlapped itself is repaired",
+        "feature without geometry (2: 3, 4)",
+        "a polygon that crossed or overlapped itself is repaired (1: 2)",
     }
+
+
+def test_a_repair_that_nobody_can_see_is_not_told():
+    loop = [(0, 0), (2, 0), (2, 1), (2 + 1e-7, 1 + 1e-7), (2, 1 + 1e-7), (2 + 1e-7, 1), (2, 2), (0, 2)]
+    notes = Notes()
+    found = read_features(geopandas.GeoDataFrame(geometry=[shapely.Polygon(loop)], crs="EPSG:28992"), notes=notes)
+    assert shapely.is_valid(found.rings.shapes).all()
+    assert not notes.listed
 
 
 def test_a_source_without_a_reference_system_says_so(tmp_path):

@@ -1,6 +1,7 @@
 """Maps: the feature at any point is shapely's answer; strokes, symbols, colours; and bad input in one line."""
 
 import json
+import re
 
 import geopandas
 import numpy as np
@@ -229,16 +230,40 @@ def test_borders_that_are_equal_are_not_touched_and_others_are(monkeypatch):
 
     source, snapped = cells(60), []
     real = coverage.shared
-    monkeypatch.setattr(coverage, "shared", lambda *given: snapped.append(1) or real(*given))
+    monkeypatch.setattr(coverage, "shared", lambda *given, **told: snapped.append(1) or real(*given, **told))
     assert mapped(source).conversion.notes == ()
     assert not snapped, "nothing was amiss"
     off = source.geometry.values.copy()
     off[7] = shapely.transform(off[7], lambda places: places + 1e-4)
-    assert any("snapped" in message for message in messages(mapped(source.set_geometry(off))))
+    assert not messages(mapped(source.set_geometry(off))), "less than anyone can see"
     assert snapped
+    off[7] = shapely.transform(off[7], lambda places: places + 0.5)
+    said = messages(mapped(source.set_geometry(off), snap=1e-3))
+    assert any(
+        re.search(r"corners snapped to borders beside them, by up to 0\.\d+ m \(0\.000\d", line) for line in said
+    )
     snapped.clear()
     assert any("lies below" in message for message in messages(mapped(frame(overlapping(), METRES))))
     assert snapped
+
+
+def test_notes_name_the_features(tmp_path):
+    bows = [shapely.Polygon([(x, 0), (x + 90, 90), (x + 90, 0), (x, 90)]) for x in range(2000, 2600, 100)]
+    source = tmp_path / "land.parquet"
+    shapes = [
+        *overlapping(),
+        *bows[:-1],
+        shapely.MultiPolygon([bows[-1], shapely.transform(bows[-1], lambda xy: xy + 200)]),
+    ]
+    frame(shapes, METRES, code=[f"c{k}" for k in range(len(shapes))]).to_parquet(source)
+    arguments = ["map", str(source), "--id", "code", "--crs", METRES, "-o", str(tmp_path / "out.ktx2")]
+    told = CliRunner().invoke(main, arguments).stderr
+    assert "overlap it: --order says which is above (1: c0)" in told
+    assert "is repaired (6: c3, c4, c5, c6, c7, ...)" in told
+    repaired, below = json.loads(CliRunner().invoke(main, [*arguments, "--json"]).stdout)["notes"]
+    assert [element["name"] for element in repaired["elements"]] == [f"c{k}" for k in range(3, 9)]
+    assert (below["count"], below["elements"]) == (1, [{"name": "c0", "box": None}])
+    assert below["message"].endswith("--order says which is above")
 
 
 def overlapping():

@@ -45,6 +45,31 @@ def test_what_lies_across_the_edge_of_a_map_is_on_both_sides_of_it(crs):
     assert (found == inside)[clear].all()
 
 
+@pytest.mark.parametrize("crs", ["ESRI:54052", "+proj=igh_o +lon_0=100", "+proj=imoll +lon_0=-30", "+proj=healpix"])
+def test_an_interrupted_map_is_cut_at_its_lobes(crs):
+    world = [shapely.box(-180, -90, 180, -62), shapely.box(-75, -30, 20, 81), shapely.box(-180, 20, 180, 40)]
+    features, said = in_system([*world, shapely.LineString([(-170, 61), (0, 61), (170, 61)])], crs)
+    assert not said
+    places = np.random.default_rng(3).uniform((-179.9, -89.0), (179.9, 89.0), (3000, 2))
+    on_map, shapes = transformed(places, WORLD, crs), shapely.union_all(features.rings.shapes)
+    clear = shapely.distance(shapely.union_all(shapely.boundary(world)), shapely.points(places)) > 0.5
+    inside = shapely.contains_xy(shapely.union_all(world), *places.T)
+    assert (shapely.contains_xy(shapes, *on_map.T) == inside)[clear].all()
+    longest = 0.05 * np.ptp(on_map[:, 0])
+    rings = features.rings
+    assert np.hypot(*(rings.points[rings.following] - rings.points).T).max() < longest
+    assert len(features.lines.ends) > 1
+    assert np.hypot(*np.diff(features.lines.points[: features.lines.ends[0]], axis=0).T).max() < longest
+
+
+@pytest.mark.parametrize("crs", ["+proj=isea", "+proj=bertin1953"])
+def test_what_lies_across_a_tear_at_no_meridian_is_told(crs):
+    bands = [shapely.box(-180, south, 180, south + 20) for south in range(-80, 80, 20)]
+    _, said = in_system(bands, crs)
+    assert any("torn, and is smeared over the map; choose another `crs`" in line for line in said)
+    assert not in_system([shapely.box(10, 40, 12, 42)], crs)[1]
+
+
 @pytest.mark.parametrize(("crs", "side"), [(SOUTH, -1), (NORTH, 1), ("EPSG:3571", 1)])
 def test_a_map_around_a_pole_is_its_hemisphere(crs, side):
     around = shapely.transform(ANTARCTICA, lambda places: places * (1, -side))
@@ -119,7 +144,42 @@ def test_a_projected_source_is_on_a_map_of_the_world():
 
 
 @pytest.mark.filterwarnings("error")
-def test_a_map_that_cannot_show_all_of_the_world_says_so():
-    with pytest.raises(SourceError, match="some of it has none; choose another `crs`, or features by `where`"):
-        in_system([RUSSIA, shapely.box(-170, -60, -20, 10)], "+proj=ortho +lat_0=40 +lon_0=10")
-    assert in_system([shapely.box(0, 30, 20, 50)], "+proj=ortho +lat_0=40 +lon_0=10")[0].rings.points.size
+@pytest.mark.parametrize(
+    ("crs", "middle", "radius"),
+    [
+        ("+proj=ortho +lat_0=40 +lon_0=10", (10, 40), 89.9),
+        ("ESRI:102038", (-72.533, 42.533), 89.9),
+        ("+proj=ortho +lat_0=0 +lon_0=170", (170, 0), 89.9),
+        ("ESRI:102034", (0, 90), 65),
+        ("+proj=geos +h=35785831 +lon_0=-75", (-75, 0), 81),
+        ("+proj=nsper +h=3000000 +lat_0=-50 +lon_0=20", (20, -50), 47),
+    ],
+)
+def test_a_map_of_one_side_of_the_globe_is_cut_at_its_rim(crs, middle, radius):
+    world = [RUSSIA, shapely.box(-170, -60, -20, 10), ANTARCTICA, shapely.box(-180, 20, 180, 40)]
+    around = shapely.LineString([(-170, 15), (0, 15), (170, 15)])
+    marks = [
+        around,
+        shapely.LineString([(middle[0], -80), (middle[0], 80)]),
+        *map(shapely.Point, [middle, (middle[0] + 180, 0)]),
+    ]
+    features, said = in_system([*world, *marks], crs)
+    assert any("one side of the globe: it is cut off" in line for line in said)
+    assert "point beyond the map" in said
+    places = np.random.default_rng(4).uniform((-179.9, -89.0), (179.9, 89.0), (3000, 2))
+    cap = domain_of(crs).cap
+    seen = cap.distance(places) < cap.radius - 0.5
+    assert cap.radius == pytest.approx(radius, abs=1)
+    world += [
+        shapely.box(-190, 50, -170, 75),
+        shapely.Polygon([*ANTARCTICA.exterior.coords[:-1], (180, -90), (-180, -90)]),
+    ]
+    world.remove(ANTARCTICA)
+    clear = seen & (shapely.distance(shapely.union_all(shapely.boundary(world)), shapely.points(places)) > 0.5)
+    found = shapely.contains_xy(shapely.union_all(features.rings.shapes), *transformed(places, WORLD, crs).T)
+    assert (found == shapely.contains_xy(shapely.union_all(world), *places.T))[clear].all()
+    assert shapely.is_valid(features.rings.shapes).all()
+    line = cap.distance(transformed(features.lines.points, crs, WORLD))
+    assert len(line) > 2
+    assert line.max() < cap.radius + 0.05
+    assert not in_system([shapely.box(middle[0], middle[1] - 3, middle[0] + 1, middle[1] - 1)], crs)[1]

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import tracemalloc
 from itertools import product
 
 import numpy as np
@@ -12,10 +13,12 @@ from pmtiles.tile import tileid_to_zxy
 from tile_sources import batches_of, cells, write_source
 
 from vexture import ParameterError, SourceError
+from vexture.geo import validity
 from vexture.geo.crs import transformed
 from vexture.geo.rings import cut, rings_of
+from vexture.tiles import generalise
 from vexture.tiles.build import make_tiles
-from vexture.tiles.generalise import generalised
+from vexture.tiles.generalise import dissolved, generalised
 from vexture.tiles.grid import CRS, HALF, MARGIN, Tile, last_zoom, pixel, span, zooms_of
 from vexture.tiles.options import TileOptions
 from vexture.tiles.pieces import Pieces
@@ -289,6 +292,42 @@ def test_a_source_without_polygons_is_refused(tmp_path):
     with pytest.raises(SourceError, match=r"empty\.geojson: it has lines or points \(1\), but no polygon"):
         make_tiles(source, tmp_path / "empty.pmtiles", TileOptions())
     assert {path.name for path in tmp_path.iterdir()} == {"empty.geojson"}
+
+
+def test_many_points_are_simplified_in_parts(monkeypatch):
+    """As if memory had no room for all at once: no border moves farther, and shared ones stay shared."""
+    monkeypatch.setattr(generalise, "MOST_POINTS", 5_000)
+    shapes = shapely.segmentize(cells(60, (0.0, 0.0, 1000.0, 1000.0)), 0.5)
+    pieces = pieces_of(shapes)
+    assert pieces.points > 50_000
+    tracemalloc.start()
+    box = (-1.0, -1.0, 1001.0, 1001.0)
+    found = dissolved(generalised(pieces, box, 1.0, 0.0))
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 100 * pieces.points
+    assert found.points < 1000
+    assert sorted(found.order.tolist()) == list(range(len(shapes)))
+    assert shapely.area(found.shapes).sum() == pytest.approx(1e6, rel=1e-9)
+    assert shapely.coverage_is_valid(found.shapes)
+    before, after = shapely.boundary(shapes), shapely.boundary(found.shapes[np.argsort(found.order)])
+    assert shapely.hausdorff_distance(before, after).max() <= 1.0
+
+
+def test_a_polygon_of_many_holes_is_parted_and_keeps_them(monkeypatch):
+    """Two combs whose teeth are cut apart by the first halves, with holes also on the lines between these."""
+    monkeypatch.setattr(validity, "HEAVY", 300.0)
+    west, south = (corner.ravel() for corner in np.meshgrid(*[np.arange(24) * 4.0 + 1.0] * 2))
+    holes = shapely.box(west, south, west + 2.5, south + 2.5)
+    teeth = shapely.box(np.arange(6) * 16.0 + 11.9, 30.0, np.arange(6) * 16.0 + 12.9, 200.0)
+    gaps = shapely.union_all(np.append(teeth[::2], shapely.affinity.translate(shapely.union_all(teeth[1::2]), 0, -135)))
+    whole = shapely.box(0.0, 0.0, 97.0, 97.0) - shapely.union_all([shapely.union_all(holes), gaps])
+    parts = np.array(validity.parted(whole))
+    assert len(parts) > 20
+    assert not validity.is_heavy(parts).any()
+    assert shapely.is_valid(parts).all()
+    assert shapely.area(parts).sum() == pytest.approx(whole.area)
+    assert shapely.union_all(parts).symmetric_difference(whole).area == pytest.approx(0.0, abs=1e-9)
 
 
 @pytest.mark.parametrize(

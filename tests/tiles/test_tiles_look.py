@@ -3,24 +3,30 @@
 import errno
 import hashlib
 import json
+import os
 import subprocess
 import sys
 
+import geopandas
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 import shapely
+from click.testing import CliRunner
 from pmtiles.reader import MmapSource, Reader, all_tiles
 from tile_sources import cells
 
 from vexture import ParameterError, SourceError
 from vexture.cartography.colours import Scale, colours_of
-from vexture.errors import DeviceError
+from vexture.cli.main import main
+from vexture.errors import DeviceError, LimitError
+from vexture.geo.crs import transformed
 from vexture.notes import Notes
 from vexture.texture.load import texture_from
 from vexture.tiles.attributes import Look
 from vexture.tiles.build import make_tiles
+from vexture.tiles.grid import CRS
 from vexture.tiles.options import TileOptions
 
 COUNT = 12
@@ -118,10 +124,50 @@ def test_what_is_finished_is_named_and_has_its_colours_and_its_table(source, tmp
     assert len(list(tmp_path.iterdir())) == 4
 
 
+@pytest.fixture(params=[1, -1], ids=["in order", "reversed"])
+def overlapping(request, tmp_path):
+    """Boxes that overlap; the largest feature has two, and is partly beyond the antimeridian."""
+    shapes = {
+        "small": shapely.box(172, 1, 173, 2),
+        "big": shapely.box(171, 0, 181, 10),
+        "bigger": shapely.MultiPolygon([shapely.box(176, 5, 183, 14), shapely.box(160, 5, 167, 14)]),
+        "beside": shapely.box(150, 0, 155, 10),
+    }
+    names = list(shapes)[:: request.param]
+    level = {"small": 1.5, "big": 2.5, "bigger": None, "beside": 3.5}
+    columns = {"parcel": names, "level": [level[name] for name in names], "word": [name[::-1] for name in names]}
+    return write(tmp_path / "source.geojson", [shapes[name] for name in names], **columns)
+
+
+@pytest.mark.parametrize(
+    ("order", "seen"),
+    [
+        (None, ["small", "big", "big", "bigger", "bigger", "beside"]),  # the smaller above
+        ("level", ["big", "big", "big", "bigger", "bigger", "beside"]),  # what has no value is below
+        ("word", ["small", "bigger", "bigger", "bigger", "bigger", "beside"]),
+    ],
+)
+def test_overlaps_are_in_an_order_that_is_not_that_of_the_file(overlapping, order, seen, tmp_path):
+    places = [(172.5, 1.5), (177.0, 6.0), (-179.5, 6.0), (-178.0, 6.0), (163.0, 7.0), (152.0, 5.0)]
+    metres = transformed(np.array(places), "EPSG:4326", CRS)
+    made(overlapping, tmp_path / "made.pmtiles", Look(order=order))
+    checked = 0
+    with (tmp_path / "made.pmtiles").open("rb") as file:
+        for (z, _, _), data in all_tiles(MmapSource(file)):
+            texture = texture_from(data, "a tile")
+            to = texture.roots[0].to_source
+            unit = (metres - to[:, 2]) / to[:, :2].diagonal()
+            there = ((unit > 0.0) & (unit < 1.0)).all(axis=1) & (z > 0)
+            assert texture.element_at(unit[there]).name.tolist() == np.array(seen)[there].tolist()
+            checked += int(there.sum())
+    assert checked >= 2 * len(places)
+
+
 @pytest.mark.parametrize(
     ("look", "says"),
     [
         (Look(Scale("height")), "parcels.geojson: it has no column 'height' for `color`; there are: parcel, value"),
+        (Look(order="height"), "parcels.geojson: it has no column 'height' for `order`; there are: parcel, value"),
         (Look(Scale("parcel", "equal"), table="parquet"), "holds string, not numbers; give `scale` categories"),
     ],
 )
@@ -154,6 +200,27 @@ def test_a_table_is_never_written_over_its_source(source, tmp_path):
         made(copy, tmp_path / "parcels.pmtiles", LOOK)
 
 
+@pytest.mark.parametrize("option", ["--source-crs", "--crs"])
+def test_the_system_of_a_source_is_named_as_in_maps(tmp_path, option):
+    """By its former name, too."""
+    shape = shapely.box(80_000, 440_000, 90_000, 450_000)
+    geopandas.GeoDataFrame({"parcel": ["a"]}, geometry=[shape], crs="EPSG:28992").to_file(tmp_path / "metres.shp")
+    (tmp_path / "metres.prj").unlink()
+    words = ["tiles", str(tmp_path / "metres.shp"), "-o", str(tmp_path / "out.pmtiles"), "--max-zoom", "4"]
+    wrong = CliRunner().invoke(main, words)
+    assert "give --source-crs EPSG:..." in wrong.stderr
+    done = CliRunner().invoke(main, [*words, option, "EPSG:28992"])
+    assert done.exit_code == 0, done.stderr
+    with (tmp_path / "out.pmtiles").open("rb") as file:
+        assert 4.2e7 < Reader(MmapSource(file)).header()["min_lon_e7"] < 4.4e7
+    assert option == "--source-crs" or option not in CliRunner().invoke(main, ["tiles", "--help"]).stdout.split()
+
+
+def test_no_processes_are_refused(source, tmp_path):
+    words = ["tiles", str(source), "-o", str(tmp_path / "out.pmtiles"), "--processes", "0"]
+    assert "--processes is 0; it must be at least 1" in CliRunner().invoke(main, words).stderr
+
+
 def test_lines_and_points_are_left_out_and_said(tmp_path):
     shapes = [shapely.box(4, 51, 5, 52), shapely.LineString([(4, 51), (5, 52)]), shapely.Point(4, 52)]
     mixed = write(tmp_path / "mixed.geojson", shapes, parcel=["a", "b", "c"])
@@ -165,6 +232,40 @@ def test_lines_and_points_are_left_out_and_said(tmp_path):
         SourceError, match=r"lines\.geojson: it has lines or points \(2\), but no polygon, .* draw it by"
     ):
         made(lines, tmp_path / "lines.pmtiles", Look())
+
+
+def test_a_wrong_scheduler_is_refused_before_anything_is_begun(source, tmp_path):
+    with pytest.raises(DeviceError, match="`scheduler` foo: no Dask scheduler answers there") as error:
+        make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(scheduler="foo"))
+    assert "finished" not in str(error.value)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "error", [MemoryError(), OSError(errno.ENOMEM, "no"), shapely.errors.GEOSException("bad_alloc")]
+)
+def test_too_little_memory_is_said_with_what_helps(source, tmp_path, error):
+    def told(what, *_):
+        if what == "parts":
+            raise error
+
+    remedy = "not enough memory; give `processes` 1, a larger `max_zoom`, which parts it finer, or .* `where`; what is"
+    with pytest.raises(LimitError, match=remedy):
+        make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(), told)
+
+
+@pytest.mark.parametrize(
+    ("number", "remedy"),
+    [(errno.ENOSPC, "make room, or choose another disk"), (errno.EACCES, "correct that, or write elsewhere")],
+)
+def test_only_a_full_disk_needs_room(source, tmp_path, number, remedy):
+    def told(*_):
+        raise OSError(number, "as the disk says")
+
+    with pytest.raises(
+        DeviceError, match=f"{os.strerror(number)}; {remedy}; nothing of it is finished, and reading begins anew"
+    ):
+        make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(), told)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="it has no limits of files")

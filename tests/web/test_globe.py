@@ -27,11 +27,13 @@ MIDDLE = (CENTRE[0] + 0.01, CENTRE[1] + 0.02)
 @pytest.fixture(scope="module")
 def folder(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("globe")
-    bundle(PAGE, folder / "page.js")
+    for name, three in (("page", "three"), ("floor", "three-floor")):
+        bundle(PAGE, folder / f"{name}.js", three)
+        (folder / f"{name}.html").write_text(HTML.replace("page.js", f"{name}.js"), encoding="utf-8")
     for name in ("tiles.json", "map.pmtiles", *map(str, tile_pyramid.ZOOMS)):
         os.symlink(tile_folder / name, folder / name)
     tile_pyramid.write_land(folder / "land")
-    (folder / "page.html").write_text(HTML, encoding="utf-8")
+    tile_pyramid.write_land(folder / "band", 85.0)
     return folder
 
 
@@ -44,6 +46,14 @@ def address(folder: Path) -> Iterator[str]:
 @pytest.fixture
 def page(address: str, open_page: Callable[..., Any]) -> Any:
     opened = open_page(f"{address}/page.html", (SIZE, SIZE))
+    opened.wait_for_function("window.globe")
+    return opened
+
+
+@pytest.fixture(params=["page", "floor"])
+def each_page(request: pytest.FixtureRequest, address: str, open_page: Callable[..., Any]) -> Any:
+    """With the newest three.js, and with the oldest that the package promises to work with."""
+    opened = open_page(f"{address}/{request.param}.html", (SIZE, SIZE))
     opened.wait_for_function("window.globe")
     return opened
 
@@ -159,6 +169,61 @@ def test_the_caps_of_the_poles_have_no_rim(
     assert 255 * np.abs(picture - tile_pyramid.COLOURS[0])[far < seen].max() < STEPS
 
 
+@pytest.mark.parametrize(("lat", "height"), [(90, 0.2), (-90, 0.4)])
+def test_a_cap_is_as_the_end_of_the_grid(
+    lat: float, height: float, address: str, open_page: Callable[..., Any]
+) -> None:
+    page = open_page(f"{address}/page.html?band/tiles.json", (SIZE, SIZE))
+    page.wait_for_function("window.globe")
+    picture = _look(page, 20.0, lat, height)
+    for y, x in np.ndindex(16, 16):
+        pointer = {"x": x / 8 - 15 / 16, "y": 15 / 16 - y / 8}
+        place, found = page.evaluate("one => [globe.placeUnder(one, camera), globe.featureUnder(one, camera)]", pointer)
+        if place and abs(abs(place[1]) - 85) > 0.1:
+            assert (picture[16 * y + 8, 16 * x + 8] < 1).any() == bool(found) == (abs(place[1]) < 85)
+    assert page.evaluate("[90, -90].map((lat) => globe.featureAt([20, lat]))") == [None, None]
+
+
+def test_the_end_of_the_grid_is_picked_at_the_poles(address: str, open_page: Callable[..., Any]) -> None:
+    page = open_page(f"{address}/page.html?land/tiles.json", (SIZE, SIZE))
+    page.wait_for_function("window.globe")
+    _look(page, 20.0, 90, 3)
+    assert page.evaluate("[90, -90].map((lat) => globe.featureAt([20, lat])?.id)") == ["land", "land"]
+
+
+def test_a_linear_target_has_linear_colours(each_page: Any) -> None:
+    picture = _look(each_page, *tile_pyramid.lng_lat(*MIDDLE), 0.01)[SIZE // 2, SIZE // 2]
+    linear = each_page.evaluate(
+        """size => {
+            const target = new THREE.WebGLRenderTarget(size, size, { type: THREE.FloatType });
+            renderer.setRenderTarget(target);
+            renderer.render(scene, camera);
+            renderer.setRenderTarget(null);
+            const pixel = new Float32Array(4);
+            renderer.readRenderTargetPixels(target, size / 2, size / 2, 1, 1, pixel);
+            return [...pixel];
+        }""",
+        SIZE,
+    )
+    assert linear[:3] == pytest.approx(((picture + 0.055) / 1.055) ** 2.4, abs=0.01)
+    assert linear[3] == 1
+
+
+def test_a_logarithmic_depth_buffer_shows_it_too(each_page: Any) -> None:
+    first = _look(each_page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
+    each_page.evaluate(
+        """() => {
+            replaceRenderer(new THREE.WebGLRenderer({ preserveDrawingBuffer: true, logarithmicDepthBuffer: true }));
+            const sea = new THREE.MeshBasicMaterial({ color: 0 });
+            scene.add(new THREE.Mesh(new THREE.SphereGeometry(0.998, 128, 64), sea));
+        }"""
+    )
+    second = _look(each_page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
+    assert np.allclose(second[SIZE // 2, SIZE // 2], first[SIZE // 2, SIZE // 2])
+    seen = (first < 1).any(axis=-1)
+    assert (second == first).all(axis=-1)[seen].mean() > 0.99
+
+
 def test_features_are_found_and_coloured_without_loading(page: Any) -> None:
     before = _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
     places = tile_pyramid.points(300)
@@ -182,7 +247,7 @@ def test_features_are_found_and_coloured_without_loading(page: Any) -> None:
 def test_all_is_freed(page: Any) -> None:
     _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
     assert page.evaluate("renderer.info.memory.textures") > 0
-    page.evaluate("globe.dispose()")
+    page.evaluate("globe.dispose(); globe.update(camera, innerHeight); globe.retry();")
     assert page.evaluate("[renderer.info.memory.textures, renderer.info.memory.geometries, globe.children.length]") == [
         0,
         0,
@@ -198,6 +263,15 @@ def test_all_is_freed(page: Any) -> None:
         ("globe.featureAt([4, NaN])", "the place is [4,null]; give [lng, lat] or { lng, lat } in degrees, "),
         ("globe.featureUnder(null, camera)", "the pointer is null; give { x, y }, -1 to 1"),
         ("globe.update(undefined, 5)", "the camera is no PerspectiveCamera; give one"),
+        ("globe.update(new THREE.OrthographicCamera(), 5)", "the camera is no PerspectiveCamera; give one"),
+        ("globe.update(camera, Infinity)", "the height is Infinity; give that of the picture in pixels, 16384 at most"),
+        ("globe.placeUnder({ x: 0, y: 0 })", "the camera is no PerspectiveCamera; give one"),
+        (
+            "globe.featureUnder({ x: 0, y: 0 }, new THREE.OrthographicCamera())",
+            "the camera is no PerspectiveCamera; give one",
+        ),
+        ("globe.lngLatOf()", "the point is undefined; give a Vector3"),
+        ("scene.clone()", "a VectorGlobe cannot be cloned; make another one of the same source"),
         ("textureSource('world.ktx2')", 'the texture is "world.ktx2"; give the contents of its file, an ArrayBuffer'),
     ],
 )

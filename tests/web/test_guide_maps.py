@@ -24,8 +24,6 @@ BALL = 240
 FRANCE, SPAIN, ANTARCTICA = (2.0, 46.5), (-4.0, 40.0), (40.0, -72.0)
 PALETTE = ("#f2d7a6", "#c9dba6", "#e3b8a8", "#b9cfb0", "#e6cf8f")
 SEA, RED = "#cfe3ee", "#d1495b"
-GREY = "#cccccc"
-"""Of tiles that nobody has coloured."""
 IDS = {FRANCE: 250, SPAIN: 724, ANTARCTICA: 10}
 
 
@@ -154,7 +152,7 @@ def test_the_guide_to_maps_in_web_pages_does_what_it_says(
         _flat_then_globe(page, screenshot)
         page.locator("#globe").uncheck()
         page.locator("input[type=file]").set_input_files(reader.folder / "public" / "countries.pmtiles")
-        _await(page, _on_map(FRANCE), GREY)
+        _await(page, _on_map(FRANCE), _own(FRANCE))
         ball = open_page(f"{_answered(reader.ports['5175'])}/globe.html", (BALL, BALL))
         middle = (BALL / 2, BALL / 2)
         _await(ball, (BALL / 2 - 10, BALL / 2 + 7), PALETTE[12 % len(PALETTE)])  # Algeria

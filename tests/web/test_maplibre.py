@@ -30,6 +30,11 @@ HTML = """<!doctype html><link rel="icon" href="data:,"><link rel="stylesheet" h
 <script type="module">import * as maplibregl from './maplibre-gl.mjs'; import './page.js';
 window.start = (...given) => open_(maplibregl, ...given); window.loaded = true;</script>"""
 
+FLOOR = """<!doctype html><link rel="icon" href="data:,"><link rel="stylesheet" href="floor/maplibre-gl.css">
+<style>html, body, #map { margin: 0; width: 100%; height: 100% }</style><div id="map"></div>
+<script src="floor/maplibre-gl.js"></script><script type="module">import './page.js';
+window.start = (...given) => open_(maplibregl, ...given); window.loaded = true;</script>"""
+"""The oldest MapLibre that the package promises to work with."""
 
 MAGENTA = {"version": 8, "sources": {}, "layers": [
     {"id": "ground", "type": "background", "paint": {"background-color": "#ff00ff"}},
@@ -55,10 +60,13 @@ def folder(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name in ("tiles.json", "map.pmtiles", *map(str, tile_pyramid.ZOOMS)):
         (folder / name).symlink_to(tile_folder / name)
     tile_pyramid.write_land(folder / "land")
+    tile_pyramid.write_land(folder / "band", 85.0)
     bundle(PAGE, folder / "page.js")
     for file in library.iterdir():
         (folder / file.name).symlink_to(file)
+    (folder / "floor").symlink_to(WEB / "node_modules" / "maplibre-gl-floor" / "dist")
     (folder / "page.html").write_text(HTML, encoding="utf-8")
+    (folder / "floor.html").write_text(FLOOR, encoding="utf-8")
     return folder
 
 
@@ -78,9 +86,14 @@ def slow_address(folder: Path) -> Iterator[str]:
 @pytest.fixture
 def opened(address: str, open_page: Callable[..., Any]) -> Callable[..., Any]:
     def opener(
-        view: dict[str, Any], layer: dict[str, Any] | None = None, size: Any = SIZE, url: str = address, **options: Any
+        view: dict[str, Any],
+        layer: dict[str, Any] | None = None,
+        size: Any = SIZE,
+        url: str = address,
+        name: str = "page",
+        **options: Any,
     ) -> Any:
-        page = open_page(f"{url}/page.html", size, **options)
+        page = open_page(f"{url}/{name}.html", size, **options)
         page.wait_for_function("window.loaded")
         view = {"center": tile_pyramid.lng_lat(*CENTRE), **view}
         page.evaluate("async ([view, layer]) => { await start(view, layer) }", [view, layer or {}])
@@ -109,6 +122,17 @@ def test_a_flat_map_is_the_exact_one(zoom: float, opened: Callable[..., Any]) ->
     truth = _exact(zoom)
     assert map_truth.edges(_pixels(page), truth) < EXACT
     assert {one["tile"]["z"] for one in page.evaluate("tiles.stats.shown")} == {1 if zoom < 2 else 3}
+
+
+@pytest.mark.parametrize("projection", ["mercator", "globe"])
+def test_the_oldest_maplibre_shows_what_the_newest_does(projection: str, opened: Callable[..., Any]) -> None:
+    pictures = []
+    for name in ("page", "floor"):
+        page = opened({"zoom": 2.7, "projection": projection}, name=name)
+        pictures.append(_pixels(page))
+    assert page.evaluate("maplibregl.getVersion()").startswith("5.7.")
+    assert np.abs(pictures[0] - pictures[1]).mean() < EXACT / 255
+    assert len(np.unique(pictures[1].reshape(-1, 3), axis=0)) > len(tile_pyramid.COLOURS)
 
 
 @pytest.mark.parametrize(
@@ -140,6 +164,43 @@ def test_the_caps_of_the_poles_have_no_rim(lat: float, zoom: float, opened: Call
     view = {"zoom": zoom, "center": [20, lat], "projection": "globe"}
     page = opened(view, {"source": "land/tiles.json"})
     assert 255 * np.abs(_pixels(page) - tile_pyramid.COLOURS[0]).max() < 3
+
+
+@pytest.mark.parametrize(("lat", "zoom"), [(80, 0.5), (-80, 0)])
+def test_a_cap_is_as_the_end_of_the_grid(lat: float, zoom: float, opened: Callable[..., Any]) -> None:
+    view = {"zoom": zoom, "center": [150, lat], "projection": "globe"}
+    page = opened(view, {"source": "band/tiles.json"})
+    picture = _pixels(page)
+    latitudes = (83.0, 84.0, *np.arange(86, 90, 0.25).tolist())
+    places = [(150 + turn, at if lat > 0 else -at) for turn in (-40, 0, 40) for at in latitudes]
+    asked = "some => some.map((at) => { const { x, y } = map.project(at); return [x, y, !!tiles.featureAt(at)]; })"
+    for (_, at), (x, y, is_found) in zip(places, page.evaluate(asked, places), strict=True):
+        assert (picture[int(y), int(x)] < 1).any() == is_found == (abs(at) < 85), (at, x, y)
+
+
+@pytest.mark.parametrize(
+    "colour",
+    [
+        "rgb(255 0 0 / 0.5)",
+        "color(display-p3 1 0 0)",
+        "color(srgb 1 0 0 / 0.5)",
+        "oklch(0.7 0.1 200)",
+        "oklch(0.7 0.1 200 / 0.9)",
+        "lab(50 20 20 / 0.5)",
+        "color-mix(in srgb, red, blue)",
+    ],
+)
+def test_colours_of_any_space_are_as_the_browser_has_them(colour: str, opened: Callable[..., Any]) -> None:
+    page = opened({"zoom": 2, "center": tile_pyramid.lng_lat(*MIDDLE)})
+    page.evaluate("colour => tiles.setPaint(() => colour)", colour)
+    said = page.evaluate(
+        """colour => { document.body.style.color = `color-mix(in srgb, ${colour}, ${colour})`;
+        return getComputedStyle(document.body).color.match(/[-\\d.]+(e-?\\d+)?/g).map(Number) }""",
+        colour,
+    )
+    red, green, blue, opacity = [*said, 1.0][:4]
+    seen = np.clip((red, green, blue), 0, 1) * opacity + 1 - opacity
+    assert _pixels(page)[128, 128] == pytest.approx(seen, abs=1.5 / 255)
 
 
 @pytest.mark.parametrize("count", [2_000, pytest.param(100_000, marks=pytest.mark.slow)])
@@ -384,6 +445,8 @@ def test_a_function_that_throws_stops_no_frame(opened: Callable[..., Any]) -> No
     [
         ("{ source: 'map.pmtiles' }", "the layer's id is undefined; give a text"),
         ("{ id: 'a', most: 0, source: 'map.pmtiles' }", "most is 0; give a number of 1 or more"),
+        ("{ id: 'a', opacity: '0.5', source: 'map.pmtiles' }", 'the opacity is "0.5"; give 0 to 1'),
+        ("{ id: 'a', opacity: null, source: 'map.pmtiles' }", "the opacity is null; give 0 to 1"),
         ("{ id: 'a' }", "the source is undefined; give the address of a .pmtiles or a TileJSON, or "),
     ],
 )
@@ -395,3 +458,33 @@ def test_options_that_cannot_be_are_refused(options: str, message: str, opened: 
     assert said.startswith(f"VextureError: {message}")
     asked = page.evaluate("() => { try { tiles.on('hovered', () => {}) } catch (error) { return error.message } }")
     assert asked == 'the event is "hovered"; give one of hover, click, error'
+    asked = page.evaluate("() => { try { tiles.on('click', 5) } catch (error) { return error.message } }")
+    assert asked == "the listener is 5; give a function"
+
+
+def test_a_hidden_layer_is_not_picked(opened: Callable[..., Any]) -> None:
+    page = opened({"zoom": 2, "center": tile_pyramid.lng_lat(*MIDDLE)})
+    name = tile_pyramid.name_at(*MIDDLE)
+    found = "tiles.featureAt(map.getCenter())?.id ?? null"
+    page.mouse.move(128, 128)
+    page.evaluate("map.setLayoutProperty('tiles', 'visibility', 'none'); settled()")
+    page.mouse.move(129, 128)
+    page.mouse.click(129, 128)
+    assert page.evaluate("events") == [["hover", name], ["hover", ""], ["click", ""]]
+    assert page.evaluate(found) is None
+    page.evaluate("map.setLayoutProperty('tiles', 'visibility', 'visible')")
+    assert page.evaluate(found) == name
+    page.evaluate("map.setLayerZoomRange('tiles', 4, 9)")
+    assert page.evaluate(found) is None
+
+
+def test_a_listener_that_throws_does_not_silence_the_others(opened: Callable[..., Any]) -> None:
+    page = opened({"zoom": 2, "center": tile_pyramid.lng_lat(*MIDDLE)}, errors=True)
+    page.evaluate(
+        """() => { window.heard = 0;
+        tiles.on('click', () => { throw new Error('mine') }).on('click', () => heard++);
+        map.on('click', () => heard++); }"""
+    )
+    page.mouse.click(128, 128)
+    assert page.evaluate("heard") == 2
+    assert page.errors == ["mine"]

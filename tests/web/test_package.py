@@ -22,7 +22,7 @@ MAP_LOAD_LIMIT = 38_600
 MAP_MARKS = ("vextureSheets(int", "convert the drawing with that colour", "plus-lighter")
 """Text of what only planar maps need: their shader, new colours for their elements, their gradients."""
 
-TILE_LOAD_LIMITS = {"vexture/maplibre": 45_200, "vexture/globe": 45_200}
+TILE_LOAD_LIMITS = {"vexture/maplibre": 45_800, "vexture/globe": 45_800}
 """And what a page with a pyramid of tiles loads, all that it loads later included, without MapLibre and three.js."""
 
 OTHERS = [f"--external:{name}" for name in ("three", "react", "@react-three/fiber", "maplibre-gl")]

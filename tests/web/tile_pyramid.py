@@ -103,9 +103,10 @@ def write(folder: Path) -> None:
         writer.finalize(header, METADATA)
 
 
-def write_land(folder: Path) -> None:
-    """Write a pyramid of one tile: land everywhere, cut off where the grid ends, as `vexture tiles` does it."""
-    low, high = MARGIN / (1 + 2 * MARGIN), (1 + MARGIN) / (1 + 2 * MARGIN)
+def write_land(folder: Path, latitude: float = 85.0511287798066) -> None:
+    """Write a pyramid of one tile: land to a latitude, or cut off where the grid ends, as `vexture tiles` does it."""
+    reach = float(np.arcsinh(np.tan(np.radians(latitude)))) / (2 * np.pi)
+    low, high = (0.5 - reach + MARGIN) / (1 + 2 * MARGIN), (0.5 + reach + MARGIN) / (1 + 2 * MARGIN)
     world = Drawing.polygon([(0.0, low), (1.0, low), (1.0, high), (0.0, high)])
     paths = tuple(replace(path, paint=Paint(COLOURS[0]), element="land") for path in world.paths)
     folder.mkdir()

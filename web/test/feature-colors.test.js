@@ -1,4 +1,5 @@
 import { beforeEach, describe, expect, test } from 'vitest';
+import { textureSource } from '../src/globe/texture-source.js';
 import { readPacked } from '../src/packed.js';
 import { parts } from '../src/tiles/css-color.js';
 import { FeatureColors } from '../src/tiles/feature-colors.js';
@@ -67,6 +68,7 @@ describe('what cannot be is refused in a line, and changes nothing', () => {
     [(colors) => colors.setPaint(undefined), `the paints are undefined; ${PAINTS}`],
     [(colors) => colors.setPaint(new Set(['a'])), `the paints are {}; ${PAINTS}`],
     [(colors) => colors.setPaint({ b: '#f00', a: '#ggg' }), `the paint of "a" is "#ggg"; ${A_COLOUR}`],
+    [(colors) => colors.setPaint({ a: { isColor: true, r: 1 } }), 'the paint of "a" is a Color of three.js; give its getStyle()'],
     [(colors) => colors.setPaint({ a: itself }), `the paint of "a" is [object Object]; ${A_COLOUR}`],
     [(colors) => colors.setPaint(new Map([[null, '#f00']])), 'an id of the paints is null; give a text or a number'],
     [(colors) => colors.setFilter('abc'), 'the filter is "abc"; give a list of ids, a function, or null'],
@@ -96,6 +98,10 @@ describe('what cannot be is refused in a line, and changes nothing', () => {
     [() => checkOptions({ source: 'a.pmtiles', budget: -1 }), 'budget is -1; give a number of 0 or more'],
     [() => checkOptions({ source: 'a.pmtiles', budget: 'much' }), 'budget is "much"; give a number of 0 or more'],
     [() => checkOptions({ source: 'a.pmtiles', most: 0 }), 'most is 0; give a number of 1 or more'],
+    [() => checkOptions({ source: { load: () => null, zooms: [0], margin: '0' } }), /^the source is \{"zooms":\[0\],"margin":"0"\}; give/],
+    [() => checkOptions({ source: 'a.pmtiles', onChange: 5 }), 'onChange is 5; give a function'],
+    [() => checkOptions({ source: 'a.pmtiles', onError: null }), 'onError is null; give a function'],
+    [() => textureSource(new ArrayBuffer(9), { margin: -3 }), 'the margin is -3; give 0 or more, below 1'],
     [() => checkOptions({ source: 'a.pmtiles', pause: NaN }), 'pause is NaN; give a number of 0 or more'],
   ])('%s', (act, message) => {
     expect(said(act)).toMatch(message);
@@ -106,6 +112,8 @@ describe('what cannot be is refused in a line, and changes nothing', () => {
     expect(placeOf({ lng: 4, lat: 52 })).toEqual([4, 52]);
     checkOptions({ source: 'a.pmtiles', budget: Infinity, most: 1, retries: undefined });
     checkOptions({ source: { load: async () => null, zooms: [0, 2], margin: 0 } });
+    checkOptions({ source: new URL('https://example.org/a.pmtiles') });
+    expect(textureSource(new ArrayBuffer(9), /** @type {any} */ (null)).margin).toBe(0);
   });
 });
 

@@ -1,4 +1,4 @@
-import { describe, expect, test } from 'vitest';
+import { afterEach, describe, expect, test } from 'vitest';
 import { cover } from '../src/globe/cover.js';
 import { TileClient } from '../src/tiles/client.js';
 import { choose } from '../src/tiles/choose.js';
@@ -8,6 +8,7 @@ import { RequestQueue } from '../src/tiles/queue.js';
 import { openTiles } from '../src/tiles/source.js';
 import { readPacked } from '../src/packed.js';
 import { fixture } from './files.js';
+import { serve } from './server.js';
 
 const ZOOMS = [0, 2, 4];
 const later = () => new Promise((resolve) => setTimeout(resolve, 5));
@@ -28,6 +29,13 @@ test('a place is the same in all tiles that hold it', () => {
   expect(v).toBeCloseTo(place.v - place.side * (y * 2 ** 20 - quad.y), 12);
   const [whole, rest] = fixed(u);
   expect(whole / 2 ** 32 + rest).toBe(u);
+});
+
+test('the poles are in tiles of the grid', () => {
+  for (const lat of [-90, 90]) {
+    const [, y] = mercator(5, lat);
+    expect(Math.floor(y * 2 ** 20)).toBe(lat > 0 ? 0 : 2 ** 20 - 1);
+  }
 });
 
 describe('a view', () => {
@@ -127,6 +135,80 @@ test('an empty tile is known, a failed one is asked for again', async () => {
   await expect.poll(() => client.get(quads[3])?.state).toBe('empty');
   client.dispose();
   expect([...client.tiles]).toEqual([]);
+});
+
+describe('a pyramid of a server', () => {
+  const METADATA = JSON.stringify({ tiles: ['{z}/{x}/{y}.ktx2'], vexture: { margin: 0, zooms: [0] } });
+  /** @type {import('./server.js').Server} */
+  let server;
+  afterEach(() => server.close());
+
+  /** A pyramid, and what it tells. */
+  const pyramidOf = async (answers, options = {}) => {
+    server = await serve(answers);
+    const told = [];
+    const onError = (error, tile) => told.push(`${tile ? keyOf(tile) : ''} ${error.message}`);
+    return { told, pyramid: new Pyramid({ source: new URL(`${server.url}/tiles.json`), pause: 0, onError, ...options }) };
+  };
+
+  const failing = (times, answer = METADATA) => (_, response) => (times-- > 0 ? response.writeHead(503).end() : response.end(answer));
+
+  test('asks again for its metadata', async () => {
+    const { pyramid, told } = await pyramidOf({ '/tiles.json': failing(2) });
+    expect((await pyramid.ready).source.zooms).toEqual([0]);
+    expect(told).toEqual([]);
+  });
+
+  test('opens at the next try where its metadata could not be had', async () => {
+    const { pyramid, told } = await pyramidOf({ '/tiles.json': failing(1) }, { retries: 0 });
+    await expect(pyramid.ready).rejects.toThrow('HTTP 503');
+    expect(told).toHaveLength(1);
+    pyramid.retry();
+    expect((await pyramid.ready).source.zooms).toEqual([0]);
+    expect([told.length, server.log.length]).toEqual([1, 2]);
+  });
+
+  test('asks once for what is no pyramid', async () => {
+    const { pyramid } = await pyramidOf({ '/tiles.json': '<!doctype html>' });
+    await expect(pyramid.ready).rejects.toThrow('is no TileJSON');
+    expect(server.log).toHaveLength(1);
+  });
+
+  test.each(['tiles.json', 'map.pmtiles'])('is silent when it is not wanted any more: %s', async (name) => {
+    server = await serve({ [`/${name}`]: () => {} });
+    const told = [];
+    const pyramid = new Pyramid({ source: `${server.url}/${name}`, pause: 0, onError: (error) => told.push(error) });
+    await later();
+    pyramid.dispose();
+    await server.close();
+    expect(await pyramid.ready).toBe(null);
+    pyramid.retry();
+    expect([told, pyramid.update(quads, () => {}), pyramid.client]).toEqual([[], [], null]);
+  });
+
+  test('loads nothing after its end', async () => {
+    const { pyramid } = await pyramidOf({ '/tiles.json': METADATA });
+    const client = await pyramid.ready;
+    pyramid.dispose();
+    pyramid.update(quads, () => {});
+    expect(client.running).toBe(0);
+  });
+
+  test('has nothing where its server sends a page instead', async () => {
+    const { pyramid, told } = await pyramidOf({ '/tiles.json': METADATA, '/0/0/0.ktx2': '<!doctype html><title>App</title>' });
+    const client = await pyramid.ready;
+    pyramid.update(quads, () => {});
+    await expect.poll(() => client.get({ z: 0, x: 0, y: 0 })?.state).toBe('empty');
+    expect([told, server.log.length]).toEqual([[], 2]);
+  });
+
+  test('says of a damaged tile what to do', async () => {
+    const { pyramid, told } = await pyramidOf({ '/tiles.json': METADATA, '/0/0/0.ktx2': new Uint8Array(3) }, { retries: 0 });
+    await pyramid.ready;
+    pyramid.update(quads, () => {});
+    await expect.poll(() => told).toHaveLength(1);
+    expect(told[0]).toMatch(/^0\/0\/0 .* is a KTX 2.0 file; copy all tiles again, or make them again$/);
+  });
 });
 
 test('a camera above a globe sees few quads, the deepest below it', () => {

@@ -8,7 +8,7 @@ import numpy as np
 
 from vexture.cartography.coverage import covering, ranks
 from vexture.cartography.paths import area_paths, fitted
-from vexture.cartography.place import MERCATOR
+from vexture.cartography.place import MERCATOR, unit_of
 from vexture.cartography.prepare import FILL, INK, MapLayer, Prepared, in_memory, prepared
 from vexture.content import about
 from vexture.deadline import DEFAULT_SECONDS, within
@@ -126,7 +126,8 @@ def _drawing(ready: Prepared, snap: float | None) -> Drawing:
         with about(one.layer.name):
             rank = ranks(one.features, one.layer.order)
         ordered = one.layer.order is not None
-        rings = covering(one.features.rings, rank, fit.scale, snap, ready.notes, is_ordered=ordered)
+        known: dict[str, Any] = {"names": one.names, "unit": unit_of(ready.crs), "is_ordered": ordered}
+        rings = covering(one.features.rings, rank, fit.scale, snap, ready.notes, **known)
         paths += area_paths(rings, one.names, one.colours(FILL), rank, fit)
         border = one.outline
         paths += area_paths(border.rings, np.array([border.name], object), border.rgba, np.zeros(1, np.int64), fit)

@@ -19,7 +19,15 @@ NOISE: Final = 1e-9
 
 
 def covering(
-    rings: Rings, rank: NDArray[np.int64], size: float, snap: float | None, notes: Notes, *, is_ordered: bool = False
+    rings: Rings,
+    rank: NDArray[np.int64],
+    size: float,
+    snap: float | None,
+    notes: Notes,
+    *,
+    names: NDArray[Any],
+    unit: str,
+    is_ordered: bool = False,
 ) -> Rings:
     """Polygons with shared borders; gaps no wider than `snap` are closed, overlaps go to the feature of higher rank.
 
@@ -34,7 +42,11 @@ def covering(
     snap : float or None
         0 leaves all as it is.
     notes : Notes
-        Gets what was snapped and closed, and how many polygons overlap.
+        Gets what was snapped and closed, and which polygons overlap. What the default of `snap` moves is not told.
+    names : (f,) array
+        The names of the features.
+    unit : str
+        Of the coordinates, for the notes.
     is_ordered : bool
         Whether the order was asked for: then it is no news that polygons lie below others.
     """
@@ -43,10 +55,10 @@ def covering(
         return rings  # one feature has no neighbours
     if 0.0 < width <= MOST_SNAP * size and _is_clean(rings, width):
         return rings
-    rings = shared(rings, size, snap, notes)
+    rings = shared(rings, size, snap, notes, unit=unit, told=DEFAULT_SNAP * (1.0 + 1e-9))
     if snap == 0.0 or len(rings.outer) < 2:
         return rings
-    return _cleaned(rings, rank, size, width, notes, is_ordered)
+    return _cleaned(rings, rank, size, width, notes, names, is_ordered)
 
 
 def _is_clean(rings: Rings, width: float) -> bool:
@@ -62,7 +74,15 @@ def _is_clean(rings: Rings, width: float) -> bool:
         return False
 
 
-def _cleaned(rings: Rings, rank: NDArray[np.int64], size: float, width: float, notes: Notes, is_ordered: bool) -> Rings:
+def _cleaned(
+    rings: Rings,
+    rank: NDArray[np.int64],
+    size: float,
+    width: float,
+    notes: Notes,
+    names: NDArray[Any],
+    is_ordered: bool,
+) -> Rings:
     """Polygons without gaps, and without overlaps."""
     import shapely
 
@@ -81,23 +101,20 @@ def _cleaned(rings: Rings, rank: NDArray[np.int64], size: float, width: float, n
     except (shapely.errors.GEOSException, ValueError):
         notes.remark("gaps between its polygons are as they were: they could not be closed")
         return rings
-    _say(shapes, clean, size, notes, is_ordered)
+    change = shapely.area(clean) - shapely.area(shapes)
+    _say(change / size**2, names[rings.feature], notes, is_ordered)
     parts, owner = shapely.get_parts(clean, return_index=True)
     keep = (shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)
     origin = owner[keep]
     return rings_of(parts[keep], lambda index: rings.place(int(origin[index])), rings.feature[origin])
 
 
-def _say(before: NDArray[Any], after: NDArray[Any], size: float, notes: Notes, is_ordered: bool) -> None:
-    """Note how many polygons lost or won an area."""
-    import shapely
-
-    change = shapely.area(after) - shapely.area(before)
-    least = NOISE * size * size
-    lost, won = int((change < -least).sum()), int((change > least).sum())
+def _say(change: NDArray[np.float64], names: NDArray[Any], notes: Notes, is_ordered: bool) -> None:
+    """Note which polygons lost or won an area, in parts of the square around the map."""
     if not is_ordered:
-        notes.remark("a polygon lies below others that overlap it: `order` says which is above", lost)
-    notes.remark("a polygon has grown into narrow gaps beside it", won)
+        below = "a polygon lies below others that overlap it: `order` says which is above"
+        notes.features("remark", below, names[change < -NOISE])
+    notes.features("remark", "a polygon has grown into narrow gaps beside it", names[change > NOISE])
 
 
 def ranks(features: Features, order: str | None) -> NDArray[np.int64]:

@@ -1,5 +1,6 @@
 """The edge of the world on a map: features on one side of it, and borders that are none, as a map is cut there."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import pi
 from typing import Final
@@ -17,22 +18,25 @@ __all__ = ["along_edge", "together"]
 NEAR: Final = 1e-4
 """Degrees: what is nearer to the edge lies on it. Maps end a little before the meridian where they are torn."""
 
+AT_RIM: Final = 0.02
+"""Degrees: what is nearer to the rim of one side of the globe lies on it."""
+
 ROUNDED: Final = 1e-9
 """Parts of the world by which rounding moves its edge."""
 
 
 def together(layers: list[Features], crs: str) -> list[Features]:
-    """Features of a map on one side of the antimeridian, if they all lie near it."""
+    """Features of a map on one side of the antimeridian, if they all lie near it: on that where most corners are."""
     turn = _turn(crs)
     if turn is None:
         return layers
     reach = np.concatenate([_reach(features) for features in layers])
-    if not len(reach) or np.ptp(reach) <= turn / 2:
-        return layers
     shift = _shift(reach, turn)
-    if np.ptp(reach + shift[:, None]) >= min(turn / 2, np.ptp(reach)):
-        return layers
-    return [_shifted(features, turn) for features in layers]
+    if len(reach) and turn / 2 < np.ptp(reach) > np.ptp(reach + shift[:, None]) < turn / 2:
+        layers = [_shifted(features, lambda own: _shift(own, turn)) for features in layers]
+    x = np.concatenate([part[:, 0] for f in layers for part in (f.rings.points, f.lines.points, f.points.points)])
+    away = turn * np.rint(np.median(x) / turn) if len(x) else 0.0
+    return [_shifted(features, lambda own: np.full(len(own), -away)) for features in layers] if away else layers
 
 
 def _turn(crs: str) -> float | None:
@@ -59,14 +63,15 @@ def _of_lines(lines: Lines) -> NDArray[np.float64]:
     return np.stack([np.minimum.reduceat(x, starts), np.maximum.reduceat(x, starts)], axis=1)
 
 
-def _shifted(features: Features, turn: float) -> Features:
+def _shifted(features: Features, shift: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Features:
+    """Features moved along x, each part as `shift` tells of its west and east."""
     rings, lines, points = features.rings, features.lines, features.points
     if len(rings.ends):
-        rings = rings.shifted(_shift(rings.boxes[:, :, 0], turn)[rings.polygon])
+        rings = rings.shifted(shift(rings.boxes[:, :, 0])[rings.polygon])
     if len(lines.ends):
-        own = np.repeat(_shift(_of_lines(lines), turn), np.diff(lines.ends, prepend=0))
+        own = np.repeat(shift(_of_lines(lines)), np.diff(lines.ends, prepend=0))
         lines = Lines(lines.points + np.stack([own, np.zeros(len(own))], axis=1), lines.ends, lines.feature)
-    own = _shift(points.points[:, :1], turn)
+    own = shift(points.points[:, :1])
     points = Points(points.points + np.stack([own, np.zeros(len(own))], axis=1), points.feature)
     return replace(features, rings=rings, lines=lines, points=points)
 
@@ -86,7 +91,12 @@ def along_edge(sides: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
         high, widest = POLE, np.inf  # at the edge either side may have been found
         torn = np.abs(longitude) >= (TURN / 2 - NEAR if domain.pole == 0.0 else np.inf)
         cut_at = POLE if domain.pole == 0.0 else 0.0
+        for west, south, east, north in domain.slits:
+            beside = np.abs(within_turn(degrees - ((west + east) / 2, 0.0))[:, 0]) <= NEAR
+            torn |= beside & (south - NEAR <= degrees[:, 1]) & (degrees[:, 1] <= north + NEAR)
         on = np.stack([torn, np.abs(latitude - cut_at) <= NEAR], axis=1)
+        if domain.cap is not None:
+            on = np.stack([domain.cap.distance(degrees) >= domain.cap.radius - AT_RIM, np.zeros_like(torn)], axis=1)
     else:
         return np.zeros(len(sides), np.bool_)
     both: NDArray[np.bool_] = np.all(on.reshape(-1, 2, 2), axis=1)

@@ -1,14 +1,17 @@
 """Lines on their way into a map: without jumps of longitude, cut to a box, and curved where the map bends them."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vexture.geo.extent import Bounds
 from vexture.geo.features import Lines
 from vexture.geo.rings import Rings
 
-__all__ = ["continuous", "lines_in_box", "there_and_back", "thicker", "way_there"]
+__all__ = ["continuous", "lines_changed", "lines_in_box", "there_and_back", "thicker", "way_there"]
 
 
 def continuous(lines: Lines, turn: float) -> Lines:
@@ -50,6 +53,18 @@ def lines_in_box(lines: Lines, box: Bounds, turn: float | None) -> Lines:
     parts = np.concatenate(found)
     points, owner = shapely.get_coordinates(parts, return_index=True)
     return Lines(points, np.searchsorted(owner, np.arange(len(parts)), side="right"), np.concatenate(feature))
+
+
+def lines_changed(lines: Lines, change: Callable[[NDArray[Any]], NDArray[Any]]) -> Lines:
+    """What a change of shapely's lines leaves of each."""
+    import shapely
+
+    owner = np.repeat(np.arange(len(lines.ends)), np.diff(lines.ends, prepend=0))
+    parts, of = shapely.get_parts(change(shapely.linestrings(lines.points, indices=owner)), return_index=True)
+    keep = (shapely.get_type_id(parts) == shapely.GeometryType.LINESTRING) & ~shapely.is_empty(parts)
+    parts, of = parts[keep], of[keep]
+    points, owner = shapely.get_coordinates(parts, return_index=True)
+    return Lines(points, np.searchsorted(owner, np.arange(len(parts)), side="right"), lines.feature[of])
 
 
 def thicker(rings: Rings, longest: float) -> Rings:

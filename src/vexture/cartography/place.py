@@ -7,19 +7,23 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.cartography.caps import Cap
 from vexture.cartography.domain import (
     EVER,
     TURN,
     WORLD,
     Domain,
+    cut_open,
     domain_of,
     in_box,
     is_far,
     is_strained,
     is_wide,
+    torn_sides,
     within_turn,
+    without,
 )
-from vexture.cartography.lines import continuous, lines_in_box, there_and_back, thicker, way_there
+from vexture.cartography.lines import continuous, lines_changed, lines_in_box, there_and_back, thicker, way_there
 from vexture.errors import SourceError
 from vexture.geo.crs import period, refuse_metres, same_system, shown_bounds, shown_system, system, transformed
 from vexture.geo.extent import Bounds
@@ -28,7 +32,7 @@ from vexture.geo.longitudes import jumping, unwrapped
 from vexture.geo.rings import Rings, moved, refuse_far, repaired
 from vexture.notes import Notes
 
-__all__ = ["MERCATOR", "RADIUS", "placed", "units_per_metre"]
+__all__ = ["MERCATOR", "RADIUS", "placed", "unit_of", "units_per_metre"]
 
 MERCATOR: Final = "EPSG:3857"
 RADIUS: Final = 6378137.0
@@ -91,6 +95,8 @@ def _projected(features: Features, crs: str, notes: Notes) -> Features:
         features = features if domain is None else _within(features, domain, notes)
         lines = way_there(thicker(there_and_back(features.lines), LONGEST))
         features = replace(features, rings=thicker(features.rings, LONGEST), lines=lines)
+        if is_wide(crs):
+            _say_torn(features, crs, notes)
     move, rings = _mover(features.crs, crs), features.rings
     is_around = domain is not None and domain.pole != 0.0 and period(features.crs) == TURN
     if is_around:  # both sides of the antimeridian are one, bit for bit
@@ -120,16 +126,48 @@ def _in_degrees(features: Features) -> Features:
 
 def _within(features: Features, domain: Domain, notes: Notes) -> Features:
     """What of features, in longitude and latitude, a map can show as a whole."""
+    if domain.cap is not None:
+        return _within_cap(features, domain.cap, notes)
     rings = in_box(features.rings, domain.box, domain.turn)
     lines, points = lines_in_box(features.lines, domain.box, domain.turn), features.points
     if domain.pole:
-        there = points.points[:, 1] * domain.pole >= 0.0
-        for _ in range(int((~there).sum())):
-            notes.left_out(BEYOND_POINT)
-        points = Points(points.points[there], points.feature[there])
+        points = _points_where(points, points.points[:, 1] * domain.pole >= 0.0, notes)
         if rings is not features.rings or lines is not features.lines:
             notes.remark("the map shows the hemisphere around its pole: it is cut off at the equator")
+    if domain.slits and len(rings.ends):
+        rings = cut_open(rings, domain.slits)
+    if domain.slits and len(lines.ends):
+        lines = lines_changed(lines, without(domain.slits))
     return replace(features, rings=rings, lines=lines, points=points)
+
+
+def _within_cap(features: Features, cap: Cap, notes: Notes) -> Features:
+    """What of features a map shows that looks at the globe from one side."""
+    rings, lines = cap.of_rings(features.rings), cap.of_lines(features.lines)
+    points = _points_where(features.points, cap.distance(features.points.points) <= cap.radius, notes)
+    if rings is not features.rings or lines is not features.lines:
+        middle = f"latitude {cap.latitude:.4g}, longitude {cap.longitude:.4g}"
+        notes.remark(f"the map shows one side of the globe: it is cut off {cap.radius:.3g} degrees from {middle}")
+    return replace(features, rings=rings, lines=lines, points=points)
+
+
+def _points_where(points: Points, there: NDArray[np.bool_], notes: Notes) -> Points:
+    """The points that a map shows."""
+    for _ in range(int((~there).sum())):
+        notes.left_out(BEYOND_POINT)
+    return Points(points.points[there], points.feature[there])
+
+
+def _say_torn(features: Features, crs: str, notes: Notes) -> None:
+    """Note which features, in longitude and latitude, lie across a tear that is at no meridian."""
+    parts = [features.rings] if len(features.rings.ends) else []
+    parts += [there_and_back(features.lines)] if len(features.lines.ends) else []
+    for rings in parts:
+        assert rings.feature is not None
+        ring = np.searchsorted(rings.ends, np.flatnonzero(torn_sides(rings, crs)), side="right")
+        wrong = np.unique(rings.feature[rings.polygon[ring]])
+        said = f"a feature lies where {_named(crs)} is torn, and is smeared over the map; choose another `crs`"
+        notes.features("remark", said, features.ids[wrong])
 
 
 def _on_mercator(features: Features, notes: Notes) -> Features:
@@ -250,6 +288,18 @@ def _marks(features: Features, move: Move, notes: Notes, *, is_bent: bool = True
         for _ in range(count):
             notes.left_out(what)
     return moved_lines, Points(places[there], spots.feature[there])
+
+
+def unit_of(crs: str) -> str:
+    """Unit of a system's coordinates, for a message.
+
+    Examples
+    --------
+    >>> unit_of("EPSG:3857"), unit_of("EPSG:4326")
+    ('m', 'degree')
+    """
+    name = str(system(crs).axis_info[0].unit_name)
+    return "m" if name == "metre" else name
 
 
 def units_per_metre(points: NDArray[np.float64], crs: str) -> NDArray[np.float64]:

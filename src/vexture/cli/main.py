@@ -10,7 +10,8 @@ from typing import Any, Final
 
 import click
 
-from vexture.cli.messages import INTERRUPTED, say
+from vexture.cli.interrupt import INTERRUPTED, at_once
+from vexture.cli.messages import say
 
 __all__ = ["COMMANDS", "main"]
 
@@ -47,7 +48,8 @@ class _Commands(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run a command; Ctrl-C ends it in a line, also while modules are imported and kernels compiled."""
-        ours = current_thread() is main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        before = signal.getsignal(signal.SIGINT)
+        ours = current_thread() is main_thread() and before in (signal.default_int_handler, at_once)
         if ours:
             signal.signal(signal.SIGINT, _on_ctrl_c)
         try:
@@ -57,7 +59,7 @@ class _Commands(click.Group):
             sys.exit(INTERRUPTED)
         finally:
             if ours:
-                signal.signal(signal.SIGINT, signal.default_int_handler)
+                signal.signal(signal.SIGINT, before)
 
 
 def _on_ctrl_c(number: int, frame: FrameType | None) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.cli.messages import one_line, say_notes
+from vexture.cli.messages import note_facts, one_line, say_notes
 from vexture.cli.options import PATH, colour_options, columns_of, refuse_idle_colours, scale_of
 from vexture.errors import ParameterError, counted
 
@@ -98,7 +98,7 @@ def map(
                 "features": len(done.table),
             }
             facts |= {"files": [str(place) for place in files], "legend": list(done.legends)}
-            click.echo(json.dumps(facts | {"notes": [note.facts() for note in notes]}, indent=2))
+            click.echo(json.dumps(facts | {"notes": note_facts(notes)}, indent=2))
             return
         say_notes(output.name, notes)
         size = sum(len(content) for content in files.values())

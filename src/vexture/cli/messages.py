@@ -5,17 +5,14 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Final
+from typing import Any
 
 import click
 
 from vexture.errors import EXPECTED, printable, reason_of
 from vexture.notes import Note, line_of
 
-__all__ = ["INTERRUPTED", "as_options", "one_line", "say", "say_notes"]
-
-INTERRUPTED: Final = 130
-"""Exit code after Ctrl-C: 128 and the signal's number, as shells have it."""
+__all__ = ["as_options", "note_facts", "one_line", "say", "say_notes"]
 
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter in a message of the library."""
@@ -32,6 +29,11 @@ def say(message: str) -> None:
 def as_options(message: str) -> str:
     """Return a message of the library with options in place of the parameters that it names in backticks."""
     return PARAMETER.sub(lambda found: "--" + NAMED_OTHERWISE.get(found[1], found[1]).replace("_", "-"), message)
+
+
+def note_facts(notes: Sequence[Note]) -> list[dict[str, Any]]:
+    """Notes ready for JSON, with the options of the command line."""
+    return [note.facts() | {"message": as_options(note.message)} for note in notes]
 
 
 def say_notes(source: object, notes: Sequence[Note]) -> None:

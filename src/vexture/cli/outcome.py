@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vexture.cli.messages import as_options, say
+from vexture.cli.messages import as_options, note_facts, say
 from vexture.cli.options import STANDARD
 from vexture.encodings import DEFAULT
 from vexture.errors import VextureError, counted
@@ -60,7 +60,7 @@ def shape_facts(done: "Conversion[Any]") -> dict[str, Any]:
         "rounding": done.rounding,
         "unresolved": sum(shape["unresolved"] for shape in shapes),
         "shapes": shapes,
-        "notes": [note.facts() for note in done.notes],
+        "notes": note_facts(done.notes),
     }
 
 

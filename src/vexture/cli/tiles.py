@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vexture.cli.messages import INTERRUPTED, one_line, say, say_notes
+from vexture.cli.interrupt import INTERRUPTED
+from vexture.cli.messages import one_line, say, say_notes
 from vexture.cli.options import PATH, colour_options, columns_of, refuse_idle_colours, scale_of
 from vexture.errors import counted
 
@@ -35,10 +36,12 @@ Examples:
 @click.option("--layer", metavar="NAME", help="Layer of polygons, if there are several.")
 @click.option("--where", metavar="CONDITION", help="Only features for which this holds, such as \"kind = 'forest'\".")
 @click.option("--id", metavar="COLUMN", help="Column with the ids of features.  [default: their numbers]")
-@click.option("--crs", metavar="EPSG:N", help="Reference system of the source, if its file does not say it.")
+@click.option("--source-crs", "source_crs", metavar="EPSG:N", help="Reference system of a source that does not say it.")
+@click.option("--crs", "source_crs", metavar="EPSG:N", hidden=True)  # its name before
 @click.option("--columns", metavar="A,B,...", help="Attributes to keep in the table.  [default: all]")
 @click.option("--color", "--colour", metavar="COLUMN", help="Attribute that colours show.")
 @colour_options
+@click.option("--order", metavar="COLUMN", help="Which polygons are above.  [default: the smaller ones]")
 @click.option("--fill", metavar="COLOR", help="One colour of all.  [default: grey]")
 @click.option("--name", metavar="TEXT", default="", help="Name of the map.  [default: the output's name]")
 @click.option("--attribution", metavar="TEXT", default="", help="Where the data are from.")
@@ -74,12 +77,14 @@ def _asked(options: dict[str, Any]) -> "TileOptions":
     from vexture.tiles.attributes import Look
     from vexture.tiles.options import TileOptions
 
-    own = ("color", "scale", "classes", "palette", "no_data", "fill", "columns", "table")
+    own = ("color", "scale", "classes", "palette", "no_data", "fill", "columns", "order", "table")
     given = {name: options.pop(name) for name in own}
     if given["color"] is None:
         refuse_idle_colours(given)
-    look = Look(scale_of(given["color"], given), given["fill"], columns_of(given["columns"]), given["table"])
-    processes = options.pop("processes") or os.cpu_count() or 1
+    scale, columns = scale_of(given["color"], given), columns_of(given["columns"])
+    look = Look(scale, given["fill"], columns, given["order"], given["table"])
+    processes = options.pop("processes")
+    processes = os.cpu_count() or 1 if processes is None else processes
     return TileOptions(look=look, processes=processes, **options)
 
 

@@ -17,6 +17,7 @@ from vexture.geo.longitudes import closed_over_poles, jumping
 from vexture.geo.rings import Rings, refuse_far, repaired, rings_of
 from vexture.geo.vectors import parsed_wkb, parts_of
 from vexture.notes import Notes
+from vexture.tolerance import UNSEEN
 
 if TYPE_CHECKING:
     import pyarrow
@@ -171,20 +172,22 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     if chunk.parsed:
         given = ~(shapely.is_missing(chunk.shapes) | shapely.is_empty(chunk.shapes))
         whole, owner = chunk.shapes[given], np.flatnonzero(given)
-        for _ in range(int((~given).sum())):
-            notes.left_out(UNLOCATED)
     else:
-        whole, owner = parsed_wkb(chunk.shapes, notes)
+        whole, owner = parsed_wkb(chunk.shapes, Notes())
+    unlocated = np.setdiff1d(np.arange(len(chunk.shapes)), owner)
     if choice.bounds is not None and not chunk.bounded:
         west, south, east, north = choice.bounds
         boxes = shapely.bounds(whole)
         near = (boxes[:, 0] <= east) & (boxes[:, 2] >= west) & (boxes[:, 1] <= north) & (boxes[:, 3] >= south)
         whole, owner = whole[near], owner[near]
         kept, owner = np.unique(owner, return_inverse=True)
-        chunk = chunk.taken(kept)
+        for _ in range(len(unlocated)):
+            notes.left_out(UNLOCATED)
+        chunk, unlocated = chunk.taken(kept), unlocated[:0]
     parts, of = parts_of(whole)
     kinds, feature = shapely.get_type_id(parts), owner[of].astype(np.intp)
     ids = _ids(chunk, choice, seen, notes)
+    notes.features("left out", UNLOCATED, ids[unlocated])
     short = _short(parts, notes)
     parts, kinds, feature = parts[~short], kinds[~short], feature[~short]
     owners = feature[kinds == 3]
@@ -193,7 +196,7 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     lines = (kinds == shapely.GeometryType.LINESTRING) | (kinds == shapely.GeometryType.LINEARRING)
     spots = (kinds == shapely.GeometryType.POINT) & ~shapely.is_empty(parts)
     system = _system(chunk, rings, crs, notes)
-    rings = _valid(rings, period(system), notes)
+    rings = _valid(rings, period(system), ids, notes)
     points = Points(shapely.get_coordinates(parts[spots]), feature[spots])
     numbered = chunk.id_column is None and chunk.labels is None
     return Features(rings, ids, _table(chunk, ids), system, _lines(parts[lines], feature[lines]), points, numbered)
@@ -216,8 +219,8 @@ def _system(chunk: Chunk, rings: Rings, given: str | None, notes: Notes) -> str:
     return system
 
 
-def _valid(rings: Rings, turn: float | None, notes: Notes) -> Rings:
-    """Valid polygons; what was repaired is counted. Those that jump over the antimeridian become so by unwrapping."""
+def _valid(rings: Rings, turn: float | None, ids: NDArray[Any], notes: Notes) -> Rings:
+    """Valid polygons; repairs that can be seen are told. Those that jump over the antimeridian are unwrapped later."""
     import shapely
 
     if not len(rings.ends):
@@ -228,11 +231,23 @@ def _valid(rings: Rings, turn: float | None, notes: Notes) -> Rings:
         notes.remark("a polygon around a pole is closed along the antimeridian", polar)
         later = jumping(rings, turn)
     here = rings.taken(np.flatnonzero(~later)) if later.any() else rings
-    wrong = int((~shapely.is_valid(here.shapes)).sum())
-    notes.remark("a polygon that crossed or overlapped itself is repaired", wrong)
-    if wrong:
+    wrong = ~shapely.is_valid(here.shapes)
+    if wrong.any():
+        assert here.feature is not None
+        owner, before = here.feature[wrong], _areas(here, len(ids))
         here = repaired(here, notes)
+        change = np.abs(_areas(here, len(ids)) - before)[owner]
+        seen = change > (UNSEEN / 10 * np.ptp(rings.points, axis=0).max()) ** 2
+        notes.features("remark", "a polygon that crossed or overlapped itself is repaired", ids[owner[seen]])
     return here.joined(rings.taken(np.flatnonzero(later))) if later.any() else here
+
+
+def _areas(rings: Rings, count: int) -> NDArray[np.float64]:
+    """Area of the polygons of each feature, (count,)."""
+    import shapely
+
+    assert rings.feature is not None
+    return np.bincount(rings.feature, shapely.area(rings.shapes), minlength=count).astype(np.float64)
 
 
 def _short(parts: NDArray[Any], notes: Notes) -> NDArray[np.bool_]:
@@ -261,20 +276,22 @@ def _ids(chunk: Chunk, choice: Choice, seen: dict[str, int], notes: Notes) -> ND
     if chunk.id_column is None:
         return np.array([str(number) for number in chunk.numbers.tolist()], object)
     values = texts_of(chunk.table.column(chunk.id_column).to_pylist())
-    texts, again, none = [], 0, 0
+    texts, again, none = list[str](), list[str](), list[str]()
     for value, number in zip(values, chunk.numbers.tolist(), strict=True):
         name = f"#{number}" if value is None or value == "" else value
-        none += name != value
-        before = seen.get(name, 0)
+        if name != value:
+            none.append(name)
+        is_again = bool(before := seen.get(name, 0))
         seen[name] = before + 1
-        again += before > 0
         while before and (name := f"{value}#{before + 1}") in seen:
             before += 1
         if before:
             seen[name] = 1
+        if is_again:
+            again.append(name)
         texts.append(name)
-    notes.remark(f"a feature has no {chunk.id_column!r}: its id is # and its number", none)
-    notes.remark("a feature has an id that another had before: its own ends in #2, #3, ...", again)
+    notes.features("remark", f"a feature has no {chunk.id_column!r}: its id is # and its number", none)
+    notes.features("remark", "a feature has an id that another had before: its own ends in #2, #3, ...", again)
     return np.array(texts, object)
 
 

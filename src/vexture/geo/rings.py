@@ -315,9 +315,9 @@ def oriented(rings: Rings) -> Rings:
     return replace(rings, points=rings.points[index])
 
 
-def shared(rings: Rings, size: float, snap: float | None, notes: Notes) -> Rings:
+def shared(rings: Rings, size: float, snap: float | None, notes: Notes, **told: Any) -> Rings:
     """Polygons whose borders are identical where they differ by `snap`; see `snapped`."""
-    points, ends = snapped(rings.points, rings.ends, size, snap, notes)
+    points, ends = snapped(rings.points, rings.ends, size, snap, notes, **told)
     full = np.diff(ends, prepend=0) > 0
     whole = full[rings.outer][rings.polygon]  # a polygon without an outer ring has no holes either
     if whole.all() and full.all():

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.deadline import check_time
-from vexture.errors import ParameterError
+from vexture.errors import ParameterError, counted
 from vexture.notes import Notes
 
 __all__ = ["DEFAULT_SNAP", "MOST_SNAP", "snapped"]
@@ -66,7 +66,9 @@ class _TooDenseError(Exception):
     """More corners lie within the distance than snapping is meant for."""
 
 
-def snapped(points: Points, ends: Numbers, size: float, snap: float | None, notes: Notes) -> tuple[Points, Numbers]:
+def snapped(
+    points: Points, ends: Numbers, size: float, snap: float | None, notes: Notes, *, unit: str = "", told: float = NOISE
+) -> tuple[Points, Numbers]:
     """Rings whose corners and sides within a distance of those of other rings are identical with them.
 
     Parameters
@@ -80,7 +82,9 @@ def snapped(points: Points, ends: Numbers, size: float, snap: float | None, note
     snap : float or None
         The distance, in parts of that side: 0 does nothing, None is the default, 3e-6.
     notes : Notes
-        Gets a remark if something moves by more than rounding does.
+        Gets a remark if something moves by more than `told`, in parts of that side; by default, than rounding does.
+    unit : str
+        Of the points, for the remark.
 
     Returns
     -------
@@ -112,9 +116,10 @@ def snapped(points: Points, ends: Numbers, size: float, snap: float | None, note
         return points, ends
     if farthest <= NOISE * size:
         return points, ends
-    notes.remark(
-        f"{moved} corners snapped to borders beside them, by up to {farthest / size:.1g} of the drawing's size"
-    )
+    if farthest > told * size:
+        part = f"{farthest / size:.1g} of the drawing's size"
+        by = f"{farthest:.2g} {unit} ({part})" if unit else part
+        notes.remark(f"{counted(moved, 'corner')} snapped to borders beside them, by up to {by}")
     return corners.points[corners.ids], np.searchsorted(corners.ring, np.arange(len(ends)), side="right")
 
 

@@ -42,8 +42,30 @@ def parted(shape: Any) -> list[Any]:
         else:
             halves = [(west, south, east, y), (west, y, east, north)]
         for half in halves:
-            waiting.extend(shapely.get_parts(shapely.clip_by_rect(part, *half)))
+            waiting.extend(_clipped(part, half))
     return done
+
+
+def _clipped(shape: Any, box: tuple[float, float, float, float]) -> NDArray[Any]:
+    """Polygons of a valid one in a box; holes within it are not cut, but given to the part in which they lie.
+
+    GEOS looks for that part at each corner of each, which takes ten times as long.
+    """
+    import shapely
+
+    rings = shapely.get_rings(shape)
+    bounds = shapely.bounds(rings[1:]).reshape(-1, 4)
+    inside = (bounds[:, :2] > box[:2]).all(axis=1) & (bounds[:, 2:] < box[2:]).all(axis=1)
+    apart = (bounds[:, :2] >= box[2:]).any(axis=1) | (bounds[:, 2:] <= box[:2]).any(axis=1)
+    holes = rings[1:][inside]
+    shell = shapely.polygons(rings[0], rings[1:][~inside & ~apart])
+    parts = shapely.get_parts(shapely.clip_by_rect(shell, *box))
+    points = shapely.STRtree(shapely.point_on_surface(shapely.polygons(holes)))
+    part, hole = points.query(parts, predicate="contains")
+    for place in np.unique(part).tolist():
+        own = [*shapely.get_rings(parts[place])[1:], *holes[hole[part == place]]]
+        parts[place] = shapely.polygons(shapely.get_exterior_ring(parts[place]), own)
+    return np.asarray(parts)
 
 
 def made_valid(shapes: NDArray[Any]) -> NDArray[Any]:

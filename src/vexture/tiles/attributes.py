@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vexture.cartography.colours import Scale, colours_of, rgba_of
 from vexture.errors import ParameterError
+from vexture.geo.features import ID
 from vexture.geo.tables import TABLES, cast, with_legends, write_batches
 from vexture.notes import Notes
 from vexture.tiles.texture import GREY, packed
@@ -39,6 +40,8 @@ class Look:
         One CSS colour for all; grey by default.
     columns : tuple of str or None
         Attributes in the table; all by default.
+    order : str or None
+        Column whose greater values lie above; by default smaller features lie above larger ones.
     table : str
         Kind of the table's file: ``parquet``, ``arrow`` or ``none``.
     """
@@ -46,6 +49,7 @@ class Look:
     color: Scale | None = None
     fill: str | None = None
     columns: tuple[str, ...] | None = None
+    order: str | None = None
     table: str = TABLES[-1]
 
     def check(self) -> None:
@@ -67,7 +71,8 @@ class Look:
     @property
     def read(self) -> list[str] | None:
         """Columns that are read; None is all."""
-        own = [] if self.color is None else [self.color.column]
+        wanted = (None if self.color is None else self.color.column, self.order)
+        own = list(dict.fromkeys(name for name in wanted if name not in (None, ID)))  # ids are there in any case
         if not self.has_table:
             return own
         return None if self.columns is None else list(dict.fromkeys([*self.columns, *own]))
@@ -77,7 +82,7 @@ class Look:
         """All that it is, as JSON."""
         scale = self.color
         colours = scale and [scale.column, scale.kind, scale.palette, scale.classes, scale.no_data]
-        return [colours, self.fill, self.columns and list(self.columns), self.table]
+        return [colours, self.fill, self.columns and list(self.columns), self.order, self.table]
 
 
 class Attributes:

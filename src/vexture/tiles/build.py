@@ -1,5 +1,6 @@
 """A pyramid of tiles: from a source to one file or a folder."""
 
+import errno
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -9,15 +10,17 @@ from pathlib import Path
 from typing import Any, BinaryIO, Final
 
 from vexture.content import about
-from vexture.errors import DeviceError, ParameterError, SourceError, VextureError, reason_of
+from vexture.errors import DeviceError, LimitError, ParameterError, SourceError, VextureError, reason_of
 from vexture.geo.extent import Bounds
 from vexture.geo.tables import check_targets
+from vexture.geo.vectors import is_memory
 from vexture.notes import Note, Notes
 from vexture.texture.files import writable
 from vexture.tiles.archive import ARCHIVE, check_target, table_of, write_archive, write_folder
 from vexture.tiles.attributes import Attributes, paints_of, write_table
 from vexture.tiles.grid import HALF, MARGIN, TILE_PIXELS, Tile, last_zoom
 from vexture.tiles.options import TileOptions, digest_of
+from vexture.tiles.order import Order, ranks_of
 from vexture.tiles.partitions import Part, partitioned
 from vexture.tiles.pieces import Pieces
 from vexture.tiles.store import SUFFIX, Store
@@ -26,8 +29,11 @@ from vexture.tiles.world import in_world
 
 __all__ = ["VERSION", "MadeTiles", "make_tiles", "unfinished"]
 
-VERSION: Final = 6
+VERSION: Final = 7
 """Of what is kept of unfinished pyramids; what another one wrote is not used."""
+
+FULL: Final = (errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC))  # the last is not on Windows
+"""Errors of a disk, or a share of it, that has no room."""
 
 MOVES: Final = 0.25
 """Pixels: what a border is off at most, at the zoom of its tile."""
@@ -77,6 +83,7 @@ def make_tiles(
     check_target(output)
     check_targets([output, *([table] if (table := table_of(output, options.look.table)) else [])], [Path(source)])
     writable(output.parent)
+    options.check_workers()
     key = {"version": VERSION, "source": digest_of(Path(source)), **options.key}
     store = Store(output.with_name(output.name + SUFFIX), key)
     try:
@@ -91,21 +98,37 @@ def make_tiles(
         store.close()
         if not store.has_parts:
             store.remove()  # reading begins anew
-        if isinstance(error, VextureError) and store.has_parts:
-            raise type(error)(f"{error}; {unfinished(output)}") from None
-        if isinstance(error, OSError):
-            reason = os.strerror(error.errno) if error.errno else reason_of(error)
-            raise DeviceError(f"{output}: {reason}; make room, or choose another disk; {unfinished(output)}") from None
+        if isinstance(error, VextureError) and not store.has_parts:
+            raise
+        if isinstance(error, Exception) and (kind_and_reason := _reason(error, output)) is not None:
+            kind, reason = kind_and_reason
+            raise kind(f"{reason}; {unfinished(output)}") from None
         raise
     store.remove()
     return made
+
+
+def _reason(error: Exception, output: Path) -> tuple[type[VextureError], str] | None:
+    """What a user can do about an error, and the class of the error that says so; None if nothing."""
+    if isinstance(error, VextureError):
+        return type(error), str(error)
+    if isinstance(error, MemoryError) or is_memory(error) or getattr(error, "errno", None) == errno.ENOMEM:
+        return LimitError, (
+            f"{output}: there is not enough memory; give `processes` 1, a larger `max_zoom`, which parts it finer, "
+            "or choose fewer features by `where`"
+        )
+    if isinstance(error, OSError):
+        reason = os.strerror(error.errno) if error.errno else reason_of(error)
+        remedy = "make room, or choose another disk" if error.errno in FULL else "correct that, or write elsewhere"
+        return DeviceError, f"{output}: {reason}; {remedy}"
+    return None
 
 
 def unfinished(output: Path) -> str:
     """What is left of a pyramid that was not finished, and what to do with it."""
     folder = output.with_name(output.name + SUFFIX)
     if not folder.exists():
-        return "nothing of it is finished"
+        return "nothing of it is finished, and reading begins anew"
     return f"what is finished is in {folder}, and the same command goes on from there"
 
 
@@ -117,7 +140,7 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
         from vexture.geo.features import feature_batches as batches
     notes = Notes()
     count, boxes, others = 0, [], 0
-    attributes = Attributes(store.folder, options.look)
+    attributes, order = Attributes(store.folder, options.look), Order(options.look.order)
 
     def pieces() -> Iterator[Pieces]:
         nonlocal count, others
@@ -125,6 +148,7 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
             attributes.add(features)
             others += len(features.lines.ends) + len(features.points.points)
             found = in_world(features, count, options.max_zoom, notes)
+            order.add(features, found, count)
             count += len(features.ids)
             told("reading features", count, 0)
             if len(found):
@@ -134,6 +158,7 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
     with _named(source, options):
         parts = partitioned(pieces(), store.sources, last_zoom(options.max_zoom, options.step), options.step)
         legends = attributes.close(options.layer or Path(source).name.partition(".")[0], notes)
+        order.write(store.folder)
     box = shapely.total_bounds(shapely.box(*zip(*boxes, strict=True))).tolist() if boxes else None
     if others and boxes:
         notes.remark("a line or point is left out, as tiles have polygons only: vexture map draws them", others)
@@ -146,19 +171,24 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
 
 @contextmanager
 def _named(source: Any, options: TileOptions) -> Iterator[None]:
-    """Put the name of the source in front of errors about it; the one column that is read is that of colours."""
+    """Put the name of the source in front of errors about it; columns may be read for colours or the order only."""
+    look = options.look
+    columns = {"color": look.color and look.color.column, "order": look.order}
     with about(str(source)):
         try:
             yield
         except ParameterError as error:
-            own = "`columns`" if options.look.has_table else "`color`"
-            raise ParameterError(str(error).replace("`columns`", own)) from None
+            named = (name for name, column in columns.items() if f"no column {column!r} " in str(error))
+            said = str(error).replace("`columns`", f"`{next(named, 'columns')}`").replace("`crs`", "`source_crs`")
+            raise type(error)(said) from None
+        except VextureError as error:
+            raise type(error)(str(error).replace("`crs`", "`source_crs`")) from None
 
 
 def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> None:
     """Do all the work that is not done: the parts, zoom by zoom the geometry, and then the tiles of all these zooms."""
     leaves = {part.tile for part in parts}
-    pyramid = options.pyramid(paints_of(store.folder))
+    pyramid = options.pyramid(paints_of(store.folder), ranks_of(store.folder))
 
     def work(jobs: Iterator[Job], count: int) -> Iterator[Made]:
         return options.who().map(done, pyramid, jobs, count)

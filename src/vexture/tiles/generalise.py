@@ -21,6 +21,12 @@ __all__ = ["dissolved", "generalised"]
 MOST_ROUNDS: Final = 32
 """In each of them, small polygons become part of larger ones beside them."""
 
+MOST_POINTS: Final = 1_000_000
+"""That are simplified at once, which takes some 300 bytes for each; only tiles that no longer part have more."""
+
+DEEPEST: Final = 8
+"""Times that the box of more points is quartered."""
+
 
 def generalised(pieces: Pieces, box: Bounds, tolerance: float, least: float) -> Pieces:
     """Polygons for pixels of some size.
@@ -37,6 +43,27 @@ def generalised(pieces: Pieces, box: Bounds, tolerance: float, least: float) -> 
         Square metres. A smaller polygon becomes part of the neighbour with which it shares most of its border; those
         without one are gathered (`vexture.tiles.specks`). Smaller holes are filled. With 0, all features stay.
     """
+    if tolerance > 0.0 and pieces.points > MOST_POINTS:
+        tolerance /= 2.0  # a half here, a half below
+        pieces = _thinned(pieces, box, tolerance, DEEPEST)
+    return _generalised(pieces, box, tolerance, least)
+
+
+def _thinned(pieces: Pieces, box: Bounds, tolerance: float, depth: int) -> Pieces:
+    """Polygons with fewer points, made in parts of the box, so that memory is for the points of one."""
+    if pieces.points <= MOST_POINTS or depth == 0:
+        return _generalised(pieces, box, tolerance, 0.0)
+    x, y = (box[0] + box[2]) / 2.0, (box[1] + box[3]) / 2.0
+    quarters = [
+        (west, south, east, north)
+        for west, east in ((box[0], x), (x, box[2]))
+        for south, north in ((box[1], y), (y, box[3]))
+    ]
+    return joined([_thinned(pieces.within(quarter), quarter, tolerance, depth - 1) for quarter in quarters])
+
+
+def _generalised(pieces: Pieces, box: Bounds, tolerance: float, least: float) -> Pieces:
+    """As above, of all at once."""
     import shapely
 
     kept, specks = _merged(dissolved(pieces), box, least)

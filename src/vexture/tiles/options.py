@@ -30,12 +30,12 @@ class TileOptions:
         The smallest zoom that has tiles.
     step : int
         2 or 3: zooms from one level to the next.
-    layer, where, id, crs : str or None
-        Of the source, as `vexture.geo.features.feature_batches` has them.
+    layer, where, id, source_crs : str or None
+        Of the source, as `vexture.geo.features.feature_batches` has them; the last is its `crs`.
     name, attribution : str
         Told in the metadata.
     look : Look
-        Colours, and the table of attributes.
+        Colours, what is above, and the table of attributes.
     processes : int
         Processes that share the work on this machine.
     scheduler : str or None
@@ -48,7 +48,7 @@ class TileOptions:
     layer: str | None = None
     where: str | None = None
     id: str | None = None
-    crs: str | None = None
+    source_crs: str | None = None
     name: str = ""
     attribution: str = ""
     look: Look = field(default_factory=Look)
@@ -61,9 +61,9 @@ class TileOptions:
             raise ParameterError(f"`processes` is {self.processes}; it must be at least 1")
         self.look.check()
 
-    def pyramid(self, paints: NDArray[np.uint32]) -> Pyramid:
-        """Its zooms, and the colours of its features."""
-        return Pyramid(self.coarse, self.zooms, self.step, self.max_zoom, paints)
+    def pyramid(self, paints: NDArray[np.uint32], ranks: NDArray[np.uint32]) -> Pyramid:
+        """Its zooms, and the colours and the order of its features."""
+        return Pyramid(self.coarse, self.zooms, self.step, self.max_zoom, paints, ranks)
 
     @property
     def zooms(self) -> tuple[int, ...]:
@@ -78,12 +78,23 @@ class TileOptions:
     @property
     def reading(self) -> dict[str, Any]:
         """Options of the source's reader."""
-        return {"layer": self.layer, "where": self.where, "crs": self.crs, "id": self.id, "columns": self.look.read}
+        return {
+            "layer": self.layer,
+            "where": self.where,
+            "crs": self.source_crs,
+            "id": self.id,
+            "columns": self.look.read,
+        }
 
     @property
     def key(self) -> dict[str, Any]:
         """All that what is finished depends on, besides the source."""
         return {"zooms": [self.min_zoom, self.max_zoom, self.step], **self.reading, "look": self.look.key}
+
+    def check_workers(self) -> None:
+        """Raise a `DeviceError` if who shall do the work is not there."""
+        if self.scheduler is not None:
+            Cluster(self.scheduler).check()
 
     def who(self) -> Workers:
         """Who does the work."""

@@ -96,7 +96,9 @@ class Pieces:
         """From a file of Parquet; no threads, as processes may be copied at any moment."""
         import pyarrow.parquet as pq
 
-        return cls.of_table(pq.ParquetFile(BytesIO(data)).read(use_threads=False))
+        file = pq.ParquetFile(BytesIO(data))
+        groups = range(file.num_row_groups)  # one after another, as their bytes take more memory than shapes do
+        return joined([cls.of_table(file.read_row_group(number, use_threads=False)) for number in groups])
 
 
 def joined(parts: "list[Pieces]") -> Pieces:

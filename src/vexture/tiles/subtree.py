@@ -32,13 +32,17 @@ CROWDED: Final = 16_000
 
 @dataclass(frozen=True, eq=False)
 class Pyramid:
-    """What all the work shares: generalised zooms, those of tiles, the step, that of sharp views, features' colours."""
+    """What all the work shares.
+
+    Generalised zooms, those of tiles, the step, the zoom of sharp views, features' colours and their order.
+    """
 
     coarse: tuple[int, ...]
     zooms: tuple[int, ...]
     step: int
     sharp: int
     paints: NDArray[np.uint32]
+    ranks: NDArray[np.uint32]
 
     @property
     def most(self) -> int:
@@ -124,7 +128,7 @@ def _descend(pyramid: Pyramid, pieces: Pieces, tile: Tile, zoom: int, made: Made
     here = pieces.within(widened(tile.box, MARGIN * tile.side))
     if not len(here):
         return
-    if (place := covering(here, tile)) >= 0:
+    if (place := covering(here, tile, pyramid.ranks)) >= 0:
         made.add(*span(tile, zoom), uniform_texture(here, place, pyramid.paints))
     elif tile.z == zoom:
         _tile(pyramid, here, tile, made)
@@ -140,10 +144,10 @@ def _tile(pyramid: Pyramid, pieces: Pieces, tile: Tile, made: Made) -> None:
     while tile.z < pyramid.most and len(np.unique(pieces.order)) > CROWDED:
         least *= 2.0
         pieces = generalised(pieces, box, 0.0, least)
-    if (place := covering(pieces, tile)) >= 0:
+    if (place := covering(pieces, tile, pyramid.ranks)) >= 0:
         made.add(tile.number, 1, uniform_texture(pieces, place, pyramid.paints))
     elif len(pieces):
-        made.add(tile.number, 1, tile_texture(pieces, tile, pyramid.paints))
+        made.add(tile.number, 1, tile_texture(pieces, tile, pyramid.paints, pyramid.ranks))
 
 
 def _shifted(pieces: Pieces, by: float) -> Pieces:

@@ -44,12 +44,13 @@ def square_of(tile: Tile) -> tuple[float, float, float, float]:
     return widened(tile.box, MARGIN * tile.side)
 
 
-def covering(pieces: Pieces, tile: Tile) -> int:
+def covering(pieces: Pieces, tile: Tile, ranks: NDArray[np.uint32]) -> int:
     """Place of the piece that covers the square of a tile and is topmost; -1 if none does."""
     if not len(pieces):
         return -1
     box = square_of(tile)
-    top = np.flatnonzero(pieces.order == pieces.order.max())
+    rank = ranks[pieces.order]
+    top = np.flatnonzero(rank == rank.max())
     full = shapely.area(pieces.shapes[top]) >= FULL * (box[2] - box[0]) * (box[3] - box[1])
     return int(top[full.argmax()]) if full.any() else -1
 
@@ -67,15 +68,15 @@ def _paint(paints: NDArray[np.uint32], feature: int) -> Paint:
     return Paint((red, green, blue), opacity)
 
 
-def tile_texture(pieces: Pieces, tile: Tile, paints: NDArray[np.uint32]) -> bytes:
-    """File of the texture of what is in a tile's square, in the colours of the source's features.
+def tile_texture(pieces: Pieces, tile: Tile, paints: NDArray[np.uint32], ranks: NDArray[np.uint32]) -> bytes:
+    """File of the texture of what is in a tile's square, in the colours and the order of the source's features.
 
     Raises a `LimitError` if it has too many features.
     """
     box = square_of(tile)
     size = box[2] - box[0]
     to_source = np.array([[size, 0.0, box[0]], [0.0, size, box[1]]])
-    return _written(Drawing(_paths(pieces, box, size, paints), to_source, ROOT, CRS))
+    return _written(Drawing(_paths(pieces, box, size, paints, ranks), to_source, ROOT, CRS))
 
 
 def uniform_texture(pieces: Pieces, place: int, paints: NDArray[np.uint32]) -> bytes:
@@ -96,10 +97,15 @@ def _written(drawing: Drawing) -> bytes:
 
 
 def _paths(
-    pieces: Pieces, box: tuple[float, float, float, float], size: float, paints: NDArray[np.uint32]
+    pieces: Pieces,
+    box: tuple[float, float, float, float],
+    size: float,
+    paints: NDArray[np.uint32],
+    ranks: NDArray[np.uint32],
 ) -> tuple[Path, ...]:
-    """A path for each feature, in the order of the source."""
-    features, number = np.unique(pieces.order, return_inverse=True)
+    """A path for each feature, the lowest first."""
+    _, place, number = np.unique(ranks[pieces.order], return_index=True, return_inverse=True)
+    features = pieces.order[place]
     if len(features) > MOST_FEATURES:
         raise LimitError(
             f"a tile has {len(features)} features; the limit is {MOST_FEATURES}; give a larger `max_zoom`, or split it"

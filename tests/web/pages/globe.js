@@ -1,11 +1,17 @@
 // A globe with the tiles of the tests.
+import * as THREE from 'three';
 import { PerspectiveCamera, Scene, WebGLRenderer } from 'three';
 import { VectorGlobe, textureSource } from 'vexture/globe';
 
-const renderer = new WebGLRenderer({ preserveDrawingBuffer: true });
-renderer.setSize(innerWidth, innerHeight);
-renderer.setClearColor(0xffffff);
-document.body.append(renderer.domElement);
+let renderer;
+const replaceRenderer = (other) => {
+  renderer?.domElement.remove();
+  window.renderer = renderer = other;
+  renderer.setSize(innerWidth, innerHeight);
+  renderer.setClearColor(0xffffff);
+  document.body.append(renderer.domElement);
+};
+replaceRenderer(new WebGLRenderer({ preserveDrawingBuffer: true }));
 const scene = new Scene();
 const camera = new PerspectiveCamera(40, innerWidth / innerHeight, 1e-8, 100);
 let globe = new VectorGlobe({ source: location.search.slice(1) || 'map.pmtiles', pause: 10 });
@@ -68,4 +74,4 @@ const pixels = () => {
   return btoa(text);
 };
 
-Object.assign(window, { globe, aim, look, count, pixels, camera, renderer, replace, textureSource });
+Object.assign(window, { globe, aim, look, count, pixels, camera, scene, replace, replaceRenderer, textureSource, THREE });

@@ -1,7 +1,6 @@
 // The mesh of a part of a sphere: its vertices lie around its own middle, so that float32 serves at every zoom.
 import { BufferAttribute, BufferGeometry } from 'three';
 import { cellsAt, lngLat } from '../tiles/grid.js';
-import { CAP } from '../tiles/tile-shader.js';
 import { onSphere } from './cover.js';
 
 /** How far a skirt reaches beyond its quad, as a part of the quad's side: about two pixels. */
@@ -53,12 +52,12 @@ export function patch({ z, x, y }, radius) {
   const columns = steps.map(column);
   const pole = (/** @type {number} */ up, /** @type {number} */ b) =>
     steps.forEach((a, k) => add(columns[k], [up, 0], radius, a, b)); // the grid ends before the poles
-  if (isNorth) pole(1, CAP);
+  if (isNorth) pole(1, 0);
   for (const b of steps) {
     const here = row(b);
     for (let k = 0; k < count; k++) add(columns[k], here, radius, steps[k], b);
   }
-  if (isSouth) pole(-1, 1 - CAP);
+  if (isSouth) pole(-1, 1);
   const rowsAt = steps.map(row);
   for (const [right, down] of SKIRTS) {
     const [beyondColumn, beyondRow] = right ? [column(Number(right > 0) + right), null] : [null, row(Number(down > 0) + down)];

@@ -1,4 +1,4 @@
-import { CustomBlending, GLSL3, Group, Matrix4, Mesh, OneFactor, OneMinusSrcAlphaFactor, RawShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
+import { CustomBlending, GLSL3, Group, Matrix4, Mesh, OneFactor, OneMinusSrcAlphaFactor, ShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
 import { VextureError, line } from '../errors.js';
 import { prepareRows, sendRows } from '../rows.js';
 import { keyOf } from '../tiles/grid.js';
@@ -13,7 +13,7 @@ import { patch } from './patch.js';
  * @typedef {import('../tiles/pyramid.js').Feature} Feature
  *
  * @typedef {object} VectorGlobeOptions What a globe shows, and how much it may keep and ask for.
- * @property {string | import('../tiles/source.js').TileArchive | import('../tiles/source.js').TileSource} source address of a
+ * @property {string | URL | import('../tiles/source.js').TileArchive | import('../tiles/source.js').TileSource} source address of a
  *   `.pmtiles` or a TileJSON, the bytes of a `.pmtiles`, `textureSource` of one texture, or a source of your own
  * @property {number} [radius] 1 by default
  * @property {() => void} [onChange] something has been loaded: draw another frame
@@ -24,17 +24,32 @@ import { patch } from './patch.js';
  * @property {number} [pause] milliseconds before the first retry
  */
 
-const VERTEX = `precision highp float;
-in vec3 position;
+const VERTEX = `#include <common>
+#include <logdepthbuf_pars_vertex>
 in vec2 tilePlace;
-uniform mat4 modelViewMatrix;
-uniform mat4 projectionMatrix;
 uniform vec2 tileRest;
 uniform float tileScale;
 out vec2 tileOffset;
 void main() {
     tileOffset = tileRest + tileScale * vec2(tilePlace.x, -tilePlace.y);
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    #include <logdepthbuf_vertex>
+}`;
+
+/** Above all screens, in CSS pixels: a much greater one would ask for all tiles. */
+const MOST_HEIGHT = 16384;
+
+/** A tile's colour, which is of sRGB, as three.js's own materials give theirs to the screen or a target. @param {boolean} gradients */
+const fragment = (gradients) => `#include <logdepthbuf_pars_fragment>
+${tileShader(gradients).replace('void main()', 'void tileMain()')}
+#define gl_FragColor tileColor
+void main() {
+    tileMain();
+    tileColor = vextureLight(tileColor);
+    #include <tonemapping_fragment>
+    #include <colorspace_fragment>
+    #include <premultiplied_alpha_fragment>
+    #include <logdepthbuf_fragment>
 }`;
 
 /** A map of `vexture tiles` on a sphere. Call `update(camera, height)` before each frame. */
@@ -60,7 +75,6 @@ export class VectorGlobe extends Group {
       onError,
       onDrop: (loaded) => this.#drop(loaded),
     });
-    this.#pyramid.ready.catch(onError);
   }
 
   /** When the pyramid's metadata are there. @returns {Promise<void>} */
@@ -87,8 +101,10 @@ export class VectorGlobe extends Group {
    * @param {number} height of the picture in CSS pixels
    */
   update(camera, height) {
-    if (!camera?.isPerspectiveCamera) throw new VextureError('the camera is no PerspectiveCamera; give one', 'camera');
-    if (!(height > 0)) throw new VextureError(`the height is ${line(height)}; give that of the picture in pixels`, 'height');
+    checkCamera(camera);
+    if (!(height > 0 && height <= MOST_HEIGHT)) {
+      throw new VextureError(`the height is ${line(height)}; give that of the picture in pixels, ${MOST_HEIGHT} at most`, 'height');
+    }
     this.updateWorldMatrix(true, false);
     camera.updateWorldMatrix(true, false);
     const scale = new Matrix4().makeScale(this.#radius, this.#radius, this.#radius);
@@ -161,6 +177,7 @@ export class VectorGlobe extends Group {
    * @returns {[number, number]} degrees
    */
   lngLatOf(point) {
+    if (!point?.isVector3) throw new VextureError(`the point is ${line(point)}; give a Vector3`, 'point');
     const { x, y, z } = this.worldToLocal(point.clone()).normalize();
     return [(180 / Math.PI) * Math.atan2(x, z), (180 / Math.PI) * Math.asin(Math.min(Math.max(y, -1), 1))];
   }
@@ -175,6 +192,7 @@ export class VectorGlobe extends Group {
   placeUnder(pointer, camera) {
     const { x, y } = pointer ?? {};
     if (!Number.isFinite(x) || !Number.isFinite(y)) throw new VextureError(`the pointer is ${line(pointer)}; give { x, y }, -1 to 1`, 'pointer');
+    checkCamera(camera);
     this.updateWorldMatrix(true, false);
     camera.updateWorldMatrix(true, false);
     const from = this.worldToLocal(new Vector3().setFromMatrixPosition(camera.matrixWorld));
@@ -196,6 +214,21 @@ export class VectorGlobe extends Group {
   featureUnder(pointer, camera) {
     const place = this.placeUnder(pointer, camera);
     return place && this.featureAt(place);
+  }
+
+  /** Ask again for what could not be had: tiles, or the metadata. */
+  retry() {
+    this.#pyramid.retry();
+  }
+
+  /**
+   * A globe loads tiles for its own camera.
+   *
+   * @returns {never}
+   * @throws {VextureError} always
+   */
+  clone() {
+    throw new VextureError('a VectorGlobe cannot be cloned; make another one of the same source', 'clone');
   }
 
   /** Abort what is being loaded, and free the GPU memory. */
@@ -227,7 +260,7 @@ export class VectorGlobe extends Group {
     const data = /** @type {import('../data.js').PackedData} */ (loaded.data);
     const group = new Group();
     const { base, rest, side, ends } = lookup(quad, loaded.tile, this.#pyramid.client?.source.margin ?? 0);
-    const fragmentShader = tileShader(data.roots.some(({ hasGradients }) => hasGradients));
+    const fragmentShader = fragment(data.roots.some(({ hasGradients }) => hasGradients));
     data.roots.forEach((root, order) => {
       const uniforms = {
         vextureTexels: { value: this.#texture(loaded) },
@@ -239,7 +272,7 @@ export class VectorGlobe extends Group {
         tilePaint: { value: new Vector4(...paintOf(root)) },
         tileOpacity: { value: 1 },
       };
-      const material = new RawShaderMaterial({ glslVersion: GLSL3, vertexShader: VERTEX, fragmentShader, uniforms, transparent: true, premultipliedAlpha: true,
+      const material = new ShaderMaterial({ glslVersion: GLSL3, vertexShader: VERTEX, fragmentShader, uniforms, transparent: true, premultipliedAlpha: true,
         blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor });
       [geometry, skirt].forEach((shape, isSkirt) => {
         const mesh = new Mesh(shape, material);
@@ -278,6 +311,11 @@ export class VectorGlobe extends Group {
     this.#textures.get(loaded)?.dispose();
     this.#textures.delete(loaded);
   }
+}
+
+/** @param {any} camera @throws {VextureError} if it is none with a perspective */
+function checkCamera(camera) {
+  if (!camera?.isPerspectiveCamera) throw new VextureError('the camera is no PerspectiveCamera; give one', 'camera');
 }
 
 /**

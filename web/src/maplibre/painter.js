@@ -1,6 +1,6 @@
 // Draws tiles by WebGL 2 itself: programs, meshes, and textures of texels.
 import { VextureError, line } from '../errors.js';
-import { CAP, lookup, paintOf, tileShader } from '../tiles/tile-shader.js';
+import { lookup, paintOf, tileShader } from '../tiles/tile-shader.js';
 import { EXTENT, meshOf, quadMesh } from './quad-mesh.js';
 
 /**
@@ -18,7 +18,7 @@ import { EXTENT, meshOf, quadMesh } from './quad-mesh.js';
  */
 const OVERLAP = 0.25;
 
-/** MapLibre's projection moves the vertices; the offset in the tile's square goes with them. A pole's cap shows what is just within the grid. */
+/** MapLibre's projection moves the vertices; the offset in the tile's square goes with them. A pole's cap shows what is at the grid's end. */
 const vertexShader = (/** @type {Render['shaderData']} */ { vertexShaderPrelude, define }) => `#version 300 es
 ${vertexShaderPrelude}
 ${define}
@@ -29,13 +29,7 @@ uniform float tileOverlap;
 out vec2 tileOffset;
 void main() {
     vec2 place = tilePosition + tileOverlap * (step(vec2(${EXTENT}.0), tilePosition) - step(tilePosition, vec2(0.0)));
-    float south = tilePosition.y;
-    if (south < 0.0 || south > ${EXTENT}.0) {
-        south = south < 0.0 ? ${(EXTENT * CAP).toFixed(1)} : ${(EXTENT * (1 - CAP)).toFixed(1)};
-    } else {
-        south = place.y;
-    }
-    tileOffset = tileRest + tileScale * vec2(place.x, -south);
+    tileOffset = tileRest + tileScale * vec2(place.x, -clamp(place.y, -tileOverlap, ${EXTENT}.0 + tileOverlap));
     gl_Position = projectTile(place, place);
 }`;
 

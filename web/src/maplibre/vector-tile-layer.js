@@ -1,6 +1,7 @@
 import { VextureError, line } from '../errors.js';
 import { FeatureColors } from '../tiles/feature-colors.js';
 import { LEAD, TILE_SIZE, mercator } from '../tiles/grid.js';
+import { checkFunction } from '../tiles/options.js';
 import { Pyramid } from '../tiles/pyramid.js';
 import { TilePainter } from './painter.js';
 
@@ -14,7 +15,7 @@ import { TilePainter } from './painter.js';
  *
  * @typedef {object} VectorTileLayerOptions What a layer shows, and how much it may keep and ask for.
  * @property {string} id of the layer
- * @property {string | import('../tiles/source.js').TileArchive | import('../tiles/source.js').TileSource} source address of a
+ * @property {string | URL | import('../tiles/source.js').TileArchive | import('../tiles/source.js').TileSource} source address of a
  *   `.pmtiles` or a TileJSON, the bytes of a `.pmtiles`, or a source of your own
  * @property {number} [opacity] of all of it, 0..1
  * @property {number} [budget] bytes of tiles that are kept
@@ -68,25 +69,23 @@ export class VectorTileLayer {
    * @throws {VextureError} if one of them cannot be
    */
   constructor(options) {
-    const { id } = options ?? {};
+    const { id, opacity = 1 } = options ?? {};
     if (typeof id !== 'string' || !id) throw new VextureError(`the layer's id is ${line(id)}; give a text`, 'id');
     /** Its name in MapLibre. @type {string} */
     this.id = id;
     this.#options = options;
     this.#pyramid = this.#open(new FeatureColors());
-    this.setOpacity(options.opacity ?? 1);
+    this.setOpacity(opacity);
   }
 
   /** @param {FeatureColors} colors */
   #open(colors) {
-    const pyramid = new Pyramid({
+    return new Pyramid({
       ...this.#options,
       onChange: () => this.#map?.triggerRepaint(),
       onDrop: (loaded) => this.#painter?.drop(loaded),
       onError: (error, tile) => this.#emit('error', { error, tile }),
     }, colors);
-    pyramid.ready.catch((error) => this.#emit('error', { error }));
-    return pyramid;
   }
 
   /** When the pyramid's metadata are there. @returns {Promise<void>} */
@@ -162,25 +161,28 @@ export class VectorTileLayer {
    * @param {number} opacity of all of it, 0..1
    */
   setOpacity(opacity) {
-    if (!(opacity >= 0 && opacity <= 1)) throw new VextureError(`the opacity is ${line(opacity)}; give 0 to 1`, 'opacity');
+    if (typeof opacity !== 'number' || !(opacity >= 0 && opacity <= 1)) throw new VextureError(`the opacity is ${line(opacity)}; give 0 to 1`, 'opacity');
     this.#opacity = opacity;
     this.#map?.triggerRepaint();
   }
 
   /**
-   * The feature at a place; null where nothing is.
+   * The feature at a place; null where nothing is, or the layer is hidden.
    *
    * @param {{ lng: number, lat: number } | [number, number]} place
    * @returns {Feature | null}
    * @throws {VextureError} if it is no place
    */
   featureAt(place) {
-    return this.#pyramid.featureAt(place);
+    const map = this.#map;
+    const isHidden = map?.getLayer(this.id)?.isHidden(map.getZoom());
+    const feature = this.#pyramid.featureAt(place);
+    return isHidden ? null : feature;
   }
 
-  /** Ask again for tiles that could not be had. */
+  /** Ask again for what could not be had: tiles, or the metadata. */
   retry() {
-    this.#pyramid.client?.retry();
+    this.#pyramid.retry();
   }
 
   /**
@@ -190,10 +192,11 @@ export class VectorTileLayer {
    * @param {Type} type `hover`: another feature is pointed at, or none; `click`; `error`: something cannot be had, or a function
    *   of yours throws
    * @param {(event: LayerEvents[Type]) => void} listener
-   * @throws {VextureError} if there is no such event
+   * @throws {VextureError} if there is no such event, or the listener is no function
    */
   on(type, listener) {
     if (!EVENTS.includes(type)) throw new VextureError(`the event is ${line(type)}; give one of ${EVENTS.join(', ')}`, 'event');
+    checkFunction(listener, 'the listener');
     const known = this.#listeners.get(type) ?? new Set();
     this.#listeners.set(type, known.add(listener));
     return this;
@@ -218,7 +221,13 @@ export class VectorTileLayer {
   #emit(type, event) {
     const listeners = this.#listeners.get(type);
     if (type === 'error' && !listeners?.size) console.error(/** @type {any} */ (event).error);
-    for (const listener of listeners ?? []) listener(event);
+    for (const listener of listeners ?? []) {
+      try {
+        listener(event);
+      } catch (error) {
+        reportError(error); // the others, and MapLibre's own, hear of it all the same
+      }
+    }
   }
 
   /**
@@ -334,7 +343,10 @@ export class VectorTileLayer {
     if (!client || !painter || !this.#map) return;
     this.#order = this.#map.getLayersOrder();
     const shown = this.#pyramid.update(this.#quads(this.#map), (loaded, rows) => painter.send(loaded, rows));
-    painter.draw(shown, render, client.source.margin, this.#opacity);
+    const { transform } = /** @type {any} */ (this.#map);
+    // versions before 6 have it there
+    const getProjectionData = render.getProjectionData ?? ((/** @type {any} */ given) => transform.getProjectionData(given));
+    painter.draw(shown, { ...render, getProjectionData }, client.source.margin, this.#opacity);
   }
 
   /** @param {MapLibreMap} map @returns {import('../tiles/choose.js').Quad[]} */

@@ -1,4 +1,5 @@
 // The tiles of a pyramid in memory: what a view needs is loaded, what it has not used for longest goes first.
+import { REMEDY, VextureError } from '../errors.js';
 import { readPacked } from '../packed.js';
 import { choose } from './choose.js';
 import { keyOf } from './grid.js';
@@ -110,7 +111,7 @@ export class TileClient {
    */
   async #load(tile, signal) {
     const file = await this.source.load(tile, signal);
-    const data = file ? await readPacked(file, `${this.source.name} ${keyOf(tile)}`) : null;
+    const data = file ? await readPacked(file, `${this.source.name ?? 'tile'} ${keyOf(tile)}`).catch(damaged) : null;
     if (!signal.aborted) this.#keep(tile, data ? 'ready' : 'empty', data);
   }
 
@@ -143,4 +144,11 @@ export class TileClient {
     this.#bytes -= loaded.bytes;
     this.#options.onDrop?.(loaded);
   }
+}
+
+/** Tiles are not converted one by one. @param {any} error @returns {never} */
+function damaged(error) {
+  if (!(error instanceof VextureError)) throw error;
+  const said = error.message.replace(REMEDY, 'copy all tiles again, or make them again');
+  throw new VextureError(said, error.field, { cause: error });
 }

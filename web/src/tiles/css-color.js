@@ -32,9 +32,9 @@ export function parts(paint, what = () => 'a paint') {
   return known;
 }
 
-/** @param {unknown} paint @param {string} what */
-const refused = (paint, what) =>
-  new VextureError(`${what} is ${line(paint)}; give a colour of CSS, four numbers in 0..1, or null`, 'paint');
+/** @param {any} paint @param {string} what */
+const refused = (paint, what) => new VextureError(paint?.isColor ? `${what} is a Color of three.js; give its getStyle()`
+  : `${what} is ${line(paint)}; give a colour of CSS, four numbers in 0..1, or null`, 'paint');
 
 /** @param {string} text @returns {Parts | null} */
 function hex(text) {
@@ -51,7 +51,7 @@ const RGB = /^rgb\((\d{1,3}), ?(\d{1,3}), ?(\d{1,3})\)$/;
 function written(text) {
   const [red, green, blue] = RGB.exec(text)?.slice(1).map((part) => Math.min(Number(part) / 255, 1)) ?? [];
   if (blue !== undefined) return [red, green, blue, 1];
-  canvas ??= new OffscreenCanvas(1, 1).getContext('2d');
+  canvas ??= new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true });
   const context = canvas;
   if (!context) return null;
   const [one, other] = ['#000000', '#ffffff'].map((start) => {
@@ -61,6 +61,9 @@ function written(text) {
   });
   if (one !== other) return null; // the browser has left what it did not understand as it was
   if (one[0] === '#') return hex(one);
-  const numbers = one.match(/[\d.]+/g)?.map(Number) ?? [];
-  return numbers.length === 4 ? [numbers[0] / 255, numbers[1] / 255, numbers[2] / 255, numbers[3]] : null;
+  const numbers = one.startsWith('rgb') ? one.match(/[\d.]+/g)?.map(Number) ?? [] : [];
+  if (numbers.length === 4) return [numbers[0] / 255, numbers[1] / 255, numbers[2] / 255, numbers[3]];
+  context.clearRect(0, 0, 1, 1); // a colour of another space, such as oklch: as a pixel has it
+  context.fillRect(0, 0, 1, 1);
+  return /** @type {any} */ ([...context.getImageData(0, 0, 1, 1).data].map((part) => part / 255));
 }

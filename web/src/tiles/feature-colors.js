@@ -17,8 +17,8 @@ import { parts } from './css-color.js';
  * @typedef {(id: string) => FeaturePaint | undefined} PaintFunction undefined: as it is in the tile
  *
  * @typedef {object} TimeTable The colours of features at each step of time.
- * @property {FeatureId[]} ids of the features, each once
- * @property {FeaturePaint[][]} colors of each step, those of all features
+ * @property {readonly FeatureId[]} ids of the features, each once
+ * @property {readonly (readonly FeaturePaint[])[]} colors of each step, those of all features
  */
 
 /** @type {Parts} */

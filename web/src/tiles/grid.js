@@ -53,7 +53,7 @@ export function ancestor(tile, z) {
 export const zoomsTo = (zooms, z) => zooms.filter((zoom) => zoom <= z);
 
 /**
- * A place in Web Mercator, each axis 0..1 from the north-west corner; the latitude is held within the grid.
+ * A place in Web Mercator, each axis 0..1 from the north-west corner; the latitude is held within the grid, and in a tile of it.
  *
  * @param {number} lng degrees
  * @param {number} lat degrees
@@ -62,7 +62,8 @@ export const zoomsTo = (zooms, z) => zooms.filter((zoom) => zoom <= z);
 export function mercator(lng, lat) {
   const held = (Math.PI / 180) * Math.min(Math.max(lat, -MOST_LATITUDE), MOST_LATITUDE);
   const x = lng / 360 + 0.5;
-  return [x - Math.floor(x), 0.5 - Math.asinh(Math.tan(held)) / (2 * Math.PI)];
+  const y = 0.5 - Math.asinh(Math.tan(held)) / (2 * Math.PI);
+  return [x - Math.floor(x), Math.min(Math.max(y, 2 ** -32), 1 - 2 ** -32)];
 }
 
 /**

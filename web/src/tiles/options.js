@@ -11,14 +11,24 @@ const LEAST = { budget: 0, most: 1, retries: 0, pause: 0 };
  */
 export function checkOptions(options) {
   const { source } = options ?? {};
-  const isSource = typeof source === 'string' ? source !== '' : isArchive(source) || (typeof source?.load === 'function' && isGrid(source));
+  const isSource = typeof source === 'string' ? source !== '' : source instanceof URL || isArchive(source) || (typeof source?.load === 'function' && isGrid(source));
   if (!isSource) {
     throw new VextureError(`the source is ${line(source)}; give ${GIVEN}, or { zooms, margin, load }`, 'source');
   }
+  for (const name of /** @type {const} */ (['onChange', 'onError'])) if (options[name] !== undefined) checkFunction(options[name], name);
   for (const [name, least] of Object.entries(LEAST)) {
     const value = /** @type {Record<string, any>} */ (options)[name] ?? least;
     if (typeof value !== 'number' || !(value >= least)) throw new VextureError(`${name} is ${line(value)}; give a number of ${least} or more`, name);
   }
+}
+
+/**
+ * @param {unknown} given
+ * @param {string} name
+ * @throws {VextureError} if it is no function
+ */
+export function checkFunction(given, name) {
+  if (typeof given !== 'function') throw new VextureError(`${name} is ${line(given)}; give a function`, name);
 }
 
 /**

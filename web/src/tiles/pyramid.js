@@ -1,11 +1,14 @@
 // A pyramid as a page uses it: opened, its features coloured and asked for. The renderers are built upon it.
+import { LATTICE } from '../../generated/layout.js';
 import { elementAt } from '../element-at.js';
+import { isTransport } from '../fetching.js';
 import { loadMaps } from '../maps.js';
 import { TileClient } from './client.js';
 import { FeatureColors } from './feature-colors.js';
 import { ancestor, mercator, squareOf } from './grid.js';
 import { checkOptions, placeOf } from './options.js';
-import { openTiles } from './source.js';
+import { tried } from './queue.js';
+import { isArchive, openTiles } from './source.js';
 
 /**
  * @typedef {import('./client.js').LoadedTile} LoadedTile
@@ -15,11 +18,14 @@ import { openTiles } from './source.js';
  *
  * @typedef {{ quad: import('./choose.js').Quad, loaded: LoadedTile }[]} View what is shown
  *
- * @typedef {string | import('./source.js').TileArchive | import('./source.js').TileSource} Given an address, the bytes of an
+ * @typedef {string | URL | import('./source.js').TileArchive | import('./source.js').TileSource} Given an address, the bytes of an
  *   archive, or what `openTiles` has made of them
  *
  * @typedef {{ source: Given } & import('./client.js').AllTileOptions} PyramidOptions
  */
+
+/** Parts of a tile's side within which its outlines are exact. */
+const ROUNDED = LATTICE / 2;
 
 /** @param {Given} given @returns {given is import('./source.js').TileSource} */
 const isSource = (given) => !!(/** @type {any} */ (given)?.load);
@@ -30,6 +36,8 @@ export class Pyramid {
   /** @type {View} */
   shown = [];
   #controller = new AbortController();
+  #options;
+  #isFailed = false;
 
   /**
    * @param {PyramidOptions} options
@@ -39,23 +47,45 @@ export class Pyramid {
   constructor(options, colors = new FeatureColors()) {
     checkOptions(options);
     this.colors = colors;
+    this.#options = options;
     colors.onError = (error) => options.onError?.(error);
-    /** When its metadata are there. @type {Promise<TileClient | null>} */
-    this.ready = this.#open(options.source, options);
-    this.ready.catch(() => {}); // who waits for it gets the error, too
+    /** When its metadata are there; null: it was disposed of before. @type {Promise<TileClient | null>} */
+    this.ready = this.#open();
   }
 
-  /**
-   * @param {Given} given
-   * @param {import('./client.js').AllTileOptions} options
-   */
-  async #open(given, options) {
+  #open() {
+    const opened = this.#opened();
+    opened.catch((error) => {
+      this.#isFailed = true;
+      this.#options.onError?.(error); // who waits for it gets it, too
+    });
+    return opened;
+  }
+
+  async #opened() {
+    const { source: given, retries, pause, onChange } = this.#options;
     const { signal } = this.#controller;
-    const [source] = await Promise.all([isSource(given) ? given : openTiles(given, signal), loadMaps()]);
-    if (signal.aborted) return null;
-    this.client = new TileClient(source, options);
-    options.onChange?.();
+    const isPassing = (/** @type {unknown} */ error) => !isArchive(given) && isTransport(error);
+    try {
+      const [source] = await Promise.all([
+        isSource(given) ? given : tried(() => openTiles(given, signal), signal, retries, pause, isPassing), loadMaps()]);
+      if (signal.aborted) return null;
+      this.client = new TileClient(source, this.#options);
+    } catch (error) {
+      if (signal.aborted) return null;
+      throw error;
+    }
+    onChange?.();
     return this.client;
+  }
+
+  /** Ask again for what could not be had: tiles, or the metadata. */
+  retry() {
+    if (this.client) this.client.retry();
+    else if (this.#isFailed && !this.isClosed) {
+      this.#isFailed = false;
+      this.ready = this.#open();
+    }
   }
 
   /** Whether it has been disposed of. */
@@ -70,7 +100,7 @@ export class Pyramid {
    * @param {(loaded: LoadedTile, rows: [number, number][]) => void} send rows of texels that have changed
    */
   update(quads, send) {
-    this.shown = this.client?.update(quads) ?? [];
+    this.shown = (!this.isClosed && this.client?.update(quads)) || [];
     for (const loaded of new Set(this.shown.map((one) => one.loaded))) {
       const rows = this.colors.apply(loaded);
       if (rows.length) send(loaded, rows);
@@ -89,7 +119,8 @@ export class Pyramid {
     const loaded = this.#tileAt(x, y);
     if (!loaded?.data || !this.client) return null;
     const { data, tile } = loaded;
-    const [u, v] = squareOf(x, y, tile, this.client.source.margin);
+    const edge = 2 ** -tile.z / ROUNDED; // what is cut off at the grid's end may end before it
+    const [u, v] = squareOf(x, Math.min(Math.max(y, edge), 1 - edge), tile, this.client.source.margin);
     const found = elementAt(data, 0, data.roots.length, u, v);
     return found?.name && this.colors.isSeen(found.name) ? { id: found.name } : null;
   }

@@ -11,6 +11,28 @@
  * @property {number} [pause] milliseconds before the first retry, twice as long before each further one
  */
 
+/**
+ * What a request gives, which is tried again.
+ *
+ * @template Answer
+ * @param {() => Promise<Answer>} load
+ * @param {AbortSignal} signal
+ * @param {number} [retries]
+ * @param {number} [pause]
+ * @param {(error: unknown) => boolean} [isPassing] whether it may be otherwise the next time
+ */
+export async function tried(load, signal, retries = 2, pause = 500, isPassing = () => true) {
+  for (let attempt = 0; ; attempt++) {
+    try {
+      return await load();
+    } catch (error) {
+      if (signal.aborted || attempt >= retries || !isPassing(error)) throw error;
+      await new Promise((resolve) => setTimeout(resolve, pause * 2 ** attempt));
+      signal.throwIfAborted();
+    }
+  }
+}
+
 /** @template Item */
 export class RequestQueue {
   #load;
@@ -30,7 +52,7 @@ export class RequestQueue {
    * @param {(item: Item, error: unknown) => void} failed after all retries
    * @param {QueueOptions} [options]
    */
-  constructor(load, done, failed, { most = 8, retries = 2, pause = 500 } = {}) {
+  constructor(load, done, failed, { most = 8, retries, pause } = {}) {
     this.#load = load;
     this.#done = done;
     this.#failed = failed;
@@ -78,7 +100,7 @@ export class RequestQueue {
     const { signal } = controller;
     this.#running.set(key, controller);
     try {
-      await this.#tried(item, signal);
+      await tried(() => this.#load(item, signal), signal, this.#retries, this.#pause);
     } catch (error) {
       if (!signal.aborted) this.#failed(item, error);
     }
@@ -86,21 +108,5 @@ export class RequestQueue {
     this.#running.delete(key);
     this.#start();
     this.#done();
-  }
-
-  /**
-   * @param {Item} item
-   * @param {AbortSignal} signal
-   */
-  async #tried(item, signal) {
-    for (let attempt = 0; ; attempt++) {
-      try {
-        return await this.#load(item, signal);
-      } catch (error) {
-        if (signal.aborted || attempt >= this.#retries) throw error;
-        await new Promise((resolve) => setTimeout(resolve, this.#pause * 2 ** attempt));
-        signal.throwIfAborted();
-      }
-    }
   }
 }

@@ -6,8 +6,8 @@ import { fetchBytes } from '../fetching.js';
 
 /**
  * @typedef {object} TileSource A pyramid of tiles.
- * @property {string} name for messages
- * @property {string} attribution to be shown beside the map
+ * @property {string} [name] for messages
+ * @property {string} [attribution] to be shown beside the map
  * @property {readonly number[]} zooms that it has, rising
  * @property {number} margin by which a tile's texture is wider than the tile, as a part of the tile's side
  * @property {(tile: import('./grid.js').TileId, signal: AbortSignal) => Promise<Uint8Array | null>} load the file of a tile;
@@ -20,6 +20,9 @@ import { fetchBytes } from '../fetching.js';
 
 /** A tile in which nothing is may have no file. */
 const NOTHING = ['status 404', 'status 204', 'status 410'];
+
+/** And many servers send a page instead, which begins with `<`. */
+const HTML = 60;
 
 /** Longest TileJSON, in bytes. */
 const LONGEST = 2 ** 22;
@@ -36,13 +39,13 @@ export const isArchive = (given) => given instanceof ArrayBuffer || given instan
 /**
  * A pyramid by its address, `map.pmtiles` or a TileJSON, or by the contents of a `.pmtiles`, which a page may hold.
  *
- * @param {string | TileArchive} given
+ * @param {string | URL | TileArchive} given
  * @param {AbortSignal} [signal]
  * @returns {Promise<TileSource>}
  * @throws {VextureError} if it cannot be fetched, or is no pyramid of vexture
  */
 export async function openTiles(given, signal = new AbortController().signal) {
-  if (typeof given !== 'string') {
+  if (typeof given !== 'string' && !(given instanceof URL)) {
     if (!isArchive(given)) throw new VextureError(`the source is ${line(given)}; give ${GIVEN}`, 'source');
     const file = new File([/** @type {BlobPart} */ (given)], HELD);
     return archive(new FileSource(file), HELD, 'give all bytes of a .pmtiles');
@@ -99,7 +102,7 @@ async function folder(url, signal) {
     const place = template.replace('{z}', String(z)).replace('{x}', String(x)).replace('{y}', String(y));
     try {
       const file = await fetchBytes(new URL(place, url).href, { signal: given }, PACKED_FILE_LIMIT);
-      return file.length ? file : null;
+      return file.length && file[0] !== HTML ? file : null;
     } catch (error) {
       if (error instanceof VextureError && NOTHING.includes(error.field)) return null;
       throw error;
@@ -110,7 +113,7 @@ async function folder(url, signal) {
 
 /** Whether zooms rise, and the margin is a part of a tile. @param {{ zooms?: any, margin?: any }} source */
 export const isGrid = ({ zooms, margin }) =>
-  Array.isArray(zooms) && zooms.length > 0 && margin >= 0 && margin < 1 &&
+  Array.isArray(zooms) && zooms.length > 0 && typeof margin === 'number' && margin >= 0 && margin < 1 &&
   zooms.every((z, k) => Number.isInteger(z) && z > (k ? zooms[k - 1] : -1) && z <= 30);
 
 /**

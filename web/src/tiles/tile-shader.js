@@ -5,9 +5,6 @@ import { WRAPS } from '../../generated/wraps.js';
 import { withMaps } from '../maps.js';
 import { fixed, placeIn } from './grid.js';
 
-/** Where in a quad the caps of the poles look up what they show, from its edge: pixels near it show what is just within the grid. */
-export const CAP = 1 / 64;
-
 /** What a footprint keeps from where the grid ends, as a part of its lengths: thin ones are widened, and numbers are rounded. */
 const APART = 1 / 64;
 

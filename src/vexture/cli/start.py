@@ -1,0 +1,16 @@
+"""The program `vexture`: Ctrl-C ends it in one line from here on, also while its modules are imported."""
+
+import signal
+
+from vexture.cli.interrupt import at_once
+
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Run the command line."""
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # a shell may have it ignored
+        signal.signal(signal.SIGINT, at_once)
+    from vexture.cli.main import main as command
+
+    command(prog_name="vexture")
