@@ -116,7 +116,7 @@ def test_what_cannot_be_shown_is_refused_and_nothing_changes(flag, trait, value,
 def test_what_is_not_chosen_is_as_it_is_by_default(flag):
     same = vexture.show(flag.texture, root=None, width=None, height=None, colors=None, view=None)
     assert (same.root, same.width, same.colors, same.view) == (None, None, {}, flag.view)
-    with pytest.raises(traitlets.TraitError, match="mode"):
+    with pytest.raises(ParameterError, match=r"`mode` is None; give .paint. or"):
         vexture.show(flag.texture, mode=None)
     with pytest.raises(AttributeError):
         flag.texture = same.texture

@@ -69,5 +69,8 @@ function watchPlaces(element, stage, place, signal) {
     if (event.buttons === 0) look(place(event));
   });
   element.addEventListener('pointerleave', () => look(null));
+  element.addEventListener('pointerover', ({ target }) => {
+    if (target !== element && !(target instanceof HTMLCanvasElement)) look(null); // it is over the legend, or the time
+  });
 }
 

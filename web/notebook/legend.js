@@ -10,34 +10,22 @@ import { keepEvents } from './own-events.js';
 /** Pixels between the pointer and what is told of the feature under it. */
 const APART = 14;
 
-/** Part of a picture: a legend that would cover more is closed at first, and a tap on its title opens it. */
-const MOST = 0.15;
+/** Part of a narrow stage that a legend may cover without having been opened: a tap on its title opens it. */
+const COVERED = 0.1;
 
-/** Pixels: in pictures that are lower there is no legend. */
-const LOWEST = 60;
-
-/**
- * Show a legend where there is room for it.
- *
- * @param {HTMLDetailsElement} legend
- * @param {HTMLElement} stage
- * @param {boolean | null} isOpen whether somebody has opened or closed it; null: nobody
- */
-export function fit(legend, stage, isOpen) {
-  legend.hidden = legend.childElementCount < 2 || stage.clientHeight < LOWEST;
-  legend.open = isOpen ?? true;
-  if (isOpen === null) legend.open = legend.offsetWidth * legend.offsetHeight <= MOST * stage.clientWidth * stage.clientHeight;
+/** Open a legend where it leaves enough of the map. @param {HTMLDetailsElement} legend @param {HTMLElement} stage @param {boolean} isWide */
+export function openIfSmall(legend, stage, isWide) {
+  legend.open = true; // so that it has its size
+  legend.open = isWide || legend.offsetWidth * legend.offsetHeight < COVERED * stage.clientWidth * stage.clientHeight;
 }
 
 /**
  * @param {Legend | null | undefined} legend
- * @param {(isOpen: boolean) => void} chosen hears that somebody opens or closes it
+ * @param {boolean} open
  * @returns {HTMLDetailsElement} empty without a legend
  */
-export function legendOf(legend, chosen) {
-  const title = element('summary', { onclick: () => chosen(!box.open) }, legend?.title ?? '');
-  /** @type {HTMLDetailsElement} */
-  const box = element('details', { class: 'vexture-legend', hidden: !legend }, title);
+export function legendOf(legend, open) {
+  const box = element('details', { class: 'vexture-legend', hidden: !legend, open }, element('summary', {}, legend?.title ?? ''));
   keepEvents(box);
   if (!legend) return box;
   const steps = legend.kind === 'continuous' ? legend.entries.filter(({ label }) => label !== 'no data') : [];
@@ -51,26 +39,31 @@ export function legendOf(legend, chosen) {
   for (const { label, color } of legend.entries) {
     const patch = element('i', {});
     patch.style.background = color;
-    box.append(element('div', { class: 'entry' }, patch, element('span', { title: label }, label)));
+    box.append(element('div', { class: 'entry', title: label }, patch, element('span', {}, label)));
   }
   return box;
 }
 
-/** Facts about a feature beside the pointer. */
+/** Facts about a feature beside the pointer; of elements that no notebook styles, as JupyterLab does lists. */
 export class Tip {
-  element = element('div', { class: 'vexture-tip', hidden: true }); // pages of notebooks have a look of their own for lists
+  element = element('div', { class: 'vexture-tip', hidden: true });
 
   /** @param {[string, string][] | null | undefined} facts @param {[number, number] | null} place in pixels @param {HTMLElement} stage */
   show(facts, place, stage) {
     const shown = Boolean(facts?.length && place);
     this.element.hidden = !shown;
     if (!shown || !place) return;
-    this.element.replaceChildren(...(facts ?? []).flatMap(([name, value]) =>
-      [element('span', { class: 'name' }, name), element('span', { class: 'value' }, value)]));
+    this.element.replaceChildren(...(facts ?? []).flatMap(([name, value]) => [element('div', { class: 'name' }, name), element('div', {}, value)]));
     const { clientWidth: width, clientHeight: height } = stage;
+    while (this.element.offsetHeight > height && this.element.childElementCount > 2) this.#shorten();
     const [x, y] = place;
     const left = x + APART + this.element.offsetWidth > width ? x - APART - this.element.offsetWidth : x + APART;
     const top = y + APART + this.element.offsetHeight > height ? y - APART - this.element.offsetHeight : y + APART;
     this.element.style.translate = `${Math.max(0, left)}px ${Math.max(0, top)}px`;
+  }
+
+  /** Leave out the last fact. */
+  #shorten() {
+    for (let k = 0; k < 2; k++) this.element.lastElementChild?.remove();
   }
 }

@@ -2,6 +2,20 @@
 
 /** @typedef {import('./widget.js').Model} Model */
 
+/**
+ * What a kernel would tell of the feature under the pointer.
+ *
+ * @param {Record<string, any>} state
+ * @returns {[string, string][]}
+ */
+function tipOf({ _tips: tips, hovered, times, time }) {
+  const values = tips?.values[hovered?.element];
+  if (!values) return [];
+  const facts = tips.names.map((/** @type {string} */ name, /** @type {number} */ k) => [name, values[k]]);
+  const step = Math.round(time);
+  return times.length ? [[times[step], values[facts.length + step]], ...facts] : facts;
+}
+
 /** @param {Record<string, unknown>} state @returns {Model} */
 function modelOf(state) {
   const events = new EventTarget();
@@ -10,6 +24,9 @@ function modelOf(state) {
     set: (name, value) => {
       state[name] = value;
       events.dispatchEvent(new Event(`change:${name}`));
+      if (name !== 'hovered' && name !== 'time') return;
+      state.tip = tipOf(state);
+      events.dispatchEvent(new Event('change:tip'));
     },
     save_changes: () => {},
     on: (event, act) => events.addEventListener(event, act),

@@ -4,9 +4,10 @@ import { panned, toUnit, zoomed } from '../viewer/view.js';
 import { Colored, Steps, coloringOf, inflatedView, open, release } from './contents.js';
 import { drawnOf, foundAt } from './drawn.js';
 import { listenTo } from './input.js';
-import { Tip, fit, legendOf } from './legend.js';
+import { Tip, legendOf, openIfSmall } from './legend.js';
 import { followPixels } from './pixels.js';
 import { rectOf, viewOf } from './rect.js';
+import { followRoom } from './room.js';
 import { screenOfPage } from './screen.js';
 import { Sketch } from './sketch.js';
 import { STYLE } from './style.js';
@@ -27,9 +28,7 @@ export class Stage {
   /** What is drawn; null before it is there. @type {import('../viewer/drawing.js').ShownDrawing | null} */
   shown = null;
   #message = element('p', { role: 'alert', hidden: true });
-  #legend = legendOf(null, () => {});
-  /** Whether somebody has opened or closed the legend. @type {boolean | null} */
-  #isOpen = null;
+  #legend = legendOf(null, false);
   #tip = new Tip();
   #time = new TimeBar((time) => {
     this.model.set('time', time);
@@ -68,14 +67,12 @@ export class Stage {
     this.element = element('div', {
       class: 'vexture-stage', tabindex: 0, role: 'application', 'aria-label': `${model.get('_name')}. ${HINT}`,
       'data-lm-suppress-shortcuts': 'true', // else JupyterLab acts on the keys, too
-    }, style, this.canvas, this.#time.element, this.#legend, this.#tip.element, this.#message);
+    }, style, this.canvas, this.#legend, this.#time.element, this.#tip.element, this.#message);
     this.#explain();
     this.#showTime();
     this.#sized();
     this.#watchSight();
-    const fitting = new ResizeObserver(() => fit(this.#legend, this.element, this.#isOpen));
-    fitting.observe(this.element);
-    this.#ended.signal.addEventListener('abort', () => fitting.disconnect());
+    followRoom(this.element, (isWide) => openIfSmall(this.#legend, this.element, isWide), this.#ended.signal);
     followPixels(this.canvas, () => this.#redraw(), this.#ended.signal);
     this.#follow();
     listenTo(this.element, this, this.#ended.signal);
@@ -309,10 +306,9 @@ export class Stage {
   }
 
   #explain() {
-    const legend = legendOf(this.model.get('legend'), (isOpen) => (this.#isOpen = isOpen));
+    const legend = legendOf(this.model.get('legend'), this.#legend.open);
     this.#legend.replaceWith(legend);
     this.#legend = legend;
-    fit(legend, this.element, this.#isOpen);
   }
 
   #tell() {

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,10 +30,12 @@ from vexture.paint import Paint
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["FILL", "INK", "MapLayer", "Prepared", "in_memory", "prepared"]
+__all__ = ["DOT", "FILL", "INK", "MapLayer", "Prepared", "in_memory", "prepared"]
 
 FILL, INK, DOT = "#c3cdd6", "#404a54", "#d55e00"
 """Colours of areas, lines and points that none is given for."""
+
+Box: TypeAlias = tuple[float, float]
 
 NO_LINES: Final = Rings(np.empty((0, 2)), np.empty(0, np.intp), np.empty(0, np.intp), str, np.empty(0, np.intp))
 
@@ -191,14 +193,19 @@ def in_memory() -> Iterator[None]:
 
 
 @gis_packages()
-def prepared(layers: Sequence[MapLayer], *, crs: str, size: int, name: str | None, max_seconds: float) -> Prepared:
-    """Read layers; parameters and errors are those of `vexture.cartography.convert_map`."""
+def prepared(
+    layers: Sequence[MapLayer], *, crs: str, size: int | Box, name: str | None, max_seconds: float
+) -> Prepared:
+    """Read layers; parameters and errors are those of `vexture.cartography.convert_map`.
+
+    `size` may be the width and height in pixels of a box into which the map is fitted.
+    """
     if not isinstance(layers, Sequence) or not all(isinstance(layer, MapLayer) for layer in layers):
         raise ParameterError("`layers` is no list of layers; give one, such as [MapLayer(source)]")
     if not layers:
         raise ParameterError("a map of no sources; give at least one")
-    if not isinstance(size, int) or size < 1:
-        raise ParameterError(f"`size` is {size!r}; it must be 1 or more pixels")
+    if not isinstance(size, tuple) and (not isinstance(size, int) or size < 1):
+        raise ParameterError(f"`size` is {size!r}; it must be a whole number of pixels, 1 or more")
     notes, crs = Notes(), chosen_crs(crs, None)
     with within(max_seconds), in_memory():
         placed_there = together([_read(layer, crs, notes) for layer in layers], crs)
@@ -281,14 +288,15 @@ def _stepped(layer: MapLayer, times: Times, features: Features, notes: Notes) ->
     return features, steps, legend
 
 
-def _marked(painted: list[Painted], crs: str, size: int, notes: Notes) -> tuple[tuple[Painted, ...], Fit]:
+def _marked(painted: list[Painted], crs: str, size: int | Box, notes: Notes) -> tuple[tuple[Painted, ...], Fit]:
     """Layers with the areas of their lines and points, and the box of all."""
     boxes = [np.concatenate([f.rings.points, f.lines.points, f.points.points]) for f in (p.features for p in painted)]
     every = np.concatenate(boxes)
     if not len(every):
         raise SourceError("nothing of it lies on the map; choose another `crs`")
     reach = [every.min(axis=0), every.max(axis=0)]
-    pixel = (float((reach[1] - reach[0]).max()) or 1.0) / size
+    box = size if isinstance(size, tuple) else (size, size)
+    pixel = float(((reach[1] - reach[0]) / box).max()) or 1.0 / max(box)
     marked, taken = [], {str(name) for one in painted for name in one.names}
     for one in painted:
         outline = _outline(one, len(painted) > 1, taken, crs, pixel, notes)

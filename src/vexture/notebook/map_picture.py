@@ -5,14 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.cartography.colours import rgba_of
 from vexture.cartography.paths import Fit
-from vexture.cartography.prepare import FILL, INK, Painted, Prepared
+from vexture.cartography.prepare import DOT, FILL, INK, Painted, Prepared
 from vexture.geo.rings import Rings, oriented
 from vexture.renderers.accumulate import Sides, accumulated
 from vexture.renderers.view import Size, ViewLike
 from vexture.tree.planar.style import rounded
 
-__all__ = ["MapPicture", "map_picture"]
+__all__ = ["MapPicture", "map_picture", "plain"]
 
 CHORDS = 8
 """Sides in place of a cubic of a symbol."""
@@ -68,6 +69,17 @@ def map_picture(ready: Prepared) -> MapPicture:
         if one.symbols:
             sheets.append(_symbols(one, ready.fit, rows))
     return MapPicture(tuple(sheets))
+
+
+def plain(ready: Prepared, rgba: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Colours of the rows of the table, and then those of outlines in `rgba`, where no attribute is shown."""
+    changed, first = rgba.copy(), 0
+    for one in ready.layers:
+        features = one.features
+        for colour, rows in ((FILL, features.feature), (INK, features.lines.feature), (DOT, features.points.feature)):
+            changed[first + rows] = rounded(rgba_of(colour, "fill")[None])
+        first += len(features)
+    return changed
 
 
 def _ring_sides(rings: Rings, fit: Fit) -> Sides:

@@ -2,7 +2,7 @@
 
 import os
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -15,13 +15,14 @@ from numpy.typing import NDArray
 from vexture.cartography import Map, Scale
 from vexture.cartography.colours import colours_of
 from vexture.cartography.prepare import Prepared
-from vexture.errors import ParameterError, VextureError
-from vexture.notebook.map_options import attributes
-from vexture.notebook.map_picture import map_picture
+from vexture.errors import EXPECTED, ParameterError, reason_of
+from vexture.notebook.map_picture import map_picture, plain
 from vexture.notebook.map_steps import coded, steps_of
 from vexture.notebook.pending import Pending
 from vexture.notebook.picture import MARGIN, Rect, png_of
 from vexture.notebook.shared import shared
+from vexture.notebook.tip import Tips
+from vexture.notebook.traits import Label, Number
 from vexture.notebook.widget import HEIGHT, PICTURE_WIDTH, PNG, VectorWidget
 from vexture.notes import Notes, warn_at
 from vexture.renderers.view import Size, window
@@ -37,12 +38,6 @@ MOST_PIXELS: Final = 4096
 SELECTED: Final = (0.0, 0.9, 1.0, 1.0)
 """Colour of the selected feature: in no ramp of the default palettes."""
 
-MOST_TOLD: Final = 12
-"""Attributes in a tip."""
-
-LONGEST: Final = 80
-"""Letters of a value there."""
-
 
 class MapWidget(VectorWidget):
     """A map that can be moved, pointed at and coloured by another column; `vexture.map` makes it.
@@ -50,7 +45,7 @@ class MapWidget(VectorWidget):
     Attributes
     ----------
     column : str or None
-        Attribute that colours show; None of a map that shows its steps of time.
+        Attribute that colours show; without one all features look alike, or show the steps of time.
     time : float
         In steps, from 0; between two of them colours are mixed. The slider changes it, and so may Python.
     times : list of str
@@ -67,9 +62,9 @@ class MapWidget(VectorWidget):
         As of `VectorWidget`.
     """
 
-    column = traitlets.CUnicode(None, allow_none=True)
-    selected = traitlets.CUnicode(None, allow_none=True).tag(sync=True)
-    time = traitlets.CFloat(0.0).tag(sync=True)
+    column = Label(None, allow_none=True)
+    selected = Label(None, allow_none=True).tag(sync=True)
+    time = Number(0.0).tag(sync=True)
     times: Any = traitlets.List(trait=traitlets.Unicode()).tag(sync=True)
     _steps: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     legend: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
@@ -88,7 +83,7 @@ class MapWidget(VectorWidget):
         conversion: Callable[[], Map],
         *,
         asked_at: tuple[str, int],
-        tooltip: bool | Sequence[str] | None = True,
+        tooltip: Any = True,
         has_legend: bool = True,
         **traits: Any,
     ) -> None:
@@ -98,9 +93,10 @@ class MapWidget(VectorWidget):
         self._row = {name: row for row, name in enumerate(self._ids)}
         self._scale, self._has_legend, self._is_recolored, self._asked_at = scale, has_legend, False, asked_at
         self._drawn = map_picture(ready)
-        self._rgba = self._drawn.colours(len(self._ids))
+        self._rgba = self._own = self._drawn.colours(len(self._ids))
+        self._plain = plain(ready, self._own) if scale.column else self._own
         self._changing = steps_of(ready, self._rgba)
-        self._told = attributes(ready.table.column_names, tooltip)
+        self._tips = Tips(ready.table, tooltip, self._changing)
         self._style_rows: NDArray[np.intp] | None = None
         self._last: tuple[Size, tuple[float, ...], NDArray[np.float32]] | None = None
         legend = _legend(ready.legends[0]) if ready.legends and has_legend else None
@@ -210,9 +206,14 @@ class MapWidget(VectorWidget):
             assert self.texture is not None  # it is waited for
         super().save(path)
 
+    def only_saved(self) -> dict[str, Any]:
+        """What a page tells of features."""
+        return {"_tips": self._tips.saved(self.column, bool(self.times))}
+
     def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
         """Red, green, blue and opacity of colours by the names of features."""
-        colours = _by_names(colours)
+        if not isinstance(colours, Mapping):
+            raise ParameterError("the colours are no mapping of names, such as {'4': 'red'}")
         for name in colours:
             if name not in self._row:
                 raise ParameterError(f"there is no feature {name!r}; names are in the column `id` of `table`")
@@ -237,12 +238,6 @@ class MapWidget(VectorWidget):
             )
         return name
 
-    @traitlets.validate("colors")
-    def _checked_colours(self, proposal: Any) -> Any:
-        named = _by_names(proposal["value"])
-        self.components(named)
-        return named
-
     @traitlets.validate("time")
     def _checked_time(self, proposal: Any) -> float:
         time = float(proposal["value"])
@@ -259,20 +254,21 @@ class MapWidget(VectorWidget):
 
     def _recolour(self, change: Any) -> None:
         """Show another column, or again the steps of time."""
+        legend: dict[str, Any] | None
         if change["new"] is not None:
             rgba, legend = self._colours_of(change["new"])
         elif self._changing is not None:
             rgba, legend = self._changing.at(self.time), self._changing.legend
         else:
-            self.column = change["old"]
-            raise ParameterError("`column` is None, and the map has no steps of time; give the name of a column")
-        self._rgba, self._is_recolored = rgba, True
+            rgba, legend = self._plain, None
+        self._rgba, self._is_recolored = rgba, rgba is not self._own
         with self.hold_sync():
             self.times = list(self._changing.labels) if self._changing and change["new"] is None else []
             self._send_colours()
             self._mark({"new": self.selected})
-            self.legend = _legend(legend) if self._has_legend else None
+            self.legend = _legend(legend) if legend and self._has_legend else None
             self._draw_again()
+        self._tell({"new": self.hovered})
 
     def _colours_of(self, column: str) -> tuple[NDArray[np.float64], dict[str, Any]]:
         scale = replace(self._scale, column=column)
@@ -305,21 +301,7 @@ class MapWidget(VectorWidget):
 
     def _tell(self, change: Any) -> None:
         row = self._feature((change["new"] or {}).get("element"))
-        values = {} if row is None else self.table.slice(row, 1).to_pylist()[0]
-        tip = [[name, shown(values[name])] for name in self._told_now() if name in values]
-        if row is not None and self._changing is not None and self.times:
-            name, value = self._changing.value(self.table, row, self.time)
-            tip.append([name, shown(value)])
-        self.tip = tip
-
-    def _told_now(self) -> list[str]:
-        """Attributes that a tip tells: without a choice the id, that of the colours, and the first of the others."""
-        if self._told is not None:
-            return self._told
-        steps = self._changing.columns if self._changing else ()
-        others = [name for name in self.table.column_names if name not in steps]
-        first = [others[0], *([self.column] if self.column is not None else [])]
-        return list(dict.fromkeys([*first, *others]))[:MOST_TOLD]
+        self.tip = [] if row is None else self._tips.of(row, self.column, self.time if self.times else None)
 
     def _select(self, change: Any) -> None:
         found = (change["new"] or {}).get("element")
@@ -334,6 +316,13 @@ def _legend(found: dict[str, Any]) -> dict[str, Any]:
     return {"title": found["column"], "kind": found["scale"], "entries": entries}
 
 
+def _said(error: BaseException) -> str:
+    """What went wrong in a line; an error that is none of ours with its class."""
+    if isinstance(error, EXPECTED) or not isinstance(error, Exception):
+        return str(error)
+    return f"{type(error).__name__}: {reason_of(error)}"
+
+
 def _home(sides: tuple[float, float]) -> Rect:
     """The box of a map in the unit square, with a margin."""
     width, height = sides
@@ -343,30 +332,3 @@ def _home(sides: tuple[float, float]) -> Rect:
 def _sent(made: Map) -> tuple[Map, bytes]:
     """A map, and the bytes that a page gets."""
     return made, made.conversion.texture.to_ktx2()
-
-
-def _by_names(colours: Any) -> dict[str, Any]:
-    """Colours by names as texts: those of an index may be numbers."""
-    if not isinstance(colours, Mapping):
-        raise ParameterError("the colours are no mapping of names, such as {'4': 'red'}")
-    return {str(name): colour for name, colour in colours.items()}
-
-
-def _said(error: BaseException) -> str:
-    """An error as a page says it: what is none of ours says nothing without its kind."""
-    return str(error) if isinstance(error, VextureError | ParameterError) else f"{type(error).__name__}: {error}"
-
-
-def shown(value: Any) -> str:
-    """A value in a tip.
-
-    Examples
-    --------
-    >>> shown(3.0), shown(2020), shown(1234567.891), shown(None)
-    ('3', '2020', '1234567.89', '–')
-    """
-    if value is None:
-        return "–"
-    if isinstance(value, float):
-        return f"{value:.6g}" if abs(value) < 1e6 else f"{value:.2f}"
-    return str(value)[:LONGEST]

@@ -18,6 +18,7 @@ from vexture.live.shelf import TEXTURE_TYPE, File
 from vexture.notebook.colours import coloured, components_of
 from vexture.notebook.picture import MODES, Mode, home_of, png_of, seen
 from vexture.notebook.shared import Shared, shared
+from vexture.notebook.traits import Background, Choice, Colours, Pixels, Rectangle
 from vexture.renderers.view import Size, window
 from vexture.svg.colors import Color, parse_color
 from vexture.texture.choose import layers_of
@@ -39,10 +40,6 @@ PICTURE_WIDTH: Final = 640
 PNG: Final = ".png"
 SAVED: Final = ("view", "root", "mode", "background", "colors", "_home", "_name")
 """Traits that a saved page has; it is as large as its window."""
-
-
-def _rectangle(**tags: Any) -> Any:
-    return traitlets.Tuple(*(traitlets.CFloat() for _ in range(4))).tag(sync=True, **tags)
 
 
 def _colours_to_json(colours: Mapping[str, Any], widget: "VectorWidget") -> dict[str, list[float]]:
@@ -88,15 +85,15 @@ class VectorWidget(anywidget.AnyWidget):
     _esm = traitlets.Unicode().tag(sync=True)
     _engine = traitlets.Instance(Shared).tag(sync=True, **widget_serialization)
     _source = traitlets.Instance(Shared, allow_none=True).tag(sync=True, **widget_serialization)
-    _home = _rectangle()
+    _home = Rectangle().tag(sync=True)
     _name = traitlets.Unicode().tag(sync=True)
-    view = _rectangle()
+    view = Rectangle().tag(sync=True)
     root = traitlets.Union([traitlets.Int(), traitlets.Unicode()], allow_none=True, default_value=None).tag(sync=True)
-    mode = traitlets.Enum(MODES, MODES[0]).tag(sync=True)
-    colors = traitlets.Dict().tag(sync=True, to_json=_colours_to_json)
-    background = traitlets.Unicode("white").tag(sync=True)
-    width = traitlets.Int(None, allow_none=True, min=1).tag(sync=True)
-    height = traitlets.Int(HEIGHT, min=1).tag(sync=True)
+    mode = Choice(MODES, MODES[0]).tag(sync=True)
+    colors = Colours().tag(sync=True, to_json=_colours_to_json)
+    background = Background("white").tag(sync=True)
+    width = Pixels(None, allow_none=True).tag(sync=True)
+    height = Pixels(HEIGHT).tag(sync=True)
     picked = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     hovered = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
 
@@ -140,7 +137,7 @@ class VectorWidget(anywidget.AnyWidget):
             As of `vexture.render`.
         """
         shown = self.coloured()
-        mode: Mode = self.mode  # type: ignore[assignment]
+        mode: Mode = self.mode
         return seen(shown, size or (self.width or PICTURE_WIDTH, self.height), self.view, mode, self.root)
 
     def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
@@ -150,6 +147,10 @@ class VectorWidget(anywidget.AnyWidget):
     def coloured(self) -> Texture:
         """The texture in the colours that the widget shows."""
         return coloured(self.texture, self.colors, self.root)
+
+    def only_saved(self) -> dict[str, Any]:
+        """What a saved page has in place of the kernel."""
+        return {}
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write what the widget shows: ``NAME.png`` is a picture, ``NAME.html`` a page that needs no kernel or network.
@@ -167,6 +168,7 @@ class VectorWidget(anywidget.AnyWidget):
         check_output(target, PAGE)
         state = {
             **{name: _written(self.get_state(name)[name]) for name in (*SAVED, *self.saved_traits)},
+            **self.only_saved(),
             "width": None,
             "height": None,
         }
