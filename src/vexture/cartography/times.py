@@ -209,13 +209,13 @@ def _joined(features: Features, source: Any, notes: Notes) -> tuple[dict[str, An
     codes, ids = _coded(table.column(ID), ID)
     notes.remark("a row of the table of times has no id, and does not count", int((codes < 0).sum()))
     row_of = {name: row for row, name in enumerate(features.ids.tolist())}
-    names = texts_of(ids.to_pylist())
-    found = np.array([*(row_of.get(name, -1) for name in names), -1], np.int64)
+    texts = texts_of(ids.to_pylist())
+    found = np.array([*(row_of.get(name, -1) for name in texts), -1], np.int64)
     rows = found[codes]
     known = (rows >= 0) & (steps >= 0)
     if not known.any():
         raise SourceError(f"no id of the table of `times` is that of a feature, such as {features.ids[0]}; choose `id`")
-    lost = [names[code] for code in np.unique(codes[(rows < 0) & (codes >= 0)]).tolist()]
+    lost = [str(texts[code]) for code in np.unique(codes[(rows < 0) & (codes >= 0)]).tolist()]
     if lost:
         told = shortened(lost[0], 40)
         notes.remark(f"no feature has {counted(len(lost), 'id')} of the table of times, such as {told}")
