@@ -31,6 +31,9 @@ PRECISION: Final = 1e-7
 
 COLOURS: Final = ((0.9, 0.3, 0.2), (0.2, 0.5, 0.9), (0.3, 0.7, 0.3), (0.95, 0.8, 0.2), (0.5, 0.3, 0.7))
 
+RIM: Final = 3
+"""By which a colour may be off, of a byte's: an eye sees no rim of this."""
+
 METADATA: Final = {"name": "cells", "attribution": "tests", "vexture": {"margin": MARGIN, "zooms": ZOOMS}}
 
 

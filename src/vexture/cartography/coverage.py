@@ -12,7 +12,7 @@ from vexture.geo.snap import DEFAULT_SNAP, MOST_SNAP
 from vexture.geo.validity import made_valid
 from vexture.notes import Notes
 
-__all__ = ["covering", "ranks"]
+__all__ = ["covering", "ranks", "ranks_by_area"]
 
 NOISE: Final = 1e-9
 """Parts of the map's larger side: overlaps of less area than this times that side squared are not counted."""
@@ -130,19 +130,35 @@ def ranks(features: Features, order: str | None) -> NDArray[np.int64]:
     import shapely
 
     if order is None:
-        area = np.bincount(features.feature, shapely.area(features.rings.shapes), minlength=len(features))
-        sequence = np.argsort(-area, kind="stable")
-    else:
-        if order not in features.table.column_names:
-            known = ", ".join(features.table.column_names)
-            raise ParameterError(f"it has no column {order!r} for `order`; there are: {known}")
-        try:
-            found = pc.sort_indices(features.table.column(order))
-        except (pa.ArrowInvalid, pa.ArrowNotImplementedError, pa.ArrowTypeError):
-            raise ParameterError(f"`order` {order!r} cannot be sorted; name a column of numbers or text") from None
-        sequence = np.asarray(found, np.int64)
-        nulls = np.asarray(features.table.column(order).is_null(nan_is_null=True))[sequence]
-        sequence = np.append(sequence[nulls], sequence[~nulls])  # what has no value is below
-    rank = np.empty(len(features), np.int64)
-    rank[sequence] = np.arange(len(features))
+        weights = shapely.area(features.rings.shapes)
+        area: NDArray[np.float64] = np.bincount(features.feature, weights, len(features)).astype(np.float64)
+        return ranks_by_area(area)
+    if order not in features.table.column_names:
+        known = ", ".join(features.table.column_names)
+        raise ParameterError(f"it has no column {order!r} for `order`; there are: {known}")
+    try:
+        found = pc.sort_indices(features.table.column(order))
+    except (pa.ArrowInvalid, pa.ArrowNotImplementedError, pa.ArrowTypeError):
+        raise ParameterError(f"`order` {order!r} cannot be sorted; name a column of numbers or text") from None
+    sequence = np.asarray(found, np.int64)
+    nulls = np.asarray(features.table.column(order).is_null(nan_is_null=True))[sequence]
+    sequence = np.append(sequence[nulls], sequence[~nulls])  # what has no value is below
+    return _places(sequence)
+
+
+def ranks_by_area(area: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Order in which features of these areas are painted: the smaller above the larger, and then as in the source.
+
+    Examples
+    --------
+    >>> ranks_by_area(np.array([1.0, 4.0, 1.0])).tolist()
+    [1, 0, 2]
+    """
+    return _places(np.argsort(-area, kind="stable"))
+
+
+def _places(sequence: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The place of each feature in a sequence of all."""
+    rank = np.empty(len(sequence), np.int64)
+    rank[sequence] = np.arange(len(sequence))
     return rank

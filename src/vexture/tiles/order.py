@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.cartography.coverage import ranks
+from vexture.cartography.coverage import ranks, ranks_by_area
 from vexture.tiles.grid import HALF
 from vexture.tiles.pieces import Pieces
 
@@ -48,10 +48,7 @@ class Order:
 
     def _ranks(self) -> NDArray[np.int64]:
         if self._column is None:
-            area = np.concatenate([np.empty(0), *self._areas])
-            rank = np.empty(len(area), np.int64)
-            rank[np.argsort(-area, kind="stable")] = np.arange(len(area))
-            return rank
+            return ranks_by_area(np.concatenate([np.empty(0), *self._areas]))
         if self._features is None:
             return np.empty(0, np.int64)
         import pyarrow as pa
