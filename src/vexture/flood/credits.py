@@ -1,13 +1,14 @@
 """What a file says of itself: its title, where it is from, and on which terms it may be shown."""
 
 import re
-import warnings
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
 from vexture.content import NETCDF, TIFF
+from vexture.geo.gdal import opened_raster
+from vexture.geo.hdf5 import refuse_links_of_netcdf
 
 __all__ = ["Credits", "credits_among", "credits_of"]
 
@@ -72,18 +73,15 @@ def credits_of(path: Path) -> Credits:
 def _attributes(path: Path) -> Mapping[str, Any]:
     import netCDF4
 
-    with netCDF4.Dataset(path) as file:
+    refuse_links_of_netcdf(path)
+    with netCDF4.Dataset(path.absolute()) as file:
         return {name: file.getncattr(name) for name in file.ncattrs()}
 
 
 def _tags(path: Path) -> Mapping[str, Any]:
-    import rasterio
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # about a missing place: readers refuse it
-        with rasterio.open(path) as raster:
-            tags: Mapping[str, Any] = raster.tags()
-            return tags
+    with opened_raster(path) as raster:
+        tags: Mapping[str, Any] = raster.tags()
+        return tags
 
 
 def credits_among(attributes: Mapping[Any, Any]) -> Credits:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from vexture.content import TIFF
+from vexture.content import TIFF, about
 from vexture.errors import LimitError, SourceError, reason_of
 from vexture.flood.grids import pixels_to, size_for
 from vexture.flood.scene import PageNote
 from vexture.geo.extent import Frame
-from vexture.geo.gdal import gdal
+from vexture.geo.gdal import opened_raster
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -99,20 +99,17 @@ def _opened(path: Path) -> "Image.Image":
 
 def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[PageNote]]:
     """A GeoTIFF warped to the frame, over the drawn ground."""
-    import rasterio
     from PIL import Image
     from rasterio.errors import CRSError, RasterioError, RasterioIOError
 
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about a missing reference system, which is refused below
-            with gdal(), rasterio.open(path) as raster:
-                if raster.crs is None:
-                    raise SourceError(
-                        f"`ground` {path}: says no reference system; write it into the file (gdal_edit.py -a_srs "
-                        "EPSG:...), or save it as a PNG of exactly `bounds`"
-                    )
-                bands, alpha = _bands_over(raster, frame)
+        with warnings.catch_warnings(action="ignore"), about(f"`ground` {path}"), opened_raster(path) as raster:
+            if raster.crs is None:
+                raise SourceError(
+                    "says no reference system; write it into the file (gdal_edit.py -a_srs EPSG:...), or save it as a "
+                    "PNG of exactly `bounds`"
+                )
+            bands, alpha = _bands_over(raster, frame)
     except RasterioIOError:
         raise SourceError(f"`ground` {path}: is a damaged GeoTIFF; save it again") from None
     except (CRSError, RasterioError) as error:

@@ -15,10 +15,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.content import about
 from vexture.errors import SourceError, reason_of
 from vexture.flood.grids import coverage_over, filled, noise, pixels_to, sampled, shore_distance, size_for
 from vexture.geo.extent import Extent, Frame, Step
-from vexture.geo.gdal import gdal
+from vexture.geo.gdal import opened_raster
 
 __all__ = ["Relief", "beyond_of", "first_wet", "relief_of", "wet_samples", "widest"]
 
@@ -199,28 +200,30 @@ def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None
     target = pixels_to((west - half_x, south - half_y, east + half_x, north + half_y), size)
     heights = np.full(size[::-1], np.nan, np.float32)
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about a missing reference system, which is refused below
-            with gdal(), rasterio.open(path) as raster:
-                if not raster.count:
-                    choices = ", ".join(one.rpartition(":")[2] for one in raster.subdatasets[:8])
-                    raise SourceError(f"`relief` {path}: holds several grids ({choices}); give one that holds one")
-                system = raster.crs or crs
-                if system is None:
-                    raise SourceError(f"`relief` {path}: says no reference system; write it into the file as GeoTIFF")
-                reproject(
-                    rasterio.band(raster, 1),
-                    heights,
-                    src_crs=system,
-                    dst_transform=target,
-                    dst_crs=frame.crs,
-                    dst_nodata=np.nan,
-                    init_dest_nodata=True,
-                    resampling=Resampling.bilinear,
-                )
+        with (
+            warnings.catch_warnings(action="ignore"),
+            about(f"`relief` {path}"),
+            opened_raster(path, others=True) as raster,
+        ):
+            if not raster.count:
+                choices = ", ".join(one.rpartition(":")[2] for one in raster.subdatasets[:8])
+                raise SourceError(f"holds several grids ({choices}); give one that holds one")
+            system = raster.crs or crs
+            if system is None:
+                raise SourceError("says no reference system; write it into the file as GeoTIFF")
+            reproject(
+                rasterio.band(raster, 1),
+                heights,
+                src_crs=system,
+                dst_transform=target,
+                dst_crs=frame.crs,
+                dst_nodata=np.nan,
+                init_dest_nodata=True,
+                resampling=Resampling.bilinear,
+            )
     except RasterioIOError:
         reason = "is no raster that can be read" if path.is_file() else "there is no such file"
-        raise SourceError(f"`relief` {path}: {reason}; give heights in metres as GeoTIFF") from None
+        raise SourceError(f"`relief` {path}: {reason}; give heights in metres as one GeoTIFF") from None
     except (CRSError, RasterioError) as error:
         raise SourceError(f"`relief` {path}: {reason_of(error, 200)}; give another file") from None
     if not np.isfinite(heights).any():

@@ -3,6 +3,7 @@
 Coordinates are always in the order x, y: longitude before latitude, whatever order the system itself defines.
 """
 
+import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from vexture.errors import DeviceError, LimitError, ParameterError, SourceError
 from vexture.geo.extent import Bounds, Frame
+from vexture.geo.named import refuse_files_of_system
 from vexture.tolerance import CLOSED
 
 if TYPE_CHECKING:
@@ -91,7 +93,9 @@ def chosen_crs(given: str | None, found: str | None) -> str:
         return _shortest(_text_of(given))
     if not found:
         raise MissingReferenceError("it names no reference system of its coordinates; give `crs` EPSG:...")
+    refuse_files_of_system(found)
     with _of_the_file():
+        refuse_files_of_system(json.dumps(system(found).to_json_dict()) if found != UNPLACED else "")
         return _shortest(found)
 
 

@@ -18,11 +18,14 @@ from vexture.errors import ParameterError, SourceError, shortened
 from vexture.geo.damage import HEADER, missing_arcs, refuse_cut
 from vexture.geo.extent import Bounds
 from vexture.geo.frames import arrow_of, labels_of
+from vexture.geo.gdal import plain_place
+from vexture.geo.geopackage import refuse_links_of_geopackage
+from vexture.geo.named import refuse_files_of_json
 from vexture.geo.vectors import (
-    APPLICATION,
-    GEOPACKAGES,
     chosen_layer,
     gdal_errors,
+    refuse_links_of_flatgeobuf,
+    refuse_links_of_shapefile,
     whole_shapefile,
     zipped_shapefiles,
 )
@@ -133,11 +136,10 @@ def chunks_of(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]
 def _content(source: str | os.PathLike[str] | bytes) -> tuple[bytes | str, bool]:
     """What GDAL reads: a file in memory or, of one that is too large, its place; and whether it is JSON."""
     start = start_of(source)
-    if start.startswith((FLATGEOBUF, SQLITE)) and not isinstance(source, bytes):
-        if start.startswith(SQLITE) and start[APPLICATION] not in GEOPACKAGES:
-            raise SourceError("an SQLite database, but no GeoPackage; save it as GeoPackage")
-        if Path(source).stat().st_size > LARGEST_FILE:
-            return os.fspath(source), False
+    is_on_disk = start.startswith((FLATGEOBUF, SQLITE)) and not isinstance(source, bytes)
+    if is_on_disk and Path(source).stat().st_size > LARGEST_FILE:  # type: ignore[arg-type]
+        _refuse_links(source)
+        return plain_place(source), False
     if start.startswith(SHAPEFILE):
         if isinstance(source, bytes):
             raise SourceError("a shapefile is several files; give them together as a .zip")
@@ -146,7 +148,8 @@ def _content(source: str | os.PathLike[str] | bytes) -> tuple[bytes | str, bool]
             return whole_shapefile(Path(source)), False
         with Path(source).open("rb") as file:
             refuse_cut(Path(source).name, file.read(HEADER), size)
-        return os.fspath(source), False
+        refuse_links_of_shapefile(Path(source))
+        return plain_place(source), False
     if not isinstance(source, bytes) and Path(source).is_file() and Path(source).stat().st_size > LARGEST_FILE:
         raise SourceError(
             f"the file is larger than {LARGEST_FILE:,} bytes, the most that is read at once; convert it to FlatGeobuf, "
@@ -155,12 +158,16 @@ def _content(source: str | os.PathLike[str] | bytes) -> tuple[bytes | str, bool]
     content = read_bytes(source)
     if content.startswith(ZIP):
         return zipped_shapefiles(content), False
-    if content.startswith(SQLITE) and content[APPLICATION] not in GEOPACKAGES:
-        raise SourceError("an SQLite database, but no GeoPackage; save it as GeoPackage")
     is_json = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{"
     if not is_json and not content.startswith((SQLITE, FLATGEOBUF)):
         raise SourceError(f"holds no features that can be read; {READ}")
+    refuse_files_of_json(content) if is_json else _refuse_links(content)
     return content, is_json
+
+
+def _refuse_links(source: str | os.PathLike[str] | bytes) -> None:
+    is_base = start_of(source).startswith(SQLITE)
+    (refuse_links_of_geopackage if is_base else refuse_links_of_flatgeobuf)(source)
 
 
 def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None) -> Iterator[Chunk]:
@@ -275,7 +282,7 @@ def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
     if choice.layer is not None:
         raise ParameterError(f"GeoParquet has no layers, so none {choice.layer!r}; leave `layer` out")
     try:
-        file = pq.ParquetFile(BytesIO(source) if isinstance(source, bytes) else os.fspath(source))
+        file = pq.ParquetFile(BytesIO(source) if isinstance(source, bytes) else os.path.abspath(source))
         geometry, crs = _geometry_of(file.schema_arrow)
         names = [name for name in file.schema_arrow.names if name != geometry]
         columns = choice.kept(names)

@@ -1,21 +1,220 @@
-"""How GDAL reads rasters here: with little memory, however large they are, and without messages of its own."""
+"""How GDAL reads here: formats by name, no file or address but those that are asked for, little memory, no messages.
+
+What a raster says of other files is refused, and so is a file beside it that GDAL would open and that leads elsewhere.
+"""
 
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Final
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from threading import RLock
+from typing import TYPE_CHECKING, Final
 
-__all__ = ["gdal"]
+from vexture.content import NETCDF, TIFF, start_of
+from vexture.errors import DeviceError, SourceError, printable, reason_of, shortened
+from vexture.geo.hdf5 import refuse_links_of_netcdf
+from vexture.geo.named import refuse_files_of_system
+
+if TYPE_CHECKING:
+    from rasterio import DatasetReader
+
+__all__ = ["opened_raster", "plain_place", "vector_formats"]
 
 CACHE: Final = 128 * 2**20
 """Bytes of blocks that GDAL keeps, which by default takes a twentieth of the memory. A row of blocks of a raster of
 50,000 columns has 100 MB."""
 
+GEOTIFF: Final = "GTiff"
+OTHERS: Final[Mapping[str, tuple[bytes, ...]]] = {
+    "AAIGrid": (b"ncols", b"nrows", b"xll", b"yll", b"cellsize"),
+    "netCDF": NETCDF,
+}
+"""Formats of rasters, none of which is a list of other files, and their first bytes in lower case."""
+
+VECTORS: Final = ("ESRI Shapefile", "FlatGeobuf", "GPKG", "GeoJSON", "TopoJSON")
+"""Formats of features. GDAL knows 60 more by words anywhere at the start of a file: some are lists of other files,
+addresses or commands."""
+
+OFFLINE: Final[Mapping[str, str]] = {
+    "CPL_LOG": os.devnull,
+    "CPL_VSIL_CURL_ALLOWED_EXTENSIONS": ".none",
+    "GDAL_HTTP_PROXY": "127.0.0.1:9",  # where nothing answers
+    "OGR_SQLITE_ALLOW_EXTERNAL_ACCESS": "NO",
+    "OGR_SQLITE_LOAD_EXTENSIONS": "NO",
+    "OSR_SET_FROM_USER_INPUT_ALLOW_FILE_ACCESS": "NO",
+    "OSR_SET_FROM_USER_INPUT_ALLOW_NETWORK_ACCESS": "NO",
+}
+"""Options by which GDAL says nothing of its own, and fetches nothing, should a link ever reach it."""
+
+DATASETS: Final = (".ovr", ".msk")
+"""Endings of files beside a raster that GDAL opens as rasters of any format."""
+
+IMAGINE: Final = b"EHFA_HEADER_TAG"
+"""First bytes of an .aux that GDAL opens, and the files that it names."""
+
+LARGEST_NOTE: Final = 16 * 2**20
+"""Bytes of an .aux.xml or .prj; what GDAL writes there has some thousands."""
+
+LINKS: Final = ("OVERVIEW_FILE", "X_DATASET", "Y_DATASET")
+"""Metadata that name other files: of smaller copies, and of the places of the pixels."""
+
+IN_ADDRESSES: Final = "!;?#"
+"""Characters at which pyogrio splits names of files."""
+
+CHANGING: Final = RLock()
+"""Held while GDAL knows fewer formats for features than it does otherwise."""
+
+SHOWN: Final = 80
+"""Characters of a link in a message."""
+
 
 @contextmanager
-def gdal() -> Iterator[None]:
+def gdal(**options: str) -> Iterator[None]:
     """Read rasters within this context."""
     import rasterio
 
-    with rasterio.Env(CPL_LOG=os.devnull, GDAL_CACHEMAX=CACHE):
+    with rasterio.Env(GDAL_CACHEMAX=CACHE, **OFFLINE, **options):
         yield
+
+
+@contextmanager
+def opened_raster(source: str | os.PathLike[str] | bytes, *, others: bool = False) -> Iterator["DatasetReader"]:
+    """Open a GeoTIFF or, with `others`, a grid of text or of NetCDF, which leads to no other file.
+
+    Raises a `SourceError` that names the link if it does, and what rasterio raises if it cannot be opened.
+    """
+    import rasterio
+    from rasterio.io import MemoryFile
+
+    start = start_of(source).lstrip().lower()
+    known = (name for name, starts in OTHERS.items() if others and start.startswith(tuple(map(bytes.lower, starts))))
+    driver = next(known, GEOTIFF)
+    if not isinstance(source, bytes):
+        path = Path(source).absolute()  # which is no address, whatever its name
+        refuse_links_beside(path)
+        refuse_links_of_netcdf(path)
+    with ExitStack() as stack:
+        stack.enter_context(gdal())
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about a missing place or reference system: who reads it says so
+            if isinstance(source, bytes):
+                memory = stack.enter_context(MemoryFile(source))
+                file = stack.enter_context(memory.open(driver=driver))
+            else:
+                file = stack.enter_context(rasterio.open(path, driver=driver))
+        refuse_links_in(file)
+        yield file
+
+
+def refuse_links_in(file: "DatasetReader") -> None:
+    """Refuse an open raster of which the metadata name another file; it has opened none yet."""
+    for domain in file.tag_namespaces():
+        for name, value in file.tags(ns=domain).items():
+            if name.upper() in LINKS:
+                raise SourceError(f"{_link(name, value)}; write it again without: gdal_translate keeps none")
+    if file.crs:
+        refuse_files_of_system(file.crs.to_wkt())
+
+
+def refuse_links_beside(path: Path) -> None:
+    """Refuse a raster beside which is a file that GDAL would open with it, and that can lead elsewhere."""
+    try:
+        around = sorted(path.parent.iterdir()) if path.parent.is_dir() else []
+    except OSError as error:
+        raise SourceError(
+            f"its folder cannot be read ({error.strerror}); what is beside it can lead elsewhere"
+        ) from None
+    for beside in around:
+        is_own = beside.name.lower().startswith(f"{path.stem.lower()}.") and beside.name != path.name
+        if is_own and beside.is_file():
+            why = _why_not(beside)
+            if why:
+                raise SourceError(f"{printable(beside.name)} beside it {why}; remove that file, or make it again")
+
+
+def _why_not(path: Path) -> str:
+    """Why a file beside a raster is not read; empty if it leads nowhere."""
+    import rasterio
+    from rasterio.errors import RasterioError
+
+    start, end = start_of(path), path.suffix.lower()
+    if end in DATASETS:
+        if not start.startswith(TIFF):
+            return "is no TIFF, and can lead to other files"
+        try:
+            with gdal(GDAL_DISABLE_READDIR_ON_OPEN="EMPTY_DIR"), rasterio.open(path, driver=GEOTIFF) as file:
+                refuse_links_in(file)
+        except (RasterioError, OSError):
+            return "is damaged"
+        except SourceError as error:
+            return f"is not to be trusted ({error})".partition("; ")[0].removesuffix(")") + ")"
+    elif end == ".aux" and start.startswith(IMAGINE):
+        return "is of a format that names other files"
+    elif path.name.lower().endswith((".aux.xml", ".prj")):
+        with path.open("rb") as opened:
+            content = opened.read(LARGEST_NOTE + 1)
+        if len(content) > LARGEST_NOTE:
+            return f"has more than {LARGEST_NOTE:,} bytes"
+        try:
+            if end == ".prj":
+                refuse_files_of_system(content.decode(errors="replace"))
+            else:
+                _refuse_metadata(content)
+        except SourceError as error:
+            return f"is not to be trusted ({error})".partition("; ")[0].removesuffix(")") + ")"
+    return ""
+
+
+def _refuse_metadata(content: bytes) -> None:
+    """Refuse an .aux.xml that names another file."""
+    from lxml import etree
+
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
+    try:
+        root = etree.fromstring(content, parser)
+    except etree.XMLSyntaxError as error:
+        raise SourceError(f"it is no XML ({reason_of(error)})") from None
+    for item in root.iter("{*}*"):
+        key, text = str(item.get("key", "")), "".join(map(str, item.itertext()))
+        if key.upper() in LINKS:
+            raise SourceError(_link(key, text))
+        if etree.QName(item).localname.upper() == "SRS":
+            refuse_files_of_system(text)
+
+
+def plain_place(source: str | os.PathLike[str] | bytes) -> str:
+    """Absolute path of a file of features, which pyogrio does not take for parts of an address."""
+    place = os.path.abspath(os.fsdecode(source))
+    found = next((character for character in IN_ADDRESSES if character in place), None)
+    if found:
+        raise SourceError(f"the name of its place, {printable(place)!r}, has a {found}, as addresses have; rename it")
+    return place
+
+
+def _link(name: str, value: str) -> str:
+    shown = printable(shortened(" ".join(value.split()), SHOWN))
+    return f"its metadata name another file, {shown!r} ({name}), and no other file is read"
+
+
+@contextmanager
+def vector_formats() -> Iterator[None]:
+    """Read features within this context, in which GDAL knows their formats only.
+
+    The list is that of pyogrio's GDAL, and is as before afterwards: others who use pyogrio may need more.
+    """
+    import pyogrio
+    from pyogrio._ogr import _register_drivers  # no other way to say which formats GDAL may take a file for
+
+    with CHANGING:
+        before = {name: pyogrio.get_gdal_config_option(name) for name in ("GDAL_SKIP", *OFFLINE)}
+        others = [name for name in pyogrio.list_drivers() if name not in VECTORS]
+        try:
+            pyogrio.set_gdal_config_options({"GDAL_SKIP": ",".join([*others, before["GDAL_SKIP"] or ""]), **OFFLINE})
+            _register_drivers()
+            if not set(pyogrio.list_drivers()) <= {*VECTORS}:
+                raise DeviceError("this pyogrio does not keep to some formats; install another: pip install -U pyogrio")
+            yield
+        finally:
+            pyogrio.set_gdal_config_options(before)
+            _register_drivers()

@@ -1,15 +1,14 @@
 """Depths in a GeoTIFF."""
 
 import os
-import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from vexture.errors import ParameterError, SourceError, reason_of
-from vexture.geo.gdal import gdal
+from vexture.geo.gdal import opened_raster
 from vexture.geo.series import Lattice, Reading, Series, Values
 from vexture.notes import Notes
 
@@ -27,24 +26,14 @@ def open_geotiff(
 
     `variable` chooses a band by its number, counted from 1, or by its description; `ParameterError` if there is none.
     """
-    import rasterio
     from rasterio.errors import RasterioError
-    from rasterio.io import MemoryFile
 
-    memory = MemoryFile(source) if isinstance(source, bytes) else None
-    try:
-        with gdal():
-            try:
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore")
-                    opened = memory.open(driver="GTiff") if memory else rasterio.open(source, driver="GTiff")
-            except (RasterioError, OSError) as error:
-                raise SourceError(f"it cannot be read as GeoTIFF ({reason_of(error)}); write it again") from None
-            with opened as file:
-                yield _series(file, time_dim, variable, notes)
-    finally:
-        if memory:
-            memory.close()
+    with ExitStack() as stack:
+        try:
+            file = stack.enter_context(opened_raster(source))
+        except (RasterioError, OSError) as error:
+            raise SourceError(f"it cannot be read as GeoTIFF ({reason_of(error)}); write it again") from None
+        yield _series(file, time_dim, variable, notes)
 
 
 def _series(file: "DatasetReader", time_dim: str | None, variable: str | None, notes: Notes) -> Series:

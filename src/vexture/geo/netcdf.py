@@ -14,6 +14,7 @@ import numpy as np
 
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
 from vexture.geo.datasets import dataset_of, is_dataset
+from vexture.geo.hdf5 import refuse_links_of_netcdf
 from vexture.geo.series import Lattice, Reading, Series, Values
 from vexture.geo.speeds import speed_of
 from vexture.geo.variables import depths_of, listed, loaded, refuse_layers, time_axis
@@ -54,6 +55,7 @@ def _file(source: bytes | str | os.PathLike[str], stack: ExitStack) -> Any:
     if isinstance(source, bytes):
         place = os.path.join(stack.enter_context(TemporaryDirectory(prefix="vexture-")), "depths.nc")
         Path(place).write_bytes(source)
+    refuse_links_of_netcdf(place)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

@@ -32,7 +32,10 @@ from vexture.content import (
 )
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
 from vexture.geo.damage import refuse_cut
+from vexture.geo.gdal import vector_formats
 from vexture.geo.geojson import UNLOCATED, areas_of
+from vexture.geo.geopackage import refuse_links_of_geopackage
+from vexture.geo.named import refuse_files_of_system
 from vexture.geo.rings import Rings, rings_of
 from vexture.notes import Notes
 
@@ -44,16 +47,19 @@ __all__ = [
     "parsed_wkb",
     "parts_of",
     "read_areas",
+    "refuse_links_of_flatgeobuf",
+    "refuse_links_of_shapefile",
     "whole_shapefile",
     "zipped_shapefiles",
 ]
 
-APPLICATION: Final = slice(68, 72)
-GEOPACKAGES: Final = (b"GPKG", b"GP10", b"GP11")
-"""Application identifiers of a GeoPackage, at these bytes of an SQLite file."""
-
 PARTS: Final = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 """Files of one shapefile, of which the first two are required."""
+
+SIZE_OF_HEADER: Final = slice(8, 12)
+HEADER_START: Final = 12
+FLATGEOBUF_HEADER: Final = 16 * 2**20
+"""Where a FlatGeobuf says the size of its header, where that starts, and more bytes than GDAL takes."""
 
 AREAL: Final = ("Polygon", "Surface", "Unknown", "GeometryCollection", "Triangle", "TIN")
 """Words in the geometry types of layers that may hold polygons."""
@@ -90,9 +96,10 @@ def read_areas(
     elif content.startswith(ZIP):
         content = zipped_shapefiles(content)
     elif content.startswith(SQLITE):
-        if content[APPLICATION] not in GEOPACKAGES:
-            raise SourceError("an SQLite database, but no GeoPackage; save it as GeoPackage")
-    elif not content.startswith(FLATGEOBUF):
+        refuse_links_of_geopackage(content)
+    elif content.startswith(FLATGEOBUF):
+        refuse_links_of_flatgeobuf(content)
+    else:
         raise SourceError("none of GeoJSON, GeoPackage, FlatGeobuf and shapefile; convert it to one of them")
     return _gdal(content, layer, notes)
 
@@ -114,6 +121,24 @@ def whole_shapefile(path: Path) -> bytes:
         raise SourceError(f"its folder cannot be read: {error.strerror}; the files beside it are needed") from None
     found = {part: beside.get(path.stem.lower() + part) for part in PARTS} | {".shp": path}
     return _zipped({f"{path.stem}{part}": read_bytes(each) for part, each in found.items() if each is not None})
+
+
+def refuse_links_of_shapefile(path: Path) -> None:
+    """Raise a `SourceError` if the .prj beside a ``.shp`` names a file or an address."""
+    for beside in path.parent.iterdir():
+        if beside.name.lower() == f"{path.stem.lower()}.prj":
+            refuse_files_of_system(read_bytes(beside).decode(errors="replace"))
+
+
+def refuse_links_of_flatgeobuf(source: str | os.PathLike[str] | bytes) -> None:
+    """Raise a `SourceError` if the reference system in the header of a FlatGeobuf names a file or an address."""
+    if isinstance(source, bytes):
+        start = source[:FLATGEOBUF_HEADER]
+    else:
+        with Path(source).open("rb") as file:
+            start = file.read(FLATGEOBUF_HEADER)
+    header = start[: HEADER_START + int.from_bytes(start[SIZE_OF_HEADER], "little")]
+    refuse_files_of_system(header.decode("latin-1"))
 
 
 def zipped_shapefiles(content: bytes) -> bytes:
@@ -144,6 +169,7 @@ def _zipped(files: dict[str, bytes]) -> bytes:
             raise SourceError(f"the shapefile {stem}.shp lacks its {stem}.shx; keep its files together")
         for name in (f"{stem}.shp", f"{stem}.shx"):
             refuse_cut(name, named[name], len(named[name]))
+        refuse_files_of_system(named.get(f"{stem}.prj", b"").decode(errors="replace"))
     packed = BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
         for name, content in named.items():
@@ -165,11 +191,12 @@ def _gdal(content: bytes, layer: str | None, notes: Notes) -> tuple[Rings, str |
 
 @contextmanager
 def gdal_errors() -> Iterator[None]:
-    """Turn what GDAL raises into a `SourceError`, and silence its warnings."""
+    """Let GDAL read features, silence its warnings, and turn what it raises into a `SourceError`."""
     with QUIET, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # warnings of GDAL; invalid geometries are found later
         try:
-            yield
+            with vector_formats():
+                yield
         except ParameterError:  # of `layer`; it is a ValueError too
             raise
         except (

@@ -142,7 +142,7 @@ class FloodConversion:
             self.shape_of(json.dumps(shape).encode(), PREFIX)
         with suppress(VextureError):
             self.shape_of(_small_tiff(self.frame), PREFIX)
-        import xarray  # noqa: F401  # the rest of what NetCDF needs
+        import h5py, xarray  # noqa: E401, F401, I001  # the rest of what NetCDF needs
 
     def _texture(self, data: bytes, name: str) -> Shape:
         """Shape of a texture that was made in this frame."""
