@@ -1,6 +1,7 @@
 """Sources that lead elsewhere, each by another way of its format; each writer returns what a reader is given."""
 
 import json
+import re
 import sqlite3
 from contextlib import closing
 from pathlib import Path
@@ -11,6 +12,7 @@ import pyogrio
 import shapely
 from outside import BOX, SIDE, WKT, Outside, raster
 
+WKT2 = 'GEOGCRS["s",DATUM["a",ELLIPSOID["b",6378137,298]],PRIMEM["Greenwich",0]]'
 RING = [[4, 52], [6, 52], [6, 53], [4, 53], [4, 52]]
 
 
@@ -63,10 +65,12 @@ def places_elsewhere(folder, link):
     return raster(folder / "a.tif", plain(), placed=False, tags={"GEOLOCATION": about})
 
 
-def netcdf(path, kind, link, group=""):
+def netcdf(path, kind, link, group="", system="EPSG:28992"):
     """A file of depths of which some are elsewhere, or that has a name for what is elsewhere."""
     with h5py.File(path, "w") as file:
-        file.attrs["crs"] = "EPSG:28992"
+        file.attrs["crs"] = system
+        about = file.create_dataset("crs", data=1)
+        about.attrs.update(spatial_ref=system, grid_mapping_name="latitude_longitude")
         axes = [file.create_dataset(name, data=np.arange(count) * 1.0) for name, count in (("y", 40), ("x", 100))]
         for name, axis in zip("yx", axes, strict=True):
             axis.make_scale(name)
@@ -91,13 +95,20 @@ def netcdf(path, kind, link, group=""):
         else:
             for dimension, axis in enumerate(axes):
                 depth.dims[dimension].attach_scale(axis)
-        depth.attrs.update(units="m", standard_name="sea_floor_depth_below_sea_surface")
+        depth.attrs.update(units="m", standard_name="sea_floor_depth_below_sea_surface", grid_mapping="crs")
     if kind == "referred":
         with path.open("r+b") as file:  # two names, of which there is one: what is left has none
             file.seek(at + 4)
             file.write((2).to_bytes(4, "little"))
         with h5py.File(path, "r+") as file:
             del file["hidden"]
+    return path
+
+
+def named(path, name):
+    with h5py.File(netcdf(path, "plain", ""), "r+") as file:
+        del file.attrs["crs"], file["crs"].attrs["spatial_ref"]
+        file["crs"].attrs["geographic_crs_name"] = name
     return path
 
 
@@ -118,9 +129,9 @@ def crs_of_geojson(folder, kind, **properties):
 
 
 def crs_in_disguise(folder, url):
-    """A member `crs` of a geometry, with a key in other letters, in what only lenient readers take for JSON."""
+    """A member `crs` of a geometry, and the word that makes it a link, in other letters."""
     path = geojson(folder)
-    key = r'"\u0063RS"/**/: {"type": "li\u006ek", "properties": {"href": "URL"}}, "coordinates"'.replace("URL", url)
+    key = r'"\u0063RS": {"type": "li\u006ek", "properties": {"href": "URL"}}, "coordinates"'.replace("URL", url)
     path.write_text(path.read_text().replace('"coordinates"', key))
     return path
 
@@ -163,6 +174,33 @@ def shapefile(folder, prj):
     path = written(folder / "a.shp")
     path.with_suffix(".prj").write_text(prj)
     return path
+
+
+def flatgeobuf(folder, system):
+    """A file whose system GDAL would write otherwise: in place of a name that is as long."""
+    name = "A" * 400
+    path = written(folder / "a.fgb", WKT.replace("secret", name))
+    content = path.read_bytes()
+    start = content.index(b"GEOG")
+    end = content.index(b"\0", start)
+    path.write_bytes(content[:start] + system.encode().ljust(end - start) + content[end:])
+    return path
+
+
+def in_lines(path):
+    feature = json.dumps(json.loads(re.sub(r'"\\u0063RS".*?}}, ', "", path.read_text()))["features"][0])
+    link = re.search(r'"\\u0063RS".*?}}', path.read_text())[0]
+    path.write_text(f"{feature}\n" + feature.replace('"coordinates"', f'{link}, "coordinates"') + "\n")
+    return path
+
+
+def pipeline(link):
+    """A projected system of which the projection is a pipeline of PROJ."""
+    return (
+        f'PROJCRS["a",BASE{WKT2[:-1]}],CONVERSION["b",METHOD["PROJ-based operation method: +proj=pipeline +step '
+        f'+proj=gridshift +grids={link} +step +proj=merc"]],CS[Cartesian,2],AXIS["x",east],AXIS["y",north],'
+        'LENGTHUNIT["m",1]]'
+    )
 
 
 def geopackage(folder, *statements):
@@ -245,6 +283,7 @@ DEPTHS = {
     "NetCDF with an external link": lambda f, o: netcdf(f / "a.nc", "link", o["secret.h5"]),
     "NetCDF with an external link in a group": lambda f, o: netcdf(f / "a.nc", "link", o["secret.h5"], "one/two"),
     "NetCDF with a dimension elsewhere": lambda f, o: netcdf(f / "a.nc", "referred", o["secret.bin"]),
+    "NetCDF with a name in a list": lambda f, o: named(f / "a.nc", f"+init={o['secret.init']}:1"),
     "a partition with external storage": lambda f, o: partition(f, o["secret.bin"]),
 }
 """Depths, which `read_extent` reads, and servers of floods."""
@@ -273,6 +312,9 @@ AREAS = {
     ),
     "a shapefile whose .prj has a grid": lambda f, o: shapefile(f, with_grid(o["secret.gsb"])),
     "a shapefile whose .prj has a list of systems": lambda f, o: shapefile(f, with_list(o["secret.init"])),
+    "a FlatGeobuf with a grid": lambda f, o: flatgeobuf(f, with_grid(o["secret.gsb"])),
+    "features in lines with a link in disguise": lambda f, o: in_lines(crs_in_disguise(f, o.url)),
+    "a system that is a pipeline": lambda f, o: system(f, pipeline(o["secret.gsb"])),
     "a GeoPackage with a table of texts": lambda f, o: table_elsewhere(
         f, f"VirtualText('{o['secret.csv']}', UTF-8, 1)"
     ),
@@ -343,6 +385,7 @@ RELIEFS = {
     "a relief that is a virtual raster by another name": lambda f, o: text(f, "a.tif", virtual_raster(o["secret.tif"])),
     "a relief with places elsewhere": lambda f, o: places_elsewhere(f, o["secret.tif"]),
     "a relief with an external link": lambda f, o: netcdf(f / "a.nc", "external", o["secret.bin"]),
+    "a relief with a grid": lambda f, o: netcdf(f / "a.nc", "plain", "", system=with_grid(o["secret.gsb"])),
     "a relief that is a service": lambda f, o: text(
         f, "a.xml", f"<GDAL_WMS><Service name='TMS'><ServerUrl>{o.url}</ServerUrl></Service></GDAL_WMS>"
     ),

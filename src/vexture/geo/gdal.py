@@ -26,13 +26,14 @@ CACHE: Final = 128 * 2**20
 50,000 columns has 100 MB."""
 
 GEOTIFF: Final = "GTiff"
+NETCDF_DRIVER: Final = "netCDF"
 OTHERS: Final[Mapping[str, tuple[bytes, ...]]] = {
     "AAIGrid": (b"ncols", b"nrows", b"xll", b"yll", b"cellsize"),
-    "netCDF": NETCDF,
+    NETCDF_DRIVER: NETCDF,
 }
 """Formats of rasters, none of which is a list of other files, and their first bytes in lower case."""
 
-VECTORS: Final = ("ESRI Shapefile", "FlatGeobuf", "GPKG", "GeoJSON", "TopoJSON")
+VECTORS: Final = ("ESRI Shapefile", "FlatGeobuf", "GPKG", "GeoJSON", "GeoJSONSeq", "TopoJSON")
 """Formats of features. GDAL knows 60 more by words anywhere at the start of a file: some are lists of other files,
 addresses or commands."""
 
@@ -61,6 +62,9 @@ LINKS: Final = ("OVERVIEW_FILE", "X_DATASET", "Y_DATASET")
 
 IN_ADDRESSES: Final = "!;?#"
 """Characters at which pyogrio splits names of files."""
+
+SYSTEMS: Final = ("crs", "srs", "spatial_ref", "proj", "wkt", "pe_string")
+"""In the names of attributes of NetCDF that describe a reference system."""
 
 CHANGING: Final = RLock()
 """Held while GDAL knows fewer formats for features than it does otherwise."""
@@ -94,6 +98,8 @@ def opened_raster(source: str | os.PathLike[str] | bytes, *, others: bool = Fals
         path = Path(source).absolute()  # which is no address, whatever its name
         refuse_links_beside(path)
         refuse_links_of_netcdf(path)
+        if driver == NETCDF_DRIVER:
+            _refuse_systems_of_netcdf(path)
     with ExitStack() as stack:
         stack.enter_context(gdal())
         with warnings.catch_warnings():
@@ -190,6 +196,25 @@ def plain_place(source: str | os.PathLike[str] | bytes) -> str:
     if found:
         raise SourceError(f"the name of its place, {printable(place)!r}, has a {found}, as addresses have; rename it")
     return place
+
+
+def _refuse_systems_of_netcdf(path: Path) -> None:
+    """Refuse NetCDF of which an attribute is a reference system that names a file: GDAL reads all of them."""
+    import netCDF4
+
+    try:
+        with netCDF4.Dataset(path) as file:
+            left = [file]
+            while left:
+                one = left.pop()
+                left += [*getattr(one, "groups", {}).values(), *getattr(one, "variables", {}).values()]
+                for name in one.ncattrs():
+                    if any(word in name.lower() for word in SYSTEMS):
+                        refuse_files_of_system(str(one.getncattr(name)))
+    except (OSError, RuntimeError, ValueError, AttributeError) as error:  # netCDF4 raises all of them
+        raise SourceError(
+            f"it cannot be read as NetCDF ({reason_of(error, hidden=str(path))}); write it again"
+        ) from None
 
 
 def _link(name: str, value: str) -> str:

@@ -10,6 +10,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+
 from vexture.content import NETCDF, start_of
 from vexture.deadline import check_time
 from vexture.errors import LimitError, SourceError, printable, reason_of, shortened
@@ -119,8 +121,9 @@ def _referred(one: Any, name: str) -> Iterator[Any]:
         if inner.get_class() != h5py.h5t.REFERENCE or not inner.equal(h5py.h5t.STD_REF_OBJ):
             continue
         values = h5py.Dataset(one).attrs if isinstance(one, h5py.h5d.DatasetID) else h5py.Group(one).attrs
-        for value in values[attribute.name].ravel():
-            for reference in [value] if isinstance(value, h5py.Reference) else value:
+        found = values[attribute.name]
+        for value in [] if isinstance(found, h5py.Empty) else np.atleast_1d(np.asarray(found, object)).ravel():
+            for reference in [value] if isinstance(value, h5py.Reference) else np.atleast_1d(value):
                 if reference:
                     with suppress(ValueError, KeyError, RuntimeError):  # it is not there any more, for nobody
                         yield h5r.dereference(reference, one)

@@ -16,12 +16,11 @@ VALUES: Final = (
     re.compile(r"\b(?:init|file|model|\w*grids)\s*=(.*?)(?=\s\+|\"\s*[\])]|$)", re.IGNORECASE | re.DOTALL),
     re.compile(r"\bPARAMETERFILE\s*[\[(]\s*\"(?:[^\"]|\"\")*\"\s*,\s*\"((?:[^\"]|\"\")*)\"", re.IGNORECASE),
     re.compile(r"\bPROJ4_GRIDS\"\s*,\s*\"((?:[^\"]|\"\")*)\"", re.IGNORECASE),
-    re.compile(r"^\s*((?:https?|ftp|file):.*)", re.IGNORECASE | re.DOTALL),
+    re.compile(
+        r"^\s*(?!https?://(?:www\.)?opengis\.net/(?:def/crs|gml/srs)\b)((?:https?|ftp|file):.*)", re.I | re.DOTALL
+    ),
 )
-"""What names files in a text for PROJ, in WKT 1 and 2, and as the whole text."""
-
-OPENGIS: Final = re.compile(r"\s*https?://(?:www\.)?opengis\.net/(?:def/crs|gml/srs)\b", re.IGNORECASE)
-"""Start of a name of a system that looks like an address, and is none."""
+"""What names files in a text for PROJ, in WKT 1 and 2, and as all of it, but for names that look like addresses."""
 
 KEY: Final = re.compile(
     rb"""["'](?:c|\\u00[46]3)(?:r|\\u00[57]2)(?:s|\\u00[57]3)["']\s*:?\s*(?=[^\s:])""", re.IGNORECASE
@@ -53,7 +52,6 @@ def refuse_files_of_system(text: str) -> None:
             return  # which is no reference system
     else:
         texts = [found[1] for pattern in VALUES for found in pattern.finditer(text)]
-        texts = [] if OPENGIS.match(text) else texts
     for named in texts:
         if PLACE.search(named.strip(" \"'@")):
             raise SourceError(

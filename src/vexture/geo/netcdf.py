@@ -15,6 +15,7 @@ import numpy as np
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
 from vexture.geo.datasets import dataset_of, is_dataset
 from vexture.geo.hdf5 import refuse_links_of_netcdf
+from vexture.geo.named import refuse_files_of_system
 from vexture.geo.series import Lattice, Reading, Series, Values
 from vexture.geo.speeds import speed_of
 from vexture.geo.variables import depths_of, listed, loaded, refuse_layers, time_axis
@@ -215,6 +216,9 @@ def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
             if text not in ("", "0") and UNSAID.fullmatch(text) is None:
                 return f"EPSG:{text}" if text.isdigit() else text
         if about.get("grid_mapping_name"):
+            for key, text in about.items():
+                if str(key).endswith("_name"):  # pyproj reads names of datums and ellipsoids as systems, too
+                    refuse_files_of_system(str(text))
             try:
                 return str(CRS.from_cf(dict(about)).to_wkt())
             except Exception as error:  # pyproj raises any type of exception for invalid attributes
