@@ -64,7 +64,7 @@ def refuse_links_of_geopackage(source: str | os.PathLike[str] | bytes) -> None:
             for row in rows:
                 for place in told:
                     refuse_files_of_system(_text(row[place]))
-    except (sqlite3.Error, OverflowError, UnicodeDecodeError) as error:
+    except (sqlite3.Error, OverflowError, UnicodeDecodeError, MemoryError) as error:  # of sizes that are damaged
         check_time()
         raise SourceError(f"its database is damaged ({reason_of(error)}); save it again") from None
 
