@@ -43,6 +43,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "tolerance": set(),
     "content": {"errors"},
     "workers": {"errors"},
+    "apart": {"deadline", "errors"},
     "notes": {"errors"},
     "group": {"errors"},
     "paint": {"errors"},
@@ -72,7 +73,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "flood": BASE | {"content", "drawing", "geo", "notes", "paint", "renderers", "workers"},
     "tiles": SOURCES | {"cartography", "geo", "layout", "texture", "tree", "workers"},
     "live": SOURCES
-    | {"encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading"}
+    | {"apart", "encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading"}
     | {"svg", "texture", "tree", "workers"},
     "notebook": SOURCES | {"cartography", "geo", "live", "pipeline", "reading", "renderers", "svg", "texture", "tree"},
 }

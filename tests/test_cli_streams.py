@@ -240,3 +240,87 @@ def test_options_for_research_have_a_section_of_their_own():
     for option in ("--encoding", "--bits", "--strategy"):
         assert option in research
         assert option not in usual
+
+
+COMMAND = [sys.executable, "-c", "from vexture.cli.start import main; main()"]
+
+
+def shell(line, *arguments):
+    """Run a line of a shell, in which "$@" is the program with arguments."""
+    words = ["bash", "-c", line, "bash", *COMMAND, *map(str, arguments)]
+    return subprocess.run(words, capture_output=True, timeout=300)
+
+
+@pytest.mark.parametrize("place", ["/dev/stdin", "<(cat logo.svg)", "pipe.svg"])
+def test_a_pipe_of_a_name_is_read(logo, tmp_path, place):
+    """Its start was taken to see what it holds, and the rest was no drawing."""
+    line = f'cd {tmp_path}; "$@" {place} -o - -q < logo.svg'
+    if place == "pipe.svg":
+        os.mkfifo(tmp_path / place)
+        line = f'cat {logo} > {tmp_path / place} & "$@" {tmp_path / place} -o - -q'
+    result = shell(line, "convert")
+    assert (result.returncode, result.stderr) == (0, b"")
+    np.testing.assert_array_equal(
+        texture_from(result.stdout, "piped").texels, vexture.convert(read_drawing(logo)).texels
+    )
+
+
+def test_commands_read_pipes_of_names(logo, tmp_path):
+    texture = vexture.convert(read_drawing(logo)).save(tmp_path / "logo.ktx2")
+    assert b"texels" in shell(f'"$@" <(cat {texture})', "info").stdout
+    for command, content in (("render", logo), ("render", texture), ("fold", logo), ("export", logo)):
+        output = tmp_path / {"render": "logo.png", "fold": "logo.fold.ktx2", "export": "logo.html"}[command]
+        result = shell(f'"$@" <(cat {content}) -o {output}', command)
+        assert (result.returncode, output.exists()) == (0, True), result.stderr
+        output.unlink()
+
+
+def test_what_is_read_several_times_is_no_pipe(tmp_path):
+    for arguments in (("tiles", "-o", tmp_path / "a.pmtiles"), ("flood", "-o", tmp_path / "a.html", "--extent")):
+        result = shell('"$@" <(echo "{}")', *arguments)
+        assert result.returncode == 1
+        assert b"is read several times, and a pipe only once; save it as a file\n" in result.stderr
+
+
+@pytest.mark.parametrize("command", ["convert", "render"])
+def test_standard_output_that_is_closed_is_one_line(logo, command):
+    result = shell('"$@" >&-', command, logo, "-o", "-")
+    assert (result.returncode, result.stderr) == (1, b"vexture: standard output is closed; name a file with -o\n")
+
+
+def test_standard_input_that_is_closed_is_one_line():
+    result = shell('"$@" <&-', "convert", "-", "-o", "-")
+    assert (result.returncode, result.stderr) == (1, b"vexture: standard input: it is closed; give a file\n")
+
+
+CONTROLS = "\x1b[2J\x9b2J\u202e\u2066\x07\x7f\udc9b"
+"""What moves a cursor, in both sets; turns the direction of writing; rings; is no character."""
+
+
+@pytest.mark.parametrize("kind", ["line", "verbose", "error", "warning", "info", "usage", "atlas"])
+def test_names_control_no_terminal(tmp_path, kind):
+    """The name of a drawing, of a file, of an element, in whatever is printed."""
+    name = f"a{CONTROLS}b"
+    body = "<svg" if kind == "error" else LOGO.format("<foreignObject/>" if kind == "warning" else "")
+    source = tmp_path / f"{name}.svg"
+    source.write_text(body)
+    arguments = ["convert", source, "-o", tmp_path / "out", *(["-v"] if kind == "verbose" else [])]
+    if kind == "info":
+        arguments = ["info", vexture.convert(read_drawing(body.encode(), name=name)).save(tmp_path / "a.ktx2")]
+    if kind == "usage":
+        arguments = ["convert", f"--{name}"]
+    if kind == "atlas":
+        arguments = ["convert", source, "--atlas", tmp_path / f"{name}.ktx2"]
+    result = shell('"$@"', *arguments)
+    said = (result.stdout + result.stderr).decode("utf-8")
+    assert said.strip("\n")
+    assert all(letter.isprintable() or letter == "\n" for letter in said), ascii(said)
+
+
+def test_json_of_odd_names_is_json(tmp_path):
+    source = tmp_path / f"a{CONTROLS}b.svg"
+    source.write_text(LOGO.format(""))
+    result = shell('"$@"', "convert", source, "-o", tmp_path / "out", "--json")
+    (facts,) = json.loads(result.stdout)
+    assert facts["source"] == str(source)
+    assert result.stdout.isascii()

@@ -2,6 +2,7 @@
 
 import os
 import re
+import stat
 import warnings
 import zlib
 from collections.abc import Iterator, Mapping
@@ -29,6 +30,7 @@ __all__ = [
     "FileKind",
     "about",
     "decompressed",
+    "is_stream",
     "kind_of",
     "known_kind",
     "picture_size",
@@ -158,8 +160,21 @@ def start_of(source: str | os.PathLike[str] | bytes) -> bytes:
         return b""
 
 
+def is_stream(source: str | os.PathLike[str] | bytes) -> bool:
+    """Whether a source is the path of a pipe, a terminal or the like, which can be read only once."""
+    if isinstance(source, bytes):
+        return False
+    try:
+        mode = os.stat(source).st_mode
+    except (OSError, ValueError):
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+
+
 def unpacked(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | bytes:
-    """Return the source itself or, of a gzipped file, its content; raises as `read_bytes` does."""
+    """Return the source itself or, of a gzipped file or a stream, its content; raises as `read_bytes` does."""
+    if is_stream(source):
+        return read_bytes(source)
     return read_bytes(source) if start_of(source).startswith(GZIP) else source
 
 

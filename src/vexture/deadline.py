@@ -10,7 +10,7 @@ from contextvars import ContextVar
 
 from vexture.errors import LimitError, ParameterError
 
-__all__ = ["DEFAULT_SECONDS", "check_time", "within"]
+__all__ = ["DEFAULT_SECONDS", "check_seconds", "check_time", "too_long", "within"]
 
 DEFAULT_SECONDS = 300.0
 """Seconds for one source."""
@@ -21,16 +21,22 @@ _LIMIT: ContextVar[tuple[float, float] | None] = ContextVar("_LIMIT", default=No
 
 @contextmanager
 def within(seconds: float) -> Iterator[None]:
-    """Let `check_time` raise an error when the work inside has taken longer."""
-    if isinstance(seconds, bool) or not (isinstance(seconds, int | float) and seconds > 0.0):
-        raise ParameterError(
-            f"`max_seconds` {seconds!r} is no number above 0; the default is {DEFAULT_SECONDS:g}, and inf sets no limit"
-        )
-    before = _LIMIT.set((seconds, time.monotonic() + seconds))
+    """Let `check_time` raise an error when the work inside has taken longer, or what is around it than it may."""
+    check_seconds(seconds)
+    around, limit = _LIMIT.get(), (seconds, time.monotonic() + seconds)
+    before = _LIMIT.set(limit if around is None or limit[1] < around[1] else around)
     try:
         yield
     finally:
         _LIMIT.reset(before)
+
+
+def check_seconds(seconds: float) -> None:
+    """Raise a `ParameterError` unless a limit is a number above 0."""
+    if isinstance(seconds, bool) or not (isinstance(seconds, int | float) and seconds > 0.0):
+        raise ParameterError(
+            f"`max_seconds` {seconds!r} is no number above 0; the default is {DEFAULT_SECONDS:g}, and inf sets no limit"
+        )
 
 
 def check_time(name: str = "") -> None:
@@ -45,7 +51,10 @@ def check_time(name: str = "") -> None:
     """
     limit = _LIMIT.get()
     if limit is not None and time.monotonic() > limit[1]:
-        about = f"{name}: " if name else ""
-        raise LimitError(
-            f"{about}converting takes longer than {limit[0]:g} s; simplify the drawing or raise `max_seconds`"
-        )
+        raise too_long(name, limit[0])
+
+
+def too_long(name: str, seconds: float) -> LimitError:
+    """Error about the drawing of a name that takes longer than it may."""
+    about = f"{name}: " if name else ""
+    return LimitError(f"{about}converting takes longer than {seconds:g} s; simplify the drawing or raise `max_seconds`")

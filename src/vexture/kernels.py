@@ -5,12 +5,15 @@ command saves if a wheel holds its kernels (`vexture.machine_code`).
 
 Numba's own cache checks only the file of the function itself. A kernel would go on using the old code of a kernel, or
 the old value of a constant, that it imports. So the cache folder is named after the text of all modules with either.
+It also believes what its files hold, which ends the process where a disk has damaged them. Ours begin with a digest.
 """
 
 import functools
 import hashlib
 import logging
 import os
+import pickle
+import shutil
 import tempfile
 import threading
 from collections.abc import Callable
@@ -26,8 +29,12 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 ABOVE = {
     *("cartography", "cli", "flood", "fold", "geo", "gltf", "live", "notebook", "svg", "tiles", "tracing", "wgsl"),
+    "apart.py",
 }
 """Parts of the package without kernels or constants of kernels: a change there compiles nothing again."""
+
+DIGEST_BYTES = hashlib.sha256().digest_size
+"""With which a file of the cache begins."""
 
 ONE_AT_A_TIME = threading.Lock()
 """Held while Numba's configuration is changed: several threads of a server may use a kernel for the first time."""
@@ -64,7 +71,7 @@ def kernel_cache() -> Path | None:
             continue
         # the cache holds code: a folder that someone else made is not trusted
         mine = not hasattr(os, "getuid") or folder.stat().st_uid == os.getuid()
-        if mine and os.access(folder, os.W_OK):
+        if mine and os.access(folder, os.W_OK | os.X_OK):
             return folder
     return None
 
@@ -96,14 +103,49 @@ def _numba() -> tuple[Any, Path | None]:
     return numba, kernel_cache()
 
 
-def _kept_if_possible(save: Callable[..., None]) -> Callable[..., None]:
-    """Numba's method that stores compiled code; on a full disk the next run compiles again, and this one goes on."""
+class _KeptCode:
+    """The files of a kernel's code, one for each set of types; in place of Numba's, which are believed unseen.
 
-    def kept(*given: Any) -> None:
+    What is damaged, or cannot be read, is compiled again and replaced; what cannot be written is compiled by the next
+    run, and this one goes on.
+    """
+
+    def __init__(self, cache: Any, version: str) -> None:
+        self._start = os.path.join(cache.cache_path, cache._impl.filename_base)
+        self._made_by = version, cache._impl.locator.get_source_stamp()
+
+    def _place(self, key: Any) -> str:
+        return f"{self._start}.{hashlib.sha256(repr(key).encode()).hexdigest()[:16]}.code"
+
+    def load(self, key: Any) -> Any:
+        """What was saved under a key; None if it is not there, damaged or old."""
+        try:
+            content = Path(self._place(key)).read_bytes()
+        except OSError:
+            return None
+        digest, code = content[:DIGEST_BYTES], content[DIGEST_BYTES:]
+        if hashlib.sha256(code).digest() != digest:
+            return None
+        made_by, data = pickle.loads(code)
+        return data if made_by == self._made_by else None
+
+    def save(self, key: Any, data: Any) -> None:
+        """Keep what was compiled, if the disk lets us."""
+        from numba.core.serialize import dumps
+
+        place = self._place(key)
+        code = dumps((self._made_by, data))
         with suppress(OSError):
-            save(*given)
-
-    return kept
+            if os.path.isdir(place):
+                shutil.rmtree(place)
+            with tempfile.NamedTemporaryFile(dir=os.path.dirname(place), delete=False) as file:
+                try:
+                    file.write(hashlib.sha256(code).digest() + code)
+                    file.close()
+                    os.replace(file.name, place)
+                except BaseException:
+                    os.unlink(file.name)
+                    raise
 
 
 class Kernel:
@@ -125,9 +167,13 @@ class Kernel:
             numba, folder = _numba()
             # read by the decorator; other packages may use Numba too
             caller, numba.config.CACHE_DIR = numba.config.CACHE_DIR, str(folder)
-            result = numba.njit(**options, cache=folder is not None, _nrt=self._allocates)(self.py_func)
-            if not numba.config.DISABLE_JIT:
-                result._cache.save_overload = _kept_if_possible(result._cache.save_overload)
+            make = functools.partial(numba.njit, **options, _nrt=self._allocates)
+            try:
+                result = make(cache=folder is not None)(self.py_func)
+                if folder is not None and not numba.config.DISABLE_JIT:
+                    result._cache._cache_file = _KeptCode(result._cache, numba.__version__)
+            except (OSError, RuntimeError):  # something else is in the place of a folder in the cache
+                result = make()(self.py_func)
             numba.config.CACHE_DIR = caller
         return result
 

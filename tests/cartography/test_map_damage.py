@@ -102,3 +102,20 @@ def test_data_far_from_where_a_system_is_meant_for_say_so():
 def test_unknown_columns_of_ids_are_still_refused():
     with pytest.raises(ParameterError, match="no column 'code' for `id`; there are: v"):
         read_features(squares().set_index([["a", "b", "c"]]), id="code", notes=Notes())
+
+
+@pytest.mark.parametrize("place", ["name", "footer"])
+def test_a_geoparquet_whose_names_are_damaged_is_one_line(place, tmp_path):
+    """pyarrow raises a UnicodeDecodeError for the name of a column that is no UTF-8."""
+    source = tmp_path / "land.parquet"
+    frame([shapely.box(4, 52, 5, 53)], "EPSG:4326", population=[1]).to_parquet(source)
+    content = source.read_bytes()
+    assert content.count(b"population") > 1
+    damaged = content.replace(b"population", b"popula\xe8ion") if place == "name" else content[:-40] + bytes(40)
+    source.write_bytes(damaged)
+    with pytest.raises(SourceError, match=r"the Parquet file cannot be read \(.*\); save it again|holds no features"):
+        read_features(source, notes=Notes())
+    result = CliRunner().invoke(main, ["map", str(source), "-o", str(tmp_path / "land.ktx2")])
+    assert (result.exit_code, result.stderr.count("\n")) == (1, 1)
+    assert "Traceback" not in result.stderr
+    assert not (tmp_path / "land.ktx2").exists()

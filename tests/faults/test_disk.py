@@ -75,7 +75,7 @@ def test_kernels_that_cannot_be_kept_are_used(tmp_path):
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (16, 16)),
     )
     assert outcome.stdout == "0.5\n", outcome.stderr
-    assert not list(tmp_path.rglob("*.nb?"))
+    assert not list(tmp_path.rglob("*.code"))
 
 
 def test_kernels_run_where_nothing_can_be_written(tmp_path):

@@ -3,8 +3,13 @@
 import base64
 import json
 import re
+import signal
 import subprocess
+import sys
 import unicodedata
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from contextlib import suppress
+from pathlib import Path
 
 import httpx
 import pytest
@@ -13,7 +18,7 @@ from described import check_description
 from vexture.live.page_routes import DROPPED
 from vexture.texture.load import texture_from
 from vexture.thesis.png import read_png
-from viewing import SHAPES, VEXTURE, viewing
+from viewing import PATIENCE, SHAPES, VEXTURE, until, viewing
 
 DUCK = (SHAPES / "duck.svg").read_bytes()
 
@@ -185,6 +190,46 @@ def test_ctrl_c_ends_it_without_a_traceback_though_clients_listen(tmp_path):
         assert next(events)[0] == "hello"
         assert running.stop() == 0
         assert running.complaints.read_text() == ""
+
+
+def children(process):
+    """Processes that a process has started, and those that these have."""
+    own = [int(word) for word in Path(f"/proc/{process}/task/{process}/children").read_text().split()]
+    return [*own, *(child for one in own for child in children(one))]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_it_ends_while_a_dropped_file_is_converted(tmp_path, number):
+    """The file was converted in the server itself, without limits, which then waited for it: for minutes."""
+    lines = "".join(f"M{997 * line // 1500} 0L{7919 * line % 997} 999" for line in range(1500))
+    slow = f'<svg viewBox="0 0 999 999"><path stroke="red" d="{lines}"/></svg>'
+    with viewing(tmp_path, SHAPES / "duck.svg") as running:
+        assert running.post("quick.svg", DUCK).status_code == 201  # so the process has started
+        with ThreadPoolExecutor() as pool:
+            dropped = pool.submit(running.post, "slow.svg", slow)
+            begun = until(lambda: children(running.process.pid))
+            running.process.send_signal(number)
+            assert running.process.wait(PATIENCE) == 0
+            with suppress(httpx.HTTPError):
+                assert dropped.result().status_code == 503
+        until(lambda: not any(Path(f"/proc/{process}").exists() for process in begun))
+        assert running.complaints.read_text() == ""
+
+
+def test_dropped_files_have_a_queue(tmp_path):
+    """Each took a thread of the server's, and any number at once its memory."""
+    lines = "".join(f"M{997 * line // 1500} 0L{7919 * line % 997} 999" for line in range(1500))
+    slow = f'<svg viewBox="0 0 999 999"><path stroke="red" d="{lines}"/></svg>'
+    with viewing(tmp_path, SHAPES / "duck.svg") as running, ThreadPoolExecutor(DROPPED.conversions + 1) as pool:
+        sent = [pool.submit(running.post, f"{name}.svg", slow) for name in range(DROPPED.conversions + 1)]
+        done, _ = wait(sent, PATIENCE, FIRST_COMPLETED)
+        answer = next(iter(done)).result()
+        assert (answer.status_code, answer.headers["retry-after"]) == (503, "5")
+        running.process.kill()
+        for each in sent:
+            with suppress(httpx.HTTPError):
+                each.result()
 
 
 def test_file_that_is_no_drawing_does_not_hide_the_others(tmp_path):

@@ -10,7 +10,7 @@ import pytest
 from loops import run
 
 from vexture.live import watch as watching
-from vexture.live.documents import VIEWER_PARAMETERS
+from vexture.live.documents import VIEWER_PARAMETERS, shape_of
 from vexture.live.shelf import Shelf
 from viewing import SHAPES, until, viewing
 
@@ -129,9 +129,12 @@ def test_change_is_noticed_when_it_happens(tmp_path, monkeypatch):
     path = tmp_path / "logo.svg"
     path.write_bytes(DUCK)
 
+    async def convert(source, data):
+        return shape_of(data, str(source.path), source.name, VIEWER_PARAMETERS)
+
     async def notice():
         shelf = Shelf()
-        task = asyncio.create_task(watching.watch(shelf, watching.named([path]), VIEWER_PARAMETERS, {"logo": DUCK}))
+        task = asyncio.create_task(watching.watch(shelf, watching.named([path]), convert, {"logo": DUCK}))
         with shelf.events() as listener:
             for content in islice(cycle([CAKE, DUCK]), 20):  # the first may come before watching has begun
                 path.write_bytes(content)

@@ -2,30 +2,31 @@
 
 import json
 import logging
-import signal
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from functools import partial
-from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.cli.messages import one_line, say
+from vexture.apart import each_apart
+from vexture.cli.messages import echo, one_line, say
 from vexture.cli.options import (
     PATH,
     SILHOUETTE_HELP,
     STANDARD,
     Sectioned,
+    check_output,
     font_option,
+    shown_name,
     split_of,
-    standard_input,
+    streamed,
     strict_option,
     tolerance_option,
     trace_images_option,
+    write_output,
 )
 from vexture.cli.outcome import (
     NORMAL,
@@ -40,7 +41,7 @@ from vexture.cli.outcome import (
 )
 from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT, REGISTERED
-from vexture.errors import EXPECTED, ParameterError, counted
+from vexture.errors import EXPECTED, ParameterError, VextureError, counted
 from vexture.layout import PACKED_SUFFIX
 
 if TYPE_CHECKING:
@@ -166,7 +167,7 @@ def convert(
         work = partial(work, for_atlas=atlas is not None, strict=strict, quiet=quiet)
         outcomes: list[Outcome] = []
         owners: dict[str, Path | str] = {}
-        for found in _outcomes(work, sources, jobs, level):
+        for found in _outcomes(work, sources, jobs, level, parameters.get("max_seconds", DEFAULT_SECONDS)):
             outcome = found if atlas or found.error else written(found, output or Path(), owners)
             say_outcome(outcome, level, quiet=as_json, to_pipe=to_pipe)
             outcomes.append(outcome)
@@ -221,6 +222,7 @@ def check_places(
     """Refuse outputs that cannot be written, before anything is converted."""
     from vexture.texture.files import writable
 
+    check_output(Path(STANDARD) if to_pipe else output)
     if sources.count(Path(STANDARD)) > 1:
         raise ParameterError(f"{STANDARD}: standard input can be read once; give {STANDARD} once")
     if atlas is not None:
@@ -275,7 +277,7 @@ def _convert_one(
         if content is not None:
             parameters = dict(parameters)
             reading = {name: parameters.pop(name) for name in READING if name in parameters}
-            given = read_drawing(content, name="standard input", **reading)
+            given = read_drawing(content, name=shown_name(source), **reading)
         if for_atlas:
             done = trees_of(given, Parameters(**parameters))
             size = TEXEL_BYTES * sum(tree.texels for tree in done.trees)
@@ -290,30 +292,19 @@ def _convert_one(
     return Outcome(source, shape_facts(done) | {"bytes": size}, files, done if for_atlas else None, warning)
 
 
-def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int) -> Iterator[Outcome]:
-    """Outcomes in the order of the sources, from this process or others; a terminal shows the progress of several."""
-    tasks = [(source, standard_input() if source == Path(STANDARD) else None) for source in sources]
-    outcomes: Iterable[Outcome] = (work(*task) for task in tasks)
+def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int, max_seconds: float) -> Iterator[Outcome]:
+    """Outcomes in the order of the sources, from other processes; a terminal shows the progress of several."""
+    tasks = [(source, streamed(source)) for source in sources]
+    results: Iterable[Any] = each_apart(work, tasks, [shown_name(source) for source in sources], max_seconds, jobs)
     with ExitStack() as opened:
-        if jobs > 1 and len(tasks) > 1:
-            pool = opened.enter_context(ProcessPoolExecutor(min(jobs, len(tasks)), get_context("spawn")))
-            opened.push(_end_workers)
-            heard = signal.signal(signal.SIGINT, signal.SIG_IGN)  # inherited: Ctrl-C is for this process alone
-            outcomes = pool.map(work, *zip(*tasks, strict=True))
-            signal.signal(signal.SIGINT, heard)
         if len(tasks) > 1 and level > QUIET and sys.stderr.isatty():
             from rich.console import Console
             from rich.progress import Progress
 
             progress = opened.enter_context(Progress(console=Console(stderr=True), transient=True))
-            outcomes = progress.track(outcomes, total=len(tasks), description="converting")
-        yield from outcomes
-
-
-def _end_workers(kind: type[BaseException] | None, *_: object) -> None:
-    """End the other processes at once if this one does not wait for their outcomes."""
-    for worker in active_children() if kind is not None else ():
-        worker.terminate()
+            results = progress.track(results, total=len(tasks), description="converting")
+        for source, result in zip(sources, results, strict=True):
+            yield Outcome(source, {}, error=str(result)) if isinstance(result, VextureError) else result
 
 
 def _write_atlas(outcomes: list[Outcome], atlas: Path, stored: dict[str, Any], *, silent: bool, to_pipe: bool) -> None:
@@ -324,8 +315,8 @@ def _write_atlas(outcomes: list[Outcome], atlas: Path, stored: dict[str, Any], *
     texture = combine(parts, "atlas" if to_pipe else atlas.stem)
     data = texture.to_ktx2(**stored)
     if to_pipe:
-        sys.stdout.buffer.write(data)
+        write_output(data)
     else:
         texture.save(atlas, **stored)
     if not silent:
-        click.echo(f"{atlas}: {counted(len(texture.roots), 'shape')}, {len(data)} bytes", err=to_pipe)
+        echo(f"{atlas}: {counted(len(texture.roots), 'shape')}, {len(data)} bytes", err=to_pipe)

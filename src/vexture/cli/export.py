@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from vexture.cli.messages import one_line, say
+from vexture.cli.messages import echo, one_line, say
 from vexture.cli.options import PATH, conversion_options, strict_option, viewer_parameters
 from vexture.errors import counted
 
@@ -29,4 +29,4 @@ def export(files: tuple[Path, ...], output: Path, title: str | None, strict: boo
         from vexture.live.view import export as write
 
         size = write(files, output, title, viewer_parameters(**conversion), say, strict=strict)
-        click.echo(f"{output}: {counted(len(files), 'file')}, {size} bytes")
+        echo(f"{output}: {counted(len(files), 'file')}, {size} bytes")

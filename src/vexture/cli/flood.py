@@ -7,8 +7,8 @@ from typing import Any
 
 import click
 
-from vexture.cli.messages import one_line, say
-from vexture.cli.options import PATH
+from vexture.cli.messages import echo, one_line, say
+from vexture.cli.options import PATH, refuse_stream
 from vexture.errors import ParameterError
 from vexture.flood.options import DEPTHS, PERIOD, FloodOptions, bounds_of, depths_of
 from vexture.flood.video import FPS, SIZE, STEP_SECONDS, VideoOptions, size_of
@@ -118,6 +118,7 @@ def flood(
         box = None if bounds is None else bounds_of(bounds)
         source = follow if extent is None else extent
         assert source is not None
+        refuse_stream(source, "the extent")
         many = (os.cpu_count() or 1) if workers is None else workers
         asked = FloodOptions(source, bounds=box, depths=classes, workers=many, **parameters)
         from vexture.live.flood import Made, Serving, export, serve
@@ -125,11 +126,11 @@ def flood(
         if not serving:
             made, sizes = export(asked, output, filmed, say, _tracked)
             for path, written in sizes.items():
-                click.echo(f"{path}: {made.described}, {written} bytes")
+                echo(f"{path}: {made.described}, {written} bytes")
             return
 
         def show(where: str, made: Made) -> None:
-            click.echo(f"vexture: {where} shows {made.described}; Ctrl-C ends it")
+            echo(f"vexture: {where} shows {made.described}; Ctrl-C ends it")
 
         if follow is not None:
             from vexture.geo.growing import share_files

@@ -1,11 +1,13 @@
 """The command `fold`."""
 
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 
 import click
 
-from vexture.cli.messages import one_line, say_notes
+from vexture.apart import apart
+from vexture.cli.messages import echo, one_line, say_notes
 from vexture.cli.options import PATH, font_option
 from vexture.errors import ParameterError
 
@@ -50,7 +52,7 @@ def fold(
             raise ParameterError(f"`picture` {picture}: pictures are PNG files; name one that ends in .png")
         if not output.is_dir() and output.suffix.lower() != PACKED_SUFFIX:
             raise ParameterError(f"`output` {output}: folds are KTX2 files; name one that ends in {FOLD_SUFFIX}")
-        shape = read_drawing(drawing, fonts=fonts or ())
+        shape = apart(partial(read_drawing, fonts=fonts or ()), drawing, name=str(drawing))
         made = fold_of_shore(shape, amplitude=amplitude, period=period, size=size)
         say_notes(drawing, (*shape.notes, *made.notes))
         target = output / (file_name(shape.name) + FOLD_SUFFIX) if output.is_dir() else output
@@ -64,7 +66,7 @@ def fold(
         write_together(files)
         largest = float(np.hypot(made.displacement[..., 0], made.displacement[..., 1]).max())
         columns, rows = made.size
-        click.echo(
+        echo(
             f"{target}: {columns} x {rows} texels, {len(files[target])} bytes, largest shift {largest:.3g}, "
             f"{made.cycle:g} s"
         )

@@ -1,18 +1,22 @@
 """The command `font`."""
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 
+from vexture.apart import apart
 from vexture.cli.convert import check_places, given_options, options_of_convert
-from vexture.cli.messages import one_line, say_notes
+from vexture.cli.messages import echo, one_line, say_notes
 from vexture.cli.options import PATH
 from vexture.cli.outcome import is_texture_file
 from vexture.cli.text import face_options
+from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT
 from vexture.errors import ParameterError, counted
 from vexture.layout import PACKED_SUFFIX
+from vexture.notes import Note
 
 __all__ = ["font"]
 
@@ -57,29 +61,58 @@ def font(
     FONT is a file, or a folder of the faces of a font; by default Noto Sans.
     """
     with one_line():
-        from vexture.fonts.text import TextOptions
-        from vexture.glyph_atlas import PRINTABLE, made_atlas
-        from vexture.notes import check_losses
-        from vexture.texture.files import file_name, write_together
+        from vexture.texture.files import write_together
 
         check_places((), output, None, DEFAULT, False)
         asked = (chars or "") + ("" if chars_file is None else read_text(chars_file))
-        styled = TextOptions(font or (), (), weight, style, stretch, name=name)
-        ranged = [code for text in ranges for code in codes_of(text)]
-        wanted = PRINTABLE if chars is None and chars_file is None and not ranges else asked
+        styled = (weight, style, stretch, name)
+        wanted = None if chars is None and chars_file is None and not ranges else asked
         parameters = given_options(options)
         stored = {name: parameters.pop(name) for name in ("deflate",) if name in parameters}
-        made = made_atlas(styled, wanted, ranged, **parameters)
-        check_losses(str(font or made.texture.name), made.notes, is_empty=False, strict=strict)
-        place = output if is_texture_file(output, DEFAULT) else output / (file_name(made.texture.name) + PACKED_SUFFIX)
-        files = made.files(place, **stored)
-        write_together(files)
+        given = (wanted, [code for text in ranges for code in codes_of(text)], parameters, stored)
+        about, seconds = str(font or "the font"), parameters.get("max_seconds", DEFAULT_SECONDS)
+        made = apart(_made, styled, *given, font, output, strict, name=about, seconds=seconds)
+        write_together(made.files)
         if not quiet:
-            say_notes(font or made.texture.name, made.notes)
-            target, metrics = files
-            characters = counted(len(made.metrics["glyphs"]), "character")
-            shapes = counted(len(made.texture.roots), "shape")
-            click.echo(f"{target}: {characters}, {shapes}, {len(files[target])} bytes; {metrics}")
+            say_notes(made.about, made.notes)
+            target, metrics = made.files
+            counts = f"{counted(made.characters, 'character')}, {counted(made.shapes, 'shape')}"
+            echo(f"{target}: {counts}, {len(made.files[target])} bytes; {metrics}")
+
+
+class Made(NamedTuple):
+    """The texture of a font."""
+
+    about: str
+    files: dict[Path, bytes]
+    characters: int
+    shapes: int
+    notes: Sequence[Note]
+
+
+def _made(
+    styled: tuple[Any, ...],
+    wanted: str | None,
+    ranged: list[int],
+    parameters: dict[str, Any],
+    stored: dict[str, Any],
+    font: Path | None,
+    output: Path,
+    strict: bool,
+) -> Made:
+    """Files of a font, which may be a stranger's."""
+    from vexture.fonts.text import TextOptions
+    from vexture.glyph_atlas import PRINTABLE, made_atlas
+    from vexture.notes import check_losses
+    from vexture.texture.files import file_name
+
+    weight, style, stretch, name = styled
+    options = TextOptions(font or (), (), weight, style, stretch, name=name)
+    made = made_atlas(options, PRINTABLE if wanted is None else wanted, ranged, **parameters)
+    about = str(font or made.texture.name)
+    check_losses(about, made.notes, is_empty=False, strict=strict)
+    place = output if is_texture_file(output, DEFAULT) else output / (file_name(made.texture.name) + PACKED_SUFFIX)
+    return Made(about, made.files(place, **stored), len(made.metrics["glyphs"]), len(made.texture.roots), made.notes)
 
 
 def read_text(file: Path) -> str:

@@ -1,15 +1,18 @@
 """The command `gltf`."""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from vexture.apart import apart
 from vexture.cli.convert import given_options, options_of_convert
-from vexture.cli.messages import one_line, say_notes
+from vexture.cli.messages import echo, one_line, say_notes
 from vexture.cli.options import PATH, drawing_kind
-from vexture.errors import ParameterError, printable
+from vexture.deadline import DEFAULT_SECONDS
+from vexture.errors import ParameterError
 
 if TYPE_CHECKING:
     from vexture.gltf.model import Model
@@ -114,7 +117,7 @@ def gltf(
             if materials or drawings or output:
                 raise ParameterError("`list` only prints the materials; leave the other options out")
             for place, name in enumerate(read_model(model).materials):
-                click.echo(f"{place} {printable(name)}".rstrip())
+                echo(f"{place} {name}".rstrip())
             return
         output = _checked(materials, drawings, output)
         shown = {name: options.pop(name) for name in Appearance.__dataclass_fields__}
@@ -154,11 +157,12 @@ def _texture_of(drawing: Path, shown: Any, parameters: dict[str, Any], strict: b
     if drawing_kind(drawing) is None:
         without = {name: value for name, value in parameters.items() if (name, value) != ("tolerance", "auto")}
         return texture_of(drawing, shown, without)
-    done = run(drawing, split=shown.split, **parameters)
+    limit = parameters.get("max_seconds", DEFAULT_SECONDS)
+    done = apart(partial(run, drawing, split=shown.split, **parameters), name=str(drawing), seconds=limit)
     check_losses(str(drawing), done.notes, is_empty=not done.drawing.paths, strict=strict)
     if not quiet:
         say_notes(drawing, done.notes)
-    return done.texture  # type: ignore[no-any-return]
+    return done.texture
 
 
 def _write(model: "Model", output: Path, materials: Sequence[str], quiet: bool) -> None:
@@ -170,4 +174,4 @@ def _write(model: "Model", output: Path, materials: Sequence[str], quiet: bool) 
     if not quiet:
         names = ", ".join(repr(model.materials[model.place_of(one)] or one) for one in materials)
         sizes = ", ".join(f"{file.name} {len(content)} bytes" for file, content in files.items())
-        click.echo(f"{output}: drawings on {printable(names)}; {sizes}")
+        echo(f"{output}: drawings on {names}; {sizes}")

@@ -7,9 +7,9 @@ from typing import Any
 
 import click
 
-from vexture.cli.messages import one_line
-from vexture.cli.options import PATH, STANDARD, drawing_kind, standard_input
-from vexture.errors import FormatError, counted, printable
+from vexture.cli.messages import echo, one_line
+from vexture.cli.options import PATH, drawing_kind, shown_name, streamed
+from vexture.errors import FormatError, counted
 
 __all__ = ["info"]
 
@@ -34,8 +34,8 @@ def info(texture: Path, as_json: bool) -> None:
         from vexture.texture.load import load_any, texture_from
 
         lines = _lines
-        if texture == Path(STANDARD):
-            facts = texture_from(standard_input(), "standard input").info()
+        if (data := streamed(texture)) is not None:
+            facts = texture_from(data, shown_name(texture)).info()
         elif (tiles := _tiles(texture)) is not None:
             facts, lines = tiles, _tile_lines
         else:
@@ -43,7 +43,11 @@ def info(texture: Path, as_json: bool) -> None:
                 what = "it is not a texture" if start_of(texture) else "it is empty"
                 raise FormatError(f"{texture}: {what}; give a texture, which vexture convert makes from a drawing")
             facts = load_any(texture).info()
-        click.echo(json.dumps(facts, indent=2) if as_json else "\n".join(lines(facts)))
+        if as_json:
+            click.echo(json.dumps(facts, indent=2))
+            return
+        for line in lines(facts):
+            echo(line)
 
 
 def _tiles(path: Path) -> dict[str, Any] | None:
@@ -65,11 +69,11 @@ def _tile_lines(facts: dict[str, Any]) -> Iterator[str]:
     for level in facts["levels"]:
         told[f"zoom {level['zoom']}"] = f"{counted(level['tiles'], 'tile')}, {level['bytes']} bytes"
     told |= {"largest": largest, "table": facts["table"], "features": facts["features"], "columns": columns}
-    yield from (f"{name:<12}{printable(str(value))}" for name, value in told.items() if value is not None)
+    yield from (f"{name:<12}{value}" for name, value in told.items() if value is not None)
     for legend in facts["legends"]:
         of = f"{legend['layer']}, " if len(facts["legends"]) > 1 else ""
         entries = len(legend["entries"])
-        yield printable(f"{'legend':<12}{of}{legend['column']}: {legend['scale']}, {counted(entries, 'colour')}")
+        yield f"{'legend':<12}{of}{legend['column']}: {legend['scale']}, {counted(entries, 'colour')}"
 
 
 def _lines(facts: dict[str, Any]) -> Iterator[str]:

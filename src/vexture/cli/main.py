@@ -2,6 +2,8 @@
 
 import signal
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
 from importlib.metadata import entry_points
 from threading import Timer, current_thread, main_thread
@@ -12,6 +14,7 @@ import click
 
 from vexture.cli.interrupt import INTERRUPTED, at_once
 from vexture.cli.messages import say
+from vexture.errors import printable
 
 __all__ = ["COMMANDS", "main"]
 
@@ -46,6 +49,10 @@ class _Commands(click.Group):
             ctx.fail(f"No such command {cmd_name!r}; {ELSEWHERE[cmd_name]}")
         return added[0].load() if added else None
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        with _printable_errors():
+            return super().parse_args(ctx, args)
+
     def invoke(self, ctx: click.Context) -> Any:
         """Run a command; Ctrl-C ends it in a line, also while modules are imported and kernels compiled."""
         before = signal.getsignal(signal.SIGINT)
@@ -53,13 +60,24 @@ class _Commands(click.Group):
         if ours:
             signal.signal(signal.SIGINT, _on_ctrl_c)
         try:
-            return super().invoke(ctx)
+            with _printable_errors():
+                return super().invoke(ctx)
         except KeyboardInterrupt:
             say("interrupted")
             sys.exit(INTERRUPTED)
         finally:
             if ours:
                 signal.signal(signal.SIGINT, before)
+
+
+@contextmanager
+def _printable_errors() -> Iterator[None]:
+    """Let no word of the command line, such as a file's name, control the terminal by an error about it."""
+    try:
+        yield
+    except click.ClickException as error:
+        error.message = printable(error.message)  # type: ignore[misc]  # declared final, but by no means
+        raise
 
 
 def _on_ctrl_c(number: int, frame: FrameType | None) -> None:

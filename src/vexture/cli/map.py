@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.cli.messages import note_facts, one_line, say_notes
-from vexture.cli.options import PATH, colour_options, columns_of, refuse_idle_colours, scale_of
+from vexture.apart import apart
+from vexture.cli.messages import echo, note_facts, one_line, say_notes
+from vexture.cli.options import PATH, colour_options, columns_of, refuse_idle_colours, scale_of, streamed
 from vexture.errors import ParameterError, counted
+from vexture.notes import Note
 
 if TYPE_CHECKING:
     from vexture.cartography import Map, MapLayer
@@ -69,8 +71,6 @@ def map(
     """
     start = perf_counter()
     with one_line():
-        from vexture.cartography import convert_map
-        from vexture.content import renaming
         from vexture.geo.tables import check_targets
         from vexture.layout import PACKED_SUFFIX
         from vexture.texture.files import write_together
@@ -80,30 +80,43 @@ def map(
         beside = [*([] if table == "none" else [f".{table}"]), *([TIMES] if any(options["time"]) else [])]
         targets = [output, *(output.with_suffix(suffix) for suffix in beside)]
         check_targets(targets, sources)
-        layers = _layers(sources, symbol, options)
-        kept = {name: options[name] for name in ("crs", "snap", "size", "restyle", "max_seconds")}
-        if options["tolerance"] is not None:
-            kept["tolerance"] = options["tolerance"]
-        with renaming({"times": "time"}):
-            done = convert_map(layers, name=output.stem, **kept)
-        files = _files(output, done, table)
+        names = ", ".join(str(source) for source in sources)
+        given = (sources, [streamed(source) for source in sources], output, symbol, table, options)
+        files, facts, notes = apart(_made, *given, name=names, seconds=options["max_seconds"])
         write_together(files)
-        notes = done.conversion.notes
         if as_json:
             import json
 
-            facts: dict[str, Any] = {
-                "name": output.stem,
-                "crs": done.conversion.drawing.crs,
-                "features": len(done.table),
-            }
-            facts |= {"files": [str(place) for place in files], "legend": list(done.legends)}
             click.echo(json.dumps(facts | {"notes": note_facts(notes)}, indent=2))
             return
         say_notes(output.name, notes)
         size = sum(len(content) for content in files.values())
-        shown = ", ".join(str(place) for place in files)
-        click.echo(f"{shown}: {counted(len(done.table), 'feature')}, {size} bytes, {perf_counter() - start:.1f} s")
+        shown = ", ".join(facts["files"])
+        echo(f"{shown}: {counted(facts['features'], 'feature')}, {size} bytes, {perf_counter() - start:.1f} s")
+
+
+def _made(
+    sources: tuple[Path, ...],
+    contents: list[bytes | None],
+    output: Path,
+    symbol: Path | None,
+    table: str,
+    options: dict[str, Any],
+) -> tuple[dict[Path, bytes], dict[str, Any], tuple[Note, ...]]:
+    """The files of a map, facts about it, and what it leaves out."""
+    from vexture.cartography import convert_map
+    from vexture.content import renaming
+    from vexture.deadline import within
+
+    kept = {name: options[name] for name in ("crs", "snap", "size", "restyle", "max_seconds")}
+    if options["tolerance"] is not None:
+        kept["tolerance"] = options["tolerance"]
+    with within(options["max_seconds"]), renaming({"times": "time"}):
+        done = convert_map(_layers(sources, contents, symbol, options), name=output.stem, **kept)
+    files = _files(output, done, table)
+    facts: dict[str, Any] = {"name": output.stem, "crs": done.conversion.drawing.crs, "features": len(done.table)}
+    facts |= {"files": [str(place) for place in files], "legend": list(done.legends)}
+    return files, facts, done.conversion.notes
 
 
 def _files(output: Path, done: "Map", table: str) -> dict[Path, bytes]:
@@ -120,7 +133,9 @@ def _files(output: Path, done: "Map", table: str) -> dict[Path, bytes]:
     return files
 
 
-def _layers(sources: tuple[Path, ...], symbol: Path | None, options: dict[str, Any]) -> "list[MapLayer]":
+def _layers(
+    sources: tuple[Path, ...], contents: list[bytes | None], symbol: Path | None, options: dict[str, Any]
+) -> "list[MapLayer]":
     """The layers that options describe."""
     from vexture.cartography import MapLayer, Times
     from vexture.reading import read
@@ -156,7 +171,8 @@ def _layers(sources: tuple[Path, ...], symbol: Path | None, options: dict[str, A
             "symbol_size": options["symbol_size"],
         }
         chosen = (own["layer"], own["where"], own["source_crs"], own["ids"], columns, scale)
-        layers.append(MapLayer(source, *chosen, times=times, **shape))
+        content = contents[place]
+        layers.append(MapLayer(source if content is None else content, *chosen, times=times, **shape))
     return layers
 
 

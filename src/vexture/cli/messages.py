@@ -12,7 +12,7 @@ import click
 from vexture.errors import EXPECTED, printable, reason_of
 from vexture.notes import Note, line_of
 
-__all__ = ["as_options", "note_facts", "one_line", "say", "say_notes"]
+__all__ = ["as_options", "echo", "note_facts", "one_line", "say", "say_notes"]
 
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter in a message of the library."""
@@ -23,7 +23,12 @@ NAMED_OTHERWISE = {"fonts": "font", "characters": "chars"}
 
 def say(message: str) -> None:
     """Print a line to standard error."""
-    click.echo(f"vexture: {printable(as_options(message))}", err=True)
+    echo(f"vexture: {as_options(message)}", err=True)
+
+
+def echo(line: str, *, err: bool = False) -> None:
+    """Print a line, in which names of strangers control no terminal."""
+    click.echo(printable(line), err=err)
 
 
 def as_options(message: str) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.errors import ParameterError
+from vexture.errors import DeviceError, ParameterError, SourceError
 
 __all__ = [
     "PATH",
@@ -19,19 +19,24 @@ __all__ = [
     "Rectangle",
     "Sectioned",
     "Tolerance",
+    "check_output",
     "colour_options",
     "columns_of",
     "conversion_options",
     "drawing_kind",
     "font_option",
     "refuse_idle_colours",
+    "refuse_stream",
     "scale_of",
+    "shown_name",
     "split_of",
     "standard_input",
+    "streamed",
     "strict_option",
     "tolerance_option",
     "trace_images_option",
     "viewer_parameters",
+    "write_output",
 ]
 
 if TYPE_CHECKING:
@@ -119,7 +124,46 @@ def standard_input() -> bytes:
     """All that standard input holds, up to the limit of a file."""
     from vexture.content import LARGEST_FILE
 
+    if sys.stdin is None:
+        raise SourceError("standard input: it is closed; give a file")
     return sys.stdin.buffer.read(LARGEST_FILE + 1)
+
+
+def streamed(path: Path) -> bytes | None:
+    """Content of standard input, or of a pipe of a name, which can be read only once; None of a file."""
+    from vexture.content import about, is_stream, read_bytes
+
+    if path == Path(STANDARD):
+        return standard_input()
+    if not is_stream(path):
+        return None
+    with about(str(path)):
+        return read_bytes(path)
+
+
+def refuse_stream(path: Path, what: str) -> None:
+    """Raise a `SourceError` if what is read several times is a pipe."""
+    from vexture.content import is_stream
+
+    if is_stream(path):
+        raise SourceError(f"{path}: {what} is read several times, and a pipe only once; save it as a file")
+
+
+def shown_name(path: Path) -> str:
+    """Name of a source in messages."""
+    return "standard input" if path == Path(STANDARD) else str(path)
+
+
+def check_output(output: Path | None) -> None:
+    """Raise a `DeviceError` if standard output is to be written, and is closed."""
+    if output == Path(STANDARD) and sys.stdout is None:
+        raise DeviceError("standard output is closed; name a file with -o")
+
+
+def write_output(data: bytes) -> None:
+    """Write to standard output."""
+    sys.stdout.buffer.write(data)
+    sys.stdout.buffer.flush()  # an error is this command's, and not one at the end of Python
 
 
 def drawing_kind(path: Path) -> "FileKind | None":

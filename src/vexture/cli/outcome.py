@@ -1,14 +1,11 @@
 """What commands that convert say and write of each source."""
 
-import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import click
-
-from vexture.cli.messages import as_options, note_facts, say
-from vexture.cli.options import STANDARD
+from vexture.cli.messages import as_options, echo, note_facts, say
+from vexture.cli.options import STANDARD, write_output
 from vexture.encodings import DEFAULT
 from vexture.errors import VextureError, counted
 from vexture.layout import PACKED_SUFFIX
@@ -75,7 +72,7 @@ def written(outcome: Outcome, output: Path, owners: dict[str, Path | str]) -> Ou
 
     assert outcome.files is not None
     if output == Path(STANDARD):
-        sys.stdout.buffer.write(next(iter(outcome.files.values())))
+        write_output(next(iter(outcome.files.values())))
         return outcome
     if is_texture_file(output, DEFAULT if len(outcome.files) == 1 else ""):
         places = {output: next(iter(outcome.files.values()))}
@@ -102,13 +99,13 @@ def say_outcome(outcome: Outcome, level: int, *, quiet: bool, to_pipe: bool) -> 
     if level > QUIET and outcome.warning:
         say(f"warning: {outcome.warning}")
     if level > QUIET and not quiet:
-        click.echo(line_of_facts(outcome.facts), err=to_pipe)
+        echo(line_of_facts(outcome.facts), err=to_pipe)
     if level == VERBOSE and not quiet:
         for place, shape in enumerate(outcome.facts["shapes"]):
             parts = ", ".join(counted(shape[name], name[:-1]) for name in ("quads", "curves"))
-            click.echo(f"  shape {place}: {parts}", err=to_pipe)
+            echo(f"  shape {place}: {parts}", err=to_pipe)
         for file in outcome.facts.get("files", ()):
-            click.echo(f"  {file}", err=to_pipe)
+            echo(f"  {file}", err=to_pipe)
 
 
 def line_of_facts(facts: dict[str, Any]) -> str:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from vexture.cli.messages import one_line
+from vexture.cli.messages import echo, one_line
 from vexture.cli.options import PATH
 
 __all__ = ["push"]
@@ -30,4 +30,4 @@ def push(file: Path, url: str, token_file: Path) -> None:
         from vexture.live.tokens import read_token
 
         manifest = send(file, url, read_token(token_file))
-        click.echo(f"{manifest['name']}: {manifest['url']}, {manifest['bytes']} bytes, version {manifest['version']}")
+        echo(f"{manifest['name']}: {manifest['url']}, {manifest['bytes']} bytes, version {manifest['version']}")

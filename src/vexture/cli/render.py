@@ -1,23 +1,27 @@
 """The command `render`."""
 
-import sys
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import click
 
+from vexture.apart import apart
 from vexture.cli.messages import one_line, say_notes
 from vexture.cli.options import (
     PATH,
     STANDARD,
     Colour,
     Rectangle,
+    check_output,
     drawing_kind,
     font_option,
-    standard_input,
+    shown_name,
+    streamed,
     strict_option,
     trace_images_option,
+    write_output,
 )
 from vexture.errors import DeviceError, ParameterError
 
@@ -94,6 +98,7 @@ def render(
     with one_line():
         from vexture.renderers.view import window
 
+        check_output(output)
         if output != Path(STANDARD) and output.suffix.lower() != ".png":
             raise ParameterError(f"`output` {output}: pictures are PNG files; name one that ends in .png")
         _check_sides(size, width, height)
@@ -183,12 +188,12 @@ def _shown(path: Path, select: str | None, fonts: tuple[Path, ...], *, trace_ima
     from vexture.reading import read_drawing
     from vexture.texture.load import load_any, texture_from
 
-    data = standard_input() if path == Path(STANDARD) else None
-    name = str(path) if data is None else "standard input"
+    data, name = streamed(path), shown_name(path)
     kind = drawing_kind(path) if data is None else kind_of(start_of(data))
     if kind not in (None, FileKind.TEXTURE):
         given = path if data is None else data
-        drawing = read_drawing(given, name=name, select=select, fonts=fonts, trace_images=trace_images)
+        how: dict[str, Any] = {"name": name, "select": select, "fonts": fonts, "trace_images": trace_images}
+        drawing = apart(partial(read_drawing, **how), given, name=name)
         check_losses(name, drawing.notes, is_empty=not drawing.paths, strict=strict)
         say_notes(name, drawing.notes)
         return drawing
@@ -208,7 +213,7 @@ def _write_png(image: "NDArray[np.uint8]", output: Path) -> None:
     data = BytesIO()
     Image.fromarray(image).save(data, format="PNG")
     if output == Path(STANDARD):
-        sys.stdout.buffer.write(data.getvalue())
+        write_output(data.getvalue())
         return
     if not output.resolve().parent.is_dir():
         raise DeviceError(f"{output}: cannot be written (there is no such folder); choose another file with -o")

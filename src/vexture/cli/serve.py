@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from vexture.cli.messages import as_options, one_line
+from vexture.cli.messages import as_options, echo, one_line
 from vexture.cli.options import PATH, font_option
 from vexture.live.limits import Limits
 
@@ -50,4 +50,4 @@ def serve(
         from vexture.live.serve import serve as run
 
         limits = Limits(max_bytes=max_bytes, max_total=max_total, max_shapes=max_shapes, rate=rate)
-        run(folder, token_file, host, port, limits, precision, fonts, lambda line: click.echo(as_options(line)))
+        run(folder, token_file, host, port, limits, precision, fonts, lambda line: echo(as_options(line)))

@@ -1,5 +1,6 @@
 """The program `vexture`: Ctrl-C ends it in one line from here on, also while its modules are imported."""
 
+import os
 import signal
 
 from vexture.cli.interrupt import at_once
@@ -11,6 +12,11 @@ def main() -> None:
     """Run the command line."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # a shell may have it ignored
         signal.signal(signal.SIGINT, at_once)
+    for descriptor in (0, 1, 2):
+        try:
+            os.fstat(descriptor)
+        except OSError:  # it is closed: a file that is opened must not take its place
+            os.open(os.devnull, os.O_RDWR)
     from vexture.cli.main import main as command
 
     command(prog_name="vexture")

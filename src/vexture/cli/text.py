@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from vexture.apart import apart
 from vexture.cli.convert import check_places, given_options, options_of_convert
 from vexture.cli.messages import one_line
 from vexture.cli.options import PATH, STANDARD, Colour, standard_input
 from vexture.cli.outcome import NORMAL, QUIET, VERBOSE, Outcome, facts_of, say_outcome, shape_facts, written
+from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT
 from vexture.errors import SourceError
 
@@ -106,10 +108,6 @@ def text(
     colour font (COLR) become a planar map.
     """
     with one_line():
-        from vexture.fonts.text import TextOptions, text_drawing
-        from vexture.notes import check_losses, line_of
-        from vexture.pipeline import run
-
         to_pipe = output == Path(STANDARD)
         level = QUIET if quiet else VERBOSE if verbose else NORMAL
         check_places((), output, None, DEFAULT, to_pipe)
@@ -119,14 +117,9 @@ def text(
         if color is not None:
             parameters.setdefault("split", "faces")
         words = standard_input().decode("utf-8", "replace").rstrip("\n") if text == STANDARD else text
-        drawing = text_drawing(words.replace("\\n", "\n"), TextOptions(font=font, paint=paint_of(color), **styled))
-        if not drawing.paths:
-            raise SourceError(f"{drawing.name}: nothing of the text is painted; give characters that a font has")
-        done = run(drawing, encoding=DEFAULT, **parameters)
-        check_losses(drawing.name, done.notes, is_empty=False, strict=strict)
-        files = done.texture.files(**stored)
-        facts = shape_facts(done) | {"bytes": sum(map(len, files.values()))}
-        outcome = Outcome(drawing.name, facts, files, warning=line_of(drawing.name, done.notes))
+        styled |= {"font": font, "paint": paint_of(color)}
+        given = (words.replace("\\n", "\n"), styled, parameters, stored, strict)
+        outcome = apart(_converted, *given, name="the text", seconds=parameters.get("max_seconds", DEFAULT_SECONDS))
         outcome = written(outcome, output or Path(), {})
         say_outcome(outcome, level, quiet=as_json, to_pipe=to_pipe)
         if as_json:
@@ -135,6 +128,26 @@ def text(
             click.echo(json.dumps([facts_of(outcome)], indent=2), err=to_pipe)
     if outcome.error:
         sys.exit(1)
+
+
+def _converted(
+    words: str, styled: dict[str, Any], parameters: dict[str, Any], stored: dict[str, Any], strict: bool
+) -> Outcome:
+    """The texture of a text, whose fonts may be a stranger's."""
+    from vexture.deadline import within
+    from vexture.fonts.text import TextOptions, text_drawing
+    from vexture.notes import check_losses, line_of
+    from vexture.pipeline import run
+
+    with within(parameters.get("max_seconds", DEFAULT_SECONDS)):
+        drawing = text_drawing(words, TextOptions(**styled))
+        if not drawing.paths:
+            raise SourceError(f"{drawing.name}: nothing of the text is painted; give characters that a font has")
+        done = run(drawing, encoding=DEFAULT, **parameters)
+    check_losses(drawing.name, done.notes, is_empty=False, strict=strict)
+    files = done.texture.files(**stored)
+    facts = shape_facts(done) | {"bytes": sum(map(len, files.values()))}
+    return Outcome(drawing.name, facts, files, warning=line_of(drawing.name, done.notes))
 
 
 def paint_of(color: tuple[float, float, float, float] | None) -> "Paint":

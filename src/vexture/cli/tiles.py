@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vexture.cli.interrupt import INTERRUPTED
-from vexture.cli.messages import one_line, say, say_notes
-from vexture.cli.options import PATH, colour_options, columns_of, refuse_idle_colours, scale_of
+from vexture.cli.messages import echo, one_line, say, say_notes
+from vexture.cli.options import PATH, colour_options, columns_of, refuse_idle_colours, refuse_stream, scale_of
 from vexture.errors import counted
 
 if TYPE_CHECKING:
@@ -59,6 +59,7 @@ def tiles(source: Path, output: Path, **options: Any) -> None:
         from vexture.tiles.build import make_tiles, unfinished
 
         quiet = options.pop("quiet")
+        refuse_stream(source, "source")
         asked = _asked(options)
         try:
             with ExitStack() as opened:
@@ -69,7 +70,7 @@ def tiles(source: Path, output: Path, **options: Any) -> None:
         if not quiet:
             say_notes(source, made.notes)
             found = f"{counted(made.features, 'feature')}, {counted(made.tiles, 'tile')}"
-            click.echo(f"{output}: {found}, {made.contents} of them different, {made.bytes} bytes")
+            echo(f"{output}: {found}, {made.contents} of them different, {made.bytes} bytes")
 
 
 def _asked(options: dict[str, Any]) -> "TileOptions":

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from vexture.cli.messages import one_line, say
+from vexture.cli.messages import echo, one_line, say
 from vexture.cli.options import PATH, conversion_options, viewer_parameters
 from vexture.errors import counted
 
@@ -34,7 +34,7 @@ def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening:
         from vexture.live.view import view as serve
 
         def show(where: str, shapes: int) -> None:
-            click.echo(f"vexture: {where} shows {counted(shapes, 'shape')}; Ctrl-C ends it")
+            echo(f"vexture: {where} shows {counted(shapes, 'shape')}; Ctrl-C ends it")
 
         serve(
             files,

@@ -307,7 +307,7 @@ def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
             tables = [table for table, _ in kept] or [file.schema_arrow.empty_table().select(wanted)]
             numbers = np.concatenate([np.empty(0, np.int64), *(each for _, each in kept)])
             yield _parquet_chunk(pa.concat_tables(tables), numbers, geometry, columns, choice, crs)
-    except (pa.ArrowInvalid, OSError) as error:
+    except (pa.ArrowInvalid, OSError, UnicodeDecodeError) as error:  # the last of a column's name
         raise SourceError(f"the Parquet file cannot be read ({shortened(str(error), 120)}); save it again") from None
 
 

@@ -73,7 +73,7 @@ def _is_own(place: Path) -> bool:
         else:
             with pa.OSFile(str(place)) as file:
                 metadata = pa.ipc.open_file(file).schema.metadata
-    except (pa.ArrowException, OSError):
+    except (pa.ArrowException, OSError, UnicodeDecodeError):
         return False
     return LEGEND.encode() in (metadata or {})
 

@@ -26,6 +26,7 @@ __all__ = [
     "VIEWER_PARAMETERS",
     "converted",
     "load_kernels",
+    "load_thesis",
     "shape_of",
     "texture_shape",
     "thesis_pair",
@@ -106,6 +107,15 @@ def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
     drawing = replace(read_drawing(source.data, name=f"{shape.name}.svg"), name=shape.name)
     texture = convert(drawing, encoding="thesis", bits=bits)
     return tuple(texture.files().values())
+
+
+@cache
+def load_thesis() -> None:
+    """Load the kernels of the thesis's encoding, as `load_kernels` loads the others."""
+    from vexture.pipeline import convert
+    from vexture.svg.read import svg_drawing
+
+    convert(svg_drawing(SMALL, "small.svg"), encoding="thesis")
 
 
 @cache

@@ -5,12 +5,13 @@ import fcntl
 import json
 from collections.abc import Callable
 from contextlib import suppress
+from glob import escape
 from pathlib import Path
 from typing import IO, Final
 
 from vexture.content import SHAPEFILE
 from vexture.errors import EXPECTED, DeviceError, LimitError
-from vexture.live.converter import Converter
+from vexture.live.converter import BusyError, Converter
 from vexture.live.limits import LimitedShelf, Limits
 from vexture.live.names import checked_name, manifest_name
 from vexture.live.shelf import File, Shape
@@ -99,10 +100,12 @@ class Folder(LimitedShelf):
         return [path for suffixes in TAKEN for path in found if path.suffix.lower() in suffixes]
 
     async def take_drawings(self, converter: Converter) -> None:
-        """Serve the drawings and textures that users have put into the folder."""
+        """Serve the drawings and textures that users have put into the folder; a `BusyError` if the server stops."""
         for path in self.drawings:
             try:
                 await self._take(path, converter)
+            except BusyError:  # the server stops, and says nothing of what it has not read
+                raise
             except EXPECTED as error:
                 self._say(f"{path.name} is not served: {error}")
             except OSError as error:
@@ -114,6 +117,7 @@ class Folder(LimitedShelf):
         if self.shape(name) is not None:
             self._say(taken)
             return
+        self._check_links(path)
         with path.open("rb") as file:
             data = file.read(self._limits.max_bytes + 1)
         if len(data) > self._limits.max_bytes:
@@ -127,6 +131,14 @@ class Folder(LimitedShelf):
                 return
             self.check_room(shape)
             self.put(shape)
+
+    def _check_links(self, path: Path) -> None:
+        """Refuse a file that is, or one of whose parts is, a link out of the folder."""
+        root = self._path.resolve()
+        for part in (path, *path.parent.glob(f"{escape(path.stem)}.*")):
+            if part.is_symlink() and not part.resolve().is_relative_to(root):
+                what = "it" if part == path else part.name
+                raise LimitError(f"{what} is a link that leads out of the folder; put the file itself there")
 
     def _write(self, shape: Shape, fresh: list[File]) -> None:
         """Write a shape: first its files, then the manifest that names them."""

@@ -132,11 +132,6 @@ def serve_until_stopped(app: ASGIApp, taken: socket.socket, stop: Callable[[], N
     with suppress(ValueError, OSError):  # one file for each client: as many as the system allows
         resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
 
-    def ignore(*_: Any) -> None:
-        """Uvicorn raises the signal again after it has stopped, which would end in a traceback."""
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, ignore)
     errors = logging.StreamHandler()
     errors.addFilter(_Few())
     logging.basicConfig(handlers=[errors], format="%(message)s")
@@ -151,5 +146,16 @@ def serve_until_stopped(app: ASGIApp, taken: socket.socket, stop: Callable[[], N
         ws="none",
         timeout_graceful_shutdown=STOP_SECONDS,
     )
-    with suppress(KeyboardInterrupt):
-        _Server(config, stop).run(sockets=[taken])
+    server = _Server(config, stop)
+
+    def end(*_: Any) -> None:
+        """Stop before Uvicorn listens to signals; it raises them again at its end, where nothing is left to do."""
+        server.should_exit = True
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, end)
+    try:
+        with suppress(KeyboardInterrupt):
+            server.run(sockets=[taken])
+    finally:
+        stop()  # a server that is ended while it starts does not shut down

@@ -5,6 +5,7 @@ import unicodedata
 from collections import OrderedDict
 from collections.abc import Callable, Collection
 from functools import cache
+from math import inf
 from urllib.parse import quote, urlsplit
 
 from starlette.requests import ClientDisconnect, Request
@@ -13,13 +14,13 @@ from starlette.routing import Route
 
 from vexture.encodings import find_encoding
 from vexture.errors import EXPECTED
-from vexture.live.documents import THESIS_BITS, shape_of, thesis_pair
+from vexture.live.converter import BusyError, Converter
+from vexture.live.documents import THESIS_BITS, load_thesis, thesis_pair
 from vexture.live.limits import Limits
 from vexture.live.page import PNG_TYPE, SERVED_POLICY, VIEWER, Bundle, built, served_page
 from vexture.live.publishing import received
 from vexture.live.routes import FOREVER, NO_SNIFFING, current, fixed, refusal
 from vexture.live.shelf import Shape, Shelf, manifest
-from vexture.parameters import Parameters
 
 __all__ = ["DROPPED", "dropping_routes", "page_routes", "thesis_addresses", "thesis_routes"]
 
@@ -33,6 +34,8 @@ MOST_PAIRS = 32
 """Thesis encodings that are kept, each a few kilobytes."""
 
 MOST_NAME_LENGTH = 200
+
+BUSY = {"Retry-After": "5"}
 
 
 def page_routes(bundle: Bundle = VIEWER, page: Callable[[], bytes] | None = None) -> list[Route]:
@@ -56,7 +59,7 @@ def thesis_addresses(shape: Shape) -> dict[str, list[str]]:
     }
 
 
-def thesis_routes(shelf: Shelf) -> list[Route]:
+def thesis_routes(shelf: Shelf, converter: Converter) -> list[Route]:
     """Routes of the thesis encodings of a shelf's shapes, which are converted when they are first asked for."""
     files = {
         view + suffix: (bits, place)
@@ -65,6 +68,10 @@ def thesis_routes(shelf: Shelf) -> list[Route]:
     }
     pairs: OrderedDict[tuple[str, int], asyncio.Future[tuple[bytes, ...]]] = OrderedDict()
 
+    async def converted(shape: Shape, bits: int) -> tuple[bytes, ...]:
+        await converter.run(load_thesis, about=shape.name, seconds=inf)  # perhaps a minute, and of no conversion's
+        return await converter.run(thesis_pair, shape, bits, about=shape.name)
+
     async def view(request: Request) -> Response:
         version, name = request.path_params["version"], request.path_params["name"]
         shape = next((one for one in map(shelf.shape, shelf.names) if one and one.version == version), None)
@@ -72,11 +79,14 @@ def thesis_routes(shelf: Shelf) -> list[Route]:
             return refusal(404, f"no view {name[:100]!r} of that version; the manifest of its shape names the newest")
         bits, place = files[name]
         if (version, bits) not in pairs:
-            pairs[version, bits] = asyncio.ensure_future(asyncio.to_thread(thesis_pair, shape, bits))
+            pairs[version, bits] = asyncio.ensure_future(converted(shape, bits))
             if len(pairs) > MOST_PAIRS:
                 pairs.popitem(last=False)
         try:
             pair = await asyncio.shield(pairs[version, bits])
+        except BusyError as error:
+            del pairs[version, bits]
+            return refusal(503, str(error), BUSY)
         except EXPECTED as error:
             return refusal(422, str(error))
         return Response(pair[place], media_type=PNG_TYPE, headers={"Cache-Control": FOREVER, **NO_SNIFFING})
@@ -84,8 +94,8 @@ def thesis_routes(shelf: Shelf) -> list[Route]:
     return [Route("/views/{version}/{name}", view)]
 
 
-def dropping_routes(shelf: Shelf, parameters: Parameters, given: Collection[str]) -> list[Route]:
-    """Route that converts a file dropped on the page, and publishes it.
+def dropping_routes(shelf: Shelf, converter: Converter, given: Collection[str]) -> list[Route]:
+    """Route that converts a file dropped on the page as an upload is converted, and publishes it.
 
     The names in `given` are those of shapes that stay: a dropped file of such a name gets another one.
     """
@@ -104,7 +114,10 @@ def dropping_routes(shelf: Shelf, parameters: Parameters, given: Collection[str]
             data, size = await received(request, DROPPED, DROPPED.max_bytes)
             if size > len(data):
                 return refusal(413, f"the file is larger than {DROPPED.max_bytes:,} bytes; name it to `vexture view`")
-            shape = await asyncio.to_thread(shape_of, data, file_name, name, parameters)
+            with converter.place():
+                shape = await converter.shape_of(data, name, file_name)
+        except BusyError as error:
+            return refusal(503, str(error), BUSY)
         except TimeoutError:
             return refusal(408, f"the file took longer than {DROPPED.upload_seconds:g} s; try again")
         except ClientDisconnect:

@@ -17,11 +17,16 @@ from vexture.live.limits import FullError, LimitedShelf, Limits, Pace
 from vexture.live.names import checked_name
 from vexture.live.routes import entity_tag, levels_below, refusal
 from vexture.live.shelf import manifest
+from vexture.live.tokens import WrongTokens
 
 __all__ = ["publishing_routes", "received"]
 
 DRAINED: Final = 4
 """Times the limit. So much of a refused body is read: a client that still sends does not see the answer."""
+
+DELAY_SECONDS: Final = 1.0
+MOST_DELAYED: Final = 100
+"""How long an answer to one of too many wrong tokens takes, and how many such answers wait at most."""
 
 CHALLENGE: Final = {"WWW-Authenticate": 'Bearer realm="vexture"'}
 WRONG: Final = {"WWW-Authenticate": 'Bearer realm="vexture", error="invalid_token"'}
@@ -35,18 +40,24 @@ class _RefusedError(Exception):
         self.status, self.line, self.headers = status, line, headers
 
 
+class _WrongTokenError(_RefusedError):
+    """One of too many."""
+
+
 def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits, token: str | None) -> list[Route]:
     """Routes to publish shapes on a shelf with the token; without one, all uploads are refused."""
-    pace = Pace(limits.rate, limits.burst)
+    pace, wrong = Pace(limits.rate, limits.burst), WrongTokens()
+    delayed = asyncio.Semaphore(MOST_DELAYED)
     turns: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
     def admitted(request: Request) -> str:
-        _check_token(request, token)
+        who = request.client.host if request.client else ""
+        _check_token(request, token, wrong, who)
         try:
             name = checked_name(request.path_params["name"])
         except LimitError as error:
             raise _RefusedError(400, str(error)) from None
-        if wait := pace.wait(request.client.host if request.client else ""):
+        if wait := pace.wait(who):
             line = f"more than {limits.rate:g} uploads a second; wait {wait:.1f} s"
             raise _RefusedError(429, line, {"Retry-After": str(ceil(wait))})
         return name
@@ -57,6 +68,9 @@ def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits,
         except _RefusedError as error:
             with suppress(TimeoutError, ClientDisconnect):
                 await received(request, limits, 0)
+            if isinstance(error, _WrongTokenError) and not delayed.locked():
+                async with delayed:
+                    await asyncio.sleep(DELAY_SECONDS)
             return refusal(error.status, error.line, error.headers)
         try:
             data = await _body(request, limits)
@@ -88,13 +102,16 @@ def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits,
     return [Route("/shapes/{name:any}", put, methods=["PUT"])]
 
 
-def _check_token(request: Request, token: str | None) -> None:
+def _check_token(request: Request, token: str | None, wrong: WrongTokens, who: str) -> None:
     if token is None:
         raise _RefusedError(403, "this server takes no uploads; start it with --token-file")
     scheme, _, given = request.headers.get("authorization", "").partition(" ")
     if scheme.lower() != "bearer":
         raise _RefusedError(401, "uploads need the header Authorization: Bearer TOKEN", CHALLENGE)
     if not hmac.compare_digest(given.strip().encode(), token.encode()):
+        if wait := wrong.wait(who):
+            line = f"the token is wrong, as others were before it; wait {wait:.0f} s, and give the right one"
+            raise _WrongTokenError(429, line, {"Retry-After": str(ceil(wait))})
         raise _RefusedError(401, "the token is wrong", WRONG)
 
 

@@ -1,14 +1,21 @@
-"""The token that authorizes uploads."""
+"""The token that authorizes uploads, and those who try others."""
 
+import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
 from vexture.errors import DeviceError, LimitError
+from vexture.live.limits import Pace
 
-__all__ = ["read_token"]
+__all__ = ["WrongTokens", "read_token"]
 
 SHORTEST_TOKEN: Final = 16
 LONGEST_TOKEN: Final = 4096
+
+WRONG_FROM_ONE: Final = (0.1, 5)
+WRONG_FROM_ALL: Final = (1.0, 100)
+"""Wrong tokens a second, and at once after a pause: from one address, and from all together."""
 
 
 def read_token(path: Path) -> str:
@@ -26,3 +33,21 @@ def read_token(path: Path) -> str:
             "without spaces; make one with: openssl rand -hex 32"
         )
     return token
+
+
+class WrongTokens:
+    """How often wrong tokens were sent of late; who has the right one never waits, whoever shares the address.
+
+    Examples
+    --------
+    >>> wrong = WrongTokens(clock=lambda: 0.0)
+    >>> [wrong.wait("a") > 0.0 for _ in range(6)], wrong.wait("b")
+    ([False, False, False, False, False, True], 0.0)
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._each, self._all = Pace(*WRONG_FROM_ONE, clock), Pace(*WRONG_FROM_ALL, clock)
+
+    def wait(self, who: str) -> float:
+        """Note a wrong token from an address; return the seconds until the next one may be answered as usual, or 0."""
+        return max(self._each.wait(who), self._all.wait(""))

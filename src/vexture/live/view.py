@@ -4,11 +4,12 @@ import os
 import sys
 import threading
 import webbrowser
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import TypeAlias
 
-from vexture.errors import EXPECTED, LimitError
+from vexture.apart import each_apart
+from vexture.errors import EXPECTED, LimitError, ParameterError, VextureError
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shape, Shelf
 from vexture.live.watch import Source, named, watch
@@ -20,6 +21,8 @@ __all__ = ["export", "view"]
 
 Say = Callable[[str], None]
 """Takes a line for the user."""
+
+Made: TypeAlias = tuple[bytes, Shape]
 
 
 def export(
@@ -34,8 +37,7 @@ def export(
 
     check_output(output, VIEWER)
     shapes = []
-    for source in named(paths):
-        shape = _converted(source, content_of(source.path), parameters)
+    for source, (_, shape) in zip(sources := named(paths), map(_checked, _converted(sources, parameters)), strict=True):
         notes = [Note(note["kind"], note["message"], note["count"]) for note in shape.facts["notes"]]
         check_losses(str(source.path), notes, is_empty=shape.facts["segments"] == 0, strict=strict)
         _say_warnings(shape, say)  # an error says them itself
@@ -60,56 +62,84 @@ def view(
 
     `say` takes warnings and errors for the user, `show` the address and the number of shapes.
     """
+    from vexture.live.converter import Converter
     from vexture.live.listen import background, bind, listen, serve_until_stopped
     from vexture.live.page_routes import DROPPED, dropping_routes, page_routes, thesis_addresses, thesis_routes
     from vexture.live.routes import application, routes
 
     page = page_routes()
     with bind(host, port) as taken:
-        shelf = Shelf()
+        shelf, converter = Shelf(), Converter(DROPPED, parameters)
+
+        async def convert(source: Source, data: bytes) -> Shape:
+            given = (data, str(source.path), source.name, parameters, source.path.parent)
+            return await converter.run(shape_of, *given, about=str(source.path), seconds=parameters.max_seconds)
+
+        async def follow() -> None:
+            await converter.warm()
+            await watch(shelf, sources, convert, seen)
+
+        def stop() -> None:
+            shelf.close()
+            converter.close()
+
         sources = named(paths)
         seen = _published(shelf, sources, parameters, say)
         app = application(
             [
                 *page,
                 *routes(shelf, thesis_addresses),
-                *thesis_routes(shelf),
-                *dropping_routes(shelf, parameters, frozenset(source.name for source in sources)),
+                *thesis_routes(shelf, converter),
+                *dropping_routes(shelf, converter, frozenset(source.name for source in sources)),
             ],
             DROPPED,
             only_at=host,
-            lifespan=background(partial(watch, shelf, sources, parameters, seen)) if watching else None,
+            lifespan=background(follow) if watching else None,
         )
         where = listen(taken)
         show(where, len(shelf.names))
         if opening and _has_display():
             threading.Thread(target=webbrowser.open, args=(where,), daemon=True).start()
-        serve_until_stopped(app, taken, shelf.close, DROPPED)
+        serve_until_stopped(app, taken, stop, DROPPED)
 
 
 def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, say: Say) -> dict[str, bytes | None]:
     """Publish files; return the content of each, or None if it cannot be published."""
     seen: dict[str, bytes | None] = {}
-    for source in sources:
+    for source, result in zip(sources, _converted(sources, parameters), strict=True):
+        seen[source.name] = None
         try:
-            data = content_of(source.path)
-            shape = _converted(source, data, parameters)
-            _say_warnings(shape, say)
-            shelf.put(shape)
-            seen[source.name] = data
+            seen[source.name], shape = _checked(result)
         except EXPECTED as error:
             if len(sources) == 1:
                 raise
             say(str(error))
             shelf.refuse(source.name, str(error))
-            seen[source.name] = None
+            continue
+        _say_warnings(shape, say)
+        shelf.put(shape)
     if not shelf.names:
         raise LimitError(f"none of the {len(sources)} files can be shown; correct one of them")
     return seen
 
 
-def _converted(source: Source, data: bytes, parameters: Parameters) -> Shape:
-    return shape_of(data, str(source.path), source.name, parameters, source.path.parent)
+def _converted(sources: Sequence[Source], parameters: Parameters) -> Iterator["Made | VextureError | ParameterError"]:
+    """What `_made` makes of each source, in another process; or why it cannot."""
+    items = [(source, parameters) for source in sources]
+    return each_apart(_made, items, [str(source.path) for source in sources], parameters.max_seconds)
+
+
+def _made(source: Source, parameters: Parameters) -> Made:
+    """The content of a source, and its shape."""
+    data = content_of(source.path)
+    return data, shape_of(data, str(source.path), source.name, parameters, source.path.parent)
+
+
+def _checked(result: "Made | VextureError | ParameterError") -> Made:
+    """What was made; raises the error if it was not."""
+    if isinstance(result, EXPECTED):
+        raise result
+    return result
 
 
 def _say_warnings(shape: Shape, say: Say) -> None:

@@ -2,15 +2,13 @@
 
 import asyncio
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from vexture.errors import EXPECTED
-from vexture.live.documents import shape_of
-from vexture.live.shelf import Shelf
-from vexture.parameters import Parameters
+from vexture.live.shelf import Shape, Shelf
 from vexture.reading import content_of
 
 __all__ = ["Source", "named", "watch"]
@@ -44,6 +42,9 @@ class Source:
         return {self.path.parent.resolve() / self.path.name, self.path.resolve()}
 
 
+Convert = Callable[[Source, bytes], Awaitable[Shape]]
+
+
 def named(paths: Sequence[Path]) -> list[Source]:
     r"""Give each file a name of its own, made from its stem, in Unicode's normal form NFC.
 
@@ -67,12 +68,10 @@ def named(paths: Sequence[Path]) -> list[Source]:
     return sources
 
 
-async def watch(
-    shelf: Shelf, sources: Sequence[Source], parameters: Parameters, seen: Mapping[str, bytes | None]
-) -> None:
+async def watch(shelf: Shelf, sources: Sequence[Source], convert: Convert, seen: Mapping[str, bytes | None]) -> None:
     """Publish each file again when it changes, or tell clients why not; ends only when it is cancelled.
 
-    `seen` is the content that is published already, by name.
+    `convert` makes the shape of a file with a content; `seen` is the content that is published already, by name.
     """
     from watchfiles import awatch
 
@@ -100,7 +99,7 @@ async def watch(
             stamp = _stamp(source.path)
             if source in changed or read.get(source.name, ()) != stamp:
                 read[source.name] = stamp
-                await _publish(shelf, source, parameters, content)
+                await _publish(shelf, source, convert, content)
 
 
 def _stamp(path: Path) -> _Stamp | None:
@@ -112,7 +111,7 @@ def _stamp(path: Path) -> _Stamp | None:
     return found.st_ino, found.st_size, found.st_mtime_ns
 
 
-async def _publish(shelf: Shelf, source: Source, parameters: Parameters, content: dict[str, bytes | None]) -> None:
+async def _publish(shelf: Shelf, source: Source, convert: Convert, content: dict[str, bytes | None]) -> None:
     """Publish a file once it is a drawing; after the last pause, tell clients why it is none."""
     line = ""
     for delay in (*SETTLING_SECONDS, None):
@@ -120,8 +119,7 @@ async def _publish(shelf: Shelf, source: Source, parameters: Parameters, content
             data = await asyncio.to_thread(content_of, source.path)
             if data == content[source.name]:
                 return
-            path = source.path
-            shape = await asyncio.to_thread(shape_of, data, str(path), source.name, parameters, path.parent)
+            shape = await convert(source, data)
         except EXPECTED as error:
             line = str(error)
             if delay is not None:

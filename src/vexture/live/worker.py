@@ -1,4 +1,9 @@
-"""A process that does one piece of work at a time, is started when it is needed and ends with the server."""
+"""A process that does one piece of work at a time, is started when it is needed and ends with the server.
+
+Its temporary files, and those of the libraries in it, are in a folder of its own. A second, tiny process removes the
+folder when the first has ended, and ends that when the server has: a library that keeps the interpreter's lock would
+keep a thread from it.
+"""
 
 import asyncio
 import multiprocessing
@@ -7,35 +12,54 @@ import resource
 import secrets
 import shutil
 import signal
+import stat
 import tempfile
-import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import suppress
 from multiprocessing.connection import wait
-from typing import Any, TypeVar
+from pathlib import Path
+from typing import Any, Final, TypeVar
 
 __all__ = ["Worker"]
 
 T = TypeVar("T")
 
 
+ENDING_SECONDS: Final = 1.0
+"""For a process that is killed to be gone, with the files that it has open."""
+
+PLACES: Final = ("TMPDIR", "CPL_TMPDIR", "SQLITE_TMPDIR")
+"""Variables that say where temporary files are: of all programs, of GDAL, of SQLite."""
+
+
 class Worker:
     """A process, which is started when it is needed and can be killed alone.
 
-    `memory_bytes` limits its address space.
+    `memory_bytes` limits its address space, `file_bytes` each file that it writes.
     """
 
-    def __init__(self, memory_bytes: int | None = None) -> None:
-        self._memory_bytes = memory_bytes
+    def __init__(self, memory_bytes: int | None = None, file_bytes: int | None = None) -> None:
+        self._limits = {resource.RLIMIT_AS: memory_bytes, resource.RLIMIT_FSIZE: file_bytes}
         self._pool: ProcessPoolExecutor | None = None
         self._folder = os.path.join(tempfile.gettempdir(), f"vexture-{secrets.token_hex(8)}")
 
+    @property
+    def is_running(self) -> bool:
+        """Whether the process is started."""
+        return self._pool is not None
+
+    @property
+    def temporary_bytes(self) -> int:
+        """Bytes on the disk of its temporary files, also of those that it has removed and not closed."""
+        return sum(512 * size for size in dict(self._temporary_blocks()).values())
+
     def run(self, work: Callable[..., T], *given: Any) -> asyncio.Future[T]:
-        """Do one piece of work."""
+        """Do one piece of work; its temporary files are removed after it."""
         if self._pool is None:
             clean = multiprocessing.get_context("spawn")  # inherits nothing of the server, above all no sockets
-            self._pool = ProcessPoolExecutor(1, clean, _prepare, (self._folder, self._memory_bytes))
-        return asyncio.get_running_loop().run_in_executor(self._pool, work, *given)
+            self._pool = ProcessPoolExecutor(1, clean, _prepare, (self._folder, self._limits))
+        return asyncio.get_running_loop().run_in_executor(self._pool, _work, work, given)
 
     def kill(self) -> None:
         """End the process, whatever it does."""
@@ -43,28 +67,62 @@ class Worker:
         if pool is not None:
             for process in list(pool._processes.values()):  # before Python 3.14 there is no kill_workers
                 process.kill()
+                process.join(ENDING_SECONDS)
             pool.shutdown(wait=False, cancel_futures=True)
             shutil.rmtree(self._folder, ignore_errors=True)
 
+    def _temporary_blocks(self) -> Iterator[tuple[tuple[int, int], int]]:
+        """Place on the disk and number of blocks of each temporary file; what goes meanwhile counts no more."""
+        processes = [] if self._pool is None else list(self._pool._processes)
+        open_files = (file for process in processes for file in _entries(f"/proc/{process}/fd"))
+        for file in (*_entries(self._folder), *open_files):
+            with suppress(OSError):
+                found = os.stat(file)
+                if stat.S_ISREG(found.st_mode) and (file.is_relative_to(self._folder) or not found.st_nlink):
+                    yield (found.st_dev, found.st_ino), found.st_blocks
 
-def _prepare(folder: str, memory_bytes: int | None) -> None:
-    """Set up the process: it ends with the server, ignores Ctrl-C, and may have limited memory.
 
-    Its temporary files are in a folder of its own, which is removed whichever of the two is killed.
-    """
+def _entries(folder: str) -> list[Path]:
+    """All that is in a folder and in those below; nothing if it is not there."""
+    return [Path(place, name) for place, _, names in os.walk(folder) for name in names]
+
+
+def _work(work: Callable[..., T], given: tuple[Any, ...]) -> T:
+    """Do a piece of work in the process, and remove what it leaves."""
+    try:
+        return work(*given)
+    finally:
+        for file in _entries(tempfile.gettempdir()):
+            with suppress(OSError):
+                file.unlink()
+
+
+def _prepare(folder: str, limits: dict[int, int | None]) -> None:
+    """Set up the process: it ends with the server, ignores Ctrl-C, and may have limits of memory and files."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    if memory_bytes is not None:
-        resource.setrlimit(resource.RLIMIT_AS, (memory_bytes, resource.getrlimit(resource.RLIMIT_AS)[1]))
-    parent = multiprocessing.parent_process()
-    assert parent is not None
-    sentinel = parent.sentinel
     os.makedirs(folder, mode=0o700, exist_ok=True)
     tempfile.tempdir = folder
+    os.environ.update(dict.fromkeys(PLACES, folder))
+    _guard(folder)
+    for kind, most in limits.items():
+        if most is not None:
+            resource.setrlimit(kind, (most, resource.getrlimit(kind)[1]))
 
-    def end_with_the_server() -> None:
-        wait([sentinel])
-        shutil.rmtree(folder, ignore_errors=True)
-        os._exit(1)
 
-    threading.Thread(target=end_with_the_server, daemon=True).start()
+def _guard(folder: str) -> None:
+    """Start the process that ends this one with the server, and then removes its folder."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    guarded = os.getpid()
+    ends_with_this, kept = os.pipe()
+    if os.fork():
+        os.close(ends_with_this)  # the other end stays open as long as this process is
+        return
+    os.close(kept)
+    wait([parent.sentinel, ends_with_this])
+    if os.getppid() == guarded:
+        os.kill(guarded, signal.SIGKILL)
+        wait([ends_with_this])
+    shutil.rmtree(folder, ignore_errors=True)
+    os._exit(0)

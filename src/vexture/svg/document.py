@@ -14,6 +14,9 @@ HTML = "{http://www.w3.org/1999/xhtml}"
 NOWHERE = "about:blank"
 """Namespace of elements without one, where the outermost element has that of SVG: they are no SVG, as in browsers."""
 
+MOST_ATTRIBUTES = 1000
+"""Of an element: lxml looks for each by going through all."""
+
 LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
 
@@ -39,6 +42,12 @@ def parse_svg(content: bytes) -> etree._Element:
         if name == "svg":
             raise SourceError(f"the root element has the namespace {space[1:][:80]!r}; the one of SVG is {SVG!r}")
         raise SourceError(f"the root element is <{name[:40]}>, not <svg>; this is not an SVG file")
+    for element in root.iter("*"):
+        if len(element.attrib) > MOST_ATTRIBUTES:
+            raise SourceError(
+                f"<{etree.QName(element).localname[:40]}> has {len(element.attrib):,} attributes; "
+                f"the limit is {MOST_ATTRIBUTES:,}; remove those that draw nothing"
+            )
     if str(root.tag).startswith(f"{{{SVG}}}"):
         for element in root.iter("{}*"):
             if ":" not in str(element.tag):  # which has a prefix that is not declared

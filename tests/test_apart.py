@@ -1,0 +1,168 @@
+"""Strangers' data in processes of their own: what a library does can be ended, and its crash is a line."""
+
+import faulthandler
+import math
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from vexture.apart import apart, each_apart
+from vexture.deadline import check_time, within
+from vexture.errors import LimitError, ParameterError, SourceError
+
+LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
+
+COMMAND = [sys.executable, "-c", "from vexture.cli.main import main; main()"]
+
+ENDLESS = (
+    "CREATE VIEW v AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT c.x AS fid, geom FROM c, t"
+)
+
+
+def endless_view(path: Path) -> Path:
+    """A GeoPackage whose layer is a view that counts without end: SQLite never comes back from it."""
+    shapely, pyogrio = pytest.importorskip("shapely"), pytest.importorskip("pyogrio.raw")
+    geometry = np.array([shapely.to_wkb(shapely.box(4, 52, 5, 53))], object)
+    pyogrio.write(path, geometry, [], [], layer="t", driver="GPKG", geometry_type="Polygon", crs="EPSG:4326")
+    with sqlite3.connect(path) as database:
+        database.execute(ENDLESS)
+        for table in ("gpkg_contents", "gpkg_geometry_columns"):
+            database.execute(f"UPDATE {table} SET table_name = 'v'")
+        database.execute("UPDATE gpkg_contents SET identifier = 'v'")
+        for table in ("gpkg_extensions", "gpkg_ogr_contents"):
+            database.execute(f"DELETE FROM {table}")
+    database.close()
+    return path
+
+
+def run(*arguments: object) -> "subprocess.CompletedProcess[str]":
+    return subprocess.run([*COMMAND, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+def test_a_view_without_end_meets_the_limit_and_others_are_read(tmp_path: Path) -> None:
+    """It kept GDAL, and so the command, for ever: neither the limit nor Ctrl-C ended it."""
+    endless, other = endless_view(tmp_path / "endless.gpkg"), tmp_path / "other.svg"
+    other.write_text("<svg")
+    ended = run("convert", endless, other, "-o", tmp_path / "out", "--max-seconds", "1", "-q")
+    first, second, last = ended.stderr.splitlines()
+    assert first == f"vexture: {endless}: converting takes longer than 1 s; simplify the drawing or raise --max-seconds"
+    assert second.startswith(f"vexture: {other}: not well-formed XML"), "which is read all the same"
+    assert (ended.returncode, last) == (1, "vexture: 2 of 2 files failed")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_map_of_a_view_without_end_meets_the_limit(tmp_path: Path) -> None:
+    endless = endless_view(tmp_path / "endless.gpkg")
+    before = sorted(tmp_path.iterdir())
+    ended = run("map", endless, "-o", tmp_path / "map.ktx2", "--max-seconds", "1")
+    line = f"vexture: {endless}: converting takes longer than 1 s; simplify the drawing or raise --max-seconds\n"
+    assert (ended.returncode, ended.stdout, ended.stderr) == (1, "", line)
+    assert sorted(tmp_path.iterdir()) == before
+
+
+def stop(seconds: float) -> str:
+    """Do not come back, as a library that holds the interpreter's lock."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, signal.valid_signals())
+    time.sleep(seconds)
+    return "late"
+
+
+def crash() -> None:
+    faulthandler.disable()
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+
+def test_work_that_does_not_end_is_ended() -> None:
+    with pytest.raises(LimitError, match=r"^a\.nc: converting takes longer than 0\.1 s; simplify .*`max_seconds`$"):
+        apart(stop, 1000.0, name="a.nc", seconds=0.1)
+
+
+def test_a_crash_of_a_library_is_a_line() -> None:
+    with pytest.raises(SourceError, match=r"^a\.nc: a library ended the process that read it \(Segmentation fault\); "):
+        apart(crash, name="a.nc")
+
+
+def moody(kind: str) -> str:
+    """Work that does as it is told."""
+    if kind == "endless":
+        stop(1000.0)
+    if kind == "crash":
+        crash()
+    if kind == "limit":
+        with within(1e-9):
+            check_time(kind)
+    if kind == "parameter":
+        raise ParameterError("no")
+    return kind
+
+
+@pytest.mark.parametrize("processes", [1, 2, 9])
+def test_each_piece_of_work_has_its_own_end(processes: int) -> None:
+    kinds = ["a", "crash", "b", "endless", "limit", "parameter", "c"]
+    found = [*each_apart(moody, [(kind,) for kind in kinds], kinds, 1.0, processes)]
+    assert [found[place] for place in (0, 2, 6)] == ["a", "b", "c"]
+    assert [type(found[place]) for place in (1, 3, 4, 5)] == [SourceError, LimitError, LimitError, ParameterError]
+
+
+def unexpected() -> None:
+    raise ZeroDivisionError("a fault of ours")
+
+
+def test_a_fault_of_ours_is_raised_with_its_place() -> None:
+    with pytest.raises(ZeroDivisionError) as caught:
+        apart(unexpected)
+    assert "in unexpected" in "".join(caught.value.__notes__)
+
+
+@pytest.mark.parametrize("seconds", [0.0, -1.0, math.nan])
+def test_a_limit_is_a_number_above_zero(seconds: float) -> None:
+    with pytest.raises(ParameterError, match="`max_seconds`"):
+        apart(max, 1, 2, seconds=seconds)
+
+
+def alive(process: int) -> bool:
+    """Whether a process runs; one that has ended and is not waited for does not."""
+    try:
+        return "State:\tZ" not in Path(f"/proc/{process}/status").read_text()
+    except OSError:
+        return False
+
+
+PARENT = """
+import os, time
+from vexture.apart import apart
+def tell_and_stop():
+    print(os.getpid(), flush=True)
+    time.sleep(1000)
+apart(tell_and_stop)
+"""
+
+
+@LINUX
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_the_process_ends_with_its_parent(number: int) -> None:
+    with subprocess.Popen(
+        [sys.executable, "-c", PARENT], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    ) as parent:
+        assert parent.stdout is not None
+        child = int(parent.stdout.readline())
+        assert alive(child)
+        parent.send_signal(number)
+        parent.wait()
+        while alive(child):  # the limit of the test's time ends this
+            time.sleep(0.01)
+
+
+def test_limits_within_limits_are_the_earlier_one() -> None:
+    """A map had its limit three times: for reading, preparing and converting."""
+    with pytest.raises(LimitError, match="longer than 1e-09 s"), within(1e-9), within(1000.0):
+        check_time()
+    with pytest.raises(LimitError, match="longer than 1e-09 s"), within(1000.0), within(1e-9):
+        check_time()
