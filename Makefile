@@ -210,7 +210,7 @@ bench: .venv/for-test
 	for name in $$names; do echo && $(BIN)/python "evidence/benchmarks/$$name.py" $(QUICK) || exit 1; done
 
 fuzz: .venv/for-test
-	@PYTHONPATH=tests $(BIN)/python tests/fuzz/campaign.py $(MINUTES) $(SEED)
+	@PYTHONPATH=tests:evidence/benchmarks $(BIN)/python tests/fuzz/campaign.py $(MINUTES) $(SEED)
 
 # of RELEASED, the folders of projects; with REPOSITORY=https://..., a registry's pages can link to the sources.
 # pip takes the wheel of the platform where it can: its kernels are compiled, for Linux with any C library of the last

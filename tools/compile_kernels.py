@@ -36,9 +36,9 @@ from vexture.tree.bounds import Bounds
 from vexture.tree.build import SLICE, grow, grow_on
 from vexture.tree.cubics import gather
 from vexture.tree.growth import WAITING, Growth, tree_of, with_needed_room
-from vexture.tree.planar.build import build_map, drawing_cubics, grow_map, plant_map, planted, with_room
+from vexture.tree.planar.build import build_map, grow_map, plant_map, planted, row_cubics, with_room
 from vexture.tree.planar.faces import new_faces, operations_of, refill
-from vexture.tree.planar.layers import layers_of
+from vexture.tree.planar.layers import layers_of, rows_of
 from vexture.tree.tree import MOST_QUADS
 
 SHAPES = Path(__file__).parent.parent / "examples" / "shapes"
@@ -144,7 +144,8 @@ def calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
 
 def map_calls(drawing: Drawing) -> Iterator[tuple[Any, tuple[Any, ...]]]:
     """The kernels of planar maps."""
-    outlines, layers = drawing_cubics(drawing), layers_of(drawing)
+    rows = rows_of(drawing)
+    outlines, layers = row_cubics(rows), layers_of(rows, drawing.groups)
     yield plant_map, (*outlines, 16)
     for tolerance in (0.0, 0.001):
         growth, faces = planted(*plant_map.dispatcher(*outlines, 16)[0]), new_faces()
@@ -154,7 +155,7 @@ def map_calls(drawing: Drawing) -> Iterator[tuple[Any, tuple[Any, ...]]]:
             (with_room(growth), layers, faces, Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS), SLICE),
         )
     yield refill, (new_faces(),)
-    yield operations_of, (layers, np.arange(len(drawing.paths), dtype=np.int32))
+    yield operations_of, (layers, np.arange(len(rows.paths), dtype=np.int32))
     planar = build_map(drawing)
     assert planar is not None
     texels = texel_rows(map_texels(planar, 0))

@@ -83,7 +83,10 @@ def told(
         result.slow_input = bytes.fromhex(line["input"])
     for name, result in results.items():
         if name not in done:
-            why = {-27: f"more than {SECONDS:g} s for one input", -9: "it hung and was ended"}.get(code, f"exit {code}")
+            why = {
+                -27: f"more than {SECONDS * TARGETS[name].patience:g} s for one input",
+                -9: "it hung and was ended",
+            }.get(code, f"exit {code}")
             result.runs = count
             result.findings.append((f"the process died: {why}\n{last_words}", last))
             yield name, result
@@ -129,7 +132,7 @@ def main() -> int:
             f"{len(result.findings)} findings, slowest {1000 * result.slowest:.0f} ms",
             flush=True,
         )
-        if result.slowest > SECONDS / 10:
+        if result.slowest > SECONDS * TARGETS[name].patience / 10:
             print(f"  slow: {kept(name, f'{result.slowest:.1f} s', result.slow_input)}")
         for text, data in result.findings:
             print(f"  {kept(name, text, data)}: {text.partition(chr(10))[0]}", flush=True)

@@ -13,9 +13,11 @@ from pathlib import Path
 from random import Random
 
 import numpy as np
+from comparison import MOST, Case, SlowError, case_of
 from javascript import loader
 from lxml import etree
 from mutate import png_repaired, zip_repaired
+from pictures import described, finding_of, smallest
 
 from degenerate import OUTLINES, heap
 from vexture.drawing import Drawing, FillRule
@@ -88,6 +90,8 @@ class Target:
     make: Callable[[Random], bytes] | None = None  # instead of damage to the files of the corpus
     repair: Callable[[bytes], bytes] | None = None  # checksums
     other_seeds: str = ""  # pattern of files elsewhere in the repository
+    shrink: Callable[[bytes], bytes] | None = None  # instead of leaving out bytes
+    patience: float = 1.0  # times the seconds that an input may take
     in_a_second: int = 200  # runs, about: the ordinary tests do a second's
 
     def seeds(self, name: str) -> list[bytes]:
@@ -247,6 +251,34 @@ def recipe(rng: Random) -> bytes:
     return f"{rng.randrange(10**9)} {counts} {distance} {rng.randrange(2)} {kind} {size}".encode()
 
 
+def read_picture(data: bytes) -> str:
+    """Compare the picture of a drawing's texture, in a view, with the exact one; that this takes long is no fault."""
+    case = Case.parsed(data)
+    try:
+        found = finding_of(case)
+    except SlowError:
+        return "slow"
+    if not found["gap"] <= MOST:
+        raise FindingError(described(found, case.sight.size))
+    return case.sight.name
+
+
+def make_picture(has_gradients: bool) -> Callable[[Random], bytes]:
+    """Random drawings in random views, as `read_picture` takes them."""
+
+    def made(rng: Random) -> bytes:
+        while (case := case_of(str(rng.randrange(10**9)), has_gradients)) is None:
+            pass
+        return case.file()
+
+    return made
+
+
+def shrink_picture(data: bytes) -> bytes:
+    case = Case.parsed(data)
+    return smallest(case, finding_of(case)["gap"]).file()
+
+
 def in_javascript(kind: str, read: Callable[[bytes], str]) -> Callable[[bytes], str]:
     """Reader by web/src, which accepts the files that Python accepts, and no others."""
 
@@ -328,6 +360,10 @@ TARGETS = {
     "thesis-js": Target(in_javascript("thesis", read_thesis), BINARY, repair=png_repaired),
     "font": Target(read_font, BINARY, in_a_second=1000),
     "geometry": Target(read_geometry, make=recipe, in_a_second=2),
+    "pictures": Target(read_picture, make=make_picture(False), shrink=shrink_picture, patience=6.0, in_a_second=2),
+    "gradients": Target(
+        read_picture, make=make_picture(True), shrink=shrink_picture, patience=6.0, in_a_second=0
+    ),  # not exact yet
     "gzip": Target(drawing(".svgz")),
     "picture": Target(drawing(".png"), BINARY, repair=png_repaired, in_a_second=50),
     "geotiff": Target(drawing(".tif"), BINARY),

@@ -22,7 +22,7 @@ from readers import TARGETS, FindingError
 __all__ = ["LIVE", "SECONDS", "SHARED_BYTES"]
 
 SECONDS = 10.0
-"""Of the processor, for one input."""
+"""Of the processor, for one input; a target may have more."""
 
 MEMORY = 2 << 30
 """Bytes of address space beyond those of the imported libraries."""
@@ -59,7 +59,9 @@ def run(name: str, seed: str, until: float, most: int, shared: mmap.mmap) -> dic
             data = target.repair(data)
         data, count = data[:MOST_BYTES], count + 1
         announce(shared, count, data)
-        signal.setitimer(signal.ITIMER_PROF, SECONDS)  # after the seeds, for which kernels may be compiled
+        signal.setitimer(
+            signal.ITIMER_PROF, target.patience * SECONDS
+        )  # after the seeds, for which kernels may be compiled
         start = time.process_time()
         try:
             answer = attempt(target, data)
@@ -67,7 +69,8 @@ def run(name: str, seed: str, until: float, most: int, shared: mmap.mmap) -> dic
             answer = kind_of_finding(finding)
             if answer not in found:
                 signal.setitimer(signal.ITIMER_PROF, 0.0)
-                found[answer] = report(name, shrunk(target, data), str(finding))
+                smaller = target.shrink(data) if target.shrink else shrunk(target, data)
+                found[answer] = report(name, smaller, str(finding))
         if (took := time.process_time() - start) > slowest:
             slowest, slow_input = took, data
         if answer not in met and len(seeds) < KEPT:

@@ -53,6 +53,23 @@ vec3 vexture_with_luminosity(vec3 c, float wanted) {
     return wanted + (c - wanted) * share;
 }
 
+// A colour that is grey but for rounding is grey, or hue and saturation would make much of what is left.
+vec3 vexture_greyed(vec3 c) {
+    return vexture_saturation(c) < VEXTURE_GREY ? vec3(vexture_luminosity(c)) : c;
+}
+
+// A component that is 0 or 1 but for rounding is that: dodge and burn jump there.
+float vexture_settled(float c) {
+    return c < VEXTURE_LEAST_COLOR ? 0.0 : c > 1.0 - VEXTURE_LEAST_COLOR ? 1.0 : c;
+}
+
+// Straight colour of a premultiplied one.
+vec3 vexture_straight_color(vec4 color, bool is_whole) {
+    vec3 c = color.rgb / max(color.a, VEXTURE_NOTHING);
+    c = vec3(vexture_settled(c.r), vexture_settled(c.g), vexture_settled(c.b));
+    return is_whole ? vexture_greyed(c) : c;
+}
+
 // B(cb, cs), of straight colours.
 vec3 vexture_mixture(uint blend, vec3 b, vec3 s) {
     if (blend < uint(VEXTURE_BLEND_HUE)) {
@@ -76,8 +93,9 @@ vec4 vexture_blended(vec4 below, vec4 above, uint mode) {
     if (mode == uint(VEXTURE_BLEND_PLUS_LIGHTER)) {
         return min(below + above, 1.0);
     }
-    vec3 b = min(below.rgb / max(below.a, VEXTURE_NOTHING), 1.0);
-    vec3 s = min(above.rgb / max(above.a, VEXTURE_NOTHING), 1.0);
+    bool is_whole = mode >= uint(VEXTURE_BLEND_HUE);
+    vec3 b = vexture_straight_color(below, is_whole);
+    vec3 s = vexture_straight_color(above, is_whole);
     vec3 apart = above.rgb * (1.0 - below.a) + below.rgb * (1.0 - above.a);
     return vec4(apart + above.a * below.a * vexture_mixture(mode, b, s), above.a + below.a * (1.0 - above.a));
 }

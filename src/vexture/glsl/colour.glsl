@@ -27,24 +27,20 @@ bool vexture_reads_mean(VextureCell cell, float share) {
     return is_whole || vexture_leaf_kind(cell) == uint(VEXTURE_IS_MEAN);
 }
 
-// Adds a cell of this area without its pieces: of a quad, its mean about a place in its own unit square; of a leaf, its base
-// paint over a region, or its mean.
-void vexture_add_whole(
-    inout VextureSum sum, VexturePlanar planar, VextureCell cell, bool is_mean, vec2 place, float area, VextureRegion region
-) {
-    if (cell.is_quad || is_mean) {
-        uvec4 stored = vexture_texel(vexture_means_at(planar, cell.quad));
-        float step = area * (float(VEXTURE_PAINT_ONE) / float(VEXTURE_COVERAGE_ONE));
-        sum.color += step * (cell.is_quad ? vexture_mean_color(stored, place) : vexture_unpacked(stored[cell.shift >> 3]));
-    } else {
-        vexture_add_paint(sum, planar, vexture_base_paint(planar, cell), vec3(area, 0.0, 0.0), region);
-    }
+// Adds the stored mean of a cell of this area: of a quad, about a place in its own unit square.
+void vexture_add_mean(inout VextureSum sum, VexturePlanar planar, VextureCell cell, vec2 place, float area) {
+    uvec4 stored = vexture_texel(vexture_means_at(planar, cell.quad));
+    float step = area * (float(VEXTURE_PAINT_ONE) / float(VEXTURE_COVERAGE_ONE));
+#if VEXTURE_GRADIENTS
+    step = sum.done == 0u ? step : 0.0;
+#endif
+    sum.color += step * (cell.is_quad ? vexture_mean_color(stored, place) : vexture_unpacked(stored[cell.shift >> 3]));
 }
 
-// The region about a place in a cell, in positions, as are its sides.
-VextureRegion vexture_region(ivec2 origin, vec2 middle, vec2 right, vec2 up) {
+// The region of a pixel whose sides are these, in positions.
+VextureRegion vexture_region(VexturePlace place, vec2 right, vec2 up) {
     float unit = 1.0 / float(1 << VEXTURE_POSITION_BITS);
-    return VextureRegion((vec2(origin) + middle) * unit, right * unit, up * unit);
+    return VextureRegion((vec2(place.point) + place.rest) * unit, right * unit, up * unit);
 }
 
 // As vexture_first_look, of a pixel whose sides are level and upright; it needs no note of ends on the leaf's left edge.
@@ -62,53 +58,65 @@ VextureLook vexture_flat_look(uvec4 texel, VextureBox box) {
     return VextureLook(filled, false, left < 1.0 && y0 != y3);
 }
 
-// Adds those pieces of a leaf in the box of which there is a bit, as long as there is room for their paints.
-void vexture_add_flat_pieces(
-    inout VextureSum sum, inout int counted, inout VextureLeaf leaf, VexturePlanar planar, VextureBox box, float whole,
-    VextureRegion region
-) {
-    while (counted != 0 && vexture_has_room(sum)) {
-        int lowest = counted & -counted;
-        int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
-        counted ^= lowest;
-        uvec4 texel = vexture_leaf_piece(leaf, i);
-        VextureLook look = vexture_flat_look(texel, box);
-        vec3 share = vec3(look.filled, 0.0, vexture_lift(texel, look.crosses, box));
+// Share of the box that a piece fills, with its moments where a program asks for them.
+VextureShare vexture_flat_share(uvec4 texel, VextureLook look, VextureBox box, bool has_moments) {
+#if VEXTURE_GRADIENTS
+    if (has_moments) {
+        VextureShare share = vexture_flat_ends_share(texel, look.crosses, box);
         if (look.crosses) {
             VexturePiece piece = vexture_piece(texel, box);
-            VextureEnds ends = vexture_ends(piece);
-            share += vec3(vexture_flat_piece_area(piece, ends), vexture_moment(piece, ends));
+            share = vexture_plus_share(share, vexture_flat_piece_share(piece, vexture_ends(piece)), 1.0);
         }
-        uvec2 sides = vexture_leaf_sides(leaf, planar, i);
-        vexture_add_piece(sum, planar, sides, whole * share, region);
+        return share;
     }
-    vexture_settle(sum, planar, region);
+#endif
+    float area = look.filled;
+    if (look.crosses) {
+        VexturePiece piece = vexture_piece(texel, box);
+        area += vexture_flat_piece_area(piece, vexture_ends(piece));
+    }
+    return vexture_area_share(area);
 }
 
-// Adds the colour of the part of a cell in the box, times its share of the pixel, of whose area this is the inverse.
-void vexture_add_flat_cell(
-    inout VextureSum sum, VexturePlanar planar, VextureCell cell, ivec2 origin, VextureBox box, float inverse
+// Adds the colours of a leaf in the box, which has these sides and this middle in the pixel.
+void vexture_add_flat_leaf(
+    inout VextureSum sum, VexturePlanar planar, VextureCell cell, VextureBox box, vec2 sides, vec2 middle
 ) {
-    float whole = box.size.x * box.size.y * inverse;
-    float side = uintBitsToFloat(uint(127 - cell.bit) << 23);  // inverse
-    vec2 middle = box.way + (box.part + 0.5) * box.size;
-    bool is_mean = vexture_reads_mean(cell, min(box.size.x, box.size.y) * side);
-    VextureRegion region = vexture_region(origin, middle, vec2(box.size.x, 0.0), vec2(0.0, box.size.y));
-    vexture_add_whole(sum, planar, cell, is_mean, middle * side, whole, region);
     VextureLeaf leaf = vexture_leaf(cell);
-    int count = cell.is_quad || is_mean ? 0 : vexture_count(cell);
-    int counted = 0;  // a bit for each piece that is not clear of the box: others need no colours
+    int count = vexture_count(cell);
+    int crossing = 0;  // a bit for each piece that is not clear of the box: others need no colours
+    bool is_crossed = false;
     for (int i = 0; i < count; i++) {
         VextureLook look = vexture_flat_look(vexture_leaf_piece(leaf, i), box);
-        counted |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
+        crossing |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
+        is_crossed = is_crossed || look.crosses || fract(look.filled) != 0.0;
     }
-#if VEXTURE_GRADIENTS
-    while (counted != 0 || vexture_waits(sum)) {
-        vexture_add_flat_pieces(sum, counted, leaf, planar, box, whole, region);
+    bool has_moments = vexture_holds_program(cell);
+    VextureShare whole = vexture_moved_share(vexture_whole_share(), sides, middle);
+    vexture_set_whole(sum, !is_crossed);
+    vexture_add_paint(sum, planar, vexture_base_paint(planar, cell), whole);
+    while (crossing != 0) {
+        int lowest = crossing & -crossing;
+        int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
+        crossing ^= lowest;
+        uvec4 texel = vexture_leaf_piece(leaf, i);
+        VextureShare share = vexture_flat_share(texel, vexture_flat_look(texel, box), box, has_moments);
+        vexture_add_piece(sum, planar, vexture_leaf_sides(leaf, planar, i), vexture_moved_share(share, sides, middle));
     }
-#else
-    vexture_add_flat_pieces(sum, counted, leaf, planar, box, whole, region);
-#endif
+}
+
+// Adds the colour of the part of a cell in the box.
+void vexture_add_flat_cell(
+    inout VextureSum sum, VexturePlanar planar, VextureCell cell, VextureBox box, VextureFlat view
+) {
+    float side = uintBitsToFloat(uint(127 - cell.bit) << 23);  // inverse
+    if (cell.is_quad || vexture_reads_mean(cell, min(box.size.x, box.size.y) * side)) {
+        vec2 place = (box.way + (box.part + 0.5) * box.size) * side;
+        vexture_add_mean(sum, planar, cell, place, box.size.x * box.size.y * view.inverse);
+    } else {
+        vec2 across = 0.5 / view.extent;
+        vexture_add_flat_leaf(sum, planar, cell, box, across * box.size, across * (box.low + 0.5 * box.size));
+    }
 }
 
 // A premultiplied colour within its range; 0 for what is NaN.
@@ -121,81 +129,95 @@ vec4 vexture_held(vec4 color) {
 vec4 vextureFlatColor(uint root, uvec2 base, vec2 offset, VextureFlat view) {
     VexturePlanar planar = vexture_planar(root);
     VexturePlace place = vexture_place(base, offset, view.extent);
+    VextureRegion region = vexture_region(place, vec2(2.0 * view.extent.x, 0.0), vec2(0.0, 2.0 * view.extent.y));
+    VextureSum sum = vexture_nothing();
     VextureSquare square = vexture_first_square(place);
     int shared_bit = square.bit;
     VextureTop top = vexture_top(root);
-    VextureSum sum = vexture_nothing();
-    while (square.position.x < VEXTURE_NO_CELL) {
-        VextureCell cell = vexture_descend(top, shared_bit, view.finest, square.position);
+    while (square.position.x < VEXTURE_NO_CELL || vexture_holds_kept(sum)) {
+        bool is_over = vexture_holds_kept(sum) && square.position.x >= VEXTURE_NO_CELL;
+        VextureCell cell = vexture_descend(top, shared_bit, is_over ? VEXTURE_NO_CELL : view.finest, square.position);
         ivec2 origin = square.position & -(1 << cell.bit);
-        VextureBox box = vexture_box(origin, cell.bit, place, view.extent);
-        vexture_add_flat_cell(sum, planar, cell, origin, box, view.inverse);
-        square = vexture_next_square(square.position, origin + (1 << cell.bit), place);
+        bool is_left = true;
+        while (is_left) {
+            if (is_over) {
+                vexture_add_kept(sum, planar);
+            } else {
+                vexture_add_flat_cell(sum, planar, cell, vexture_box(origin, cell.bit, place, view.extent), view);
+            }
+            is_left = vexture_settle(sum, planar, region);
+        }
+        if (!is_over) {
+            square = vexture_next_square(square.position, origin + (1 << cell.bit), place);
+        }
     }
     return vexture_held(sum.color / float(VEXTURE_PAINT_ONE));
 }
 
-// As vexture_add_flat_pieces, of any footprint. Moments count by the share `turned`.
-void vexture_add_pieces(
-    inout VextureSum sum, inout int counted, inout VextureLeaf leaf, VexturePlanar planar, VextureBox box,
-    VextureFrame frame, float whole, float turned, VextureRegion region
+// As vexture_flat_share, of any footprint, of which `whole` is the share in the cell.
+VextureShare vexture_share(
+    uvec4 texel, VextureLook look, VextureBox box, VextureFrame frame, VextureShare whole, bool has_moments
 ) {
-    while (counted != 0 && vexture_has_room(sum)) {
-        int lowest = counted & -counted;
+    VextureShare share = vexture_plus_share(vexture_area_share(0.0), whole, look.filled);
+    if (look.crosses) {
+        VexturePiece piece = vexture_piece(texel, box);
+        VextureEnds ends = vexture_ends(piece);
+#if VEXTURE_GRADIENTS
+        if (has_moments) {
+            return vexture_plus_share(share, vexture_piece_share(texel, look.turns, piece, ends, box, frame), 1.0);
+        }
+#endif
+        share.area += vexture_piece_area(texel, look.turns, piece, ends, box, frame);
+    }
+    return share;
+}
+
+// As vexture_add_flat_leaf, of any footprint.
+void vexture_add_leaf(
+    inout VextureSum sum, VexturePlanar planar, VextureCell cell, VextureBox box, VextureFrame frame, VextureShare whole
+) {
+    VextureLeaf leaf = vexture_leaf(cell);
+    int count = whole.area > 0.0 ? vexture_count(cell) : 0;
+    int crossing = 0;  // a bit for each piece that is not clear of the footprint's box: others need no colours
+    bool is_crossed = false;
+    for (int i = 0; i < count; i++) {
+        VextureLook look = vexture_first_look(vexture_leaf_piece(leaf, i), box);
+        crossing |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
+        is_crossed = is_crossed || look.crosses || fract(look.filled) != 0.0;
+    }
+    bool has_moments = vexture_holds_program(cell);
+    vexture_set_whole(sum, !is_crossed);
+    vexture_add_paint(sum, planar, vexture_base_paint(planar, cell), whole);
+    while (crossing != 0) {
+        int lowest = crossing & -crossing;
         int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
-        counted ^= lowest;
+        crossing ^= lowest;
         uvec4 texel = vexture_leaf_piece(leaf, i);
         VextureLook look = vexture_first_look(texel, box);
-        vec3 share = vec3(whole * look.filled, 0.0, turned * vexture_lift(texel, look.crosses, box));
-        if (look.crosses) {
-            VexturePiece piece = vexture_piece(texel, box);
-            VextureEnds ends = vexture_ends(piece);
-            float area = vexture_piece_area(texel, look.turns, piece, ends, box, frame);
-            share += vec3(area, turned * vexture_moment(piece, ends));
-        }
-        uvec2 sides = vexture_leaf_sides(leaf, planar, i);
-        vexture_add_piece(sum, planar, sides, share, region);
+        VextureShare share = vexture_share(texel, look, box, frame, whole, has_moments);
+        vexture_add_piece(sum, planar, vexture_leaf_sides(leaf, planar, i), share);
     }
-    vexture_settle(sum, planar, region);
 }
 
 // Adds the colour of the part of a footprint in a cell, times its area.
 void vexture_add_cell(
-    inout VextureSum sum, VexturePlanar planar, VextureCell cell, ivec2 origin, VextureBox box, VextureFrame frame
+    inout VextureSum sum, VexturePlanar planar, VextureCell cell, VextureBox box, VextureFrame frame
 ) {
     bool is_cut = any(greaterThan(box.low, -frame.extent)) || any(lessThan(box.low + box.size, frame.extent));
-    float whole = 1.0;
+    VextureShare whole = vexture_whole_share();
     if (is_cut) {
-        whole = vexture_box_area(frame, box.low, box.size);
-    }
-    vec2 place = vec2(0.5);
-    if (cell.is_quad || vexture_holds_program(cell)) {
-        place = vexture_cut_place(cell, box, frame);
+#if VEXTURE_GRADIENTS
+        whole = vexture_box_share(frame, box.low, box.size);
+#else
+        whole.area = vexture_box_area(frame, box.low, box.size);
+#endif
     }
     float side = float(1 << cell.bit);
-    bool is_mean = vexture_reads_mean(cell, whole * frame.size / (side * side));
-    vec2 part = box.size / (2.0 * frame.extent);
-    vec2 right = vec2(frame.up.y, -frame.up.x) * frame.size;
-    vec2 up = vec2(-frame.right.y, frame.right.x) * frame.size;
-    VextureRegion region = vexture_region(origin, place * side, part * right, part * up);
-    vexture_add_whole(sum, planar, cell, is_mean, place, whole, region);
-    // moments of the box as those of a footprint that is turned in it, whose parts lie as much nearer its middle
-    float filled = whole * frame.size / (box.size.x * box.size.y);
-    float turned = whole * sqrt(clamp(filled, 0.0, 1.0));
-    VextureLeaf leaf = vexture_leaf(cell);
-    int count = whole > 0.0 && !cell.is_quad && !is_mean ? vexture_count(cell) : 0;
-    int counted = 0;  // a bit for each piece that is not clear of the footprint's box: others need no colours
-    for (int i = 0; i < count; i++) {
-        VextureLook look = vexture_first_look(vexture_leaf_piece(leaf, i), box);
-        counted |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
+    if (cell.is_quad || vexture_reads_mean(cell, whole.area * frame.size / (side * side))) {
+        vexture_add_mean(sum, planar, cell, cell.is_quad ? vexture_cut_place(cell, box, frame) : vec2(0.5), whole.area);
+    } else {
+        vexture_add_leaf(sum, planar, cell, box, frame, whole);
     }
-#if VEXTURE_GRADIENTS
-    while (counted != 0 || vexture_waits(sum)) {
-        vexture_add_pieces(sum, counted, leaf, planar, box, frame, whole, turned, region);
-    }
-#else
-    vexture_add_pieces(sum, counted, leaf, planar, box, frame, whole, turned, region);
-#endif
 }
 
 // Parameters: the map's root quad; the others are those of vextureCoverage.
@@ -203,24 +225,36 @@ vec4 vextureColor(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VexturePlanar planar = vexture_planar(root);
     VextureFrame frame = vexture_frame(dx, dy);
     VexturePlace place = vexture_place(base, offset, frame.extent);
+    int finest = vexture_finest_bit(frame.size, frame.longer);
+    vec2 right = vec2(frame.up.y, -frame.up.x) * frame.size;
+    VextureRegion region = vexture_region(place, right, vec2(-frame.right.y, frame.right.x) * frame.size);
+    VextureSum sum = vexture_nothing();
     VextureSquare square = vexture_first_square(place);
     int shared_bit = square.bit;
-    int finest = vexture_finest_bit(frame.size, frame.longer);
     VextureTop top = vexture_top(root);
-    VextureSum sum = vexture_nothing();
     bool beside = false;
-    while (square.position.x < VEXTURE_NO_CELL) {
+    while (square.position.x < VEXTURE_NO_CELL || vexture_holds_kept(sum)) {
+        bool is_over = vexture_holds_kept(sum) && square.position.x >= VEXTURE_NO_CELL;
         int bit = square.bit;
         if (!beside) {
-            VextureCell cell = vexture_descend(top, shared_bit, finest, square.position);
+            VextureCell cell = vexture_descend(top, shared_bit, is_over ? VEXTURE_NO_CELL : finest, square.position);
             bit = cell.bit;
             ivec2 origin = square.position & -(1 << bit);
-            vexture_add_cell(sum, planar, cell, origin, vexture_box(origin, bit, place, frame.extent), frame);
+            bool is_left = true;
+            while (is_left) {
+                if (is_over) {
+                    vexture_add_kept(sum, planar);
+                } else {
+                    vexture_add_cell(sum, planar, cell, vexture_box(origin, bit, place, frame.extent), frame);
+                }
+                is_left = vexture_settle(sum, planar, region);
+            }
         }
         int side = 1 << bit;
-        square = vexture_next_square(square.position, (square.position & -side) + side, place);
-        if (square.position.x < VEXTURE_NO_CELL) {
-            beside = vexture_is_beside(square, place, frame);
+        beside = false;
+        if (!is_over) {
+            square = vexture_next_square(square.position, (square.position & -side) + side, place);
+            beside = square.position.x < VEXTURE_NO_CELL && vexture_is_beside(square, place, frame);
         }
     }
     return vexture_held(sum.color / float(VEXTURE_PAINT_ONE));

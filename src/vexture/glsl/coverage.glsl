@@ -23,19 +23,26 @@ vec2 vexture_from_corner(VextureCorner corner, float x, float y) {
     return corner.origin + corner.x * x + corner.y * y;
 }
 
-// Area of the pixel beside a piece between its ends, in as many parts as its bend requires: beside the chord of each, plus
-// the area between the two for the share of the chord in the pixel.
-float vexture_curve_area(VexturePiece piece, VextureEnds ends, VextureCorner corner) {
-    vec2 p = vexture_from_corner(corner, ends.enter.x, ends.enter.y);
+// Number of parts that the bend of a piece requires.
+int vexture_piece_parts(VexturePiece piece, VextureEnds ends, VextureCorner corner) {
     vec2 slope = vexture_slope(piece, ends.start);
     vec2 first = corner.x * slope.x + corner.y * slope.y;
     slope = vexture_slope(piece, ends.end);
     vec2 last = corner.x * slope.x + corner.y * slope.y;
+    vec2 p = vexture_from_corner(corner, ends.enter.x, ends.enter.y);
     vec2 chord = vexture_from_corner(corner, ends.leave.x, ends.leave.y) - p;
-    float step_t = ends.end - ends.start;
-    float bend = step_t * (abs(vexture_cross(first, chord)) + abs(vexture_cross(last, chord)));
-    int parts = 1 + int(min(VEXTURE_BEND * bend, VEXTURE_MOST_PARTS - 1.0));
-    step_t /= float(parts);
+    float bend = (ends.end - ends.start) * (abs(vexture_cross(first, chord)) + abs(vexture_cross(last, chord)));
+    return 1 + int(min(VEXTURE_BEND * bend, VEXTURE_MOST_PARTS - 1.0));
+}
+
+// Area of the pixel beside a piece between its ends, in as many parts as its bend requires: beside the chord of each, plus
+// the area between the two for the share of the chord in the pixel.
+float vexture_curve_area(VexturePiece piece, VextureEnds ends, VextureCorner corner) {
+    int parts = vexture_piece_parts(piece, ends, corner);
+    float step_t = (ends.end - ends.start) / float(parts);
+    vec2 p = vexture_from_corner(corner, ends.enter.x, ends.enter.y);
+    vec2 slope = vexture_slope(piece, ends.start);
+    vec2 first = corner.x * slope.x + corner.y * slope.y;
     float area = 0.0;
     float t = ends.start;
     while (parts > 0) {
@@ -44,7 +51,7 @@ float vexture_curve_area(VexturePiece piece, VextureEnds ends, VextureCorner cor
         vec2 next = parts == 0 ? ends.leave : vexture_at(piece, t);
         slope = vexture_slope(piece, t);
         vec2 q = vexture_from_corner(corner, next.x, next.y);
-        last = corner.x * slope.x + corner.y * slope.y;
+        vec2 last = corner.x * slope.x + corner.y * slope.y;
         area += vexture_beside(p, q) + vexture_bulge(step_t / 3.0, first, last, q - p) * vexture_part_inside(p, q);
         p = q;
         first = last;
@@ -52,14 +59,24 @@ float vexture_curve_area(VexturePiece piece, VextureEnds ends, VextureCorner cor
     return area;
 }
 
-// Area on the right of a piece inside the box, negative for a piece that goes up. If it `turns`, an end of it lies on the
-// leaf's left edge and in the box, and the area of the box above that end is included with the sign of its winding.
-float vexture_piece_area(
+// The way along the box's sides that closes a piece: the box's left side while the piece is left of the box, and back on its
+// right side.
+struct VexturePath {
+    VextureCorner corner;
+    vec2 l0;
+    vec2 l1;
+    vec2 r0;
+    vec2 r1;
+    vec2 e0;
+    vec2 e1;
+};
+
+// If the piece `turns`, an end of it lies on the leaf's left edge and in the box, and the part of the box above that end is
+// included with the sign of its winding.
+VexturePath vexture_path_of(
     uvec4 texel, bool turns, VexturePiece piece, VextureEnds ends, VextureBox box, VextureFrame frame
 ) {
     VextureCorner corner = vexture_corner(piece.falls, box, frame);
-
-    // the path along the box's sides: its left side while the piece is left of the box, and back on its right side
     bool falls = piece.falls.x;
     float top = piece.falls.y ? 0.0 : 1.0;
     float y0 = clamp(piece.d.y, 0.0, 1.0);
@@ -72,17 +89,25 @@ float vexture_piece_area(
     float right_end = falls ? ends.enter.y : y0;
     float left_start = falls ? ends.leave.y : y0;
     float right_start = falls ? y3 : ends.leave.y;
-    vec2 level = vexture_slopes(frame.right.x, frame.up.x);
-    vec2 upright = vexture_slopes(frame.right.y, frame.up.y);
     vec2 l0 = vexture_from_corner(corner, left, left_start);
     vec2 l1 = vexture_from_corner(corner, left, left_end);
     vec2 r0 = vexture_from_corner(corner, right, right_start);
     vec2 r1 = vexture_from_corner(corner, right, right_end);
     vec2 e0 = vexture_from_corner(corner, ends.enter.x, right_end);
     vec2 e1 = vexture_from_corner(corner, ends.leave.x, right_start);
-    float area = vexture_beside_sloped(l0, l1.y, upright) + vexture_beside_sloped(r0, r1.y, upright);
-    area += vexture_beside_sloped(e1, r0.y, level) + vexture_beside_sloped(r1, e0.y, level);
-    return area + vexture_curve_area(piece, ends, corner);
+    return VexturePath(corner, l0, l1, r0, r1, e0, e1);
+}
+
+// Area on the right of a piece inside the box, negative for a piece that goes up.
+float vexture_piece_area(
+    uvec4 texel, bool turns, VexturePiece piece, VextureEnds ends, VextureBox box, VextureFrame frame
+) {
+    VexturePath path = vexture_path_of(texel, turns, piece, ends, box, frame);
+    vec2 level = vexture_slopes(frame.right.x, frame.up.x);
+    vec2 upright = vexture_slopes(frame.right.y, frame.up.y);
+    float area = vexture_beside_sloped(path.l0, path.l1.y, upright) + vexture_beside_sloped(path.r0, path.r1.y, upright);
+    area += vexture_beside_sloped(path.e1, path.r0.y, level) + vexture_beside_sloped(path.r1, path.e0.y, level);
+    return area + vexture_curve_area(piece, ends, path.corner);
 }
 
 // Place in a quad, in its own unit square, about which its mean is nearly that over the part of it in the footprint: the

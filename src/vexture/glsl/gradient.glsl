@@ -27,7 +27,8 @@ vec4 vexture_halves(uvec2 words) {
 struct VextureRamp {
     float t;
     vec2 way;
-    float share;  // of the region: beside a cone there is no place
+    bool exists;  // beside a cone there is no place
+    float depth;  // in a cone, in what its border bends over the region: below 1 the border is near
 };
 
 // GLSL's mod, which not every language has.
@@ -40,18 +41,9 @@ vec2 vexture_spans(vec2 way, VextureRegion region) {
     return abs(vec2(dot(way, region.right), dot(way, region.up)));
 }
 
-// The part of a parallelogram in which a value is above 0, that is this in the middle and goes this far along its sides.
-float vexture_part_above(float value, vec2 sides) {
-    float wide = max(max(sides.x, sides.y), VEXTURE_NOTHING);
-    float narrow = min(sides.x, sides.y);
-    float rest = 0.5 * (wide + narrow) - abs(value);
-    float corner = max(rest, 0.0);
-    float less = rest < narrow ? corner * corner / (2.0 * wide * max(narrow, VEXTURE_NOTHING)) : 0.5 - abs(value) / wide;
-    return value > 0.0 ? 1.0 - less : less;
-}
-
 // The place on a circular ramp: the greatest t whose circle, about c t from the focal point, goes through the region's middle
-// and has a radius, |q - c t|^2 = (fr + t dr)^2. Parameters: the rows of the map to the ramp; focal point and radius.
+// and has a radius, |q - c t|^2 = (fr + t dr)^2. Near the border of a cone it is that of a point further inside, as the
+// borders of faces are where something is painted. Parameters: the rows of the map to the ramp; focal point and radius.
 VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion region) {
     vec2 q = vec2(dot(across.xy, region.point) + across.z - focus.x, dot(up.xy, region.point) + up.z);
     float grows = 1.0 - focus.y;
@@ -59,14 +51,18 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     float b = focus.y * grows - q.x * focus.x;
     float c = dot(q, q) - focus.y * focus.y;
     float inside = b * b - a * c;
-    vec2 slope = -2.0 * vec2(b * focus.x + a * q.x, a * q.y);
-    vec2 sides = vexture_spans(slope.x * across.xy + slope.y * up.xy, region);
-    float share = a < 0.0 ? 1.0 : vexture_part_above(inside, sides);
-    if (share < 1.0) {  // beside a cone: about where the middle is of what lies in it
-        q += (0.5 * share * (sides.x + sides.y) - inside) / max(dot(slope, slope), VEXTURE_NOTHING) * slope;
-        b = focus.y * grows - q.x * focus.x;
-        c = dot(q, q) - focus.y * focus.y;
-        inside = b * b - a * c;
+    float depth = VEXTURE_FARTHEST;
+    if (a >= 0.0) {
+        vec2 slope = -2.0 * vec2(b * focus.x + a * q.x, a * q.y);
+        vec2 sides = vexture_spans(slope.x * across.xy + slope.y * up.xy, region);
+        float least = 0.25 * (sides.x + sides.y);
+        depth = inside / max(4.0 * least, VEXTURE_NOTHING);
+        if (inside < least) {
+            q += (least - inside) / max(dot(slope, slope), VEXTURE_NOTHING) * slope;
+            b = focus.y * grows - q.x * focus.x;
+            c = dot(q, q) - focus.y * focus.y;
+            inside = b * b - a * c;
+        }
     }
     float root = sqrt(max(inside, 0.0));
     float far = b < 0.0 ? b - root : b + root;  // the roots are far / a and c / far: neither is a small difference
@@ -79,7 +75,7 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     e = length(e) > VEXTURE_LEAST_RADIUS ? normalize(e) : vec2(0.0);  // of a point, no direction is known
     float down = grows - e.x * focus.x;
     e = down != 0.0 ? e / down : vec2(0.0);
-    return VextureRamp(t, e.x * across.xy + e.y * up.xy, exists ? share : 0.0);
+    return VextureRamp(t, e.x * across.xy + e.y * up.xy, exists, depth);
 }
 
 // A sum, to which is added the integral of a stretch of a ramp between two stops, given by its colour and slope at its begin.
@@ -193,26 +189,32 @@ vec4 vexture_gradient(uint at, uvec4 record, uint number, VextureRegion region) 
     }
     uint stops = at + (record.w & ((1u << VEXTURE_STOP_BITS) - 1u));
     uint spread = (record.w >> (VEXTURE_STOP_BITS + VEXTURE_STOP_COUNT_BITS)) & 3u;
-    vec2 spans = max(vexture_spans(across.xy, region), vexture_spans(up.xy, region));
-    float width = kind == uint(VEXTURE_KIND_LINEAR) ? 0.0 : length(spans);
-    float tip = focus.x / max(1.0 - focus.y, VEXTURE_NOTHING);  // where the circles have no radius
-    float away = length(vec2(dot(across.xy, region.point) + across.z - tip, dot(up.xy, region.point) + up.z));
-    float size = away < width ? float(VEXTURE_MOST_RAMP_PARTS) : float(VEXTURE_RAMP_PARTS) * width;
-    int parts = size < float(VEXTURE_MOST_RAMP_PARTS) ? max(int(ceil(size)), 1) : VEXTURE_MOST_RAMP_PARTS;
+    VextureRamp ramp = VextureRamp(dot(across.xy, region.point) + across.z, across.xy, true, VEXTURE_FARTHEST);
+    int parts = 1;
+    if (kind != uint(VEXTURE_KIND_LINEAR)) {
+        vec2 spans = max(vexture_spans(across.xy, region), vexture_spans(up.xy, region));
+        float width = length(spans);
+        float tip = focus.x / max(1.0 - focus.y, VEXTURE_NOTHING);  // where the circles have no radius
+        float away = length(vec2(dot(across.xy, region.point) + across.z - tip, dot(up.xy, region.point) + up.z));
+        ramp = vexture_round_ramp(across, up, focus, region);
+        float size = away < width || ramp.depth < 1.0 ? float(VEXTURE_MOST_RAMP_PARTS) : float(VEXTURE_RAMP_PARTS) * width;
+        parts = size < float(VEXTURE_MOST_RAMP_PARTS) ? max(int(ceil(size)), 1) : VEXTURE_MOST_RAMP_PARTS;
+    }
     VextureRegion part = VextureRegion(region.point, region.right / float(parts), region.up / float(parts));
     vec4 sum = vec4(0.0);
+    float found = 0.0;
     for (int k = 0; k < parts * parts; k++) {
-        vec2 place = vec2(ivec2(k % parts, k / parts)) + 0.5 - 0.5 * float(parts);
-        part.point = region.point + place.x * part.right + place.y * part.up;
-        VextureRamp ramp = VextureRamp(dot(across.xy, part.point) + across.z, across.xy, 1.0);
-        if (kind != uint(VEXTURE_KIND_LINEAR)) {
+        if (parts > 1) {
+            vec2 place = vec2(ivec2(k % parts, k / parts)) + 0.5 - 0.5 * float(parts);
+            part.point = region.point + place.x * part.right + place.y * part.up;
             ramp = vexture_round_ramp(across, up, focus, part);
         }
-        if (ramp.share > 0.0) {
-            sum += ramp.share * vexture_ramp_mean(stops, number, spread, ramp.t, vexture_spans(ramp.way, part));
+        if (ramp.exists) {
+            sum += vexture_ramp_mean(stops, number, spread, ramp.t, vexture_spans(ramp.way, part));
+            found += 1.0;
         }
     }
-    return sum / float(parts * parts);
+    return sum / max(found, 1.0);
 }
 
 // What was kept when a group began, with the group's colour on it, or masked by it.

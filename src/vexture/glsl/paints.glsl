@@ -4,6 +4,7 @@
 // VEXTURE_LINEAR is 0 for a mean in sRGB, or 1 for one in linear light, with linear components. VEXTURE_GRADIENTS is 0 where
 // no map has programs.
 #include "gradient.glsl"
+#include "moment.glsl"
 #include "srgb.glsl"
 
 #ifndef VEXTURE_LINEAR
@@ -56,116 +57,176 @@ vec4 vexture_averaged(vec4 stored) {
 #endif
 }
 
-// Colour of a paint; of one that holds gradients, over a region.
-vec4 vexture_paint(VexturePlanar planar, uint number, VextureRegion region) {
+uvec2 vexture_paint_words(VexturePlanar planar, uint number) {
     uvec4 both = vexture_texel(planar.paints + (number >> 1));
-    uvec2 words = (number & 1u) == 0u ? both.xy : both.zw;
-    vec4 color = vexture_halves(words);
-#if VEXTURE_GRADIENTS
-    if (words.x != 0u && color.a == 0.0) {
-        color = vexture_program(words.x, words.y, region);
-    }
-#endif
-    return vexture_averaged(color);
+    return (number & 1u) == 0u ? both.xy : both.zw;
+}
+
+// Whether a paint is a program: it has no opacity, though its first word is not 0.
+bool vexture_is_program(uvec2 words) {
+    return words.x != 0u && words.y >> 16 == 0u;
 }
 
 // The colours of a pixel, times their areas. Pieces of a cell name the same few paints again and again, and of most nothing is
-// left: where paints are programs, their shares are summed first, so that each is run once, about the middle of its part.
+// left: where paints are programs, their shares are summed first, so that each is run once, over its part of the cell. There
+// is room for four; those with the least numbers above `done` come first, and others are left to another round.
 struct VextureSum {
     vec4 color;
 #if VEXTURE_GRADIENTS
-    uvec4 paints;
-    vec4 areas;   // as shares of the pixel, and first moments about the middle of a region's box, in its sides. Where all
-    vec4 across;  // are nothing is room for another paint
-    vec4 up;
+    uint kept;     // program of the cells that it fills, as far as they are in the pixel, and its share:
+    VextureShare kept_share;  // where only cells part it, it is run once
+    uint done;
+    bool is_left;
+    bool is_whole;  // whether one paint fills a cell as far as it is in the pixel
+    uvec4 paints;  // 0 is room for another one, as paint 0 is no program
+    vec4 areas;    // of each paint the parts of its share
+    vec4 x;
+    vec4 y;
+    vec4 xx;
+    vec4 xy;
+    vec4 yy;
 #endif
 };
 
 VextureSum vexture_nothing() {
 #if VEXTURE_GRADIENTS
-    return VextureSum(vec4(0.0), uvec4(0u), vec4(0.0), vec4(0.0), vec4(0.0));
+    vec4 none = vec4(0.0);
+    return VextureSum(none, 0u, vexture_area_share(0.0), 0u, false, false, uvec4(0u), none, none, none, none, none, none);
 #else
     return VextureSum(vec4(0.0));
 #endif
 }
 
 #if VEXTURE_GRADIENTS
-// Which of the four are taken.
-bvec4 vexture_taken(VextureSum sum) {
-    return greaterThan(abs(sum.areas) + abs(sum.across) + abs(sum.up), vec4(VEXTURE_LEAST_SHARE));
-}
-
-// Whether the colour of a paint is still to be added.
-bool vexture_waits(VextureSum sum) {
-    return any(vexture_taken(sum));
-}
-#endif
-
-// Whether there is room for the two paints beside a piece.
-bool vexture_has_room(VextureSum sum) {
-#if VEXTURE_GRADIENTS
-    return dot(vec4(vexture_taken(sum)), vec4(1.0)) < 2.5;
-#else
-    return true;
-#endif
-}
-
-// Adds a paint over a part of a region: its area, and its moments.
-void vexture_add_paint(inout VextureSum sum, VexturePlanar planar, uint paint, vec3 share, VextureRegion region) {
-#if VEXTURE_GRADIENTS
-    bvec4 taken = vexture_taken(sum);
-    int free = 0;
-    int same = -1;
+// The place of a paint among the four: its own, or a free one, or that with the greatest number, if it is greater; else 4.
+int vexture_slot(VextureSum sum, uint paint) {
+    int best = 0;
     for (int slot = 0; slot < 4; slot++) {
-        free = taken[slot] ? free : slot;
-        same = taken[slot] && sum.paints[slot] == paint ? slot : same;
+        if (sum.paints[slot] == paint) {
+            return slot;
+        }
+        bool is_freer = sum.paints[slot] - 1u > sum.paints[best] - 1u;  // 0 is the greatest
+        best = is_freer ? slot : best;
     }
-    int slot = same < 0 ? free : same;
-    sum.paints[slot] = paint;
-    sum.areas[slot] += share.x;
-    sum.across[slot] += share.y;
-    sum.up[slot] += share.z;
+    return sum.paints[best] - 1u >= paint ? best : 4;
+}
+
+// Adds a program's share, as long as there is room.
+void vexture_add_program(inout VextureSum sum, uint paint, VextureShare share) {
+    int slot = vexture_slot(sum, paint);
+    bool is_new = slot < 4 && sum.paints[slot & 3] != paint;
+    sum.is_left = sum.is_left || slot == 4 || (is_new && sum.paints[slot & 3] != 0u);
+    if (slot < 4) {
+        float kept = is_new ? 0.0 : 1.0;
+        sum.paints[slot] = paint;
+        sum.areas[slot] = kept * sum.areas[slot] + share.area;
+        sum.x[slot] = kept * sum.x[slot] + share.x;
+        sum.y[slot] = kept * sum.y[slot] + share.y;
+        sum.xx[slot] = kept * sum.xx[slot] + share.xx;
+        sum.xy[slot] = kept * sum.xy[slot] + share.xy;
+        sum.yy[slot] = kept * sum.yy[slot] + share.yy;
+    }
+}
+#endif
+
+// Adds a paint over a part of a region.
+void vexture_add_paint(inout VextureSum sum, VexturePlanar planar, uint paint, VextureShare share) {
+#if VEXTURE_GRADIENTS
+    if (paint > sum.done) {
+        uvec2 words = vexture_paint_words(planar, paint);
+        if (vexture_is_program(words)) {
+            vexture_add_program(sum, paint, share);
+        } else if (sum.done == 0u) {
+            sum.color += share.area * vexture_averaged(vexture_halves(words));
+        }
+    }
 #else
-    sum.color += share.x * vexture_paint(planar, paint, region);
+    sum.color += share.area * vexture_averaged(vexture_halves(vexture_paint_words(planar, paint)));
+#endif
+}
+
+// Whether a program is kept.
+bool vexture_holds_kept(VextureSum sum) {
+#if VEXTURE_GRADIENTS
+    return sum.kept != 0u;
+#else
+    return false;
+#endif
+}
+
+// Adds the program that is kept.
+void vexture_add_kept(inout VextureSum sum, VexturePlanar planar) {
+#if VEXTURE_GRADIENTS
+    vexture_add_paint(sum, planar, sum.kept, sum.kept_share);
+    sum.kept = 0u;
+    sum.is_whole = false;
+#endif
+}
+
+// Says whether pieces cross a cell.
+void vexture_set_whole(inout VextureSum sum, bool is_whole) {
+#if VEXTURE_GRADIENTS
+    sum.is_whole = is_whole;
 #endif
 }
 
 // Adds the paint on the left of a piece, and takes away that on its right.
-void vexture_add_piece(inout VextureSum sum, VexturePlanar planar, uvec2 sides, vec3 share, VextureRegion region) {
+void vexture_add_piece(inout VextureSum sum, VexturePlanar planar, uvec2 sides, VextureShare share) {
+    vexture_add_paint(sum, planar, sides.x, share);
+    vexture_add_paint(sum, planar, sides.y, vexture_plus_share(vexture_area_share(0.0), share, -1.0));
+}
+
 #if VEXTURE_GRADIENTS
-    vexture_add_paint(sum, planar, sides.x, share, region);
-    vexture_add_paint(sum, planar, sides.y, -share, region);
-#else
-    vec4 right = vexture_paint(planar, sides.y, region);
-    sum.color += share.x * (vexture_paint(planar, sides.x, region) - right);
+// The parallelogram that has the moments of a share of a region: it lies about the share's middle, and its sides are those
+// of the region times the symmetric root of the share's covariance, in which a whole region has 1.
+VextureRegion vexture_part(VextureRegion region, VextureShare share) {
+    vec2 at = clamp(vec2(share.x, share.y) / share.area, -0.5, 0.5);
+    float xx = clamp(12.0 * (share.xx / share.area - at.x * at.x), 0.0, 3.0);
+    float yy = clamp(12.0 * (share.yy / share.area - at.y * at.y), 0.0, 3.0);
+    float most = sqrt(xx * yy);
+    float xy = clamp(12.0 * (share.xy / share.area - at.x * at.y), -most, most);
+    float root = sqrt(max(xx * yy - xy * xy, 0.0));
+    float inverse = 1.0 / sqrt(max(xx + yy + 2.0 * root, VEXTURE_NOTHING));
+    vec2 right = inverse * ((xx + root) * region.right + xy * region.up);
+    vec2 up = inverse * (xy * region.right + (yy + root) * region.up);
+    return VextureRegion(region.point + at.x * region.right + at.y * region.up, right, up);
+}
+
 #endif
-}
 
-// The part of a region about a place, given about the middle of its box and in the box's sides. As far as to the nearer side
-// it is right for a straight border along an axis, and a straight ramp only needs the place.
-VextureRegion vexture_part(VextureRegion region, vec2 place) {
-    vec2 held = clamp(place, -0.5, 0.5);
-    vec2 size = abs(region.right) + abs(region.up);
-    vec2 share = 1.0 - 2.0 * abs(held);
-    return VextureRegion(region.point + held * size, region.right * share, region.up * share);
-}
-
-// Adds the colours of paints of which only the shares are known.
-void vexture_settle(inout VextureSum sum, VexturePlanar planar, VextureRegion region) {
+// Adds the colours of programs of which only the shares are known; returns whether more are left.
+bool vexture_settle(inout VextureSum sum, VexturePlanar planar, VextureRegion region) {
 #if VEXTURE_GRADIENTS
-    bvec4 taken = vexture_taken(sum);
-    while (any(taken)) {
-        int slot = taken.x ? 0 : taken.y ? 1 : taken.z ? 2 : 3;
+    uint last = sum.done;
+    for (int slot = 0; slot < 4; slot++) {
         float area = sum.areas[slot];
-        if (area != 0.0) {
-            VextureRegion part = vexture_part(region, vec2(sum.across[slot], sum.up[slot]) / area);
-            sum.color += area * vexture_paint(planar, sum.paints[slot], part);
+        if (sum.paints[slot] != 0u && abs(area) > VEXTURE_LEAST_SHARE) {
+            uint paint = sum.paints[slot];
+            VextureShare share = VextureShare(area, sum.x[slot], sum.y[slot], sum.xx[slot], sum.xy[slot], sum.yy[slot]);
+            if (sum.is_whole) {  // it is kept, and what was kept before, if it is another one, is run
+                bool is_same = paint == sum.kept;
+                VextureShare before = sum.kept_share;
+                sum.kept_share = vexture_plus_share(share, before, is_same ? 1.0 : 0.0);
+                uint kept = is_same ? 0u : sum.kept;
+                sum.kept = paint;
+                paint = kept;
+                share = before;
+            }
+            if (paint != 0u) {
+                uvec2 words = vexture_paint_words(planar, paint);
+                vec4 color = vexture_program(words.x, words.y, vexture_part(region, share));
+                sum.color += share.area * vexture_averaged(color);
+            }
         }
-        taken[slot] = false;
+        last = max(last, sum.paints[slot]);
     }
-    sum.areas = vec4(0.0);
-    sum.across = vec4(0.0);
-    sum.up = vec4(0.0);
+    bool is_left = sum.is_left;
+    sum.done = is_left ? last : 0u;
+    sum.is_left = false;
+    sum.paints = uvec4(0u);
+    return is_left;
+#else
+    return false;
 #endif
 }
 

@@ -17,7 +17,8 @@ __all__ = ["lay"]
 Colour: TypeAlias = tuple[float, float, float]
 
 ROUNDING: Final = 1e-9
-"""Of a component, by what was composited before: at 0 and 1, where dodge and burn jump, it must not decide."""
+"""Of a component, by what was composited before: at 0 and 1, where dodge and burn jump, it must not decide, nor make a
+hue of a grey."""
 
 
 @kernel(allocates=False)
@@ -122,7 +123,7 @@ def saturation(c: Colour) -> float:
 def with_saturation(c: Colour, wanted: float) -> Colour:
     """The W3C's SetSat: the least component becomes 0, the greatest as wanted."""
     least, range_ = min(c[0], c[1], c[2]), saturation(c)
-    if range_ == 0.0:
+    if range_ <= ROUNDING:
         return 0.0, 0.0, 0.0
     factor = wanted / range_
     return (c[0] - least) * factor, (c[1] - least) * factor, (c[2] - least) * factor

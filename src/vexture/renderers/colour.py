@@ -12,6 +12,7 @@ from vexture.kernels import kernel
 from vexture.layout import COUNT_SHIFT, COVERAGE_ONE, HOLDS_PROGRAM, IS_MEAN, PAINT_ONE
 from vexture.renderers.cells import (
     Cell,
+    Place,
     Texel,
     Texels,
     Vec2,
@@ -37,25 +38,38 @@ from vexture.renderers.cpu import (
     is_beside,
     piece_area,
 )
-from vexture.renderers.gradient import Region, Vec4, plus, times
+from vexture.renderers.gradient import Region, Vec4, times
 from vexture.renderers.leaf import leaf, leaf_piece, leaf_sides
 from vexture.renderers.method import NEARLY_WHOLE, NO_CELL, POSITION_BITS
-from vexture.renderers.moment import lift, moment
+from vexture.renderers.moment import (
+    Share,
+    area_share,
+    box_share,
+    flat_ends_share,
+    flat_piece_share,
+    moved_share,
+    piece_share,
+    plus_share,
+    whole_share,
+)
 from vexture.renderers.paints import (
     Planar,
     Sum,
+    add_kept,
     add_paint,
     add_piece,
     base_paint,
-    has_room,
+    holds_kept,
     mean_color,
     means_at,
     nothing,
     planar,
+    set_whole,
     settle,
     unpacked,
+    with_color,
 )
-from vexture.renderers.piece import Box, Frame, box, box_area, ends, frame, in_box, piece, view_pixel, word
+from vexture.renderers.piece import Box, Frame, box, ends, frame, in_box, piece, view_pixel, word
 from vexture.renderers.uniforms import HasTexels, uniforms_of
 from vexture.renderers.view import Size, ViewLike
 
@@ -79,32 +93,18 @@ def reads_mean(cell: Cell, share: float) -> bool:
 
 
 @kernel(allocates=False)
-def add_whole(
-    texels: Texels,
-    is_linear: int,
-    sum: Sum,
-    planar: Planar,
-    cell: Cell,
-    is_mean: bool,
-    place: Vec2,
-    area: float,
-    region: Region,
-) -> Sum:
-    if not cell.is_quad and not is_mean:
-        return add_paint(sum, planar, base_paint(texels, planar, cell), (area, 0.0, 0.0), region)
+def add_mean(texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, place: Vec2, area: float) -> Sum:
     stored = texel(texels, means_at(planar, cell.quad))
-    step = area * (PAINT_ONE / COVERAGE_ONE)
+    step = area * (PAINT_ONE / COVERAGE_ONE) if sum.done == 0 else 0.0
     if cell.is_quad:
-        color = plus(sum.color, mean_color(is_linear, stored, place), step)
-    else:
-        color = plus(sum.color, unpacked(is_linear, 0 + stored[cell.shift >> 3]), step)  # of 64 bits
-    return Sum(color, sum.paints, sum.areas, sum.across, sum.up)
+        return with_color(sum, mean_color(is_linear, stored, place), step)
+    return with_color(sum, unpacked(is_linear, 0 + stored[cell.shift >> 3]), step)  # of 64 bits
 
 
 @kernel(allocates=False)
-def region(origin: Whole2, middle: Vec2, right: Vec2, up: Vec2) -> Region:
+def region(place: Place, right: Vec2, up: Vec2) -> Region:
     unit = 1.0 / float(1 << POSITION_BITS)
-    point = ((origin[0] + middle[0]) * unit, (origin[1] + middle[1]) * unit)
+    point = ((place.point[0] + place.rest[0]) * unit, (place.point[1] + place.rest[1]) * unit)
     return Region(point, (right[0] * unit, right[1] * unit), (up[0] * unit, up[1] * unit))
 
 
@@ -121,49 +121,79 @@ def flat_look(texel: Texel, box: Box) -> Look:
 
 
 @kernel(allocates=False)
-def add_flat_cell(
-    texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, origin: Whole2, box: Box, inverse: float
+def flat_share(texel: Texel, look: Look, box: Box, has_moments: bool) -> Share:
+    if has_moments:
+        share = flat_ends_share(texel, look.crosses, box)
+        if look.crosses:
+            one = piece(texel, box)
+            share = plus_share(share, flat_piece_share(one, ends(one)), 1.0)
+        return share
+    area = look.filled
+    if look.crosses:
+        one = piece(texel, box)
+        area += flat_piece_area(one, ends(one))
+    return area_share(area)
+
+
+@kernel(allocates=False)
+def add_flat_leaf(
+    texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, box: Box, sides: Vec2, middle: Vec2
 ) -> Sum:
-    whole = box.size[0] * box.size[1] * inverse
-    side = 2.0**-cell.bit
-    x = box.way[0] + (box.part[0] + 0.5) * box.size[0]
-    y = box.way[1] + (box.part[1] + 0.5) * box.size[1]
-    is_mean = reads_mean(cell, min(box.size[0], box.size[1]) * side)
-    here = region(origin, (x, y), (box.size[0], 0.0), (0.0, box.size[1]))
-    sum = add_whole(texels, is_linear, sum, planar, cell, is_mean, (x * side, y * side), whole, here)
+    has_moments = holds_program(cell)
+    is_crossed = False
+    whole = moved_share(whole_share(), sides, middle)
+    sum = add_paint(texels, is_linear, sum, planar, base_paint(texels, planar, cell), whole)
     pieces = leaf(cell)
-    for i in range(0 if cell.is_quad or is_mean else count(cell)):
+    for i in range(count(cell)):
         found, pieces = leaf_piece(texels, pieces, i)
         look = flat_look(found, box)
         if look.crosses or look.filled != 0.0:
-            sum = sum if has_room(sum) else settle(texels, is_linear, sum, planar, here)
-            area, moved, lifted = look.filled, 0.0, lift(found, look.crosses, box)
-            if look.crosses:
-                one = piece(found, box)
-                both = ends(one)
-                more = moment(one, both)
-                area, moved, lifted = area + flat_piece_area(one, both), more[0], lifted + more[1]
+            is_crossed = is_crossed or look.crosses or look.filled != math.floor(look.filled)
+            filled = moved_share(flat_share(found, look, box, has_moments), sides, middle)
             beside, pieces = leaf_sides(texels, pieces, planar, i)
-            sum = add_piece(sum, planar, beside, (whole * area, whole * moved, whole * lifted), here)
-    return settle(texels, is_linear, sum, planar, here)
+            sum = add_piece(texels, is_linear, sum, planar, beside, filled)
+    return set_whole(sum, not is_crossed)
+
+
+@kernel(allocates=False)
+def add_flat_cell(texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, box: Box, view: Flat) -> Sum:
+    low, size = box.low, box.size
+    side = 2.0**-cell.bit
+    if cell.is_quad or reads_mean(cell, min(size[0], size[1]) * side):
+        x = box.way[0] + (box.part[0] + 0.5) * size[0]
+        y = box.way[1] + (box.part[1] + 0.5) * size[1]
+        return add_mean(texels, is_linear, sum, planar, cell, (x * side, y * side), size[0] * size[1] * view.inverse)
+    across = (0.5 / view.extent[0], 0.5 / view.extent[1])
+    middle = (across[0] * (low[0] + 0.5 * size[0]), across[1] * (low[1] + 0.5 * size[1]))
+    return add_flat_leaf(texels, is_linear, sum, planar, cell, box, (across[0] * size[0], across[1] * size[1]), middle)
 
 
 @kernel(allocates=False)
 def flat_color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: Vec2, view: Flat) -> Vec4:
     parts = planar(texels, root)
     there = place(base, offset, view.extent)
+    here = region(there, (2.0 * view.extent[0], 0.0), (0.0, 2.0 * view.extent[1]))
     square = first_square(there)
     shared = square.bit
     start = top(root)
     sum = nothing()
-    while square.position[0] < NO_CELL:
+    while square.position[0] < NO_CELL or holds_kept(sum):
         position = square.position
-        cell, start = descend(texels, start, shared, view.finest, position)
+        is_over = holds_kept(sum) and position[0] >= NO_CELL
+        cell, start = descend(texels, start, shared, NO_CELL if is_over else view.finest, position)
         side = 1 << cell.bit
         origin = (position[0] & -side, position[1] & -side)
-        local = box(origin, cell.bit, there, view.extent)
-        sum = add_flat_cell(texels, is_linear, sum, parts, cell, origin, local, view.inverse)
-        square = next_square(position, (origin[0] + side, origin[1] + side), there)
+        is_left = True
+        while is_left:
+            if is_over:
+                sum = add_kept(texels, is_linear, sum, parts)
+            else:
+                local = box(origin, cell.bit, there, view.extent)
+                sum = add_flat_cell(texels, is_linear, sum, parts, cell, local, view)
+            sum = settle(texels, is_linear, sum, parts, here)
+            is_left = sum.done > 0
+        if not is_over:
+            square = next_square(position, (origin[0] + side, origin[1] + side), there)
     return held(times(sum.color, 1.0 / PAINT_ONE))
 
 
@@ -180,38 +210,47 @@ def held_channel(value: float, most: float) -> float:
 
 
 @kernel(allocates=False)
-def add_cell(
-    texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, origin: Whole2, box: Box, frame: Frame
+def share(texel: Texel, look: Look, box: Box, frame: Frame, whole: Share, has_moments: bool) -> Share:
+    found = plus_share(area_share(0.0), whole, look.filled)
+    if look.crosses:
+        one = piece(texel, box)
+        both = ends(one)
+        if has_moments:
+            return plus_share(found, piece_share(texel, look.turns, one, both, box, frame), 1.0)
+        found = plus_share(found, area_share(piece_area(texel, look.turns, one, both, box, frame)), 1.0)
+    return found
+
+
+@kernel(allocates=False)
+def add_leaf(
+    texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, box: Box, frame: Frame, whole: Share
 ) -> Sum:
-    low, size, extent = box.low, box.size, frame.extent
-    whole = 1.0
-    if low[0] > -extent[0] or low[1] > -extent[1] or low[0] + size[0] < extent[0] or low[1] + size[1] < extent[1]:
-        whole = box_area(frame, low, size)
-    place = cut_place(cell, box, frame) if cell.is_quad or holds_program(cell) else (0.5, 0.5)
-    side = 2.0**cell.bit
-    is_mean = reads_mean(cell, whole * frame.size / (side * side))
-    part = (size[0] / (2.0 * extent[0]), size[1] / (2.0 * extent[1]))
-    right = (part[0] * frame.up[1] * frame.size, -part[1] * frame.up[0] * frame.size)
-    up = (-part[0] * frame.right[1] * frame.size, part[1] * frame.right[0] * frame.size)
-    here = region(origin, (place[0] * side, place[1] * side), right, up)
-    sum = add_whole(texels, is_linear, sum, planar, cell, is_mean, place, whole, here)
-    turned = whole * math.sqrt(clamp(whole * frame.size / (size[0] * size[1]), 0.0, 1.0))
+    has_moments = holds_program(cell)
+    is_crossed = False
+    sum = add_paint(texels, is_linear, sum, planar, base_paint(texels, planar, cell), whole)
     pieces = leaf(cell)
-    for i in range(count(cell) if whole > 0.0 and not cell.is_quad and not is_mean else 0):
+    for i in range(count(cell) if whole.area > 0.0 else 0):
         found, pieces = leaf_piece(texels, pieces, i)
         look = first_look(found, box)
         if look.crosses or look.filled != 0.0:
-            sum = sum if has_room(sum) else settle(texels, is_linear, sum, planar, here)
-            area, moved, lifted = whole * look.filled, 0.0, turned * lift(found, look.crosses, box)
-            if look.crosses:
-                one = piece(found, box)
-                both = ends(one)
-                more = moment(one, both)
-                area += piece_area(found, look.turns, one, both, box, frame)
-                moved, lifted = turned * more[0], lifted + turned * more[1]
+            is_crossed = is_crossed or look.crosses or look.filled != math.floor(look.filled)
+            filled = share(found, look, box, frame, whole, has_moments)
             beside, pieces = leaf_sides(texels, pieces, planar, i)
-            sum = add_piece(sum, planar, beside, (area, moved, lifted), here)
-    return settle(texels, is_linear, sum, planar, here)
+            sum = add_piece(texels, is_linear, sum, planar, beside, filled)
+    return set_whole(sum, not is_crossed)
+
+
+@kernel(allocates=False)
+def add_cell(texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, box: Box, frame: Frame) -> Sum:
+    low, size, extent = box.low, box.size, frame.extent
+    whole = whole_share()
+    if low[0] > -extent[0] or low[1] > -extent[1] or low[0] + size[0] < extent[0] or low[1] + size[1] < extent[1]:
+        whole = box_share(frame, low, size)
+    side = 2.0**cell.bit
+    if cell.is_quad or reads_mean(cell, whole.area * frame.size / (side * side)):
+        place = cut_place(cell, box, frame) if cell.is_quad else (0.5, 0.5)
+        return add_mean(texels, is_linear, sum, planar, cell, place, whole.area)
+    return add_leaf(texels, is_linear, sum, planar, cell, box, frame, whole)
 
 
 @kernel(allocates=False)
@@ -219,23 +258,35 @@ def color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: Vec2,
     parts = planar(texels, root)
     pixel = frame(dx, dy)
     there = place(base, offset, pixel.extent)
+    finest = finest_bit(pixel.size, pixel.longer)
+    right = (pixel.up[1] * pixel.size, -pixel.up[0] * pixel.size)
+    here = region(there, right, (-pixel.right[1] * pixel.size, pixel.right[0] * pixel.size))
     square = first_square(there)
     shared = square.bit
-    finest = finest_bit(pixel.size, pixel.longer)
     start = top(root)
     sum = nothing()
     beside = False
-    while square.position[0] < NO_CELL:
+    while square.position[0] < NO_CELL or holds_kept(sum):
         position, bit = square.position, square.bit
+        is_over = holds_kept(sum) and position[0] >= NO_CELL
         if not beside:
-            cell, start = descend(texels, start, shared, finest, position)
+            cell, start = descend(texels, start, shared, NO_CELL if is_over else finest, position)
             bit = cell.bit
             origin = (position[0] & -(1 << bit), position[1] & -(1 << bit))
-            local = box(origin, bit, there, pixel.extent)
-            sum = add_cell(texels, is_linear, sum, parts, cell, origin, local, pixel)
+            is_left = True
+            while is_left:
+                if is_over:
+                    sum = add_kept(texels, is_linear, sum, parts)
+                else:
+                    local = box(origin, bit, there, pixel.extent)
+                    sum = add_cell(texels, is_linear, sum, parts, cell, local, pixel)
+                sum = settle(texels, is_linear, sum, parts, here)
+                is_left = sum.done > 0
         side = 1 << bit
-        square = next_square(position, ((position[0] & -side) + side, (position[1] & -side) + side), there)
-        beside = square.position[0] < NO_CELL and is_beside(square, there, pixel)
+        beside = False
+        if not is_over:
+            square = next_square(position, ((position[0] & -side) + side, (position[1] & -side) + side), there)
+            beside = square.position[0] < NO_CELL and is_beside(square, there, pixel)
     return held(times(sum.color, 1.0 / PAINT_ONE))
 
 

@@ -90,6 +90,18 @@ class Corner(NamedTuple):
     y: Vec2
 
 
+class Path(NamedTuple):
+    """The way along a box's sides: left, right, and from the piece's ends to the right side."""
+
+    corner: Corner
+    l0: Vec2
+    l1: Vec2
+    r0: Vec2
+    r1: Vec2
+    e0: Vec2
+    e1: Vec2
+
+
 class Look(NamedTuple):
     """What the ends of a piece say of the box."""
 
@@ -187,19 +199,28 @@ def from_corner(corner: Corner, x: float, y: float) -> Vec2:
 
 
 @kernel(allocates=False)
-def curve_area(piece: Piece, ends: Ends, corner: Corner) -> float:
+def piece_parts(piece: Piece, ends: Ends, corner: Corner) -> int:
+    """Number of parts that the bend of a piece requires."""
     along, above = corner.x, corner.y
     p = from_corner(corner, ends.enter[0], ends.enter[1])
+    q = from_corner(corner, ends.leave[0], ends.leave[1])
     way = slope(piece, ends.start)
     first = (along[0] * way[0] + above[0] * way[1], along[1] * way[0] + above[1] * way[1])
     way = slope(piece, ends.end)
     last = (along[0] * way[0] + above[0] * way[1], along[1] * way[0] + above[1] * way[1])
-    q = from_corner(corner, ends.leave[0], ends.leave[1])
     chord = (q[0] - p[0], q[1] - p[1])
-    step_t = ends.end - ends.start
-    bend = step_t * (abs(cross(first, chord)) + abs(cross(last, chord)))
-    parts = 1 + int(min(BEND * bend, MOST_PARTS - 1.0))
-    step_t /= parts
+    bend = (ends.end - ends.start) * (abs(cross(first, chord)) + abs(cross(last, chord)))
+    return 1 + int(min(BEND * bend, MOST_PARTS - 1.0))
+
+
+@kernel(allocates=False)
+def curve_area(piece: Piece, ends: Ends, corner: Corner) -> float:
+    along, above = corner.x, corner.y
+    parts = piece_parts(piece, ends, corner)
+    step_t = (ends.end - ends.start) / parts
+    p = from_corner(corner, ends.enter[0], ends.enter[1])
+    way = slope(piece, ends.start)
+    first = (along[0] * way[0] + above[0] * way[1], along[1] * way[0] + above[1] * way[1])
     area = 0.0
     t = ends.start
     while parts > 0:
@@ -217,7 +238,8 @@ def curve_area(piece: Piece, ends: Ends, corner: Corner) -> float:
 
 
 @kernel(allocates=False)
-def piece_area(texel: Texel, turns: bool, piece: Piece, ends: Ends, box: Box, frame: Frame) -> float:
+def path_of(texel: Texel, turns: bool, piece: Piece, ends: Ends, box: Box, frame: Frame) -> Path:
+    """The path along the box's sides that closes a piece."""
     there = corner(piece.falls, box, frame)
     falls = piece.falls[0]
     top = 0.0 if piece.falls[1] else 1.0
@@ -231,14 +253,20 @@ def piece_area(texel: Texel, turns: bool, piece: Piece, ends: Ends, box: Box, fr
     right_end = ends.enter[1] if falls else y0
     left_start = ends.leave[1] if falls else y0
     right_start = y3 if falls else ends.leave[1]
-    level = slopes(frame.right[0], frame.up[0])
-    upright = slopes(frame.right[1], frame.up[1])
     l0, l1 = from_corner(there, left, left_start), from_corner(there, left, left_end)
     r0, r1 = from_corner(there, right, right_start), from_corner(there, right, right_end)
     e0, e1 = from_corner(there, ends.enter[0], right_end), from_corner(there, ends.leave[0], right_start)
-    area = beside_sloped(l0, l1[1], upright) + beside_sloped(r0, r1[1], upright)
-    area += beside_sloped(e1, r0[1], level) + beside_sloped(r1, e0[1], level)
-    return area + curve_area(piece, ends, there)
+    return Path(there, l0, l1, r0, r1, e0, e1)
+
+
+@kernel(allocates=False)
+def piece_area(texel: Texel, turns: bool, piece: Piece, ends: Ends, box: Box, frame: Frame) -> float:
+    path = path_of(texel, turns, piece, ends, box, frame)
+    level = slopes(frame.right[0], frame.up[0])
+    upright = slopes(frame.right[1], frame.up[1])
+    area = beside_sloped(path.l0, path.l1[1], upright) + beside_sloped(path.r0, path.r1[1], upright)
+    area += beside_sloped(path.e1, path.r0[1], level) + beside_sloped(path.r1, path.e0[1], level)
+    return area + curve_area(piece, ends, path.corner)
 
 
 @kernel(allocates=False)

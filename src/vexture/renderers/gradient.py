@@ -28,9 +28,12 @@ from vexture.layout import (
     STOP_COUNT_BITS,
 )
 from vexture.paint import Spread
-from vexture.renderers.blend import mixture
+from vexture.renderers.blend import luminosity, mixture, saturation
 from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.method import (
+    FARTHEST,
+    GREY,
+    LEAST_COLOR,
     LEAST_RADIUS,
     LONGEST_RAMP,
     MOST_RAMP_PARTS,
@@ -46,7 +49,7 @@ __all__ = ["Region", "Vec3", "Vec4", "halves", "plus", "program", "times"]
 Vec3 = tuple[float, float, float]
 Vec4 = tuple[float, float, float, float]
 
-NORMAL, PLUS_LIGHTER = int(Blend.NORMAL), int(Blend.PLUS_LIGHTER)
+NORMAL, HUE, PLUS_LIGHTER = int(Blend.NORMAL), int(Blend.HUE), int(Blend.PLUS_LIGHTER)
 LUMINANCE = int(Mask.LUMINANCE)
 PAD, REFLECT = int(Spread.PAD), int(Spread.REFLECT)
 
@@ -60,11 +63,12 @@ class Region(NamedTuple):
 
 
 class Ramp(NamedTuple):
-    """A place on a ramp, how it changes along x and y, and how much of the region has one."""
+    """A place on a ramp, how it changes along x and y, whether there is one, and how far the border of a cone is."""
 
     t: float
     way: Vec2
-    share: float
+    exists: bool
+    depth: float
 
 
 @kernel(allocates=False)
@@ -115,7 +119,8 @@ def blended(below: Vec4, above: Vec4, mode: int) -> Vec4:
         red, green, blue = min(below[0] + above[0], 1.0), min(below[1] + above[1], 1.0), min(below[2] + above[2], 1.0)
         return red, green, blue, min(below[3] + above[3], 1.0)
     under, over = below[3], above[3]
-    mixed = mixture(mode, straight(below), straight(above))
+    is_whole = mode >= HUE
+    mixed = mixture(mode, straight_color(below, is_whole), straight_color(above, is_whole))
     red = above[0] * (1.0 - under) + below[0] * (1.0 - over) + over * under * mixed[0]
     green = above[1] * (1.0 - under) + below[1] * (1.0 - over) + over * under * mixed[1]
     blue = above[2] * (1.0 - under) + below[2] * (1.0 - over) + over * under * mixed[2]
@@ -123,10 +128,21 @@ def blended(below: Vec4, above: Vec4, mode: int) -> Vec4:
 
 
 @kernel(allocates=False)
-def straight(color: Vec4) -> Vec3:
-    """A colour without its opacity."""
+def greyed(c: Vec3) -> Vec3:
+    light = luminosity(c)
+    return (light, light, light) if saturation(c) < GREY else c
+
+
+@kernel(allocates=False)
+def settled(c: float) -> float:
+    return 0.0 if c < LEAST_COLOR else 1.0 if c > 1.0 - LEAST_COLOR else c
+
+
+@kernel(allocates=False)
+def straight_color(color: Vec4, is_whole: bool) -> Vec3:
     opacity = max(color[3], NOTHING)
-    return min(color[0] / opacity, 1.0), min(color[1] / opacity, 1.0), min(color[2] / opacity, 1.0)
+    c = (settled(color[0] / opacity), settled(color[1] / opacity), settled(color[2] / opacity))
+    return greyed(c) if is_whole else c
 
 
 # --- gradient.glsl ---------------------------------------------------------------------------------------------
@@ -157,16 +173,6 @@ def along(slope: Vec2, across: Vec3, up: Vec3) -> Vec2:
 
 
 @kernel(allocates=False)
-def part_above(value: float, sides: Vec2) -> float:
-    wide = max(max(sides[0], sides[1]), NOTHING)
-    narrow = min(sides[0], sides[1])
-    rest = 0.5 * (wide + narrow) - abs(value)
-    corner = max(rest, 0.0)
-    less = corner * corner / (2.0 * wide * max(narrow, NOTHING)) if rest < narrow else 0.5 - abs(value) / wide
-    return 1.0 - less if value > 0.0 else less
-
-
-@kernel(allocates=False)
 def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     qx = dot(across, region.point) + across[2] - focus[0]
     qy = dot(up, region.point) + up[2]
@@ -175,15 +181,18 @@ def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     b = focus[1] * grows - qx * focus[0]
     c = qx * qx + qy * qy - focus[1] * focus[1]
     inside = b * b - a * c
-    slope = (-2.0 * (b * focus[0] + a * qx), -2.0 * a * qy)
-    sides = spans(along(slope, across, up), region)
-    share = 1.0 if a < 0.0 else part_above(inside, sides)
-    if share < 1.0:
-        moved = (0.5 * share * (sides[0] + sides[1]) - inside) / max(slope[0] * slope[0] + slope[1] * slope[1], NOTHING)
-        qx, qy = qx + moved * slope[0], qy + moved * slope[1]
-        b = focus[1] * grows - qx * focus[0]
-        c = qx * qx + qy * qy - focus[1] * focus[1]
-        inside = b * b - a * c
+    depth = FARTHEST
+    if a >= 0.0:
+        slope = (-2.0 * (b * focus[0] + a * qx), -2.0 * a * qy)
+        sides = spans(along(slope, across, up), region)
+        least = 0.25 * (sides[0] + sides[1])
+        depth = inside / max(4.0 * least, NOTHING)
+        if inside < least:
+            moved = (least - inside) / max(slope[0] * slope[0] + slope[1] * slope[1], NOTHING)
+            qx, qy = qx + moved * slope[0], qy + moved * slope[1]
+            b = focus[1] * grows - qx * focus[0]
+            c = qx * qx + qy * qy - focus[1] * focus[1]
+            inside = b * b - a * c
     root = math.sqrt(max(inside, 0.0))
     far = b - root if b < 0.0 else b + root
     first = far / a if a != 0.0 else NO_PLACE
@@ -196,7 +205,7 @@ def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     e = (e[0] / radius, e[1] / radius) if radius > LEAST_RADIUS else (0.0, 0.0)
     down = grows - e[0] * focus[0]
     e = (e[0] / down, e[1] / down) if down != 0.0 else (0.0, 0.0)
-    return Ramp(t, along(e, across, up), share if exists else 0.0)
+    return Ramp(t, along(e, across, up), exists, depth)
 
 
 @kernel(allocates=False)
@@ -297,25 +306,29 @@ def gradient(texels: Texels, at: int, record: Texel, number: int, region: Region
         focus = (circle[0], circle[1])
     stops = at + (record[3] & ((1 << STOP_BITS) - 1))
     spread = (record[3] >> (STOP_BITS + STOP_COUNT_BITS)) & 3
-    first, second = spans((across[0], across[1]), region), spans((up[0], up[1]), region)
-    width = length((max(first[0], second[0]), max(first[1], second[1]))) if kind != KIND_LINEAR else 0.0
-    tip = focus[0] / max(1.0 - focus[1], NOTHING)
-    away = length((dot(across, region.point) + across[2] - tip, dot(up, region.point) + up[2]))
-    size = float(MOST_RAMP_PARTS) if away < width else RAMP_PARTS * width
-    parts = max(math.ceil(size), 1) if size < MOST_RAMP_PARTS else MOST_RAMP_PARTS
+    ramp = Ramp(dot(across, region.point) + across[2], (across[0], across[1]), True, FARTHEST)
+    parts = 1
+    if kind != KIND_LINEAR:
+        first, second = spans((across[0], across[1]), region), spans((up[0], up[1]), region)
+        width = length((max(first[0], second[0]), max(first[1], second[1])))
+        tip = focus[0] / max(1.0 - focus[1], NOTHING)
+        away = length((dot(across, region.point) + across[2] - tip, dot(up, region.point) + up[2]))
+        ramp = round_ramp(across, up, focus, region)
+        size = float(MOST_RAMP_PARTS) if away < width or ramp.depth < 1.0 else RAMP_PARTS * width
+        parts = max(math.ceil(size), 1) if size < MOST_RAMP_PARTS else MOST_RAMP_PARTS
     right, above = (region.right[0] / parts, region.right[1] / parts), (region.up[0] / parts, region.up[1] / parts)
-    total = (0.0, 0.0, 0.0, 0.0)
+    total, count = (0.0, 0.0, 0.0, 0.0), 0.0
     for k in range(parts * parts):
-        x, y = k % parts + 0.5 - 0.5 * parts, k // parts + 0.5 - 0.5 * parts
-        point = (region.point[0] + x * right[0] + y * above[0], region.point[1] + x * right[1] + y * above[1])
-        part = Region(point, right, above)
-        ramp = Ramp(dot(across, point) + across[2], (across[0], across[1]), 1.0)
-        if kind != KIND_LINEAR:
+        part = Region(region.point, right, above)
+        if parts > 1:
+            x, y = k % parts + 0.5 - 0.5 * parts, k // parts + 0.5 - 0.5 * parts
+            point = (region.point[0] + x * right[0] + y * above[0], region.point[1] + x * right[1] + y * above[1])
+            part = Region(point, right, above)
             ramp = round_ramp(across, up, focus, part)
-        if ramp.share > 0.0:
-            found = ramp_mean(texels, stops, number, spread, ramp.t, spans(ramp.way, part))
-            total = plus(total, found, ramp.share)
-    return times(total, 1.0 / (parts * parts))
+        if ramp.exists:
+            total = plus(total, ramp_mean(texels, stops, number, spread, ramp.t, spans(ramp.way, part)), 1.0)
+            count += 1.0
+    return times(total, 1.0 / max(count, 1.0))
 
 
 @kernel(allocates=False)

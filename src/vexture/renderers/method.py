@@ -13,6 +13,9 @@ __all__ = [
     "FARTHEST",
     "FOLLOWED_QUADS",
     "FURTHER",
+    "GAUSS",
+    "GREY",
+    "LEAST_COLOR",
     "LEAST_FINEST",
     "LEAST_RADIUS",
     "LEAST_SHARE",
@@ -104,6 +107,9 @@ LONG: Final = 2.0**-8
 LEVEL_BIAS: Final = 2.0**-8
 """Relative; without it drivers would disagree on the level of a footprint whose size is a power of two."""
 
+GAUSS: Final = 0.5 / 3.0**0.5
+"""Way from the middle of an interval to each of the two points of Gauss-Legendre quadrature, in its length."""
+
 NEARLY_WHOLE: Final = 1.0 - 2.0**-10
 """Share of a leaf in a footprint from which all of it counts."""
 
@@ -121,6 +127,12 @@ SHORTEST_RAMP: Final = 2.0**-22
 
 LONGEST_RAMP: Final = 2.0**20
 """The longest one."""
+
+GREY: Final = 2.0**-10
+"""Saturation below which a colour is grey: 16 bits leave as much of translucent ones, and 8 bits have no less."""
+
+LEAST_COLOR: Final = 2.0**-14
+"""Of a component, likewise: as near to 0 or 1 it is that."""
 
 NO_PLACE: Final = -1e30
 """Place on a ramp of what has none."""

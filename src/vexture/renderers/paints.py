@@ -3,28 +3,33 @@
 See `vexture.renderers.cpu`. `is_linear` is what ``VEXTURE_LINEAR`` is in the shader.
 """
 
+import math
 from typing import NamedTuple
 
 from vexture.kernels import kernel
 from vexture.layout import COVERAGE_ONE, MOST_BYTE_PAINTS, MOST_HALF_PAINTS
 from vexture.renderers.cells import Cell, Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.gradient import Region, Vec3, Vec4, halves, plus, program, times
-from vexture.renderers.method import LEAST_SHARE
+from vexture.renderers.method import LEAST_SHARE, NOTHING
+from vexture.renderers.moment import Share, area_share, plus_share
 
 __all__ = [
     "Planar",
     "Sum",
+    "add_kept",
     "add_paint",
     "add_piece",
     "base_paint",
-    "has_room",
+    "holds_kept",
     "mean_color",
     "means_at",
     "nothing",
     "numbered",
     "planar",
+    "set_whole",
     "settle",
     "unpacked",
+    "with_color",
 ]
 
 
@@ -93,109 +98,175 @@ def averaged(is_linear: int, stored: Vec4) -> Vec4:
 
 
 @kernel(allocates=False)
-def paint(texels: Texels, is_linear: int, planar: Planar, number: int, region: Region) -> Vec4:
+def paint_words(texels: Texels, planar: Planar, number: int) -> Whole2:
     both = texel(texels, planar.paints + (number >> 1))
-    low, high = (both[0], both[1]) if number & 1 == 0 else (both[2], both[3])
-    color = halves((low, high))
-    if low != 0 and color[3] == 0.0:
-        color = program(texels, low, high, region)
-    return averaged(is_linear, color)
+    return (0 + both[0], 0 + both[1]) if number & 1 == 0 else (0 + both[2], 0 + both[3])  # of 64 bits
+
+
+@kernel(allocates=False)
+def is_program(words: Whole2) -> bool:
+    return words[0] != 0 and words[1] >> 16 == 0
 
 
 class Sum(NamedTuple):
-    """The colours of a pixel, times their areas; of `paints` whose colours are not added yet, areas and moments."""
+    """The colours of a pixel, times their areas; of programs whose colours are not added yet, their shares."""
 
     color: Vec4
+    kept: int
+    kept_share: Share
+    done: int
+    is_left: bool
+    is_whole: bool
     paints: tuple[int, int, int, int]
     areas: Vec4
-    across: Vec4
-    up: Vec4
+    x: Vec4
+    y: Vec4
+    xx: Vec4
+    xy: Vec4
+    yy: Vec4
 
 
 @kernel(allocates=False)
 def nothing() -> Sum:
     """The empty sum."""
     none = (0.0, 0.0, 0.0, 0.0)
-    return Sum(none, (0, 0, 0, 0), none, none, none)
+    return Sum(none, 0, area_share(0.0), 0, False, False, (0, 0, 0, 0), none, none, none, none, none, none)
 
 
 @kernel(allocates=False)
-def taken(sum: Sum) -> tuple[bool, bool, bool, bool]:
-    areas, across, up = sum.areas, sum.across, sum.up
-    return (
-        abs(areas[0]) + abs(across[0]) + abs(up[0]) > LEAST_SHARE,
-        abs(areas[1]) + abs(across[1]) + abs(up[1]) > LEAST_SHARE,
-        abs(areas[2]) + abs(across[2]) + abs(up[2]) > LEAST_SHARE,
-        abs(areas[3]) + abs(across[3]) + abs(up[3]) > LEAST_SHARE,
+def changed(sum: Sum, color: Vec4, kept: int, kept_share: Share, done: int, is_left: bool, is_whole: bool) -> Sum:
+    """The sum with the same four paints, and else these values."""
+    paints, areas, x, y, xx, xy, yy = sum.paints, sum.areas, sum.x, sum.y, sum.xx, sum.xy, sum.yy
+    return Sum(color, kept, kept_share, done, is_left, is_whole, paints, areas, x, y, xx, xy, yy)
+
+
+@kernel(allocates=False)
+def put(values: Vec4, at: int, value: float) -> Vec4:
+    """Four values, one of which GLSL sets in place."""
+    a, b = value if at == 0 else values[0], value if at == 1 else values[1]
+    return a, b, value if at == 2 else values[2], value if at == 3 else values[3]
+
+
+@kernel(allocates=False)
+def with_color(sum: Sum, color: Vec4, share: float) -> Sum:
+    """The sum with so much of a colour added."""
+    found = plus(sum.color, color, share)
+    return changed(sum, found, sum.kept, sum.kept_share, sum.done, sum.is_left, sum.is_whole)
+
+
+@kernel(allocates=False)
+def slot(sum: Sum, paint: int) -> int:
+    best = 0
+    for place in range(4):
+        if sum.paints[place] == paint:
+            return place
+        if sum.paints[best] != 0 and (sum.paints[place] == 0 or sum.paints[place] > sum.paints[best]):
+            best = place
+    return best if sum.paints[best] == 0 or sum.paints[best] > paint else 4
+
+
+@kernel(allocates=False)
+def add_program(sum: Sum, paint: int, share: Share) -> Sum:
+    """Return the new `sum`, which GLSL changes in place."""
+    at = slot(sum, paint)
+    if at == 4:
+        return changed(sum, sum.color, sum.kept, sum.kept_share, sum.done, True, sum.is_whole)
+    (a, b, c, d), is_new = sum.paints, sum.paints[at] != paint
+    kept = 0.0 if is_new else 1.0
+    is_left = sum.is_left or (is_new and sum.paints[at] != 0)
+    a, b, c, d = paint if at == 0 else a, paint if at == 1 else b, paint if at == 2 else c, paint if at == 3 else d
+    return Sum(
+        sum.color,
+        sum.kept,
+        sum.kept_share,
+        sum.done,
+        is_left,
+        sum.is_whole,
+        (a, b, c, d),
+        put(sum.areas, at, kept * sum.areas[at] + share.area),
+        put(sum.x, at, kept * sum.x[at] + share.x),
+        put(sum.y, at, kept * sum.y[at] + share.y),
+        put(sum.xx, at, kept * sum.xx[at] + share.xx),
+        put(sum.xy, at, kept * sum.xy[at] + share.xy),
+        put(sum.yy, at, kept * sum.yy[at] + share.yy),
     )
 
 
 @kernel(allocates=False)
-def waits(sum: Sum) -> bool:
-    a, b, c, d = taken(sum)
-    return a or b or c or d
-
-
-@kernel(allocates=False)
-def has_room(sum: Sum) -> bool:
-    """Whether there is room for the two paints beside a piece."""
-    number = 0
-    for one in taken(sum):
-        number += 1 if one else 0
-    return number < 3
-
-
-@kernel(allocates=False)
-def added(values: Vec4, at: int, value: float) -> Vec4:
-    """Four values, to one of which GLSL adds in place."""
-    a, b = values[0] + (value if at == 0 else 0.0), values[1] + (value if at == 1 else 0.0)
-    return a, b, values[2] + (value if at == 2 else 0.0), values[3] + (value if at == 3 else 0.0)
-
-
-@kernel(allocates=False)
-def add_paint(sum: Sum, planar: Planar, paint: int, share: Vec3, region: Region) -> Sum:
+def add_paint(texels: Texels, is_linear: int, sum: Sum, planar: Planar, paint: int, share: Share) -> Sum:
     """Return the new `sum`, which GLSL changes in place, as with ``VEXTURE_GRADIENTS``."""
-    (a, b, c, d), is_taken = sum.paints, taken(sum)
-    free, same = 0, -1
-    for slot in range(4):
-        free = free if is_taken[slot] else slot
-        same = slot if is_taken[slot] and sum.paints[slot] == paint else same
-    at = free if same < 0 else same
-    a, b = paint if at == 0 else a, paint if at == 1 else b
-    c, d = paint if at == 2 else c, paint if at == 3 else d
-    areas, across = added(sum.areas, at, share[0]), added(sum.across, at, share[1])
-    return Sum(sum.color, (a, b, c, d), areas, across, added(sum.up, at, share[2]))
+    if paint <= sum.done:
+        return sum
+    words = paint_words(texels, planar, paint)
+    if is_program(words):
+        return add_program(sum, paint, share)
+    return sum if sum.done > 0 else with_color(sum, averaged(is_linear, halves(words)), share.area)
 
 
 @kernel(allocates=False)
-def add_piece(sum: Sum, planar: Planar, sides: Whole2, share: Vec3, region: Region) -> Sum:
+def add_piece(texels: Texels, is_linear: int, sum: Sum, planar: Planar, sides: Whole2, share: Share) -> Sum:
     """Return the sum with the paint on the left of a piece, less that on its right."""
-    sum = add_paint(sum, planar, sides[0], share, region)
-    return add_paint(sum, planar, sides[1], (-share[0], -share[1], -share[2]), region)
+    sum = add_paint(texels, is_linear, sum, planar, sides[0], share)
+    return add_paint(texels, is_linear, sum, planar, sides[1], plus_share(area_share(0.0), share, -1.0))
 
 
 @kernel(allocates=False)
-def part(region: Region, place: Vec2) -> Region:
+def holds_kept(sum: Sum) -> bool:
+    """Whether a program is kept."""
+    return sum.kept != 0
+
+
+@kernel(allocates=False)
+def add_kept(texels: Texels, is_linear: int, sum: Sum, planar: Planar) -> Sum:
+    """Return the sum with the program that was kept."""
+    found = add_paint(texels, is_linear, sum, planar, sum.kept, sum.kept_share)
+    return changed(found, found.color, 0, found.kept_share, found.done, found.is_left, False)
+
+
+@kernel(allocates=False)
+def set_whole(sum: Sum, is_whole: bool) -> Sum:
+    """Return the sum that knows whether pieces cross a cell."""
+    return changed(sum, sum.color, sum.kept, sum.kept_share, sum.done, sum.is_left, is_whole)
+
+
+@kernel(allocates=False)
+def part(region: Region, share: Share) -> Region:
     point, right, up = region.point, region.right, region.up
-    x, y = clamp(place[0], -0.5, 0.5), clamp(place[1], -0.5, 0.5)
-    share_x, share_y = 1.0 - 2.0 * abs(x), 1.0 - 2.0 * abs(y)
-    middle = (point[0] + x * (abs(right[0]) + abs(up[0])), point[1] + y * (abs(right[1]) + abs(up[1])))
-    return Region(middle, (right[0] * share_x, right[1] * share_y), (up[0] * share_x, up[1] * share_y))
+    x, y = clamp(share.x / share.area, -0.5, 0.5), clamp(share.y / share.area, -0.5, 0.5)
+    xx = clamp(12.0 * (share.xx / share.area - x * x), 0.0, 3.0)
+    yy = clamp(12.0 * (share.yy / share.area - y * y), 0.0, 3.0)
+    most = math.sqrt(xx * yy)
+    xy = clamp(12.0 * (share.xy / share.area - x * y), -most, most)
+    root = math.sqrt(max(xx * yy - xy * xy, 0.0))
+    inverse = 1.0 / math.sqrt(max(xx + yy + 2.0 * root, NOTHING))
+    xx, xy, yy = (xx + root) * inverse, xy * inverse, (yy + root) * inverse
+    return Region(
+        (point[0] + x * right[0] + y * up[0], point[1] + x * right[1] + y * up[1]),
+        (xx * right[0] + xy * up[0], xx * right[1] + xy * up[1]),
+        (xy * right[0] + yy * up[0], xy * right[1] + yy * up[1]),
+    )
 
 
 @kernel(allocates=False)
 def settle(texels: Texels, is_linear: int, sum: Sum, planar: Planar, region: Region) -> Sum:
-    """Return the sum with the colours of its paints added."""
-    if not waits(sum):
-        return sum
-    color = sum.color
-    for slot in range(4):
-        area = sum.areas[slot]
-        if area != 0.0:
-            here = part(region, (sum.across[slot] / area, sum.up[slot] / area))
-            color = plus(color, paint(texels, is_linear, planar, sum.paints[slot], here), area)
-    none = (0.0, 0.0, 0.0, 0.0)
-    return Sum(color, sum.paints, none, none, none)
+    """Return the sum with the colours of its programs added; more are left if `done` is not 0 then."""
+    color, kept, kept_share, last = sum.color, sum.kept, sum.kept_share, sum.done
+    for place in range(4):
+        area, number = sum.areas[place], sum.paints[place]
+        last = max(last, number)
+        if number == 0 or abs(area) <= LEAST_SHARE:
+            continue
+        share = Share(area, sum.x[place], sum.y[place], sum.xx[place], sum.xy[place], sum.yy[place])
+        if sum.is_whole:
+            is_same, before = number == kept, kept_share
+            kept_share = plus_share(share, before, 1.0 if is_same else 0.0)
+            kept, number, share = number, 0 if is_same else kept, before
+        if number != 0:
+            words = paint_words(texels, planar, number)
+            found = program(texels, words[0], words[1], part(region, share))
+            color = plus(color, averaged(is_linear, found), share.area)
+    done, none = last if sum.is_left else 0, (0.0, 0.0, 0.0, 0.0)
+    return Sum(color, kept, kept_share, done, False, sum.is_whole, (0, 0, 0, 0), none, none, none, none, none, none)
 
 
 @kernel(allocates=False)

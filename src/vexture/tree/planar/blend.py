@@ -17,7 +17,8 @@ COLOR, LUMINOSITY, LIGHTER = int(Blend.COLOR), int(Blend.LUMINOSITY), int(Blend.
 LUMINANCE = int(Mask.LUMINANCE)
 
 NOTHING = 1e-9
-"""A component this near to 0 or 1 is that, but for rounding: dodge and burn jump there."""
+"""A component this near to 0 or 1 is that, but for rounding, at which dodge and burn jump; and so little saturation is
+none, or hue and saturation would make a colour of it."""
 
 
 @kernel(allocates=False)
@@ -72,7 +73,7 @@ def _with_luminosity(c: tuple[float, float, float], wanted: float) -> tuple[floa
 def _with_saturation(c: tuple[float, float, float], wanted: float) -> tuple[float, float, float]:
     """SetSat of section 10.2."""
     low, high = min(c[0], c[1], c[2]), max(c[0], c[1], c[2])
-    scale = wanted / (high - low) if high > low else 0.0
+    scale = wanted / (high - low) if high - low > NOTHING else 0.0
     return (c[0] - low) * scale, (c[1] - low) * scale, (c[2] - low) * scale
 
 

@@ -15,6 +15,7 @@ from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
 from vexture.kernels import kernel
 from vexture.layout import LATTICE, MOST_PAINTS, PAINT_ONE
+from vexture.paint import Gradient
 from vexture.tolerance import CLOSED
 from vexture.tree.bounds import DEFAULT_DEPTH, Bounds, bounds_of, check_growth
 from vexture.tree.build import CELL, SLICE, new_growth
@@ -46,7 +47,7 @@ from vexture.tree.growth import (
 from vexture.tree.leaf import DIVIDE
 from vexture.tree.planar.borders import Cell, key_of
 from vexture.tree.planar.faces import Faces, face_of, new_faces, roomier_faces
-from vexture.tree.planar.layers import Layers, layers_of
+from vexture.tree.planar.layers import Layers, Rows, layers_of, looks_of, rows_of
 from vexture.tree.planar.leaf import PlanarLeaf, Workspace, new_workspace, planar_leaf
 from vexture.tree.planar.map import PlanarMap, texels_of
 from vexture.tree.planar.means import add_programs, set_flat_mean
@@ -57,10 +58,10 @@ from vexture.tree.winding import child_windings, inside
 __all__ = [
     "DEFAULT_MAP_CAPACITY",
     "build_map",
-    "drawing_cubics",
     "grow_map",
     "plant_map",
     "planted",
+    "row_cubics",
     "with_room",
 ]
 
@@ -292,9 +293,9 @@ def plant_map(cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: 
     ), outside
 
 
-def drawing_cubics(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Cubics of a drawing, (n, 4, 2), and the number of the path of each, (n,)."""
-    return owned([path.contours for path in drawing.paths])
+def row_cubics(rows: Rows) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Cubics of some rows, (n, 4, 2), and the number of the row of each, (n,)."""
+    return owned([path.contours for path in rows.paths])
 
 
 def planted(tree: tuple[Any, ...], *others: Any) -> PlanarGrowth:
@@ -336,9 +337,10 @@ def build_map(
     (1, array([1., 0., 0., 1.]), array([0., 0., 0., 1.]))
     """
     bounds = bounds_of(tolerance, max_depth, capacity, precision, most_quads, DEFAULT_MAP_CAPACITY)
-    layers, faces = layers_of(drawing, restyle), new_faces()
+    rows = rows_of(drawing, restyle)
+    layers, faces = layers_of(rows, drawing.groups, looks_of(drawing) if restyle else None), new_faces()
     check_time(drawing.name)
-    root, outside = plant_map(*drawing_cubics(drawing), max_depth)
+    root, outside = plant_map(*row_cubics(rows), max_depth)
     if not outside <= CLOSED:  # NaN counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
     growth = planted(*root)
@@ -350,10 +352,12 @@ def build_map(
         grow_map(growth, layers, faces, bounds, SLICE if most_texels is None else SHORT_SLICE)
         if most_texels is not None and texels_of(*growth.tree.counts[[QUADS, CURVES]].tolist()) > most_texels:
             return None
-    return _map_of(drawing, growth, layers, faces)
+    return _map_of(drawing.name, rows.gradients, growth, layers, faces)
 
 
-def _map_of(drawing: Drawing, growth: PlanarGrowth, layers: Layers, faces: Faces) -> PlanarMap:
+def _map_of(
+    name: str, gradients: tuple[Gradient, ...], growth: PlanarGrowth, layers: Layers, faces: Faces
+) -> PlanarMap:
     """The map that has grown, numbered as a `Tree`, in its final types; paints are numbered as they were met."""
     tree, quads = growth.tree, growth.tree.counts[QUADS]
     order = np.concatenate([*levels(tree.cells[:quads, :, IS_QUAD] == 1.0, tree.first[:, 0])])
@@ -364,10 +368,10 @@ def _map_of(drawing: Drawing, growth: PlanarGrowth, layers: Layers, faces: Faces
     base = np.where(is_quad | is_mean, 0, cells[:, :, BASE]).astype(np.int64)
     used, number = np.unique(np.concatenate([[0], base.ravel(), growth.sides[curves].ravel()]), return_inverse=True)
     if len(used) > MOST_PAINTS:
-        raise LimitError(f"{drawing.name}: {len(used)} colours; the limit is {MOST_PAINTS}; use `split` paint")
+        raise LimitError(f"{name}: {len(used)} colours; the limit is {MOST_PAINTS}; use `split` paint")
     begins, ends = faces.starts[used].tolist(), faces.starts[used + 1].tolist()
     stacks = tuple(faces.paths[begin:end] for begin, end in zip(begins, ends, strict=True))
-    programs, flattened = programs_of(drawing, layers, stacks)
+    programs, flattened = programs_of(gradients, layers, stacks)
     numbers: NDArray[np.int32] = number[1:].astype(np.int32)
     return PlanarMap(
         is_quad,

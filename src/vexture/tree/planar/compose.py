@@ -15,7 +15,7 @@ from vexture.kernels import kernel
 from vexture.layout import MASKS, MOST_KEPT, MOST_PROGRAM, MOST_STOPS, PAINT_ONE
 from vexture.tree.planar.blend import blend_over, masking
 from vexture.tree.planar.layers import Layers
-from vexture.tree.planar.shades import COUNT, FOCUS, shade_at
+from vexture.tree.planar.shades import COUNT, FOCUS, flat_shade, shade_at
 
 __all__ = [
     "KEEP",
@@ -167,6 +167,15 @@ def _leave(
     return count + 1
 
 
+@kernel(allocates=False)
+def _band(layers: Layers, stack: NDArray[np.int32], k: int) -> int:
+    """Number of the band of a gradient, of a path in a stack: so many of the regions after it are there, too."""
+    after = k + 1
+    while after < len(stack) and layers.cut[stack[after]] == stack[k]:
+        after += 1
+    return after - k - 1
+
+
 @kernel
 def compose(layers: Layers, stack: NDArray[np.int32], is_flat: bool, ops: Operations) -> int:
     """Write the operations of a stack of paths; return how many, or -1 if no paint can hold them.
@@ -177,9 +186,11 @@ def compose(layers: Layers, stack: NDArray[np.int32], is_flat: bool, ops: Operat
     for g in range(len(layers.depth)):
         deepest = max(deepest, layers.depth[g] + 2)
     around, starts, shown = np.empty(deepest, np.int64), np.empty((deepest, 2), np.int64), np.ones((deepest, 2))
-    level, count = 0, 0  # open groups, and operations
+    level, count, colour = 0, 0, np.empty(4)  # open groups, and operations
     starts[0, 0], starts[0, 1] = -1, 0
     for k in range(len(stack) + 1):
+        if k < len(stack) and layers.cut[stack[k]] >= 0:
+            continue
         group = layers.group[stack[k]] if k < len(stack) else -1
         while level > 0 and not _is_in(layers, group, around[level]):
             count = _leave(layers, ops, count, around, starts, shown, level)
@@ -200,7 +211,11 @@ def compose(layers: Layers, stack: NDArray[np.int32], is_flat: bool, ops: Operat
             count = _solid(ops, count, starts[level, 1], layers.rgba[path], 1.0)
             continue
         count = starts[level, 1] if layers.opaque[path] else count
-        ops.code[count], ops.number[count] = SHADE, layers.shade[path]
+        number = layers.bands[layers.shade[path] + _band(layers, stack, k)]
+        if flat_shade(layers.shades, number, colour):
+            count = _solid(ops, count, starts[level, 1], colour, 1.0)
+            continue
+        ops.code[count], ops.number[count] = SHADE, number
         count += 1
     return count if is_flat or _fits(layers, ops, count) else -1
 

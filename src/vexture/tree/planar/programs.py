@@ -6,13 +6,12 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Drawing
 from vexture.group import Blend, Mask
 from vexture.layout import MASKS, PAINT_ONE
 from vexture.paint import Gradient
 from vexture.tree.planar.compose import KEEP, SHADE, SOLID, Operations
 from vexture.tree.planar.faces import operations_of
-from vexture.tree.planar.layers import Layers, gradients_of
+from vexture.tree.planar.layers import Layers
 
 __all__ = ["Keep", "Mix", "Operation", "Program", "Solid", "how_of", "number_of", "programs_of"]
 
@@ -41,10 +40,11 @@ Program: TypeAlias = tuple[Operation, ...]
 
 
 def programs_of(
-    drawing: Drawing, layers: Layers, stacks: Sequence[NDArray[np.int32]]
+    gradients: Sequence[Gradient], layers: Layers, stacks: Sequence[NDArray[np.int32]]
 ) -> tuple[dict[int, Program], int]:
     """The programs of the stacks that need one, by their places; and of how many no paint can hold the gradients."""
-    gradients, programs, flattened = gradients_of(drawing), {}, 0
+    programs: dict[int, Program] = {}
+    flattened = 0
     for place, stack in enumerate(stacks if gradients else ()):
         if (layers.shade[stack] >= 0).any():
             count, ops, is_flat = operations_of(layers, stack)

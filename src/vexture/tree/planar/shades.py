@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from vexture.kernels import kernel
 from vexture.paint import Gradient, Spread
 
-__all__ = ["COUNT", "FOCUS", "Shades", "shade_at", "shades_of"]
+__all__ = ["COUNT", "FOCUS", "Shades", "flat_shade", "shade_at", "shades_of"]
 
 REFLECT, REPEAT = int(Spread.REFLECT), int(Spread.REPEAT)
 
@@ -62,12 +62,25 @@ def _ramp_place(focus: float, radius: float, x: float, y: float) -> float:
 
 @kernel(allocates=False)
 def _spread(spread: int, t: float) -> float:
-    """The place on the ramp itself, 0..1."""
+    """The place on the ramp itself; a padded one goes on in the colours of its first stop and its last."""
     if spread == REPEAT:
         return t - np.floor(t)
     if spread == REFLECT:
         return 1.0 - abs(1.0 - t % 2.0)
-    return min(max(t, 0.0), 1.0)
+    return t
+
+
+@kernel(allocates=False)
+def flat_shade(shades: Shades, number: int, out: NDArray[np.float64]) -> bool:
+    """Write the premultiplied colour (4,) of a gradient that has one stop, and return True, if it is one everywhere."""
+    row = shades.rows[number]
+    if row[COUNT] != 1.0 or row[FOCUS] + row[FOCUS + 1] >= 1.0:
+        return False
+    stop = shades.stops[int(row[FIRST])]
+    for c in range(3):
+        out[c] = stop[c] * stop[3]
+    out[3] = stop[3]
+    return True
 
 
 @kernel(allocates=False)

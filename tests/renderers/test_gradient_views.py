@@ -1,0 +1,60 @@
+"""Gradients at the edges of shapes, in views that are small, turned, and stretched 6:1, against the exact renderer."""
+
+import numpy as np
+import pytest
+
+import vexture
+from vexture.renderers.exact import render_exact_colours
+
+MOST = 2 / 255
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><defs>{}</defs>{}</svg>'
+STAR = "M92 31 L12 58 L81 88 L35 6 L47 95 Z"
+HARD = (
+    '<stop offset="0" stop-color="#fff"/><stop offset=".5" stop-color="#e8981a"/>'
+    '<stop offset=".5" stop-color="#2a120b" stop-opacity=".5"/><stop offset="1" stop-color="red"/>'
+)
+LINEAR = f'<linearGradient id="g" x1=".73" y1=".46" x2=".5" y2=".63">{HARD}</linearGradient>'
+REPEAT = (
+    '<radialGradient id="g" gradientUnits="userSpaceOnUse" cx="50" cy="40" r="15" fx="47" spreadMethod="repeat">'
+    f"{HARD}</radialGradient>"
+)
+CONE = f'<radialGradient id="g" cx=".4" cy=".5" r=".2" fx=".9" fy=".4" fr=".05">{HARD}</radialGradient>'
+FADE = (
+    '<radialGradient id="g" cx=".5" cy=".4" r=".6"><stop offset=".1" stop-color="#805b74" stop-opacity="0"/>'
+    '<stop offset=".5" stop-color="#fff"/></radialGradient>'
+)
+FILLED = f'<path d="{STAR}" fill="url(#g)"/>'
+UNDER = '<path d="M20 10 H90 V70 H20 Z" fill="{}"/>'
+DRAWINGS = {
+    "linear, hard stop": SVG.format(LINEAR, FILLED),
+    "radial, repeated": SVG.format(REPEAT, FILLED),
+    "radial, cone": SVG.format(CONE, FILLED),
+    "stroke": SVG.format(REPEAT, f'<path d="{STAR}" fill="none" stroke="url(#g)" stroke-width="7"/>'),
+    "dodge": SVG.format(LINEAR, FILLED + f'<g style="mix-blend-mode:color-dodge">{UNDER.format("#fff")}</g>'),
+    "hue of grey": SVG.format(
+        "", UNDER.format("#0f7d3a") + f'<g style="mix-blend-mode:hue" opacity=".7"><path d="{STAR}" fill="#999"/></g>'
+    ),
+    "hue, faded": SVG.format(FADE, UNDER.format("#0f7d3a") + f'<g style="mix-blend-mode:hue">{FILLED}</g>'),
+}
+VIEWS = {"whole": (0, 1), "turned": (17, 1), "6:1": (0, 6), "6:1 turned": (30, 6)}
+
+
+def view_of(size: int, degrees: float, stretch: float):
+    """The (3, 3) matrix from pixels to the unit square about its middle."""
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    matrix = np.eye(3)
+    matrix[:2, :2] = [[c, -s], [s, c]] @ np.diag([stretch / size, -1 / size])
+    matrix[:2, 2] = 0.5 - matrix[:2, :2] @ [size / 2, size / 2]
+    return matrix
+
+
+@pytest.mark.parametrize("name", DRAWINGS)
+def test_gradients_are_exact_at_edges_in_every_view(name: str) -> None:
+    drawing = vexture.read_svg(DRAWINGS[name].encode())
+    texture = vexture.convert(drawing)
+    for size in (37, 61):
+        for view, (degrees, stretch) in VIEWS.items():
+            matrix = view_of(size, degrees, stretch)
+            found = texture.render(size=(size, size), view=matrix, renderer="cpu")
+            gap = np.abs(found - render_exact_colours(drawing, (size, size), matrix)).max()
+            assert gap < MOST, (view, size, 255 * gap)

@@ -1,0 +1,74 @@
+"""Bands of gradients: at each point of a box, the band that its regions say has the colour of the gradient."""
+
+import numpy as np
+import pytest
+
+from vexture.drawing import Drawing, Path
+from vexture.paint import Gradient, Paint, Spread, Stop
+from vexture.pipeline import run
+from vexture.tree.planar.bands import MOST_BANDS, bands_of
+from vexture.tree.planar.shades import shade_at, shades_of
+
+FOCI = (None, (0.0, 0.0), (0.5, 0.2), (0.3, 0.0), (1.0, 0.0), (1.5, 0.3), (0.7, 1.0), (1.8, 1.5), (0.3, 2.5))
+"""Lines; nested circles; those that touch; cones, of circles that grow, stay and shrink; nested ones that shrink."""
+
+T = np.linspace(0.0, 1.0, 33)[:-1, None]
+BERNSTEIN = np.hstack([(1 - T) ** 3, 3 * T * (1 - T) ** 2, 3 * T**2 * (1 - T), T**3])
+
+
+def are_inside(contour, points):
+    """Whether points lie in a closed contour, by the even-odd rule on its chords."""
+    if len(contour) == 0:
+        return np.zeros(len(points), bool)
+    begins = np.einsum("tk,nkd->ntd", BERNSTEIN, contour).reshape(-1, 2)
+    ends = np.roll(begins, -1, axis=0)
+    x, y = points[:, :1], points[:, 1:]
+    rises = ends[:, 1] - begins[:, 1]
+    at = begins[:, 0] + (y - begins[:, 1]) / np.where(rises == 0.0, 1.0, rises) * (ends[:, 0] - begins[:, 0])
+    crosses = ((begins[:, 1] <= y) != (ends[:, 1] <= y)) & (at > x)
+    return crosses.sum(axis=1) % 2 == 1
+
+
+def random_gradient(rng, focus):
+    count = rng.integers(2, 6)
+    offsets = np.sort(np.round(rng.random(count), rng.integers(1, 3)))
+    offsets[rng.integers(1, count)] = offsets[0]  # a hard stop
+    stops = [
+        Stop(float(offset), tuple(np.round(rng.random(3), 2).tolist()), float(rng.choice([0.0, 0.5, 1.0])))
+        for offset in np.sort(offsets)
+    ]
+    to_ramp = rng.normal(size=(2, 3)) * rng.choice([1.0, 3.0])
+    return Gradient(tuple(map(tuple, to_ramp.tolist())), tuple(stops), Spread(rng.integers(0, 3)), focus)
+
+
+@pytest.mark.parametrize("focus", FOCI)
+def test_bands_have_the_colours_of_their_gradient(focus) -> None:
+    rng, divided = np.random.default_rng(7), 0
+    for _ in range(30):
+        gradient, box = random_gradient(rng, focus), np.sort(rng.random((2, 2)), axis=0)
+        bands = bands_of(gradient, box, bool(rng.integers(0, 2)))
+        divided += len(bands.regions) > 0
+        points = box[0] + rng.random((20, 2)) * (box[1] - box[0])
+        numbers = sum((are_inside(region, points) for region in bands.regions), np.zeros(20, int))
+        shades, found, wanted = shades_of([gradient, *bands.gradients]), np.zeros(4), np.zeros(4)
+        for point, number in zip(points.tolist(), numbers.tolist(), strict=True):
+            shade_at(shades, 0, *point, wanted)
+            shade_at(shades, 1 + number, *point, found)
+            np.testing.assert_allclose(found, wanted, atol=1e-3, err_msg=f"{gradient} at {point}")
+    assert divided >= 5 or focus == FOCI[-1]  # circles that shrink are left whole
+
+
+def test_stripes_need_no_program() -> None:
+    colours = ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    stops = tuple(Stop(offset, colours[k]) for offset, k in ((0.0, 0), (0.5, 0), (0.5, 1), (1.0, 1)))
+    stripes = Gradient(((4.0, 2.0, 0.1), (-2.0, 4.0, 0.0)), stops, Spread.REPEAT)
+    square = Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)]).paths[0].contours
+    (planar,) = run(Drawing((Path(square, paint=Paint.of(stripes)),))).trees
+    assert planar.programs == {}
+    assert len(planar.paints) == 3
+
+
+def test_a_ramp_of_very_many_periods_stays_whole() -> None:
+    stops = Stop(0.0, (0.0, 0.0, 0.0)), Stop(1.0, (1.0, 1.0, 1.0))
+    fine = Gradient(((2.0 * MOST_BANDS, 0.0, 0.0), (0.0, 1.0, 0.0)), stops, Spread.REPEAT)
+    assert bands_of(fine, np.array([[0.0, 0.0], [1.0, 1.0]])).regions == ()
