@@ -1,5 +1,6 @@
 """Strangers' data in processes of their own: what a library does can be ended, and its crash is a line."""
 
+import copyreg
 import faulthandler
 import math
 import os
@@ -13,13 +14,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import vexture.apart as apart_module
+from typed import typed
 from vexture.apart import apart, each_apart
 from vexture.deadline import check_time, within
 from vexture.errors import LimitError, ParameterError, SourceError
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
-
-COMMAND = [sys.executable, "-c", "from vexture.cli.main import main; main()"]
 
 ENDLESS = (
     "CREATE VIEW v AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT c.x AS fid, geom FROM c, t"
@@ -42,15 +43,18 @@ def endless_view(path: Path) -> Path:
     return path
 
 
-def run(*arguments: object) -> "subprocess.CompletedProcess[str]":
-    return subprocess.run([*COMMAND, *map(str, arguments)], capture_output=True, text=True, check=False)
+@pytest.fixture
+def short_grace(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What GDAL does meanwhile keeps a processor."""
+    monkeypatch.setattr(apart_module, "GRACE", 0.1)
 
 
+@pytest.mark.usefixtures("short_grace")
 def test_a_view_without_end_meets_the_limit_and_others_are_read(tmp_path: Path) -> None:
     """It kept GDAL, and so the command, for ever: neither the limit nor Ctrl-C ended it."""
     endless, other = endless_view(tmp_path / "endless.gpkg"), tmp_path / "other.svg"
     other.write_text("<svg")
-    ended = run("convert", endless, other, "-o", tmp_path / "out", "--max-seconds", "1", "-q")
+    ended = typed("convert", endless, other, "-o", tmp_path / "out", "--max-seconds", "1", "-q")
     first, second, last = ended.stderr.splitlines()
     assert first == f"vexture: {endless}: converting takes longer than 1 s; simplify the drawing or raise --max-seconds"
     assert second.startswith(f"vexture: {other}: not well-formed XML"), "which is read all the same"
@@ -58,11 +62,12 @@ def test_a_view_without_end_meets_the_limit_and_others_are_read(tmp_path: Path) 
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.usefixtures("short_grace")
 def test_a_map_of_a_view_without_end_meets_the_limit(tmp_path: Path) -> None:
     endless = endless_view(tmp_path / "endless.gpkg")
     before = sorted(tmp_path.iterdir())
-    ended = run("map", endless, "-o", tmp_path / "map.ktx2", "--max-seconds", "1")
-    line = f"vexture: {endless}: converting takes longer than 1 s; simplify the drawing or raise --max-seconds\n"
+    ended = typed("map", endless, "-o", tmp_path / "map.ktx2", "--max-seconds", "0.3")
+    line = f"vexture: {endless}: converting takes longer than 0.3 s; simplify the drawing or raise --max-seconds\n"
     assert (ended.returncode, ended.stdout, ended.stderr) == (1, "", line)
     assert sorted(tmp_path.iterdir()) == before
 
@@ -119,6 +124,28 @@ def test_a_fault_of_ours_is_raised_with_its_place() -> None:
     with pytest.raises(ZeroDivisionError) as caught:
         apart(unexpected)
     assert "in unexpected" in "".join(caught.value.__notes__)
+
+
+class CannotBeCopiedError(Exception):
+    """As errors of GDAL in rasterio are."""
+
+    args = property(lambda self: ("no",))  # type: ignore[assignment]
+
+
+def refuse() -> None:
+    try:
+        raise CannotBeCopiedError
+    except CannotBeCopiedError as error:
+        raise SourceError("a.tif: no raster") from error
+
+
+def test_a_cause_that_cannot_be_copied_hides_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Dask, which xarray imports, has causes copied with their errors: a traceback came of it."""
+    copying = pytest.importorskip("tblib.pickling_support", reason="tblib, which copies causes, is missing")
+    for kind in (SourceError, CannotBeCopiedError):
+        monkeypatch.setitem(copyreg.dispatch_table, kind, copying.pickle_exception)
+    with pytest.raises(SourceError, match=r"^a\.tif: no raster\n"):
+        apart(refuse)
 
 
 @pytest.mark.parametrize("seconds", [0.0, -1.0, math.nan])

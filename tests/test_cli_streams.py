@@ -17,6 +17,7 @@ from vexture.cli.main import main
 from vexture.kernels import kernel_cache
 from vexture.reading import read_drawing
 from vexture.texture.load import texture_from
+from warm import command
 
 LOGO = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 10"><rect width="10" height="10" fill="#f00"/>
 <rect x="10" width="10" height="5" fill="#00f" fill-opacity=".5"/>{}</svg>"""
@@ -242,16 +243,17 @@ def test_options_for_research_have_a_section_of_their_own():
         assert option not in usual
 
 
-COMMAND = [sys.executable, "-c", "from vexture.cli.start import main; main()"]
+STARTED = [sys.executable, "-c", "from vexture.cli.start import main; main()"]
+"""The program from its start on, which is where it looks for streams that are closed."""
 
 
-def shell(line, *arguments):
+def shell(line, *arguments, program=None):
     """Run a line of a shell, in which "$@" is the program with arguments."""
-    words = ["bash", "-c", line, "bash", *COMMAND, *map(str, arguments)]
+    words = ["bash", "-c", line, "bash", *(program or command()), *map(str, arguments)]
     return subprocess.run(words, capture_output=True, timeout=300)
 
 
-@pytest.mark.parametrize("place", ["/dev/stdin", "<(cat logo.svg)", "pipe.svg"])
+@pytest.mark.parametrize("place", ["/dev/stdin", "<(cat logo.svg)", pytest.param("pipe.svg", marks=pytest.mark.slow)])
 def test_a_pipe_of_a_name_is_read(logo, tmp_path, place):
     """Its start was taken to see what it holds, and the rest was no drawing."""
     line = f'cd {tmp_path}; "$@" {place} -o - -q < logo.svg'
@@ -268,9 +270,9 @@ def test_a_pipe_of_a_name_is_read(logo, tmp_path, place):
 def test_commands_read_pipes_of_names(logo, tmp_path):
     texture = vexture.convert(read_drawing(logo)).save(tmp_path / "logo.ktx2")
     assert b"texels" in shell(f'"$@" <(cat {texture})', "info").stdout
-    for command, content in (("render", logo), ("render", texture), ("fold", logo), ("export", logo)):
-        output = tmp_path / {"render": "logo.png", "fold": "logo.fold.ktx2", "export": "logo.html"}[command]
-        result = shell(f'"$@" <(cat {content}) -o {output}', command)
+    for name, content in (("render", logo), ("render", texture), ("fold", logo), ("export", logo)):
+        output = tmp_path / {"render": "logo.png", "fold": "logo.fold.ktx2", "export": "logo.html"}[name]
+        result = shell(f'"$@" <(cat {content}) -o {output}', name)
         assert (result.returncode, output.exists()) == (0, True), result.stderr
         output.unlink()
 
@@ -282,22 +284,26 @@ def test_what_is_read_several_times_is_no_pipe(tmp_path):
         assert b"is read several times, and a pipe only once; save it as a file\n" in result.stderr
 
 
-@pytest.mark.parametrize("command", ["convert", "render"])
-def test_standard_output_that_is_closed_is_one_line(logo, command):
-    result = shell('"$@" >&-', command, logo, "-o", "-")
+@pytest.mark.parametrize("name", ["convert", pytest.param("render", marks=pytest.mark.slow)])
+def test_standard_output_that_is_closed_is_one_line(logo, name):
+    result = shell('"$@" >&-', name, logo, "-o", "-", program=STARTED)
     assert (result.returncode, result.stderr) == (1, b"vexture: standard output is closed; name a file with -o\n")
 
 
 def test_standard_input_that_is_closed_is_one_line():
-    result = shell('"$@" <&-', "convert", "-", "-o", "-")
+    result = shell('"$@" <&-', "convert", "-", "-o", "-", program=STARTED)
     assert (result.returncode, result.stderr) == (1, b"vexture: standard input: it is closed; give a file\n")
 
+
+RARER = ["verbose", "usage", "atlas"]
 
 CONTROLS = "\x1b[2J\x9b2J\u202e\u2066\x07\x7f\udc9b"
 """What moves a cursor, in both sets; turns the direction of writing; rings; is no character."""
 
 
-@pytest.mark.parametrize("kind", ["line", "verbose", "error", "warning", "info", "usage", "atlas"])
+@pytest.mark.parametrize(
+    "kind", ["line", "error", "warning", "info", *(pytest.param(kind, marks=pytest.mark.slow) for kind in RARER)]
+)
 def test_names_control_no_terminal(tmp_path, kind):
     """The name of a drawing, of a file, of an element, in whatever is printed."""
     name = f"a{CONTROLS}b"

@@ -23,6 +23,11 @@ __all__ = ["command"]
 MOST_WORDS = 1 << 20
 """Bytes of a command with its environment."""
 
+MOST_DESCRIPTORS = 8
+
+PIPE = "/dev/fd/"
+"""How shells name the pipe of `<(program)`."""
+
 LIBRARIES = ("pyogrio", "pyproj", "rasterio", "scipy.ndimage", "shapely", "xarray")
 """That commands import for maps and floods, each in a second."""
 
@@ -79,14 +84,14 @@ def serve(address: str) -> None:
 def answer(connection: socket.socket) -> None:
     """Run a command in a process of its own, and tell how it ended."""
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-    told, descriptors, _, _ = socket.recv_fds(connection, MOST_WORDS, 3)
+    told, descriptors, _, _ = socket.recv_fds(connection, MOST_WORDS, MOST_DESCRIPTORS)
     asked = json.loads(told)
     process = os.fork()
     if process == 0:
         from vexture.cli.main import main
 
         connection.close()
-        for place, descriptor in enumerate(descriptors):
+        for place, descriptor in zip(asked["descriptors"], descriptors, strict=True):
             os.dup2(descriptor, place)
             os.close(descriptor)
         os.chdir(asked["folder"])
@@ -99,10 +104,13 @@ def answer(connection: socket.socket) -> None:
 
 def ask(address: str, *words: str) -> None:
     """Run a command with the streams, the folder and the environment of this process, and end as it does."""
-    told = json.dumps({"words": words, "folder": os.getcwd(), "environment": dict(os.environ)})
+    descriptors = [0, 1, 2, *(int(word.removeprefix(PIPE)) for word in words if word.startswith(PIPE))]
+    told = json.dumps(
+        {"words": words, "folder": os.getcwd(), "environment": dict(os.environ), "descriptors": descriptors}
+    )
     with socket.socket(socket.AF_UNIX) as connection:
         connection.connect(address)
-        socket.send_fds(connection, [told.encode()], [0, 1, 2])
+        socket.send_fds(connection, [told.encode()], descriptors)
         status = int(connection.recv(16))
     sys.exit(status if status >= 0 else 128 - status)
 

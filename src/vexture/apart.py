@@ -181,6 +181,8 @@ def _serve(work: Callable[..., Any], pipe: Connection) -> None:
             result = work(*item)
         except Exception as error:  # which goes back, as if it had been raised there
             error.add_note(traceback.format_exc())
+            # some libraries have causes copied too, and those of GDAL cannot be
+            error.__cause__ = error.__context__ = error.__traceback__ = None
             result = _Raised(error)
         pipe.send(result)
 

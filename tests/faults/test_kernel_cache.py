@@ -1,6 +1,5 @@
 """Compiled kernels whose files are damaged: they are compiled again, and none ends a conversion."""
 
-import os
 import random
 import shutil
 import subprocess
@@ -10,24 +9,33 @@ from pathlib import Path
 
 import pytest
 
-PROGRAM = "from vexture.bezier.roots import cubic_at; print(cubic_at(0.0, 0.0, 1.0, 1.0, 0.5))"
+PROGRAM = """
+import os, sys
+import numba
+numba.njit(lambda x: x + 1.0)(1.0)  # once, for all
+for folder in sys.argv[1:]:
+    process = os.fork()
+    if process == 0:
+        os.environ["VEXTURE_CACHE"] = folder
+        from vexture.bezier.roots import cubic_at
+        print(cubic_at(0.0, 0.0, 1.0, 1.0, 0.5), flush=True)
+        os._exit(0)
+    if status := os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]):
+        print(status, flush=True)
+"""
+"""Call a kernel in a process for each cache."""
 
 
-def run(cache: Path) -> str:
-    """What a program prints that calls a kernel."""
-    return subprocess.run(
-        [sys.executable, "-c", PROGRAM],
-        env=os.environ | {"VEXTURE_CACHE": str(cache)},
-        capture_output=True,
-        text=True,
-        check=False,
-    ).stdout
+def run(*caches: Path) -> list[str]:
+    """What programs print that call a kernel, or how they ended."""
+    command = [sys.executable, "-c", PROGRAM, *map(str, caches)]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.splitlines()
 
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("cache")
-    assert run(folder) == "0.5\n"
+    assert run(folder) == ["0.5"]
     assert list(folder.rglob("*.code"))
     return folder
 
@@ -64,27 +72,26 @@ DAMAGE: dict[str, Callable[[Path], object]] = {
 }
 
 
-@pytest.mark.parametrize("damage", DAMAGE.values(), ids=DAMAGE)
-def test_a_damaged_file_is_compiled_again(whole: Path, tmp_path: Path, damage: Callable[[Path], object]) -> None:
+def test_damaged_files_are_compiled_again(whole: Path, tmp_path: Path) -> None:
     """Numba raised what its file led to: EOFError, UnpicklingError, IsADirectoryError; or the process ended."""
-    cache = tmp_path / "cache"
-    shutil.copytree(whole, cache)
-    files = sorted(cache.rglob("*.code"))
-    for path in files:
-        damage(path)
-    assert run(cache) == "0.5\n"
-    assert all(path.is_file() and path.stat().st_size > 1000 for path in files), "they are replaced"
+    caches = {name: tmp_path / name for name in DAMAGE}
+    for name, cache in caches.items():
+        shutil.copytree(whole, cache)
+        for path in sorted(cache.rglob("*.code")):
+            DAMAGE[name](path)
+    assert dict(zip(DAMAGE, run(*caches.values()), strict=True)) == dict.fromkeys(DAMAGE, "0.5")
+    for cache in caches.values():
+        for file in whole.rglob("*.code"):
+            path = cache / file.relative_to(whole)
+            assert path.is_file(), f"{path} is replaced"
+            assert path.stat().st_size > 1000
 
 
-@pytest.mark.parametrize("level", ["root", "kernels", "module"])
-def test_a_file_in_place_of_a_folder_ends_nothing(whole: Path, tmp_path: Path, level: str) -> None:
+def test_files_in_place_of_folders_end_nothing(whole: Path, tmp_path: Path) -> None:
     kernels = next(whole.iterdir())
-    place = {
-        "root": Path(),
-        "kernels": Path(kernels.name),
-        "module": next(kernels.iterdir()).relative_to(whole),
-    }[level]
-    cache = tmp_path / "cache"
-    (cache / place).parent.mkdir(parents=True, exist_ok=True)
-    (cache / place).write_bytes(b"no folder")
-    assert run(cache) == "0.5\n"
+    places = {"root": Path(), "kernels": Path(kernels.name), "module": next(kernels.iterdir()).relative_to(whole)}
+    for name, place in places.items():
+        path = tmp_path / name / place
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(b"no folder")
+    assert run(*(tmp_path / name for name in places)) == ["0.5"] * len(places)

@@ -164,6 +164,7 @@ def test_uploads_lead_nowhere(outside, folder):
         assert server.ask("GET", "/")[0] == 200
 
 
+@pytest.mark.slow
 def test_uploads_to_a_flood_lead_nowhere(outside, folder, page_is_built):
     given = sea(folder / "sea.geojson", 0.5, FRAME.crs, FRAME.bounds)
     with flooding(folder, "--extent", given) as server:

@@ -199,7 +199,7 @@ def children(process):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+@pytest.mark.parametrize("number", [signal.SIGTERM, pytest.param(signal.SIGINT, marks=pytest.mark.slow)])
 def test_it_ends_while_a_dropped_file_is_converted(tmp_path, number):
     """The file was converted in the server itself, without limits, which then waited for it: for minutes."""
     lines = "".join(f"M{997 * line // 1500} 0L{7919 * line % 997} 999" for line in range(1500))
@@ -217,6 +217,7 @@ def test_it_ends_while_a_dropped_file_is_converted(tmp_path, number):
         assert running.complaints.read_text() == ""
 
 
+@pytest.mark.slow
 def test_dropped_files_have_a_queue(tmp_path):
     """Each took a thread of the server's, and any number at once its memory."""
     lines = "".join(f"M{997 * line // 1500} 0L{7919 * line % 997} 999" for line in range(1500))
