@@ -56,7 +56,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "geo": SOURCES | {"workers"},
     "tracing": SOURCES | {"svg"},
     "reading": SOURCES | {"fonts", "geo", "svg", "tracing", "workers"},
-    "tree": BASE | {"bezier", "contours", "drawing", "group", "layout", "notes", "paint"},
+    "tree": BASE | {"bezier", "contours", "drawing", "group", "layout", "notes", "paint", "unit_square"},
     "wgsl": {"errors"},
     "renderers": BASE | {"drawing", "group", "layout", "paint", "wgsl"},
     "encodings": {"drawing", "errors", "renderers"},

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import vexture
+from vexture.reading import read_drawing
 from vexture.renderers.exact import render_exact_colours
 
 MOST = 2 / 255
@@ -50,7 +51,7 @@ def view_of(size: int, degrees: float, stretch: float):
 
 @pytest.mark.parametrize("name", DRAWINGS)
 def test_gradients_are_exact_at_edges_in_every_view(name: str) -> None:
-    drawing = vexture.read_svg(DRAWINGS[name].encode())
+    drawing = read_drawing(DRAWINGS[name].encode(), name="drawing.svg")
     texture = vexture.convert(drawing)
     for size in (37, 61):
         for view, (degrees, stretch) in VIEWS.items():

@@ -8,7 +8,7 @@ from hand import EMPTY, FULL, TREE, need_gpu, texture_of
 
 from vexture.errors import FormatError
 from vexture.fold import blend as folding
-from vexture.renderers import blend, cells, colour, cpu, feature, gradient, leaf, moment, paints, piece
+from vexture.renderers import blend, cells, colour, cpu, feature, flat, gradient, leaf, moment, paints, piece
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, included, vertex_source
 from vexture.thesis import cpu as thesis_cpu
@@ -30,6 +30,7 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
     **{name: thesis_cpu for name in FILES if name.startswith("thesis/")},
     "thesis/cubic.glsl": cubic,
     "tree.glsl": cells,
+    "flat.glsl": flat,
     "pixel.glsl": piece,
     "piece.glsl": piece,
     "view.glsl": piece,

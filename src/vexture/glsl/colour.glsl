@@ -59,7 +59,7 @@ VextureLook vexture_flat_look(uvec4 texel, VextureBox box) {
 }
 
 // Share of the box that a piece fills, with its moments where a program asks for them.
-VextureShare vexture_flat_share(uvec4 texel, VextureLook look, VextureBox box, bool has_moments) {
+VextureShare vexture_flat_filled_share(uvec4 texel, VextureLook look, VextureBox box, bool has_moments) {
 #if VEXTURE_GRADIENTS
     if (has_moments) {
         VextureShare share = vexture_flat_ends_share(texel, look.crosses, box);
@@ -100,7 +100,7 @@ void vexture_add_flat_leaf(
         int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
         crossing ^= lowest;
         uvec4 texel = vexture_leaf_piece(leaf, i);
-        VextureShare share = vexture_flat_share(texel, vexture_flat_look(texel, box), box, has_moments);
+        VextureShare share = vexture_flat_filled_share(texel, vexture_flat_look(texel, box), box, has_moments);
         vexture_add_piece(sum, planar, vexture_leaf_sides(leaf, planar, i), vexture_moved_share(share, sides, middle));
     }
 }
@@ -154,8 +154,8 @@ vec4 vextureFlatColor(uint root, uvec2 base, vec2 offset, VextureFlat view) {
     return vexture_held(sum.color / float(VEXTURE_PAINT_ONE));
 }
 
-// As vexture_flat_share, of any footprint, of which `whole` is the share in the cell.
-VextureShare vexture_share(
+// As vexture_flat_filled_share, of any footprint, of which `whole` is the share in the cell.
+VextureShare vexture_filled_share(
     uvec4 texel, VextureLook look, VextureBox box, VextureFrame frame, VextureShare whole, bool has_moments
 ) {
     VextureShare share = vexture_plus_share(vexture_area_share(0.0), whole, look.filled);
@@ -194,7 +194,7 @@ void vexture_add_leaf(
         crossing ^= lowest;
         uvec4 texel = vexture_leaf_piece(leaf, i);
         VextureLook look = vexture_first_look(texel, box);
-        VextureShare share = vexture_share(texel, look, box, frame, whole, has_moments);
+        VextureShare share = vexture_filled_share(texel, look, box, frame, whole, has_moments);
         vexture_add_piece(sum, planar, vexture_leaf_sides(leaf, planar, i), share);
     }
 }

@@ -27,17 +27,8 @@ from vexture.renderers.cells import (
     texel,
     top,
 )
-from vexture.renderers.cpu import (
-    Flat,
-    Look,
-    above_ends,
-    cut_place,
-    first_look,
-    flat,
-    flat_piece_area,
-    is_beside,
-    piece_area,
-)
+from vexture.renderers.cpu import Look, above_ends, cut_place, first_look, is_beside, piece_area
+from vexture.renderers.flat import Flat, flat, flat_piece_area
 from vexture.renderers.gradient import Region, Vec4, times
 from vexture.renderers.leaf import leaf, leaf_piece, leaf_sides
 from vexture.renderers.method import NEARLY_WHOLE, NO_CELL, POSITION_BITS
@@ -121,7 +112,7 @@ def flat_look(texel: Texel, box: Box) -> Look:
 
 
 @kernel(allocates=False)
-def flat_share(texel: Texel, look: Look, box: Box, has_moments: bool) -> Share:
+def flat_filled_share(texel: Texel, look: Look, box: Box, has_moments: bool) -> Share:
     if has_moments:
         share = flat_ends_share(texel, look.crosses, box)
         if look.crosses:
@@ -149,7 +140,7 @@ def add_flat_leaf(
         look = flat_look(found, box)
         if look.crosses or look.filled != 0.0:
             is_crossed = is_crossed or look.crosses or look.filled != math.floor(look.filled)
-            filled = moved_share(flat_share(found, look, box, has_moments), sides, middle)
+            filled = moved_share(flat_filled_share(found, look, box, has_moments), sides, middle)
             beside, pieces = leaf_sides(texels, pieces, planar, i)
             sum = add_piece(texels, is_linear, sum, planar, beside, filled)
     return set_whole(sum, not is_crossed)
@@ -210,7 +201,7 @@ def held_channel(value: float, most: float) -> float:
 
 
 @kernel(allocates=False)
-def share(texel: Texel, look: Look, box: Box, frame: Frame, whole: Share, has_moments: bool) -> Share:
+def filled_share(texel: Texel, look: Look, box: Box, frame: Frame, whole: Share, has_moments: bool) -> Share:
     found = plus_share(area_share(0.0), whole, look.filled)
     if look.crosses:
         one = piece(texel, box)
@@ -234,7 +225,7 @@ def add_leaf(
         look = first_look(found, box)
         if look.crosses or look.filled != 0.0:
             is_crossed = is_crossed or look.crosses or look.filled != math.floor(look.filled)
-            filled = share(found, look, box, frame, whole, has_moments)
+            filled = filled_share(found, look, box, frame, whole, has_moments)
             beside, pieces = leaf_sides(texels, pieces, planar, i)
             sum = add_piece(texels, is_linear, sum, planar, beside, filled)
     return set_whole(sum, not is_crossed)

@@ -96,13 +96,15 @@ def _within(gradient: Gradient, kind: Kind, box: Box, at_all_stops: bool) -> Ban
     low, high = (-np.inf, np.inf) if kind >= Kind.TOUCHING else _reach(gradient, box)
     if gradient.spread is not Spread.PAD and high - low > MOST_BANDS:
         return whole
-    knots = _going_on(gradient, low, high)
+    knots = _between(_going_on(gradient, low, high), low, high)
     parts = [k for k, knot in enumerate(knots) if at_all_stops or _differ(knot.before, knot.after)]
     parts = [k for k in parts if low < knots[k].place < high]
     if not 0 < len(parts) < MOST_BANDS:
         return whole
-    ends, last = [0, *parts, len(knots) - 1], len(parts)
-    bands = [_band(gradient, knots[a : b + 1], k > 0, k < last) for k, (a, b) in enumerate(pairwise(ends))]
+    bands = [
+        _band(gradient, knots[a : b + 1], a in parts or knots[a].place <= low, b in parts or knots[b].place >= high)
+        for a, b in pairwise([0, *parts, len(knots) - 1])
+    ]
     regions = [_region(gradient, kind, knots[k].place, box) for k in parts]
     if kind is not Kind.LINES:  # each lies in the next one
         bands, regions = bands[::-1], regions[::-1]
@@ -146,6 +148,13 @@ def _going_on(gradient: Gradient, low: float, high: float) -> list[Knot]:
         else:
             placed += [(period + stop.offset, stop) for stop in own]
     return _knots(placed)
+
+
+def _between(knots: list[Knot], low: float, high: float) -> list[Knot]:
+    """The knots in an interval, and the next one on each side."""
+    first = max((k for k, knot in enumerate(knots) if knot.place <= low), default=0)
+    last = min((k for k, knot in enumerate(knots) if knot.place >= high), default=len(knots) - 1)
+    return knots[first : last + 1]
 
 
 def _knots(placed: list[tuple[float, Stop]]) -> list[Knot]:
