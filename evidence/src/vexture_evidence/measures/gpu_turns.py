@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.kernels import Kernel
-from vexture.renderers import cells, cpu
+from vexture.renderers import cells, cpu, flat
 from vexture.texture.texture import Texture
 from vexture_evidence.measures.bands import COUNT_BITS, BandTexture, eligible_roots
 from vexture_evidence.measures.gpu_model import LANES, ONCE, Shape
@@ -174,7 +174,7 @@ def packed_lane(turns: Turns, texture: Texture, to_unit: NDArray[np.float64], is
     """
     notes = packed_notes(turns, is_flat)
     made: dict[str, Callable[..., Any]] = {}
-    noted(cpu.flat_coverage if is_flat else cpu.coverage, notes, made)
+    noted(flat.flat_coverage if is_flat else cpu.coverage, notes, made)
     if missing := notes.keys() - made.keys():
         raise LookupError(f"the mirror does not call {', '.join(sorted(missing))}; count turns by what it calls")
     coverage = noted(cpu.view_coverage, notes, made)

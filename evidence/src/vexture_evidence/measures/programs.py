@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
-from vexture.renderers.cpu import flat
 from vexture.renderers.device import context
 from vexture.renderers.exact import render_exact
+from vexture.renderers.flat import flat
 from vexture.renderers.shader import shader_source, vertex_source
 from vexture.renderers.view import view_base
 from vexture.texture.encode import encode
