@@ -185,6 +185,6 @@ def test_turns_of_the_bands():
 
 
 def test_a_mirror_that_calls_other_functions_is_named(monkeypatch):
-    monkeypatch.setattr("vexture_evidence.measures.gpu_turns.cpu.ends", lambda piece: None)
+    monkeypatch.setattr("vexture_evidence.measures.gpu_turns.flat.ends", lambda piece: None)
     with pytest.raises(LookupError, match="the mirror does not call better_t"):
         packed_lane(Turns(gpu_cost.SHAPES["flat"]), programs.packed_texture(square(0.6)), np.eye(3), is_flat=True)

@@ -30,7 +30,6 @@ DRAWINGS = {
     "linear, hard stop": SVG.format(LINEAR, FILLED),
     "radial, repeated": SVG.format(REPEAT, FILLED),
     "radial, cone": SVG.format(CONE, FILLED),
-    "stroke": SVG.format(REPEAT, f'<path d="{STAR}" fill="none" stroke="url(#g)" stroke-width="7"/>'),
     "dodge": SVG.format(LINEAR, FILLED + f'<g style="mix-blend-mode:color-dodge">{UNDER.format("#fff")}</g>'),
     "hue of grey": SVG.format(
         "", UNDER.format("#0f7d3a") + f'<g style="mix-blend-mode:hue" opacity=".7"><path d="{STAR}" fill="#999"/></g>'

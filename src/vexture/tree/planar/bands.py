@@ -102,8 +102,8 @@ def _within(gradient: Gradient, kind: Kind, box: Box, at_all_stops: bool) -> Ban
     if not 0 < len(parts) < MOST_BANDS:
         return whole
     bands = [
-        _band(gradient, knots[a : b + 1], a in parts or knots[a].place <= low, b in parts or knots[b].place >= high)
-        for a, b in pairwise([0, *parts, len(knots) - 1])
+        _band(gradient, knots[a : b + 1], k > 0 or knots[a].place <= low, k < len(parts) or knots[b].place >= high)
+        for k, (a, b) in enumerate(pairwise([0, *parts, len(knots) - 1]))
     ]
     regions = [_region(gradient, kind, knots[k].place, box) for k in parts]
     if kind is not Kind.LINES:  # each lies in the next one
