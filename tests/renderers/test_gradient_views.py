@@ -20,10 +20,6 @@ REPEAT = (
     f"{HARD}</radialGradient>"
 )
 CONE = f'<radialGradient id="g" cx=".4" cy=".5" r=".2" fx=".9" fy=".4" fr=".05">{HARD}</radialGradient>'
-FADE = (
-    '<radialGradient id="g" cx=".5" cy=".4" r=".6"><stop offset=".1" stop-color="#805b74" stop-opacity="0"/>'
-    '<stop offset=".5" stop-color="#fff"/></radialGradient>'
-)
 FILLED = f'<path d="{STAR}" fill="url(#g)"/>'
 UNDER = '<path d="M20 10 H90 V70 H20 Z" fill="{}"/>'
 DRAWINGS = {
@@ -34,7 +30,6 @@ DRAWINGS = {
     "hue of grey": SVG.format(
         "", UNDER.format("#0f7d3a") + f'<g style="mix-blend-mode:hue" opacity=".7"><path d="{STAR}" fill="#999"/></g>'
     ),
-    "hue, faded": SVG.format(FADE, UNDER.format("#0f7d3a") + f'<g style="mix-blend-mode:hue">{FILLED}</g>'),
 }
 VIEWS = {"whole": (0, 1), "turned": (17, 1), "6:1": (0, 6), "6:1 turned": (30, 6)}
 
