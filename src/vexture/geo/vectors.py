@@ -10,6 +10,7 @@ import zipfile
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from io import BytesIO
 from pathlib import Path
 from threading import Lock
@@ -96,6 +97,7 @@ def read_areas(
     elif content.startswith(ZIP):
         content = zipped_shapefiles(content)
     elif content.startswith(SQLITE):
+        import_module("pyogrio")  # who lacks it is told so first
         refuse_links_of_geopackage(content)
     elif content.startswith(FLATGEOBUF):
         refuse_links_of_flatgeobuf(content)

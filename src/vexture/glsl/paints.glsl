@@ -133,7 +133,10 @@ void vexture_add_program(inout VextureSum sum, uint paint, VextureShare share) {
 void vexture_add_paint(inout VextureSum sum, VexturePlanar planar, uint paint, VextureShare share) {
 #if VEXTURE_GRADIENTS
     if (paint > sum.done) {
-        uvec2 words = vexture_paint_words(planar, paint);
+        uvec2 words = uvec2(1u, 0u);  // as those of the programs that are summed already
+        if (!any(equal(sum.paints, uvec4(paint)))) {
+            words = vexture_paint_words(planar, paint);
+        }
         if (vexture_is_program(words)) {
             vexture_add_program(sum, paint, share);
         } else if (sum.done == 0u) {

@@ -197,7 +197,10 @@ def add_paint(texels: Texels, is_linear: int, sum: Sum, planar: Planar, paint: i
     """Return the new `sum`, which GLSL changes in place, as with ``VEXTURE_GRADIENTS``."""
     if paint <= sum.done:
         return sum
-    words = paint_words(texels, planar, paint)
+    a, b, c, d = sum.paints
+    words = (1, 0)
+    if a != paint and b != paint and c != paint and d != paint:
+        words = paint_words(texels, planar, paint)
     if is_program(words):
         return add_program(sum, paint, share)
     return sum if sum.done > 0 else with_color(sum, averaged(is_linear, halves(words)), share.area)

@@ -1,5 +1,6 @@
 """From the programs of a planar map to texels, and back (FORMAT.md, D.6)."""
 
+from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -19,6 +20,9 @@ ENDS: Final = [*map(number_of, Blend), *(number_of(mask) for mask in Mask if mas
 
 FOLLOWING: Final = np.array([0, 0, 0, 1, 2, 0, 0, 0])
 """Texels of the kind `FOLLOWS` after the first of an operation, by its kind."""
+
+STOP_BYTES: Final = 16
+"""Of the texel of a stop."""
 
 SPREAD_SHIFT: Final = layout.STOP_BITS + layout.STOP_COUNT_BITS
 
@@ -43,25 +47,25 @@ def halves(words: NDArray[np.uint32]) -> NDArray[np.uint32]:
 def program_texels(programs: dict[int, Program], name: str = "a map") -> ProgramTexels:
     """The texels of programs; gradients of the same stops share these."""
     rows: list[list[int]] = []
-    runs: dict[tuple[Stop, ...], int] = {}
-    of_row: dict[int, tuple[Stop, ...]] = {}
+    runs: dict[bytes, int] = {}
+    of_row: dict[int, bytes] = {}
     starts = {}
     for paint, program in programs.items():
         start = len(rows)
         for operation in program:
             if isinstance(operation, Gradient):
-                of_row[len(rows)] = operation.stops
+                of_row[len(rows)] = _stop_texels(operation.stops).tobytes()
             rows += _rows(operation)
         starts[paint] = start, len(rows) - start
-    stops = [stop for run in dict.fromkeys(of_row.values()) for stop in run]
     after = len(rows)
     for run in dict.fromkeys(of_row.values()):
-        runs[run], after = after, after + len(run)
+        runs[run], after = after, after + len(run) // STOP_BYTES
     if after >> layout.STOP_BITS:
         raise LimitError(f"{name}: {after} texels of gradients; the limit is {(1 << layout.STOP_BITS) - 1}; divide it")
     for row, run in of_row.items():
         rows[row][3] |= runs[run] - row
-    return ProgramTexels(np.array(rows, np.uint32).reshape(-1, 4), _stop_texels(stops), starts)
+    stops = np.frombuffer(b"".join(runs), np.uint32).reshape(-1, 4)
+    return ProgramTexels(np.array(rows, np.uint32).reshape(-1, 4), stops, starts)
 
 
 def _rows(operation: Operation) -> list[list[int]]:
@@ -83,7 +87,7 @@ def _rows(operation: Operation) -> list[list[int]]:
     return rows[: 1 + FOLLOWING[kind]]
 
 
-def _stop_texels(stops: list[Stop]) -> NDArray[np.uint32]:
+def _stop_texels(stops: Sequence[Stop]) -> NDArray[np.uint32]:
     texels = np.zeros((len(stops), 4), np.uint32)
     texels[:, 0] = np.array([stop.offset for stop in stops], np.float32).view(np.uint32)
     colours = np.array([(*stop.color, stop.opacity) for stop in stops]).reshape(-1, 4)

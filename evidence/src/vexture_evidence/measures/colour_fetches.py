@@ -127,7 +127,7 @@ def _opacity(
     notes = {"texel": adding(1), "flat_look": second.look, "first_look": second.look, "leaf_piece": second.piece}
     notes |= {"add_flat_cell": second.end, "add_cell": second.end}
     if is_plain:  # flat colours are read where they are named, and not when all are summed
-        notes |= {"paint": adding(-1), "add_paint": adding(1)}
+        notes |= {"paint_words": adding(-1), "add_paint": adding(1)}
     color = noted(colour.view_color, notes, {})
     coverage = noted(cpu.view_coverage, {"texel": adding(1), "piece": adding(1)}, {})
 
