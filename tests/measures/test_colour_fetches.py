@@ -37,12 +37,12 @@ def test_a_piece_that_is_not_clear_costs_itself_its_sides_and_both_paints():
     assert fetches(bands, "faces", 2) == (crossed + clear) / 2
 
 
-def test_paints_of_which_nothing_is_left_are_not_read_where_they_could_be_programs():
+def test_a_program_is_looked_up_once_and_a_flat_colour_where_it_is_named():
     shades = Drawing((box(0.0, 1.0, RED), *(box(0.02 * k, 0.02 * k + 0.01, FADE) for k in range(1, 6))))
     flat = Drawing(tuple(Path(path.contours, paint=BLUE if path.paint is FADE else RED) for path in shades.paths))
     beside = window(0.25, 0.0, 0.25, 0.25)  # all ten pieces lie to the left of it: five texels, with sides in two
     assert fetches(flat, "faces", 1, beside) == 3.0 + 2.0 * 5 + 2.0 + 1.0 + 2.0 * 10
-    assert fetches(shades, "faces", 1, beside) == 3.0 + 2.0 * 5 + 2.0 + 1.0
+    assert fetches(shades, "faces", 1, beside) == 3.0 + 2.0 * 5 + 2.0 + 1.0 + 10 + 1.0
 
 
 def test_layers_are_read_down_to_the_one_that_covers():
