@@ -147,3 +147,16 @@ def test_rings_of_two_corners_and_infinite_ids():
     assert [str(note) for note in notes.listed] == ["polygon with a ring of fewer than three corners"]
     frame = squares().assign(code=[1.0, np.inf, 2.5, 1e20])
     assert read_features(frame, id="code", notes=Notes()).ids.tolist() == ["1", "inf", "2.5", "100000000000000000000"]
+
+
+@pytest.mark.parametrize("name", ["id", "OGC_FID", "wkb_geometry"])
+@pytest.mark.parametrize("values", [(5, 6), ("a", "b")])
+def test_attributes_are_named_as_the_columns_of_gdal(name, values):
+    """Whole numbers that are called `id` were a traceback."""
+    places = [shapely.geometry.mapping(shapely.box(place, 0, place + 1, 1)) for place in range(2)]
+    listed = [
+        {"type": "Feature", "properties": {name: value}, "geometry": place}
+        for value, place in zip(values, places, strict=True)
+    ]
+    found = read_features(json.dumps({"type": "FeatureCollection", "features": listed}).encode(), notes=Notes())
+    assert found.table[name].to_pylist() == ([*map(str, values)] if name == "id" else [*values])

@@ -1,10 +1,12 @@
 """Glyphs in colour: their pixels are those that OpenType's formulas and other renderers of the same shapes give."""
 
 import io
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from fontTools.ttLib import TTFont, newTable
+from fontTools.ttLib.tables.otTables import PaintFormat
 from fontTools.ttLib.tables.S_V_G_ import SVGDocument
 from made import (
     BLUE,
@@ -26,9 +28,11 @@ from made import (
     transformed,
 )
 
+import vexture
 from vexture.drawing import Drawing, Path
-from vexture.errors import SourceError
+from vexture.errors import LimitError, SourceError
 from vexture.fonts import layers as module
+from vexture.fonts import text as texts
 from vexture.fonts.face import faces_in
 from vexture.fonts.layers import PORTER_DUFF, Layers
 from vexture.renderers.exact import render_exact_colours
@@ -237,8 +241,41 @@ def test_groups_that_combine_each_other_many_times_are_refused(monkeypatch):
     paint = filled("square", solid(RED, 0.5))
     for _ in range(6):
         paint = composite("XOR", paint, filled("disc", solid(CLEAR_RED)))
-    with pytest.raises(SourceError, match="a glyph paints more than 20 paths; use another font"):
+    with pytest.raises(SourceError, match="a glyph paints more than 20 paths and groups; use another font"):
         layers_of(paint)
+
+
+def test_a_chain_of_groups_without_a_path_is_refused():
+    """Only paths were counted: 50 groups that mask each other, with nothing to paint, took all time and memory."""
+    paint = solid(GREEN)
+    for _ in range(50):
+        paint = composite("XOR", paint, solid(RED))
+    with pytest.raises(SourceError, match="a glyph paints more than 10,000 paths and groups; use another font"):
+        layers_of(paint)
+
+
+def glyph_of(name):
+    return {"Format": PaintFormat.PaintColrGlyph, "Glyph": f"u{ord(name):04X}"}
+
+
+def test_glyphs_that_paint_each_other_end():
+    """In a circle, and twice each to a depth of 16: HarfBuzz paints what its limits allow."""
+    last = filled("square", solid(RED))
+    circle = {"A": stacked(glyph_of("B"), last), "B": stacked(glyph_of("A"), last)}
+    names = "ABCDEFGHIJKLMNOPQ"
+    twice = {a: stacked(glyph_of(b), glyph_of(b)) for a, b in pairwise(names)} | {"Q": last}
+    for paints in (circle, twice):
+        face = faces_in(made_font(dict.fromkeys(paints, "square"), paints))[0]
+        assert 1 <= len(face.layers(face._font.get_nominal_glyph(ord("A"))).paths) <= 10_000
+
+
+def test_a_text_of_glyphs_of_many_paths_is_refused(monkeypatch, tmp_path):
+    """100,000 characters of 10,000 paths each were a billion."""
+    monkeypatch.setattr(texts, "MOST_PARTS", 1000)
+    (tmp_path / "a.ttf").write_bytes(made_font({"A": "square"}, {"A": stacked(*[filled("square", solid(RED))] * 99)}))
+    assert len(vexture.text("AA", font=tmp_path / "a.ttf").paths) == 198
+    with pytest.raises(LimitError, match="`text` has more than 1,000 segments and groups; draw it in parts"):
+        vexture.text("AAA", font=tmp_path / "a.ttf")
 
 
 def test_pictures_are_named_and_their_outline_is_shown():

@@ -5,6 +5,9 @@ from attempts import attempt
 from javascript import NODE
 from readers import CORPUS, TARGETS
 
+from vexture.errors import SourceError
+from vexture.reading import read_drawing
+
 FILES = [(name, file) for name in TARGETS for file in sorted((CORPUS / name.removesuffix("-js")).iterdir())]
 
 
@@ -14,3 +17,11 @@ def test_a_file_is_read_or_refused_in_one_line(name, file):
         pytest.skip("node or the packages of web/ are missing")
     answer = attempt(TARGETS[name], file.read_bytes())
     assert answer.startswith("reads ") or file.stem.startswith("once-"), answer
+
+
+def test_an_error_of_the_system_for_a_header_is_told_as_damage():
+    """It said "Argument list too long: 'the file'"."""
+    content = (CORPUS / "netcdf" / "once-a-system-error-for-a-header.nc").read_bytes()
+    line = r"^tide\.nc: the NetCDF file is damaged \(its header says what cannot be\); write it again$"
+    with pytest.raises(SourceError, match=line):
+        read_drawing(content, name="tide.nc")

@@ -1,7 +1,11 @@
 """Wrong tokens, one by one and many: they are slowed down, and who has the right one is not."""
 
+import re
+from pathlib import Path
+
 from server import TOKEN, serving, square
 
+import vexture
 from vexture.live.limits import MOST_KNOWN
 from vexture.live.tokens import WrongTokens
 
@@ -43,3 +47,12 @@ def test_a_clock_that_jumps_back_or_ahead_gives_no_attempts(monkeypatch):
         monkeypatch.setattr("time.time", lambda jump=jump: 1.7e9 + jump)
         answers.append(bool(wrong.wait("a")))
     assert answers == [False] * 5 + [True] * 2
+
+
+def test_only_the_age_of_a_file_that_was_left_is_told_by_the_time_of_day():
+    """All durations are of a clock that nobody sets."""
+    source = Path(vexture.__file__).parent
+    telling = [
+        path.name for path in source.rglob("*.py") if re.search(r"\btime\.time\(|\.now\(|utcnow", path.read_text())
+    ]
+    assert telling == ["files.py"]

@@ -18,7 +18,7 @@ from vexture.paint import BLACK, Color, Paint
 __all__ = ["Layers", "glyph_layers"]
 
 MOST_PATHS: Final = 10_000
-"""Of one glyph; groups that mask each other paint what they hold several times."""
+"""Of one glyph, with its groups; groups that mask each other paint what they hold several times."""
 
 BLENDS: Final = {
     "PLUS": Blend.PLUS_LIGHTER,
@@ -140,17 +140,24 @@ class Stack:
         self.everywhere = rectangle(*box) if box[0] <= box[2] else ()
         self.paths: list[Path] = []
         self.groups: list[Group] = []
+        self.count = 0
+
+    def _count(self) -> None:
+        """Count a path or group, also one that shows nothing: a chain of 50 that mask each other has 2^50."""
+        check_time()
+        self.count += 1
+        if self.count > MOST_PATHS:
+            raise SourceError(f"a glyph paints more than {MOST_PATHS:,} paths and groups; use another font")
 
     def group(self, group: Group) -> int:
         """Place of a new group."""
+        self._count()
         self.groups.append(group)
         return len(self.groups) - 1
 
     def path(self, contours: Contours, paint: Paint, group: int, black: bool = False) -> None:
         """Paint an outline."""
-        check_time()
-        if len(self.paths) == MOST_PATHS:
-            raise SourceError(f"a glyph paints more than {MOST_PATHS:,} paths; use another font")
+        self._count()
         if contours:
             self.paths.append(Path(contours, paint=blackened(paint) if black else paint, group=group))
 

@@ -9,6 +9,7 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 
 from vexture.bezier.bounds import bounds
+from vexture.deadline import check_time
 from vexture.drawing import Drawing, Path
 from vexture.errors import LimitError, ParameterError, SourceError, shortened
 from vexture.fonts.layers import Layers
@@ -25,6 +26,9 @@ Places: TypeAlias = "str | os.PathLike[str] | Sequence[str | os.PathLike[str]]"
 """A font file or a folder of fonts, or several."""
 
 Box: TypeAlias = tuple[float, float, float, float]
+
+MOST_PARTS: Final = 5_000_000
+"""Cubics and groups of a text: a glyph of a colour font may have 10,000."""
 
 MOST_CHARACTERS: Final = 100_000
 
@@ -236,9 +240,11 @@ class Canvas:
         self.notes = notes
         self.paths: list[Path] = []
         self.groups: list[Group] = []
+        self.parts = 0
 
     def draw(self, placed: Placed, x: float, y: float) -> None:
         """Draw a glyph at its place in a line, whose start is at (x, y) in ems, y up."""
+        check_time()
         face, glyph = placed.glyph.face, placed.glyph.glyph
         scale = self.size / face.units_per_em
         left, down = (placed.x + x) * self.size, -(placed.y + y) * self.size
@@ -248,6 +254,10 @@ class Canvas:
         if layers is None and (missing := face.missing(glyph)):
             self.notes.left_out(missing)
         outer, start = (-1, 0) if layers is None else self._opened(layers)
+        self.parts += len(self.groups) - start if layers else 0
+        self.parts += sum(len(contour) for path in paths for contour in path.contours)
+        if self.parts > MOST_PARTS:
+            raise LimitError(f"`text` has more than {MOST_PARTS:,} segments and groups; draw it in parts")
         for path in paths:
             contours = tuple(contour * (scale, -scale) + (left, down) for contour in path.contours)
             paint = self.paint if layers is None else path.paint.after(to_font)

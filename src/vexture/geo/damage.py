@@ -1,12 +1,13 @@
-"""Damage that GDAL passes over in silence: shapefiles that are cut off, and arcs that a TopoJSON does not have."""
+"""Damage that GDAL passes over in silence: of shapefiles and TopoJSON; and that netCDF has wrong words for."""
 
 import json
+from errno import E2BIG, EINVAL
 from typing import Any, Final
 
 from vexture.content import SHAPEFILE
-from vexture.errors import SourceError
+from vexture.errors import SourceError, reason_of
 
-__all__ = ["HEADER", "missing_arcs", "refuse_cut"]
+__all__ = ["HEADER", "damaged_netcdf", "missing_arcs", "refuse_cut"]
 
 HEADER: Final = 100
 """Bytes at the start of a .shp and of a .shx, which say how long it is."""
@@ -65,3 +66,18 @@ def _numbers(arcs: Any) -> list[int]:
         elif isinstance(one, int):
             found.append(one)
     return found
+
+
+def damaged_netcdf(error: Exception, place: str) -> SourceError:
+    """What to raise for what netCDF4, h5py or xarray raise about a file that they cannot read.
+
+    The netCDF library uses errors of the system for sizes and types in a header that cannot be.
+
+    Examples
+    --------
+    >>> print(damaged_netcdf(OSError(7, "Argument list too long"), "a.nc"))
+    the NetCDF file is damaged (its header says what cannot be); write it again
+    """
+    if isinstance(error, OSError) and error.errno in (E2BIG, EINVAL):
+        return SourceError("the NetCDF file is damaged (its header says what cannot be); write it again")
+    return SourceError(f"it cannot be read as NetCDF ({reason_of(error, hidden=place)}); write it again")

@@ -215,10 +215,11 @@ def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None
 def _arrow_chunk(
     table: "pyarrow.Table", number: str, geometry: str, own: str | None, topology: bool, is_json: bool, crs: str | None
 ) -> Chunk:
-    """A table of GDAL."""
-    numbers = np.asarray(table.column(number).to_numpy(), np.int64)
-    shapes = _objects(table.column(geometry))
-    kept = table.drop_columns([number, geometry])
+    """A table of GDAL: its own number comes before attributes of that name, and its geometry after them."""
+    first, last = table.schema.get_all_field_indices(number)[0], table.schema.get_all_field_indices(geometry)[-1]
+    numbers = np.asarray(table.column(first).to_numpy(), np.int64)
+    shapes = _objects(table.column(last))
+    kept = table.remove_column(last).remove_column(first)
     _check_texts(kept)
     return Chunk(
         kept,

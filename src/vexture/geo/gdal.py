@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 
 from vexture.content import NETCDF, TIFF, start_of
 from vexture.errors import DeviceError, SourceError, printable, reason_of, shortened
+from vexture.geo.damage import damaged_netcdf
 from vexture.geo.hdf5 import refuse_links_of_netcdf
 from vexture.geo.named import refuse_files_of_system
 
@@ -212,9 +213,7 @@ def _refuse_systems_of_netcdf(path: Path) -> None:
                     if any(word in name.lower() for word in SYSTEMS):
                         refuse_files_of_system(str(one.getncattr(name)))
     except (OSError, RuntimeError, ValueError, AttributeError) as error:  # netCDF4 raises all of them
-        raise SourceError(
-            f"it cannot be read as NetCDF ({reason_of(error, hidden=str(path))}); write it again"
-        ) from None
+        raise damaged_netcdf(error, str(path)) from None
 
 
 def _link(name: str, value: str) -> str:

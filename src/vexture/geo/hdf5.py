@@ -14,7 +14,8 @@ import numpy as np
 
 from vexture.content import NETCDF, start_of
 from vexture.deadline import check_time
-from vexture.errors import LimitError, SourceError, printable, reason_of, shortened
+from vexture.errors import LimitError, SourceError, printable, shortened
+from vexture.geo.damage import damaged_netcdf
 
 if TYPE_CHECKING:
     from h5py.h5d import DatasetID
@@ -52,8 +53,7 @@ def refuse_links_of_netcdf(path: str | os.PathLike[str]) -> None:
     except (SourceError, LimitError):
         raise
     except Exception as error:  # h5py raises any type of exception for a damaged file
-        why = reason_of(error, hidden=str(path))
-        raise SourceError(f"it cannot be read as NetCDF ({why}); write it again") from None
+        raise damaged_netcdf(error, str(path)) from None
 
 
 def _look_at_all(root: "GroupID") -> None:

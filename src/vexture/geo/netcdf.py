@@ -13,6 +13,7 @@ from typing import Any, Final
 import numpy as np
 
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.geo.damage import damaged_netcdf
 from vexture.geo.datasets import dataset_of, is_dataset
 from vexture.geo.hdf5 import refuse_links_of_netcdf
 from vexture.geo.named import refuse_files_of_system
@@ -62,8 +63,7 @@ def _file(source: bytes | str | os.PathLike[str], stack: ExitStack) -> Any:
             warnings.simplefilter("ignore")
             return xarray.open_dataset(place, engine="netcdf4", decode_times=False, cache=False)
     except Exception as error:  # xarray and netCDF4 raise any type of exception for a damaged file
-        why = reason_of(error, hidden=place)
-        raise SourceError(f"it cannot be read as NetCDF ({why}); write it again") from None
+        raise damaged_netcdf(error, place) from None
 
 
 def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series:
