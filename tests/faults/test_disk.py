@@ -5,6 +5,7 @@ import resource
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from examples_of import DRAWINGS
@@ -62,7 +63,7 @@ def test_standard_output_that_is_full_is_one_line():
     with open("/dev/full", "wb") as full:
         command = [*COMMAND, "convert", str(DRAWINGS[0]), "-o", "-", "-q"]
         outcome = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True)
-    assert lines_of(outcome) == [f"vexture: the output: {FULL}; choose another file"]
+    assert lines_of(outcome) == [f"vexture: the output: {FULL}; make room, or choose another place"]
 
 
 def test_kernels_that_cannot_be_kept_are_used(tmp_path):
@@ -129,3 +130,16 @@ def test_a_server_whose_disk_is_full_keeps_what_it_has_acknowledged(tmp_path):
         assert kept_by(disk, server) == acknowledged, "on the disk, with nothing of what was refused"
         for name, body in acknowledged.items():
             assert server.ask("GET", server.manifest(name)["views"]["svg"][2:])[2] == body
+
+
+def test_a_full_folder_of_temporary_files_is_named(tmp_path):
+    """It said that the output has no room, and to choose another file."""
+    disk = Disk(tmp_path, "4k")
+    netcdf = Path(__file__).parents[1] / "fuzz" / "corpus" / "netcdf" / "four.nc"
+    command = ["sh", "-c", 'TMPDIR="$DISK"; export TMPDIR; name=$1; shift; cat "$name" | "$@"', "sh", netcdf, *COMMAND]
+    outcome = disk.run(*command, "convert", "-", "-o", tmp_path / "out.ktx2")
+    (line,) = lines_of(outcome)
+    place = f"temporary files in {disk.path} (TMPDIR)"
+    assert line == f"vexture: {place}: {FULL}; make room, or choose another place"
+    assert not (tmp_path / "out.ktx2").exists()
+    assert disk.left() == {}

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from pathlib import Path
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 import pytest
@@ -207,3 +208,15 @@ def test_an_engine_that_is_not_built_is_named(monkeypatch: pytest.MonkeyPatch, t
     monkeypatch.setattr(vexture.live.page, "files", lambda package: tmp_path)
     with pytest.raises(DeviceError, match="the pages are not built; run `make viewer`"):
         vexture.show(TWO[0])
+
+
+HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)>\u202e\u2028--><!--" + 9999 * "x"
+
+
+def test_names_of_strangers_are_no_markup_of_a_saved_page(tmp_path):
+    content = f'<svg viewBox="0 0 8 8"><rect id={quoteattr(HOSTILE)} width="8" height="8" fill="red"/></svg>'
+    widget = vexture.show(vexture.read(content.encode(), name=HOSTILE, names="id"))
+    widget.save(tmp_path / "names.html")
+    page = (tmp_path / "names.html").read_text()
+    for part in ("<script>alert", "<img src=x", "--><!--"):
+        assert part not in page

@@ -1,5 +1,6 @@
 """Messages of the command line, each of one line."""
 
+import errno
 import re
 import sys
 import warnings
@@ -62,7 +63,8 @@ def one_line() -> Iterator[None]:
         except BrokenPipeError:
             raise  # click ends in silence: who reads standard output has enough, such as head
         except OSError as error:
-            say(f"{error.filename or 'the output'}: {error.strerror or reason_of(error)}; choose another file")
+            remedy = "make room, or choose another place" if error.errno == errno.ENOSPC else "choose another file"
+            say(f"{error.filename or 'the output'}: {error.strerror or reason_of(error)}; {remedy}")
             sys.exit(1)
         except MemoryError:
             say("out of memory; use a smaller drawing or a smaller --size")

@@ -55,8 +55,12 @@ def _file(source: bytes | str | os.PathLike[str], stack: ExitStack) -> Any:
 
     place = os.path.abspath(source) if not isinstance(source, bytes) else ""
     if isinstance(source, bytes):
-        place = os.path.join(stack.enter_context(TemporaryDirectory(prefix="vexture-")), "depths.nc")
-        Path(place).write_bytes(source)
+        try:
+            place = os.path.join(stack.enter_context(TemporaryDirectory(prefix="vexture-")), "depths.nc")
+            Path(place).write_bytes(source)
+        except OSError as error:
+            here = os.path.dirname(os.path.dirname(place)) or "all usual folders"
+            raise OSError(error.errno, error.strerror, f"temporary files in {here} (TMPDIR)") from None
     refuse_links_of_netcdf(place)
     try:
         with warnings.catch_warnings():
