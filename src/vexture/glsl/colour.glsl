@@ -85,16 +85,13 @@ void vexture_add_flat_leaf(
     VextureLeaf leaf = vexture_leaf(cell);
     int count = vexture_count(cell);
     int crossing = 0;  // a bit for each piece that is not clear of the box: others need no colours
-    bool is_crossed = false;
     for (int i = 0; i < count; i++) {
         VextureLook look = vexture_flat_look(vexture_leaf_piece(leaf, i), box);
         crossing |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
-        is_crossed = is_crossed || look.crosses || fract(look.filled) != 0.0;
     }
     bool has_moments = vexture_holds_program(cell);
     VextureShare whole = vexture_moved_share(vexture_whole_share(), sides, middle);
-    vexture_set_whole(sum, !is_crossed);
-    vexture_add_paint(sum, planar, vexture_base_paint(planar, cell), whole);
+    vexture_add_base(sum, planar, vexture_base_paint(planar, cell), whole);
     while (crossing != 0) {
         int lowest = crossing & -crossing;
         int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
@@ -179,15 +176,12 @@ void vexture_add_leaf(
     VextureLeaf leaf = vexture_leaf(cell);
     int count = whole.area > 0.0 ? vexture_count(cell) : 0;
     int crossing = 0;  // a bit for each piece that is not clear of the footprint's box: others need no colours
-    bool is_crossed = false;
     for (int i = 0; i < count; i++) {
         VextureLook look = vexture_first_look(vexture_leaf_piece(leaf, i), box);
         crossing |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
-        is_crossed = is_crossed || look.crosses || fract(look.filled) != 0.0;
     }
     bool has_moments = vexture_holds_program(cell);
-    vexture_set_whole(sum, !is_crossed);
-    vexture_add_paint(sum, planar, vexture_base_paint(planar, cell), whole);
+    vexture_add_base(sum, planar, vexture_base_paint(planar, cell), whole);
     while (crossing != 0) {
         int lowest = crossing & -crossing;
         int i = (floatBitsToInt(float(lowest)) >> 23) - 127;

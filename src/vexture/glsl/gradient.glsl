@@ -28,7 +28,7 @@ struct VextureRamp {
     float t;
     vec2 way;
     bool exists;  // beside a cone there is no place
-    float depth;  // in a cone, in what its border bends over the region: below 1 the border is near
+    vec2 parts;   // along the sides of a region, so that the ramp is straight in each
 };
 
 // GLSL's mod, which not every language has.
@@ -43,20 +43,24 @@ vec2 vexture_spans(vec2 way, VextureRegion region) {
 
 // The place on a circular ramp: the greatest t whose circle, about c t from the focal point, goes through the region's middle
 // and has a radius, |q - c t|^2 = (fr + t dr)^2. Near the border of a cone it is that of a point further inside, as the
-// borders of faces are where something is painted. Parameters: the rows of the map to the ramp; focal point and radius.
+// borders of faces are where something is painted. The circle bends away from its tangent, on which places are further out:
+// t is their mean. Parameters: the rows of the map to the ramp; focal point and radius.
 VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion region) {
     vec2 q = vec2(dot(across.xy, region.point) + across.z - focus.x, dot(up.xy, region.point) + up.z);
+    vec2 spans = max(vexture_spans(across.xy, region), vexture_spans(up.xy, region));
+    vec2 parts = float(VEXTURE_RAMP_PARTS) * spans;
     float grows = 1.0 - focus.y;
+    float tip = focus.x / max(grows, VEXTURE_NOTHING) - focus.x;  // where the circles have no radius
+    parts = length(q - vec2(tip, 0.0)) < length(spans) ? vec2(float(VEXTURE_MOST_RAMP_PARTS)) : parts;
     float a = focus.x * focus.x - grows * grows;
     float b = focus.y * grows - q.x * focus.x;
     float c = dot(q, q) - focus.y * focus.y;
     float inside = b * b - a * c;
-    float depth = VEXTURE_FARTHEST;
     if (a >= 0.0) {
         vec2 slope = -2.0 * vec2(b * focus.x + a * q.x, a * q.y);
         vec2 sides = vexture_spans(slope.x * across.xy + slope.y * up.xy, region);
         float least = 0.25 * (sides.x + sides.y);
-        depth = inside / max(4.0 * least, VEXTURE_NOTHING);
+        parts = inside < 4.0 * least ? vec2(float(VEXTURE_MOST_RAMP_PARTS)) : parts;
         if (inside < least) {
             q += (least - inside) / max(dot(slope, slope), VEXTURE_NOTHING) * slope;
             b = focus.y * grows - q.x * focus.x;
@@ -70,12 +74,20 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     float second = far != 0.0 ? c / far : VEXTURE_NO_PLACE;
     float t = max(first, second);
     t = focus.y + t * grows < -VEXTURE_LEAST_RADIUS || t > -VEXTURE_NO_PLACE ? min(first, second) : t;
-    bool exists = focus.y + t * grows >= -VEXTURE_LEAST_RADIUS && t > VEXTURE_NO_PLACE;
+    float radius = focus.y + t * grows;
+    bool exists = radius >= -VEXTURE_LEAST_RADIUS && t > VEXTURE_NO_PLACE;
     vec2 e = vec2(q.x + t * focus.x, q.y);
     e = length(e) > VEXTURE_LEAST_RADIUS ? normalize(e) : vec2(0.0);  // of a point, no direction is known
     float down = grows - e.x * focus.x;
-    e = down != 0.0 ? e / down : vec2(0.0);
-    return VextureRamp(t, e.x * across.xy + e.y * up.xy, exists, depth);
+    vec2 beside = vexture_spans(e.x * up.xy - e.y * across.xy, region);
+    float bend = dot(beside, beside) / 12.0;
+    bend /= max(sqrt(radius * radius + bend) + radius, VEXTURE_NOTHING);
+    vec2 ahead = vexture_spans(e.x * across.xy + e.y * up.xy, region);
+    float least_bend = VEXTURE_RAMP_BEND * max(radius, 0.0) * (ahead.x + ahead.y);
+    parts = max(parts, beside / sqrt(max(least_bend, VEXTURE_NOTHING)));
+    float inverse = down != 0.0 ? 1.0 / down : 0.0;
+    vec2 way = inverse * (e.x * across.xy + e.y * up.xy);
+    return VextureRamp(t + inverse * bend, way, exists, parts);
 }
 
 // A sum, to which is added the integral of a stretch of a ramp between two stops, given by its colour and slope at its begin.
@@ -174,47 +186,31 @@ vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 
     return mean;
 }
 
-// Premultiplied colour of a gradient, whose first texel is given with its index, and its number of stops. A region in which
-// circles bend is divided, most near their tip.
-vec4 vexture_gradient(uint at, uvec4 record, uint number, VextureRegion region) {
+// The ramp of a gradient, whose first texel is given with its index, over a region.
+VextureRamp vexture_ramp(uint at, uvec4 record, VextureRegion region) {
     uint kind = record.w >> VEXTURE_KIND_SHIFT;
     vec3 across = uintBitsToFloat(record.xyz);
-    vec3 up = vec3(0.0);
-    vec2 focus = vec2(0.0);
-    if (kind != uint(VEXTURE_KIND_LINEAR)) {
-        up = uintBitsToFloat(vexture_texel(at + 1u).xyz);
+    if (kind == uint(VEXTURE_KIND_LINEAR)) {
+        return VextureRamp(dot(across.xy, region.point) + across.z, across.xy, true, vec2(0.0));
     }
+    vec2 focus = vec2(0.0);
     if (kind == uint(VEXTURE_KIND_FOCAL)) {
         focus = uintBitsToFloat(vexture_texel(at + 2u).xy);
     }
+    return vexture_round_ramp(across, uintBitsToFloat(vexture_texel(at + 1u).xyz), focus, region);
+}
+
+// Premultiplied colour of a gradient, whose first texel is given with its index, and its number of stops; of a region in
+// which its ramp is straight.
+vec4 vexture_gradient(uint at, uvec4 record, uint number, VextureRegion region) {
+    VextureRamp ramp = vexture_ramp(at, record, region);
     uint stops = at + (record.w & ((1u << VEXTURE_STOP_BITS) - 1u));
     uint spread = (record.w >> (VEXTURE_STOP_BITS + VEXTURE_STOP_COUNT_BITS)) & 3u;
-    VextureRamp ramp = VextureRamp(dot(across.xy, region.point) + across.z, across.xy, true, VEXTURE_FARTHEST);
-    int parts = 1;
-    if (kind != uint(VEXTURE_KIND_LINEAR)) {
-        vec2 spans = max(vexture_spans(across.xy, region), vexture_spans(up.xy, region));
-        float width = length(spans);
-        float tip = focus.x / max(1.0 - focus.y, VEXTURE_NOTHING);  // where the circles have no radius
-        float away = length(vec2(dot(across.xy, region.point) + across.z - tip, dot(up.xy, region.point) + up.z));
-        ramp = vexture_round_ramp(across, up, focus, region);
-        float size = away < width || ramp.depth < 1.0 ? float(VEXTURE_MOST_RAMP_PARTS) : float(VEXTURE_RAMP_PARTS) * width;
-        parts = size < float(VEXTURE_MOST_RAMP_PARTS) ? max(int(ceil(size)), 1) : VEXTURE_MOST_RAMP_PARTS;
+    vec4 mean = vec4(0.0);
+    if (ramp.exists) {
+        mean = vexture_ramp_mean(stops, number, spread, ramp.t, vexture_spans(ramp.way, region));
     }
-    VextureRegion part = VextureRegion(region.point, region.right / float(parts), region.up / float(parts));
-    vec4 sum = vec4(0.0);
-    float found = 0.0;
-    for (int k = 0; k < parts * parts; k++) {
-        if (parts > 1) {
-            vec2 place = vec2(ivec2(k % parts, k / parts)) + 0.5 - 0.5 * float(parts);
-            part.point = region.point + place.x * part.right + place.y * part.up;
-            ramp = vexture_round_ramp(across, up, focus, part);
-        }
-        if (ramp.exists) {
-            sum += vexture_ramp_mean(stops, number, spread, ramp.t, vexture_spans(ramp.way, part));
-            found += 1.0;
-        }
-    }
-    return sum / max(found, 1.0);
+    return mean;
 }
 
 // What was kept when a group began, with the group's colour on it, or masked by it.
@@ -226,13 +222,12 @@ vec4 vexture_ended(vec4 kept, vec4 color, uint how) {
     return kept * (how == uint(VEXTURE_MASKS + VEXTURE_MASK_LUMINANCE) ? dot(parts, color.rgb) : color.a);
 }
 
-// Premultiplied colour of a program, given by its first texel and how many it has; in steps of a paint.
-vec4 vexture_program(uint at, uint count, VextureRegion region) {
+// Premultiplied colour of a program over a region that is small enough for means of its gradients to be composited.
+vec4 vexture_program_part(uint at, uint end, VextureRegion region) {
     vec4 color = vec4(0.0);
     vec4 kept = vec4(0.0);
     vec4 kept_before = vec4(0.0);
     vec4 kept_first = vec4(0.0);
-    uint end = at + min(count, uint(VEXTURE_MOST_PROGRAM));
     uint left = uint(VEXTURE_MOST_STOPS);  // what is no program ends as well
     for (; at < end; at++) {
         uvec4 texel = vexture_texel(at);
@@ -256,7 +251,45 @@ vec4 vexture_program(uint at, uint count, VextureRegion region) {
             color = above + (1.0 - above.a) * color;
         }
     }
-    return color * float(VEXTURE_PAINT_ONE);
+    return color;
+}
+
+// In how many parts each side of a region is divided for a program: so that circles are straight in each, and, where a
+// product of gradients or a blend mode is averaged, ramps are short.
+vec2 vexture_program_parts(uint at, uint end, VextureRegion region) {
+    vec2 bends = vec2(0.0);
+    vec2 ramps = vec2(0.0);
+    int products = 0;
+    for (; at < end; at++) {
+        uvec4 texel = vexture_texel(at);
+        uint kind = texel.w >> VEXTURE_KIND_SHIFT;
+        if (kind == uint(VEXTURE_KIND_MIX)) {
+            products += texel.y == 0u ? 0 : 2;
+        } else if (kind >= uint(VEXTURE_KIND_LINEAR) && kind <= uint(VEXTURE_KIND_FOCAL)) {
+            VextureRamp ramp = vexture_ramp(at, texel, region);
+            products++;
+            bends = max(bends, ramp.parts);
+            ramps = max(ramps, float(VEXTURE_PRODUCT_PARTS) * vexture_spans(ramp.way, region));
+        }
+    }
+    vec2 parts = ceil(products > 1 ? max(bends, ramps) : bends);
+    return clamp(parts, vec2(1.0), vec2(float(VEXTURE_MOST_RAMP_PARTS)));
+}
+
+// Premultiplied colour of a program, given by its first texel and how many it has; in steps of a paint.
+vec4 vexture_program(uint at, uint count, VextureRegion region) {
+    uint end = at + min(count, uint(VEXTURE_MOST_PROGRAM));
+    vec2 parts = vexture_program_parts(at, end, region);
+    int across = int(parts.x);
+    int number = across * int(parts.y);
+    VextureRegion part = VextureRegion(region.point, region.right / parts.x, region.up / parts.y);
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < number; k++) {
+        vec2 place = vec2(ivec2(k % across, k / across)) + 0.5 - 0.5 * parts;
+        part.point = region.point + place.x * part.right + place.y * part.up;
+        sum += vexture_program_part(at, end, part);
+    }
+    return sum * (float(VEXTURE_PAINT_ONE) / float(number));
 }
 
 #endif

@@ -77,7 +77,7 @@ struct VextureSum {
     VextureShare kept_share;  // where only cells part it, it is run once
     uint done;
     bool is_left;
-    bool is_whole;  // whether one paint fills a cell as far as it is in the pixel
+    float cell;    // area of the cell, as far as it is in the pixel
     uvec4 paints;  // 0 is room for another one, as paint 0 is no program
     vec4 areas;    // of each paint the parts of its share
     vec4 x;
@@ -91,7 +91,7 @@ struct VextureSum {
 VextureSum vexture_nothing() {
 #if VEXTURE_GRADIENTS
     vec4 none = vec4(0.0);
-    return VextureSum(none, 0u, vexture_area_share(0.0), 0u, false, false, uvec4(0u), none, none, none, none, none, none);
+    return VextureSum(none, 0u, vexture_area_share(0.0), 0u, false, 0.0, uvec4(0u), none, none, none, none, none, none);
 #else
     return VextureSum(vec4(0.0));
 #endif
@@ -162,15 +162,16 @@ void vexture_add_kept(inout VextureSum sum, VexturePlanar planar) {
 #if VEXTURE_GRADIENTS
     vexture_add_paint(sum, planar, sum.kept, sum.kept_share);
     sum.kept = 0u;
-    sum.is_whole = false;
+    sum.cell = 0.0;
 #endif
 }
 
-// Says whether pieces cross a cell.
-void vexture_set_whole(inout VextureSum sum, bool is_whole) {
+// Adds the base paint of a cell, over the cell's part of the pixel.
+void vexture_add_base(inout VextureSum sum, VexturePlanar planar, uint paint, VextureShare share) {
 #if VEXTURE_GRADIENTS
-    sum.is_whole = is_whole;
+    sum.cell = share.area;
 #endif
+    vexture_add_paint(sum, planar, paint, share);
 }
 
 // Adds the paint on the left of a piece, and takes away that on its right.
@@ -206,7 +207,7 @@ bool vexture_settle(inout VextureSum sum, VexturePlanar planar, VextureRegion re
         if (sum.paints[slot] != 0u && abs(area) > VEXTURE_LEAST_SHARE) {
             uint paint = sum.paints[slot];
             VextureShare share = VextureShare(area, sum.x[slot], sum.y[slot], sum.xx[slot], sum.xy[slot], sum.yy[slot]);
-            if (sum.is_whole) {  // it is kept, and what was kept before, if it is another one, is run
+            if (abs(area - sum.cell) <= VEXTURE_LEAST_SHARE) {  // it is kept, and what was kept before, if it is another one, is run
                 bool is_same = paint == sum.kept;
                 VextureShare before = sum.kept_share;
                 sum.kept_share = vexture_plus_share(share, before, is_same ? 1.0 : 0.0);

@@ -3,7 +3,6 @@
 See `vexture.renderers.cpu`. `is_linear` is what ``VEXTURE_LINEAR`` is in the shader.
 """
 
-import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,8 +45,8 @@ from vexture.renderers.moment import (
 from vexture.renderers.paints import (
     Planar,
     Sum,
+    add_base,
     add_kept,
-    add_paint,
     add_piece,
     base_paint,
     holds_kept,
@@ -55,7 +54,6 @@ from vexture.renderers.paints import (
     means_at,
     nothing,
     planar,
-    set_whole,
     settle,
     unpacked,
     with_color,
@@ -131,19 +129,17 @@ def add_flat_leaf(
     texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, box: Box, sides: Vec2, middle: Vec2
 ) -> Sum:
     has_moments = holds_program(cell)
-    is_crossed = False
     whole = moved_share(whole_share(), sides, middle)
-    sum = add_paint(texels, is_linear, sum, planar, base_paint(texels, planar, cell), whole)
+    sum = add_base(texels, is_linear, sum, planar, base_paint(texels, planar, cell), whole)
     pieces = leaf(cell)
     for i in range(count(cell)):
         found, pieces = leaf_piece(texels, pieces, i)
         look = flat_look(found, box)
         if look.crosses or look.filled != 0.0:
-            is_crossed = is_crossed or look.crosses or look.filled != math.floor(look.filled)
             filled = moved_share(flat_filled_share(found, look, box, has_moments), sides, middle)
             beside, pieces = leaf_sides(texels, pieces, planar, i)
             sum = add_piece(texels, is_linear, sum, planar, beside, filled)
-    return set_whole(sum, not is_crossed)
+    return sum
 
 
 @kernel(allocates=False)
@@ -217,18 +213,16 @@ def add_leaf(
     texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, box: Box, frame: Frame, whole: Share
 ) -> Sum:
     has_moments = holds_program(cell)
-    is_crossed = False
-    sum = add_paint(texels, is_linear, sum, planar, base_paint(texels, planar, cell), whole)
+    sum = add_base(texels, is_linear, sum, planar, base_paint(texels, planar, cell), whole)
     pieces = leaf(cell)
     for i in range(count(cell) if whole.area > 0.0 else 0):
         found, pieces = leaf_piece(texels, pieces, i)
         look = first_look(found, box)
         if look.crosses or look.filled != 0.0:
-            is_crossed = is_crossed or look.crosses or look.filled != math.floor(look.filled)
             filled = filled_share(found, look, box, frame, whole, has_moments)
             beside, pieces = leaf_sides(texels, pieces, planar, i)
             sum = add_piece(texels, is_linear, sum, planar, beside, filled)
-    return set_whole(sum, not is_crossed)
+    return sum
 
 
 @kernel(allocates=False)

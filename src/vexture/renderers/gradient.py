@@ -31,7 +31,6 @@ from vexture.paint import Spread
 from vexture.renderers.blend import luminosity, mixture, saturation
 from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.method import (
-    FARTHEST,
     GREY,
     LEAST_COLOR,
     LEAST_RADIUS,
@@ -40,6 +39,8 @@ from vexture.renderers.method import (
     NEARLY_WHOLE,
     NO_PLACE,
     NOTHING,
+    PRODUCT_PARTS,
+    RAMP_BEND,
     RAMP_PARTS,
     SHORTEST_RAMP,
 )
@@ -63,12 +64,12 @@ class Region(NamedTuple):
 
 
 class Ramp(NamedTuple):
-    """A place on a ramp, how it changes along x and y, whether there is one, and how far the border of a cone is."""
+    """A place on a ramp, how it changes along x and y, whether there is one, and parts in which the ramp is straight."""
 
     t: float
     way: Vec2
     exists: bool
-    depth: float
+    parts: Vec2
 
 
 @kernel(allocates=False)
@@ -173,20 +174,29 @@ def along(slope: Vec2, across: Vec3, up: Vec3) -> Vec2:
 
 
 @kernel(allocates=False)
+def larger(a: Vec2, b: Vec2) -> Vec2:
+    """What GLSL writes as ``max(a, b)``."""
+    return max(a[0], b[0]), max(a[1], b[1])
+
+
+@kernel(allocates=False)
 def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     qx = dot(across, region.point) + across[2] - focus[0]
     qy = dot(up, region.point) + up[2]
+    sides = larger(spans((across[0], across[1]), region), spans((up[0], up[1]), region))
+    parts, most = (RAMP_PARTS * sides[0], RAMP_PARTS * sides[1]), (float(MOST_RAMP_PARTS), float(MOST_RAMP_PARTS))
     grows = 1.0 - focus[1]
+    tip = focus[0] / max(grows, NOTHING) - focus[0]
+    parts = most if length((qx - tip, qy)) < length(sides) else parts
     a = focus[0] * focus[0] - grows * grows
     b = focus[1] * grows - qx * focus[0]
     c = qx * qx + qy * qy - focus[1] * focus[1]
     inside = b * b - a * c
-    depth = FARTHEST
     if a >= 0.0:
         slope = (-2.0 * (b * focus[0] + a * qx), -2.0 * a * qy)
         sides = spans(along(slope, across, up), region)
         least = 0.25 * (sides[0] + sides[1])
-        depth = inside / max(4.0 * least, NOTHING)
+        parts = most if inside < 4.0 * least else parts
         if inside < least:
             moved = (least - inside) / max(slope[0] * slope[0] + slope[1] * slope[1], NOTHING)
             qx, qy = qx + moved * slope[0], qy + moved * slope[1]
@@ -199,13 +209,21 @@ def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     second = c / far if far != 0.0 else NO_PLACE
     t = max(first, second)
     t = min(first, second) if focus[1] + t * grows < -LEAST_RADIUS or t > -NO_PLACE else t
-    exists = focus[1] + t * grows >= -LEAST_RADIUS and t > NO_PLACE
+    radius = focus[1] + t * grows
+    exists = radius >= -LEAST_RADIUS and t > NO_PLACE
     e = (qx + t * focus[0], qy)
-    radius = length(e)
-    e = (e[0] / radius, e[1] / radius) if radius > LEAST_RADIUS else (0.0, 0.0)
+    size = length(e)
+    e = (e[0] / size, e[1] / size) if size > LEAST_RADIUS else (0.0, 0.0)
     down = grows - e[0] * focus[0]
-    e = (e[0] / down, e[1] / down) if down != 0.0 else (0.0, 0.0)
-    return Ramp(t, along(e, across, up), exists, depth)
+    beside = spans(along((-e[1], e[0]), across, up), region)
+    bend = (beside[0] * beside[0] + beside[1] * beside[1]) / 12.0
+    bend /= max(math.sqrt(radius * radius + bend) + radius, NOTHING)
+    ahead = spans(along(e, across, up), region)
+    least_bend = math.sqrt(max(RAMP_BEND * max(radius, 0.0) * (ahead[0] + ahead[1]), NOTHING))
+    parts = larger(parts, (beside[0] / least_bend, beside[1] / least_bend))
+    inverse = 1.0 / down if down != 0.0 else 0.0
+    way = along((inverse * e[0], inverse * e[1]), across, up)
+    return Ramp(t + inverse * bend, way, exists, parts)
 
 
 @kernel(allocates=False)
@@ -296,39 +314,24 @@ def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: floa
 
 
 @kernel(allocates=False)
-def gradient(texels: Texels, at: int, record: Texel, number: int, region: Region) -> Vec4:
-    kind = record[3] >> KIND_SHIFT
-    across, up, focus = as_floats(record), (0.0, 0.0, 0.0), (0.0, 0.0)
-    if kind != KIND_LINEAR:
-        up = as_floats(texel(texels, at + 1))
+def ramp(texels: Texels, at: int, record: Texel, region: Region) -> Ramp:
+    kind, across, focus = record[3] >> KIND_SHIFT, as_floats(record), (0.0, 0.0)
+    if kind == KIND_LINEAR:
+        return Ramp(dot(across, region.point) + across[2], (across[0], across[1]), True, (0.0, 0.0))
     if kind == KIND_FOCAL:
         circle = as_floats(texel(texels, at + 2))
         focus = (circle[0], circle[1])
+    return round_ramp(across, as_floats(texel(texels, at + 1)), focus, region)
+
+
+@kernel(allocates=False)
+def gradient(texels: Texels, at: int, record: Texel, number: int, region: Region) -> Vec4:
+    found = ramp(texels, at, record, region)
     stops = at + (record[3] & ((1 << STOP_BITS) - 1))
     spread = (record[3] >> (STOP_BITS + STOP_COUNT_BITS)) & 3
-    ramp = Ramp(dot(across, region.point) + across[2], (across[0], across[1]), True, FARTHEST)
-    parts = 1
-    if kind != KIND_LINEAR:
-        first, second = spans((across[0], across[1]), region), spans((up[0], up[1]), region)
-        width = length((max(first[0], second[0]), max(first[1], second[1])))
-        tip = focus[0] / max(1.0 - focus[1], NOTHING)
-        away = length((dot(across, region.point) + across[2] - tip, dot(up, region.point) + up[2]))
-        ramp = round_ramp(across, up, focus, region)
-        size = float(MOST_RAMP_PARTS) if away < width or ramp.depth < 1.0 else RAMP_PARTS * width
-        parts = max(math.ceil(size), 1) if size < MOST_RAMP_PARTS else MOST_RAMP_PARTS
-    right, above = (region.right[0] / parts, region.right[1] / parts), (region.up[0] / parts, region.up[1] / parts)
-    total, count = (0.0, 0.0, 0.0, 0.0), 0.0
-    for k in range(parts * parts):
-        part = Region(region.point, right, above)
-        if parts > 1:
-            x, y = k % parts + 0.5 - 0.5 * parts, k // parts + 0.5 - 0.5 * parts
-            point = (region.point[0] + x * right[0] + y * above[0], region.point[1] + x * right[1] + y * above[1])
-            part = Region(point, right, above)
-            ramp = round_ramp(across, up, focus, part)
-        if ramp.exists:
-            total = plus(total, ramp_mean(texels, stops, number, spread, ramp.t, spans(ramp.way, part)), 1.0)
-            count += 1.0
-    return times(total, 1.0 / max(count, 1.0))
+    if not found.exists:
+        return 0.0, 0.0, 0.0, 0.0
+    return ramp_mean(texels, stops, number, spread, found.t, spans(found.way, region))
 
 
 @kernel(allocates=False)
@@ -340,12 +343,11 @@ def ended(kept: Vec4, color: Vec4, how: int) -> Vec4:
 
 
 @kernel(allocates=False)
-def program(texels: Texels, at: int, count: int, region: Region) -> Vec4:
-    """Premultiplied colour of a program over a region, in steps of a paint."""
+def program_part(texels: Texels, at: int, end: int, region: Region) -> Vec4:
     nothing = (0.0, 0.0, 0.0, 0.0)
     color, kept, kept_before, kept_first = nothing, nothing, nothing, nothing
     left = MOST_STOPS
-    for k in range(at, at + min(count, MOST_PROGRAM)):
+    for k in range(at, end):
         found = texel(texels, k)
         kind = found[3] >> KIND_SHIFT
         if kind == KIND_KEEP:
@@ -360,4 +362,36 @@ def program(texels: Texels, at: int, count: int, region: Region) -> Vec4:
                 left -= min(number, left)
                 above = gradient(texels, k, found, number, region)
             color = plus(above, color, 1.0 - above[3])
-    return times(color, float(PAINT_ONE))
+    return color
+
+
+@kernel(allocates=False)
+def program_parts(texels: Texels, at: int, end: int, region: Region) -> Whole2:
+    bends, ramps, products = (0.0, 0.0), (0.0, 0.0), 0
+    for k in range(at, end):
+        found = texel(texels, k)
+        kind = found[3] >> KIND_SHIFT
+        if kind == KIND_MIX:
+            products += 0 if found[1] == 0 else 2
+        elif KIND_LINEAR <= kind <= KIND_FOCAL:
+            place = ramp(texels, k, found, region)
+            products += 1
+            bends, way = larger(bends, place.parts), spans(place.way, region)
+            ramps = larger(ramps, (PRODUCT_PARTS * way[0], PRODUCT_PARTS * way[1]))
+    parts = larger(bends, ramps) if products > 1 else bends
+    most = float(MOST_RAMP_PARTS)
+    return math.ceil(clamp(parts[0], 1.0, most)), math.ceil(clamp(parts[1], 1.0, most))
+
+
+@kernel(allocates=False)
+def program(texels: Texels, at: int, count: int, region: Region) -> Vec4:
+    """Premultiplied colour of a program over a region, in steps of a paint."""
+    end = at + min(count, MOST_PROGRAM)
+    across, high = program_parts(texels, at, end, region)
+    right, up = (region.right[0] / across, region.right[1] / across), (region.up[0] / high, region.up[1] / high)
+    total = (0.0, 0.0, 0.0, 0.0)
+    for k in range(across * high):
+        x, y = k % across + 0.5 - 0.5 * across, k // across + 0.5 - 0.5 * high
+        point = (region.point[0] + x * right[0] + y * up[0], region.point[1] + x * right[1] + y * up[1])
+        total = plus(total, program_part(texels, at, end, Region(point, right, up)), 1.0)
+    return times(total, PAINT_ONE / (across * high))

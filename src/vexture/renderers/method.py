@@ -27,10 +27,12 @@ __all__ = [
     "NEARLY_TILE",
     "NEARLY_WHOLE",
     "NOTHING",
+    "PRODUCT_PARTS",
     "NO_CELL",
     "NO_PLACE",
     "NO_SIZE",
     "POSITION_BITS",
+    "RAMP_BEND",
     "RAMP_PARTS",
     "REST_BITS",
     "SHORTEST_RAMP",
@@ -117,10 +119,16 @@ LEAST_SHARE: Final = 2.0**-20
 """Share of a pixel, as area and moments, from which a paint's part is something: less is what rounding leaves."""
 
 RAMP_PARTS: Final = 6
-"""Parts across a region for each radius of a circle that it spans."""
+"""Parts of a region's side for each radius of a circle that it spans."""
+
+RAMP_BEND: Final = 0.5
+"""Square of a part's length along a circle, relative to its width across it times the circle's radius."""
+
+PRODUCT_PARTS: Final = 4
+"""Parts for each ramp that a region's side spans, where a product of ramps is averaged."""
 
 MOST_RAMP_PARTS: Final = 4
-"""Most of them."""
+"""Most parts of a side."""
 
 SHORTEST_RAMP: Final = 2.0**-22
 """Least interval over which a gradient is averaged: two steps of float32 at the end of the ramp."""

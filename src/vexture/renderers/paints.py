@@ -16,6 +16,7 @@ from vexture.renderers.moment import Share, area_share, plus_share
 __all__ = [
     "Planar",
     "Sum",
+    "add_base",
     "add_kept",
     "add_paint",
     "add_piece",
@@ -26,7 +27,6 @@ __all__ = [
     "nothing",
     "numbered",
     "planar",
-    "set_whole",
     "settle",
     "unpacked",
     "with_color",
@@ -116,7 +116,7 @@ class Sum(NamedTuple):
     kept_share: Share
     done: int
     is_left: bool
-    is_whole: bool
+    cell: float
     paints: tuple[int, int, int, int]
     areas: Vec4
     x: Vec4
@@ -130,14 +130,14 @@ class Sum(NamedTuple):
 def nothing() -> Sum:
     """The empty sum."""
     none = (0.0, 0.0, 0.0, 0.0)
-    return Sum(none, 0, area_share(0.0), 0, False, False, (0, 0, 0, 0), none, none, none, none, none, none)
+    return Sum(none, 0, area_share(0.0), 0, False, 0.0, (0, 0, 0, 0), none, none, none, none, none, none)
 
 
 @kernel(allocates=False)
-def changed(sum: Sum, color: Vec4, kept: int, kept_share: Share, done: int, is_left: bool, is_whole: bool) -> Sum:
+def changed(sum: Sum, color: Vec4, kept: int, kept_share: Share, done: int, is_left: bool, cell: float) -> Sum:
     """The sum with the same four paints, and else these values."""
     paints, areas, x, y, xx, xy, yy = sum.paints, sum.areas, sum.x, sum.y, sum.xx, sum.xy, sum.yy
-    return Sum(color, kept, kept_share, done, is_left, is_whole, paints, areas, x, y, xx, xy, yy)
+    return Sum(color, kept, kept_share, done, is_left, cell, paints, areas, x, y, xx, xy, yy)
 
 
 @kernel(allocates=False)
@@ -151,7 +151,7 @@ def put(values: Vec4, at: int, value: float) -> Vec4:
 def with_color(sum: Sum, color: Vec4, share: float) -> Sum:
     """The sum with so much of a colour added."""
     found = plus(sum.color, color, share)
-    return changed(sum, found, sum.kept, sum.kept_share, sum.done, sum.is_left, sum.is_whole)
+    return changed(sum, found, sum.kept, sum.kept_share, sum.done, sum.is_left, sum.cell)
 
 
 @kernel(allocates=False)
@@ -170,7 +170,7 @@ def add_program(sum: Sum, paint: int, share: Share) -> Sum:
     """Return the new `sum`, which GLSL changes in place."""
     at = slot(sum, paint)
     if at == 4:
-        return changed(sum, sum.color, sum.kept, sum.kept_share, sum.done, True, sum.is_whole)
+        return changed(sum, sum.color, sum.kept, sum.kept_share, sum.done, True, sum.cell)
     (a, b, c, d), is_new = sum.paints, sum.paints[at] != paint
     kept = 0.0 if is_new else 1.0
     is_left = sum.is_left or (is_new and sum.paints[at] != 0)
@@ -181,7 +181,7 @@ def add_program(sum: Sum, paint: int, share: Share) -> Sum:
         sum.kept_share,
         sum.done,
         is_left,
-        sum.is_whole,
+        sum.cell,
         (a, b, c, d),
         put(sum.areas, at, kept * sum.areas[at] + share.area),
         put(sum.x, at, kept * sum.x[at] + share.x),
@@ -223,13 +223,14 @@ def holds_kept(sum: Sum) -> bool:
 def add_kept(texels: Texels, is_linear: int, sum: Sum, planar: Planar) -> Sum:
     """Return the sum with the program that was kept."""
     found = add_paint(texels, is_linear, sum, planar, sum.kept, sum.kept_share)
-    return changed(found, found.color, 0, found.kept_share, found.done, found.is_left, False)
+    return changed(found, found.color, 0, found.kept_share, found.done, found.is_left, 0.0)
 
 
 @kernel(allocates=False)
-def set_whole(sum: Sum, is_whole: bool) -> Sum:
-    """Return the sum that knows whether pieces cross a cell."""
-    return changed(sum, sum.color, sum.kept, sum.kept_share, sum.done, sum.is_left, is_whole)
+def add_base(texels: Texels, is_linear: int, sum: Sum, planar: Planar, paint: int, share: Share) -> Sum:
+    """Return the sum with the base paint of a cell, over the cell's part of the pixel."""
+    sum = changed(sum, sum.color, sum.kept, sum.kept_share, sum.done, sum.is_left, share.area)
+    return add_paint(texels, is_linear, sum, planar, paint, share)
 
 
 @kernel(allocates=False)
@@ -260,7 +261,7 @@ def settle(texels: Texels, is_linear: int, sum: Sum, planar: Planar, region: Reg
         if number == 0 or abs(area) <= LEAST_SHARE:
             continue
         share = Share(area, sum.x[place], sum.y[place], sum.xx[place], sum.xy[place], sum.yy[place])
-        if sum.is_whole:
+        if abs(area - sum.cell) <= LEAST_SHARE:
             is_same, before = number == kept, kept_share
             kept_share = plus_share(share, before, 1.0 if is_same else 0.0)
             kept, number, share = number, 0 if is_same else kept, before
@@ -269,7 +270,7 @@ def settle(texels: Texels, is_linear: int, sum: Sum, planar: Planar, region: Reg
             found = program(texels, words[0], words[1], part(region, share))
             color = plus(color, averaged(is_linear, found), share.area)
     done, none = last if sum.is_left else 0, (0.0, 0.0, 0.0, 0.0)
-    return Sum(color, kept, kept_share, done, False, sum.is_whole, (0, 0, 0, 0), none, none, none, none, none, none)
+    return Sum(color, kept, kept_share, done, False, sum.cell, (0, 0, 0, 0), none, none, none, none, none, none)
 
 
 @kernel(allocates=False)

@@ -15,6 +15,7 @@ from vexture.wgsl.kinds import (
     TO_FLOAT,
     array_of,
     component_of,
+    listed,
     size_of,
     vector_of,
     wgsl_name,
@@ -138,7 +139,7 @@ class Expressions:
         given = [self.as_type(one, element, "an element").text for one in node.given]
         if size != str(len(given)):
             raise ShaderError(node.line, f"{node.type} of {len(given)} elements")
-        return Typed(f"{wgsl_type(node.type)}({', '.join(given)})", node.type)
+        return Typed(f"{wgsl_type(node.type)}({listed(given)})", node.type)
 
     def member(self, node: Member) -> Typed:
         """A field, or components."""
@@ -192,7 +193,7 @@ class Expressions:
             raise ShaderError(
                 node.line, f"a choice between {yes.type} and {no.type}; both must be one scalar or vector type"
             )
-        return Typed(f"select({no.text}, {yes.text}, {condition.text})", yes.type)
+        return Typed(f"select({listed([no.text, yes.text, condition.text])})", yes.type)
 
     def binary(self, node: Binary) -> Typed:
         """A sign between values."""
@@ -263,7 +264,7 @@ class Expressions:
             texts.append(bare(value.text))
             if parameter.type == SAMPLED:
                 texts.append(f"{value.text}{SAMPLER}")
-        return Typed(f"{form.name}({', '.join(texts)})", form.returns)
+        return Typed(f"{form.name}({listed(texts)})", form.returns)
 
     def handed(self, uniform: str) -> tuple[str, ...]:
         """A uniform as what a function is given."""
@@ -292,7 +293,7 @@ class Expressions:
             self.as_type(one, to.type, f"{node.name}.{to.name}").text
             for one, to in zip(node.given, wanted, strict=True)
         ]
-        return Typed(f"{node.name}({', '.join(texts)})", node.name)
+        return Typed(f"{node.name}({listed(texts)})", node.name)
 
     def constructor(self, node: Call, given: list[Typed]) -> Typed:
         """Of a vector or scalar; WGSL's convert whole vectors, but no scalars among others."""
@@ -308,7 +309,7 @@ class Expressions:
         for one in given:
             same = component_of(one.type) == part or size == 1 or size_of(one.type) == size
             texts.append(one.text if same else f"{wgsl_type(vector_of(part, size_of(one.type)))}({one.text})")
-        return Typed(f"{wgsl_type(node.name)}({', '.join(texts)})", node.name)
+        return Typed(f"{wgsl_type(node.name)}({listed(texts)})", node.name)
 
     def texture(self, node: Call, given: list[Typed]) -> Typed:
         """A texture's texel, or its size."""
@@ -371,7 +372,7 @@ def held(side: Typed, sign: str, *, is_right: bool) -> str:
     level = LEVEL[sign]
     is_loose = side.level < level or (is_right and side.level == level)
     is_mixed = sign in LOGICAL and side.sign in ("&&", "||") and side.sign != sign
-    is_chained = sign in RELATIONS and side.sign in RELATIONS
+    is_chained = (sign in RELATIONS and side.sign in RELATIONS) or (sign == "<" and ">" in side.text)
     if sign in SHIFTS or sign in BITWISE:  # WGSL: these stand between values that are closed, or in a chain of one sign
         is_loose = side.level < PREFIX and not (sign in BITWISE and side.sign == sign and not is_right)
     return f"({side.text})" if is_loose or is_mixed or is_chained else side.text

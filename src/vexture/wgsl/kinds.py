@@ -14,6 +14,7 @@ __all__ = [
     "TO_FLOAT",
     "array_of",
     "component_of",
+    "listed",
     "size_of",
     "type_of",
     "vector_of",
@@ -129,3 +130,13 @@ def wgsl_type(text: str) -> str:
     if size > 1:
         return f"vec{size}{SHORT[component]}"
     return SCALARS.get(text) or TEXTURES.get(text) or {"mat3": "mat3x3f"}.get(text) or text
+
+
+def listed(texts: list[str]) -> str:
+    """Values between commas; WGSL would read ``a < b, c > d`` as a template's arguments.
+
+    >>> listed(["a < b", "c > d"])
+    '(a < b), c > d'
+    """
+    later = [any(">" in text for text in texts[k + 1 :]) for k in range(len(texts))]
+    return ", ".join(f"({text})" if " < " in text and held else text for text, held in zip(texts, later, strict=True))

@@ -19,8 +19,12 @@ from vexture.unit_square import clipped
 
 __all__ = ["Bands", "bands_of"]
 
-MOST_BANDS: Final = 64
+MOST_BANDS: Final = 256
 """More would cost more texels than the path itself; a shader averages the ramp across its jumps instead."""
+
+STEEP: Final = 1 / 64
+"""Unit-square units: a ramp that changes within less is cut at its stops. A pixel may hold all of the change, and only
+edges are exact there."""
 
 ROUND: Final = 1e-8
 """Unit-square units: how far a cubic may be from its arc."""
@@ -93,11 +97,13 @@ def _kind(gradient: Gradient) -> Kind:
 def _within(gradient: Gradient, kind: Kind, box: Box, at_all_stops: bool) -> Bands:
     """The bands of a gradient where it paints."""
     whole = Bands((gradient,), ())
-    low, high = (-np.inf, np.inf) if kind >= Kind.TOUCHING else _reach(gradient, box)
+    low, high = _reach(gradient, kind, box)
     if gradient.spread is not Spread.PAD and high - low > MOST_BANDS:
         return whole
     knots = _between(_going_on(gradient, low, high), low, high)
-    parts = [k for k, knot in enumerate(knots) if at_all_stops or _differ(knot.before, knot.after)]
+    steep = STEEP * float(np.linalg.norm(np.array(gradient.to_ramp)[: 1 if kind is Kind.LINES else 2, :2], 2))
+    steep = np.inf if at_all_stops else steep / (1.0 - gradient.focus[1] if gradient.focus else 1.0)
+    parts = [k for k, knot in enumerate(knots) if _differ(knot.before, knot.after) or _is_beside_steep(knots, k, steep)]
     parts = [k for k in parts if low < knots[k].place < high]
     if not 0 < len(parts) < MOST_BANDS:
         return whole
@@ -117,13 +123,26 @@ def _differ(one: Stop, other: Stop) -> bool:
     return (one.color, one.opacity) != (other.color, other.opacity) and max(one.opacity, other.opacity) > 0.0
 
 
-def _reach(gradient: Gradient, box: Box) -> tuple[float, float]:
-    """Least and greatest place on the ramp in a box; of circles, the least is where they have no radius."""
+def _is_beside_steep(knots: list[Knot], k: int, steep: float) -> bool:
+    """Whether a ramp changes on one side of a knot within less than this."""
+    beside = [pair for pair in pairwise(knots[max(k - 1, 0) : k + 2])]
+    return any(_differ(one.after, other.before) and other.place - one.place < steep for one, other in beside)
+
+
+def _reach(gradient: Gradient, kind: Kind, box: Box) -> tuple[float, float]:
+    """Least place on the ramp in a box, or less, and greatest, or more; circles of the least have no radius."""
     corners = np.array([(x, y, 1.0) for x in box[:, 0] for y in box[:, 1]]) @ np.array(gradient.to_ramp).T
     if gradient.focus is None:
         return float(corners[:, 0].min()), float(corners[:, 0].max())
     focus, radius = gradient.focus
-    return -radius / (1.0 - radius), max(_place(focus, radius, x, y) for x, y in corners.tolist())
+    grows = 1.0 - radius
+    if kind is Kind.TOUCHING:
+        return -np.inf, np.inf
+    if kind is Kind.NESTED:
+        return -radius / grows, max(_place(focus, radius, x, y) for x, y in corners.tolist())
+    # a circle of radius r comes to r (focus / grows - 1) from the tip
+    away = float(np.linalg.norm(corners - (focus / grows, 0.0), axis=1).max())
+    return -radius / grows, (away / (focus / grows - 1.0) - radius) / grows
 
 
 def _place(focus: float, radius: float, x: float, y: float) -> float:
