@@ -20,12 +20,27 @@ REPEAT = (
     f"{HARD}</radialGradient>"
 )
 CONE = f'<radialGradient id="g" cx=".4" cy=".5" r=".2" fx=".9" fy=".4" fr=".05">{HARD}</radialGradient>'
+CONES = CONE.replace("<radialGradient", '<radialGradient spreadMethod="repeat"')
+SMALLER = (
+    '<radialGradient id="g" gradientUnits="userSpaceOnUse" cx="50" cy="40" r="12" fr="18" spreadMethod="repeat">'
+    f"{HARD}</radialGradient>"
+)
+STEEP = '<radialGradient id="g"><stop offset=".5"/><stop offset=".51" stop-color="#fff"/></radialGradient>'
+CROSSED = (
+    '<linearGradient id="g" spreadMethod="reflect" x2=".4"><stop stop-color="#fff"/><stop offset="1"/>'
+    '</linearGradient><linearGradient id="h" spreadMethod="reflect" x2=".3" y2=".3"><stop stop-color="red"/>'
+    '<stop offset="1" stop-color="red" stop-opacity="0"/></linearGradient>'
+)
 FILLED = f'<path d="{STAR}" fill="url(#g)"/>'
 UNDER = '<path d="M20 10 H90 V70 H20 Z" fill="{}"/>'
 DRAWINGS = {
     "linear, hard stop": SVG.format(LINEAR, FILLED),
     "radial, repeated": SVG.format(REPEAT, FILLED),
     "radial, cone": SVG.format(CONE, FILLED),
+    "radial, repeated cones": SVG.format(CONES, FILLED),
+    "radial, repeated inwards": SVG.format(SMALLER, FILLED),
+    "radial, steep": SVG.format(STEEP, '<circle cx="47" cy="52" r="45" fill="url(#g)"/>'),
+    "two ramps": SVG.format(CROSSED, FILLED + FILLED.replace("#g", "#h")),
     "dodge": SVG.format(LINEAR, FILLED + f'<g style="mix-blend-mode:color-dodge">{UNDER.format("#fff")}</g>'),
     "hue of grey": SVG.format(
         "", UNDER.format("#0f7d3a") + f'<g style="mix-blend-mode:hue" opacity=".7"><path d="{STAR}" fill="#999"/></g>'

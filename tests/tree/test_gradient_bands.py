@@ -6,7 +6,7 @@ import pytest
 from vexture.drawing import Drawing, Path
 from vexture.paint import Gradient, Paint, Spread, Stop
 from vexture.pipeline import run
-from vexture.tree.planar.bands import MOST_BANDS, bands_of
+from vexture.tree.planar.bands import MOST_BANDS, STEEP, bands_of
 from vexture.tree.planar.shades import shade_at, shades_of
 
 FOCI = (None, (0.0, 0.0), (0.5, 0.2), (0.3, 0.0), (1.0, 0.0), (1.5, 0.3), (0.7, 1.0), (1.8, 1.5), (0.3, 2.5))
@@ -55,7 +55,7 @@ def test_bands_have_the_colours_of_their_gradient(focus) -> None:
             shade_at(shades, 0, *point, wanted)
             shade_at(shades, 1 + number, *point, found)
             np.testing.assert_allclose(found, wanted, atol=1e-3, err_msg=f"{gradient} at {point}")
-    assert divided >= 5 or focus == FOCI[-1]  # circles that shrink are left whole
+    assert divided >= 5
 
 
 def test_stripes_need_no_program() -> None:
@@ -66,6 +66,30 @@ def test_stripes_need_no_program() -> None:
     (planar,) = run(Drawing((Path(square, paint=Paint.of(stripes)),))).trees
     assert planar.programs == {}
     assert len(planar.paints) == 3
+
+
+def test_a_cone_that_repeats_is_cut_in_each_period() -> None:
+    stops = Stop(0.0, (0.0, 0.0, 0.0)), Stop(1.0, (1.0, 1.0, 1.0))
+    cone = Gradient(((10.0, 0.0, 0.0), (0.0, 10.0, -5.0)), stops, Spread.REPEAT, (1.6, 0.0))
+    assert len(bands_of(cone, np.array([[0.0, 0.0], [1.0, 1.0]])).regions) > 5
+
+
+def test_a_steep_ramp_is_cut_at_its_stops() -> None:
+    box, black, white = np.array([[0.0, 0.0], [1.0, 1.0]]), (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+    for focus in (None, (0.0, 0.0)):
+        for wide, parts in ((0.5 * STEEP, 3), (2.0 * STEEP, 1)):
+            ramp = Gradient(
+                ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), (Stop(0.5, black), Stop(0.5 + wide, white)), focus=focus
+            )
+            assert len(bands_of(ramp, box).gradients) == parts
+
+
+def test_a_jump_at_the_side_of_the_box_is_left_out() -> None:
+    stops = tuple(Stop(offset, (shade,) * 3) for offset, shade in ((0.0, 0.0), (0.0, 0.2), (1.0, 0.8), (1.0, 1.0)))
+    along = Gradient(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), stops)
+    bands = bands_of(along, np.array([[0.0, 0.0], [1.0, 1.0]]))
+    assert bands.regions == ()
+    assert [stop.color[0] for stop in bands.gradients[0].stops] == [0.2, 0.8]
 
 
 def test_a_ramp_of_very_many_periods_stays_whole() -> None:

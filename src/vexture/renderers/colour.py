@@ -3,7 +3,6 @@
 See `vexture.renderers.cpu`. `is_linear` is what ``VEXTURE_LINEAR`` is in the shader.
 """
 
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -64,7 +64,7 @@ class Region(NamedTuple):
 
 
 class Ramp(NamedTuple):
-    """A place on a ramp, how it changes along x and y, whether there is one, and parts in which the ramp is straight."""
+    """A place on a ramp, how it changes along x and y, whether there is one, and parts in which it is straight."""
 
     t: float
     way: Vec2

@@ -10,7 +10,7 @@ from vexture.kernels import kernel
 from vexture.layout import COVERAGE_ONE, MOST_BYTE_PAINTS, MOST_HALF_PAINTS
 from vexture.renderers.cells import Cell, Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.gradient import Region, Vec3, Vec4, halves, plus, program, times
-from vexture.renderers.method import LEAST_SHARE, NOTHING
+from vexture.renderers.method import LEAST_SHARE, NEARLY_WHOLE, NOTHING
 from vexture.renderers.moment import Share, area_share, plus_share
 
 __all__ = [
@@ -261,7 +261,7 @@ def settle(texels: Texels, is_linear: int, sum: Sum, planar: Planar, region: Reg
         if number == 0 or abs(area) <= LEAST_SHARE:
             continue
         share = Share(area, sum.x[place], sum.y[place], sum.xx[place], sum.xy[place], sum.yy[place])
-        if abs(area - sum.cell) <= LEAST_SHARE:
+        if abs(area - sum.cell) <= 1.0 - NEARLY_WHOLE:
             is_same, before = number == kept, kept_share
             kept_share = plus_share(share, before, 1.0 if is_same else 0.0)
             kept, number, share = number, 0 if is_same else kept, before

@@ -20,7 +20,7 @@ from vexture.unit_square import clipped
 __all__ = ["Bands", "bands_of"]
 
 MOST_BANDS: Final = 256
-"""More would cost more texels than the path itself; a shader averages the ramp across its jumps instead."""
+"""More are finer than the pixels of most pictures; a shader averages the ramp across its jumps instead."""
 
 STEEP: Final = 1 / 64
 """Unit-square units: a ramp that changes within less is cut at its stops. A pixel may hold all of the change, and only
@@ -30,7 +30,7 @@ ROUND: Final = 1e-8
 """Unit-square units: how far a cubic may be from its arc."""
 
 CLOSE: Final = 1e-9
-"""Radii: focal circles this near to touching the outer one touch it."""
+"""Radii: focal circles this near to touching the outer one touch it; places on a ramp that are the same."""
 
 Box = NDArray[np.float64]
 """Least and greatest coordinates, (2, 2)."""
@@ -66,6 +66,8 @@ def bands_of(gradient: Gradient, box: Box, at_all_stops: bool = False) -> Bands:
     kind = _kind(gradient)
     if kind is Kind.FLAT:
         return Bands((gradient,), ())
+    if kind is Kind.NESTED:
+        gradient = _outwards(gradient)
     nothing = Gradient(gradient.to_ramp, (Stop(0.0, (0.0, 0.0, 0.0), 0.0),))
     around = Bands((nothing,), (_cone(gradient, box),)) if kind >= Kind.TOUCHING else Bands((), ())
     grows = gradient.focus is None or gradient.focus[1] < 1.0
@@ -94,6 +96,16 @@ def _kind(gradient: Gradient) -> Kind:
     return Kind.NESTED if beyond < -CLOSE else Kind.TOUCHING if beyond <= CLOSE and radius != 1.0 else Kind.CONE
 
 
+def _outwards(gradient: Gradient) -> Gradient:
+    """The same gradient of nested circles, the last of which is the largest."""
+    if gradient.focus is None or gradient.focus[1] < 1.0:
+        return gradient
+    (a, b, c), (d, e, f), (focus, radius) = *gradient.to_ramp, gradient.focus
+    rows = (-a / radius, -b / radius, (focus - c) / radius), (d / radius, e / radius, f / radius)
+    stops = tuple(Stop(1.0 - stop.offset, stop.color, stop.opacity) for stop in gradient.stops[::-1])
+    return Gradient(rows, stops, gradient.spread, (focus / radius, 1.0 / radius))
+
+
 def _within(gradient: Gradient, kind: Kind, box: Box, at_all_stops: bool) -> Bands:
     """The bands of a gradient where it paints."""
     whole = Bands((gradient,), ())
@@ -105,7 +117,9 @@ def _within(gradient: Gradient, kind: Kind, box: Box, at_all_stops: bool) -> Ban
     steep = np.inf if at_all_stops else steep / (1.0 - gradient.focus[1] if gradient.focus else 1.0)
     parts = [k for k, knot in enumerate(knots) if _differ(knot.before, knot.after) or _is_beside_steep(knots, k, steep)]
     parts = [k for k in parts if low < knots[k].place < high]
-    if not 0 < len(parts) < MOST_BANDS:
+    beside = [knot for knot in knots if 0.0 <= max(low - knot.place, knot.place - high) < CLOSE]
+    jumps_beside = gradient.spread is Spread.PAD and any(_differ(knot.before, knot.after) for knot in beside)
+    if not int(not jumps_beside) <= len(parts) < MOST_BANDS:
         return whole
     bands = [
         _band(gradient, knots[a : b + 1], k > 0 or knots[a].place <= low, k < len(parts) or knots[b].place >= high)
@@ -125,7 +139,7 @@ def _differ(one: Stop, other: Stop) -> bool:
 
 def _is_beside_steep(knots: list[Knot], k: int, steep: float) -> bool:
     """Whether a ramp changes on one side of a knot within less than this."""
-    beside = [pair for pair in pairwise(knots[max(k - 1, 0) : k + 2])]
+    beside = list(pairwise(knots[max(k - 1, 0) : k + 2]))
     return any(_differ(one.after, other.before) and other.place - one.place < steep for one, other in beside)
 
 
