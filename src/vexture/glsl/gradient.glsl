@@ -187,7 +187,7 @@ vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 
 }
 
 // The ramp of a gradient, whose first texel is given with its index, over a region.
-VextureRamp vexture_ramp(uint at, uvec4 record, VextureRegion region) {
+VextureRamp vexture_gradient_ramp(uint at, uvec4 record, VextureRegion region) {
     uint kind = record.w >> VEXTURE_KIND_SHIFT;
     vec3 across = uintBitsToFloat(record.xyz);
     if (kind == uint(VEXTURE_KIND_LINEAR)) {
@@ -203,7 +203,7 @@ VextureRamp vexture_ramp(uint at, uvec4 record, VextureRegion region) {
 // Premultiplied colour of a gradient, whose first texel is given with its index, and its number of stops; of a region in
 // which its ramp is straight.
 vec4 vexture_gradient(uint at, uvec4 record, uint number, VextureRegion region) {
-    VextureRamp ramp = vexture_ramp(at, record, region);
+    VextureRamp ramp = vexture_gradient_ramp(at, record, region);
     uint stops = at + (record.w & ((1u << VEXTURE_STOP_BITS) - 1u));
     uint spread = (record.w >> (VEXTURE_STOP_BITS + VEXTURE_STOP_COUNT_BITS)) & 3u;
     vec4 mean = vec4(0.0);
@@ -266,7 +266,7 @@ vec2 vexture_program_parts(uint at, uint end, VextureRegion region) {
         if (kind == uint(VEXTURE_KIND_MIX)) {
             products += texel.y == 0u ? 0 : 2;
         } else if (kind >= uint(VEXTURE_KIND_LINEAR) && kind <= uint(VEXTURE_KIND_FOCAL)) {
-            VextureRamp ramp = vexture_ramp(at, texel, region);
+            VextureRamp ramp = vexture_gradient_ramp(at, texel, region);
             products++;
             bends = max(bends, ramp.parts);
             ramps = max(ramps, float(VEXTURE_PRODUCT_PARTS) * vexture_spans(ramp.way, region));

@@ -207,7 +207,8 @@ bool vexture_settle(inout VextureSum sum, VexturePlanar planar, VextureRegion re
         if (sum.paints[slot] != 0u && abs(area) > VEXTURE_LEAST_SHARE) {
             uint paint = sum.paints[slot];
             VextureShare share = VextureShare(area, sum.x[slot], sum.y[slot], sum.xx[slot], sum.xy[slot], sum.yy[slot]);
-            if (abs(area - sum.cell) <= 1.0 - VEXTURE_NEARLY_WHOLE) {  // it is kept, and what was kept before, if it is another one, is run
+            if (abs(area - sum.cell) <= 1.0 - VEXTURE_NEARLY_WHOLE) {
+                // it fills the cell: it is kept, and what was kept before, if it is another one, is run
                 bool is_same = paint == sum.kept;
                 VextureShare before = sum.kept_share;
                 sum.kept_share = vexture_plus_share(share, before, is_same ? 1.0 : 0.0);

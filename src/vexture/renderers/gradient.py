@@ -314,7 +314,7 @@ def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: floa
 
 
 @kernel(allocates=False)
-def ramp(texels: Texels, at: int, record: Texel, region: Region) -> Ramp:
+def gradient_ramp(texels: Texels, at: int, record: Texel, region: Region) -> Ramp:
     kind, across, focus = record[3] >> KIND_SHIFT, as_floats(record), (0.0, 0.0)
     if kind == KIND_LINEAR:
         return Ramp(dot(across, region.point) + across[2], (across[0], across[1]), True, (0.0, 0.0))
@@ -326,7 +326,7 @@ def ramp(texels: Texels, at: int, record: Texel, region: Region) -> Ramp:
 
 @kernel(allocates=False)
 def gradient(texels: Texels, at: int, record: Texel, number: int, region: Region) -> Vec4:
-    found = ramp(texels, at, record, region)
+    found = gradient_ramp(texels, at, record, region)
     stops = at + (record[3] & ((1 << STOP_BITS) - 1))
     spread = (record[3] >> (STOP_BITS + STOP_COUNT_BITS)) & 3
     if not found.exists:
@@ -374,7 +374,7 @@ def program_parts(texels: Texels, at: int, end: int, region: Region) -> Whole2:
         if kind == KIND_MIX:
             products += 0 if found[1] == 0 else 2
         elif KIND_LINEAR <= kind <= KIND_FOCAL:
-            place = ramp(texels, k, found, region)
+            place = gradient_ramp(texels, k, found, region)
             products += 1
             bends, way = larger(bends, place.parts), spans(place.way, region)
             ramps = larger(ramps, (PRODUCT_PARTS * way[0], PRODUCT_PARTS * way[1]))
