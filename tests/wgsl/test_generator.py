@@ -130,6 +130,20 @@ def test_each_part_is_to_be_had_in_each_language(part: str) -> None:
             vexture.shader_source("wgsl", part, wrap=wrap)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(
+    ("text", "written"),
+    [("a < b >> 1", "a < (b >> 1u)"), ("a + 1 < (b >> a) || d", "a + 1 < (b >> u32(a)) || d"), ("a < b", "a < b")],
+)
+def test_less_than_begins_no_template(text: str, written: str) -> None:
+    """WGSL would take what is between ``<`` and ``>`` for the arguments of a type."""
+    assert f"return {written};" in to_wgsl(f"bool f(int a, int b, bool d) {{ return {text}; }}")
+
+
+def test_less_than_begins_no_template_between_commas() -> None:
+    text = "bool both(bool a, bool b) { return a && b; }\nbool f(int a, int b) { return both(a < b, b > a); }"
+    assert "both((a < b), b > a)" in to_wgsl(text)
+
+
 # --- random expressions: both languages must compute the same of them
 
 NAMES = {"int": ["a", "b"], "uint": ["c", "6u"], "bool": ["d", "e"], "float": ["x", "y"]}

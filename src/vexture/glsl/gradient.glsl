@@ -259,20 +259,20 @@ vec4 vexture_program_part(uint at, uint end, VextureRegion region) {
 vec2 vexture_program_parts(uint at, uint end, VextureRegion region) {
     vec2 bends = vec2(0.0);
     vec2 ramps = vec2(0.0);
-    int products = 0;
+    int factors = 0;  // what a blend mode or a mask makes has two at least
     for (; at < end; at++) {
         uvec4 texel = vexture_texel(at);
         uint kind = texel.w >> VEXTURE_KIND_SHIFT;
         if (kind == uint(VEXTURE_KIND_MIX)) {
-            products += texel.y == 0u ? 0 : 2;
+            factors += texel.y == uint(VEXTURE_BLEND_NORMAL) ? 0 : 2;
         } else if (kind >= uint(VEXTURE_KIND_LINEAR) && kind <= uint(VEXTURE_KIND_FOCAL)) {
             VextureRamp ramp = vexture_gradient_ramp(at, texel, region);
-            products++;
+            factors++;
             bends = max(bends, ramp.parts);
             ramps = max(ramps, float(VEXTURE_PRODUCT_PARTS) * vexture_spans(ramp.way, region));
         }
     }
-    vec2 parts = ceil(products > 1 ? max(bends, ramps) : bends);
+    vec2 parts = ceil(factors > 1 ? max(bends, ramps) : bends);
     return clamp(parts, vec2(1.0), vec2(float(VEXTURE_MOST_RAMP_PARTS)));
 }
 

@@ -367,18 +367,18 @@ def program_part(texels: Texels, at: int, end: int, region: Region) -> Vec4:
 
 @kernel(allocates=False)
 def program_parts(texels: Texels, at: int, end: int, region: Region) -> Whole2:
-    bends, ramps, products = (0.0, 0.0), (0.0, 0.0), 0
+    bends, ramps, factors = (0.0, 0.0), (0.0, 0.0), 0
     for k in range(at, end):
         found = texel(texels, k)
         kind = found[3] >> KIND_SHIFT
         if kind == KIND_MIX:
-            products += 0 if found[1] == 0 else 2
+            factors += 0 if found[1] == NORMAL else 2
         elif KIND_LINEAR <= kind <= KIND_FOCAL:
             place = gradient_ramp(texels, k, found, region)
-            products += 1
+            factors += 1
             bends, way = larger(bends, place.parts), spans(place.way, region)
             ramps = larger(ramps, (PRODUCT_PARTS * way[0], PRODUCT_PARTS * way[1]))
-    parts = larger(bends, ramps) if products > 1 else bends
+    parts = larger(bends, ramps) if factors > 1 else bends
     most = float(MOST_RAMP_PARTS)
     return math.ceil(clamp(parts[0], 1.0, most)), math.ceil(clamp(parts[1], 1.0, most))
 

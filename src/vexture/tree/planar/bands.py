@@ -113,13 +113,12 @@ def _within(gradient: Gradient, kind: Kind, box: Box, at_all_stops: bool) -> Ban
     if gradient.spread is not Spread.PAD and high - low > MOST_BANDS:
         return whole
     knots = _between(_going_on(gradient, low, high), low, high)
-    steep = STEEP * float(np.linalg.norm(np.array(gradient.to_ramp)[: 1 if kind is Kind.LINES else 2, :2], 2))
-    steep = np.inf if at_all_stops else steep / (1.0 - gradient.focus[1] if gradient.focus else 1.0)
-    parts = [k for k, knot in enumerate(knots) if _differ(knot.before, knot.after) or _is_beside_steep(knots, k, steep)]
+    steep = np.inf if at_all_stops else _places_in(gradient, kind, STEEP)
+    parts = [k for k, knot in enumerate(knots) if _jumps(knot) or _is_beside_ramp(knots, k, steep)]
     parts = [k for k in parts if low < knots[k].place < high]
-    beside = [knot for knot in knots if 0.0 <= max(low - knot.place, knot.place - high) < CLOSE]
-    jumps_beside = gradient.spread is Spread.PAD and any(_differ(knot.before, knot.after) for knot in beside)
-    if not int(not jumps_beside) <= len(parts) < MOST_BANDS:
+    at_side = [knot for knot in knots if 0.0 <= max(low - knot.place, knot.place - high) < CLOSE]
+    is_cut = len(parts) > 0 or (gradient.spread is Spread.PAD and any(map(_jumps, at_side)))
+    if not is_cut or len(parts) >= MOST_BANDS:
         return whole
     bands = [
         _band(gradient, knots[a : b + 1], k > 0 or knots[a].place <= low, k < len(parts) or knots[b].place >= high)
@@ -137,10 +136,22 @@ def _differ(one: Stop, other: Stop) -> bool:
     return (one.color, one.opacity) != (other.color, other.opacity) and max(one.opacity, other.opacity) > 0.0
 
 
-def _is_beside_steep(knots: list[Knot], k: int, steep: float) -> bool:
-    """Whether a ramp changes on one side of a knot within less than this."""
-    beside = list(pairwise(knots[max(k - 1, 0) : k + 2]))
-    return any(_differ(one.after, other.before) and other.place - one.place < steep for one, other in beside)
+def _jumps(knot: Knot) -> bool:
+    """Whether the colour jumps at a knot."""
+    return _differ(knot.before, knot.after)
+
+
+def _is_beside_ramp(knots: list[Knot], k: int, most: float) -> bool:
+    """Whether the colour changes between a knot and the one before or after, less than `most` places away."""
+    beside = pairwise(knots[max(k - 1, 0) : k + 2])
+    return any(_differ(one.after, other.before) and other.place - one.place < most for one, other in beside)
+
+
+def _places_in(gradient: Gradient, kind: Kind, length: float) -> float:
+    """How many places of a ramp a length of the unit square spans; of circles of several middles, about so many."""
+    rows = np.array(gradient.to_ramp)[: 1 if kind is Kind.LINES else 2, :2]
+    grows = 1.0 if gradient.focus is None else 1.0 - gradient.focus[1]
+    return length * float(np.linalg.norm(rows, 2)) / grows
 
 
 def _reach(gradient: Gradient, kind: Kind, box: Box) -> tuple[float, float]:
