@@ -218,7 +218,7 @@ def _band(gradient: Gradient, knots: list[Knot], is_begun: bool, is_ended: bool)
     if all(not _differ(stops[0], stop) for stop in stops):
         return Gradient(gradient.to_ramp, (Stop(0.0, stops[0].color, stops[0].opacity),), focus=gradient.focus)
     placed = [one for k, one in enumerate(placed) if k == 0 or one != placed[k - 1]]
-    if gradient.spread is Spread.PAD:
+    if gradient.spread is Spread.PAD and _kind(gradient) is Kind.TOUCHING:  # float32 would part circles that touch
         return Gradient(gradient.to_ramp, tuple(stop for _, stop in placed), focus=gradient.focus)
     if gradient.focus is not None:
         placed = _from(placed, -gradient.focus[1] / (1.0 - gradient.focus[1]))
