@@ -41,6 +41,14 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: (WEB not in item.path.parents, item.get_closest_marker("long") is None))
 
 
+@pytest.fixture(scope="session", autouse=True)
+def loaded_kernels():
+    """Load the kernels: commands convert in forks of the process of tests, and each would load them again."""
+    from vexture.live.documents import load_kernels
+
+    load_kernels()
+
+
 @pytest.fixture(scope="session")
 def made_once(tmp_path_factory, request):
     """Folder of a name, filled by the first of all processes of tests that asks for it; the others wait for it."""

@@ -27,9 +27,9 @@ SMALLER = (
 )
 STEEP = '<radialGradient id="g"><stop offset=".5"/><stop offset=".51" stop-color="#fff"/></radialGradient>'
 STEEP_BOTH = (
-    '<linearGradient id="h" x2="0" y2="1"><stop offset=".6" stop-color="#f84"/><stop offset=".61" stop-color="#026"/>'
-    '</linearGradient><radialGradient id="g" r=".3"><stop offset=".9" stop-color="#fc3"/>'
-    '<stop offset=".93" stop-color="#fc3" stop-opacity="0"/></radialGradient>'
+    '<linearGradient id="h" x2="0" y2="1"><stop offset=".5" stop-color="#f84"/><stop offset=".515" stop-color="#026"/>'
+    '</linearGradient><linearGradient id="g" x2="0" y2="1"><stop offset=".5" stop-color="#fc3"/>'
+    '<stop offset=".515" stop-color="#fc3" stop-opacity="0"/></linearGradient>'
 )
 CROSSED = (
     '<linearGradient id="g" spreadMethod="reflect" x2=".4"><stop stop-color="#fff"/><stop offset="1"/>'
@@ -46,7 +46,7 @@ DRAWINGS = {
     "radial, repeated inwards": SVG.format(SMALLER, FILLED),
     "radial, steep": SVG.format(STEEP, '<circle cx="47" cy="52" r="45" fill="url(#g)"/>'),
     "two ramps": SVG.format(CROSSED, FILLED + FILLED.replace("#g", "#h")),
-    "steep ramps that cross": SVG.format(STEEP_BOTH, UNDER.format("url(#h)") + FILLED),
+    "steep ramps on one another": SVG.format(STEEP_BOTH, UNDER.format("url(#h)") + UNDER.format("url(#g)")),
     "dodge": SVG.format(LINEAR, FILLED + f'<g style="mix-blend-mode:color-dodge">{UNDER.format("#fff")}</g>'),
     "hue of grey": SVG.format(
         "", UNDER.format("#0f7d3a") + f'<g style="mix-blend-mode:hue" opacity=".7"><path d="{STAR}" fill="#999"/></g>'

@@ -162,7 +162,7 @@ void vexture_add_kept(inout VextureSum sum, VexturePlanar planar) {
 #if VEXTURE_GRADIENTS
     vexture_add_paint(sum, planar, sum.kept, sum.kept_share);
     sum.kept = 0u;
-    sum.cell = 0.0;
+    sum.cell = VEXTURE_NO_SHARE;  // even a small share fills no cell: it would be kept for ever
 #endif
 }
 

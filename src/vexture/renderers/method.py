@@ -29,6 +29,7 @@ __all__ = [
     "NOTHING",
     "NO_CELL",
     "NO_PLACE",
+    "NO_SHARE",
     "NO_SIZE",
     "POSITION_BITS",
     "PRODUCT_PARTS",
@@ -117,6 +118,9 @@ NEARLY_WHOLE: Final = 1.0 - 2.0**-10
 
 LEAST_SHARE: Final = 2.0**-20
 """Share of a pixel, as area and moments, from which a paint's part is something: less is what rounding leaves."""
+
+NO_SHARE: Final = 2.0**60
+"""More than any sum of shares of a pixel, of a damaged texture as well."""
 
 RAMP_PARTS: Final = 6
 """Parts of a region's side for each radius of a circle that it spans."""

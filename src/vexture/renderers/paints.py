@@ -10,7 +10,7 @@ from vexture.kernels import kernel
 from vexture.layout import COVERAGE_ONE, MOST_BYTE_PAINTS, MOST_HALF_PAINTS
 from vexture.renderers.cells import Cell, Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.gradient import Region, Vec3, Vec4, halves, plus, program, times
-from vexture.renderers.method import LEAST_SHARE, NEARLY_WHOLE, NOTHING
+from vexture.renderers.method import LEAST_SHARE, NEARLY_WHOLE, NO_SHARE, NOTHING
 from vexture.renderers.moment import Share, area_share, plus_share
 
 __all__ = [
@@ -223,7 +223,7 @@ def holds_kept(sum: Sum) -> bool:
 def add_kept(texels: Texels, is_linear: int, sum: Sum, planar: Planar) -> Sum:
     """Return the sum with the program that was kept."""
     found = add_paint(texels, is_linear, sum, planar, sum.kept, sum.kept_share)
-    return changed(found, found.color, 0, found.kept_share, found.done, found.is_left, 0.0)
+    return changed(found, found.color, 0, found.kept_share, found.done, found.is_left, NO_SHARE)
 
 
 @kernel(allocates=False)
