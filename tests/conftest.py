@@ -43,10 +43,11 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session", autouse=True)
 def loaded_kernels():
-    """Load the kernels: commands convert in forks of the process of tests, and each would load them again."""
-    from vexture.live.documents import load_kernels
+    """Load the kernels once where many tests run: commands convert in forks of a process, which have what it has."""
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        from vexture.live.documents import load_kernels
 
-    load_kernels()
+        load_kernels()
 
 
 @pytest.fixture(scope="session")

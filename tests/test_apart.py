@@ -17,7 +17,7 @@ import pytest
 import vexture.apart as apart_module
 from typed import typed
 from vexture.apart import apart, each_apart
-from vexture.deadline import check_time, within
+from vexture.deadline import CLOCK, check_time, within
 from vexture.errors import LimitError, ParameterError, SourceError
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
@@ -185,6 +185,44 @@ def test_the_process_ends_with_its_parent(number: int) -> None:
         parent.wait()
         while alive(child):  # the limit of the test's time ends this
             time.sleep(0.01)
+
+
+def stand_still(seconds: float) -> str:
+    """Work of which most is not counted; it looks at the clock by itself as well."""
+    with within(0.2):
+        CLOCK.stop()
+        CLOCK.stop()
+        time.sleep(seconds)
+        CLOCK.go_on()
+        CLOCK.go_on()
+        check_time()
+    return "done"
+
+
+def stop_and_go_on(seconds: float) -> None:
+    CLOCK.stop()
+    CLOCK.go_on()
+    time.sleep(seconds)
+
+
+@pytest.mark.usefixtures("short_grace")
+def test_no_limit_counts_the_time_in_which_the_clock_stands() -> None:
+    assert apart(stand_still, 1.0, seconds=0.2) == "done"
+    with pytest.raises(LimitError):
+        apart(stop_and_go_on, 100.0, seconds=0.2)
+
+
+def test_no_limit_counts_the_compiling_of_kernels() -> None:
+    """On a slow machine the first conversion never ended: compiling took longer than its limit."""
+    import numba
+
+    from vexture.bezier.roots import cubic_at
+
+    cubic_at(0.0, 0.0, 1.0, 1.0, 0.5)  # Numba is heard from here on
+    start, counted = time.monotonic(), CLOCK.now()
+    numba.njit(lambda x: x + 1)(1)
+    whole, counted = time.monotonic() - start, CLOCK.now() - counted
+    assert counted < 0.9 * whole
 
 
 def test_limits_within_limits_are_the_earlier_one() -> None:

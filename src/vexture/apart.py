@@ -17,9 +17,9 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from multiprocessing.connection import Connection, wait
-from typing import Any, Final, TypeVar
+from typing import Any, Final, NamedTuple, TypeVar
 
-from vexture.deadline import check_seconds, too_long
+from vexture.deadline import CLOCK, check_seconds, too_long
 from vexture.errors import EXPECTED, ParameterError, SourceError, VextureError
 
 __all__ = ["GRACE", "apart", "each_apart"]
@@ -110,6 +110,12 @@ class _Raised:
         self.error = error
 
 
+class _Clock(NamedTuple):
+    """What a process says of the clock of its limits."""
+
+    stands: bool
+
+
 class _Worker:
     """A process that is started when there is work, and again after its end."""
 
@@ -118,6 +124,9 @@ class _Worker:
         self.process: Any = None
         self.place: int | None = None  # of what it works at
         self.until = math.inf
+        self.left = 0.0  # seconds, while the clock of the process stands still
+        self.answer: list[Any] = []  # the result, once it is there
+        self.has_died = False
 
     def give(self, place: int, item: tuple[Any, ...], seconds: float) -> None:
         """Start a piece of work."""
@@ -129,16 +138,30 @@ class _Worker:
             self.process.start()
             theirs.close()
         self.place, self.until = place, time.monotonic() + seconds + GRACE
+        self.answer, self.has_died = [], False
         with suppress(OSError):  # it has died: seen where its result is asked for
             self.pipe.send(item)
+
+    def hear(self) -> None:
+        """Take what the process has sent."""
+        try:
+            said = self.pipe.recv()
+        except (EOFError, OSError):
+            self.has_died = True
+            return
+        if not isinstance(said, _Clock):
+            self.answer = [said]
+        elif said.stands:
+            self.left, self.until = self.until - time.monotonic(), math.inf
+        else:
+            self.until = time.monotonic() + self.left
 
     def result(self, name: str, seconds: float) -> Any:
         """What its work has given, or a `_Raised`."""
         about = f"{name}: " if name else ""
-        try:
-            if self.pipe.poll():
-                return self.pipe.recv()
-        except (EOFError, OSError):
+        if self.answer:
+            return self.answer[0]
+        if self.has_died:
             self.process.join()
             code = self.process.exitcode
             self.end()
@@ -165,12 +188,16 @@ def _ready(workers: Sequence[_Worker]) -> list[_Worker]:
     busy = [worker for worker in workers if worker.place is not None]
     left = min(worker.until for worker in busy) - time.monotonic()
     heard = wait([worker.pipe for worker in busy], None if left == math.inf else max(left, 0.0))
-    return [worker for worker in busy if worker.pipe in heard or worker.until <= time.monotonic()]
+    for worker in busy:
+        if worker.pipe in heard:
+            worker.hear()
+    return [worker for worker in busy if worker.answer or worker.has_died or worker.until <= time.monotonic()]
 
 
 def _serve(work: Callable[..., Any], pipe: Connection) -> None:
     """Do one piece of work after the other, in the process."""
     _end_with_the_parent()
+    CLOCK.start(lambda stands: pipe.send(_Clock(stands)))
     sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__  # what stands in for them shares locks with other threads
     while True:
         try:

@@ -1,19 +1,66 @@
 """A limit on how long a conversion may take, in whatever thread and on whatever platform it runs.
 
-Loops that can be long look at the clock themselves. They return to Python often enough that Ctrl-C ends them too.
+Loops that can be long look at the clock themselves. They return to Python often enough that Ctrl-C ends them too. The
+clock stands still while kernels are compiled, which is not the work of any source.
 """
 
+import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
 from vexture.errors import LimitError, ParameterError
 
-__all__ = ["DEFAULT_SECONDS", "check_seconds", "check_time", "too_long", "within"]
+__all__ = ["CLOCK", "DEFAULT_SECONDS", "check_seconds", "check_time", "too_long", "within"]
 
 DEFAULT_SECONDS = 300.0
 """Seconds for one source."""
+
+
+class Clock:
+    """Seconds of this process, but for those in which it was stopped, by any thread."""
+
+    def __init__(self) -> None:
+        self.start()
+
+    def start(self, tell: Callable[[bool], None] = lambda stands: None) -> None:
+        """Go on from now, also in a fork of a process whose clock stood; `tell` hears when it stands and goes on."""
+        self._lock, self._tell = threading.Lock(), tell
+        self._stops, self._stopped_at, self._stood = 0, 0.0, 0.0
+
+    def now(self) -> float:
+        """Seconds since some time.
+
+        Examples
+        --------
+        >>> clock = Clock()
+        >>> clock.stop()
+        >>> clock.now() == clock.now()
+        True
+        """
+        with self._lock:
+            return (self._stopped_at if self._stops else time.monotonic()) - self._stood
+
+    def stop(self) -> None:
+        """Stand still until as many calls of `go_on`."""
+        with self._lock:
+            self._stops += 1
+            if self._stops == 1:
+                self._stopped_at = time.monotonic()
+                self._tell(True)
+
+    def go_on(self) -> None:
+        """Take a call of `stop` back."""
+        with self._lock:
+            self._stops -= 1
+            if self._stops == 0:
+                self._stood += time.monotonic() - self._stopped_at
+                self._tell(False)
+
+
+CLOCK = Clock()
+"""That of all limits."""
 
 _LIMIT: ContextVar[tuple[float, float] | None] = ContextVar("_LIMIT", default=None)
 """Seconds that the work may take, and the time at which they are over."""
@@ -23,7 +70,7 @@ _LIMIT: ContextVar[tuple[float, float] | None] = ContextVar("_LIMIT", default=No
 def within(seconds: float) -> Iterator[None]:
     """Let `check_time` raise an error when the work inside has taken longer, or what is around it than it may."""
     check_seconds(seconds)
-    around, limit = _LIMIT.get(), (seconds, time.monotonic() + seconds)
+    around, limit = _LIMIT.get(), (seconds, CLOCK.now() + seconds)
     before = _LIMIT.set(limit if around is None or limit[1] < around[1] else around)
     try:
         yield
@@ -50,7 +97,7 @@ def check_time(name: str = "") -> None:
     vexture.errors.LimitError: duck: converting takes longer than 1e-09 s; simplify the drawing or raise `max_seconds`
     """
     limit = _LIMIT.get()
-    if limit is not None and time.monotonic() > limit[1]:
+    if limit is not None and CLOCK.now() > limit[1]:
         raise too_long(name, limit[0])
 
 

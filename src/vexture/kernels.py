@@ -21,6 +21,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeVar, cast, overload
 
+from vexture.deadline import CLOCK
 from vexture.machine_code import Compiled, described, load
 
 __all__ = ["Kernel", "kernel", "text_digest"]
@@ -83,21 +84,22 @@ def _numba() -> tuple[Any, Path | None]:
     from numba.core import event
 
     class Announcement(event.Listener):  # type: ignore[misc]
-        """Tells the user, at the first compilation of this process, why the first run takes longer."""
+        """Tells the user, at the first compilation of this process, why the first run takes longer; stops the clock."""
 
         def __init__(self) -> None:
             self.made = False
 
         def on_start(self, event: Any) -> None:
+            CLOCK.stop()
             dispatcher = event.data.get("dispatcher")
             ours = getattr(dispatcher, "py_func", None)
             if not self.made and ours is not None and ours.__module__.startswith("vexture."):
                 self.made = True
-                line = "vexture: compiling kernels for their first use here (up to a minute on a slow machine) ..."
+                line = "vexture: compiling kernels for their first use here (minutes on a slow machine) ..."
                 logging.getLogger("vexture").warning(line)  # to standard error, unless a program sets its level
 
         def on_end(self, event: Any) -> None:
-            pass
+            CLOCK.go_on()
 
     event.register("numba:compile", Announcement())
     return numba, kernel_cache()

@@ -39,6 +39,9 @@ FIELDS = {
 }
 """Two squares, side by side."""
 
+HOSTILE = "</script><img src=x onerror=window.hacked=1><svg onload=window.hacked=1>${window.hacked=1}{{7*7}}"
+"""Markup and code, were it not text."""
+
 CELLS = (
     """import traitlets, vexture
 chart = vexture.show('map.svg', width=400, height=240)
@@ -57,6 +60,10 @@ flood = vexture.show(xarray.open_dataset('depth.nc'), amplitude=0, height=300)
 flood""",
     """fields = vexture.map('fields.geojson', 'yield', width=400, height=240, crs='EPSG:4326', classes=2, id='id')
 fields""",
+    """import json
+hostile = json.load(open('hostile.json'))
+foreign = vexture.map('hostile.geojson', hostile, width=400, height=240, crs='EPSG:4326', id='id')
+foreign""",
 )
 
 CONTEXTS = """
@@ -288,6 +295,30 @@ def test_a_map_tells_of_what_is_hovered_and_selects_what_is_clicked(notebook: An
     notebook.value("[setattr(fields, 'selected', None), setattr(fields, 'column', 'crop')]")
     drawn(notebook, stage, (300, 120), [86, 180, 233])
     assert stage.locator(".vexture-legend").inner_text().split("\n") == ["crop", "oats", "rye"]
+
+
+def test_names_and_values_of_strangers_are_text(notebook: Any, chart: Any) -> None:
+    pytest.importorskip("pyarrow", reason="pyarrow is not installed (pip install 'vexture[map]')")
+    fields = json.loads(json.dumps(FIELDS))
+    for feature in fields["features"]:
+        name = feature["properties"]["id"]
+        feature["properties"] = {"id": name + HOSTILE, HOSTILE: name + HOSTILE}
+    (notebook.folder / "hostile.geojson").write_text(json.dumps(fields))
+    (notebook.folder / "hostile.json").write_text(json.dumps(HOSTILE))
+    stage = notebook.run(8).locator(".vexture-stage")
+    stage.locator(".vexture-legend").wait_for()
+    assert stage.locator(".vexture-legend").inner_text().split("\n") == [HOSTILE, f"east{HOSTILE}", f"west{HOSTILE}"]
+    notebook.page.mouse.move(1, 1)
+    stage.hover(position={"x": 100, "y": 120})
+    tip = stage.locator(".vexture-tip")
+    tip.wait_for()
+    assert tip.inner_text().split("\n") == [HOSTILE, f"west{HOSTILE}", "id", f"west{HOSTILE}"]
+    stage.click(position={"x": 100, "y": 120})
+    notebook.until("foreign.selected == 'west' + hostile")
+    notebook.value("setattr(foreign, 'selected', 'east' + hostile)")
+    notebook.page.wait_for_timeout(200)
+    assert stage.locator("img, script, svg[onload]").count() == 0
+    assert notebook.page.evaluate("window.hacked") is None
 
 
 @pytest.mark.slow
