@@ -37,7 +37,7 @@ SOURCES = BASE | {"bezier", "content", "contours", "drawing", "group", "notes", 
 MAY_IMPORT: dict[str, set[str]] = {
     "deadline": {"errors"},
     "errors": set(),
-    "kernels": {"machine_code"},
+    "kernels": {"deadline", "machine_code"},
     "machine_code": set(),
     "layout": set(),
     "tolerance": set(),

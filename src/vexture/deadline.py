@@ -29,14 +29,14 @@ class Clock:
         self._lock, self._tell = threading.Lock(), tell
         self._stops, self._stopped_at, self._stood = 0, 0.0, 0.0
 
-    def now(self) -> float:
+    def seconds(self) -> float:
         """Seconds since some time.
 
         Examples
         --------
         >>> clock = Clock()
         >>> clock.stop()
-        >>> clock.now() == clock.now()
+        >>> clock.seconds() == clock.seconds()
         True
         """
         with self._lock:
@@ -70,7 +70,7 @@ _LIMIT: ContextVar[tuple[float, float] | None] = ContextVar("_LIMIT", default=No
 def within(seconds: float) -> Iterator[None]:
     """Let `check_time` raise an error when the work inside has taken longer, or what is around it than it may."""
     check_seconds(seconds)
-    around, limit = _LIMIT.get(), (seconds, CLOCK.now() + seconds)
+    around, limit = _LIMIT.get(), (seconds, CLOCK.seconds() + seconds)
     before = _LIMIT.set(limit if around is None or limit[1] < around[1] else around)
     try:
         yield
@@ -97,7 +97,7 @@ def check_time(name: str = "") -> None:
     vexture.errors.LimitError: duck: converting takes longer than 1e-09 s; simplify the drawing or raise `max_seconds`
     """
     limit = _LIMIT.get()
-    if limit is not None and CLOCK.now() > limit[1]:
+    if limit is not None and CLOCK.seconds() > limit[1]:
         raise too_long(name, limit[0])
 
 
