@@ -6,8 +6,9 @@ from drawings import drawing_of
 from minimise import minimised
 
 PLAIN = range(30)
-WITH_GRADIENTS: tuple[int, ...] = ()
-"""None yet: many pictures of gradients are not exact."""
+WITH_GRADIENTS = (1, 2, 3, 4, 7, 8, 9, 12, 14, 16, 18, 22, 24, 30, 32, 35, 39, 41, 44, 46, 47, 50, 51, 52, 56, 59)
+"""Those of the first 60 that take less than a second; of all 60, four are further off, by up to 5 of 255, and these are
+known: `make fuzz` with the target `gradients` finds more of their kinds."""
 
 
 @pytest.mark.parametrize(
