@@ -2,13 +2,12 @@
 
 import inspect
 import os
-import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
 
-from vexture.deadline import DEFAULT_SECONDS, within
+from vexture.deadline import CLOCK, DEFAULT_SECONDS, within
 from vexture.encodings import DEFAULT, EncodedTexture, find_encoding
 from vexture.errors import ParameterError
 from vexture.notes import Note, warn_of
@@ -76,7 +75,7 @@ def run(
     **parameters: Any,
 ) -> Conversion[Any]:
     """Convert as `convert` does, but without a warning, and keep the steps."""
-    start = time.perf_counter()
+    start = CLOCK.seconds()
     if encoding == DEFAULT:
         known = {field.name for field in fields(Parameters)}
     else:
@@ -88,13 +87,13 @@ def run(
     if encoding == DEFAULT:
         part = trees_of(source, Parameters(select=select, max_seconds=max_seconds, **parameters))
         texture = combine([part], part.drawing.name, None if _is_drawing(source) else Path(part.source).name)
-        return replace(part, texture=texture, seconds=time.perf_counter() - start)
+        return replace(part, texture=texture, seconds=CLOCK.seconds() - start)
     from vexture.reading import drawing_of
 
     with within(max_seconds):
         drawing = drawing_of(source, {} if select is None else {"select": select}).unmasked()
         tree, other_texture, rounding = other.convert(drawing, **parameters)
-    return Conversion(drawing, (tree,), other_texture, time.perf_counter() - start, rounding, notes=drawing.notes)
+    return Conversion(drawing, (tree,), other_texture, CLOCK.seconds() - start, rounding, notes=drawing.notes)
 
 
 def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
@@ -106,7 +105,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     from vexture.tree.planar.sheets import Sheet, notes_of_sheets, sheets_of
     from vexture.tree.planar.style import restylable, style_of
 
-    start = time.perf_counter()
+    start = CLOCK.seconds()
     tolerance = parameters.tolerance
     if tolerance == "auto":
         tolerance = UNSEEN if parameters.precision is None else 0.0
@@ -136,7 +135,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
         for part in (sheet.drawing,)
     )
     named = drawing.name if _is_drawing(source) else os.fspath(source)  # type: ignore[arg-type]
-    seconds, rounding = time.perf_counter() - start, largest_shift(parameters.precision)
+    seconds, rounding = CLOCK.seconds() - start, largest_shift(parameters.precision)
     notes = layers[0].notes if layers else (*shown.notes, *notes_of_sheets(sheets))
     if parameters.restyle and not any(path.element for path in drawing.paths):
         notes = (*notes, Note("remark", "no element has a name, so none can get another colour"))

@@ -36,6 +36,12 @@ CROSSED = (
     '</linearGradient><linearGradient id="h" spreadMethod="reflect" x2=".3" y2=".3"><stop stop-color="red"/>'
     '<stop offset="1" stop-color="red" stop-opacity="0"/></linearGradient>'
 )
+WIDE_CONE = '<radialGradient id="g" cx=".6205" cy=".6205" r=".16" fx=".5244" fy=".4923"><stop/><stop/></radialGradient>'
+LEAF = '<path d="M2 3C0 -14 10 -15 24 -27C23 2 22 47 19 85C19 92 7 93 3 92C-4 68 7 31 2 3" fill="url(#g)"/>'
+BOTH_WAYS = (
+    '<linearGradient id="g"><stop stop-color="#c20"/><stop offset="1" stop-color="#4a0"/></linearGradient>'
+    '<linearGradient id="h" x2="0" y2="1"><stop/><stop offset="1" stop-color="#aa0"/></linearGradient>'
+)
 FILLED = f'<path d="{STAR}" fill="url(#g)"/>'
 UNDER = '<path d="M20 10 H90 V70 H20 Z" fill="{}"/>'
 DRAWINGS = {
@@ -48,6 +54,10 @@ DRAWINGS = {
     "two ramps": SVG.format(CROSSED, FILLED + FILLED.replace("#g", "#h")),
     "steep ramps on one another": SVG.format(STEEP_BOTH, UNDER.format("url(#h)") + UNDER.format("url(#g)")),
     "dodge": SVG.format(LINEAR, FILLED + f'<g style="mix-blend-mode:color-dodge">{UNDER.format("#fff")}</g>'),
+    "difference of ramps": SVG.format(
+        BOTH_WAYS,
+        UNDER.format("url(#g)") + f'<g style="mix-blend-mode:difference">{UNDER.format("url(#h)")}</g>',
+    ),
     "hue of grey": SVG.format(
         "", UNDER.format("#0f7d3a") + f'<g style="mix-blend-mode:hue" opacity=".7"><path d="{STAR}" fill="#999"/></g>'
     ),
@@ -74,3 +84,12 @@ def test_gradients_are_exact_at_edges_in_every_view(name: str) -> None:
             found = texture.render(size=(size, size), view=matrix, renderer="cpu")
             gap = np.abs(found - render_exact_colours(drawing, (size, size), matrix)).max()
             assert gap < MOST, (view, size, 255 * gap)
+
+
+def test_a_cone_almost_as_wide_as_half_of_the_plane_is_exact_at_its_sides() -> None:
+    """The middle of a part of what was in it could be in the cone behind its tip, where there is no colour."""
+    drawing = read_drawing(SVG.format(WIDE_CONE, LEAF).encode(), name="drawing.svg")
+    step = 0.0035533
+    matrix = np.array([[step, step, -0.257322], [step, -step, 0.592], [0.0, 0.0, 1.0]])
+    gap = np.abs(vexture.convert(drawing).render((99, 60), matrix) - render_exact_colours(drawing, (99, 60), matrix))
+    assert gap.max() < MOST, 255 * gap.max()

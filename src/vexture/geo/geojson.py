@@ -16,6 +16,7 @@ from vexture.bezier.convert import line_cubics
 from vexture.content import BYTE_ORDER_MARK, READABLE, about, decompressed, read_bytes
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
+from vexture.geo.named import refuse_link
 from vexture.geo.snap import snapped
 from vexture.notes import Notes, line_of, warn_of
 from vexture.paint import BLACK, Paint
@@ -347,7 +348,7 @@ def _shown(value: Any) -> str:
 
 
 def _crs(member: Any) -> str:
-    """Name of the reference system, from the member `crs` that GeoJSON had before RFC 7946.
+    """Name of the reference system, from the member `crs` that GeoJSON had before RFC 7946; a link is refused.
 
     Examples
     --------
@@ -355,6 +356,8 @@ def _crs(member: Any) -> str:
     ('EPSG:28992', 'OGC:CRS84')
     """
     properties = member.get("properties") if isinstance(member, dict) else None
+    if isinstance(member, dict) and str(member.get("type")).lower() in ("link", "url"):
+        refuse_link(str(properties.get("href") if isinstance(properties, dict) else properties))
     name = properties.get("name") if isinstance(properties, dict) else None
     if not isinstance(name, str) or not name.isprintable() or not 0 < len(name) <= 200:
         return WORLD

@@ -3,11 +3,11 @@
 import json
 import re
 from collections.abc import Iterator
-from typing import Any, Final
+from typing import Any, Final, NoReturn
 
 from vexture.errors import SourceError, printable, shortened
 
-__all__ = ["refuse_files_of_json", "refuse_files_of_system"]
+__all__ = ["refuse_files_of_json", "refuse_files_of_system", "refuse_link"]
 
 PLACE: Final = re.compile(r"[/\\~]|^\.")
 """In the name of a file or an address, but not in that of a grid that PROJ itself has."""
@@ -91,13 +91,17 @@ def refuse_files_of_json(content: bytes) -> None:
             raise SourceError(f"its crs, at byte {start:,}, is no reference system; leave it out") from None
         texts = [*_all_texts(value)]
         if any(text.lower() in ("link", "url") for text in texts):
-            link = max(texts, key=len)
-            raise SourceError(
-                f"its crs is a link to {_shown(link)!r}, and nothing is fetched; name the system: "
-                '{"type": "name", "properties": {"name": "EPSG:..."}}'
-            )
+            refuse_link(max(texts, key=len))
         for each in texts:
             refuse_files_of_system(each)
+
+
+def refuse_link(link: str) -> NoReturn:
+    """Raise a `SourceError` about GeoJSON whose reference system is somewhere else."""
+    raise SourceError(
+        f"its crs is a link to {_shown(link)!r}, and nothing is fetched; name the system: "
+        '{"type": "name", "properties": {"name": "EPSG:..."}}'
+    )
 
 
 def _all_texts(value: Any) -> Iterator[str]:

@@ -53,6 +53,11 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     float tip = focus.x / max(grows, VEXTURE_NOTHING) - focus.x;  // where the circles have no radius
     parts = length(q - vec2(tip, 0.0)) < length(spans) ? vec2(float(VEXTURE_MOST_RAMP_PARTS)) : parts;
     float a = focus.x * focus.x - grows * grows;
+    if (a >= 0.0 && grows > 0.0) {
+        // the middle of a part of what is in a cone may be beside it, and then in the cone behind the tip
+        float outside = q.x - tip + sqrt(a) / grows * abs(q.y);
+        q.x -= outside < 0.5 * float(VEXTURE_MOST_RAMP_PARTS) * length(spans) ? max(outside, 0.0) : 0.0;
+    }
     float b = focus.y * grows - q.x * focus.x;
     float c = dot(q, q) - focus.y * focus.y;
     float inside = b * b - a * c;
@@ -260,19 +265,22 @@ vec2 vexture_program_parts(uint at, uint end, VextureRegion region) {
     vec2 bends = vec2(0.0);
     vec2 ramps = vec2(0.0);
     int factors = 0;  // what a blend mode or a mask makes has two at least
+    float for_each = float(VEXTURE_PRODUCT_PARTS);
     for (; at < end; at++) {
         uvec4 texel = vexture_texel(at);
         uint kind = texel.w >> VEXTURE_KIND_SHIFT;
         if (kind == uint(VEXTURE_KIND_MIX)) {
             factors += texel.y == uint(VEXTURE_BLEND_NORMAL) ? 0 : 2;
+            bool bends_most = texel.y > uint(VEXTURE_BLEND_SCREEN) && texel.y < uint(VEXTURE_MASKS);
+            for_each = bends_most ? float(VEXTURE_BLEND_PARTS) : for_each;
         } else if (kind >= uint(VEXTURE_KIND_LINEAR) && kind <= uint(VEXTURE_KIND_FOCAL)) {
             VextureRamp ramp = vexture_gradient_ramp(at, texel, region);
             factors++;
             bends = max(bends, ramp.parts);
-            ramps = max(ramps, float(VEXTURE_PRODUCT_PARTS) * vexture_spans(ramp.way, region));
+            ramps = max(ramps, vexture_spans(ramp.way, region));
         }
     }
-    vec2 parts = ceil(factors > 1 ? max(bends, ramps) : bends);
+    vec2 parts = ceil(factors > 1 ? max(bends, for_each * ramps) : bends);
     return clamp(parts, vec2(1.0), vec2(float(VEXTURE_MOST_RAMP_PARTS)));
 }
 

@@ -31,6 +31,7 @@ from vexture.paint import Spread
 from vexture.renderers.blend import luminosity, mixture, saturation
 from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.method import (
+    BLEND_PARTS,
     GREY,
     LEAST_COLOR,
     LEAST_RADIUS,
@@ -50,7 +51,8 @@ __all__ = ["Region", "Vec3", "Vec4", "halves", "plus", "program", "times"]
 Vec3 = tuple[float, float, float]
 Vec4 = tuple[float, float, float, float]
 
-NORMAL, HUE, PLUS_LIGHTER = int(Blend.NORMAL), int(Blend.HUE), int(Blend.PLUS_LIGHTER)
+NORMAL, SCREEN, HUE = int(Blend.NORMAL), int(Blend.SCREEN), int(Blend.HUE)
+PLUS_LIGHTER = int(Blend.PLUS_LIGHTER)
 LUMINANCE = int(Mask.LUMINANCE)
 PAD, REFLECT = int(Spread.PAD), int(Spread.REFLECT)
 
@@ -189,6 +191,9 @@ def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     tip = focus[0] / max(grows, NOTHING) - focus[0]
     parts = most if length((qx - tip, qy)) < length(sides) else parts
     a = focus[0] * focus[0] - grows * grows
+    if a >= 0.0 and grows > 0.0:
+        outside = qx - tip + math.sqrt(a) / grows * abs(qy)
+        qx -= max(outside, 0.0) if outside < 0.5 * MOST_RAMP_PARTS * length(sides) else 0.0
     b = focus[1] * grows - qx * focus[0]
     c = qx * qx + qy * qy - focus[1] * focus[1]
     inside = b * b - a * c
@@ -367,18 +372,19 @@ def program_part(texels: Texels, at: int, end: int, region: Region) -> Vec4:
 
 @kernel(allocates=False)
 def program_parts(texels: Texels, at: int, end: int, region: Region) -> Whole2:
-    bends, ramps, factors = (0.0, 0.0), (0.0, 0.0), 0
+    bends, ramps, factors, for_each = (0.0, 0.0), (0.0, 0.0), 0, float(PRODUCT_PARTS)
     for k in range(at, end):
         found = texel(texels, k)
         kind = found[3] >> KIND_SHIFT
         if kind == KIND_MIX:
             factors += 0 if found[1] == NORMAL else 2
+            for_each = float(BLEND_PARTS) if SCREEN < found[1] < MASKS else for_each
         elif KIND_LINEAR <= kind <= KIND_FOCAL:
             place = gradient_ramp(texels, k, found, region)
             factors += 1
             bends, way = larger(bends, place.parts), spans(place.way, region)
-            ramps = larger(ramps, (PRODUCT_PARTS * way[0], PRODUCT_PARTS * way[1]))
-    parts = larger(bends, ramps) if factors > 1 else bends
+            ramps = larger(ramps, way)
+    parts = larger(bends, (for_each * ramps[0], for_each * ramps[1])) if factors > 1 else bends
     most = float(MOST_RAMP_PARTS)
     return math.ceil(clamp(parts[0], 1.0, most)), math.ceil(clamp(parts[1], 1.0, most))
 

@@ -5,6 +5,7 @@ from typing import Final
 __all__ = [
     "BEND",
     "BISECTIONS",
+    "BLEND_PARTS",
     "BORDER",
     "CLOSE",
     "COVERED",
@@ -130,6 +131,9 @@ RAMP_BEND: Final = 0.5
 
 PRODUCT_PARTS: Final = 4
 """Parts for each ramp that a region's side spans, where a product of ramps is averaged."""
+
+BLEND_PARTS: Final = 256
+"""The same where a blend mode bends what it makes of ramps more than a product does, or breaks it."""
 
 MOST_RAMP_PARTS: Final = 4
 """Most parts of a side."""
