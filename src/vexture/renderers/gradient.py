@@ -52,8 +52,7 @@ Vec3 = tuple[float, float, float]
 Vec4 = tuple[float, float, float, float]
 
 NORMAL, SCREEN, HUE = int(Blend.NORMAL), int(Blend.SCREEN), int(Blend.HUE)
-PLUS_LIGHTER = int(Blend.PLUS_LIGHTER)
-LUMINANCE = int(Mask.LUMINANCE)
+PLUS_LIGHTER, LUMINANCE = int(Blend.PLUS_LIGHTER), int(Mask.LUMINANCE)
 PAD, REFLECT = int(Spread.PAD), int(Spread.REFLECT)
 
 
@@ -380,10 +379,8 @@ def program_parts(texels: Texels, at: int, end: int, region: Region) -> Whole2:
             factors += 0 if found[1] == NORMAL else 2
             for_each = float(BLEND_PARTS) if SCREEN < found[1] < MASKS else for_each
         elif KIND_LINEAR <= kind <= KIND_FOCAL:
-            place = gradient_ramp(texels, k, found, region)
-            factors += 1
-            bends, way = larger(bends, place.parts), spans(place.way, region)
-            ramps = larger(ramps, way)
+            factors, place = factors + 1, gradient_ramp(texels, k, found, region)
+            bends, ramps = larger(bends, place.parts), larger(ramps, spans(place.way, region))
     parts = larger(bends, (for_each * ramps[0], for_each * ramps[1])) if factors > 1 else bends
     most = float(MOST_RAMP_PARTS)
     return math.ceil(clamp(parts[0], 1.0, most)), math.ceil(clamp(parts[1], 1.0, most))
