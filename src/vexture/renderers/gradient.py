@@ -51,7 +51,7 @@ __all__ = ["Region", "Vec3", "Vec4", "halves", "plus", "program", "times"]
 Vec3 = tuple[float, float, float]
 Vec4 = tuple[float, float, float, float]
 
-NORMAL, SCREEN, HUE = int(Blend.NORMAL), int(Blend.SCREEN), int(Blend.HUE)
+NORMAL, COLOR_BURN, HUE = int(Blend.NORMAL), int(Blend.COLOR_BURN), int(Blend.HUE)
 PLUS_LIGHTER, LUMINANCE = int(Blend.PLUS_LIGHTER), int(Mask.LUMINANCE)
 PAD, REFLECT = int(Spread.PAD), int(Spread.REFLECT)
 
@@ -377,7 +377,7 @@ def program_parts(texels: Texels, at: int, end: int, region: Region) -> Whole2:
         kind = found[3] >> KIND_SHIFT
         if kind == KIND_MIX:
             factors += 0 if found[1] == NORMAL else 2
-            for_each = float(BLEND_PARTS) if SCREEN < found[1] < MASKS else for_each
+            for_each = float(BLEND_PARTS) if COLOR_BURN < found[1] < MASKS else for_each
         elif KIND_LINEAR <= kind <= KIND_FOCAL:
             factors, place = factors + 1, gradient_ramp(texels, k, found, region)
             bends, ramps = larger(bends, place.parts), larger(ramps, spans(place.way, region))
