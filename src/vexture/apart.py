@@ -110,10 +110,10 @@ class _Raised:
         self.error = error
 
 
-class _Clock(NamedTuple):
-    """What a process says of the clock of its limits."""
+class _ClockChange(NamedTuple):
+    """What a process sends when the clock of its limits stops or goes on."""
 
-    stands: bool
+    is_stopped: bool
 
 
 class _Worker:
@@ -124,7 +124,7 @@ class _Worker:
         self.process: Any = None
         self.place: int | None = None  # of what it works at
         self.until = math.inf
-        self.left = 0.0  # seconds, while the clock of the process stands still
+        self.left = 0.0  # seconds of its limit, while the clock of the process is stopped
         self.answer: list[Any] = []  # the result, once it is there
         self.has_died = False
 
@@ -149,9 +149,9 @@ class _Worker:
         except (EOFError, OSError):
             self.has_died = True
             return
-        if not isinstance(said, _Clock):
+        if not isinstance(said, _ClockChange):
             self.answer = [said]
-        elif said.stands:
+        elif said.is_stopped:
             self.left, self.until = self.until - time.monotonic(), math.inf
         else:
             self.until = time.monotonic() + self.left
@@ -197,7 +197,7 @@ def _ready(workers: Sequence[_Worker]) -> list[_Worker]:
 def _serve(work: Callable[..., Any], pipe: Connection) -> None:
     """Do one piece of work after the other, in the process."""
     _end_with_the_parent()
-    CLOCK.start(lambda stands: pipe.send(_Clock(stands)))
+    CLOCK.start(lambda is_stopped: pipe.send(_ClockChange(is_stopped)))
     sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__  # what stands in for them shares locks with other threads
     while True:
         try:

@@ -1,7 +1,7 @@
 """A limit on how long a conversion may take, in whatever thread and on whatever platform it runs.
 
 Loops that can be long look at the clock themselves. They return to Python often enough that Ctrl-C ends them too. The
-clock stands still while kernels are compiled, which is not the work of any source.
+clock is stopped while kernels are compiled: that is not the work of any source.
 """
 
 import threading
@@ -19,18 +19,18 @@ DEFAULT_SECONDS = 300.0
 
 
 class Clock:
-    """Seconds of this process, but for those in which it was stopped, by any thread."""
+    """A clock that any thread can stop, so that no limit counts the time meanwhile."""
 
     def __init__(self) -> None:
         self.start()
 
-    def start(self, tell: Callable[[bool], None] = lambda stands: None) -> None:
-        """Go on from now, also in a fork of a process whose clock stood; `tell` hears when it stands and goes on."""
+    def start(self, tell: Callable[[bool], None] = lambda is_stopped: None) -> None:
+        """Start anew, as a forked process must; `tell` is called when the clock stops (True) and goes on (False)."""
         self._lock, self._tell = threading.Lock(), tell
         self._stops, self._stopped_at, self._stood = 0, 0.0, 0.0
 
     def seconds(self) -> float:
-        """Seconds since some time.
+        """Return the seconds since an arbitrary time.
 
         Examples
         --------
@@ -43,7 +43,7 @@ class Clock:
             return (self._stopped_at if self._stops else time.monotonic()) - self._stood
 
     def stop(self) -> None:
-        """Stand still until as many calls of `go_on`."""
+        """Stop the clock until `go_on` has been called as often as `stop`."""
         with self._lock:
             self._stops += 1
             if self._stops == 1:
@@ -51,7 +51,7 @@ class Clock:
                 self._tell(True)
 
     def go_on(self) -> None:
-        """Take a call of `stop` back."""
+        """Undo one call of `stop`."""
         with self._lock:
             self._stops -= 1
             if self._stops == 0:
@@ -60,7 +60,7 @@ class Clock:
 
 
 CLOCK = Clock()
-"""That of all limits."""
+"""The clock of all limits."""
 
 _LIMIT: ContextVar[tuple[float, float] | None] = ContextVar("_LIMIT", default=None)
 """Seconds that the work may take, and the time at which they are over."""

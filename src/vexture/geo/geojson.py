@@ -16,7 +16,7 @@ from vexture.bezier.convert import line_cubics
 from vexture.content import BYTE_ORDER_MARK, READABLE, about, decompressed, read_bytes
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
-from vexture.geo.named import refuse_link
+from vexture.geo.named import LINK_TYPES, refuse_link
 from vexture.geo.snap import snapped
 from vexture.notes import Notes, line_of, warn_of
 from vexture.paint import BLACK, Paint
@@ -356,8 +356,9 @@ def _crs(member: Any) -> str:
     ('EPSG:28992', 'OGC:CRS84')
     """
     properties = member.get("properties") if isinstance(member, dict) else None
-    if isinstance(member, dict) and str(member.get("type")).lower() in ("link", "url"):
-        refuse_link(str(properties.get("href") if isinstance(properties, dict) else properties))
+    if isinstance(member, dict) and str(member.get("type")).lower() in LINK_TYPES:
+        named = properties if isinstance(properties, dict) else {}
+        refuse_link(str(named.get("href") or named.get("url") or ""))
     name = properties.get("name") if isinstance(properties, dict) else None
     if not isinstance(name, str) or not name.isprintable() or not 0 < len(name) <= 200:
         return WORLD

@@ -7,7 +7,7 @@ from typing import Any, Final, NoReturn
 
 from vexture.errors import SourceError, printable, shortened
 
-__all__ = ["refuse_files_of_json", "refuse_files_of_system", "refuse_link"]
+__all__ = ["LINK_TYPES", "refuse_files_of_json", "refuse_files_of_system", "refuse_link"]
 
 PLACE: Final = re.compile(r"[/\\~]|^\.")
 """In the name of a file or an address, but not in that of a grid that PROJ itself has."""
@@ -29,6 +29,9 @@ KEY: Final = re.compile(
 
 SCALAR: Final = re.compile(rb"""["\d.+-]|null|true|false|\[|[,\]}]""")
 """Start of a value that names no system, or what follows a text that is no key."""
+
+LINK_TYPES: Final = ("link", "url")
+"""Types of a `crs` in GeoJSON that is described somewhere else, in lower case."""
 
 MOST: Final = 65_536
 """Bytes of the reference system in a GeoJSON."""
@@ -90,7 +93,7 @@ def refuse_files_of_json(content: bytes) -> None:
         except (ValueError, RecursionError):
             raise SourceError(f"its crs, at byte {start:,}, is no reference system; leave it out") from None
         texts = [*_all_texts(value)]
-        if any(text.lower() in ("link", "url") for text in texts):
+        if any(text.lower() in LINK_TYPES for text in texts):
             refuse_link(max(texts, key=len))
         for each in texts:
             refuse_files_of_system(each)

@@ -271,6 +271,7 @@ vec2 vexture_program_parts(uint at, uint end, VextureRegion region) {
         uint kind = texel.w >> VEXTURE_KIND_SHIFT;
         if (kind == uint(VEXTURE_KIND_MIX)) {
             factors += texel.y == uint(VEXTURE_BLEND_NORMAL) ? 0 : 2;
+            // not of dodge and burn: a part beyond the end of a band has its last colour, where they may jump
             if (texel.y > uint(VEXTURE_BLEND_COLOR_BURN) && texel.y < uint(VEXTURE_MASKS)) {
                 for_each = float(VEXTURE_BLEND_PARTS);
             }
