@@ -143,7 +143,6 @@ def opened_flood(open_page: Callable[..., Any], flood_pages: dict[str, str]) -> 
     ) -> Any:
         # playwright's waits use eval
         page = open_page(flood_pages[name] + query, size, bypass_csp=bypass_csp, **options)
-        page.set_default_timeout(flood_seen.PATIENCE)
         page.evaluate("vexture.flood.ready")
         page.evaluate("vexture.flood.freeze(2)")
         return page

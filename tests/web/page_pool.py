@@ -5,8 +5,8 @@ from typing import Any
 
 __all__ = ["PagePool"]
 
-PATIENCE = 30_000
-"""Milliseconds that a page waits for what a test asks of it, unless the test has more."""
+PATIENCE = 120_000
+"""Milliseconds that a page waits, unless the test says otherwise: a software driver may compile a shader for long."""
 
 
 class PagePool:

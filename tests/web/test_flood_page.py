@@ -342,7 +342,6 @@ def test_new_steps_of_a_server_become_steps(open_page: Callable[..., Any], tmp_p
         scene["flood"]["steps"] = ["flood/00", "flood/01"]
         flood_page.write_page(site / "index.html", {"server": server.url, **scene}, policy=False)
         page = open_page(f"{address}/index.html", SMALL)
-        page.set_default_timeout(PATIENCE)
         page.evaluate("vexture.flood.ready")
         page.evaluate("vexture.flood.freeze(2)")
         before = flat(page)[..., 0].mean()

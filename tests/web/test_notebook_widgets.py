@@ -116,7 +116,7 @@ def notebook(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Any:
         page.on("pageerror", lambda error: errors.append(str(error)))
         page.add_init_script(CONTEXTS)
         opened = OpenNotebook(page, address)
-        page.set_default_timeout(10_000)
+        page.set_default_timeout(60_000)
         opened.folder = folder
         yield opened
         page.context.close()
