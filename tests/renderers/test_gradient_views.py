@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from hand import need_gpu
 
 import vexture
 from vexture.reading import read_drawing
@@ -93,3 +94,20 @@ def test_a_cone_almost_as_wide_as_half_of_the_plane_is_exact_at_its_sides() -> N
     matrix = np.array([[step, step, -0.257322], [step, -step, 0.592], [0.0, 0.0, 1.0]])
     gap = np.abs(vexture.convert(drawing).render((99, 60), matrix) - render_exact_colours(drawing, (99, 60), matrix))
     assert gap.max() < MOST, 255 * gap.max()
+
+
+def test_a_pixel_of_many_faces_with_many_gradients_costs_no_more_than_drivers_allow() -> None:
+    """Mesa's software driver ends the loops of a pixel after 65,535 rounds, wherever they are: the rest was missing."""
+    need_gpu()
+    numbers = range(8)
+    stop = '<stop offset="{}" stop-color="#{}{}8"/>'
+    stops = ["".join(stop.format(at / 12, (k + at) % 9, at % 9) for at in range(12)) for k in numbers]
+    ramp = '<linearGradient id="g{0}" gradientTransform="rotate({0}0)">{1}</linearGradient>'
+    ramps = [ramp.format(k, stops[k]) for k in numbers]
+    lines = [f'<path d="M{x} 0h3v100h-3z M0 {x}h100v3h-100z" fill="#00f" opacity=".5"/>' for x in range(0, 100, 6)]
+    over = '<path d="M0 0H100V100H0z" fill="url(#g{})" style="mix-blend-mode:difference"/>'
+    above = [over.format(k) for k in numbers]
+    texture = vexture.convert(read_drawing(SVG.format("".join(ramps), "".join(lines + above)).encode(), name="a.svg"))
+    for size in (3, 5, 11):
+        gap = np.abs(texture.render(size, renderer="gpu") - texture.render(size, renderer="cpu")).max()
+        assert gap < 1 / 255, (size, 255 * gap)

@@ -73,7 +73,8 @@ Examples:
     type=click.Choice(["cpu", "gpu", "exact"]),
     default="cpu",
     show_default=True,
-    help="The texture in Python; the texture by the shader; the drawing itself, exactly.",
+    help="The texture in Python; the texture by the shader; the drawing itself, exactly; minutes for "
+    "gradients that repeat within a pixel.",
 )
 def render(
     source: Path,

@@ -260,8 +260,9 @@ vec4 vexture_program_part(uint at, uint end, VextureRegion region) {
 }
 
 // In how many parts each side of a region is divided for a program: so that circles are straight in each, and, where a
-// product of gradients or a blend mode is averaged, ramps are short.
-vec2 vexture_program_parts(uint at, uint end, VextureRegion region) {
+// product of gradients or a blend mode is averaged, ramps are short. What is little of a pixel is divided less: what all regions
+// of a pixel cost is bounded so.
+vec2 vexture_program_parts(uint at, uint end, VextureRegion region, float area) {
     vec2 bends = vec2(0.0);
     vec2 ramps = vec2(0.0);
     int factors = 0;  // what a blend mode or a mask makes has two at least
@@ -283,13 +284,15 @@ vec2 vexture_program_parts(uint at, uint end, VextureRegion region) {
         }
     }
     vec2 parts = ceil(factors > 1 ? max(bends, for_each * ramps) : bends);
-    return clamp(parts, vec2(1.0), vec2(float(VEXTURE_MOST_RAMP_PARTS)));
+    float most = ceil(clamp(float(VEXTURE_PIXEL_PARTS) * sqrt(abs(area)), 1.0, float(VEXTURE_MOST_RAMP_PARTS)));
+    return clamp(parts, vec2(1.0), vec2(most));
 }
 
-// Premultiplied colour of a program, given by its first texel and how many it has; in steps of a paint.
-vec4 vexture_program(uint at, uint count, VextureRegion region) {
+// Premultiplied colour of a program, given by its first texel and how many it has, over a region that is so much of a pixel;
+// in steps of a paint.
+vec4 vexture_program(uint at, uint count, VextureRegion region, float area) {
     uint end = at + min(count, uint(VEXTURE_MOST_PROGRAM));
-    vec2 parts = vexture_program_parts(at, end, region);
+    vec2 parts = vexture_program_parts(at, end, region, area);
     int across = int(parts.x);
     int number = across * int(parts.y);
     VextureRegion part = VextureRegion(region.point, region.right / parts.x, region.up / parts.y);

@@ -219,7 +219,7 @@ bool vexture_settle(inout VextureSum sum, VexturePlanar planar, VextureRegion re
             }
             if (paint != 0u) {
                 uvec2 words = vexture_paint_words(planar, paint);
-                vec4 color = vexture_program(words.x, words.y, vexture_part(region, share));
+                vec4 color = vexture_program(words.x, words.y, vexture_part(region, share), share.area);
                 sum.color += share.area * vexture_averaged(color);
             }
         }

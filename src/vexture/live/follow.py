@@ -153,7 +153,7 @@ class _Follower:
                 if isinstance(error, BrokenProcessPool):
                     self._worker.kill()
                 if has_failed:  # once is no trouble: the model may have been writing
-                    self._tell(f"{self._run.path}: no newer steps for now ({_reason(error)}); it is tried again")
+                    self._tell(f"{self._run.path}: no newer step was read ({_reason(error)}); it is tried again")
                 has_failed = True
                 await asyncio.sleep(pause)
                 pause = min(2.0 * pause, LONGEST_RETRY)

@@ -40,6 +40,7 @@ from vexture.renderers.method import (
     NEARLY_WHOLE,
     NO_PLACE,
     NOTHING,
+    PIXEL_PARTS,
     PRODUCT_PARTS,
     RAMP_BEND,
     RAMP_PARTS,
@@ -89,8 +90,7 @@ def times(a: Vec4, share: float) -> Vec4:
 def halves(words: Whole2) -> Vec4:
     """Four numbers in two words, 0..65535."""
     mask, (low, high) = (1 << COORDINATE_BITS) - 1, words
-    red, green = float(low & mask), float(low >> COORDINATE_BITS)
-    return red, green, float(high & mask), float(high >> COORDINATE_BITS)
+    return float(low & mask), float(low >> COORDINATE_BITS), float(high & mask), float(high >> COORDINATE_BITS)
 
 
 @kernel(allocates=False)
@@ -370,7 +370,7 @@ def program_part(texels: Texels, at: int, end: int, region: Region) -> Vec4:
 
 
 @kernel(allocates=False)
-def program_parts(texels: Texels, at: int, end: int, region: Region) -> Whole2:
+def program_parts(texels: Texels, at: int, end: int, region: Region, area: float) -> Whole2:
     bends, ramps, factors, for_each = (0.0, 0.0), (0.0, 0.0), 0, float(PRODUCT_PARTS)
     for k in range(at, end):
         found = texel(texels, k)
@@ -382,15 +382,15 @@ def program_parts(texels: Texels, at: int, end: int, region: Region) -> Whole2:
             factors, place = factors + 1, gradient_ramp(texels, k, found, region)
             bends, ramps = larger(bends, place.parts), larger(ramps, spans(place.way, region))
     parts = larger(bends, (for_each * ramps[0], for_each * ramps[1])) if factors > 1 else bends
-    most = float(MOST_RAMP_PARTS)
+    most = math.ceil(clamp(PIXEL_PARTS * math.sqrt(abs(area)), 1.0, float(MOST_RAMP_PARTS)))
     return math.ceil(clamp(parts[0], 1.0, most)), math.ceil(clamp(parts[1], 1.0, most))
 
 
 @kernel(allocates=False)
-def program(texels: Texels, at: int, count: int, region: Region) -> Vec4:
-    """Premultiplied colour of a program over a region, in steps of a paint."""
+def program(texels: Texels, at: int, count: int, region: Region, area: float) -> Vec4:
+    """Premultiplied colour of a program over a region that is so much of a pixel, in steps of a paint."""
     end = at + min(count, MOST_PROGRAM)
-    across, high = program_parts(texels, at, end, region)
+    across, high = program_parts(texels, at, end, region, area)
     right, up = (region.right[0] / across, region.right[1] / across), (region.up[0] / high, region.up[1] / high)
     total = (0.0, 0.0, 0.0, 0.0)
     for k in range(across * high):

@@ -32,6 +32,7 @@ __all__ = [
     "NO_PLACE",
     "NO_SHARE",
     "NO_SIZE",
+    "PIXEL_PARTS",
     "POSITION_BITS",
     "PRODUCT_PARTS",
     "RAMP_BEND",
@@ -137,6 +138,9 @@ BLEND_PARTS: Final = 256
 
 MOST_RAMP_PARTS: Final = 4
 """Most parts of a side."""
+
+PIXEL_PARTS: Final = 8
+"""The same of a region, for each side of a pixel that it would fill as a square."""
 
 SHORTEST_RAMP: Final = 2.0**-22
 """Least interval over which a gradient is averaged: two steps of float32 at the end of the ramp."""

@@ -267,7 +267,7 @@ def settle(texels: Texels, is_linear: int, sum: Sum, planar: Planar, region: Reg
             kept, number, share = number, 0 if is_same else kept, before
         if number != 0:
             words = paint_words(texels, planar, number)
-            found = program(texels, words[0], words[1], part(region, share))
+            found = program(texels, words[0], words[1], part(region, share), share.area)
             color = plus(color, averaged(is_linear, found), share.area)
     done, none = last if sum.is_left else 0, (0.0, 0.0, 0.0, 0.0)
     return Sum(color, kept, kept_share, done, False, sum.cell, (0, 0, 0, 0), none, none, none, none, none, none)

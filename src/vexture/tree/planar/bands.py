@@ -19,7 +19,7 @@ from vexture.unit_square import clipped
 
 __all__ = ["Bands", "bands_of"]
 
-MOST_BANDS: Final = 256
+MOST_BANDS: Final = 1024
 """More are finer than the pixels of most pictures; a shader averages the ramp across its jumps instead."""
 
 STEEP: Final = 1 / 64
