@@ -22,7 +22,7 @@ MAP_LOAD_LIMIT = 40_500
 MAP_MARKS = ("vextureSheets(int", "convert the drawing with that colour", "plus-lighter")
 """Text of what only planar maps need: their shader, new colours for their elements, their gradients."""
 
-TILE_LOAD_LIMITS = {"vexture/maplibre": 47_600, "vexture/globe": 47_600}
+TILE_LOAD_LIMITS = {"vexture/maplibre": 47_650, "vexture/globe": 47_650}
 """And what a page with a pyramid of tiles loads, all that it loads later included, without MapLibre and three.js."""
 
 OTHERS = [f"--external:{name}" for name in ("three", "react", "@react-three/fiber", "maplibre-gl")]

@@ -283,9 +283,9 @@ vec2 vexture_program_parts(uint at, uint end, VextureRegion region, float area) 
             ramps = max(ramps, vexture_spans(ramp.way, region));
         }
     }
-    vec2 parts = ceil(factors > 1 ? max(bends, for_each * ramps) : bends);
-    float most = ceil(min(float(VEXTURE_PIXEL_PARTS) * sqrt(abs(area)), float(VEXTURE_MOST_RAMP_PARTS)));
-    return clamp(parts, 1.0, most);
+    ramps = factors > 1 ? max(bends, for_each * ramps) : bends;
+    float most = clamp(float(VEXTURE_PIXEL_PARTS) * sqrt(abs(area)), 1.0, float(VEXTURE_MOST_RAMP_PARTS));
+    return ceil(clamp(ramps, 1.0, most));
 }
 
 // Premultiplied colour of a program, given by its first texel and how many it has, over a region that is so much of a pixel;
