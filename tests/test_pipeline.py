@@ -13,6 +13,7 @@ from vexture.group import Group
 from vexture.paint import Paint
 from vexture.pipeline import run
 from vexture.texture.encode import encode
+from vexture.texture.load import texture_from
 from vexture.texture.texture import Root, Texture
 from vexture.thesis.texture import ThesisTexture
 from vexture.tolerance import UNSEEN
@@ -212,9 +213,14 @@ def test_colours_are_kept_and_one_colour_is_a_silhouette(logo: File) -> None:
     both = vexture.atlas([logo, five])
     assert [(root.name, root.is_map, root.paint) for root in both.roots] == [
         ("logo", True, None),
-        ("five", False, None),
+        ("five", False, GLASS),
     ]
-    assert vexture.convert(five).to_ktx2() == vexture.convert(five, split=None).to_ktx2()
+    alone, uncoloured = vexture.convert(five), vexture.convert(five, split=None)
+    np.testing.assert_array_equal(alone.texels, uncoloured.texels)
+    assert [texture.roots[0].paint for texture in (alone, uncoloured)] == [GLASS, None]
+    np.testing.assert_array_equal(texture_from(alone.to_ktx2(), "five").render(9), vexture.render(five, 9))
+    overlapping = replace(five, paths=(*five.paths, *star(7, "seven", GLASS).paths))
+    assert vexture.convert(overlapping).roots[0].is_map, "it is twice as dark where it overlaps itself"
     grouped = replace(five, groups=(Group(-1, 0.5),), paths=tuple(replace(path, group=0) for path in five.paths))
     assert vexture.convert(grouped).roots[0].is_map
     assert not vexture.convert(Drawing(())).roots[0].is_map

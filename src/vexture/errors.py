@@ -90,6 +90,7 @@ def shortened(text: str, most: int) -> str:
     >>> shortened("a long name", 8), shortened("a name", 8)
     ('a lon...', 'a name')
     """
+    text = printable(text)
     return text if len(text) <= most else text[: most - 3] + "..."
 
 

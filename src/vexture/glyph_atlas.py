@@ -92,7 +92,8 @@ def font_atlas(
         A font file, or a folder of the faces of a font; by default the default font, Noto Sans.
     characters : iterable of str
         By default the printable ones of ASCII. A shape has the name of its character; characters that look alike may
-        share one. Ligatures and the forms of joined scripts are no characters: draw those as a `vexture.text`.
+        share one. One more, named ``.notdef``, is the font's for characters that are not there. Ligatures and the forms
+        of joined scripts are no characters: draw those as a `vexture.text`.
     weight, style, stretch
         Of the face, as in `vexture.text`.
     name : str, optional
@@ -124,7 +125,7 @@ def font_atlas(
     --------
     >>> made = font_atlas(characters="AV ")
     >>> [root.name for root in made.texture.roots]
-    ['A', 'V']
+    ['A', 'V', '.notdef']
     >>> made.metrics["kerning"]["A"]
     {'V': -0.04}
     """
@@ -160,20 +161,41 @@ def made_atlas(
         raise SourceError(f"{face.family} has none of what is asked for ({asked}); give others as `characters`")
     with within(parameters.get("max_seconds", DEFAULT_SECONDS)):
         glyphs = {character: shape(face, character, features=PLAIN)[0] for character in known}
-        shapes = drawn(glyphs, notes)
-        if not shapes:
+        box = missing_glyph(face)
+        shapes = drawn(glyphs | {NOTDEF: box}, notes)
+        if not shapes.keys() - {box.glyph}:
             raise SourceError(f"the characters of {face.family} show nothing; give others as `characters`")
         texture = atlas([each.drawing for each in shapes.values()], name=options.name or face.family, **parameters)
+        uncoloured = tuple(replace(root, paint=None) for root in texture.roots)  # programs colour them
+        texture = replace(texture, roots=uncoloured)
         entries = {character: entry(glyph, shapes) for character, glyph in glyphs.items()}
         pairs = kerning(glyphs) if len(known) <= MOST_KERNED else {}
     if len(known) > MOST_KERNED:
         notes.left_out(UNKERNED)
-    metrics = {"font": facts(face), "lines": lines(face), "glyphs": entries, "kerning": pairs, "missing": missing}
+    metrics = {
+        "font": facts(face),
+        "lines": lines(face),
+        "glyphs": entries,
+        "notdef": entry(box, shapes),
+        "kerning": pairs,
+        "missing": missing,
+    }
     return FontAtlas(texture, metrics, notes.listed)
 
 
 PLAIN: Final = ("-liga", "-clig", "-calt", "-rlig")
 """No feature that makes one glyph of several characters."""
+
+
+NOTDEF: Final = ".notdef"
+"""Name of the glyph of a character that a font lacks, as in the font."""
+
+
+def missing_glyph(face: Face) -> Glyph:
+    """The glyph of a character that a font lacks."""
+    privates = map(chr, range(0x10FFFD, 0xF0000, -1))
+    lacked = next(character for character in privates if not face.has(ord(character)))
+    return shape(face, lacked, features=PLAIN)[0]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -66,7 +66,10 @@ class Parameters:
         return {name: value for name, value in values if value is not None and value is not False}
 
     def split_of(self, drawing: "Drawing") -> Split:
-        """How a drawing becomes shapes: "auto" decided."""
+        """How a drawing becomes shapes: "auto" decided.
+
+        A drawing of one colour is a silhouette in that colour, unless it is translucent and may overlap itself.
+        """
         if self.split != "auto":
             return self.split
-        return "faces" if self.restyle or drawing.is_coloured else None
+        return "faces" if self.restyle or drawing.is_coloured or len(drawing.layers()) > 1 else None

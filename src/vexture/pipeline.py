@@ -128,7 +128,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
             part.to_source,
             tolerance,
             part.crs,
-            sheet.paint if split and part.paths else None,
+            sheet.paint if parameters.split and part.paths else None,
             style=style_of(part, sheet.tree) if parameters.restyle and part.paths else None,
         )
         for sheet in sheets
@@ -215,7 +215,8 @@ def convert(
     split : str or None
         ``"faces"`` makes the whole drawing, in its colours, one planar map. ``"paint"`` makes each layer of the
         drawing (`Drawing.layers`) a shape of its own, with its colour. None converts the silhouette, of no colour.
-        ``"auto"`` is ``"faces"`` of a drawing of more than one colour (`Drawing.is_coloured`), and None of others.
+        ``"auto"`` is ``"faces"`` of a drawing of more than one colour (`Drawing.is_coloured`). One of a single colour
+        becomes a silhouette with that colour: it needs no map.
     select : str, optional
         Convert only what a CSS selector chooses of an SVG; see `vexture.read_svg`.
     tolerance : float or "auto"

@@ -107,7 +107,7 @@ def test_characters_of_a_font_become_an_atlas(font, tmp_path):
     result = run("font", font, "--chars", "A", "--chars-file", wanted, "--range", "U+E0-FF", "-o", target)
     assert result.exit_code == 0, result.output
     assert result.stdout == (
-        f"{target}: 3 characters, 3 shapes, {target.stat().st_size} bytes; {target.with_suffix('.json')}\n"
+        f"{target}: 3 characters, 4 shapes, {target.stat().st_size} bytes; {target.with_suffix('.json')}\n"
     )
     assert [*json.loads(target.with_suffix(".json").read_text(encoding="utf-8"))["glyphs"]] == ["A", "V", "é"]
 

@@ -50,7 +50,8 @@ def test_a_shape_is_its_glyph_in_the_square_that_the_metrics_name(font):
 
 def test_colours_are_a_map_and_glyphs_that_are_alike_share_a_shape(font):
     made = vexture.font_atlas(font, "CAΑ ")  # the second is Greek
-    assert [(root.name, root.is_map) for root in made.texture.roots] == [("C", True), ("A", False)]
+    assert [(root.name, root.is_map) for root in made.texture.roots] == [("C", True), ("A", False), (".notdef", False)]
+    assert [root.paint for root in made.texture.roots] == [None, None, None], "programs colour them"
     assert [made.metrics["glyphs"][letter]["shape"] for letter in "CAΑ"] == [0, 1, 1]
     assert made.metrics["glyphs"][" "] == {"shape": None, "advance": 0.9}
     assert made.metrics["lines"] == {
@@ -68,6 +69,9 @@ def test_missing_characters_are_named(font):
     with pytest.warns(vexture.SourceWarning, match=r"left out: character 'Z' \(U\+005A\), which Made lacks"):
         made = vexture.font_atlas(font, "AZ")
     assert made.metrics["missing"] == ["Z"]
+    box = made.metrics["notdef"]
+    assert made.texture.roots[box["shape"]].name == ".notdef"
+    assert (box["box"], box["advance"]) == ([0.05, 0.0, 0.45, 0.7], 0.9)
     with pytest.raises(vexture.SourceError, match=r"Made has none of what is asked for \(2 characters\)"):
         vexture.font_atlas(font, "XY")
     with pytest.raises(vexture.SourceError, match="show nothing"):
@@ -78,7 +82,7 @@ def test_missing_characters_are_named(font):
 
 def test_both_files_are_written(font, tmp_path):
     target = vexture.font_atlas(font, "AV", tolerance=0.0).save(tmp_path / "a.ktx2")
-    assert [root.name for root in vexture.load(target).roots] == ["A", "V"]
+    assert [root.name for root in vexture.load(target).roots] == ["A", "V", ".notdef"]
     assert json.loads((tmp_path / "a.json").read_text())["glyphs"]["V"]["shape"] == 1
 
 

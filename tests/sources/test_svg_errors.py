@@ -83,3 +83,12 @@ def test_uses_that_show_one_another_too_often_are_an_error() -> None:
     groups = "".join(f'<g id="{a}">' + "".join(f'<use href="#{b}"/>' for b in names) + "</g>" for a in names)
     with pytest.raises(SourceError, match="<use> shows more than 50,000 elements"):
         vexture.read(f"<svg>{groups}</svg>".encode(), name="a.svg")
+
+
+@pytest.mark.parametrize("encoding", ["UTF-16", "utf-16le", "UCS-2", "ISO-10646-UCS-4"])
+def test_an_encoding_of_two_bytes_in_a_text_of_one_is_ignored(encoding: str) -> None:
+    """Browsers draw it: some programs write the encoding of their memory."""
+    text = f"<?xml version='1.0' encoding='{encoding}'?>"
+    text += "<svg xmlns='http://www.w3.org/2000/svg'><rect id='ö' width='9' height='9'/></svg>"
+    for content in (text.encode(), b"\xef\xbb\xbf" + text.encode(), text.replace(encoding, "UTF-16").encode("utf-16")):
+        assert len(vexture.read(content, select="#ö").paths) == 1

@@ -214,3 +214,12 @@ def test_colours_of_css_are_mixed_premultiplied(tmp_path: Path) -> None:
 def test_backgrounds_that_are_not_drawn_are_named(tmp_path: Path, value: str, more: str) -> None:
     with pytest.warns(SourceWarning, match="background-image of the outermost <svg>"):
         background(tmp_path, value, more)
+
+
+@pytest.mark.parametrize(("focus", "radius"), [(0.3, 0.3), (0.1, 0.1), (0.45, 0.45), (0.05, 0.05)])
+def test_a_focal_circle_that_touches_the_end_circle_touches_it_in_the_texture(focus: float, radius: float) -> None:
+    """In float32, of decimals, the circles crossed: the picture was one flat colour."""
+    gradient = f'<radialGradient id="g" fx="{focus}" fr="{radius}">{STOPS}</radialGradient>'
+    drawing = drawing_of(gradient + SQUARE.format(""))
+    gap = np.abs(vexture.convert(drawing).render(20) - render_exact_colours(drawing, 20)).max(axis=2)
+    assert gap.mean() < 1 / 255

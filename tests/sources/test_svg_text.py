@@ -94,6 +94,14 @@ def test_missing_fonts_and_characters_are_named_with_what_is_used(tmp_path: Path
             "simplified: textPath with method stretch drawn with align",
         ),
         (
+            "<style>@font-face { font-family: F; src: url( '#f') }</style><text y='9'>a</text>",
+            "left out: font 'F', an SVG font, which is not supported; give it by `fonts`",
+        ),
+        (
+            "<text y='9' font-weight='1001'>a</text>",
+            "invalid: font-weight='1001' of <text> in line 1",
+        ),
+        (
             "<style>@font-face { font-family: F; src: url(https://example.org/f.woff2) }</style><text y='9'>a</text>",
             "left out: font 'F', which is not in the file; give it by `fonts`",
         ),

@@ -20,6 +20,15 @@ SIZE = (480, 120)
 PAGE = '<link rel="icon" href="data:,"><body style="margin: 0"><script type="module" src="bundle.js"></script></body>'
 
 
+LACKING = """
+const warned = [];
+console.warn = (line) => warned.push(line);
+window.lacking = ['Zoë', '李\\n😀–', '李Z'].map((text) => textMesh(text, 0).count);
+window.warned = warned;
+"""
+"""Characters that the guide's atlas lacks, in its last program."""
+
+
 def test_the_guide_to_fonts_does_what_it_says(tmp_path: Path, open_page: Callable[..., Any]) -> None:
     if not default_files():
         pytest.skip("the default font is not installed: pip install 'vexture[text]'")
@@ -35,12 +44,16 @@ def test_the_guide_to_fonts_does_what_it_says(tmp_path: Path, open_page: Callabl
     assert {file.name for file in folder.glob("*.ktx2")} == {
         f"{name}.ktx2" for name in ("word", "lines", "italic", "atlas")
     }
+    with (folder / "text.js").open("a", encoding="utf-8") as program:
+        program.write(LACKING)
     bundle(folder / "text.js", folder / "bundle.js")
     (folder / "index.html").write_text(PAGE, encoding="utf-8")
     with served(folder) as address:
         page = open_page(f"{address}/index.html", SIZE)
         page.wait_for_selector("canvas")
         shown = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("L")) / 255.0
+        assert page.evaluate("lacking") == [3, 3, 2], "each is drawn as a box"
+        assert [line.split()[3][0] for line in page.evaluate("warned")] == [*"Zë李😀–"], "each is named once"
     word = vexture.text("AVE WAVE, Bob", font=default_files()[-1])
     em = 1.0 / word.to_source[0, 0]
     left, baseline = -word.to_source[0, 2] * em, word.to_source[1, 2] * em

@@ -12,8 +12,9 @@ import { VextureError, line } from './errors.js';
  * @property {Matrix3} [transform] from the mesh's uv to the unit square; its elements may be changed at any time. By
  *   default the identity
  * @property {0 | 1} [channel] set of texture coordinates: the mesh's `uv`, by default, or its `uv1`
- * @property {'alpha' | 'mix' | 'cut' | 'paint'} [mode] `alpha`, the default: opacity is 0 outside the shape. `mix`: another colour or
- *   map inside the shape. `cut`: nothing is drawn outside the shape, not even depth. `paint`: the drawing's own colours.
+ * @property {'alpha' | 'mix' | 'cut' | 'paint' | null} [mode] `alpha`: opacity is 0 outside the shape. `mix`: another colour or map
+ *   inside the shape. `cut`: nothing is drawn outside the shape, not even depth. `paint`: the drawing's own colours. null:
+ *   `paint` of what has colours, else `alpha`. `alpha` by default
  * @property {'none' | 'clamp' | 'repeat'} [wrap] beyond the unit square: nothing, by default, the value at its border, or
  *   the shape again
  * @property {boolean} [flat] for views straight at a plane, as of an orthographic camera, in which pixels are upright in
@@ -68,6 +69,7 @@ function choose(name, value, allowed) {
 /**
  * @typedef {Required<Omit<MaskOptions, 'root'>> & Pick<MaskOptions, 'root'>} AllOptions the options of a mask, those that
  *   were not given as well
+ * @typedef {AllOptions & { mode: NonNullable<AllOptions['mode']> }} ShownOptions those of what is shown
  */
 
 /**
@@ -170,7 +172,7 @@ export function checkNodeOptions({ wrap = 'none', fold = null, ...others }, name
  */
 export function checkOptions(options, type) {
   const { mode, wrap, background, invert, threshold, transform, fold, time, channel } = options;
-  choose('mode', mode, MODES);
+  if (mode !== null) choose('mode', mode, MODES);
   checkPlace({ wrap, fold });
   choose('background', background, BACKGROUNDS);
   choose('channel', channel, CHANNELS);
@@ -182,7 +184,7 @@ export function checkOptions(options, type) {
   }
   if (!Number.isFinite(time)) throw new VextureError(`time is ${line(time)}; it must be a number of seconds`, 'time');
   const possible = COLORLESS[/** @type {keyof typeof COLORLESS} */ (type)];
-  if (possible && !possible.includes(mode)) {
+  if (possible && !possible.includes(/** @type {string} */ (mode))) {
     throw new VextureError(`${type} has no colours for mode ${mode}; use ${possible.join(' or ')}`, 'mode');
   }
   if (invert && mode === 'paint') throw new VextureError('mode paint cannot be inverted; use another mode', 'invert');

@@ -7,7 +7,7 @@ import { mapsAmong } from './select-root.js';
 
 /**
  * @param {import('./vector-texture.js').AnyVectorTexture} texture
- * @param {import('./mask-options.js').AllOptions} options
+ * @param {import('./mask-options.js').ShownOptions} options
  * @param {{ first: number, count: number }} range of the shape or the drawing's layers in the texture's roots
  * @returns {Variant}
  */

@@ -4,6 +4,9 @@ import { VextureError, line, shortened } from './errors.js';
 /** Near names listed by the message about an unknown root. */
 const MOST_NEAR = 5;
 
+/** End of a layer's name. */
+const LAYER = /^(.+)\/\d+(-[^/]*)?$/;
+
 /** Names listed by the message about a missing root. */
 const MOST_LISTED = 6;
 
@@ -33,13 +36,12 @@ function distance(one, other) {
 }
 
 /**
- * Name of the drawing that a shape belongs to: `NAME` of a painted layer or a map `NAME/LAYER`, otherwise the shape's own name.
+ * Name of the drawing that a shape belongs to: that of a layer is followed by `/NUMBER-COLOUR` or `/NUMBER-faces`.
  *
  * @param {import('./data.js').Root} root
  */
 export function drawingOf({ name, paint, isMap }) {
-  const end = paint || isMap ? name.lastIndexOf('/') : -1;
-  return end > 0 ? name.slice(0, end) : name;
+  return paint || isMap ? name.replace(LAYER, '$1') : name;
 }
 
 /**
@@ -79,7 +81,7 @@ export function nearNames(wanted, names) {
 
 /**
  * Range in `roots` of a drawing's layers: of the chosen drawing or shape, or of the only drawing. The layers of a drawing
- * in an atlas are named `NAME/...` and are consecutive.
+ * in an atlas are consecutive.
  *
  * @param {Shapes} texture
  * @param {RootChoice} choice
@@ -93,7 +95,7 @@ export function layerRange(texture, choice) {
     if (drawings.length > 1) throw ambiguous(name, 'drawings', drawings);
     return { first: 0, count: roots.length };
   }
-  const isLayer = (/** @type {import('./data.js').Root} */ root) => root.name.startsWith(`${choice}/`);
+  const isLayer = (/** @type {import('./data.js').Root} */ root) => drawingOf(root) === choice;
   const first = typeof choice === 'string' ? roots.findIndex(isLayer) : -1;
   if (first < 0 || roots.some((root) => root.name === choice)) return { first: shapeIndex(texture, choice), count: 1 };
   let end = first;

@@ -8,14 +8,14 @@ import { NAMES, checkOptions, complete, withOptions } from './mask-options.js';
 /**
  * @typedef {object} ShapeParameters What an unlit material shows.
  * @property {VectorTexture | null} [texture] null or omitted: none yet
- * @property {'alpha' | 'paint' | 'cut'} [mode] the shape in `color`, the drawing in its own colours, or the shape in
- *   `color` without blending
+ * @property {'alpha' | 'paint' | 'cut' | null} [mode] the shape in `color`, the drawing in its own colours, or the shape in
+ *   `color` without blending. By default null, the drawing's colours if it has any, or `alpha` if `color` is given
  *
  * @typedef {import('three').MeshBasicMaterialParameters & Omit<import('./mask-options.js').MaskOptions,
  *   'mode' | 'color' | 'map'> & ShapeParameters} VectorMaterialParameters
  *   the options of an unlit material with a shape: those of `MeshBasicMaterial`, and those of a mask
  *
- * @typedef {Omit<AllOptions, 'mode' | 'color' | 'map'> & { mode: 'alpha' | 'paint' | 'cut' }} ShapeOptions
+ * @typedef {Omit<AllOptions, 'mode' | 'color' | 'map'> & { mode: 'alpha' | 'paint' | 'cut' | null }} ShapeOptions
  */
 
 /**
@@ -42,7 +42,10 @@ import { NAMES, checkOptions, complete, withOptions } from './mask-options.js';
 const OPTIONS = Object.freeze(NAMES.filter((name) => name !== 'color' && name !== 'map'));
 
 /** What is not the default of `applyVectorMask`. @type {Record<string, unknown>} */
-const OWN_DEFAULTS = Object.freeze({ background: 'none' });
+const OWN_DEFAULTS = Object.freeze({ background: 'none', mode: null });
+
+/** Colour of a basic material to which none is given. */
+const WHITE = 0xffffff;
 
 /**
  * A basic material with a mask of a renderer.
@@ -88,6 +91,11 @@ export function shapeMaterial(base, MaskOf, name) {
       this.setValues({ texture });
     }
 
+    /** Its `color` may have been changed by itself since the last frame. */
+    onBeforeRender() {
+      if (this.options.mode === null && this.color.getHex() !== WHITE) this.setValues({ mode: 'alpha' });
+    }
+
     /** @param {VectorMaterialParameters} [values] */
     setValues(values) {
       if (values === undefined) return; // three.js's constructor calls it, before there are fields
@@ -101,6 +109,7 @@ export function shapeMaterial(base, MaskOf, name) {
           throw new VextureError(`${name} has no option ${line(key)}; correct its name`, key);
         }
       }
+      if (values.color !== undefined && (own.mode ?? this.options.mode) === null) own.mode = 'alpha';
       const { texture = 'texture' in values ? undefined : this.texture } = values;
       if (texture === undefined) {
         throw new VextureError('texture is undefined; load one by VectorTextureLoader, or give null for none', 'texture');

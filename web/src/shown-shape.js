@@ -14,6 +14,22 @@ import { shapeIndex } from './select-root.js';
 const hasNoRoot = ({ instanced, root }) => instanced && (root ?? null) === null;
 
 /**
+ * The options with a mode: without one a drawing is shown in its colours, if it has any.
+ *
+ * @param {VectorTexture} texture
+ * @param {AllOptions} options
+ * @returns {import('./mask-options.js').ShownOptions}
+ */
+function withMode(texture, options) {
+  const { mode, root, instanced, invert } = options;
+  if (mode !== null) return /** @type {any} */ (options);
+  const isWhole = instanced || (root ?? null) === null || texture.encoding !== 'packed';
+  const { first, count } = isWhole ? { first: 0, count: texture.roots.length } : texture.layersOf(root);
+  const hasColors = texture.roots.slice(first, first + count).some(({ paint, isMap }) => paint || isMap);
+  return { ...options, mode: hasColors && !invert ? 'paint' : 'alpha' };
+}
+
+/**
  * Place of the shape, or the drawing's layers, in a texture.
  *
  * @param {VectorTexture} texture
@@ -38,16 +54,24 @@ export class ShownShape {
    */
   constructor(texture, options, type) {
     this.texture = texture;
-    this.options = complete(options, type);
+    this.given = complete(options, type);
     this.type = type;
-    checkOptions(this.options, type);
-    checkTexture(texture, this.options);
+    checkOptions(this.given, type);
+    checkTexture(texture, this.given);
+    this.options = withMode(texture, this.given);
     this.range = rangeOf(texture, this.options);
+  }
+
+  /** @param {number} time */
+  setTime(time) {
+    this.given.time = time;
+    this.options.time = time;
   }
 
   /** Find the root again in new data; where they lack it, the first shape is shown, with a note. */
   follow() {
     try {
+      this.options = withMode(this.texture, this.given);
       this.range = rangeOf(this.texture, this.options);
     } catch (error) {
       if (!(error instanceof VextureError)) throw error;
@@ -62,7 +86,7 @@ export class ShownShape {
    * @param {MaskOptions & { texture?: VectorTexture }} changes
    */
   with({ texture = this.texture, ...changes }) {
-    return new ShownShape(texture, { ...this.options, ...changes }, this.type);
+    return new ShownShape(texture, { ...this.given, ...changes }, this.type);
   }
 
   /** Whether light and rays pass outside the shape. */

@@ -143,7 +143,7 @@ export class VectorMask extends WithOptions {
    *   ambiguous
    */
   set(changes) {
-    const before = /** @type {Record<string, unknown>} */ ({ ...this.#shown.options, texture: this.texture });
+    const before = /** @type {Record<string, unknown>} */ ({ ...this.#shown.given, texture: this.texture });
     const changed = Object.entries(changes).filter(([name, value]) => value !== before[name]);
     if (changed.every(([name, value]) => name === 'time' && Number.isFinite(value))) {
       for (const [, time] of changed) this.#setTime(/** @type {number} */ (time));
@@ -158,13 +158,13 @@ export class VectorMask extends WithOptions {
 
   /** Cheap, as each frame of a fold has its time. @param {number} time */
   #setTime(time) {
-    this.#shown.options.time = time;
+    this.#shown.setTime(time);
     this.#uniforms.vextureTime.value = this.#shown.options.fold?.clock(time) ?? 0;
   }
 
   /** The options, as `applyVectorMask` takes them. */
   get options() {
-    return { ...this.#shown.options };
+    return { ...this.#shown.given };
   }
 
   /**

@@ -1,5 +1,6 @@
 import { Color, EventDispatcher, LinearSRGBColorSpace, SRGBColorSpace } from 'three';
 import { elementAt, styleOf } from './element-at.js';
+import { VextureError } from './errors.js';
 import { layersOf, layersTexture } from './layers.js';
 import { mapParts } from './maps.js';
 import { shapeIndex } from './select-root.js';
@@ -239,6 +240,22 @@ export class VectorTexture extends EventDispatcher {
   maskReader() {
     return null;
   }
+}
+
+/** What three.js reads of a map or a background before it compiles a program with it. */
+const OF_IMAGES = ['channel', 'mapping', 'matrix', 'colorSpace'];
+
+for (const property of OF_IMAGES) {
+  Object.defineProperty(VectorTexture.prototype, property, {
+    /** @this {AnyVectorTexture} */
+    get() {
+      throw new VextureError(
+        `${this.name}: a VectorTexture is no image for a map or a background (${property}); use VectorMaterial, or ` +
+          'applyVectorMask on a material',
+        'map',
+      );
+    },
+  });
 }
 
 /**

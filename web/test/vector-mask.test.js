@@ -82,10 +82,10 @@ describe('without a root', () => {
     const message = `badge holds 3 shapes (${names}); choose one by root, or use mode: 'paint'`;
     expect(() => applyVectorMask(new MeshBasicMaterial(), badge, { mode })).toThrow(message);
     expect(() => applyVectorMask(new MeshBasicMaterial(), badge, { mode, root: null })).toThrow(message);
-    const material = new VectorMaterial({ texture: duck, root: 0 });
+    const mask = applyVectorMask(new MeshBasicMaterial(), duck, { root: 0 });
     if (mode !== 'mix') expect(() => new VectorMaterial({ texture: badge, mode })).toThrow(message);
-    expect(() => material.mask?.set({ texture: badge, root: null })).toThrow(message);
-    expect(material.texture).toBe(duck);
+    expect(() => mask.set({ texture: badge, root: null })).toThrow(message);
+    expect(mask.texture).toBe(duck);
   });
 
   test('mode paint refuses several drawings', () => {
@@ -99,6 +99,37 @@ describe('without a root', () => {
     const mask = applyVectorMask(material, drawings, { instanced: true });
     expect(() => mask.hits(0.5, 0.5)).toThrow('choose one by root');
     for (const root of drawings.roots.keys()) expect(mask.hits(0.5, 0.5, root)).toBe(drawings.contains(0.5, 0.5, root));
+  });
+});
+
+test.each(['channel', 'mapping', 'matrix', 'colorSpace'])('a texture with shapes is no image: %s', (property) => {
+  expect(() => /** @type {any} */ (duck)[property]).toThrow(/duck: a VectorTexture is no image .* use VectorMaterial, or applyVectorMask/);
+  expect(() => ({ ...duck, clone: structuredClone({ duck: duck.name }) })).not.toThrow();
+});
+
+describe('a material without a mode', () => {
+  const programOf = (/** @type {VectorMaterial} */ material) => material.customProgramCacheKey();
+  const painted = programOf(new VectorMaterial({ texture: badge, mode: 'paint' }));
+  const silhouette = programOf(new VectorMaterial({ texture: duck, mode: 'alpha' }));
+
+  test('shows a drawing in its colours, and what has none in its own', () => {
+    expect(programOf(new VectorMaterial({ texture: badge }))).toBe(painted);
+    expect(programOf(new VectorMaterial({ texture: duck }))).toBe(silhouette);
+    expect(programOf(new VectorMaterial({ texture: badge, mode: undefined }).clone())).toBe(painted);
+  });
+
+  test('shows a shape in the colour that it is given, also later', () => {
+    expect(programOf(new VectorMaterial({ texture: badge, root: 0, color: 'white' }))).toBe(silhouette);
+    const material = new VectorMaterial({ texture: badge, root: 0 });
+    material.color.set('red');
+    expect(programOf(material)).toBe(painted);
+    material.onBeforeRender();
+    expect(programOf(material)).toBe(silhouette);
+    expect(new VectorMaterial({ texture: badge, color: 'red', mode: 'paint' }).mode).toBe('paint');
+  });
+
+  test('inverts a silhouette', () => {
+    expect(new VectorMaterial({ texture: badge, root: 0, invert: true }).mask?.hits(0, 0)).toBe(true);
   });
 });
 
@@ -159,7 +190,7 @@ describe('options of a VectorMaterial that are set later', () => {
   test('are refused without a texture, too', () => {
     const material = new VectorMaterial();
     expect(() => Object.assign(material, { mode: 'alfa' })).toThrow(VextureError);
-    expect(material.mode).toBe('alpha');
+    expect(material.mode).toBe(null);
   });
 
   test('what stays as it is costs no program, nor does the time', () => {
@@ -168,7 +199,7 @@ describe('options of a VectorMaterial that are set later', () => {
     material.mask?.attach(mesh);
     const versions = () => [material.version, mesh.customDepthMaterial?.version];
     const before = versions();
-    material.setValues({ texture: duck, mode: 'alpha', wrap: 'none', time: 2 });
+    material.setValues({ texture: duck, mode: null, wrap: 'none', time: 2 });
     expect([...versions(), material.time]).toEqual([...before, 2]);
     expect(() => (material.time = NaN)).toThrow(VextureError);
   });

@@ -172,13 +172,14 @@ def _over(picture: "NDArray[Any]", background: tuple[float, float, float, float]
 
 def _root_of(shown: "Shown", root: str | None) -> str | int | None:
     """The name of a shape, or if none has that name, its index."""
+    from vexture.texture.choose import drawing_of
     from vexture.texture.texture import Texture
 
     if root is None:
         return None
     if not isinstance(shown, Texture):
         raise ParameterError(f"`root` {root} chooses a shape of a texture; leave it out, or use `select` for an SVG")
-    names = {part for one in shown.roots for part in (one.name, one.name.rpartition("/")[0])}
+    names = {part for one in shown.roots for part in (one.name, drawing_of(one))}
     return int(root) if root not in names and root.isdecimal() else root
 
 

@@ -143,6 +143,7 @@ def _converted(
         drawing = text_drawing(words, TextOptions(**styled))
         if not drawing.paths:
             raise SourceError(f"{drawing.name}: nothing of the text is painted; give characters that a font has")
+        parameters.setdefault("split", "auto" if drawing.is_coloured else None)  # else programs colour it
         done = run(drawing, encoding=DEFAULT, **parameters)
     check_losses(drawing.name, done.notes, is_empty=False, strict=strict)
     files = done.texture.files(**stored)

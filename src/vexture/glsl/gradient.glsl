@@ -52,7 +52,7 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     float grows = 1.0 - focus.y;
     float tip = focus.x / max(grows, VEXTURE_NOTHING) - focus.x;  // where the circles have no radius
     parts = length(q - vec2(tip, 0.0)) < length(spans) ? vec2(float(VEXTURE_MOST_RAMP_PARTS)) : parts;
-    float a = focus.x * focus.x - grows * grows;
+    float a = (focus.x - grows) * (focus.x + grows);  // 0 of circles that touch, also where products are fused
     if (a >= 0.0 && grows > 0.0) {
         // the middle of a part of what is in a cone may be beside it, and then in the cone behind the tip
         float outside = q.x - tip + sqrt(a) / grows * abs(q.y);

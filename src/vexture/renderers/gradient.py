@@ -189,7 +189,7 @@ def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     grows = 1.0 - focus[1]
     tip = focus[0] / max(grows, NOTHING) - focus[0]
     parts = most if length((qx - tip, qy)) < length(sides) else parts
-    a = focus[0] * focus[0] - grows * grows
+    a = (focus[0] - grows) * (focus[0] + grows)
     if a >= 0.0 and grows > 0.0:
         outside = qx - tip + math.sqrt(a) / grows * abs(qy)
         qx -= max(outside, 0.0) if outside < 0.5 * MOST_RAMP_PARTS * length(sides) else 0.0

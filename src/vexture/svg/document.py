@@ -1,5 +1,8 @@
 """From bytes to an XML tree; nothing outside the file is read or fetched."""
 
+import re
+from typing import Final
+
 from lxml import etree
 
 from vexture.errors import SourceError
@@ -17,6 +20,11 @@ NOWHERE = "about:blank"
 MOST_ATTRIBUTES = 1000
 """Of an element: lxml looks for each by going through all."""
 
+WIDE: Final = re.compile(
+    rb"""(?:\xef\xbb\xbf)?<\?xml\s[^>]*encoding\s*=\s*["'](?:utf-?(?:16|32)|(?:iso-10646-)?ucs-?[24])""", re.IGNORECASE
+)
+"""A declaration of characters of two bytes or more, in characters of one: it is wrong, and browsers read UTF-8."""
+
 LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
 
@@ -27,7 +35,8 @@ def parse_svg(content: bytes) -> etree._Element:
     Entities that the document itself defines are expanded within libxml2's limits; external ones are errors. Raises a
     `SourceError` if the content is not well-formed, exceeds a limit of libxml2, or is not SVG.
     """
-    parser = parser_of()
+    encoding = "utf-8" if WIDE.match(content) else None
+    parser = parser_of(encoding)
     try:
         root = etree.fromstring(content, parser)
     except etree.XMLSyntaxError as error:
@@ -36,7 +45,7 @@ def parse_svg(content: bytes) -> etree._Element:
             known = len(others) == len(parser.error_log)
             message = error.msg or "it is empty" if known else f"{others[0].message}, line {others[0].line}"
             raise SourceError(explained(" ".join(message.split()))) from None
-        root = etree.fromstring(content, parser_of(recover=True))
+        root = etree.fromstring(content, parser_of(encoding, recover=True))
     if local_name(root) != "svg":
         space, _, name = str(root.tag).rpartition("}")
         if name == "svg":
@@ -55,9 +64,13 @@ def parse_svg(content: bytes) -> etree._Element:
     return root
 
 
-def parser_of(recover: bool = False) -> etree.XMLParser:
-    """Parser with all limits; one that recovers takes a prefix without a namespace as a part of the name."""
+def parser_of(encoding: str | None = None, *, recover: bool = False) -> etree.XMLParser:
+    """Parser with all limits; one that recovers takes a prefix without a namespace as a part of the name.
+
+    An `encoding` is used instead of what the document declares.
+    """
     return etree.XMLParser(
+        encoding=encoding,
         resolve_entities="internal",  # type: ignore[arg-type]  # lxml-stubs knows only True and False
         no_network=True,
         huge_tree=False,

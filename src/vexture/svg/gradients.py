@@ -41,6 +41,22 @@ TOUCHING: Final = 1 / 4096
 touch, half of the plane has colours; if they just cross, the colours there are others."""
 
 
+def touching(focal: float) -> tuple[float, float]:
+    """Distance and radius of a focal circle that touches the end circle, whose radius is 1, also in float32.
+
+    Examples
+    --------
+    >>> away, focal = touching(0.6)
+    >>> float(np.float32(away)) == away, float(np.float32(focal)) == focal, away == 1.0 - focal
+    (True, True, True)
+    """
+    if focal < 0.5:  # of this and its difference to 1, the larger one is rounded: then the other is exact
+        away = float(np.float32(1.0 - focal))
+        return away, 1.0 - away
+    focal = float(np.float32(focal))
+    return abs(1.0 - focal), focal
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Ramp:
     """A gradient as its element and those that it refers to say, with no place yet."""
@@ -105,7 +121,7 @@ class Ramp:
             first, last = (replace(stop, offset=1.0) for stop in (self.stops[0], self.stops[-1]))
             return Gradient(to_ramp, (first, last), focus=(0.0, 0.0))
         if abs(away - abs(1.0 - focal)) <= TOUCHING:
-            away = abs(1.0 - focal)
+            away, focal = touching(focal)
         return Gradient(to_ramp, self.stops, self.spread, (away, focal))
 
     def length(self, name: str, view: Viewport) -> float:

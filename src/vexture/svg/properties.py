@@ -71,11 +71,20 @@ def is_order(value: str) -> bool:
     return words == ["normal"] or (set(words) <= {*PARTS} and len({*words}) == len(words) > 0)
 
 
+WEIGHTS: Final = frozenset({"normal", "bold", "bolder", "lighter"})
+
+
+def is_weight(value: str) -> bool:
+    """Accept words and 1 to 1000 (CSS Fonts 4, 2.2)."""
+    word = value.strip().lower()
+    return word in WEIGHTS or (re.fullmatch(NUMBER, word) is not None and 1.0 <= float(word) <= 1000.0)
+
+
 UNIT = r"(?:px|pt|pc|in|cm|mm|q|em|ex|ch|rem|%|[sld]?v(?:w|h|i|b|min|max))?"
 POSITIVE = rf"(?!-){NUMBER}"
 LENGTH = f"{NUMBER}{UNIT}"
 SIZE = f"{POSITIVE}{UNIT}"
-OPACITY = f"{NUMBER}%?"
+OPACITY = rf"{NUMBER}(?:%|\.)?"  # Graphviz writes 1. for 1
 
 MODE = "alpha|luminance|match-source"
 
@@ -111,7 +120,7 @@ PROPERTIES: dict[str, Property] = {
     "font-variant-numeric": Property("normal", True, anything),
     "font-variant-position": Property("normal", True, anything),
     "font-variation-settings": Property("normal", True, anything),
-    "font-weight": Property("normal", True, matching(f"normal|bold|bolder|lighter|{POSITIVE}")),
+    "font-weight": Property("normal", True, is_weight),
     "glyph-orientation-vertical": Property("auto", True, matching(f"auto|{NUMBER}(?:deg|grad|rad|turn)?")),
     "letter-spacing": Property("normal", True, matching(SPACING)),
     "kerning": Property("auto", True, matching(f"auto|{LENGTH}")),

@@ -21,7 +21,7 @@ from vexture.svg.document import parse_svg
 from vexture.svg.images import Images
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
-from vexture.svg.select import chosen, nothing_painted
+from vexture.svg.select import chosen, nothing_painted, unpainted, with_symbols_used
 from vexture.svg.style import UNCLEAR
 from vexture.svg.subjects import subject_of
 from vexture.svg.transform import Identity, Transform
@@ -209,12 +209,12 @@ def at_moment(request: Request, moment: Moment) -> Found:
     root = parse_svg(request.content)
     for element in show_moment(root, moment):
         report.simplified(UNCLEAR, element.getparent())
-    part = None if request.select is None else chosen(root, request.select)
+    part = None if request.select is None else with_symbols_used(root, chosen(root, request.select))
     scene = Scene(root, report, request.images, part, request.names, request.fonts)
     framed = frame(scene)
     drawing, to_pixels = drawing_of(scene, framed, request.name)
     if not drawing.paths:
-        report.remark("nothing in it is painted")
+        report.remark(unpainted(root))
     elif moment.remark:
         report.remark(moment.remark)
     notes = report.about(lambda element: subject_of(element, scene.names, scene.boxes, to_pixels))

@@ -8,13 +8,18 @@ import cssselect2
 from lxml import etree
 
 from vexture.deadline import check_time
-from vexture.errors import LimitError, ParameterError, shortened
-from vexture.svg.document import language
+from vexture.errors import LimitError, ParameterError, counted, shortened
+from vexture.svg.document import language, local_name
 
-__all__ = ["Node", "chosen", "nothing_painted"]
+__all__ = ["Node", "chosen", "nothing_painted", "unpainted", "with_symbols_used"]
 
 LONGEST_NAMED = 80
 """Most characters of a selector in a message."""
+
+LINKS = ("href", "{http://www.w3.org/1999/xlink}href")
+
+FRAME = ("viewBox", "width", "height", "preserveAspectRatio")
+"""What sets the frame of a document, or of a symbol."""
 
 
 class Node(cssselect2.ElementWrapper):  # type: ignore[misc]
@@ -80,7 +85,7 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
         found = {wrapper.etree_element for wrapper in wrappers if wrapper.matches(*selectors)}
     except (cssselect2.SelectorError, SyntaxError, AttributeError) as error:
         cut = isinstance(error, AttributeError)  # what cssselect2 raises for :nth-child(2n+)
-        reason = "it breaks off" if cut else str(error.args[-1] if error.args else error)[:LONGEST_NAMED]
+        reason = "it breaks off" if cut else shortened(str(error.args[-1] if error.args else error), LONGEST_NAMED)
         raise ParameterError(
             f"`select` {named(select)} is no CSS selector ({reason}); write it like '#id', '.class' or 'g > path'"
         ) from None
@@ -91,6 +96,45 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
             f"`select` {named(select)} matches no element; name one of the file's ids, classes or elements"
         )
     return found
+
+
+def with_symbols_used(root: etree._Element, found: set[etree._Element]) -> set[etree._Element]:
+    """Chosen elements, with an element `use` in place of each `symbol` that the document does not use.
+
+    A single one fills the drawing: its viewBox becomes that of the document, which is changed.
+
+    Examples
+    --------
+    >>> root = etree.fromstring('<svg><symbol id="a" viewBox="0 0 24 24"><path d="M0 0h9v9z"/></symbol></svg>')
+    >>> [etree.QName(one).localname for one in with_symbols_used(root, {root[0]})], root.get("viewBox")
+    (['use'], '0 0 24 24')
+    """
+    used = {link for use in root.iter("{*}use", "use") for name in LINKS if (link := use.get(name, "").strip())}
+    symbols = [one for one in found if local_name(one) == "symbol" and f"#{one.get('id')}" not in used]
+    if len(found) == 1 and symbols:
+        for name in FRAME:
+            value = symbols[0].get(name)
+            if value is None:
+                root.attrib.pop(name, None)
+            else:
+                root.set(name, value)
+    uses = set()
+    for number, symbol in enumerate(symbols):
+        name = symbol.get("id") or f"vexture-symbol-{number}"
+        symbol.set("id", name)
+        use = etree.SubElement(root, etree.QName(etree.QName(root).namespace, "use"))
+        use.set("href", f"#{name}")
+        uses.add(use)
+    return found.difference(symbols) | uses
+
+
+def unpainted(root: etree._Element) -> str:
+    """Remark about a document that paints nothing: a sprite is one of symbols."""
+    names = [name for element in root.iter("{*}symbol", "symbol") if (name := element.get("id"))]
+    if not names:
+        return "nothing in it is painted"
+    first = f"#{shortened(names[0], LONGEST_NAMED)}"
+    return f"nothing in it is painted, but it has {counted(len(names), 'symbol')}; choose one by `select`, as {first!r}"
 
 
 def nothing_painted(select: str, count: int) -> LimitError:

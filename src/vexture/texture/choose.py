@@ -5,6 +5,7 @@ drawing. Where one shape is needed it means the only one; if there are several, 
 """
 
 import difflib
+import re
 from collections.abc import Sequence
 from typing import Final
 
@@ -13,10 +14,13 @@ import numpy as np
 from vexture.errors import ParameterError
 from vexture.texture.root import Root
 
-__all__ = ["layers_of", "place_of"]
+__all__ = ["drawing_of", "layers_of", "place_of"]
 
 MOST_NAMED: Final = 6
 """Most shapes that a message names."""
+
+LAYER: Final = re.compile(r"(?<=.)/\d+(-[^/]*)?\Z")
+"""End of a layer's name, from `Drawing.layers` or `sheets_of`."""
 
 
 def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "texture") -> int:
@@ -48,16 +52,25 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
     return int(root)
 
 
+def drawing_of(root: Root) -> str:
+    """Name of the drawing that a shape belongs to: a layer's name is that, and ``/NUMBER-COLOUR`` or ``/NUMBER-faces``.
+
+    Examples
+    --------
+    >>> drawing_of(Root("logo/2-faces", is_map=True)), drawing_of(Root("icons/logo", is_map=True))
+    ('logo', 'icons/logo')
+    """
+    return LAYER.sub("", root.name) if root.is_map or root.paint is not None else root.name
+
+
 def layers_of(roots: Sequence[Root], root: str | int | None, texture: str = "texture") -> list[int]:
     """Numbers of the shapes that a picture shows, in painting order.
 
-    `root` is the name of a drawing: the part before ``/layer`` in the names of painted shapes and of maps, or the name
-    of a silhouette. Or it is the name or number of one shape. None means the only drawing. Raises a `ParameterError` if
-    there is no such drawing or shape, or if `root` is missing and there are several drawings.
+    `root` is the name of a drawing, as `drawing_of` finds it. Or it is the name or number of one shape. None means the
+    only drawing. Raises a `ParameterError` if there is no such drawing or shape, or if `root` is missing and there are
+    several drawings.
     """
-    owners = [
-        one.name.rpartition("/")[0] or one.name if one.is_map or one.paint is not None else one.name for one in roots
-    ]
+    owners = [drawing_of(one) for one in roots]
     if root is None:
         different = list(dict.fromkeys(owners))
         if len(different) > 1:

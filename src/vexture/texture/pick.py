@@ -134,7 +134,7 @@ def programs_paint(
     """Write where programs paint something: number k, of the paint's `words` (n, 2), at point k."""
     for k in range(len(points)):
         point = Region((points[k, 0], points[k, 1]), (0.0, 0.0), (0.0, 0.0))
-        painted[k] = program(texels, int(words[k, 0]), int(words[k, 1]), point)[3] > 0.0
+        painted[k] = program(texels, int(words[k, 0]), int(words[k, 1]), point, 1.0)[3] > 0.0
 
 
 def painted_at(texels: NDArray[np.uint32], root: Root, points: NDArray[np.float64]) -> NDArray[np.bool_]:

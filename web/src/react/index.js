@@ -108,8 +108,8 @@ function divided(props, isOption) {
 const isMaterialOption = (name) => NAMES.includes(name) && name !== 'color' && name !== 'map';
 
 /**
- * An unlit material that shows a shape in one colour, or a drawing in its own colours (`mode="paint"`). Rays and light
- * pass its mesh outside the shape. All props can change at any time.
+ * An unlit material that shows a drawing in its own colours, or a shape in `color`. Rays and light pass its mesh outside
+ * the shape. All props can change at any time.
  *
  * @type {(props: VectorMaterialProps) => import('react').ReactNode}
  */
@@ -117,6 +117,7 @@ export const VectorMaterial = sourced(({ texture = null, colors, ...props }, ref
   const material = useRef(/** @type {Material | null} */ (null));
   const change = useChanges();
   const { options, others } = divided(props, isMaterialOption);
+  if (props.color !== undefined && !options.has('mode')) options.set('mode', 'alpha');
   const shown = useColors(texture, colors, props.root);
   useLayoutEffect(() => {
     const { current } = material;

@@ -179,7 +179,7 @@ export class VectorNodeMask extends WithOptions {
   set(changes) {
     const { time, ...others } = changes;
     if (Number.isFinite(time) && Object.keys(others).length === 0) { // cheap, as each frame of a fold has its time
-      this.#shown.options.time = /** @type {number} */ (time);
+      this.#shown.setTime(/** @type {number} */ (time));
       return;
     }
     const shown = this.#shown.with(changes);
@@ -191,7 +191,7 @@ export class VectorNodeMask extends WithOptions {
 
   /** The options, as `applyVectorMask` takes them. */
   get options() {
-    return { ...this.#shown.options };
+    return { ...this.#shown.given };
   }
 
   /** The material that has this mask. */

@@ -17,6 +17,7 @@ from vexture.svg.text.wanted import families, stretch
 __all__ = ["embedded_fonts"]
 
 SOURCE = re.compile(r"(url|local)\(\s*(['\"]?)(.*?)\2\s*\)", re.DOTALL | re.IGNORECASE)
+IN_FILE = re.compile(r"url\(\s*['\"]?#", re.IGNORECASE)  # the element <font> of SVG 1.1
 DATA = re.compile(r"data:([^,]*),(.*)", re.DOTALL)
 RANGE = re.compile(r"U\+([0-9A-F]{0,6})(\?{0,6})(?:-([0-9A-F]{1,6}))?", re.IGNORECASE)
 
@@ -36,10 +37,9 @@ def embedded_fonts(rules: Sequence[FontFace], fonts: Fonts, report: Report) -> I
         found = (content_of(kind.lower(), text, fonts) for kind, _, text in SOURCE.findall(rule.get("src", "")))
         content = next((content for content in found if content is not None), None)
         if not names or content is None:
-            if rule.get("src", "").strip():
-                report.left_out(
-                    f"font {''.join(names[:1])[:40]!r}, which is not in the file; give it by `fonts`", sheet
-                )
+            if source := rule.get("src", "").strip():
+                why = "an SVG font, which is not supported" if IN_FILE.search(source) else "which is not in the file"
+                report.left_out(f"font {''.join(names[:1])[:40]!r}, {why}; give it by `fonts`", sheet)
             continue
         try:
             if isinstance(content, bytes):
