@@ -243,7 +243,7 @@ export class VectorTexture extends EventDispatcher {
 }
 
 /** What three.js reads of a map or a background before it compiles a program with it. */
-const OF_IMAGES = ['channel', 'mapping', 'matrix', 'colorSpace'];
+const OF_IMAGES = ['channel', 'mapping', 'matrix', 'colorSpace', 'isCubeTexture'];
 
 for (const property of OF_IMAGES) {
   Object.defineProperty(VectorTexture.prototype, property, {

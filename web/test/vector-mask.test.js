@@ -102,7 +102,7 @@ describe('without a root', () => {
   });
 });
 
-test.each(['channel', 'mapping', 'matrix', 'colorSpace'])('a texture with shapes is no image: %s', (property) => {
+test.each(['channel', 'mapping', 'matrix', 'colorSpace', 'isCubeTexture'])('a texture with shapes is no image: %s', (property) => {
   expect(() => /** @type {any} */ (duck)[property]).toThrow(/duck: a VectorTexture is no image .* use VectorMaterial, or applyVectorMask/);
   expect(() => ({ ...duck, clone: structuredClone({ duck: duck.name }) })).not.toThrow();
 });

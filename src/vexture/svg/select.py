@@ -114,10 +114,10 @@ def with_symbols_used(root: etree._Element, found: set[etree._Element]) -> set[e
     if len(found) == 1 and symbols:
         for name in FRAME:
             value = symbols[0].get(name)
-            if value is None:
-                root.attrib.pop(name, None)
-            else:
+            if value is not None:
                 root.set(name, value)
+            elif name in root.attrib:
+                del root.attrib[name]
     uses = set()
     for number, symbol in enumerate(symbols):
         name = symbol.get("id") or f"vexture-symbol-{number}"
