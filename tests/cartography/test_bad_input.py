@@ -15,7 +15,7 @@ from vexture.cartography import MapLayer, Scale, convert_map
 from vexture.cartography.colours import colours_of
 from vexture.cartography.prepare import in_memory
 from vexture.errors import LimitError, ParameterError, SourceError
-from vexture.geo.vectors import _refuse_broken
+from vexture.geo.vectors import check_memory
 from vexture.notes import Notes
 
 METRES = "EPSG:28992"
@@ -167,9 +167,8 @@ def test_memory_that_runs_out_within_a_library_is_told_apart_from_damage():
         raise shapely.errors.GEOSException("side location conflict")
     good = shapely.to_wkb(shapely.box(0, 0, 1, 1))
     with pytest.raises(MemoryError):
-        _refuse_broken(good, "feature 1")
-    with pytest.raises(SourceError, match="feature 1 is damaged"):
-        _refuse_broken(good[:20], "feature 1")
+        check_memory(good)
+    check_memory(good[:20])
 
 
 def circles(count, corners=120):

@@ -68,9 +68,13 @@ def test_arcs_that_a_topology_does_not_have_are_said():
 
 
 def test_metres_that_are_said_to_be_degrees_name_the_option_of_the_source():
-    far = frame([shapely.box(1000, 1000, 2000, 2000)], "EPSG:4326")
-    with pytest.raises(SourceError, match=r"cannot be longitudes and latitudes; name .* by `source_crs` EPSG"):
-        convert_map([MapLayer(far)])
+    for shape in (shapely.box(1000, 1000, 2000, 2000), shapely.LineString([(1000, 1000), (2000, 2000)])):
+        far = frame([shape, shapely.Point(84000, 447000)], "EPSG:4326")
+        with pytest.raises(SourceError, match=r"cannot be longitudes and latitudes; name .* by `source_crs` EPSG"):
+            convert_map([MapLayer(far)])
+    some = frame([shapely.Point(84000, 447000), shapely.Point(4, 52), shapely.Point(5, 52)], "EPSG:4326")
+    (lost,) = map(str, convert_map([MapLayer(some)]).conversion.notes)
+    assert "point beyond the map" in lost
     done = convert_map([MapLayer(squares(), crs="EPSG:4326")], crs=METRES)
     (said,) = map(str, done.conversion.notes)
     assert said == "it names its own reference system, EPSG:28992, so EPSG:4326 is not used for it"

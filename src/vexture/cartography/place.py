@@ -64,6 +64,9 @@ Move = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 def placed(features: Features, crs: str, notes: Notes) -> Features:
     """Features in another reference system; what has no place there is cut off or left out, with a note."""
     rings, turn = features.rings, period(features.crs)
+    if turn:
+        for marks in (features.lines.points, features.points.points):
+            _refuse_metres_of_marks(marks, features.crs)
     if turn and len(rings.ends):
         what = f"the coordinates {shown_bounds(rings.box, features.crs)}"
         refuse_metres(rings.points, features.crs, what, name="source_crs")
@@ -80,6 +83,14 @@ def placed(features: Features, crs: str, notes: Notes) -> Features:
     if same_system(crs, MERCATOR):
         return _on_mercator(features, notes)
     return _projected(features, crs, notes)
+
+
+def _refuse_metres_of_marks(points: NDArray[np.float64], crs: str) -> None:
+    """Refuse lines or points none of which can be in degrees; of others, those that cannot are left out later."""
+    if len(points):
+        box = (*points.min(axis=0).tolist(), *points.max(axis=0).tolist())
+        nearest = points[np.abs(points).max(axis=1).argmin()]
+        refuse_metres(nearest[None], crs, f"the coordinates {shown_bounds(box, crs)}", name="source_crs")
 
 
 def _mover(start: str, end: str, before: Move = lambda points: points) -> Move:

@@ -17,7 +17,8 @@ from vexture.content import FLATGEOBUF, LARGEST_FILE, SHAPEFILE, SQLITE, ZIP, re
 from vexture.errors import ParameterError, SourceError, shortened
 from vexture.geo.damage import HEADER, missing_arcs, refuse_cut
 from vexture.geo.extent import Bounds
-from vexture.geo.frames import arrow_of, labels_of
+from vexture.geo.feature_ids import ids_of_json, with_ids
+from vexture.geo.frames import arrow_of, check_texts, labels_of
 from vexture.geo.gdal import plain_place
 from vexture.geo.geopackage import refuse_links_of_geopackage
 from vexture.geo.named import refuse_files_of_json
@@ -182,7 +183,9 @@ def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None
         info = read_info(content, layer=name)
     names = [str(each) for each in info["fields"]]
     columns = choice.kept(names)
-    own = "id" if is_json and choice.id is None and "id" in names else choice.id
+    may_have_ids = is_json and choice.id is None
+    ids = ids_of_json(content, "id" in names) if may_have_ids and isinstance(content, bytes) else {}
+    own = "id" if may_have_ids and "id" in names and not ids else choice.id
     if own is not None and own not in columns:
         columns.append(own)
     options: dict[str, Any] = {"layer": name, "columns": columns, "where": choice.where, "bbox": choice.bounds}
@@ -192,35 +195,36 @@ def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None
     with ExitStack() as stack:
         with _condition(choice.where, names), gdal_errors():
             meta, reader = stack.enter_context(raw.open_arrow(content, **options))
-        of = (
-            meta["fid_column"] or "OGC_FID",
-            meta["geometry_name"] or "wkb_geometry",
-            own,
-            topology,
-            is_json,
-            meta["crs"],
-        )
+        places = meta["fid_column"] or "OGC_FID", meta["geometry_name"] or "wkb_geometry"
         while True:  # nothing of GDAL's is held while who asked works with what it got
             with _condition(choice.where, names), gdal_errors():
                 table = (
                     reader.read_all() if batch is None else pa.Table.from_batches([*islice(reader, 1)], reader.schema)
                 )
             if batch is None or len(table):
-                yield replace(_arrow_chunk(table, *of), damaged=damaged)
+                chunk = _arrow_chunk(table, *places, own, topology, is_json, meta["crs"], damaged)
+                yield replace(chunk, table=with_ids(chunk.table, chunk.numbers, ids), id_column="id") if ids else chunk
                 damaged = 0
             if batch is None or not len(table):
                 return
 
 
 def _arrow_chunk(
-    table: "pyarrow.Table", number: str, geometry: str, own: str | None, topology: bool, is_json: bool, crs: str | None
+    table: "pyarrow.Table",
+    number: str,
+    geometry: str,
+    own: str | None,
+    topology: bool,
+    is_json: bool,
+    crs: str | None,
+    damaged: int,
 ) -> Chunk:
     """A table of GDAL: its own number comes before attributes of that name, and its geometry after them."""
     first, last = table.schema.get_all_field_indices(number)[0], table.schema.get_all_field_indices(geometry)[-1]
     numbers = np.asarray(table.column(first).to_numpy(), np.int64)
     shapes = _objects(table.column(last))
     kept = table.remove_column(last).remove_column(first)
-    _check_texts(kept)
+    check_texts(kept)
     return Chunk(
         kept,
         shapes,
@@ -230,22 +234,8 @@ def _arrow_chunk(
         bounded=True,
         fallback=WORLD if topology else None,
         is_told=crs is not None and not is_json,
+        damaged=damaged,
     )
-
-
-def _check_texts(table: "pyarrow.Table") -> None:
-    """Refuse texts in another encoding, which GDAL passes on as they are."""
-    import pyarrow as pa
-
-    for name, column in zip(table.column_names, table.columns, strict=True):
-        if pa.types.is_string(column.type) or pa.types.is_large_string(column.type):
-            try:
-                column.validate(full=True)
-            except pa.ArrowInvalid:
-                raise SourceError(
-                    f"the texts in its column {name!r} are not UTF-8; name their encoding, such as ISO-8859-1, in a "
-                    "file of the same name that ends in .cpg, or leave the column out by `columns`"
-                ) from None
 
 
 @contextmanager

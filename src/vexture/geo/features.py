@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 from vexture.errors import ParameterError
 from vexture.geo.crs import MissingReferenceError, chosen_crs, gis_packages, period, same_system, shown_system
 from vexture.geo.extent import Bounds
+from vexture.geo.feature_ids import names_beside_id
 from vexture.geo.feature_tables import Choice, Chunk, chunks_of
 from vexture.geo.frames import texts_of
 from vexture.geo.geojson import UNLOCATED
 from vexture.geo.longitudes import closed_over_poles, jumping
 from vexture.geo.rings import Rings, refuse_far, repaired, rings_of
-from vexture.geo.vectors import parsed_wkb, parts_of
+from vexture.geo.vectors import DAMAGED, parsed_wkb, parts_of
 from vexture.notes import Notes
 from vexture.tolerance import UNSEEN
 
@@ -171,23 +172,25 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
         notes.remark(f"its index {chunk.unlabelled}, so ids are the numbers of rows; name a column of ids by `id`")
     if chunk.parsed:
         given = ~(shapely.is_missing(chunk.shapes) | shapely.is_empty(chunk.shapes))
-        whole, owner = chunk.shapes[given], np.flatnonzero(given)
+        whole, owner, damaged = chunk.shapes[given], np.flatnonzero(given), np.zeros(0, np.intp)
     else:
-        whole, owner = parsed_wkb(chunk.shapes, Notes())
-    unlocated = np.setdiff1d(np.arange(len(chunk.shapes)), owner)
+        whole, owner, damaged = parsed_wkb(chunk.shapes, Notes())
+    unlocated = np.setdiff1d(np.arange(len(chunk.shapes)), np.concatenate([owner, damaged]))
     if choice.bounds is not None and not chunk.bounded:
         west, south, east, north = choice.bounds
         boxes = shapely.bounds(whole)
         near = (boxes[:, 0] <= east) & (boxes[:, 2] >= west) & (boxes[:, 1] <= north) & (boxes[:, 3] >= south)
         whole, owner = whole[near], owner[near]
         kept, owner = np.unique(owner, return_inverse=True)
-        for _ in range(len(unlocated)):
-            notes.left_out(UNLOCATED)
-        chunk, unlocated = chunk.taken(kept), unlocated[:0]
+        for message, lost in ((UNLOCATED, unlocated), (DAMAGED, damaged)):
+            for _ in range(len(lost)):
+                notes.left_out(message)
+        chunk, unlocated, damaged = chunk.taken(kept), unlocated[:0], damaged[:0]
     parts, of = parts_of(whole)
     kinds, feature = shapely.get_type_id(parts), owner[of].astype(np.intp)
     ids = _ids(chunk, choice, seen, notes)
     notes.features("left out", UNLOCATED, ids[unlocated])
+    notes.features("left out", DAMAGED, ids[damaged])
     short = _short(parts, notes)
     parts, kinds, feature = parts[~short], kinds[~short], feature[~short]
     owners = feature[kinds == 3]
@@ -303,14 +306,6 @@ def _table(chunk: Chunk, ids: NDArray[Any]) -> "pyarrow.Table":
     if "id" in table.column_names:
         at = table.column_names.index("id")
         same = chunk.id_column == "id"
-        table = table.remove_column(at) if same else table.rename_columns(_renamed(table.column_names))
+        table = table.remove_column(at) if same else table.rename_columns(names_beside_id(table.column_names))
     others = dict(zip(table.column_names, table.columns, strict=True))
     return pa.table({"id": pa.array(ids.tolist(), pa.string()), **others})
-
-
-def _renamed(names: list[str]) -> list[str]:
-    """Names of columns without `id`, which the features' own has."""
-    new = "id_"
-    while new in names:
-        new += "_"
-    return [new if name == "id" else name for name in names]

@@ -1,12 +1,17 @@
 """Columns and indices of GeoDataFrames, and the texts by which ids, times and categories are known."""
 
 from collections.abc import Iterable
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["arrow_of", "labels_of", "texts_of"]
+from vexture.errors import SourceError
+
+if TYPE_CHECKING:
+    import pyarrow
+
+__all__ = ["arrow_of", "check_texts", "labels_of", "texts_of"]
 
 MIDNIGHT: Final = " 00:00:00"
 
@@ -79,3 +84,18 @@ def _as_texts(values: Any) -> Any:
 
     known = ~values.isna()
     return pa.array([str(value) if there else None for value, there in zip(values, known, strict=True)], pa.string())
+
+
+def check_texts(table: "pyarrow.Table") -> None:
+    """Refuse texts in another encoding, which GDAL passes on as they are."""
+    import pyarrow as pa
+
+    for name, column in zip(table.column_names, table.columns, strict=True):
+        if pa.types.is_string(column.type) or pa.types.is_large_string(column.type):
+            try:
+                column.validate(full=True)
+            except pa.ArrowInvalid:
+                raise SourceError(
+                    f"the texts in its column {name!r} are not UTF-8; name their encoding, such as ISO-8859-1, in a "
+                    "file of the same name that ends in .cpg, or leave the column out by `columns`"
+                ) from None

@@ -14,7 +14,7 @@ from importlib import import_module
 from io import BytesIO
 from pathlib import Path
 from threading import Lock
-from typing import Any, Final, NoReturn
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +41,8 @@ from vexture.geo.rings import Rings, rings_of
 from vexture.notes import Notes
 
 __all__ = [
+    "DAMAGED",
+    "check_memory",
     "chosen_layer",
     "gdal_errors",
     "gdal_reason",
@@ -67,6 +69,8 @@ AREAL: Final = ("Polygon", "Surface", "Unknown", "GeometryCollection", "Triangle
 
 QUIET: Final = Lock()
 """Held while Python's warnings are silenced: the filter is common to all threads."""
+
+DAMAGED: Final = "feature whose geometry is damaged, or has a line or ring of too few points"
 
 NO_MEMORY: Final = "bad_alloc"
 """What GEOS and GDAL say where there is none."""
@@ -245,8 +249,13 @@ def _named(layers: list[str]) -> str:
     return ", ".join(layers[:MOST_NAMED]) + (", ..." if len(layers) > MOST_NAMED else "")
 
 
-def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArray[np.intp]]:
-    """Geometries of WKB as shapely's, and the place of each; those without one are noted and left out."""
+def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArray[np.intp], NDArray[np.intp]]:
+    """Geometries of WKB as shapely's, and the place of each; what has none is noted and left out.
+
+    The places of damaged ones, which are left out as well, come last.
+
+    Raises a `SourceError` if none is sound.
+    """
     import shapely
 
     given = np.array([shape is not None for shape in shapes], np.bool_)
@@ -258,22 +267,27 @@ def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArra
     broken = shapely.is_missing(whole)
     if broken.any():
         first = int(broken.argmax())
-        _refuse_broken(shapes[given][first], f"feature {feature[first] + 1}")
+        check_memory(shapes[given][first])
+        if broken.all():
+            raise SourceError("each geometry is damaged, or has a line or ring of too few points; save the file again")
+        for _ in range(int(broken.sum())):
+            notes.left_out(DAMAGED)
+    damaged, whole, feature = feature[broken], whole[~broken], feature[~broken]
     empty = shapely.is_empty(whole)
     for _ in range(int(empty.sum())):
         notes.left_out(UNLOCATED)
-    return whole[~empty], feature[~empty]
+    return whole[~empty], feature[~empty], damaged
 
 
-def _refuse_broken(shape: bytes, name: str) -> NoReturn:
-    """Say why a geometry was not read: there was no memory for it, or it is damaged."""
+def check_memory(shape: bytes) -> None:
+    """Raise a `MemoryError` if that is why a geometry was not read, and not because it is damaged."""
     import shapely
 
     try:
         shapely.from_wkb(shape)  # which fails again only if it is damaged
     except shapely.errors.GEOSException as error:
         if not is_memory(error):
-            raise SourceError(f"{name} is damaged; save the file again") from None
+            return
     raise MemoryError
 
 
@@ -297,7 +311,7 @@ def _parsed(shapes: NDArray[Any], notes: Notes) -> Rings:
     """Polygons of geometries in WKB."""
     import shapely
 
-    whole, feature = parsed_wkb(shapes, notes)
+    whole, feature, _ = parsed_wkb(shapes, notes)
     parts, owner = parts_of(whole)
     kinds = shapely.get_type_id(parts)
     areal = kinds == shapely.GeometryType.POLYGON
