@@ -1,7 +1,7 @@
 """Depths in a GeoTIFF."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from vexture.errors import ParameterError, SourceError, reason_of
 from vexture.geo.gdal import opened_raster
+from vexture.geo.lengths import metres_in
 from vexture.geo.series import Lattice, Reading, Series, Values
 from vexture.notes import Notes
 
@@ -58,15 +59,29 @@ def _series(file: "DatasetReader", time_dim: str | None, variable: str | None, n
     affine = np.array([[a, b, c], [d, e, f]], np.float64)
     lattice = Lattice(np.arange(file.width) + 0.5, np.arange(file.height) + 0.5, affine)
 
+    metres = _metres(file, bands)
+
     def read(step: int, rows: slice, columns: slice) -> Reading:
-        return Reading(_band(file, bands[step], rows, columns))
+        return Reading(metres * _band(file, bands[step], rows, columns))
 
     crs = file.crs.to_wkt() if file.crs else None
     return Series(lattice, crs, names[bands[0] - 1], (None,) * len(bands), read)
 
 
+def _metres(file: "DatasetReader", bands: Sequence[int]) -> float:
+    """Metres in the unit of bands, which are metres where the file does not say it."""
+    units = {(file.units[band - 1] or "").strip() for band in bands}
+    found = {metres_in(unit) for unit in units}
+    if len(found) > 1:
+        raise SourceError(f"its bands are in several units ({', '.join(map(repr, sorted(units)))}); write one for all")
+    (metres,) = found
+    if metres is None:
+        raise SourceError(f"its values are in {units.pop()!r}, no known unit of length; write depths in metres")
+    return metres
+
+
 def _band(file: "DatasetReader", band: int, rows: slice, columns: slice) -> Values:
-    """Values of a band in metres."""
+    """Values of a band, in its unit."""
     from rasterio.errors import RasterioError
     from rasterio.windows import Window
 

@@ -6,8 +6,9 @@ from typing import Any, Final
 
 import numpy as np
 
+from vexture.geo.lengths import LENGTHS
 from vexture.geo.series import Values, plausible
-from vexture.geo.variables import UNITS, known_as, reader_of, unit_of
+from vexture.geo.variables import known_as, reader_of, unit_of
 
 __all__ = ["speed_of"]
 
@@ -72,4 +73,4 @@ def _reader(variable: Any) -> Callable[..., Values]:
     """Function that reads a speed in metres a second."""
     text = unit_of(variable)
     unit = EACH_SECOND.fullmatch(text)
-    return reader_of(variable, UNITS.get(unit[1].lower(), 1.0) if unit else OTHER.get(text.lower(), 1.0))
+    return reader_of(variable, LENGTHS.get(unit[1].lower(), 1.0) if unit else OTHER.get(text.lower(), 1.0))

@@ -8,10 +8,10 @@ from typing import Any, Final
 import numpy as np
 
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.geo.lengths import metres_in
 from vexture.geo.series import Values
 
 __all__ = [
-    "UNITS",
     "depths_of",
     "has_depths",
     "known_as",
@@ -58,26 +58,6 @@ SOUNDINGS: Final = (
 SOUNDED: Final = re.compile(r"bathymetr|below (the )?(geoid|datum|mean sea level)", re.IGNORECASE)
 """What descriptions say of such depths whose names are those of water depths, as ``h`` of ROMS."""
 
-# fmt: off
-UNITS: Final = {
-    **dict.fromkeys(("km", "kilometre", "kilometres", "kilometer", "kilometers"), 1000.0),
-    **dict.fromkeys(("dm", "decimetre", "decimetres", "decimeter", "decimeters"), 0.1),
-    **dict.fromkeys(("cm", "centimetre", "centimetres", "centimeter", "centimeters"), 0.01),
-    **dict.fromkeys(("mm", "millimetre", "millimetres", "millimeter", "millimeters"), 0.001),
-    **dict.fromkeys(("ft", "feet", "foot"), 0.3048),
-    **dict.fromkeys(("us_survey_foot", "us_survey_feet", "ftus"), 1200.0 / 3937.0),
-    **dict.fromkeys(("in", "inch", "inches"), 0.0254),
-}
-"""Length in metres of units other than the metre."""
-# fmt: on
-
-NO_LENGTH: Final = re.compile(
-    r".*(/ *|\bper +)(s|sec|seconds?|min|h|hr|hours?|d|days?|k?m\d?)\b.*|.*\b(s|sec|h|hr|d|day|k?m)[ ^*]*-\d.*"
-    r"|kno?ts?|kn|deg.*|celsius|kelvin|[khm]?pa|%|kg|s|seconds?",
-    re.IGNORECASE,
-)
-"""Units of what is neither a depth nor a height: speeds, discharges, temperatures, pressures."""
-
 TIMES: Final = {"time", "t", "times", "datetime"}
 
 MESH: Final = re.compile(r"^mesh(2d?)?_", re.IGNORECASE)
@@ -101,11 +81,12 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
         others = [name for name in candidates if name not in (bed, level)]
         remedy = f"`variable` may be {listed(others)}" if others else "write depths into the file"
         raise (SourceError if variable is None else ParameterError)(f"{chosen!r} holds {what}; {remedy}")
-    if NO_LENGTH.fullmatch(unit_of(dataset[chosen])):
-        raise (SourceError if variable is None else ParameterError)(
-            f"{chosen!r} is in {unit_of(dataset[chosen])!r}, no unit of length, so it holds no depths; "
-            "`variable` names another, or write depths into the file"
-        )
+    for name in (chosen, bed if is_level else None):
+        if name is not None and metres_in(unit_of(dataset[name])) is None:
+            raise (SourceError if variable is None else ParameterError)(
+                f"{name!r} is in {unit_of(dataset[name])!r}, no known unit of length, so it holds no depths; "
+                "`variable` names another, or write depths in metres into the file"
+            )
     read = reader_of(dataset[chosen])
     if is_level and read_bed is not None:
         return chosen, lambda places, order: read(places, order) - read_bed(places, order), read_bed
@@ -129,7 +110,7 @@ def _chosen(dataset: Any, candidates: list[str], bed: str | None, level: str | N
     best = _longest(dataset, depths + levels)
     choice = [name for name in best if name in depths] or best
     choice = choice or [name for name in candidates if name not in (bed, level)]
-    choice = [name for name in choice if not NO_LENGTH.fullmatch(unit_of(dataset[name]))] or choice
+    choice = [name for name in choice if metres_in(unit_of(dataset[name])) is not None] or choice
     if not choice and level is None:
         raise SourceError(f"no variable is on rows and columns; it has {listed(dataset.data_vars)}")
     choice = choice or [level or ""]
@@ -249,7 +230,7 @@ def _read(variable: Any, places: dict[Any, Any], order: tuple[str, ...]) -> Valu
     taken = taken.squeeze(extra)
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
         values: Values = loaded(taken.transpose(*order)).astype(np.float64)
-        return values * UNITS.get(unit_of(variable).lower(), 1.0)
+        return values * (metres_in(unit_of(variable)) or 1.0)  # a speed's unit is that of its reader
 
 
 def unit_of(variable: Any) -> str:

@@ -1,0 +1,53 @@
+"""Units of lengths, as files write them: with a datum behind them, in full or short, in one case or another."""
+
+import re
+from typing import Final
+
+__all__ = ["LENGTHS", "metres_in"]
+
+# fmt: off
+LENGTHS: Final = {
+    **dict.fromkeys(("m", "metre", "metres", "meter", "meters", "mtr", "mtrs"), 1.0),
+    **dict.fromkeys(("km", "kilometre", "kilometres", "kilometer", "kilometers"), 1000.0),
+    **dict.fromkeys(("dm", "decimetre", "decimetres", "decimeter", "decimeters"), 0.1),
+    **dict.fromkeys(("cm", "centimetre", "centimetres", "centimeter", "centimeters"), 0.01),
+    **dict.fromkeys(("mm", "millimetre", "millimetres", "millimeter", "millimeters"), 0.001),
+    **dict.fromkeys(("ft", "feet", "foot", "international foot", "international feet"), 0.3048),
+    **dict.fromkeys(("us survey foot", "us survey feet", "survey foot", "survey feet", "us foot", "us feet", "us ft",
+                     "ftus", "foot us", "ft us"), 1200.0 / 3937.0),
+    **dict.fromkeys(("in", "inch", "inches"), 0.0254),
+    **dict.fromkeys(("yd", "yds", "yard", "yards"), 0.9144),
+    **dict.fromkeys(("fathom", "fathoms", "ftm"), 1.8288),
+}
+"""Metres in units of length, by their names in lower case."""
+# fmt: on
+
+BY_LENGTH: Final = sorted(LENGTHS, key=len, reverse=True)
+
+NO_DATUM: Final = re.compile(
+    r"/|\^|\*|\bper\b|-\d|(?<!\.)\b(s|sec|seconds?|h|hr|hours?|d|days?)\b(?!\.)", re.IGNORECASE
+)
+DATUM: Final = re.compile(r"[\s(+,;:.\-]*[^\d\s].*|")
+"""What may stand behind a unit: the datum of heights, and nothing that makes a speed or an area of a length."""
+
+
+def metres_in(unit: str) -> float | None:
+    """Metres in a unit of length, which may name a datum; 1 if there is no unit, and None if it is no length.
+
+    Examples
+    --------
+    >>> metres_in("cm"), metres_in("ft NAVD88"), metres_in("m+NAP"), metres_in("")
+    (0.01, 0.3048, 1.0, 1.0)
+    >>> metres_in("m s-1"), metres_in("m3"), metres_in("psu"), metres_in("minutes")
+    (None, None, None, None)
+    """
+    plain = " ".join(re.sub(r"[_\-]+(?=[A-Za-z])", " ", unit).split())
+    if plain in ("", "1"):
+        return 1.0
+    lower = plain.lower().replace("u.s.", "us")
+    name = next((name for name in BY_LENGTH if lower.startswith(name)), None)
+    if name is None:
+        return None
+    rest = plain[len(plain) - len(lower) + len(name) :]
+    joined = rest[:1].isalpha() and not (name in ("m", "ft") and rest.isupper() and plain[0].islower())
+    return None if joined or NO_DATUM.search(rest) or not DATUM.fullmatch(rest) else LENGTHS[name]
