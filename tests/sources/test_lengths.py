@@ -76,3 +76,16 @@ def test_bands_of_a_geotiff_have_units(tmp_path) -> None:
             covered[unit] = float(vexture.coverage(vexture.read(tmp_path / "a.tif"), 64).mean())
     assert covered["ft"] == pytest.approx(covered[""], rel=1e-4)
     assert covered["cm"] == pytest.approx(covered[""], rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("unit", "metres", "system"), [("km", 1000.0, 32610), ("ft", 0.3048, 32610), ("US_survey_foot", 1.0, 2227)]
+)
+def test_places_are_in_the_units_of_the_system(tmp_path, unit: str, metres: float, system: int) -> None:
+    plain = lake("m")
+    plain.attrs["epsg_code"] = f"EPSG:{system}"
+    other = plain.assign_coords({name: (name, plain[name].values / metres, {"units": unit}) for name in ("x", "y")})
+    plain.to_netcdf(tmp_path / "plain.nc")
+    other.to_netcdf(tmp_path / "other.nc")
+    found, expected = (vexture.read(tmp_path / f"{name}.nc") for name in ("other", "plain"))
+    np.testing.assert_allclose(found.to_source, expected.to_source, rtol=1e-6)

@@ -13,13 +13,15 @@ from typing import Any, Final
 import numpy as np
 
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.geo.crs import system
 from vexture.geo.damage import damaged_netcdf
 from vexture.geo.datasets import dataset_of, is_dataset
 from vexture.geo.hdf5 import refuse_links_of_netcdf
+from vexture.geo.lengths import metres_in
 from vexture.geo.named import refuse_files_of_system
 from vexture.geo.series import Lattice, Reading, Series, Values
 from vexture.geo.speeds import speed_of
-from vexture.geo.variables import depths_of, listed, loaded, refuse_layers, time_axis
+from vexture.geo.variables import depths_of, listed, loaded, refuse_layers, time_axis, unit_of
 
 __all__ = ["axes_of", "crs_of", "opened", "points_east", "points_north", "series_of", "times_of"]
 
@@ -85,8 +87,24 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Serie
         places, order = {time: step, north: rows, east: columns}, (north, east)
         return Reading(depth(places, order), *(one(places, order) if one else None for one in (bed, speed)))
 
-    crs = crs_of(dataset, name, [_along(dataset, dim) for dim in (east, north)])
-    return Series(Lattice(x, y, np.eye(2, 3)), crs, name, times, read)
+    along = [_along(dataset, dim) for dim in (east, north)]
+    crs = crs_of(dataset, name, along)
+    across, up = (_in_system(one, crs) for one in along)
+    return Series(Lattice(x, y, np.array([[across, 0.0, 0.0], [0.0, up, 0.0]])), crs, name, times, read)
+
+
+def _in_system(along: Any, crs: str | None) -> float:
+    """What a coordinate is multiplied by in a reference system, or one in metres: its own unit may be another one."""
+    own = metres_in(unit_of(along))
+    if own is None or not unit_of(along):
+        return 1.0
+    try:
+        found = None if crs is None else system(crs)
+    except ParameterError:
+        return own  # the caller says so, or knows another system
+    if found is None:
+        return own
+    return 1.0 if found.is_geographic else own / float(found.axis_info[0].unit_conversion_factor)
 
 
 def axes_of(dataset: Any, name: Any, time_dim: str | None) -> tuple[str | None, str, str] | None:
