@@ -18,9 +18,11 @@ COVERED = """let at = vec2f(varyings.texcoord.x, 1.0 - varyings.texcoord.y);  //
 
 
 class VectorMaterial(gfx.MeshBasicMaterial):
-    """A shape of a texture in one colour."""
+    """A shape of a texture in one colour: its own, if it has one and no `color` is given."""
 
     def __init__(self, texture: vexture.Texture, root: int = 0, **others: Any) -> None:
+        if (paint := texture.roots[root].paint) is not None:
+            others.setdefault("color", (*paint.color, paint.opacity))
         super().__init__(alpha_mode="blend", **others)
         self.quad = int(texture.quads[root])
         rows, width = texture.texels.shape[:2]
