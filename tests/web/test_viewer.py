@@ -176,7 +176,8 @@ def test_rivals_stand_in_step_with_the_picture(
     matrix = view_matrix(center, zoom, (width, height))
     if rival == "thesis16":
         cover = vexture.coverage(viewer_pages["thesis"].texture, (width, height), matrix, renderer="cpu")
-        expected = np.repeat(255.0 * (1.0 - cover[..., None]), 3, axis=2)
+        own = 255.0 * np.array(viewed.drawing.paths[0].paint.color)  # that of the drawing beside it
+        expected = 255.0 + cover[..., None] * (own - 255.0)
     else:
         expected = viewed.expected(matrix, (width, height))
     expected = expected[60 : height - 60, width // 2 + 30 : width]
