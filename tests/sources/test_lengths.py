@@ -9,7 +9,8 @@ import vexture
 from vexture.errors import SourceError
 from vexture.geo.lengths import metres_in
 
-METRES = ["", "1", "m", "M", "metres", "m+NAP", "m NAP", "mNAP", "m (NAVD88)", "m.a.s.l.", "m, to NAP", "m-NAP"]
+UNSAID = ["", "1", "-", "n/a", "unknown"]
+METRES = ["m", "M", "metres", "m+NAP", "m NAP", "mNAP", "m (NAVD88)", "m (MSL/NAP)", "m.a.s.l.", "m, to NAP", "m-NAP"]
 US_FEET = ["US survey foot", "us_survey_feet", "U.S. survey foot", "ftUS", "ft-us", "foot_us"]
 SPEEDS = ["m2/s", "m s-1", "m/s", "mm/h", "m per day", "m s"]
 NONE = [*SPEEDS, "m3", "m2", "m^2", "psu", "K", "dB", "days", "minutes", "inHg", "kg", "Pa", "mbar", "month", "ms"]
@@ -18,12 +19,12 @@ NONE = [*SPEEDS, "m3", "m2", "m^2", "psu", "K", "dB", "days", "minutes", "inHg",
 @pytest.mark.parametrize(
     ("units", "metres"),
     [
-        (METRES, 1.0),
+        ([*UNSAID, *METRES], 1.0),
         (["ft", "feet", "ft NAVD88", "Feet (NGVD29)"], 0.3048),
         (US_FEET, 1200 / 3937),
         (["yards", "yd"], 0.9144),
         (["fathom", "fathoms below MLLW"], 1.8288),
-        (["cm", "centimeters"], 0.01),
+        (["cm", "centimeters", "1e-2 m", "0.01 metres"], 0.01),
         (NONE, None),
     ],
 )
@@ -55,7 +56,7 @@ def test_depths_are_read_in_metres(tmp_path, unit: str, metres: float) -> None:
 @pytest.mark.parametrize("unit", ["psu", "K", "days", "m3"])
 def test_what_is_no_length_is_no_depth(tmp_path, unit: str) -> None:
     lake(unit).to_netcdf(tmp_path / "lake.nc")
-    with pytest.raises(SourceError, match=f"'depth' is in '{unit}', no known unit of length"):
+    with pytest.raises(SourceError, match=f"'depth' is in '{unit}', no unit of length that is known"):
         vexture.read(tmp_path / "lake.nc")
 
 
@@ -70,7 +71,7 @@ def test_bands_of_a_geotiff_have_units(tmp_path) -> None:
             file.write(values, 1)
             file.units = (unit,)
         if unit == "psu":
-            with pytest.raises(SourceError, match="its values are in 'psu', no known unit of length"):
+            with pytest.raises(SourceError, match="its values are in 'psu', no unit of length that is known"):
                 vexture.read(tmp_path / "a.tif")
         else:
             covered[unit] = float(vexture.coverage(vexture.read(tmp_path / "a.tif"), 64).mean())

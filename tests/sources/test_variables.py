@@ -21,7 +21,7 @@ def test_longitudes_that_cross_the_antimeridian_are_joined(tmp_path):
     assert (south, north) == pytest.approx((-17.05, -15.95), abs=0.1)
 
 
-@pytest.mark.parametrize("units", ["m", "n/a", "m (MSL/NAP)", "m+NAP", "1", "-", "", "1e-2 m", "unknown"])
+@pytest.mark.parametrize("units", ["m", "n/a", "m (MSL/NAP)", "m+NAP", "1", "-", "", "5e-1 m", "unknown"])
 def test_what_may_be_a_length_is_a_depth(tmp_path, units):
     one = xarray.DataArray(np.ones((3, 3)), {"x": [0.0, 10.0, 20.0], "y": [0.0, 10.0, 20.0]}, ("y", "x"), "one")
     one.assign_attrs(units=units).to_dataset().assign_attrs(epsg=28992).to_netcdf(tmp_path / "a.nc")

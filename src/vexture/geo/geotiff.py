@@ -76,7 +76,7 @@ def _metres(file: "DatasetReader", bands: Sequence[int]) -> float:
         raise SourceError(f"its bands are in several units ({', '.join(map(repr, sorted(units)))}); write one for all")
     (metres,) = found
     if metres is None:
-        raise SourceError(f"its values are in {units.pop()!r}, no known unit of length; write depths in metres")
+        raise SourceError(f"its values are in {units.pop()!r}, no unit of length that is known; write depths in metres")
     return metres
 
 

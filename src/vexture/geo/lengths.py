@@ -31,23 +31,34 @@ DATUM: Final = re.compile(r"[\s(+,;:.\-]*[^\d\s].*|")
 """What may stand behind a unit: the datum of heights, and nothing that makes a speed or an area of a length."""
 
 
+UNSAID: Final = frozenset({"", "1", "-", "n/a", "na", "none", "unknown"})
+"""What files have where they say no unit."""
+
+SCALED: Final = re.compile(r"(\d*\.?\d+(?:[eE][+-]?\d+)?) ?\*? ?([A-Za-z].*)")
+"""A number of units, as UDUNITS has it."""
+
+
 def metres_in(unit: str) -> float | None:
     """Metres in a unit of length, which may name a datum; 1 if there is no unit, and None if it is no length.
 
     Examples
     --------
-    >>> metres_in("cm"), metres_in("ft NAVD88"), metres_in("m+NAP"), metres_in("")
-    (0.01, 0.3048, 1.0, 1.0)
+    >>> metres_in("cm"), metres_in("ft NAVD88"), metres_in("m+NAP"), metres_in(""), metres_in("1e-2 m")
+    (0.01, 0.3048, 1.0, 1.0, 0.01)
     >>> metres_in("m s-1"), metres_in("m3"), metres_in("psu"), metres_in("minutes")
     (None, None, None, None)
     """
     plain = " ".join(re.sub(r"[_\-]+(?=[A-Za-z])", " ", unit).split())
-    if plain in ("", "1"):
+    if plain.lower() in UNSAID:
         return 1.0
+    if scaled := SCALED.fullmatch(plain):
+        inner = metres_in(scaled[2])
+        return None if inner is None else float(scaled[1]) * inner
     lower = plain.lower().replace("u.s.", "us")
     name = next((name for name in BY_LENGTH if lower.startswith(name)), None)
     if name is None:
         return None
     rest = plain[len(plain) - len(lower) + len(name) :]
     joined = rest[:1].isalpha() and not (name in ("m", "ft") and rest.isupper() and plain[0].islower())
-    return None if joined or NO_DATUM.search(rest) or not DATUM.fullmatch(rest) else LENGTHS[name]
+    said = re.sub(r"\([^)]*\)", "()", rest)
+    return None if joined or NO_DATUM.search(said) or not DATUM.fullmatch(said) else LENGTHS[name]

@@ -84,7 +84,7 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
     for name in (chosen, bed if is_level else None):
         if name is not None and metres_in(unit_of(dataset[name])) is None:
             raise (SourceError if variable is None else ParameterError)(
-                f"{name!r} is in {unit_of(dataset[name])!r}, no known unit of length, so it holds no depths; "
+                f"{name!r} is in {unit_of(dataset[name])!r}, no unit of length that is known, so it holds no depths; "
                 "`variable` names another, or write depths in metres into the file"
             )
     read = reader_of(dataset[chosen])
