@@ -51,6 +51,9 @@ class DeviceError(VextureError):
 class ParameterError(ValueError):
     """An argument has a value that is not allowed."""
 
+    def __init__(self, message: str = "") -> None:
+        super().__init__(printable(message))
+
 
 EXPECTED: Final = (VextureError, ParameterError)
 """Errors that a command or a server reports in one line."""
@@ -90,7 +93,6 @@ def shortened(text: str, most: int) -> str:
     >>> shortened("a long name", 8), shortened("a name", 8)
     ('a lon...', 'a name')
     """
-    text = printable(text)
     return text if len(text) <= most else text[: most - 3] + "..."
 
 

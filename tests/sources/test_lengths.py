@@ -80,7 +80,8 @@ def test_bands_of_a_geotiff_have_units(tmp_path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("unit", "metres", "system"), [("km", 1000.0, 32610), ("ft", 0.3048, 32610), ("US_survey_foot", 1.0, 2227)]
+    ("unit", "metres", "system"),
+    [("km", 1000.0, 32610), ("ft", 0.3048, 32610), ("US_survey_foot", 1.0, 2227), ("1", 1.0, 2227)],
 )
 def test_places_are_in_the_units_of_the_system(tmp_path, unit: str, metres: float, system: int) -> None:
     plain = lake("m")

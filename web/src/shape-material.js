@@ -1,4 +1,5 @@
 // What the unlit materials of all renderers have in common: options that are properties, and a mask once there is a texture.
+import { Color } from 'three';
 import { VextureError, line } from './errors.js';
 import { NAMES, checkOptions, complete, withOptions } from './mask-options.js';
 
@@ -45,7 +46,7 @@ const OPTIONS = Object.freeze(NAMES.filter((name) => name !== 'color' && name !=
 const OWN_DEFAULTS = Object.freeze({ background: 'none', mode: null });
 
 /** Colour of a basic material to which none is given. */
-const WHITE = 0xffffff;
+const WHITE = new Color(0xffffff);
 
 /**
  * A basic material with a mask of a renderer.
@@ -93,7 +94,7 @@ export function shapeMaterial(base, MaskOf, name) {
 
     /** Its `color` may have been changed by itself since the last frame. */
     onBeforeRender() {
-      if (this.options.mode === null && this.color.getHex() !== WHITE) this.setValues({ mode: 'alpha' });
+      if (!this.color.equals(WHITE) && this.options.mode === null) this.setValues({ mode: 'alpha' });
     }
 
     /** @param {VectorMaterialParameters} [values] */

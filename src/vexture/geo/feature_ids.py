@@ -29,6 +29,9 @@ def ids_of_json(content: bytes, has_column: bool) -> dict[int, str | None]:
     """
     from pyogrio import raw
 
+    if KEY not in content:
+        return {}
+
     options: dict[str, Any] = {"columns": [], "read_geometry": False, "return_fids": True, "use_pyarrow": True}
     with gdal_errors(), raw.open_arrow(content, **options) as (_, reader):
         numbers = reader.read_all().column(0).to_pylist()

@@ -3,7 +3,7 @@
 import re
 from typing import Final
 
-__all__ = ["LENGTHS", "metres_in"]
+__all__ = ["LENGTHS", "NO_UNIT", "metres_in"]
 
 # fmt: off
 LENGTHS: Final = {
@@ -30,9 +30,8 @@ NO_DATUM: Final = re.compile(
 DATUM: Final = re.compile(r"[\s(+,;:.\-]*[^\d\s].*|")
 """What may stand behind a unit: the datum of heights, and nothing that makes a speed or an area of a length."""
 
-
-UNSAID: Final = frozenset({"", "1", "-", "n/a", "na", "none", "unknown"})
-"""What files have where they say no unit."""
+NO_UNIT: Final = frozenset({"", "1", "-", "n/a", "na", "none", "unknown"})
+"""What files have where they say no unit, in lower case."""
 
 SCALED: Final = re.compile(r"(\d*\.?\d+(?:[eE][+-]?\d+)?) ?\*? ?([A-Za-z].*)")
 """A number of units, as UDUNITS has it."""
@@ -49,7 +48,7 @@ def metres_in(unit: str) -> float | None:
     (None, None, None, None)
     """
     plain = " ".join(re.sub(r"[_\-]+(?=[A-Za-z])", " ", unit).split())
-    if plain.lower() in UNSAID:
+    if plain.lower() in NO_UNIT:
         return 1.0
     if scaled := SCALED.fullmatch(plain):
         inner = metres_in(scaled[2])

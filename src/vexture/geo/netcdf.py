@@ -17,7 +17,7 @@ from vexture.geo.crs import system
 from vexture.geo.damage import damaged_netcdf
 from vexture.geo.datasets import dataset_of, is_dataset
 from vexture.geo.hdf5 import refuse_links_of_netcdf
-from vexture.geo.lengths import metres_in
+from vexture.geo.lengths import NO_UNIT, metres_in
 from vexture.geo.named import refuse_files_of_system
 from vexture.geo.series import Lattice, Reading, Series, Values
 from vexture.geo.speeds import speed_of
@@ -94,14 +94,17 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Serie
 
 
 def _in_system(along: Any, crs: str | None) -> float:
-    """What a coordinate is multiplied by in a reference system, or one in metres: its own unit may be another one."""
-    own = metres_in(unit_of(along))
-    if own is None or not unit_of(along):
+    """Units of a reference system in the unit that a coordinate names; 1 if it names no length.
+
+    Where the file's system is not known, that of the user counts, and is taken to be in metres.
+    """
+    own = None if unit_of(along).lower() in NO_UNIT else metres_in(unit_of(along))
+    if own is None:
         return 1.0
     try:
         found = None if crs is None else system(crs)
-    except ParameterError:
-        return own  # the caller says so, or knows another system
+    except ParameterError:  # which is raised again where the system is chosen
+        found = None
     if found is None:
         return own
     return 1.0 if found.is_geographic else own / float(found.axis_info[0].unit_conversion_factor)

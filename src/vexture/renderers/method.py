@@ -140,7 +140,7 @@ MOST_RAMP_PARTS: Final = 4
 """Most parts of a side."""
 
 PIXEL_PARTS: Final = 8
-"""The same of a region, for each side of a pixel that it would fill as a square."""
+"""The same of a region that fills a pixel; of a smaller one, times the square root of its share of the pixel."""
 
 SHORTEST_RAMP: Final = 2.0**-22
 """Least interval over which a gradient is averaged: two steps of float32 at the end of the ramp."""
