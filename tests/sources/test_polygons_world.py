@@ -15,6 +15,8 @@ import vexture
 from vexture.errors import SourceError, SourceWarning
 from vexture.geo.crs import frame_around, transformed
 from vexture.geo.extent import Frame
+from vexture.geo.longitudes import closed_over_poles, jumping, unwrapped
+from vexture.geo.rings import rings_of
 from vexture.reading import read_extent
 
 
@@ -165,6 +167,43 @@ def test_a_map_of_the_world_is_no_ring_across_the_antimeridian(tmp_path):
     np.testing.assert_allclose(shapely.intersection(land(south), world).area, antarctica.area)
     whole = only(read_extent(path, "world.gpkg", bounds=(170, -10, -170, 10)))
     np.testing.assert_allclose(land(whole).bounds, [*(whole.to_source @ (0, 0, 1)), *(whole.to_source @ (1, 1, 1))])
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [
+        [(-180, -90), (180, -90), (180, -60), (0, -60), (0, 60), (180, 60), (180, 90), (-180, 90)],
+        [(-180, -90), (180, -90), (180, -80), (90, 0), (180, 65), (180, 90), (-180, 90), (-180, 65), (-120, 0)],
+        [(-180, -90), (180, -90), (180, 80), (-180, 80), (-170, 70)],
+        [(-180, 0), (180, 10), (-180, 20)],
+    ],
+    ids=["E", "both poles", "one upright side", "wedge"],
+)
+def test_sides_around_the_whole_world_keep_their_length(corners):
+    shape = shapely.Polygon(corners)
+    rings = rings_of(np.array([shape, shapely.reverse(shape)]), str)
+    for found in unwrapped(rings, 360.0).shapes:
+        assert found.equals(shape)
+    assert not jumping(rings, 360.0).any()
+    assert closed_over_poles(rings, 360.0)[1] == 0
+
+
+def test_a_ring_that_changes_the_side_of_the_antimeridian_on_it_lies_across_it():
+    corners = [(170, 60), (180, 60), (-180, 60), (-170, 60), (-170, 70), (-180, 70), (180, 70), (170, 70)]
+    stairs = [*corners[:2], (180, 61), (-180, 61), (-180, 62), (-170, 62), *corners[4:]]
+    rings = rings_of(np.array([shapely.Polygon(corners), shapely.Polygon(stairs)]), str)
+    across, steps = unwrapped(rings, 360.0).shapes
+    assert across.equals(shapely.box(170, 60, 190, 70))
+    assert steps.bounds == (170, 60, 190, 70)
+    assert steps.is_valid
+
+
+def test_a_coast_that_jumps_twice_beside_the_edge_of_a_map_keeps_its_pole():
+    coast = [(180, -80), (-179, -79), (179, -78), *((lon, -70) for lon in range(170, -180, -10)), (-180, -80)]
+    rings = rings_of(np.array([shapely.Polygon([(-180, -90), (180, -90), *coast])]), str)
+    (found,) = unwrapped(rings, 360.0).shapes
+    assert found.bounds == (-180, -90, 181, -70)
+    assert found.is_valid
 
 
 def test_a_ring_around_a_pole_is_refused_by_name(tmp_path):

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vexture.geo.extent import Bounds
 from vexture.geo.features import Lines
+from vexture.geo.longitudes import FULL_TURN
 from vexture.geo.rings import Rings
 
 __all__ = ["continuous", "lines_changed", "lines_in_box", "there_and_back", "thicker", "way_there"]
@@ -17,18 +18,28 @@ __all__ = ["continuous", "lines_changed", "lines_in_box", "there_and_back", "thi
 def continuous(lines: Lines, turn: float) -> Lines:
     """Lines of which no side is longer than half a turn: they go on beyond the antimeridian.
 
+    A side of a whole turn goes around the world, as a parallel does, unless the line comes from or goes on to places
+    within it: then it only changes the side of the antimeridian.
+
     Examples
     --------
     >>> across = Lines(np.array([[179.0, 0.0], [-179.0, 1.0]]), np.array([2]), np.array([0]))
     >>> continuous(across, 360.0).points.tolist()
     [[179.0, 0.0], [181.0, 1.0]]
+    >>> equator = Lines(np.array([[-180.0, 0.0], [180.0, 0.0]]), np.array([2]), np.array([0]))
+    >>> continuous(equator, 360.0).points.tolist()
+    [[-180.0, 0.0], [180.0, 0.0]]
     """
     if not len(lines.ends):
         return lines
     step = np.diff(lines.points[:, 0], prepend=lines.points[0, 0])
     turns = np.where(np.abs(step) > turn / 2, -np.rint(step / turn), 0.0)
     starts = np.append(0, lines.ends[:-1])
+    full = np.abs(step) >= turn * FULL_TURN
+    inner = ~full & (step != 0.0)
+    inner[starts] = False
     turns[starts] = 0.0
+    turns[full & ~np.append(False, inner[:-1]) & ~np.append(inner[1:], False)] = 0.0
     shift = np.cumsum(turns)
     shift -= np.repeat(shift[starts], np.diff(lines.ends, prepend=0))
     points = lines.points + np.stack([turn * shift, np.zeros(len(shift))], axis=1)

@@ -11,10 +11,14 @@ from vexture.errors import SourceError
 from vexture.geo.rings import Rings, rings_of
 from vexture.geo.validity import made_valid
 
-__all__ = ["closed_over_poles", "jumping", "unwrapped"]
+__all__ = ["FULL_TURN", "closed_over_poles", "jumping", "unwrapped"]
 
 FULL_TURN: Final = 1.0 - 1e-9
 """Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
+
+
+LEAST_CORNERS: Final = 3
+"""Of a ring that encloses something."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,37 +26,62 @@ class _Jumps:
     """Jumps of longitudes in rings.
 
     `turns`, (n,), are those in the side that leaves each point, and `net`, (r,), their sum in each ring: not 0 where
-    it goes around a pole. `edging` are the rings, (r,), with a side that is meant to go around the world. Of a ring
-    that would go around a pole without it, such a side lies on the pole, or between two sides along the antimeridian;
-    else it closes a coast that has lost its cut.
+    it goes around a pole. A side around the whole world, along a pole or the edge of a map, is no jump.
     """
 
     turns: NDArray[np.float64]
     net: NDArray[np.float64]
-    edging: NDArray[np.bool_]
 
 
 def _jumps(rings: Rings, turn: float) -> _Jumps:
     """Jumps of longitudes of period `turn`, of at least one ring: a longer side than half a turn is one."""
-    longitude, following = rings.points[:, 0], rings.following
-    step = longitude[following] - longitude
+    longitude = rings.points[:, 0]
+    step = longitude[rings.following] - longitude
     turns = np.where(np.abs(step) > turn / 2, np.rint(step / turn), 0.0)
-    net = np.add.reduceat(turns, rings.starts)
-    upright = step == 0.0
-    between = upright[following]
-    between[following] &= upright
-    polar = np.abs(rings.points[:, 1]) >= turn / 4 * FULL_TURN
-    closed = np.repeat(net == 0.0, rings.ends - rings.starts)
-    full = (np.abs(step) >= turn * FULL_TURN) & (closed | polar | between)
-    return _Jumps(turns, net, np.logical_or.reduceat(full, rings.starts))
+    full = np.abs(step) >= turn * FULL_TURN
+    for ring in np.flatnonzero(np.logical_or.reduceat(full, rings.starts)):
+        here = slice(rings.starts[ring], rings.ends[ring])
+        turns[here] = np.where(_around(rings.points[here], turns[here], full[here], turn), 0.0, turns[here])
+    return _Jumps(turns, np.add.reduceat(turns, rings.starts))
+
+
+def _around(
+    points: NDArray[np.float64], turns: NDArray[np.float64], full: NDArray[np.bool_], turn: float
+) -> NDArray[np.bool_]:
+    """Sides of a ring that go around the whole world: of those as long as a turn, all others are jumps.
+
+    If the ring goes around a pole with jumps only, such a side lies on the pole or between two along the antimeridian:
+    else it closes a coast that has lost its cut. If it does not, sides to the east and to the west are both long, or
+    both jumps, and the ring of one of the two readings does not cross itself.
+    """
+    import shapely
+
+    step = np.roll(points[:, 0], -1) - points[:, 0]
+    along = full | (step == 0.0)
+    polar = np.abs(points[:, 1]) >= turn / 4 * FULL_TURN
+    edges = full & (polar | (np.roll(along, 1) & np.roll(along, -1)))
+    none = np.zeros(len(full), np.bool_)
+    if turns.sum() != 0.0 or len(full) < LEAST_CORNERS:
+        return edges if turns[~edges].sum() == 0.0 else none
+    if turns[~full].sum() != 0.0:
+        return none
+    readings = [_continuous(points, np.where(long, 0.0, turns), turn) for long in (full, none)]
+    is_long, is_jump = shapely.is_valid(shapely.polygons(readings))
+    return full if is_long or (not is_jump and edges[full].all()) else none
+
+
+def _continuous(points: NDArray[np.float64], turns: NDArray[np.float64], turn: float) -> NDArray[np.float64]:
+    """Points of a ring without its jumps."""
+    before = np.cumsum(turns) - turns  # the jump is in the side that leaves the point
+    return points - np.stack([turn * before, np.zeros(len(points))], axis=1)
 
 
 def unwrapped(rings: Rings, turn: float) -> Rings:
     """Rings of longitudes without jumps: they exceed half a turn where they cross the antimeridian.
 
-    A side of more than half a turn is read as one that goes the other way around the world. Holes stay in their
-    polygon, and all polygons move to the side of the antimeridian where they span less. A ring around a pole is
-    refused, unless it follows the edge of a map.
+    A side of more than half a turn is read as one that goes the other way around the world, but one of a whole turn
+    follows the edge of a map, or a pole, where it can. Holes stay in their polygon, and all polygons move to the side
+    of the antimeridian where they span less. A ring around a pole is refused, unless it follows the edge of a map.
     """
     if not len(rings.ends):
         return rings
@@ -81,23 +110,17 @@ def jumping(rings: Rings, turn: float) -> NDArray[np.bool_]:
 
 
 def _without_jumps(rings: Rings, jumps: _Jumps, turn: float) -> Rings:
-    """Rings without the jumps of their sides, except those that are meant to go around the world."""
-    around, open_ring = jumps.edging, jumps.net != 0.0
-    pole = open_ring & ~around
+    """Rings without the jumps of their sides."""
+    pole = jumps.net != 0.0
     if pole.any():
         where = rings.where(int(rings.starts[int(pole.argmax())]))
         raise SourceError(
             f"{where} goes around a pole, where longitudes have no inside; cut it along the antimeridian or give the "
             "data in a polar reference system"
         )
-    lengths = rings.ends - rings.starts
-    turns = np.where(np.repeat(around & open_ring, lengths), 0.0, jumps.turns)
-    before = np.cumsum(turns) - turns  # the jump is in the side that leaves the point
-    shift = np.repeat(before[rings.starts], lengths) - before
-    points = rings.points + np.stack([turn * shift, np.zeros(len(shift))], axis=1)
-    first, last = np.minimum.reduceat(points, rings.starts), np.maximum.reduceat(points, rings.starts)
-    flat = np.repeat(around & (last[:, 0] - first[:, 0] <= turn * (1.0 - FULL_TURN)), lengths)
-    points[flat] = rings.points[flat]  # a map's whole width
+    before = np.cumsum(jumps.turns) - jumps.turns
+    before -= np.repeat(before[rings.starts], rings.ends - rings.starts)
+    points = rings.points - np.stack([turn * before, np.zeros(len(before))], axis=1)
     unwound = replace(rings, points=points)
     middle = (np.minimum.reduceat(points[:, 0], rings.starts) + np.maximum.reduceat(points[:, 0], rings.starts)) / 2
     own = middle[rings.outer][rings.polygon]
@@ -123,8 +146,7 @@ def closed_over_poles(rings: Rings, turn: float) -> tuple[Rings, int]:
         return rings, 0
     jumps = _jumps(rings, turn)
     polar = np.zeros(len(rings.outer), np.bool_)
-    polar[rings.polygon[(jumps.net != 0.0) & ~jumps.edging]] = True
-    polar[rings.polygon[jumps.edging]] = False
+    polar[rings.polygon[jumps.net != 0.0]] = True
     if not polar.any():
         return rings, 0
     places = np.flatnonzero(polar)
@@ -155,8 +177,7 @@ def _over_pole(points: NDArray[np.float64], turns: NDArray[np.float64], turn: fl
     jumps = np.flatnonzero(turns)
     if len(jumps):  # it begins after a jump
         points, turns = np.roll(points, -1 - jumps[-1], axis=0), np.roll(turns, -1 - jumps[-1])
-    before = np.cumsum(turns) - turns
-    points = points - np.stack([turn * before, np.zeros(len(points))], axis=1)
+    points = _continuous(points, turns, turn)
     if turns.sum() == 0.0:
         return points
     along = -turns.sum() * turn  # to the east or to the west
