@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import LimitError, SourceError
+from vexture.geo.conforming import conforming
 from vexture.geo.mesh import MeshSeries
 from vexture.geo.netcdf import axes_of, crs_of, points_east, points_north, times_of
 from vexture.geo.patch import Faces, counter_clockwise
@@ -221,8 +222,9 @@ def _mesh(
     if all(key in dataset.variables and dataset[key].shape == (*known.shape, 4) for key in bounds):
         corners = np.stack([loaded(dataset[key])[known] for key in bounds], axis=-1).astype(np.float64)
         if np.isfinite(corners).all():
-            nodes, numbers = np.unique(corners.reshape(-1, 2), axis=0, return_inverse=True)
-            return nodes, numbers.reshape(-1, 4).astype(np.int32)
+            own = np.arange(4 * len(corners), dtype=np.int32).reshape(-1, 4)
+            nodes, faces, _ = conforming(corners.reshape(-1, 2), own)
+            return nodes, faces
     nodes = corners_of(centres, known).reshape(-1, 2)
     row, column = np.nonzero(known)
     wide = known.shape[1] + 1

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import LimitError, SourceError, reason_of
+from vexture.geo.conforming import MOST_CORNERS, conforming
 from vexture.geo.mesh import MeshSeries
 from vexture.geo.netcdf import crs_of, points_east, times_of
 from vexture.geo.patch import Faces, counter_clockwise
@@ -17,9 +18,6 @@ __all__ = ["MOST_FACES", "holds_mesh", "mesh_series", "name_of_mesh"]
 
 MOST_FACES: Final = 10_000_000
 """For a mesh of a million faces, reading needs about 0.3 GB."""
-
-MOST_CORNERS: Final = 64
-"""Nodes of a face, for memory: tables of nodes have as many columns as the largest face has nodes."""
 
 
 def holds_mesh(dataset: Any) -> bool:
@@ -56,6 +54,7 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> Mes
         raise SourceError(f"its mesh {mesh!r} cannot be read ({reason_of(error)}); write it again") from None
     if not len(faces) or not np.isfinite(nodes).all() or faces[:, 0].min() < 0 or faces.max() >= len(nodes):
         raise SourceError("its mesh has no faces, or names nodes that do not exist; write it again")
+    whole = conforming(nodes, faces)
     candidates = [
         str(name)
         for name in dataset.data_vars
@@ -71,6 +70,7 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> Mes
     place = places[0] if places[0] in dataset[name].dims else places[1]
     _, depth, bed = depths_of(dataset, here[place], name)
     time = time_axis(dataset, dataset[name].dims, time_dim)
+    on_faces = place == places[0]
     refuse_layers(dataset, name, (time, place))
     times = times_of(dataset, time)
 
@@ -78,10 +78,11 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> Mes
 
     def read(step: int) -> Reading:
         places, order = {time: step}, (place,)
-        return Reading(depth(places, order), *(one(places, order) if one else None for one in (bed, speed)))
+        found = [one(places, order) if one else None for one in (depth, bed, speed)]
+        return Reading(*(one if on_faces or one is None else whole.values(one) for one in found))  # type: ignore[arg-type]
 
     crs = crs_of(dataset, name, axes)
-    return MeshSeries(nodes, counter_clockwise(nodes, faces), place == places[0], crs, name, times, read)
+    return MeshSeries(whole.nodes, counter_clockwise(whole.nodes, whole.faces), on_faces, crs, name, times, read)
 
 
 def _parts(dataset: Any, mesh: str) -> tuple[list[Any], Any, tuple[str, str]]:

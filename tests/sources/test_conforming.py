@@ -1,0 +1,93 @@
+"""Meshes whose faces share no nodes, or meet at hanging nodes: as if they shared them."""
+
+import numpy as np
+import pytest
+import xarray
+
+from vexture.geo.conforming import conforming
+from vexture.geo.depths import read_depths
+from vexture.geo.patch import after_each, border_of
+
+TURN = np.array([[0.8, 0.6], [-0.6, 0.8]])
+CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+
+
+def squares(levels):
+    """Nodes and faces of a square of 800 m: columns of 100 m, each divided into squares of its own level."""
+    found = []
+    for column, level in enumerate(levels):
+        side = 100.0 / 2**level
+        x, y = np.meshgrid(np.arange(2**level) * side, np.arange(8 * 2**level) * side)
+        starts = np.stack([x.ravel() + 100.0 * column, y.ravel()], axis=1)
+        found.append(starts[:, None] + side * CORNERS)
+    corners = np.concatenate(found)
+    return corners.reshape(-1, 2), np.arange(4 * len(corners), dtype=np.int32).reshape(-1, 4)
+
+
+def border_length(mesh):
+    border = border_of(mesh.faces, len(mesh.nodes))
+    sides = mesh.nodes[mesh.faces[border]] - mesh.nodes[after_each(mesh.faces)[border]]
+    return np.hypot(*sides.T).sum()
+
+
+def written(path, nodes, faces, depth, on="face"):
+    topology = {"cf_role": "mesh_topology", "topology_dimension": 2, "node_coordinates": "node_x node_y"}
+    data = {
+        "mesh2d": ((), 0, {**topology, "face_node_connectivity": "face_nodes"}),
+        "node_x": ("nodes", nodes[:, 0], {"standard_name": "projection_x_coordinate"}),
+        "node_y": ("nodes", nodes[:, 1], {"standard_name": "projection_y_coordinate"}),
+        "face_nodes": (("faces", "corners"), faces, {"start_index": 0}),
+        "waterdepth": ("faces" if on == "face" else "nodes", depth, {"units": "m"}),
+    }
+    xarray.Dataset(data, attrs={"epsg": 32610}).to_netcdf(path)
+    return path
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.002])
+@pytest.mark.parametrize("on", ["face", "node"])
+def test_water_on_faces_that_share_no_nodes_is_one_area(tmp_path, on, noise):
+    nodes, faces = squares((0,) * 8)
+    nodes = nodes + np.array([5e5, 4e6]) + np.random.default_rng(1).uniform(-noise, noise, nodes.shape)
+    depth = np.ones(len(faces if on == "face" else nodes))
+    drawing = read_depths(written(tmp_path / "own.nc", nodes, faces, depth, on), "own.nc").steps[0].drawing
+    assert [len(path.contours) for path in drawing.paths] == [1]
+    assert len(drawing.paths[0].contours[0]) == 4
+
+
+@pytest.mark.parametrize("levels", [(0, 0, 0, 0, 1, 1, 2, 2), (0, 0, 2, 2, 3, 0, 0, 0)])
+def test_faces_meet_at_hanging_nodes(levels):
+    nodes, faces = squares(levels)
+    mesh = conforming(nodes @ TURN + (5e5, 4e6), faces)
+    assert border_length(mesh) == pytest.approx(3200.0)
+    assert len(mesh.faces) == len(faces)
+
+
+def test_nodes_of_32_bits_are_joined():
+    """Half a metre is the last digit of such coordinates; quadtrees hang nodes that far from the middle."""
+    nodes, faces = squares((0, 0, 0, 0, 1, 1, 2, 2))
+    single = (nodes @ TURN + (3e5, 5e6)).astype(np.float32).astype(np.float64)
+    assert border_length(conforming(single, faces)) == pytest.approx(3200.0, abs=10.0)
+
+
+def test_a_corner_that_is_written_twice_is_one():
+    """Triangles in a table for quadrangles may end with a node twice."""
+    nodes = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    mesh = conforming(nodes, np.array([[0, 1, 2, 2], [0, 2, 3, 0], [1, 1, 1, 1]], np.int32))
+    assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3], [1, -1, -1]]
+
+
+def test_a_mesh_that_shares_its_nodes_stays_as_it_is():
+    nodes = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [9.0, 9.0]])
+    faces = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
+    mesh = conforming(nodes, faces)
+    assert mesh.faces is faces
+    assert mesh.numbers is None
+
+
+def test_values_at_one_place_are_their_mean():
+    nodes, faces = squares((0,) * 8)
+    mesh = conforming(nodes, faces)
+    values = np.full(len(nodes), np.nan)
+    at = np.flatnonzero((nodes == (100.0, 100.0)).all(axis=1))
+    values[at] = 1.0, 2.0, 6.0, np.nan
+    assert mesh.values(values)[mesh.numbers[at]].tolist() == [3.0] * 4
