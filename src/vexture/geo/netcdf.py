@@ -67,9 +67,19 @@ def _file(source: bytes | str | os.PathLike[str], stack: ExitStack) -> Any:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            return xarray.open_dataset(place, engine="netcdf4", decode_times=False, cache=False)
+            return xarray.open_dataset(
+                place, engine="netcdf4", decode_times=False, cache=False, drop_variables=_counts(place)
+            )
     except Exception as error:  # xarray and netCDF4 raise any type of exception for a damaged file
         raise damaged_netcdf(error, place) from None
+
+
+def _counts(place: str) -> list[str]:
+    """Numbers with the name of a dimension, as ADCIRC writes: xarray has coordinates alone under such a name."""
+    import netCDF4
+
+    with netCDF4.Dataset(place) as file:
+        return [name for name, variable in file.variables.items() if name in file.dimensions and not variable.ndim]
 
 
 def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series:

@@ -1,4 +1,4 @@
-"""Depths on a mesh of a NetCDF file by the UGRID conventions, as D-Flow FM and the quadtrees of SFINCS have them."""
+"""Depths on a mesh of a NetCDF file by the UGRID conventions: of D-Flow FM, ADCIRC, SCHISM, quadtrees of SFINCS."""
 
 from typing import Any, Final
 
@@ -12,12 +12,16 @@ from vexture.geo.netcdf import crs_of, points_east, times_of
 from vexture.geo.patch import Faces, counter_clockwise
 from vexture.geo.series import Reading
 from vexture.geo.speeds import speed_of
-from vexture.geo.variables import depths_of, has_depths, listed, loaded, refuse_layers, time_axis
+from vexture.geo.variables import depths_of, has_depths, listed, loaded, reader_of, refuse_layers, time_axis
 
 __all__ = ["MOST_FACES", "holds_mesh", "mesh_series", "name_of_mesh"]
 
 MOST_FACES: Final = 10_000_000
 """For a mesh of a million faces, reading needs about 0.3 GB."""
+
+
+DRY: Final = {"dryflagnode", "dryflagelement", "wetdry_node", "wetdry_elem"}
+"""Variables of SCHISM, in lower case, that are 1 where it has no water, whatever its level there."""
 
 
 def holds_mesh(dataset: Any) -> bool:
@@ -26,7 +30,7 @@ def holds_mesh(dataset: Any) -> bool:
 
 
 def _is_mesh(variable: Any) -> bool:
-    return bool(variable.attrs.get("cf_role") == "mesh_topology")
+    return "mesh_topology" in (variable.attrs.get("cf_role"), variable.attrs.get("standard_name"))
 
 
 def name_of_mesh(dataset: Any) -> str:
@@ -75,11 +79,15 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> Mes
     times = times_of(dataset, time)
 
     speed = speed_of(dataset, name, (place,), time)
+    dry = [reader_of(dataset[one]) for one in here[place] if one.lower() in DRY]
 
     def read(step: int) -> Reading:
-        places, order = {time: step}, (place,)
-        found = [one(places, order) if one else None for one in (depth, bed, speed)]
-        return Reading(*(one if on_faces or one is None else whole.values(one) for one in found))  # type: ignore[arg-type]
+        where, order = {time: step}, (place,)
+        values = depth(where, order)
+        for flag in dry:
+            values = np.where(flag(where, order) == 1.0, np.minimum(values, 0.0), values)
+        found = [values, *(one(where, order) if one else None for one in (bed, speed))]
+        return Reading(*(one if on_faces or one is None else whole.values(one) for one in found))
 
     crs = crs_of(dataset, name, axes)
     return MeshSeries(whole.nodes, counter_clockwise(whole.nodes, whole.faces), on_faces, crs, name, times, read)

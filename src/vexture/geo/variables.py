@@ -55,6 +55,9 @@ SOUNDINGS: Final = (
 """Those of depths of the bed below the zero of the heights, which count downwards."""
 # fmt: on
 
+RISING: Final = {"elevation", "elev"}
+"""Names of a bed which SCHISM has for its water level: where they have times, beside depths that have none."""
+
 SOUNDED: Final = re.compile(r"bathymetr|below (the )?(geoid|datum|mean sea level)", re.IGNORECASE)
 """What descriptions say of such depths whose names are those of water depths, as ``h`` of ROMS."""
 
@@ -73,7 +76,7 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
     read_bed = reader_of(dataset[bed], _sign(dataset, bed)) if bed is not None else None
     if variable is not None and variable not in candidates:
         raise ParameterError(f"there are no depths in {variable!r}; `variable` may be {listed(candidates)}")
-    level = known_as(dataset, candidates, LEVELS)
+    level = _level(dataset, candidates)
     chosen = _chosen(dataset, candidates, bed, level) if variable is None else variable
     is_level = chosen == level or (_is(dataset, chosen, LEVELS) and not _named(chosen, DEPTHS))
     if chosen == bed or (is_level and read_bed is None):
@@ -96,7 +99,7 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
 def has_depths(dataset: Any, candidates: list[str]) -> bool:
     """Whether variables hold depths by their names, or a water level and the bed."""
     bed = _bed(dataset, candidates)
-    both = bed is not None and known_as(dataset, candidates, LEVELS) is not None
+    both = bed is not None and _level(dataset, candidates) is not None
     return both or any(_is(dataset, name, DEPTHS) for name in candidates if name != bed)
 
 
@@ -146,15 +149,32 @@ def reader_of(variable: Any, sign: float = 1.0) -> Callable[..., Values]:
 
 def _bed(dataset: Any, candidates: list[str]) -> str | None:
     """Variable of the heights of the bed, or of its depths below their zero."""
+    if (above := _bed_and_level(dataset, candidates)) is not None:
+        return above[0]
     described = [name for name in candidates if _is(dataset, name, DEPTHS) and _sounded(dataset, name)]
     known = BEDS[0] | SOUNDINGS[0], BEDS[1] | SOUNDINGS[1]
     found = known_as(dataset, candidates, known)
     return described[0] if found is None and len(described) == 1 else found
 
 
+def _level(dataset: Any, candidates: list[str]) -> str | None:
+    """Variable of water levels."""
+    above = _bed_and_level(dataset, candidates)
+    return known_as(dataset, candidates, LEVELS) if above is None else above[1]
+
+
+def _bed_and_level(dataset: Any, candidates: list[str]) -> tuple[str, str] | None:
+    """A bed called a depth, and a level called an elevation, as SCHISM has them: the level has times, the bed none."""
+    moving = {name: time_axis(dataset, dataset[name].dims, None) is not None for name in candidates}
+    beds = [name for name in candidates if _named(name, DEPTHS) and not moving[name]]
+    levels = [name for name in candidates if _named(name, (RISING, set())) and moving[name]]
+    return (beds[0], levels[0]) if len(beds) == len(levels) == 1 else None
+
+
 def _sign(dataset: Any, bed: str) -> float:
-    """What makes heights of the values of a bed: -1 where they count downwards."""
-    sounded = _is(dataset, bed, SOUNDINGS) or (_is(dataset, bed, DEPTHS) and _sounded(dataset, bed))
+    """What makes heights of the values of a bed: -1 where they count downwards, as depths do."""
+    is_height = _standard(dataset, bed) in BEDS[1]
+    sounded = _is(dataset, bed, SOUNDINGS) or (_is(dataset, bed, DEPTHS) and not is_height)
     return -1.0 if str(dataset[bed].attrs.get("positive", "down" if sounded else "up")).lower() == "down" else 1.0
 
 
@@ -171,8 +191,9 @@ def _named(name: str, known: tuple[set[str], set[str]]) -> bool:
 
 
 def _standard(dataset: Any, name: str) -> str:
-    """Standard name, also that of what SFINCS calls the maximum of it."""
-    return str(dataset[name].attrs.get("standard_name", "")).lower().removeprefix("maximum of ").replace(" ", "_")
+    """Standard name, also that of what SFINCS and ADCIRC call the maximum of it."""
+    text = str(dataset[name].attrs.get("standard_name", "")).lower().replace(" ", "_")
+    return text.removeprefix("maximum_").removeprefix("of_")
 
 
 def known_as(dataset: Any, candidates: list[str], known: tuple[set[str], set[str]]) -> str | None:
