@@ -42,12 +42,13 @@ OFFLINE: Final[Mapping[str, str]] = {
     "CPL_LOG": os.devnull,
     "CPL_VSIL_CURL_ALLOWED_EXTENSIONS": ".none",
     "GDAL_HTTP_PROXY": "127.0.0.1:9",  # where nothing answers
+    "OGR_ARC_STEPSIZE": "0.5",  # degrees; chords are nearer than 1e-5 of the radius to the arc
     "OGR_SQLITE_ALLOW_EXTERNAL_ACCESS": "NO",
     "OGR_SQLITE_LOAD_EXTENSIONS": "NO",
     "OSR_SET_FROM_USER_INPUT_ALLOW_FILE_ACCESS": "NO",
     "OSR_SET_FROM_USER_INPUT_ALLOW_NETWORK_ACCESS": "NO",
 }
-"""Options by which GDAL says nothing of its own, and fetches nothing, should a link ever reach it."""
+"""Options by which GDAL says nothing of its own, fetches nothing, should a link ever reach it, and follows arcs."""
 
 DATASETS: Final = (".ovr", ".msk")
 """Endings of files beside a raster that GDAL opens as rasters of any format."""

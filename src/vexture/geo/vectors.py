@@ -32,6 +32,7 @@ from vexture.content import (
     start_of,
 )
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.geo.curves import straightened
 from vexture.geo.damage import refuse_cut
 from vexture.geo.gdal import vector_formats
 from vexture.geo.geojson import UNLOCATED, areas_of
@@ -262,6 +263,7 @@ def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArra
     for _ in range(int((~given).sum())):
         notes.left_out(UNLOCATED)
     feature = np.flatnonzero(given)
+    shapes = straightened(shapes)
     with np.errstate(invalid="ignore"):  # NaN is refused later, with the name of its ring
         whole = shapely.from_wkb(shapes[given], on_invalid="fix")
     broken = shapely.is_missing(whole)
