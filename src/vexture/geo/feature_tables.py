@@ -1,6 +1,5 @@
 """Tables of features as their formats have them: attributes in Arrow beside geometries in WKB, in chunks."""
 
-import json
 import os
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -21,6 +20,7 @@ from vexture.geo.feature_ids import ids_of_json, with_ids
 from vexture.geo.frames import arrow_of, check_texts, labels_of
 from vexture.geo.gdal import plain_place
 from vexture.geo.geopackage import refuse_links_of_geopackage
+from vexture.geo.geoparquet import WORLD, GeometryColumn, geometry_column, objects_of
 from vexture.geo.named import refuse_files_of_json
 from vexture.geo.vectors import (
     chosen_layer,
@@ -37,12 +37,6 @@ if TYPE_CHECKING:
 __all__ = ["PARQUET", "Choice", "Chunk", "chunks_of"]
 
 PARQUET: Final = b"PAR1"
-WORLD: Final = "OGC:CRS84"
-"""Reference system of GeoParquet and TopoJSON that name none."""
-
-GEOMETRY: Final = ("geometry", "geom", "wkb_geometry", "wkb")
-"""Columns of Parquet without metadata that may hold geometries."""
-
 PART: Final = 16_384
 """Features of which a condition chooses some, before more are read."""
 
@@ -51,9 +45,6 @@ MOST_NAMED: Final = 12
 
 REFUSALS: Final = ("Invalid SQL", "no such column", "syntax error")
 """What GDAL says of a condition, at once or, where it is a database's, when it reads."""
-
-WRAPPING: Final = "Unknown error: Wrapping"
-"""What Arrow says where there is no memory for an object."""
 
 READ: Final = "give GeoPackage, GeoParquet, FlatGeobuf, a shapefile, GeoJSON or TopoJSON"
 
@@ -105,6 +96,9 @@ class Chunk:
 
     damaged: int = 0
     """Geometries that are not whole, in the source and not only here."""
+
+    remarks: tuple[str, ...] = ()
+    """What is to be told of the source."""
 
     def taken(self, rows: NDArray[np.intp]) -> "Chunk":
         """Some of the rows, all of which are in bounds."""
@@ -222,7 +216,7 @@ def _arrow_chunk(
     """A table of GDAL: its own number comes before attributes of that name, and its geometry after them."""
     first, last = table.schema.get_all_field_indices(number)[0], table.schema.get_all_field_indices(geometry)[-1]
     numbers = np.asarray(table.column(first).to_numpy(), np.int64)
-    shapes = _objects(table.column(last))
+    shapes = objects_of(table.column(last))
     kept = table.remove_column(last).remove_column(first)
     check_texts(kept)
     return Chunk(
@@ -254,18 +248,6 @@ def _refused(where: str, names: list[str]) -> str:
     return f"`where` {where!r} is no condition on its columns; there are: {shown or 'none'}"
 
 
-def _objects(column: Any) -> NDArray[Any]:
-    """WKB as objects, None where there is none."""
-    import pyarrow as pa
-
-    try:
-        return np.asarray(column.to_numpy(zero_copy_only=False), object)
-    except pa.ArrowException as error:
-        if WRAPPING in str(error)[: 2 * len(WRAPPING)]:  # the rest of this message is the geometry
-            raise MemoryError from None
-        raise
-
-
 def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -274,64 +256,45 @@ def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
         raise ParameterError(f"GeoParquet has no layers, so none {choice.layer!r}; leave `layer` out")
     try:
         file = pq.ParquetFile(BytesIO(source) if isinstance(source, bytes) else os.path.abspath(source))
-        geometry, crs = _geometry_of(file.schema_arrow)
-        names = [name for name in file.schema_arrow.names if name != geometry]
+        geometry = geometry_column(file)
+        names = [name for name in file.schema_arrow.names if name != geometry.name]
         columns = choice.kept(names)
         used = names if choice.where is not None else columns  # a condition may need any of them
-        wanted = [*used, geometry]
+        wanted = [*used, geometry.name]
         if batch is None and choice.where is None:
             table = file.read(wanted, use_threads=False)  # a thread that has no memory ends the process
-            yield _parquet_chunk(table, np.arange(len(table)), geometry, columns, choice, crs)
+            yield _parquet_chunk(table, np.arange(len(table)), geometry, columns, choice)
             return
         first, kept = 0, []
         for part in file.iter_batches(batch_size=batch or PART, columns=wanted, use_threads=False):
             table, numbers = pa.Table.from_batches([part]), np.arange(first, first + len(part))
             first += len(part)
             if choice.where is not None:
-                rows = _rows_where(table.drop_columns([geometry]), choice.where)
+                rows = _rows_where(table.drop_columns([geometry.name]), choice.where)
                 table, numbers = table.take(rows), numbers[rows]
             if batch is None:  # only what is wanted is ever together in memory
                 kept.append((table, numbers))
             else:
-                yield _parquet_chunk(table, numbers, geometry, columns, choice, crs)
+                yield _parquet_chunk(table, numbers, geometry, columns, choice)
+                geometry = replace(geometry, remarks=())
         if batch is None:
             tables = [table for table, _ in kept] or [file.schema_arrow.empty_table().select(wanted)]
             numbers = np.concatenate([np.empty(0, np.int64), *(each for _, each in kept)])
-            yield _parquet_chunk(pa.concat_tables(tables), numbers, geometry, columns, choice, crs)
-    except (pa.ArrowInvalid, OSError, UnicodeDecodeError) as error:  # the last of a column's name
+            yield _parquet_chunk(pa.concat_tables(tables), numbers, geometry, columns, choice)
+    except (pa.ArrowInvalid, pa.ArrowNotImplementedError, OSError, UnicodeDecodeError) as error:  # of a column's name
         raise SourceError(f"the Parquet file cannot be read ({shortened(str(error), 120)}); save it again") from None
 
 
 def _parquet_chunk(
     table: "pyarrow.Table",
     numbers: NDArray[np.int64],
-    geometry: str,
+    geometry: GeometryColumn,
     columns: list[str],
     choice: Choice,
-    crs: str | None,
 ) -> Chunk:
-    shapes = _objects(table.column(geometry))
-    return Chunk(table.select(columns), shapes, numbers, crs, choice.id, is_told=crs not in (None, WORLD))
-
-
-def _geometry_of(schema: Any) -> tuple[str, str | None]:
-    """The column of geometries, and their reference system; None if it is said to be unknown."""
-    metadata = (schema.metadata or {}).get(b"geo")
-    if metadata is None:
-        found = [name for name in schema.names if name.lower() in GEOMETRY]
-        if not found:
-            raise SourceError('the Parquet file has no geometries (no metadata named "geo"); save it as GeoParquet')
-        return found[0], None
-    try:
-        geo = json.loads(metadata)
-        name = geo["primary_column"]
-        column = geo["columns"][name]
-        encoding, crs = column["encoding"], column.get("crs", WORLD)
-    except (ValueError, KeyError, TypeError, AttributeError):
-        raise SourceError('the metadata "geo" of the Parquet file are damaged; save it again') from None
-    if encoding != "WKB" or name not in schema.names:
-        raise SourceError(f"its geometries are {encoding!r}; save it as GeoParquet with geometries in WKB")
-    return str(name), crs if crs is None or isinstance(crs, str) else json.dumps(crs)
+    shapes, crs = geometry.shapes(table), geometry.crs
+    is_told = crs not in (None, WORLD)
+    return Chunk(table.select(columns), shapes, numbers, crs, choice.id, is_told=is_told, remarks=geometry.remarks)
 
 
 def _rows_where(table: "pyarrow.Table", where: str) -> NDArray[np.intp]:

@@ -168,6 +168,8 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     import shapely
 
     notes.remark("the file is damaged: a geometry refers to arcs that it does not have", chunk.damaged)
+    for said in chunk.remarks:
+        notes.remark(said)
     if chunk.unlabelled and chunk.id_column is None:
         notes.remark(f"its index {chunk.unlabelled}, so ids are the numbers of rows; name a column of ids by `id`")
     if chunk.parsed:
