@@ -1,24 +1,25 @@
 """The parameters of a conversion, as one value."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, get_args
 
+from vexture.content import FileKind
 from vexture.deadline import DEFAULT_SECONDS
 from vexture.errors import ParameterError
 
 if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take long
     from vexture.drawing import Drawing
 
-__all__ = ["READING", "Fonts", "Parameters", "Split"]
+__all__ = ["READING", "Fonts", "Parameters", "Split", "check_reading"]
 
 Split: TypeAlias = Literal["auto", "faces", "paint"] | None
 """How a drawing becomes shapes; see `vexture.convert`."""
 
 SPLITS = get_args(get_args(Split)[0])
 
-READING: Final = ("select", "names", "snap", "fonts", "trace_images")
+READING: Final = ("select", "names", "snap", "fonts", "trace_images", "page_colors")
 """Parameters of the source's reader."""
 
 Fonts: TypeAlias = "Sequence[str | os.PathLike[str]] | None"
@@ -48,6 +49,7 @@ class Parameters:
     restyle: bool = False
     fonts: "Fonts" = None
     trace_images: bool = False
+    page_colors: "Mapping[str, str] | None" = None
 
     def __post_init__(self) -> None:
         if self.split is not None and self.split not in SPLITS:
@@ -73,3 +75,28 @@ class Parameters:
         if self.split != "auto":
             return self.split
         return "faces" if self.restyle or drawing.is_coloured or len(drawing.layers()) > 1 else None
+
+
+def check_reading(
+    kind: FileKind,
+    names: str | None,
+    snap: float | None,
+    fonts: "str | os.PathLike[str] | Sequence[str | os.PathLike[str]]",
+    page_colors: "Mapping[str, str] | None",
+    *,
+    trace_images: bool,
+) -> None:
+    """Raise a `ParameterError` for a parameter of a reader that means nothing for files of a kind."""
+    if names is not None and kind not in (FileKind.GEOJSON, FileKind.SVG):
+        raise ParameterError(f"`names` {names!r} is for the elements of GeoJSON and SVG; leave it out")
+    if snap is not None and kind in (FileKind.SVG, FileKind.PICTURE):
+        raise ParameterError(f"`snap` {snap} is for the borders of polygons in a map; leave it out")
+    if kind is FileKind.SVG:
+        return
+    if fonts:
+        given = fonts if isinstance(fonts, str | os.PathLike) else fonts[0]
+        raise ParameterError(f"`fonts` {os.fspath(given)!r} is for the texts of an SVG; leave it out")
+    if trace_images:
+        raise ParameterError("`trace_images` is for the images in an SVG; leave it out")
+    if page_colors:
+        raise ParameterError(f"`page_colors` {page_colors!r:.80} is for the colours of an SVG; leave it out")

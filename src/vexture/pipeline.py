@@ -2,7 +2,7 @@
 
 import inspect
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
@@ -178,6 +178,7 @@ def convert(
     restyle: bool = ...,
     fonts: Fonts = ...,
     trace_images: bool = ...,
+    page_colors: Mapping[str, str] | None = ...,
 ) -> "Texture": ...
 
 
@@ -201,6 +202,7 @@ def convert(
     restyle: bool = False,
     fonts: Fonts = None,
     trace_images: bool = False,
+    page_colors: Mapping[str, str] | None = None,
     **others: Any,
 ) -> EncodedTexture:
     """Convert a drawing into a texture.
@@ -243,6 +245,8 @@ def convert(
         Font files, and folders of them, for the texts of an SVG; see `vexture.read_svg`.
     trace_images : bool
         Trace the pictures in an SVG; see `vexture.read`.
+    page_colors : mapping of str to str, optional
+        Colours that its page would give an SVG; see `vexture.read_svg`.
     **others
         Parameters of another encoding.
 
@@ -275,8 +279,9 @@ def convert(
     ['drawing']
     """
     named = Parameters(
-        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts, trace_images
-    )
+        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts,
+        trace_images, page_colors,
+    )  # fmt: skip
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
     given = {name: value for name, value in values if (value is not None and value is not False) or name == "split"}
     if encoding != DEFAULT and split in ("auto", None):
@@ -311,6 +316,7 @@ def atlas(
     restyle: bool = False,
     fonts: Fonts = None,
     trace_images: bool = False,
+    page_colors: Mapping[str, str] | None = None,
 ) -> "Texture":
     """Convert many drawings into one texture: a shape for each, or if `split` is ``"paint"`` for each layer of each.
 
@@ -321,7 +327,8 @@ def atlas(
         ``name/layer``.
     name : str
         Names the texture.
-    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts, trace_images
+    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts, trace_images, \
+page_colors
         As in `vexture.convert`, for each source.
 
     Returns
@@ -343,8 +350,9 @@ def atlas(
     ['a', 'b']
     """
     parameters = Parameters(
-        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts, trace_images
-    )
+        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts,
+        trace_images, page_colors,
+    )  # fmt: skip
     if isinstance(sources, str | bytes | os.PathLike) or not isinstance(sources, Iterable):
         sources = [sources]
     parts = []

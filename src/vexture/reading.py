@@ -2,7 +2,7 @@
 
 import io
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, TypeAlias
 
@@ -19,6 +19,7 @@ from vexture.content import (
 )
 from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.notes import Note, warn_of
+from vexture.parameters import check_reading
 from vexture.tolerance import HMIN
 
 if TYPE_CHECKING:  # at run time a reader is imported when it is needed
@@ -57,6 +58,7 @@ def read(
     snap: float | None = None,
     fonts: Sequence[Place] = (),
     trace_images: bool = False,
+    page_colors: Mapping[str, str] | None = None,
 ) -> "Drawing":
     """Read a drawing from a file of any supported kind; its content decides, not its suffix.
 
@@ -85,6 +87,8 @@ def read(
         Trace the pictures in an SVG (PNG, JPEG, WebP, GIF, BMP; needs ``vexture[trace]``): those in it, and those in
         files beside it or in folders below, if `source` is a path. Drawings in both places are always drawn. Other
         files and addresses are never read.
+    page_colors : mapping of str to str, optional
+        Colours that its page would give an SVG, such as of ``currentColor``; see `vexture.read_svg`.
 
     Returns
     -------
@@ -96,9 +100,9 @@ def read(
     SourceError
         If it cannot be read, or is a texture.
     ParameterError
-        If `select`, `fonts` or `trace_images` is given for anything but an SVG, `names` for neither GeoJSON nor SVG,
-        `snap` for anything but a map, `select` is no selector, `source` is the text of a file, or a parameter is of the
-        wrong type.
+        If `select`, `fonts`, `trace_images` or `page_colors` is given for anything but an SVG, `names` for neither
+        GeoJSON nor SVG, `snap` for anything but a map, `select` is no selector, `page_colors` holds no colour, `source`
+        is the text of a file, or a parameter is of the wrong type.
     TypeError
         If `source` is something else, such as a file that is open in text mode.
     LimitError
@@ -119,8 +123,9 @@ def read(
     'OGC:CRS84'
     """
     drawing = read_drawing(
-        source, name=name, select=select, names=names, snap=snap, fonts=fonts, trace_images=trace_images
-    )
+        source, name=name, select=select, names=names, snap=snap, fonts=fonts, trace_images=trace_images,
+        page_colors=page_colors,
+    )  # fmt: skip
     warn_of(name_of(source, name), drawing.notes)
     return drawing
 
@@ -134,6 +139,7 @@ def read_drawing(
     snap: float | None = None,
     fonts: Sequence[Place] = (),
     trace_images: bool = False,
+    page_colors: Mapping[str, str] | None = None,
 ) -> "Drawing":
     """Read a drawing as `read` does, but without a warning."""
     source, shown = _checked(source), name_of(source, name)
@@ -142,22 +148,14 @@ def read_drawing(
     with about(shown):
         given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
         kind = known_kind(start_of(given) or read_bytes(given), shown)
-        if names is not None and kind not in (FileKind.GEOJSON, FileKind.SVG):
-            raise ParameterError(f"`names` {names!r} is for the elements of GeoJSON and SVG; leave it out")
-        if snap is not None and kind in (FileKind.SVG, FileKind.PICTURE):
-            raise ParameterError(f"`snap` {snap} is for the borders of polygons in a map; leave it out")
-        if fonts and kind is not FileKind.SVG:
-            given = fonts if isinstance(fonts, str | os.PathLike) else fonts[0]
-            raise ParameterError(f"`fonts` {os.fspath(given)!r} is for the texts of an SVG; leave it out")
-        if trace_images and kind is not FileKind.SVG:
-            raise ParameterError("`trace_images` is for the images in an SVG; leave it out")
+        check_reading(kind, names, snap, fonts, page_colors, trace_images=trace_images)
         if kind is not FileKind.SVG:
             return _read_other(kind, given, shown, select, names, snap)
         content = read_bytes(given)
     from vexture.svg.read import svg_drawing
 
     folder = Path(source).parent if isinstance(source, str | os.PathLike) else None
-    return svg_drawing(content, shown, select, names, fonts, images_of(folder, traced=trace_images))
+    return svg_drawing(content, shown, select, names, fonts, images_of(folder, traced=trace_images), page_colors)
 
 
 def images_of(folder: Path | None, *, traced: bool) -> "Images":

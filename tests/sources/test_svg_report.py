@@ -41,7 +41,7 @@ SAID = {
     "image": "left out: image 'x.png' (there is no such file beside the drawing); nothing in it is painted",
     "import": "left out: @import",
     "many": "left out: <foreignObject> (2), image 'x' (there is no such file beside the drawing); "
-    "invalid and ignored: r='x' of <rect> in line 5",
+    "invalid and ignored: rx='x' of <rect> in line 5",
     "marker": "left out: marker-start 'url(#none)', marker-start that refers to itself, of <marker id=\"c\"> in line 2;"
     " invalid and ignored: markerWidth='-3' of <marker id=\"c\"> in line 2",
     "mask": "left out: mask 'url(stars.svg#m)'",
@@ -58,7 +58,7 @@ SAID = {
     "unknown-element": "left out: <flowRoot>",
     "view-and-cursor": "its cursors are left out, which no picture shows; "
     "its views are not followed; all of it is shown",
-    "variable-missing": "invalid and ignored: fill='var(--none)' of <rect id=\"a\"> in line 2",
+    "variable-missing": "invalid and ignored: var(--none), which has no value (`page_colors` gives it one)",
     "vector-effect": "left out: vector-effect 'fixed-position'",
     "xml-stylesheet": "left out: style sheet 'a.css'",
 }

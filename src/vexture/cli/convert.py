@@ -20,6 +20,7 @@ from vexture.cli.options import (
     Sectioned,
     check_output,
     font_option,
+    page_color_option,
     shown_name,
     split_of,
     streamed,
@@ -56,6 +57,7 @@ BELONGS_TO: Final = {
     "snap": DEFAULT,
     "fonts": DEFAULT,
     "trace_images": DEFAULT,
+    "page_colors": DEFAULT,
     "capacity": DEFAULT,
     "precision": DEFAULT,
     "deflate": DEFAULT,
@@ -109,6 +111,7 @@ Examples:
     "side; 0 leaves them.  [default: 3e-6]",
 )
 @font_option
+@page_color_option
 @trace_images_option
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")

@@ -46,8 +46,8 @@ class Pair(click.ParamType):  # type: ignore[type-arg]
 
 
 @options_of_convert(
-    *("select", "names", "fonts", "trace_images", "tolerance", "max_depth", "capacity", "precision", "restyle"),
-    *("max_seconds", "strict", "quiet"),
+    *("select", "names", "fonts", "page_colors", "trace_images", "tolerance", "max_depth", "capacity", "precision"),
+    *("restyle", "max_seconds", "strict", "quiet"),
 )
 @click.command(epilog=EXAMPLE)
 @click.argument("model", metavar="MODEL", type=PATH)

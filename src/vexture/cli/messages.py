@@ -18,7 +18,7 @@ __all__ = ["as_options", "echo", "note_facts", "one_line", "say", "say_notes"]
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter in a message of the library."""
 
-NAMED_OTHERWISE = {"fonts": "font", "characters": "chars"}
+NAMED_OTHERWISE = {"fonts": "font", "page_colors": "page-color", "characters": "chars"}
 """Parameters whose options have other names: lists, whose options are given once for each entry, and long ones."""
 
 

@@ -25,6 +25,7 @@ __all__ = [
     "conversion_options",
     "drawing_kind",
     "font_option",
+    "page_color_option",
     "refuse_idle_colours",
     "refuse_stream",
     "scale_of",
@@ -229,6 +230,32 @@ trace_images_option = click.option(
 )
 
 
+class NamedColour(ParamType):
+    """A name and a CSS colour."""
+
+    name = "NAME=COLOR"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the name and the colour, which the reader checks."""
+        if isinstance(value, tuple):
+            return value
+        name, equals, colour = str(value).rpartition("=")
+        if not equals:
+            self.fail(f"{value!r} names no colour; give NAME=COLOR, such as currentColor=teal", param, ctx)
+        return name.strip(), colour.strip()
+
+
+page_color_option = click.option(
+    "--page-color",
+    "page_colors",
+    type=NamedColour(),
+    multiple=True,
+    callback=lambda _context, _parameter, given: dict(given) or None,
+    help="A colour that the page around an SVG would give it: of currentColor, context-fill, context-stroke, or a "
+    "custom property such as --primary; may be given several times.",
+)
+
+
 SILHOUETTE_HELP: Final = "the covered area of a drawing, without colours."
 
 
@@ -296,7 +323,9 @@ def conversion_options(command: Callable[..., None]) -> Callable[..., None]:
         "--split", type=click.Choice(["paint"]), help="paint: show each colour as a layer, one over the other."
     )
     silhouette = click.option("--silhouette", is_flag=True, help=f"Show {SILHOUETTE_HELP}")
-    return split(silhouette(select(font_option(trace_images_option(precision(tolerance_option(command)))))))
+    for option in (tolerance_option, precision, trace_images_option, page_color_option, font_option, select):
+        command = option(command)
+    return split(silhouette(command))
 
 
 def viewer_parameters(
@@ -307,11 +336,12 @@ def viewer_parameters(
     silhouette: bool,
     fonts: tuple[Path, ...] | None,
     trace_images: bool | None,
+    page_colors: dict[str, str] | None,
 ) -> "Parameters":
     """The viewer's parameters, with those that are given as options."""
     from vexture.live.documents import VIEWER_PARAMETERS
 
-    given: dict[str, Any] = {"tolerance": tolerance, "select": select, "fonts": fonts}
+    given: dict[str, Any] = {"tolerance": tolerance, "select": select, "fonts": fonts, "page_colors": page_colors}
     given |= {"trace_images": bool(trace_images), **split_of(split, silhouette)}
     if precision is not None:
         given["precision"] = precision

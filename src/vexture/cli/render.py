@@ -17,6 +17,7 @@ from vexture.cli.options import (
     check_output,
     drawing_kind,
     font_option,
+    page_color_option,
     shown_name,
     streamed,
     strict_option,
@@ -66,6 +67,7 @@ Examples:
 @click.option("--root", metavar="NAME_OR_INDEX", help="Shape of a texture, or drawing of an atlas.")
 @click.option("--select", metavar="SELECTOR", help="Draw only the elements of an SVG that a CSS selector matches.")
 @font_option
+@page_color_option
 @trace_images_option
 @strict_option
 @click.option(
@@ -89,6 +91,7 @@ def render(
     select: str | None,
     fonts: tuple[Path, ...] | None,
     trace_images: bool | None,
+    page_colors: dict[str, str] | None,
     strict: bool,
     **options: Any,
 ) -> None:
@@ -104,7 +107,8 @@ def render(
             raise ParameterError(f"`output` {output}: pictures are PNG files; name one that ends in .png")
         _check_sides(size, width, height)
         seen = None if view is None else window(*view, rotate)  # refused before anything is read
-        shown = _shown(source, select, fonts or (), trace_images=bool(trace_images), strict=strict)
+        given = {"select": select, "fonts": fonts, "trace_images": trace_images, "page_colors": page_colors}
+        shown = _shown(source, {name: value for name, value in given.items() if value is not None}, strict=strict)
         view = view or _box_of(shown)
         pixels = _pixels(size, width, height, view)
         picture = _picture(shown, pixels, seen or window(*view, rotate), root=_root_of(shown, root), **options)
@@ -183,8 +187,8 @@ def _root_of(shown: "Shown", root: str | None) -> str | int | None:
     return int(root) if root not in names and root.isdecimal() else root
 
 
-def _shown(path: Path, select: str | None, fonts: tuple[Path, ...], *, trace_images: bool, strict: bool) -> "Shown":
-    """Read a drawing, or load a texture by one of its files or what their names have in common."""
+def _shown(path: Path, reading: dict[str, Any], *, strict: bool) -> "Shown":
+    """Read a drawing with parameters, or load a texture by one of its files or what their names have in common."""
     from vexture.content import FileKind, kind_of, start_of
     from vexture.notes import check_losses
     from vexture.reading import read_drawing
@@ -194,15 +198,13 @@ def _shown(path: Path, select: str | None, fonts: tuple[Path, ...], *, trace_ima
     kind = drawing_kind(path) if data is None else kind_of(start_of(data))
     if kind not in (None, FileKind.TEXTURE):
         given = path if data is None else data
-        how: dict[str, Any] = {"name": name, "select": select, "fonts": fonts, "trace_images": trace_images}
-        drawing = apart(partial(read_drawing, **how), given, name=name)
+        drawing = apart(partial(read_drawing, name=name, **reading), given, name=name)
         check_losses(name, drawing.notes, is_empty=not drawing.paths, strict=strict)
         say_notes(name, drawing.notes)
         return drawing
-    if select is not None:
-        raise ParameterError(f"{name}: `select` {select} needs the drawing; give it to vexture convert")
-    if fonts:
-        raise ParameterError(f"{name}: `fonts` {fonts[0]} is for the texts of a drawing; give it to vexture convert")
+    for option, value in reading.items():
+        shown = "" if value is True else f" {value[0] if option == 'fonts' else value}"
+        raise ParameterError(f"{name}: `{option}`{shown} is for a drawing; give it to vexture convert")
     return load_any(path) if data is None else texture_from(data, name)
 
 

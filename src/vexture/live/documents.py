@@ -83,7 +83,8 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters, fol
     if kind is FileKind.SVG:
         images = images_of(folder, traced=parameters.trace_images)
         fonts = parameters.fonts or ()
-        drawing, framed = framed_drawing(plain, file_name, parameters.select, fonts=fonts, images=images)
+        given: dict[str, Any] = {"fonts": fonts, "images": images, "page_colors": parameters.page_colors}
+        drawing, framed = framed_drawing(plain, file_name, parameters.select, **given)
     else:
         drawing = read_drawing(plain, name=file_name, select=parameters.select)
     named = replace(drawing, name=name)
@@ -131,7 +132,7 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
     """Shape of a drawing, with the facts of its conversion; its notes are one line, if there are any."""
     from vexture.pipeline import combine, trees_of
 
-    reading = replace(parameters, select=None, fonts=None, trace_images=False)  # the drawing is read already
+    reading = replace(parameters, select=None, fonts=None, trace_images=False, page_colors=None)  # read already
     part = trees_of(drawing, reading)
     texture = combine([part], drawing.name, PurePath(file_name).name)
     milliseconds = 1000.0 * (time.perf_counter() - start)

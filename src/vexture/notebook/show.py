@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["show"]
 
-READING: Final = ("select", "names", "snap", "fonts", "trace_images")
+READING: Final = ("select", "names", "snap", "fonts", "trace_images", "page_colors")
 """Options of a conversion that are its reader's."""
 
 OPTIONAL: Final = ("root", "width", "colors", "view")

@@ -17,6 +17,7 @@ from vexture.svg.course import along, known, said, values_of
 from vexture.svg.document import applies, local_name
 from vexture.svg.links import Links, reference
 from vexture.svg.motion import motion
+from vexture.svg.page import Page
 from vexture.svg.properties import KEYWORDS, PROPERTIES
 from vexture.svg.style import LISTING
 from vexture.svg.timing import END, Progress, progress
@@ -60,8 +61,8 @@ class Moment(Enum):
         return told.get(self, "")
 
 
-def show_moment(root: etree._Element, moment: Moment = Moment.START) -> list[etree._Element]:
-    """Give the elements of a document the values that its animations have at a moment.
+def show_moment(root: etree._Element, page: Page, moment: Moment = Moment.START) -> list[etree._Element]:
+    """Give the elements of a document in a page the values that its animations have at a moment.
 
     Return the animations whose values are not known: of these nothing is changed.
     """
@@ -70,7 +71,7 @@ def show_moment(root: etree._Element, moment: Moment = Moment.START) -> list[etr
             sheet.text = moment.value + sheet.text
     if moment is Moment.REST:
         return []
-    links, bases, unclear = Links(root), Bases(root), list[etree._Element]()
+    links, bases, unclear = Links(root), Bases(root, page), list[etree._Element]()
     found, counts = list[tuple[Progress, etree._Element]](), Counter[etree._Element]()
     for element in root.iter("*"):
         if local_name(element) in ANIMATIONS and applies(element):

@@ -6,9 +6,10 @@ from typing import Final
 from lxml import etree
 
 from vexture.svg.document import local_name
+from vexture.svg.page import Page
 from vexture.svg.properties import CSS_ONLY, PROPERTIES
 from vexture.svg.report import Report
-from vexture.svg.style import INITIAL, LISTING, Cascade, Style
+from vexture.svg.style import LISTING, Cascade, Style
 
 __all__ = ["SIZES", "STYLED", "Bases"]
 
@@ -40,13 +41,14 @@ DEFAULTS: Final[dict[str, dict[str, str]]] = {
 class Bases:
     """Finds the values of a document's elements without animations by elements."""
 
-    def __init__(self, root: etree._Element) -> None:
+    def __init__(self, root: etree._Element, page: Page) -> None:
         self.root = root
+        self.page = page
 
     @cached_property
     def cascade(self) -> Cascade:
         """The styles of the elements, which are asked for seldom."""
-        return Cascade(self.root, Report())
+        return Cascade(self.root, Report(), self.page)
 
     def value(self, element: etree._Element, name: str) -> str | None:
         """Value of an attribute, or of the property that it is; None if it is not known."""
@@ -66,7 +68,7 @@ class Bases:
 
     def style(self, element: etree._Element) -> Style:
         """Style of an element where it stands in the document."""
-        style = INITIAL
+        style = self.cascade.initial
         for around in reversed([element, *element.iterancestors()]):
             style = self.cascade.style(around, style)
         return style

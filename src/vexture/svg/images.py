@@ -21,6 +21,7 @@ from vexture.svg.animation import show_moment
 from vexture.svg.document import parse_svg
 from vexture.svg.gradients import rows
 from vexture.svg.links import reference
+from vexture.svg.page import ENCLOSED
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report
 from vexture.svg.space import Place, Window
@@ -97,7 +98,7 @@ class Images:
         if self.depth >= DEEPEST:
             raise LimitError(f"drawings in it are nested more than {DEEPEST} deep")
         root = parse_svg(read_bytes(content))
-        show_moment(root)
+        show_moment(root, ENCLOSED)
         return root
 
     def beside(self, link: str) -> Path:

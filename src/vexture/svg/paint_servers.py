@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable
 from lxml import etree
 
 from vexture.paint import Paint, Stop
-from vexture.svg.colors import CONTEXT, Color, PaintText, parse_paint
+from vexture.svg.colors import CONTEXT, CURRENT, Color, PaintText, parse_paint
 from vexture.svg.document import local_name
 from vexture.svg.gradients import GRADIENTS, Ramp, read_ramp, stop_offsets
 from vexture.svg.links import Links, reference
@@ -14,7 +14,7 @@ from vexture.svg.outline import Outline
 from vexture.svg.patterns import Pattern, Tiling, read_pattern
 from vexture.svg.report import Report, described
 from vexture.svg.space import Place
-from vexture.svg.style import INITIAL, Cascade, Style
+from vexture.svg.style import Cascade, Style
 from vexture.svg.tiles import Budget, FirstTile
 
 __all__ = ["PaintServers"]
@@ -42,6 +42,7 @@ class PaintServers(Links):
         self.styles: dict[etree._Element, Style] = {}
         self.budget: Budget = Budget(report)
         self.tiles: dict[tuple[Hashable, ...], FirstTile] = {}  # of patterns, as painted so far
+        self.lacks_color = False  # whether anything is painted in `currentcolor`, which nothing says
 
     def referred(self, name: str, kind: str, place: Place) -> etree._Element | None:
         """Element of a kind to which a property at a place refers; None, with a note, if it is none or around it."""
@@ -73,12 +74,17 @@ class PaintServers(Links):
             return self.served(text, place, outlines())
         if text.color not in CONTEXT:
             return self.flat(text.color, place.style)
-        context = place.context
-        return None if context is None else self.found(CONTEXT[text.color], context.place, context.outlines)
+        if place.context is not None:
+            return self.found(CONTEXT[text.color], place.context.place, place.context.outlines)
+        color = self.cascade.page.context(text.color)
+        if color is None and place.element is not None:
+            self.report.once("left out", self.cascade.page.lost(text.color, helps=True), place.element)
+        return self.flat(color, place.style)
 
     def flat(self, color: Color | str | None, style: Style) -> Paint | None:
         """Paint of one colour."""
         if isinstance(color, str):
+            self.lacks_color |= not style.has_color
             color = style.solid(color)
         if color is None:
             return None
@@ -155,12 +161,13 @@ class PaintServers(Links):
     def stop(self, element: etree._Element, offset: float) -> Stop:
         """A stop at an offset."""
         style = self.style_of(element)
+        self.lacks_color |= not style.has_color and CURRENT in style["stop-color"].lower()
         color = style.solid(style["stop-color"]) or style.color
         return Stop(offset, color.rgb, color.alpha * style.opacity("stop-opacity"))
 
     def style_of(self, element: etree._Element) -> Style:
         """Style of an element where it stands in the document."""
-        style = INITIAL
+        style = self.cascade.initial
         for around in reversed([element, *element.iterancestors()]):
             if around not in self.styles:
                 self.styles[around] = self.cascade.style(around, style)

@@ -1,7 +1,7 @@
 """Reading SVG: the shapes of a drawing and their paints."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final, TypeAlias
@@ -19,6 +19,7 @@ from vexture.svg.animation import Moment, show_moment
 from vexture.svg.compositing import occupied
 from vexture.svg.document import parse_svg
 from vexture.svg.images import Images
+from vexture.svg.page import CURRENT_IS_BLACK, Page, has_colors
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
 from vexture.svg.select import chosen, nothing_painted, unpainted, with_symbols_used
@@ -43,6 +44,7 @@ def read_svg(
     select: str | None = None,
     names: str | None = None,
     fonts: Sequence[str | os.PathLike[str]] = (),
+    page_colors: Mapping[str, str] | None = None,
 ) -> Drawing:
     """Read an SVG file, plain or gzipped.
 
@@ -69,6 +71,9 @@ def read_svg(
         the element that holds an element's title. Paths without it have the name of what is around them.
     fonts : sequence of path
         Font files, and folders of them, for texts. They come before the fonts in the drawing and those of the system.
+    page_colors : mapping of str to str, optional
+        CSS colours that the page around the drawing would give it: of ``currentColor``, of ``context-fill`` and
+        ``context-stroke``, and of custom properties, such as ``--primary``. What the drawing says itself wins.
 
     Returns
     -------
@@ -82,7 +87,7 @@ def read_svg(
     SourceError
         If the file cannot be read, is not SVG or exceeds a limit.
     ParameterError
-        If `select` is no selector, or a parameter is of the wrong type.
+        If `select` is no selector, `page_colors` holds another name or no colour, or a parameter is of the wrong type.
     LimitError
         If `select` matches nothing that is painted.
 
@@ -109,7 +114,7 @@ def read_svg(
     with about(os.fspath(path)):
         content = read_bytes(path)
     images = Images(folder=Path(path).parent)
-    drawing = svg_drawing(content, os.fspath(path), select, names, fonts, images)
+    drawing = svg_drawing(content, os.fspath(path), select, names, fonts, images, page_colors)
     warn_of(os.fspath(path), drawing.notes)
     return drawing
 
@@ -121,6 +126,7 @@ def svg_drawing(
     names: str | None = None,
     fonts: Sequence[str | os.PathLike[str]] = (),
     images: Images | None = None,
+    page_colors: Mapping[str, str] | None = None,
 ) -> Drawing:
     """Read the content of an SVG file, plain or gzipped, as `read_svg` does, but without a warning.
 
@@ -132,7 +138,7 @@ def svg_drawing(
     >>> svg_drawing(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg").name
     'half'
     """
-    return framed_drawing(content, source, select, names, fonts, images)[0]
+    return framed_drawing(content, source, select, names, fonts, images, page_colors)[0]
 
 
 def framed_drawing(
@@ -142,17 +148,17 @@ def framed_drawing(
     names: str | None = None,
     fonts: Sequence[str | os.PathLike[str]] = (),
     images: Images | None = None,
+    page_colors: Mapping[str, str] | None = None,
 ) -> tuple[Drawing, Frame | None]:
     """Read as `svg_drawing` does, and return the frame of the whole drawing too.
 
     Where the first frame of an animated drawing shows nothing, it is drawn without its animation, or else as that ends.
     """
+    named, page = "id" if names is None else names, Page.of(page_colors)
     with about(source):
         try:
             plain = decompressed(content)
-            whole = Request(
-                plain, Path(source).stem, select, "id" if names is None else names, fonts, images or Images()
-            )
+            whole = Request(plain, Path(source).stem, select, named, fonts, images or Images(), page)
             first = found = at_moment(whole, Moment.START)
             for moment in (Moment.REST, Moment.END):
                 if not found.drawing.paths and first.is_animated:
@@ -174,6 +180,7 @@ class Request:
     names: str
     fonts: Sequence[str | os.PathLike[str]]
     images: Images
+    page: Page
 
     def __post_init__(self) -> None:
         for name, value in (("select", self.select), ("names", self.names)):
@@ -207,16 +214,18 @@ def at_moment(request: Request, moment: Moment) -> Found:
     """Read a document at a moment of its animation."""
     report = Report()
     root = parse_svg(request.content)
-    for element in show_moment(root, moment):
+    for element in show_moment(root, request.page, moment):
         report.simplified(UNCLEAR, element.getparent())
     part = None if request.select is None else with_symbols_used(root, chosen(root, request.select))
-    scene = Scene(root, report, request.images, part, request.names, request.fonts)
+    scene = Scene(root, report, request.images, part, request.names, request.fonts, request.page)
     framed = frame(scene)
     drawing, to_pixels = drawing_of(scene, framed, request.name)
     if not drawing.paths:
         report.remark(unpainted(root))
     elif moment.remark:
         report.remark(moment.remark)
+    if scene.servers.lacks_color and has_colors(drawing):  # of one colour, it is a shape for any
+        report.remark(CURRENT_IS_BLACK)
     notes = report.about(lambda element: subject_of(element, scene.names, scene.boxes, to_pixels))
     return Found(replace(drawing, notes=notes), None if framed is EMPTY else framed, len(part or ()))
 
@@ -234,7 +243,8 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> tuple[Drawing, 
         box: Rectangle = (0.0, 0.0, *size)
     else:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        whole = Scene(scene.root, Report(), scene.images, fonts=scene.typesetter.files)  # to measure; notes come later
+        fonts, page = scene.typesetter.files, scene.cascade.page
+        whole = Scene(scene.root, Report(), scene.images, fonts=fonts, page=page)  # to measure; notes come later
         paths, _ = whole.paint(viewport, matrix, None)
         if not paths:
             scene.paint(viewport, matrix, None)  # for its notes

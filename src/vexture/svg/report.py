@@ -95,6 +95,7 @@ class Report(Notes):
     def __init__(self) -> None:
         super().__init__()
         self._about: dict[tuple[Kind, str], dict[etree._Element, None]] = {}
+        self._once = set[tuple[Kind, str, etree._Element]]()
 
     def left_out(self, what: str, element: etree._Element | None = None) -> None:
         """Note something that is not supported, and so paints nothing or has no effect."""
@@ -117,6 +118,12 @@ class Report(Notes):
         """Note something once more, of an element if it is about one."""
         super().count(kind, what)
         self.add_about(kind, printable(what), element)
+
+    def once(self, kind: Kind, what: str, element: etree._Element) -> None:
+        """Note something about an element, but for the first time only, however often it is shown."""
+        if (kind, what, element) not in self._once:
+            self._once.add((kind, what, element))
+            self.count(kind, what, element)
 
     def add_about(self, kind: Kind, what: str, element: etree._Element | None) -> None:
         """Keep that a note is about an element, too."""

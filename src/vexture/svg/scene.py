@@ -30,13 +30,14 @@ from vexture.svg.markers import has_markers, markers
 from vexture.svg.masks import MASKING, add_masks, note_outer_units
 from vexture.svg.names import ElementNames
 from vexture.svg.outline import Outline
+from vexture.svg.page import ENCLOSED, Page
 from vexture.svg.paint_servers import PaintServers
 from vexture.svg.painter import Painter, Ruler
 from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
 from vexture.svg.space import Context, Place, Placed, Space, Window
 from vexture.svg.spatial import TRANSFORMS, element_transform
-from vexture.svg.style import INITIAL, Cascade, Style
+from vexture.svg.style import Cascade, Style
 from vexture.svg.subjects import Boxes, boxes_of
 from vexture.svg.text.typesetter import Typesetter
 from vexture.svg.tiles import Canvas
@@ -64,7 +65,6 @@ UNPAINTED = frozenset(
 )
 """Elements that paint nothing themselves."""
 
-
 DRAWN = frozenset({*SHAPES, *CONTAINERS, "image", "text", "use"})
 """Elements that a `switch` may choose before those that are not known."""
 
@@ -84,15 +84,16 @@ class Scene:
         chosen: set[etree._Element] | None = None,
         names: str = "id",
         fonts: Sequence[str | PathLike[str]] = (),
+        page: Page = ENCLOSED,
     ) -> None:
         self.root = root
         self.chosen = chosen
         self.names = ElementNames(root, names)
         self.report = report
         self.images = images
-        self.cascade: Cascade = Cascade(root, report)
+        self.cascade: Cascade = Cascade(root, report, page)
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
-        self.style: Style = self.cascade.style(root, INITIAL)
+        self.style: Style = self.cascade.style(root, self.cascade.initial)
         self.used: int = 0
         self.typesetter: Typesetter = Typesetter(fonts, self.cascade.sheets.font_faces, report)
         self.boxes: Boxes = {}  # of what the notes are about, once it is painted
@@ -267,9 +268,7 @@ class Scene:
             return []
         if name == "use":
             return self.use_target(element, inner)
-        if name == "switch":
-            return [(child, inner) for child in switched(element)]
-        return [(child, inner) for child in element]
+        return [(child, inner) for child in (switched(element) if name == "switch" else element)]
 
     def extent(self, element: etree._Element, place: Place) -> Rectangle | None:
         """As `around`, without strokes; None if the box has no area."""

@@ -9,19 +9,20 @@ from operator import attrgetter, itemgetter
 
 from lxml import etree
 
-from vexture.svg.colors import BLACK, Color, parse_color
+from vexture.svg.colors import BLACK, Color, parse_color, parse_paint
 from vexture.svg.declarations import Declaration, expanded, longhands, read_style
 from vexture.svg.document import XML, local_name
 from vexture.svg.first_frame import Around, animated_variables, first_frame
 from vexture.svg.font_values import SPACINGS, SYSTEM_FONTS, font_weight, in_pixels, text_size
 from vexture.svg.keyframes import names_of
 from vexture.svg.media import Medium
+from vexture.svg.page import Page
 from vexture.svg.properties import CSS_ONLY, KEYWORDS, PROPERTIES, UNSET
 from vexture.svg.report import Report
 from vexture.svg.sheets import Sheets
 from vexture.svg.spatial import Attribute
 from vexture.svg.values import INITIAL_SIZE, Viewport, fraction
-from vexture.svg.variables import computed, refers, substituted
+from vexture.svg.variables import computed, refers, substituted, unknown
 from vexture.svg.viewport import own_size
 
 __all__ = ["INITIAL", "LISTING", "UNCLEAR", "Cascade", "Style"]
@@ -74,6 +75,11 @@ class Style:
         color = parse_color(self["color"])
         return color if isinstance(color, Color) else BLACK
 
+    @property
+    def has_color(self) -> bool:
+        """Whether anything says what `currentcolor` is here; else it is black."""
+        return "color" in self.inherited
+
     def solid(self, text: str) -> Color | None:
         """A colour that may depend on `color`; None if the text is no colour."""
         color = parse_color(text, self.color)
@@ -81,15 +87,18 @@ class Style:
 
 
 INITIAL = Style({}, {}, INITIAL_SIZE)
-"""Style that the outermost element inherits."""
+"""Style that the outermost element inherits where nothing is around it."""
 
 
 class Cascade:
     """Computes the style of an element from its parent's, with the document's `<style>` elements."""
 
-    def __init__(self, root: etree._Element, report: Report) -> None:
+    def __init__(self, root: etree._Element, report: Report, page: Page) -> None:
         self.root = root
         self.report = report
+        self.page = page
+        self.initial: Style = replace(INITIAL, inherited=page.inherited)  # that the root inherits
+        self.broken = dict[str, str]()  # custom properties without a value, as they are written
         size = own_size(root)
         self.view = Viewport(*size)  # to which fonts refer
         self.sheets = Sheets(root, report, Medium(*size))
@@ -103,6 +112,7 @@ class Cascade:
         declared = self.declared(element)
         variables = {one.name: one.value for one in declared if one.name.startswith("--")}
         inherited = computed(variables, parent.inherited) if variables else parent.inherited
+        self.broken.update((name, value) for name, value in variables.items() if name not in inherited)
         if self.sheets.keyframes:
             inherited = self.with_animated(element, declared, inherited, parent)
         own = dict[str, str]()
@@ -213,6 +223,8 @@ class Cascade:
         if refers(value):
             text = substituted(value, variables.get)
             found.update(dict.fromkeys(longhands(name), "unset"))
+            if text is None and self.note_unknown(name, value, element, variables):
+                return
             pairs = [] if text is None else [*expanded(name, text)]
         for longhand, part in pairs:
             if PROPERTIES[longhand].allows(part) or part.lower() in KEYWORDS:
@@ -221,6 +233,29 @@ class Cascade:
                 self.refuse(longhand, part, element)
         if not pairs:
             self.refuse(name, value, element)
+
+    def note_unknown(self, name: str, value: str, element: etree._Element, variables: Mapping[str, str]) -> bool:
+        """Note each custom property without a value that a value refers to; return whether there is any.
+
+        Of one that is declared, those are noted that its own value lacks. One that refers to itself lacks none.
+        """
+        sample = substituted(value, lambda each: variables.get(each, "black")) or ""
+        helps = any(
+            PROPERTIES[longhand].accepts in (parse_color, parse_paint) and PROPERTIES[longhand].allows(part)
+            for longhand, part in expanded(name, sample)
+        )
+        names, known = unknown(value, variables.get), set[str]()
+        ends = list[str]()
+        while names:
+            each = names.pop()
+            if each not in known:
+                known.add(each)
+                written = self.broken.get(each, "")
+                names += unknown(written, variables.get)
+                ends += [] if written else [each]
+        for each in sorted(ends):
+            self.report.once("invalid", self.page.lost(f"var({each})", helps=helps), element)
+        return bool(ends)
 
     def refuse(self, name: str, value: str, element: etree._Element) -> None:
         """Note a value that has no effect: one that is not valid, or has a function that is not supported."""

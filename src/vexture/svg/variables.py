@@ -8,7 +8,7 @@ import tinycss2
 
 from vexture.deadline import check_time
 
-__all__ = ["computed", "refers", "substituted"]
+__all__ = ["computed", "refers", "substituted", "unknown"]
 
 LONGEST: Final = 100_000
 """Characters of a value. One that becomes longer is not valid, so that references cannot multiply (a bomb)."""
@@ -43,6 +43,31 @@ def substituted(value: str, get: Get) -> str | None:
         return filled(parsed(value), get).strip()
     except UnknownError:
         return None
+
+
+def unknown(value: str, get: Get) -> list[str]:
+    """Names of the custom properties without a value, and without a fallback, for which a value is not valid.
+
+    Examples
+    --------
+    >>> unknown("var(--edge, 1px) solid color-mix(in srgb, var(--ink), var(--paper, red))", {}.get)
+    ['--ink']
+    """
+    try:
+        return list(dict.fromkeys(unknown_in(parsed(value), get)))
+    except UnknownError:
+        return []
+
+
+def unknown_in(tokens: list[Any], get: Get) -> Iterator[str]:
+    """Yield the names of `unknown`."""
+    for token in tokens:
+        if token.type == "function" and token.lower_name == "var":
+            name, fallback = reference(token)
+            if get(name) is None:
+                yield from [name] if fallback is None else unknown_in(fallback, get)
+        else:
+            yield from unknown_in(getattr(token, "arguments", None) or getattr(token, "content", None) or [], get)
 
 
 def parsed(value: str) -> list[Any]:
