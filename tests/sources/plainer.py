@@ -226,8 +226,7 @@ PLAINER = {
         '<path d="M10 50A20 20 0 0 1 50 50A30 30 0 0 1 80 80" fill="none" stroke="blue" stroke-width="3"/>',
         *((10, 50, -90), (50, 50, 45), (80, 80, 90)),
     ),
-    # "interpreted as being a percentage of the viewBox width" (SVG 2, 13.7.1)
-    "markers/reference-percent": marked(ROOF, *((x, y - 6, turn) for x, y, turn in ROOF_UPRIGHT), scale=1.2),
+    # resvg knows no keywords: "0%, 50% and 100% of the viewBox width" (SVG 2, 13.7.1)
     "markers/reference-keywords": marked(ROOF, *((x - 6, y, turn) for x, y, turn in ROOF_UPRIGHT), scale=1.2),
     # "the marker content is clipped to the marker's viewport" unless its overflow is visible
     "markers/view-box-sliced": marked(ROOF, *ROOF_UPRIGHT, scale=2.4, arrow='<path d="M0 5H10L0 10z" fill="red"/>'),

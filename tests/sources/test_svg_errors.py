@@ -19,6 +19,14 @@ SHOWN = {
     "coordinate-1e300": ([GREEN], ['<path id="far"> in line 2: ' + FAR.format("1e+300")]),
     "coordinate-infinite": ([GREEN], ["<path> in line 2: " + FAR.format("nan")]),
     "gradient-1e300": ([GREEN], ["<rect> in line 3: " + LARGE]),
+    "geometry-inherit": (
+        [GREEN, GREEN, GREEN],
+        [
+            "cx='inherit' of <radialGradient id=\"a\"> in line 2",
+            "width='inherit' of <pattern id=\"b\"> in line 3",
+            "x='inherit' of <mask id=\"c\"> in line 4",
+        ],
+    ),
     "hsl-out-of-range": ([GREEN, "#404040", "#ffffff", GREEN], []),
     "length-1e300": ([GREEN], ["<rect> in line 2: " + LARGE]),
     "marker-1e300": (["#0000ff", GREEN], ["<path> in line 3: " + LARGE]),

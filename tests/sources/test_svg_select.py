@@ -142,3 +142,14 @@ def test_a_symbol_that_is_chosen_is_the_drawing() -> None:
 def test_a_sprite_names_its_symbols() -> None:
     notes = [note.message for note in svg_drawing(SPRITE.encode(), "sprite.svg").notes]
     assert notes == ["nothing in it is painted, but it has 1 symbol; choose one by `select`, as '#a'"]
+
+
+def test_box_of_a_group_is_that_of_all_that_it_shows() -> None:
+    """A clip in parts of the bounding box stays where it is in the whole drawing."""
+    clip = '<clipPath id="c" clipPathUnits="objectBoundingBox"><path d="M0 0h1v.5h-1z"/></clipPath>'
+    shapes = '<path id="a" d="M0 0h40v20h-40z"/><path id="b" d="M0 60h40v20h-40z"/>'
+    content = f'<svg {ROOT}>{clip}<g clip-path="url(#c)">{shapes}</g></svg>'.encode()
+    whole, part = svg_drawing(content, "a.svg"), svg_drawing(content, "a.svg", "#a")
+    for drawing in (whole, part):
+        (mask,) = (path for path in drawing.paths if path.group >= 0 and drawing.groups[path.group].mask)
+        assert mask.box.tolist() == [[0.0, 0.6], [0.4, 1.0]]

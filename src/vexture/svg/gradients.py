@@ -11,7 +11,6 @@ from vexture.bezier.bounds import bounds
 from vexture.paint import Affine, Gradient, Paint, Spread, Stop
 from vexture.svg.document import local_name
 from vexture.svg.outline import Outline
-from vexture.svg.properties import PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.space import SMALLEST, Place
 from vexture.svg.spatial import Attribute, css_transform, seen
@@ -178,7 +177,7 @@ def own_lengths(element: etree._Element, name: str, report: Report) -> dict[str,
             continue
         value = WHOLE.length(text, 1.0, 1.0)
         negative = key in ("r", "fr") and value is not None and value < 0.0
-        if (value is None or negative) and key not in PROPERTIES:  # else the cascade notes it
+        if value is None or negative:
             report.invalid(key, text, element)
         if value is not None:
             found[key] = "0" if negative else text

@@ -131,10 +131,15 @@ def side(marker: Shape, name: str, whole: float) -> float:
 
 
 def anchor(marker: Shape, name: str, whole: float) -> float:
-    """Coordinate of a marker's reference point, in the units of its content."""
+    """Coordinate of a marker's reference point, in the units of its content.
+
+    A keyword is a part of the marker's own view box, and a percentage one of the viewport around, as in browsers.
+    """
     text = marker.element.get(name, "0")
-    word = KEYWORDS.get(text.strip(), text)
-    length = Viewport(whole, whole).length(word, whole, marker.style.font_size)
+    word, view = KEYWORDS.get(text.strip()), marker.viewport
+    if word is not None:
+        view, text = Viewport(whole, whole), word
+    length = view.length(text, view.width if name == "refX" else view.height, marker.style.font_size)
     if length is None:
         marker.report.invalid(name, text, marker.element)
     return length or 0.0

@@ -112,16 +112,13 @@ class Tiling:
 
 
 def read_pattern(chain: list[etree._Element], styles: list[Style], report: Report) -> Pattern | None:
-    """The first of some pattern elements, each of which refers to the next; None if they have no content.
-
-    Invalid values are noted, those of lengths by the cascade.
-    """
+    """The first of some pattern elements, each of which refers to the next; None if they have no content."""
 
     def said(name: str, parse: Callable[[str], Value | None], default: Value) -> Value:
         element = next((element for element in chain if element.get(name) is not None), None)
         text = "" if element is None else element.get(name, "")
         value = default if element is None else parse(text)
-        if value is None and element is not None and name not in LENGTHS:
+        if value is None and element is not None:
             report.invalid(name, text, element)
         return default if value is None else value
 

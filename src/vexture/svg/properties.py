@@ -185,7 +185,7 @@ PROPERTIES: dict[str, Property] = {
     "offset-path": Property("none", False, anything),
     "opacity": Property("1", False, matching(OPACITY)),
     "outline": Property("none", False, anything),
-    "overflow": Property("hidden", False, one_of("visible", "hidden", "scroll", "auto", "clip")),
+    "overflow": Property("visible", False, one_of("visible", "hidden", "scroll", "auto", "clip")),
     "padding": Property("0", False, anything),
     "r": Property("0", False, matching(SIZE)),
     "rotate": Property("none", False, anything),

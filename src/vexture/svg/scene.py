@@ -218,9 +218,9 @@ class Scene:
             return []
         chosen = place.chosen or (self.chosen is not None and element in self.chosen)
         style = self.cascade.style(element, place.style)
-        if style["display"].lower() == "none" or (style.opacity("opacity") == 0.0 and not place.is_clip):
-            return []
-        if place.is_clip and name in CONTAINERS:
+        is_measured = isinstance(painter, Ruler)  # whatever is seen of it (SVG 2, 8.10)
+        is_seen = place.is_clip or is_measured or style.opacity("opacity") > 0.0
+        if style["display"].lower() == "none" or not is_seen or (place.is_clip and name in CONTAINERS):
             return []  # a clip shows shapes, and uses of them
         if name not in SHAPES and name not in CONTAINERS and name not in ("image", "text", "use"):
             if chosen:
@@ -228,7 +228,7 @@ class Scene:
             return []
         if (name in SHAPES or name == "image") and not chosen:
             return []
-        if not place.is_clip and not self.note_effects(element, style):
+        if not (place.is_clip or is_measured or self.note_effects(element, style)):
             return []
         matrix = self.transform(element, style, place)
         if place.depth >= DEEPEST:
@@ -246,7 +246,7 @@ class Scene:
             if window is None:
                 return []
             inner = window.within(inner)
-        if not isinstance(painter, Ruler):
+        if not is_measured:
             inner, shown = add_masks(self, element, inner, ("clip-path",) if inner.is_clip else tuple(MASKING))
         return [*shown, *self.content(element, inner, painter)]
 
@@ -282,7 +282,7 @@ class Scene:
         silent.cascade = copy(self.cascade)
         silent.cascade.report = silent.report
         ruler = Ruler(self.servers, silent.report, self.walk, stroked)
-        stack = silent.content(element, replace(place, space=Space()), ruler)
+        stack = silent.content(element, replace(place, space=Space(), chosen=True), ruler)
         silent.walk(stack, ruler)
         if not ruler.corners:
             return None

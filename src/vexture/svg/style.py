@@ -44,8 +44,20 @@ SPACE_MODES = {"default": "normal", "preserve": "pre"}
 STRIPPED = frozenset({"g", "svg", "tspan", "use"})
 """Elements that show their content as if they were not there, by `display: contents`, which hides others."""
 
-LISTED, LISTING = frozenset({"x", "y"}), frozenset({"text", "tspan", "textPath", "tref"})
-"""Attributes that are lists of these elements, and no properties (SVG 2, 11.2)."""
+LISTING = frozenset({"text", "tspan", "textPath", "tref"})
+"""Elements whose `x` and `y` are lists, and no properties (SVG 2, 11.2)."""
+
+BOXES, CIRCLES = frozenset({"foreignObject", "image", "rect", "svg", "symbol", "use"}), frozenset({"circle", "ellipse"})
+GEOMETRY = {
+    **dict.fromkeys(("x", "y", "width", "height"), BOXES),
+    **dict.fromkeys(("cx", "cy"), CIRCLES),
+    "r": frozenset({"circle"}),
+    **dict.fromkeys(("rx", "ry"), frozenset({"ellipse", "rect"})),
+}
+"""Elements of which an attribute is a property; of others, such as gradients, it is no CSS (SVG 2, 8.1)."""
+
+CLIPPED = frozenset({"foreignObject", "image", "marker", "pattern", "svg", "symbol"})
+"""Elements of which browsers hide what reaches beyond their viewports, if nothing else is said; not the outermost."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -189,13 +201,16 @@ class Cascade:
     ) -> dict[str, str]:
         """What an element says: by attributes, and over them what is declared, in rising precedence."""
         found: dict[str, str] = {}
+        kind = local_name(element) or ""
+        if kind in CLIPPED and element is not self.root:
+            found["overflow"] = "hidden"
         mode = SPACE_MODES.get(str(element.get(f"{{{XML}}}space")))
         if mode is not None:
             found["white-space"] = mode
         for key, value in element.attrib.items():
             name = str(key)
             if name in PROPERTIES and name not in CSS_ONLY:
-                if name in LISTED and local_name(element) in LISTING:
+                if name in GEOMETRY and kind not in GEOMETRY[name]:
                     continue
                 if name == "transform":
                     found[name] = Attribute(str(value).strip())

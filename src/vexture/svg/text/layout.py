@@ -72,9 +72,10 @@ def space(found: Characters, group: Sequence[Cluster]) -> None:
     for cluster in group:
         style = cluster.span.place.style
         letter, word = (pixels(style[name]) for name in ("letter-spacing", "word-spacing"))
-        if cluster.script not in CURSIVE and cluster is not group[-1]:
+        separates = found.text[cluster.start] in SEPARATORS
+        if (separates or cluster.script not in CURSIVE) and cluster is not group[-1]:
             cluster.advance += letter
-        if found.text[cluster.start] in SEPARATORS:
+        if separates:
             cluster.advance += word
 
 
