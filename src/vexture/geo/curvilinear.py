@@ -19,7 +19,7 @@ from vexture.geo.quads import corners_of, without_fill
 from vexture.geo.series import Lattice, Reading, Series, Values
 from vexture.geo.speeds import speed_of
 from vexture.geo.ugrid import MOST_FACES
-from vexture.geo.variables import depths_of, has_depths, loaded, reader_of, refuse_layers, time_axis
+from vexture.geo.variables import depths_of, has_depths, loaded, reader_of, refuse_layers, time_axis, unit_of
 
 __all__ = ["grid_series", "places_of_grid"]
 
@@ -98,7 +98,7 @@ def grid_series(
     rounding = float(np.finfo(np.float32).eps) if dataset[places.x].dtype == np.float32 else 0.0
     lattice = _lattice(x, y, known, stride, tuple(int(dataset.sizes[dim]) for dim in order), rounding)
     if lattice is not None:
-        return Series(lattice, crs, name, times, read)
+        return Series(lattice, crs, name, times, read, unit_of(dataset[places.x]))
     if stride > 1:
         raise LimitError(
             f"{known.size * stride**2:,} cells with coordinates of their own each are too many; "
@@ -109,7 +109,8 @@ def grid_series(
     def read_faces(step: int) -> Reading:
         return read(step, slice(None), slice(None)).at(known)
 
-    return MeshSeries(nodes, counter_clockwise(nodes, faces), True, crs, name, times, read_faces)
+    whole = counter_clockwise(nodes, faces)
+    return MeshSeries(nodes, whole, True, crs, name, times, read_faces, unit_of(dataset[places.x]))
 
 
 def _with_depths(dataset: Any, grids: dict[str, GridPlaces]) -> list[str]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vexture.content import NETCDF, TIFF, start_of, unpacked
 from vexture.errors import ParameterError, SourceError
-from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period
+from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period, refuse_other_units
 from vexture.geo.datasets import is_dataset
 from vexture.geo.extent import Bounds, Extent, Frame, Step
 from vexture.geo.mesh import MeshInFrame, MeshSeries
@@ -130,6 +130,8 @@ def depths_in_frame(
     notes = Notes()
     with _opened(source if is_dataset(source) else unpacked(source), time_dim, variable, notes) as series:
         system = chosen_crs(crs, series.crs)
+        if crs is not None:
+            refuse_other_units(system, series.crs, series.unit, series.box)
         if frame is None:
             frame = frame_of(bounds, _whole(series.box, system), system)
         yield DepthsInFrame(series, Path(file_name).stem or "flood", system, frame, hmin, tuple(depths), notes)

@@ -39,7 +39,7 @@ OUTSIDE: Final = 0.25
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeshSeries:
-    """An open file of depths on a mesh; `crs`, `variable`, `times` and `read` as in `Series`.
+    """An open file of depths on a mesh; `crs`, `variable`, `times`, `read` and `unit` as in `Series`.
 
     `nodes` are places, (n, 2); `faces` are the numbers of the nodes of each face, (m, k), counter-clockwise, and -1
     where a face has fewer. Depths are on faces or on nodes.
@@ -52,6 +52,7 @@ class MeshSeries:
     variable: str
     times: tuple[datetime | None, ...]
     read: Callable[[int], Reading]
+    unit: str
 
     @property
     def box(self) -> Bounds:

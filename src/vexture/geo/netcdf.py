@@ -12,7 +12,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.geo.crs import system
 from vexture.geo.damage import damaged_netcdf
 from vexture.geo.datasets import dataset_of, is_dataset
@@ -34,6 +34,9 @@ MOST_STEPS: Final = 1000
 
 UNSAID: Final = re.compile(r"-|(EPSG:)?(nan|none|0)?", re.IGNORECASE)
 """What models write for a reference system that they have not been told."""
+
+UNNAMED: Final = re.compile(r"\W+")
+"""Characters that no grid mapping has in its name, and texts for pyproj have."""
 
 LEAST_CODE: Final = 1024
 """No code of EPSG is smaller: a variable of a reference system is its code, or only there for its attributes."""
@@ -100,7 +103,8 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Serie
     along = [_along(dataset, dim) for dim in (east, north)]
     crs = crs_of(dataset, name, along)
     across, up = (_in_system(one, crs) for one in along)
-    return Series(Lattice(x, y, np.array([[across, 0.0, 0.0], [0.0, up, 0.0]])), crs, name, times, read)
+    lattice = Lattice(x, y, np.array([[across, 0.0, 0.0], [0.0, up, 0.0]]))
+    return Series(lattice, crs, name, times, read, unit_of(along[0]))
 
 
 def _in_system(along: Any, crs: str | None) -> float:
@@ -238,7 +242,7 @@ def _moment(time: Any) -> datetime:
 
 
 def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
-    """Reference system that a file names, as text for pyproj."""
+    """Reference system that a file names, as text for pyproj: one that it does not know, if the file's is unknown."""
     from pyproj import CRS
 
     mappings = [dataset[name].attrs.get("grid_mapping"), dataset[name].encoding.get("grid_mapping")]
@@ -256,8 +260,8 @@ def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
                     refuse_files_of_system(str(text))
             try:
                 return str(CRS.from_cf(dict(about)).to_wkt())
-            except Exception as error:  # pyproj raises any type of exception for invalid attributes
-                raise SourceError(f"its grid mapping is unknown ({reason_of(error)}); give `crs` EPSG:...") from None
+            except Exception:  # pyproj raises any type of exception for invalid attributes
+                return f"grid_mapping_name={UNNAMED.sub('_', str(about['grid_mapping_name']))}"
     numbers = [int(loaded(one)) for one in known if one.ndim == 0 and one.dtype.kind in "iu"]
     if any(number >= LEAST_CODE for number in numbers):
         return f"EPSG:{max(numbers)}"

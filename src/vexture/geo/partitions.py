@@ -114,5 +114,5 @@ def _merged(parts: Sequence[MeshSeries], owned: Sequence[NDArray[np.bool_]]) -> 
 
     first = parts[0]
     return MeshSeries(
-        places, np.concatenate(faces).astype(np.int32), True, first.crs, first.variable, first.times, read
+        places, np.concatenate(faces).astype(np.int32), True, first.crs, first.variable, first.times, read, first.unit
     )

@@ -16,6 +16,7 @@ from vexture.geo.crs import (
     chosen_crs,
     frame_of,
     gis_packages,
+    like_degrees,
     period,
     refuse_metres,
     same_system,
@@ -105,16 +106,12 @@ def _outside(rings: Rings, own: str, frame: Frame) -> str:
     """Message that no polygon lies within the bounds, with the likely reason."""
     extent, bounds = rings.box, frame.bounds
     text = f"its extent {shown_bounds(extent, own)} is outside of the bounds {shown_bounds(bounds, frame.crs)}"
-    degrees, wanted = _like_degrees(extent), _like_degrees(bounds)
+    degrees, wanted = like_degrees(extent), like_degrees(bounds)
     if degrees and not system(own).is_geographic:
         return f"{text}; its coordinates look like degrees: give `crs` EPSG:4326"
     if wanted and not system(frame.crs).is_geographic:
         return f"{text}; the bounds look like degrees: give them in the units of {shown_system(frame.crs)}"
     return f"{text}; correct the bounds, or `crs`"
-
-
-def _like_degrees(bounds: Bounds) -> bool:
-    return max(abs(bounds[0]), abs(bounds[2])) <= 360.0 and max(abs(bounds[1]), abs(bounds[3])) <= 90.0
 
 
 def _drawn(rings: Rings, frame: Frame, name: str) -> Drawing:

@@ -141,7 +141,7 @@ class Series:
     """An open file of depths on a lattice, at one time or at several.
 
     `read` gives what the file says of a step, for a slice of rows and one of columns. `crs` is the reference system
-    that the file names, if it names one.
+    that the file names, if it names one, and `unit` is what it says of the unit of coordinates.
     """
 
     lattice: Lattice
@@ -149,6 +149,7 @@ class Series:
     variable: str
     times: tuple[datetime | None, ...]
     read: Callable[[int, slice, slice], Reading]
+    unit: str = ""
 
     @property
     def box(self) -> Bounds:

@@ -12,7 +12,7 @@ from vexture.geo.netcdf import crs_of, points_east, times_of
 from vexture.geo.patch import Faces, counter_clockwise
 from vexture.geo.series import Reading
 from vexture.geo.speeds import speed_of
-from vexture.geo.variables import depths_of, has_depths, listed, loaded, reader_of, refuse_layers, time_axis
+from vexture.geo.variables import depths_of, has_depths, listed, loaded, reader_of, refuse_layers, time_axis, unit_of
 
 __all__ = ["MOST_FACES", "holds_mesh", "mesh_series", "name_of_mesh"]
 
@@ -90,7 +90,8 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> Mes
         return Reading(*(one if on_faces or one is None else whole.values(one) for one in found))
 
     crs = crs_of(dataset, name, axes)
-    return MeshSeries(whole.nodes, counter_clockwise(whole.nodes, whole.faces), on_faces, crs, name, times, read)
+    turned = counter_clockwise(whole.nodes, whole.faces)
+    return MeshSeries(whole.nodes, turned, on_faces, crs, name, times, read, unit_of(axes[0]))
 
 
 def _parts(dataset: Any, mesh: str) -> tuple[list[Any], Any, tuple[str, str]]:
