@@ -11,6 +11,7 @@ from vexture.geo.curvilinear import grid_series, places_of_grid
 from vexture.geo.depths import read_depths
 from vexture.geo.netcdf import opened
 from vexture.geo.quads import corners_of
+from vexture.notes import Notes
 from vexture.renderers.exact import render_exact
 
 MIDDLE, RADIUS, SLOPE = np.array([500_400.0, 4_090_300.0]), 200.0, 0.02
@@ -116,7 +117,7 @@ def test_sfincs(tmp_path, turn):
 def test_a_regular_grid_is_rows_and_columns_however_it_is_turned(tmp_path, turn, cell):
     """It is read as a raster, for a fraction of a mesh's cost, and the rounding to a quarter of a metre is undone."""
     with opened(sfincs(tmp_path / "map.nc", turn, cell=cell), None) as dataset:
-        series = grid_series(dataset, places_of_grid(dataset, None), None, None)
+        series = grid_series(dataset, places_of_grid(dataset, None), None, None, Notes())
     n, m = np.mgrid[0:COUNT, 0:COUNT]
     found = series.lattice.place(np.column_stack([m.ravel(), n.ravel()]).astype(float))
     np.testing.assert_allclose(found, np.column_stack([one.ravel() for one in places(turn, cell=cell)]), atol=0.05)
@@ -280,7 +281,7 @@ def test_roms(tmp_path):
 def test_a_slightly_bent_grid_in_degrees_keeps_its_places(tmp_path):
     """Cells are off by a fifteenth of one: of degrees in 64 bits that is no rounding."""
     with opened(roms(tmp_path / "ocean_his.nc", bend=0.01), None) as dataset:
-        series = grid_series(dataset, places_of_grid(dataset, None), None, None)
+        series = grid_series(dataset, places_of_grid(dataset, None), None, None, Notes())
         middles = series.nodes[series.faces].mean(axis=1)
         true = np.column_stack([dataset[name].values.ravel() for name in ("lon_rho", "lat_rho")])
     np.testing.assert_allclose(middles, true, atol=0.02 * CELL / 111_000)

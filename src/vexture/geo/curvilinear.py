@@ -20,6 +20,7 @@ from vexture.geo.series import Lattice, Reading, Series, Values
 from vexture.geo.speeds import speed_of
 from vexture.geo.ugrid import MOST_FACES
 from vexture.geo.variables import depths_of, has_depths, loaded, reader_of, refuse_layers, time_axis, unit_of
+from vexture.notes import Notes
 
 __all__ = ["grid_series", "places_of_grid"]
 
@@ -65,7 +66,7 @@ def places_of_grid(dataset: Any, time_dim: str | None) -> dict[str, GridPlaces]:
 
 
 def grid_series(
-    dataset: Any, grids: dict[str, GridPlaces], time_dim: str | None, variable: str | None
+    dataset: Any, grids: dict[str, GridPlaces], time_dim: str | None, variable: str | None, notes: Notes
 ) -> Series | MeshSeries:
     """Depths of an open dataset at the places that `places_of_grid` found; errors as of `netcdf.series_of`."""
     among = {one: places for one, places in grids.items() if one.lower() not in MASKS}
@@ -77,7 +78,7 @@ def grid_series(
     time = time_axis(dataset, dataset[name].dims, time_dim)
     refuse_layers(dataset, name, (time, *order))
     masks = [reader_of(dataset[mask]) for mask in grids if mask.lower() in MASKS and grids[mask][:2] == order]
-    times = times_of(dataset, time)
+    times = times_of(dataset, time, notes)
     x, y, stride = _coordinates(dataset, places)
     known = np.isfinite(x) & np.isfinite(y)
     if not known.any():

@@ -145,7 +145,7 @@ def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Note
         from vexture.geo.netcdf import opened
 
         with opened(source, time_dim) as dataset:
-            yield _series_of(dataset, time_dim, variable)
+            yield _series_of(dataset, time_dim, variable, notes)
     elif start.startswith(TIFF):
         from vexture.geo.geotiff import open_geotiff
 
@@ -157,27 +157,29 @@ def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Note
 
         partitions = [] if isinstance(source, bytes) else partitions_beside(Path(source))
         if partitions:
-            with merged_partitions(partitions, time_dim, variable) as run:
+            with merged_partitions(partitions, time_dim, variable, notes) as run:
                 yield run
             return
         with opened(source, time_dim) as dataset:
-            yield _series_of(dataset, time_dim, variable)
+            yield _series_of(dataset, time_dim, variable, notes)
     elif not start:
         raise SourceError("it cannot be opened or is empty; choose another file")
     else:
         raise SourceError("it is neither GeoTIFF nor NetCDF; write it as one of them")
 
 
-def _series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series | MeshSeries:
+def _series_of(dataset: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Series | MeshSeries:
     """Depths of an open dataset, on whatever it has them."""
     from vexture.geo.curvilinear import grid_series, places_of_grid
     from vexture.geo.netcdf import series_of
     from vexture.geo.ugrid import holds_mesh, mesh_series
 
     if holds_mesh(dataset):
-        return mesh_series(dataset, time_dim, variable)
+        return mesh_series(dataset, time_dim, variable, notes)
     grids = places_of_grid(dataset, time_dim)
-    return grid_series(dataset, grids, time_dim, variable) if grids else series_of(dataset, time_dim, variable)
+    if grids:
+        return grid_series(dataset, grids, time_dim, variable, notes)
+    return series_of(dataset, time_dim, variable, notes)
 
 
 def _extent(placed: DepthsInFrame, workers: Workers) -> Extent:

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +11,9 @@ import numpy as np
 from vexture.errors import ParameterError, SourceError, reason_of
 from vexture.geo.gdal import opened_raster
 from vexture.geo.lengths import metres_in
+from vexture.geo.moments import rising_moments
 from vexture.geo.series import Lattice, Reading, Series, Values
+from vexture.geo.variables import listed
 from vexture.notes import Notes
 
 if TYPE_CHECKING:
@@ -24,6 +27,8 @@ def open_geotiff(
     source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None, notes: Notes
 ) -> Iterator[Series]:
     """Open a GeoTIFF: its first band, or every band as a step if `time_dim` is given, whatever its value.
+
+    The times of steps are in the descriptions of their bands, if all of those are times.
 
     `variable` chooses a band by its number, counted from 1, or by its description; `ParameterError` if there is none.
     """
@@ -65,7 +70,19 @@ def _series(file: "DatasetReader", time_dim: str | None, variable: str | None, n
         return Reading(metres * _band(file, bands[step], rows, columns))
 
     crs = file.crs.to_wkt() if file.crs else None
-    return Series(lattice, crs, names[bands[0] - 1], (None,) * len(bands), read)
+    return Series(lattice, crs, names[bands[0] - 1], _times(file, bands, notes), read)
+
+
+def _times(file: "DatasetReader", bands: Sequence[int], notes: Notes) -> tuple[datetime | None, ...]:
+    """Times of bands, by their descriptions."""
+    texts = [file.descriptions[band - 1] or "" for band in bands]
+    times = rising_moments(texts) if len(bands) > 1 else None
+    if times is None and len(bands) > 1 and any(texts):
+        notes.remark(
+            f"its steps are numbered: descriptions of its bands ({listed(texts)}) are no rising times; write "
+            "2026-01-01T06:00 or the like"
+        )
+    return times or (None,) * len(bands)
 
 
 def _metres(file: "DatasetReader", bands: Sequence[int]) -> float:

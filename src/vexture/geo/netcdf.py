@@ -18,10 +18,12 @@ from vexture.geo.damage import damaged_netcdf
 from vexture.geo.datasets import dataset_of, is_dataset
 from vexture.geo.hdf5 import refuse_links_of_netcdf
 from vexture.geo.lengths import NO_UNIT, metres_in
+from vexture.geo.moments import rising_moments
 from vexture.geo.named import refuse_files_of_system
 from vexture.geo.series import Lattice, Reading, Series, Values
 from vexture.geo.speeds import speed_of
 from vexture.geo.variables import depths_of, listed, loaded, refuse_layers, time_axis, unit_of
+from vexture.notes import Notes
 
 __all__ = ["axes_of", "crs_of", "opened", "points_east", "points_north", "series_of", "times_of"]
 
@@ -85,13 +87,13 @@ def _counts(place: str) -> list[str]:
         return [name for name, variable in file.variables.items() if name in file.dimensions and not variable.ndim]
 
 
-def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series:
+def series_of(dataset: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Series:
     """Depths of an open dataset on rows and columns; `ParameterError` if `variable` holds none."""
     grids = {str(name): axes for name in dataset.data_vars if (axes := axes_of(dataset, name, time_dim))}
     name, depth, bed = depths_of(dataset, list(grids), variable)
     time, north, east = grids[name]
     x, y = (_axis(dataset, dim) for dim in (east, north))
-    times = times_of(dataset, time)
+    times = times_of(dataset, time, notes)
     refuse_layers(dataset, name, (time, north, east))
 
     speed = speed_of(dataset, name, (north, east), time)
@@ -200,8 +202,11 @@ def _axis(dataset: Any, dim: str) -> Values:
     return places
 
 
-def times_of(dataset: Any, dim: str | None) -> tuple[datetime | None, ...]:
-    """Times of the steps along a dimension, None where the file has no dates; one step without a dimension."""
+def times_of(dataset: Any, dim: str | None, notes: Notes) -> tuple[datetime | None, ...]:
+    """Times of the steps along a dimension, None where the file has no dates; one step without a dimension.
+
+    A note says what it has instead.
+    """
     import xarray
 
     if dim is None:
@@ -212,7 +217,7 @@ def times_of(dataset: Any, dim: str | None) -> tuple[datetime | None, ...]:
     if count > MOST_STEPS:
         raise LimitError(f"dimension {dim!r} has {count:,} steps; the limit is {MOST_STEPS:,}; write fewer")
     if dim not in dataset.variables or dataset[dim].ndim != 1 or dataset[dim].dtype.kind not in "iuf":
-        return (None,) * count
+        return _written(dataset, dim, count, notes)
     places = loaded(dataset[dim]).astype(np.float64)
     step = np.diff(places)
     if not (step > 0.0).all():
@@ -223,15 +228,31 @@ def times_of(dataset: Any, dim: str | None) -> tuple[datetime | None, ...]:
             f"the time axis {dim!r} is out of order: step {wrong + 1} is {how} step {wrong} (counted from 1); "
             f"write it in order: xarray's {remedy}({dim!r})"
         )
-    if " since " not in str(dataset[dim].attrs.get("units", "")):
-        return (None,) * count
+    unit, calendar = unit_of(dataset[dim]), str(dataset[dim].attrs.get("calendar", "standard"))
+    if " since " not in unit:
+        return _numbered(count, f"{dim!r} is in {unit!r}, since no date" if unit not in ("", "1") else "", notes)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             decoded = xarray.decode_cf(xarray.Dataset(coords={dim: dataset[dim].variable}))[dim].values
         return tuple(_moment(time) for time in decoded)
-    except Exception:  # a calendar without such a date
+    except Exception:  # a calendar without such a date, or text that is none
+        return _numbered(count, f"{dim!r} has dates that are none of ours ({unit!r}, calendar {calendar!r})", notes)
+
+
+def _written(dataset: Any, dim: str, count: int, notes: Notes) -> tuple[datetime | None, ...]:
+    """Times that a file has as texts along a dimension."""
+    if dim not in dataset.variables or dataset[dim].ndim != 1 or dataset[dim].dtype.kind not in "SUO":
         return (None,) * count
+    texts = [one.decode(errors="replace") if isinstance(one, bytes) else str(one) for one in loaded(dataset[dim])]
+    return rising_moments(texts) or _numbered(count, f"{dim!r} holds texts that are no times ({listed(texts)})", notes)
+
+
+def _numbered(count: int, why: str, notes: Notes) -> tuple[None, ...]:
+    """Steps without dates; a note says why, if there are several and the file says anything of their times."""
+    if count > 1 and why:
+        notes.remark(f"its steps are numbered: {why}; write 'hours since 2026-01-01' or the like")
+    return (None,) * count
 
 
 def _moment(time: Any) -> datetime:

@@ -15,6 +15,7 @@ from vexture.geo.netcdf import opened
 from vexture.geo.series import Reading, Values
 from vexture.geo.ugrid import mesh_series
 from vexture.geo.variables import loaded
+from vexture.notes import Notes
 
 __all__ = ["merged_partitions", "partitions_beside"]
 
@@ -42,7 +43,9 @@ def partitions_beside(path: Path) -> list[Path]:
 
 
 @contextmanager
-def merged_partitions(paths: Sequence[Path], time_dim: str | None, variable: str | None) -> Iterator[MeshSeries]:
+def merged_partitions(
+    paths: Sequence[Path], time_dim: str | None, variable: str | None, notes: Notes
+) -> Iterator[MeshSeries]:
     """Open the map files of a run as one mesh.
 
     Raises
@@ -55,7 +58,7 @@ def merged_partitions(paths: Sequence[Path], time_dim: str | None, variable: str
         numbers = [_number(path) for path in paths]
         for path, number in zip(paths, numbers, strict=True):
             dataset = stack.enter_context(opened(path, time_dim))
-            part = mesh_series(dataset, time_dim, variable)
+            part = mesh_series(dataset, time_dim, variable, notes)
             domain = _domain(dataset, len(part.faces))
             if domain is None and len(paths) == 1:
                 yield part

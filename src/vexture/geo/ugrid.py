@@ -13,6 +13,7 @@ from vexture.geo.patch import Faces, counter_clockwise
 from vexture.geo.series import Reading
 from vexture.geo.speeds import speed_of
 from vexture.geo.variables import depths_of, has_depths, listed, loaded, reader_of, refuse_layers, time_axis, unit_of
+from vexture.notes import Notes
 
 __all__ = ["MOST_FACES", "holds_mesh", "mesh_series", "name_of_mesh"]
 
@@ -45,7 +46,7 @@ def name_of_mesh(dataset: Any) -> str:
     return names[0]
 
 
-def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> MeshSeries:
+def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes: Notes) -> MeshSeries:
     """Depths on the mesh of an open dataset; errors as of `netcdf.series_of`."""
     mesh = name_of_mesh(dataset)
     try:
@@ -76,7 +77,7 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> Mes
     time = time_axis(dataset, dataset[name].dims, time_dim)
     on_faces = place == places[0]
     refuse_layers(dataset, name, (time, place))
-    times = times_of(dataset, time)
+    times = times_of(dataset, time, notes)
 
     speed = speed_of(dataset, name, (place,), time)
     dry = [reader_of(dataset[one]) for one in here[place] if one.lower() in DRY]
