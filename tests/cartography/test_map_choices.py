@@ -258,6 +258,25 @@ def test_an_index_that_is_not_the_ids_says_why_and_is_an_attribute(index, why):
         assert [note.count for note in later.listed] == [1] * count
 
 
-def test_a_frame_without_a_reference_system_may_be_given_one():
-    with pytest.raises(SourceError, match=r"give `source_crs` EPSG:\.\.\., or set it by set_crs"):
-        convert_map([MapLayer(squares(v=[1.0]).set_crs(None, allow_override=True))])
+def test_frames_without_a_reference_system_are_drawn_as_a_plane():
+    plain = squares(v=[1.0, 2.0]).set_crs(None, allow_override=True)
+    plain.geometry = plain.translate(500.0, 1000.0)
+    road = geopandas.GeoSeries([shapely.LineString([(500, 1000), (503, 1002)])])
+    done = convert_map([MapLayer(plain, color="v", outline="white"), MapLayer(road, stroke="0.1m")])
+    (root,) = done.conversion.texture.roots
+    places = (shapely.get_coordinates(plain.centroid) - root.to_source[:, 2]) / root.to_source[0, 0]
+    assert done.conversion.texture.element_at(places).name.tolist() == ["map:0", "map:1"]
+    assert [str(note) for note in done.conversion.drawing.notes] == [
+        "it names no reference system, so it is drawn as a plane; name it by `source_crs`, or set it by set_crs",
+        "layers share ids, so elements are named LAYER:ID",
+    ]
+
+
+def test_a_frame_without_a_reference_system_is_not_put_on_a_map_that_has_one():
+    placed = squares(v=[1.0])
+    plain = placed.set_crs(None, allow_override=True)
+    for layers, options in (([plain, placed], {}), ([plain], {"crs": "EPSG:28992"})):
+        with pytest.raises(SourceError, match=r"give `source_crs` EPSG:\.\.\., or set it by set_crs"):
+            convert_map([MapLayer(layer) for layer in layers], **options)
+    done = convert_map([MapLayer(plain, crs="EPSG:28992")])
+    assert done.conversion.drawing.crs == "EPSG:3857"

@@ -200,8 +200,6 @@ def test_wrong_choices_say_what_to_do(options, error, words):
 def test_sources_that_hold_nothing_or_too_much_say_so(monkeypatch):
     with pytest.raises(SourceError, match="none of its features has a geometry"):
         mapped(frame([shapely.Polygon(), None], METRES))
-    with pytest.raises(SourceError, match="give `source_crs`"):
-        mapped(cells(5).set_crs(None, allow_override=True))
     monkeypatch.setattr("vexture.cartography.convert.MOST_PAINTS", 5)
     with pytest.raises(LimitError, match=r"`restyle` off.*vexture tiles"):
         mapped(cells(5))

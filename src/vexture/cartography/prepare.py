@@ -13,13 +13,13 @@ from vexture.cartography.colours import Scale, colours_of, rgba_of
 from vexture.cartography.edges import together
 from vexture.cartography.marks import outlines, strokes, width_of, widths_at
 from vexture.cartography.paths import Fit, symbol_paths
-from vexture.cartography.place import placed
+from vexture.cartography.place import MERCATOR, placed
 from vexture.cartography.times import Steps, Times, coloured_steps, with_steps
 from vexture.content import about, renaming
 from vexture.deadline import within
 from vexture.drawing import Drawing, Path
 from vexture.errors import LimitError, ParameterError, SourceError
-from vexture.geo.crs import chosen_crs, gis_packages
+from vexture.geo.crs import UNPLACED, chosen_crs, gis_packages, same_system
 from vexture.geo.features import ID, Features, read_features
 from vexture.geo.rings import Rings
 from vexture.geo.tables import with_legends
@@ -206,13 +206,26 @@ def prepared(
         raise ParameterError("a map of no sources; give at least one")
     if not isinstance(size, tuple) and (not isinstance(size, int) or size < 1):
         raise ParameterError(f"`size` is {size!r}; it must be a whole number of pixels, 1 or more")
-    notes, crs = Notes(), chosen_crs(crs, None)
+    notes = Notes()
+    layers, crs = _planar(layers, chosen_crs(crs, None), notes)
     with within(max_seconds), in_memory():
         placed_there = together([_read(layer, crs, notes) for layer in layers], crs)
         painted, legends = _coloured(list(zip(layers, placed_there, strict=True)), notes)
         marked, fit = _marked(painted, crs, size, notes)
     table = _table(painted, legends)
     return Prepared(marked, fit, tuple(legends), table, crs, name or layers[0].name, notes)
+
+
+def _planar(layers: Sequence[MapLayer], crs: str, notes: Notes) -> tuple[Sequence[MapLayer], str]:
+    """Layers and the system of their map: where none is known of any GeoDataFrame, a plane, as GeoPandas plots them."""
+    frames = [layer.source for layer in layers if layer.crs is None and hasattr(layer.source, "geometry")]
+    if len(frames) < len(layers) or not same_system(crs, MERCATOR):
+        return layers, crs
+    if any(getattr(frame, "crs", None) is not None for frame in frames):
+        return layers, crs
+    remedy = "name it by `source_crs`, or set it by set_crs"
+    notes.remark(f"it names no reference system, so it is drawn as a plane; {remedy}")
+    return [replace(layer, crs=UNPLACED) for layer in layers], UNPLACED
 
 
 def _read(layer: MapLayer, crs: str, notes: Notes) -> Features:
