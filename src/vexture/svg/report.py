@@ -7,10 +7,10 @@ from typing import Final, TypeAlias
 
 from lxml import etree
 
-from vexture.errors import printable, shortened
+from vexture.errors import SourceError, printable, shortened
 from vexture.notes import MOST_SUBJECTS, Kind, Note, Notes, Subject
 
-__all__ = ["Report", "described"]
+__all__ = ["LocatedError", "Report", "described"]
 
 Step: TypeAlias = Callable[[etree._Element], etree._Element | None]
 """From an element to another one."""
@@ -21,6 +21,10 @@ BOXED: Final = ""
 
 NEAR: Final = 100
 """Elements before and after one among which those of its kind are counted."""
+
+
+class LocatedError(SourceError):
+    """An error that names an element."""
 
 
 def described(element: etree._Element) -> str:

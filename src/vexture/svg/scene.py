@@ -18,6 +18,7 @@ from vexture.deadline import check_time
 from vexture.drawing import FillRule, Path
 from vexture.errors import SourceError
 from vexture.group import Group
+from vexture.svg.angular import angular_fill, paint_angular
 from vexture.svg.animation import ANIMATIONS
 from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.css_gradients import background_of
@@ -33,7 +34,7 @@ from vexture.svg.outline import Outline
 from vexture.svg.page import ENCLOSED, Page
 from vexture.svg.paint_servers import PaintServers
 from vexture.svg.painter import Painter, Ruler
-from vexture.svg.report import Report, described
+from vexture.svg.report import LocatedError, Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
 from vexture.svg.space import Context, Place, Placed, Space, Window
 from vexture.svg.spatial import TRANSFORMS, element_transform
@@ -66,11 +67,10 @@ UNPAINTED = frozenset(
 """Elements that paint nothing themselves."""
 
 DRAWN = frozenset({*SHAPES, *CONTAINERS, "image", "text", "use"})
-"""Elements that a `switch` may choose before those that are not known."""
+"""Elements that are drawn; a `switch` chooses them before those that are not known."""
 
-
-class LocatedError(SourceError):
-    """An error that names an element."""
+BOXED = {"foreignObject": paint_angular, "image": paint_image}
+"""Elements that have sides and paint something between them."""
 
 
 class Scene:
@@ -222,11 +222,11 @@ class Scene:
         is_seen = place.is_clip or is_measured or style.opacity("opacity") > 0.0
         if style["display"].lower() == "none" or not is_seen or (place.is_clip and name in CONTAINERS):
             return []  # a clip shows shapes, and uses of them
-        if name not in SHAPES and name not in CONTAINERS and name not in ("image", "text", "use"):
+        if name not in DRAWN and not (name == "foreignObject" and angular_fill(element)):
             if chosen:
                 self.report.left_out(f"<{name[:40]}>", element)
             return []
-        if (name in SHAPES or name == "image") and not chosen:
+        if (name in SHAPES or name in BOXED) and not chosen:
             return []
         if not (place.is_clip or is_measured or self.note_effects(element, style)):
             return []
@@ -260,11 +260,11 @@ class Scene:
         if name == "text":
             painter.paint_text(self.typesetter.text(self, element, inner), inner)
             return []
-        if name == "image":
+        if name in BOXED:
             if isinstance(painter, Ruler):
                 painter.measure(inner, Outline.rectangle(*image_sides(inner, (0.0, 0.0))))
             elif not inner.is_clip:
-                paint_image(self, element, inner, painter)
+                BOXED[name](self, element, inner, painter)
             return []
         if name == "use":
             return self.use_target(element, inner)
