@@ -72,7 +72,9 @@ def test_page_of_a_series(tmp_path):
     np.testing.assert_allclose([fact["deepest"] for fact in facts], [1.9, 1.95, 1.967], atol=0.02)
     picture = Image.open(BytesIO(content(told["steps"][1]["views"]["depth"])[1]))
     values = np.asarray(picture)
-    assert (picture.mode, int(values.max())) == ("L", 255)
+    assert picture.mode == "I;16"
+    code = facts[1]["depth"]
+    assert code["scale"] * np.sinh(code["step"] * values.max()) == pytest.approx(facts[1]["deepest"], abs=0.005)
     assert values[:, : values.shape[1] // 4].min() > values[:, -values.shape[1] // 4 :].max() == 0
     assert told["fold"] is None
     assert not told["relief"]["invented"]

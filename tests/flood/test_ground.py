@@ -12,7 +12,7 @@ from PIL import Image
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
 from vexture.flood.drawn_ground import DRAWN, drawn_ground
-from vexture.flood.grids import deepest, depth_png, shore_distance
+from vexture.flood.grids import shore_distance
 from vexture.flood.ground import LARGEST_GROUND, encoded, ground_of
 from vexture.flood.relief import relief_of
 from vexture.flood.views import viewpoint
@@ -172,12 +172,3 @@ def test_distance_to_the_shore_is_exact():
         apart = np.hypot(3.0 * (rows[other] - row), 2.0 * (columns[other] - column)).min()
         assert abs(found[row, column]) == pytest.approx(apart)
         assert (found[row, column] < 0.0) == wet[row, column]
-
-
-def test_depths_are_gray_values():
-    depth = np.array([[np.nan, 0.0, 0.001, 2.0, 4.0]], np.float32)
-    most = deepest(depth)
-    values = np.asarray(Image.open(BytesIO(depth_png(depth, most))))
-    assert (most, values.tolist()) == (4.0, [[0, 0, 1, 128, 255]])
-    assert Image.open(BytesIO(depth_png(np.ones((600, 1200), np.float32), 1.0))).size == (256, 128)
-    assert deepest(np.full((2, 2), np.nan, np.float32)) == 0.0

@@ -22,6 +22,7 @@ from PIL import Image
 from vexture import convert
 from vexture.drawing import Drawing
 from vexture.flood.credits import Credits
+from vexture.flood.depth_pictures import CODE, depth_png
 from vexture.flood.hazard import HAZARDS, UNIT
 from vexture.flood.open_water import open_water, openness_png
 from vexture.flood.surface import WaterSurface
@@ -169,7 +170,6 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
     deepest = float(depths.max())
     surface = WaterSurface(np.where(depths > 0.0, level, np.nan), depths > 0.0)
     levels, level_facts = surface.encoded()
-    shares = np.round(depths / deepest * 255) if deepest > 0 else depths
     rated = np.linspace(0.0, RATING, COLUMNS) * level / LEVELS[-1]
     hazards = np.where(depths > 0.0, 1.0 + np.round(rated / UNIT), 0.0)
     return {
@@ -183,12 +183,13 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
             "label": label,
             "dry": not drawing.paths,
             "deepest": deepest or None,
+            "depth": CODE,
             "level": level_facts,
             "hazard": {"unit": UNIT},
             "area": float((depths > 0.0).mean() * FRAME.metres[0] * FRAME.metres[1]),
         },
         "views": {
-            "depth": image_url(shares.astype(np.uint8), "PNG"),
+            "depth": data_url("image/png", depth_png(depths.astype(np.float32))),
             "level": data_url("image/png", levels),
             "classes": data_url("image/ktx2", classes(level)),
             "hazard": image_url(hazards.astype(np.uint8), "PNG"),

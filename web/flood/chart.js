@@ -1,6 +1,8 @@
 /** A chart under the time: the area under water, or the water's level at a clicked place. */
 import { element } from '../viewer/dom.js';
+import { Ranks } from './depths.js';
 import { short } from './shades.js';
+import { depthsOf } from './steps.js';
 
 const WIDTH = 600;
 const HEIGHT = 44;
@@ -43,6 +45,35 @@ export function lineOf(values, places = placesOf(values.map(() => null))) {
 }
 
 /**
+ * Values of the steps, NaN where it is dry; what they are, and how their range is said.
+ *
+ * @typedef {{values: number[], what: string, range: (low: number, high: number) => string}} Charted
+ */
+
+/** @param {(import('./page-data.js').Facts | undefined)[]} steps @returns {Charted} */
+const areasOf = (steps) => ({
+  values: steps.map((facts) => facts?.area ?? NaN), what: 'Area under water',
+  range: (low, high) => `${areaText(low)} to ${areaText(high)}`,
+});
+
+/**
+ * The classes of depth of a place.
+ *
+ * @param {Awaited<ReturnType<typeof depthsOf>>[]} steps
+ * @param {number} s @param {number} t
+ * @returns {Charted}
+ */
+export function classesAt(steps, s, t) {
+  const ranks = steps.map((step) => (step instanceof Ranks ? step : null));
+  const values = ranks.map((step) => step?.at(s, t) || NaN);
+  const text = (/** @type {number} */ rank) => ranks[values.indexOf(rank)]?.textOf(rank) ?? '';
+  return {
+    values, what: 'Depth at the marked place',
+    range: (low, high) => (low === high ? text(low) : `least ${text(low)}, most ${text(high)}`),
+  };
+}
+
+/**
  * @param {import('./stage.js').Stage} stage
  * @param {import('./player.js').Player} player
  * @param {(px: number, py: number) => [number, number] | null} placeAt place of the box under a pixel of the canvas
@@ -76,28 +107,40 @@ export function createChart(stage, player, placeAt, levelsAt, marked) {
     void fill();
   }
 
-  /** Levels above the zero of the heights at the place, NaN where it is dry; of each step. */
-  async function levelsThere() {
+  /**
+   * What is charted of a place: its class of depth, where classes are known; else its level above the zero of the
+   * heights; only whether it is wet, where the depth is unknown and the ground is invented.
+   *
+   * @param {[number, number]} there
+   * @returns {Promise<Charted>}
+   */
+  async function chartedAt([s, t]) {
+    const steps = await Promise.all(player.names.map((name) => player.steps.open(name)));
+    const facts = steps.map(({ manifest }) => manifest.facts);
+    if (facts.some((one) => one?.ranges)) return classesAt(await Promise.all(steps.map(depthsOf)), s, t);
     const { relief } = stage.surface;
-    const [s, t] = place ?? [0, 0];
     const at = Math.round((1 - t) * (relief.rows - 1)) * relief.columns + Math.round(s * (relief.columns - 1));
-    const all = await Promise.all(player.names.map(levelsAt));
-    return all.map(({ surface }) => (surface?.wet[at] ? surface.levels[at] + relief.still : NaN));
+    const surfaces = (await Promise.all(player.names.map(levelsAt))).map(({ surface }) => surface);
+    if (relief.invented && !facts.some((one) => one?.depth)) {
+      const values = surfaces.map((surface) => (surface?.wet[at] ? 1 : NaN));
+      const count = values.filter((value) => value === 1).length;
+      return { values, what: 'The marked place', range: () => `under water in ${count} of ${values.length} steps` };
+    }
+    const values = surfaces.map((surface) => (surface?.wet[at] ? surface.levels[at] + relief.still : NaN));
+    const text = (/** @type {number} */ value) => `${value.toFixed(2)} m`;
+    return { values, what: 'Water level at the marked place', range: (low, high) => `${text(low)} to ${text(high)}` };
   }
 
   async function fill() {
     const mine = ++turn;
     const steps = await Promise.all(player.names.map(async (name) => (await player.steps.open(name)).manifest.facts));
-    const values = place ? await levelsThere() : steps.map((facts) => facts?.area ?? NaN);
+    const { values, what, range } = place ? await chartedAt(place) : areasOf(steps);
     if (mine !== turn) return;
     places = placesOf(steps.map((facts) => facts?.time));
     const { path, low, high } = lineOf(values, places);
-    const text = place ? (/** @type {number} */ value) => `${value.toFixed(2)} m` : areaText;
-    const what = place ? 'Water level at the marked place' : 'Area under water';
-    const range = high >= low ? `${text(low)} to ${text(high)}` : 'always dry';
     chart.hidden = values.length < 2 || (!place && !(high >= low));
     back.hidden = place === null;
-    label.textContent = `${what}: ${range}`;
+    label.textContent = `${what}: ${high >= low ? range(low, high) : 'always dry'}`;
     line.setAttribute('d', path);
     picture.setAttribute('aria-label', label.textContent);
     mark();

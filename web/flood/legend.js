@@ -8,10 +8,10 @@ import { short } from './shades.js';
  * @param {NonNullable<ReturnType<typeof import('./shades.js').shadeOf>>} shade
  * @returns {{color: string, text: string}[]}
  */
-export function entries({ colors: { classes, smooth }, unit, texts }) {
+export function entries({ colors: { classes, smooth }, unit, texts, end }) {
   return classes.map(({ from, color }, at) => {
     if (texts) return { color: String(color), text: texts[at] };
-    const next = classes[at + 1]?.from;
+    const next = classes[at + 1]?.from ?? end;
     const range = next === undefined ? `over ${short(from)}` : `${short(from)} to ${short(next)}`;
     return { color: String(color), text: `${smooth ? short(from) : range} ${unit}` };
   });

@@ -8,15 +8,18 @@
  * @property {number | null} [deepest] metres
  * @property {number} [area] square metres under water
  * @property {{lowest: number, unit: number}} [level] metres, of the picture of levels
+ * @property {{scale: number, step: number} | null} [depth] of the picture of depths; null: they are not known
+ * @property {[number, number | null][] | null} [ranges] metres of the classes of depth of data that hold them in place of
+ *   depths
  * @property {{unit: number} | null} [hazard] of the picture of the hazard
  *
  * @typedef {object} Manifest
  * @property {string} name
  * @property {string} texture URL
  * @property {Facts} [facts]
- * @property {{depth?: string, level?: string, classes?: string, hazard?: string}} [views] depth: 8-bit gray PNG over the
- *   box, 255 is the deepest; level and hazard: gray PNGs on the grid of the relief (levels.js, hazard.js); classes: planar
- *   map of the classes of depth
+ * @property {{depth?: string, ranks?: string, level?: string, classes?: string, hazard?: string}} [views] depth and ranks:
+ *   gray PNGs over the box (depths.js); level and hazard: gray PNGs on the grid of the relief (levels.js, hazard.js);
+ *   classes: planar map of the classes of depth
  * @property {string | null} [note]
  *
  * @typedef {object} FrameFacts
@@ -48,7 +51,8 @@
  * @typedef {object} Flood
  * @property {string} title
  * @property {Credits} credits
- * @property {{from: number, color: string}[]} depths metres from which the classes of the map of depths begin
+ * @property {{from: number, to?: number, color: string}[]} depths metres from which the classes of the map of depths begin,
+ *   and at which the last one ends, if it does
  * @property {string[]} arrivals colours of as many times of arrival, the first to come first
  * @property {{from: number, color: string, text: string}[]} hazards ratings from which the classes of hazard begin
  * @property {(string | Manifest)[]} steps names on the server, or all of each

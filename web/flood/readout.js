@@ -1,9 +1,8 @@
 /** Readout at the pointer: wet or dry, depth, coordinates. */
 import { Raycaster, Vector2 } from 'three';
 import { element } from '../viewer/dom.js';
-import { bytesOf } from '../viewer/library.js';
-import { Depths } from './depths.js';
 import { WATER } from './sea.js';
+import { depthsOf } from './steps.js';
 
 /** @typedef {import('./stage.js').Stage} Stage @typedef {import('./player.js').Player} Player */
 
@@ -23,20 +22,18 @@ export function createReadout(stage, player, surface, fold) {
   const caster = new Raycaster();
   /** @type {[number, number] | null} */
   let pointed = null;
-  /** @type {{key: string, depths: Depths | null}} */
+  /** @type {{key: string, depths: Awaited<ReturnType<typeof depthsOf>>}} */
   let known = { key: '', depths: null };
 
   async function loadDepths() {
     const { step } = player;
-    const url = step?.manifest.views?.depth;
-    const deepest = step?.manifest.facts?.deepest;
-    const key = step ? `${step.name} ${url}` : '';
+    const key = step ? `${step.name} ${step.manifest.views?.depth ?? step.manifest.views?.ranks}` : '';
     if (key === known.key) return;
     known = { key, depths: null };
-    if (!step || !url || !deepest) return;
+    if (!step) return;
     try {
-      const bytes = new Uint8Array(await bytesOf(url, step.base));
-      if (known.key === key) known = { key, depths: new Depths(bytes, deepest) };
+      const depths = await depthsOf(step);
+      if (known.key === key) known = { key, depths };
     } catch {
       return; // wet or dry does not depend on it
     }
@@ -56,11 +53,12 @@ export function createReadout(stage, player, surface, fold) {
     const ground = surface.relief.at(s, t);
     const level = surface.levels ? surface.levelNear(s, t) : 0;
     const isWet = player.step.texture.contains(moved.u, moved.v, WATER);
-    const depth = isWet ? known.depths?.at(s, t) : undefined;
-    state.textContent = isWet ? (depth ? `Wet, ${metres(depth)} deep` : 'Wet') : 'Dry';
+    const depth = isWet ? known.depths?.textAt(s, t) : null;
+    state.textContent = isWet ? (depth ? `Wet, ${depth} deep` : 'Wet') : 'Dry';
+    const hasLevel = depth && !player.step.manifest.facts?.ranges; // that of a class is only drawn
     const still = surface.relief.still;
     const heights = surface.relief.invented ? [] : [
-      `ground ${signed(ground + still)}`, ...(isWet && depth ? [`water ${signed(level + still)}`] : []),
+      `ground ${signed(ground + still)}`, ...(hasLevel ? [`water ${signed(level + still)}`] : []),
     ];
     const texts = [heights.join(', '), `${places.text(u, v)} · ${places.crs}`, places.geodetic(s, t)];
     where.replaceChildren(...texts.filter((text) => text).map((text) => element('span', {}, /** @type {string} */ (text))));
@@ -98,6 +96,3 @@ export function createReadout(stage, player, surface, fold) {
 
 /** Metres above the zero of the heights. @param {number} height */
 const signed = (height) => `${height < 0 ? '−' : '+'}${Math.abs(height).toFixed(2)} m`;
-
-/** @param {number} depth */
-const metres = (depth) => `${depth < 10 ? depth.toFixed(1) : Math.round(depth).toLocaleString('en')} m`;

@@ -17,6 +17,9 @@ const OF_SERIES = new Set(['greatest', 'arrival']);
 /** Those of all steps. @type {Set<string>} */
 const OF_ALL = new Set([...OF_SERIES, 'hazard']);
 
+/** @type {Set<string>} */
+const OF_DEPTH = new Set(['depth', 'smooth', 'greatest']);
+
 /** @typedef {{step: import('./steps.js').Step, surface: import('./levels.js').Levels | null}} Known */
 
 /** Hours between two times of the file. @param {string | null | undefined} from @param {string | null | undefined} to */
@@ -106,10 +109,19 @@ export function createShades(stage, player, flood, levelsAt) {
     await player.go(widest); // what is of all times is seen where the water is
   };
   const { row, list } = select('Colours', NAMES, picked);
+  /** Whether the shown step, or the only one, has no such values. @param {string} value */
+  function isWithout(value) {
+    const { views, facts } = player.step?.manifest ?? {};
+    if (value === 'hazard') return !views?.hazard;
+    if (OF_SERIES.has(value) && player.count < 2) return true;
+    if (!OF_DEPTH.has(value) || !player.step) return false;
+    if (facts?.ranges) return value !== 'depth'; // the classes are known, and no depths
+    return !facts?.depth && stage.surface.relief.invented; // the depth would be one of invented ground
+  }
   const offer = () => {
     for (const option of list.options) {
       const { value } = option;
-      const without = value === 'hazard' ? !player.step?.manifest.views?.hazard : OF_SERIES.has(value) && player.count < 2;
+      const without = isWithout(value);
       option.hidden = option.disabled = without && value !== list.value;
     }
   };

@@ -28,8 +28,9 @@ export function roundHours(hours) {
  * @param {Shade} shade
  * @param {Pick<import('./page-data.js').Flood, 'depths' | 'arrivals' | 'hazards'>} colors
  * @param {number} hours from the first step to the last
- * @returns {{colors: DepthColors, title: string, unit: string, texts?: string[], mapped: boolean} | null} texts: of the
- *   classes, in place of where they begin; mapped: by a map of the classes, where there is one
+ * @returns {{colors: DepthColors, title: string, unit: string, texts?: string[], end?: number, mapped: boolean} | null}
+ *   texts: of the classes, in place of where they begin; end: of the last class, if it has one; mapped: by a map of the
+ *   classes, where there is one
  */
 export function shadeOf(shade, { depths, arrivals: colors, hazards }, hours) {
   if (shade === 'water') return null;
@@ -44,7 +45,8 @@ export function shadeOf(shade, { depths, arrivals: colors, hazards }, hours) {
   }
   const from = depths.map((one) => one.from);
   const found = colored(from, depths.map(({ color }) => color), shade === 'smooth');
-  return { colors: found, title: shade === 'greatest' ? 'Greatest depth' : 'Depth', unit: 'm', mapped: shade === 'depth' };
+  const title = shade === 'greatest' ? 'Greatest depth' : 'Depth';
+  return { colors: found, title, unit: 'm', end: depths.at(-1)?.to, mapped: shade === 'depth' };
 }
 
 /**

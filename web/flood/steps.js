@@ -5,6 +5,7 @@ import { readPacked } from '../src/packed.js';
 import { backOff } from '../src/patience.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { bytesOf } from '../viewer/library.js';
+import { Depths, Ranks } from './depths.js';
 
 /**
  * @typedef {import('./page-data.js').Manifest} Manifest
@@ -34,6 +35,18 @@ export async function levelsOf({ manifest, base }) {
 export async function hazardOf({ manifest, base }) {
   const [url, facts] = [manifest.views?.hazard, manifest.facts?.hazard];
   return url && facts ? { png: new Uint8Array(await bytesOf(url, base)), facts } : null;
+}
+
+/**
+ * Depths of a step, or classes of them; null if it has neither.
+ *
+ * @param {Step} step
+ */
+export async function depthsOf({ manifest, base }) {
+  const { views, facts } = manifest;
+  const bytes = async (/** @type {string} */ url) => new Uint8Array(await bytesOf(url, base));
+  if (views?.depth && facts?.depth) return new Depths(await bytes(views.depth), facts.depth);
+  return views?.ranks && facts?.ranges ? new Ranks(await bytes(views.ranks), facts.ranges) : null;
 }
 
 /** @type {WeakMap<Manifest, Promise<VectorTexture | null>>} */

@@ -18,6 +18,8 @@ describe('shades', () => {
       { color: '#000000', text: '0 to 0.5 m' }, { color: '#101010', text: '0.5 to 2 m' }, { color: '#202020', text: 'over 2 m' },
     ]);
     expect(depth.mapped).toBe(true);
+    const ended = { ...flood, depths: flood.depths.map((one, at) => (at === 2 ? { ...one, to: 4 } : one)) };
+    expect(entries(/** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('depth', ended, 0)))[2].text).toBe('2 to 4 m');
     const smooth = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('smooth', flood, 0));
     expect(entries(smooth).map(({ text }) => text)).toEqual(['0 m', '0.5 m', '2 m']);
     expect(smooth.mapped).toBe(false);

@@ -8,7 +8,7 @@ from vexture.flood.options import contours_of
 from vexture.geo.extent import Step
 from vexture.paint import Paint
 
-__all__ = ["class_drawing", "colors_of"]
+__all__ = ["class_drawing", "classes_shown", "colors_of"]
 
 SEQUENCE: Final = ("#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58")
 """ColorBrewer's YlGnBu (C. Brewer, 2002): in order for those who are blind to some colours, too, and in gray.
@@ -45,13 +45,25 @@ def _between(one: str, other: str | None = None, *, share: float) -> str:
     return "#" + "".join(f"{round(a + (b - a) * share):02x}" for a, b in parts)
 
 
+def classes_shown(step: Step, depths: tuple[float, ...]) -> tuple[float, ...]:
+    """Metres from which the classes begin that a map of a step shows: `depths`, or those of a file of classes."""
+    return depths if step.classes is None else (step.classes.ranges[0].low, *step.classes.contours)
+
+
+def _is_of(step: Step, depths: tuple[float, ...], hmin: float) -> bool:
+    """Whether the areas of a step are those of the classes that begin at `depths`."""
+    if step.classes is not None:
+        return classes_shown(step, depths) == depths
+    return len(step.deeper) == len(contours_of(depths, hmin)) and step.depth is not None
+
+
 def class_drawing(step: Step, depths: tuple[float, ...], hmin: float, name: str) -> Drawing | None:
     """Areas of the classes of a step, each over the shallower ones, in their colours.
 
     None if all is dry, or the contours between the classes are unknown: of polygons, and of an extent that was read
-    with others.
+    with others, or holds other classes.
     """
-    if not step.drawing.paths or len(step.deeper) != len(contours_of(depths, hmin)) or step.depth is None:
+    if not step.drawing.paths or not _is_of(step, depths, hmin):
         return None
     areas = (step.drawing, *step.deeper)
     colors = colors_of(len(depths))[-len(areas) :]

@@ -1,6 +1,5 @@
-"""Grids over a frame: coverage by water, distance to the shore, resampled values, noise, pictures of depths."""
+"""Grids over a frame: coverage by water, distance to the shore, resampled values, noise."""
 
-from io import BytesIO
 from typing import Any, Final
 
 import numpy as np
@@ -10,15 +9,12 @@ from vexture.drawing import Drawing
 from vexture.geo.extent import Bounds, Frame
 
 __all__ = [
-    "coarser", "coverage_over", "deepest", "depth_png", "distance_to", "filled", "mean_of", "noise", "pixels_to",
-    "sampled", "shore_distance", "size_for",
+    "coarser", "coverage_over", "distance_to", "filled", "mean_of", "noise", "pixels_to", "sampled", "shore_distance",
+    "size_for",
 ]  # fmt: skip
 
 SEED: Final = 4626
 """Seed of the noise, fixed so that two runs make the same page."""
-
-DEPTH_PIXELS: Final = 256
-"""Most pixels on the longer side of a picture of depths: it serves to read a depth at the pointer, not to draw."""
 
 
 def size_for(frame: Frame, longest: int, least: int = 2) -> tuple[int, int]:
@@ -161,27 +157,3 @@ def noise(size: tuple[int, int], octaves: int = 6) -> NDArray[np.float64]:
         picture = Image.fromarray(points).resize((columns, rows), Image.Resampling.BICUBIC)
         total += np.asarray(picture, np.float64) * 0.5**octave
     return np.clip(0.7 * total, -1.0, 1.0)
-
-
-def deepest(depth: NDArray[np.float32]) -> float:
-    """Greatest depth in metres, 0 if all is dry or unknown."""
-    known = depth[np.isfinite(depth)]
-    return max(0.0, float(known.max())) if known.size else 0.0
-
-
-def depth_png(depth: NDArray[np.float32], most: float) -> bytes:
-    """Depths in metres as an 8-bit gray PNG: 255 is `most`, 0 is dry or unknown, and wet pixels are at least 1."""
-    from PIL import Image
-
-    metres = np.where(np.isfinite(depth), np.maximum(depth, 0.0), 0.0).astype(np.float32)
-    share = DEPTH_PIXELS / max(metres.shape)
-    picture = Image.fromarray(metres)
-    if share < 1.0:
-        width, height = (max(1, round(share * side)) for side in picture.size)
-        picture = picture.resize((width, height), Image.Resampling.BOX)
-    metres = np.asarray(picture)
-    values = np.rint(255.0 * metres / most if most > 0.0 else metres * 0.0)
-    gray = np.where(metres > 0.0, np.clip(values, 1.0, 255.0), 0.0).astype(np.uint8)
-    out = BytesIO()
-    Image.fromarray(gray).save(out, format="PNG", optimize=True)
-    return out.getvalue()

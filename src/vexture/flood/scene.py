@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
+from math import isfinite
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -44,14 +45,15 @@ class Flood:
     """All of a page but its water.
 
     `credits` is what the data say of themselves, and `depths` the metres from which the classes of the map of depths
-    begin. `ground` is an encoded picture of the frame; `fold` is a file that moves the shoreline; `openness` says where
-    waves are (`vexture.flood.open_water`); `views` are what to look at beside
-    the whole box.
+    begin; the last one ends at `end`, which may be infinite. `ground` is an encoded picture of the frame; `fold` is a
+    file that moves the shoreline; `openness` says where waves are (`vexture.flood.open_water`); `views` are what to
+    look at beside the whole box.
     """
 
     title: str
     credits: Credits
     depths: tuple[float, ...]
+    end: float
     frame: Frame
     ground: bytes
     relief: Relief
@@ -71,7 +73,7 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
     return {
         "title": flood.title,
         "credits": flood.credits.as_json(),
-        "depths": _colored(flood.depths),
+        "depths": _colored(flood.depths, flood.end),
         "arrivals": colors_of(ARRIVALS)[::-1],
         "hazards": [{"from": least, "color": color, "text": text} for least, color, text in HAZARDS],
         "steps": list(steps),
@@ -94,9 +96,14 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
     }
 
 
-def _colored(depths: tuple[float, ...]) -> list[dict[str, Any]]:
-    """Classes of depth, in metres from which they begin, with their colours."""
-    return [{"from": depth, "color": color} for depth, color in zip(depths, colors_of(len(depths)), strict=True)]
+def _colored(depths: tuple[float, ...], end: float) -> list[dict[str, Any]]:
+    """Classes of depth, in metres from which they begin, with their colours, and the end of the last if it has one."""
+    found: list[dict[str, Any]] = [
+        {"from": depth, "color": color} for depth, color in zip(depths, colors_of(len(depths)), strict=True)
+    ]
+    if isfinite(end):
+        found[-1]["to"] = end
+    return found
 
 
 def _geodetic(frame: Frame) -> dict[str, Any] | None:

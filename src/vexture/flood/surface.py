@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vexture.flood.grids import coarser, mean_of, sampled
 from vexture.flood.relief import Relief, wet_samples
-from vexture.geo.extent import Frame, Step
+from vexture.geo.extent import DepthClasses, Frame, Step
 
 __all__ = ["WaterSurface", "highest_of", "surface_of"]
 
@@ -65,8 +65,9 @@ def surface_of(step: Step, frame: Frame, relief: Relief, bed: NDArray[np.float32
     rows, columns = relief.heights.shape
     size = columns, rows
     wet = wet_samples(step, frame, size)
-    depth = None if step.depth is None else np.where(step.depth >= hmin, step.depth, np.nan)
-    if depth is not None and bed is not None and not relief.invented:
+    known = step.depth if step.classes is None else _about(step.classes)
+    depth = None if known is None else np.where(known >= hmin, known, np.nan)
+    if depth is not None and bed is not None and step.classes is None and not relief.invented:
         levels = sampled(coarser(bed + depth, size), size) - relief.still
     elif depth is not None and not relief.invented:
         levels = relief.heights + sampled(coarser(depth, size), size)
@@ -75,6 +76,12 @@ def surface_of(step: Step, frame: Frame, relief: Relief, bed: NDArray[np.float32
         levels = _from_shores(relief.heights, wet)
     levels = np.where(wet | np.isfinite(levels), _filled_at(levels, wet), np.nan)
     return WaterSurface(_widened(levels, BEYOND), wet)
+
+
+def _about(classes: DepthClasses) -> NDArray[np.float32]:
+    """Depths amid classes, to draw a surface of which no number is shown; NaN where it is dry."""
+    amid = [low if np.isinf(high) else (low + high) / 2.0 for low, high in classes.ranges]
+    return np.array([np.nan, *amid], np.float32)[classes.ranks]
 
 
 def highest_of(surfaces: Sequence[WaterSurface]) -> NDArray[np.float64] | None:

@@ -70,10 +70,10 @@ def grid_series(
 ) -> Series | MeshSeries:
     """Depths of an open dataset at the places that `places_of_grid` found; errors as of `netcdf.series_of`."""
     among = {one: places for one, places in grids.items() if one.lower() not in MASKS}
-    name, *_ = depths_of(dataset, _with_depths(dataset, among) if variable is None else list(among), variable)
+    name = depths_of(dataset, _with_depths(dataset, among) if variable is None else list(among), variable, notes).name
     places = grids[name]
     here = [one for one in among if among[one][:2] == places[:2]]
-    name, depth, bed = depths_of(dataset, here, name)  # the bed must be where the depths are
+    name, depth, bed, meaning = depths_of(dataset, here, name, notes)  # the bed must be where the depths are
     order = places[:2]
     time = time_axis(dataset, dataset[name].dims, time_dim)
     refuse_layers(dataset, name, (time, *order))
@@ -99,7 +99,7 @@ def grid_series(
     rounding = float(np.finfo(np.float32).eps) if dataset[places.x].dtype == np.float32 else 0.0
     lattice = _lattice(x, y, known, stride, tuple(int(dataset.sizes[dim]) for dim in order), rounding)
     if lattice is not None:
-        return Series(lattice, crs, name, times, read, unit_of(dataset[places.x]))
+        return Series(lattice, crs, name, times, read, meaning, unit_of(dataset[places.x]))
     if stride > 1:
         raise LimitError(
             f"{known.size * stride**2:,} cells with coordinates of their own each are too many; "
@@ -111,7 +111,7 @@ def grid_series(
         return read(step, slice(None), slice(None)).at(known)
 
     whole = counter_clockwise(nodes, faces)
-    return MeshSeries(nodes, whole, True, crs, name, times, read_faces, unit_of(dataset[places.x]))
+    return MeshSeries(nodes, whole, True, crs, name, times, read_faces, meaning, unit_of(dataset[places.x]))
 
 
 def _with_depths(dataset: Any, grids: dict[str, GridPlaces]) -> list[str]:

@@ -10,13 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.content import NETCDF, TIFF, start_of, unpacked
+from vexture.drawing import Drawing
 from vexture.errors import ParameterError, SourceError
 from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period, refuse_other_units
 from vexture.geo.datasets import is_dataset
-from vexture.geo.extent import Bounds, Extent, Frame, Step
+from vexture.geo.extent import Bounds, DepthClasses, Extent, Frame, Step
 from vexture.geo.mesh import MeshInFrame, MeshSeries
 from vexture.geo.raster import RasterInFrame
 from vexture.geo.series import Reading, Series, Values
+from vexture.geo.told_water import ToldWater, told_water
 from vexture.notes import Note, Notes
 from vexture.tolerance import HMIN
 from vexture.workers import Here, Workers
@@ -70,6 +72,8 @@ class DepthsInFrame:
             self._placed = RasterInFrame(series, system, frame, notes)
         self.frame, self.times, self.variable = frame, series.times, series.variable
         self._name, self._hmin, self._depths, self._notes = name, hmin, depths, notes
+        readings = (self._placed.read(number).plausible.depth for number in range(len(self.times)))
+        self._told: ToldWater | None = told_water(series.meaning, readings, hmin, depths, notes)
 
     @property
     def notes(self) -> tuple[Note, ...]:
@@ -83,14 +87,34 @@ class DepthsInFrame:
     def step(self, number: int, reading: Reading) -> Step:
         """The step of these values."""
         depth, bed, speed = reading
-        drawing, *deeper = (
-            replace(area, to_source=self.frame.to_source, name=self._name, crs=self.frame.crs, notes=self.notes)
-            for area in self._placed.drawings(depth, bed, self._hmin, self._depths)
-        )
+        if self._told is not None:
+            return self._told_step(number, depth, self._told)
+        drawing, *deeper = self._framed(self._placed.drawings(depth, bed, self._hmin, self._depths))
         over = self.grid(np.where(depth < 0.0, 0.0, depth))
         if bed is not None:  # the depth upon the heights that the page has, below the same level
             over = np.where(over > 0.0, np.maximum(over + self.grid(bed) - self.heights(bed), 0.0), over)
         return Step(drawing, self.times[number], over, tuple(deeper), None if speed is None else self.grid(speed))
+
+    def _told_step(self, number: int, values: Values, told: ToldWater) -> Step:
+        """The step of numbers that say where water is, and in which class, but no depth."""
+        areas: list[Drawing] = []
+        ranks = told.ranks(values)
+        wet = [ranks >= least for least in told.leasts]
+        for at, marked in enumerate(wet):
+            same = at > 0 and np.array_equal(marked, wet[at - 1])
+            areas.append(areas[-1] if same else self._placed.drawings(np.where(marked, 1.0, 0.0), None, 0.5, ())[0])
+        drawing, *deeper = self._framed(areas)
+        classes = None
+        if told.ranges:
+            over = [self.grid(np.where(ranks >= rank, 1.0, 0.0)) >= 0.5 for rank in range(1, len(told.ranges) + 1)]
+            classes = DepthClasses(told.ranges, np.sum(over, axis=0, dtype=np.uint8), told.contours)
+        return Step(drawing, self.times[number], deeper=tuple(deeper), classes=classes)
+
+    def _framed(self, areas: list[Drawing]) -> list[Drawing]:
+        return [
+            replace(area, to_source=self.frame.to_source, name=self._name, crs=self.frame.crs, notes=self.notes)
+            for area in areas
+        ]
 
     def grid(self, values: Values) -> NDArray[np.float32]:
         """Values over the frame, the northernmost row first."""

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
+from vexture.geo.depth_ranges import DepthRange
 from vexture.notes import Note
 
-__all__ = ["MARGIN", "Bounds", "Extent", "Frame", "Step", "bounds_of_square"]
+__all__ = ["MARGIN", "Bounds", "DepthClasses", "Extent", "Frame", "Step", "bounds_of_square"]
 
 Bounds: TypeAlias = tuple[float, float, float, float]
 """West, south, east, north."""
@@ -72,6 +73,25 @@ def bounds_of_square(frame: Frame, margin: float = 0.0) -> Bounds:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class DepthClasses:
+    """Classes of depth at one time, of a file that holds them in place of depths.
+
+    Parameters
+    ----------
+    ranges : tuple of DepthRange
+        Metres from which each class of water begins, and at which it ends, the shallowest first.
+    ranks : (rows, columns) uint8 array
+        Over the frame, the northernmost row first: 1 for the first of the ranges, 0 where it is dry or unknown.
+    contours : tuple of float
+        Metres between two classes from which the areas `Step.deeper` begin.
+    """
+
+    ranges: tuple[DepthRange, ...]
+    ranks: NDArray[np.uint8]
+    contours: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Step:
     """Where water is at one time.
 
@@ -83,12 +103,14 @@ class Step:
         As the file gives it (in UTC where it names no time zone).
     depth : (rows, columns) float32 array or None
         Depth in metres over the frame, the northernmost row first, NaN where nothing is known; None where the source
-        has none.
+        has none, or only classes of them.
     deeper : tuple of Drawing
         For each of the depths that were asked for, the area under at least so much water; empty where the source has no
-        depths.
+        depths. Where it has classes of them, for each of their `contours`.
     speed : (rows, columns) float32 array or None
         Of the water, in metres a second, as `depth`; None where the source has none.
+    classes : DepthClasses or None
+        Classes of depth, where the source holds them in place of depths.
     """
 
     drawing: Drawing
@@ -96,6 +118,7 @@ class Step:
     depth: NDArray[np.float32] | None = None
     deeper: tuple[Drawing, ...] = ()
     speed: NDArray[np.float32] | None = None
+    classes: DepthClasses | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,9 +10,10 @@ import numpy as np
 
 from vexture.errors import ParameterError, SourceError, reason_of
 from vexture.geo.gdal import opened_raster
-from vexture.geo.lengths import metres_in
+from vexture.geo.lengths import NO_UNIT, metres_in
 from vexture.geo.moments import rising_moments
-from vexture.geo.series import Lattice, Reading, Series, Values
+from vexture.geo.series import Lattice, Meaning, Reading, Series, Values
+from vexture.geo.undeclared import codes_of_integers, without_undeclared
 from vexture.geo.variables import listed
 from vexture.notes import Notes
 
@@ -67,10 +68,10 @@ def _series(file: "DatasetReader", time_dim: str | None, variable: str | None, n
     metres = _metres(file, bands)
 
     def read(step: int, rows: slice, columns: slice) -> Reading:
-        return Reading(metres * _band(file, bands[step], rows, columns))
+        return Reading(metres * _band(file, bands[step], rows, columns, metres, notes))
 
     crs = file.crs.to_wkt() if file.crs else None
-    return Series(lattice, crs, names[bands[0] - 1], _times(file, bands, notes), read)
+    return Series(lattice, crs, names[bands[0] - 1], _times(file, bands, notes), read, _meaning(file, bands))
 
 
 def _times(file: "DatasetReader", bands: Sequence[int], notes: Notes) -> tuple[datetime | None, ...]:
@@ -85,6 +86,18 @@ def _times(file: "DatasetReader", bands: Sequence[int], notes: Notes) -> tuple[d
     return times or (None,) * len(bands)
 
 
+def _meaning(file: "DatasetReader", bands: Sequence[int]) -> Meaning:
+    """What the numbers of bands are."""
+    from rasterio.enums import ColorInterp
+
+    is_picture = {ColorInterp.red, ColorInterp.green, ColorInterp.blue} <= set(file.colorinterp)
+    has_table = any(file.colorinterp[band - 1] == ColorInterp.palette for band in bands)
+    packed = [(file.scales[band - 1], file.offsets[band - 1]) for band in bands]
+    whole = all(np.dtype(file.dtypes[band - 1]).kind in "iu" for band in bands) and set(packed) == {(1.0, 0.0)}
+    units = {(file.units[band - 1] or "").strip().lower() for band in bands}
+    return Meaning((), not units <= NO_UNIT, whole, whole and (is_picture or has_table))
+
+
 def _metres(file: "DatasetReader", bands: Sequence[int]) -> float:
     """Metres in the unit of bands, which are metres where the file does not say it."""
     units = {(file.units[band - 1] or "").strip() for band in bands}
@@ -97,8 +110,8 @@ def _metres(file: "DatasetReader", bands: Sequence[int]) -> float:
     return metres
 
 
-def _band(file: "DatasetReader", band: int, rows: slice, columns: slice) -> Values:
-    """Values of a band, in its unit."""
+def _band(file: "DatasetReader", band: int, rows: slice, columns: slice, metres: float, notes: Notes) -> Values:
+    """Values of a band, in its unit of so many metres."""
     from rasterio.errors import RasterioError
     from rasterio.windows import Window
 
@@ -110,7 +123,9 @@ def _band(file: "DatasetReader", band: int, rows: slice, columns: slice) -> Valu
         read: Any = file.read(band, window=window, out_shape=shape, masked=True)
     except (RasterioError, OSError) as error:
         raise SourceError(f"band {band} cannot be read ({reason_of(error)}); write the file again") from None
+    scale, offset = file.scales[band - 1], file.offsets[band - 1]
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
-        values: Values = read.filled(0).astype(np.float64) * file.scales[band - 1] + file.offsets[band - 1]
+        values: Values = read.filled(0).astype(np.float64) * scale + offset
     values[np.ma.getmaskarray(read)] = np.nan
-    return values
+    codes = () if file.nodatavals[band - 1] is not None else codes_of_integers(file.dtypes[band - 1], scale, offset)
+    return without_undeclared(values, codes, metres, f"band {band}", notes)

@@ -19,7 +19,7 @@ from vexture.geo.crs import period, transformed
 from vexture.geo.extent import Bounds, Frame
 from vexture.geo.patch import Faces, Patch, border_of, touched, touching
 from vexture.geo.raster import grid_places, outside
-from vexture.geo.series import Reading, Values, box_around
+from vexture.geo.series import METRES, Meaning, Reading, Values, box_around
 from vexture.geo.triangles import Outline, grid_ranges, located, outlines_above
 
 __all__ = ["MeshInFrame", "MeshSeries"]
@@ -39,7 +39,7 @@ OUTSIDE: Final = 0.25
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeshSeries:
-    """An open file of depths on a mesh; `crs`, `variable`, `times`, `read` and `unit` as in `Series`.
+    """An open file of depths on a mesh; `crs`, `variable`, `times`, `read`, `meaning` and `unit` as in `Series`.
 
     `nodes` are places, (n, 2); `faces` are the numbers of the nodes of each face, (m, k), counter-clockwise, and -1
     where a face has fewer. Depths are on faces or on nodes.
@@ -52,7 +52,8 @@ class MeshSeries:
     variable: str
     times: tuple[datetime | None, ...]
     read: Callable[[int], Reading]
-    unit: str
+    meaning: Meaning = METRES
+    unit: str = ""
 
     @property
     def box(self) -> Bounds:

@@ -90,7 +90,7 @@ def _counts(place: str) -> list[str]:
 def series_of(dataset: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Series:
     """Depths of an open dataset on rows and columns; `ParameterError` if `variable` holds none."""
     grids = {str(name): axes for name in dataset.data_vars if (axes := axes_of(dataset, name, time_dim))}
-    name, depth, bed = depths_of(dataset, list(grids), variable)
+    name, depth, bed, meaning = depths_of(dataset, list(grids), variable, notes)
     time, north, east = grids[name]
     x, y = (_axis(dataset, dim) for dim in (east, north))
     times = times_of(dataset, time, notes)
@@ -106,7 +106,7 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None, notes: N
     crs = crs_of(dataset, name, along)
     across, up = (_in_system(one, crs) for one in along)
     lattice = Lattice(x, y, np.array([[across, 0.0, 0.0], [0.0, up, 0.0]]))
-    return Series(lattice, crs, name, times, read, unit_of(along[0]))
+    return Series(lattice, crs, name, times, read, meaning, unit_of(along[0]))
 
 
 def _in_system(along: Any, crs: str | None) -> float:

@@ -75,6 +75,8 @@ def merged_partitions(
         if missing:
             name = NAME.sub(lambda found: f"{found[1]}{missing[0]:04d}{found[3]}", paths[0].name)
             raise SourceError(f"its partition {name} is missing beside it; copy it there")
+        if len({part.meaning.ranges for part in parts}) > 1:
+            raise SourceError("its partitions have different classes of depth; write all of them in one run")
         if len({part.times for part in parts}) > 1:
             raise SourceError("its partitions have different times; write all of them in one run")
         yield _merged(parts, owned)
@@ -117,5 +119,13 @@ def _merged(parts: Sequence[MeshSeries], owned: Sequence[NDArray[np.bool_]]) -> 
 
     first = parts[0]
     return MeshSeries(
-        places, np.concatenate(faces).astype(np.int32), True, first.crs, first.variable, first.times, read, first.unit
+        places,
+        np.concatenate(faces).astype(np.int32),
+        True,
+        first.crs,
+        first.variable,
+        first.times,
+        read,
+        first.meaning,
+        first.unit,
     )

@@ -9,9 +9,10 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.geo.depth_ranges import DepthRange
 from vexture.geo.extent import Bounds
 
-__all__ = ["Lattice", "Reading", "Series", "Values", "box_around", "plausible"]
+__all__ = ["METRES", "Lattice", "Meaning", "Reading", "Series", "Values", "box_around", "plausible"]
 
 Values = NDArray[np.float64]
 
@@ -32,14 +33,37 @@ class Reading(NamedTuple):
     bed: Values | None = None
     speed: Values | None = None
 
+    def each(self, change: Callable[[Values], Values]) -> "Reading":
+        """The values that something makes of all that there are."""
+        return Reading(*(None if values is None else change(values) for values in self))  # type: ignore[arg-type]
+
     def at(self, places: Any) -> "Reading":
         """The values at some of the places."""
-        return Reading(*(None if values is None else values[places] for values in self))  # type: ignore[arg-type]
+        return self.each(lambda values: values[places])
 
     @property
     def plausible(self) -> "Reading":
         """With NaN in place of values that cannot be."""
-        return Reading(*(None if values is None else plausible(values) for values in self))  # type: ignore[arg-type]
+        return self.each(plausible)
+
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """What the numbers of a file are.
+
+    They are metres or, with `ranges`, ranks of classes of depth: 1 for the first of them, in their order. `has_unit`
+    says that the file names a unit, `are_whole` that they were written as whole numbers, and `are_colors` that they
+    are those of a picture, or of a table of colours.
+    """
+
+    ranges: tuple[DepthRange, ...] = ()
+    has_unit: bool = True
+    are_whole: bool = False
+    are_colors: bool = False
+
+
+METRES: Final = Meaning()
+"""Depths that the file says to be metres."""
 
 
 def plausible(values: Values) -> Values:
@@ -141,7 +165,8 @@ class Series:
     """An open file of depths on a lattice, at one time or at several.
 
     `read` gives what the file says of a step, for a slice of rows and one of columns. `crs` is the reference system
-    that the file names, if it names one, and `unit` is what it says of the unit of coordinates.
+    that the file names, if it names one. `meaning` is that of the numbers that stand for depths, and `unit` is what the
+    file says of the unit of coordinates.
     """
 
     lattice: Lattice
@@ -149,6 +174,7 @@ class Series:
     variable: str
     times: tuple[datetime | None, ...]
     read: Callable[[int, slice, slice], Reading]
+    meaning: Meaning = METRES
     unit: str = ""
 
     @property

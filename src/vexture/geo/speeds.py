@@ -6,7 +6,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from vexture.geo.lengths import LENGTHS
+from vexture.geo.depth_ranges import has_flags
+from vexture.geo.lengths import NO_UNIT, metres_in
 from vexture.geo.series import Values, plausible
 from vexture.geo.variables import known_as, reader_of, unit_of
 
@@ -47,7 +48,7 @@ def speed_of(dataset: Any, depths: str, order: tuple[str, ...], time: str | None
     """Function that reads the speed where and when a variable of an open dataset holds depths; None if there is none.
 
     `order` are the dimensions of places of the depths. Speeds at other places, at other times or in layers are left
-    out.
+    out, as are classes of speed and what is in no unit of speed.
     """
     allowed = {*order, time}
     here = [
@@ -55,6 +56,8 @@ def speed_of(dataset: Any, depths: str, order: tuple[str, ...], time: str | None
         for name in dataset.data_vars
         if name != depths
         and dataset[name].dtype.kind in "iuf"
+        and not has_flags(dataset[name])
+        and _metres_a_second(unit_of(dataset[name])) is not None
         and set(order) <= set(dataset[name].dims)
         and (time is None or time in dataset[name].dims)
         and all(dim in allowed or dataset.sizes[dim] == 1 for dim in dataset[name].dims)
@@ -71,6 +74,12 @@ def speed_of(dataset: Any, depths: str, order: tuple[str, ...], time: str | None
 
 def _reader(variable: Any) -> Callable[..., Values]:
     """Function that reads a speed in metres a second."""
-    text = unit_of(variable)
+    return reader_of(variable, unit=_metres_a_second(unit_of(variable)) or 1.0)
+
+
+def _metres_a_second(text: str) -> float | None:
+    """Metres a second in a unit; 1 if there is no unit, and None if it is no speed."""
+    if text.lower() in NO_UNIT:
+        return 1.0
     unit = EACH_SECOND.fullmatch(text)
-    return reader_of(variable, LENGTHS.get(unit[1].lower(), 1.0) if unit else OTHER.get(text.lower(), 1.0))
+    return metres_in(unit[1]) if unit else OTHER.get(text.lower())

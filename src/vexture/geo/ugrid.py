@@ -71,9 +71,9 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes:
     # the bed must be where the depths are
     here = {place: [name for name in candidates if place in dataset[name].dims] for place in places}
     on = [place for place in places if has_depths(dataset, here[place])]
-    name = depths_of(dataset, here[on[0]] if len(on) == 1 and variable is None else candidates, variable)[0]
+    name = depths_of(dataset, here[on[0]] if len(on) == 1 and variable is None else candidates, variable, notes).name
     place = places[0] if places[0] in dataset[name].dims else places[1]
-    _, depth, bed = depths_of(dataset, here[place], name)
+    _, depth, bed, meaning = depths_of(dataset, here[place], name, notes)
     time = time_axis(dataset, dataset[name].dims, time_dim)
     on_faces = place == places[0]
     refuse_layers(dataset, name, (time, place))
@@ -87,12 +87,12 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes:
         values = depth(where, order)
         for flag in dry:
             values = np.where(flag(where, order) == 1.0, np.minimum(values, 0.0), values)
-        found = [values, *(one(where, order) if one else None for one in (bed, speed))]
-        return Reading(*(one if on_faces or one is None else whole.values(one) for one in found))
+        found = Reading(values, *(one(where, order) if one else None for one in (bed, speed)))
+        return found if on_faces else found.each(whole.values)
 
     crs = crs_of(dataset, name, axes)
     turned = counter_clockwise(whole.nodes, whole.faces)
-    return MeshSeries(whole.nodes, turned, on_faces, crs, name, times, read, unit_of(axes[0]))
+    return MeshSeries(whole.nodes, turned, on_faces, crs, name, times, read, meaning, unit_of(axes[0]))
 
 
 def _parts(dataset: Any, mesh: str) -> tuple[list[Any], Any, tuple[str, str]]:

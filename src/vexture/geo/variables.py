@@ -3,15 +3,19 @@
 import re
 import warnings
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
-from vexture.geo.lengths import metres_in
-from vexture.geo.series import Values
+from vexture.geo.depth_ranges import DepthRange, has_flags, ranges_of_flags
+from vexture.geo.lengths import NO_UNIT, metres_in
+from vexture.geo.series import METRES, Meaning, Values
+from vexture.geo.undeclared import codes_of, without_undeclared
+from vexture.notes import Notes
 
 __all__ = [
+    "Depths",
     "depths_of",
     "has_depths",
     "known_as",
@@ -67,13 +71,27 @@ MESH: Final = re.compile(r"^mesh(2d?)?_", re.IGNORECASE)
 """What models put in front of the names of variables on a mesh."""
 
 
-def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tuple[str, Any, Any]:
-    """Name of the variable of depths, a function that reads it, and one that reads the bed's height, or None.
+Reader = Callable[[dict[Any, Any], tuple[str, ...]], Values]
+"""Reads a variable at places along its dimensions, with the dimensions in an order."""
 
-    Where the variable holds water levels, the function subtracts the bed's height from them.
+
+class Depths(NamedTuple):
+    """The variable of depths: its name, what reads it, what reads the bed's height, and what its numbers are."""
+
+    name: str
+    read: Reader
+    bed: Reader | None
+    meaning: Meaning
+
+
+def depths_of(dataset: Any, candidates: list[str], variable: str | None, notes: Notes) -> Depths:
+    """The variable of depths among some. Where it holds water levels, the bed's height is subtracted from them.
+
+    Classes of depth are read as ranks. Other variables with flags are passed over, unless `variable` names one.
     """
+    candidates = _without_flags(dataset, candidates, variable)
     bed = _bed(dataset, candidates)
-    read_bed = reader_of(dataset[bed], _sign(dataset, bed)) if bed is not None else None
+    read_bed = reader_of(dataset[bed], _sign(dataset, bed), notes) if bed is not None else None
     if variable is not None and variable not in candidates:
         raise ParameterError(f"there are no depths in {variable!r}; `variable` may be {listed(candidates)}")
     level = _level(dataset, candidates)
@@ -90,10 +108,61 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
                 f"{name!r} is in {unit_of(dataset[name])!r}, no unit of length that is known, so it holds no depths; "
                 "`variable` names another, or write depths in metres into the file"
             )
-    read = reader_of(dataset[chosen])
+    if has_flags(dataset[chosen]):
+        return _classes(dataset, chosen, is_level, read_bed)
+    read = reader_of(dataset[chosen], notes=notes)
     if is_level and read_bed is not None:
-        return chosen, lambda places, order: read(places, order) - read_bed(places, order), read_bed
-    return chosen, read, read_bed
+        return Depths(chosen, lambda places, order: read(places, order) - read_bed(places, order), read_bed, METRES)
+    return Depths(chosen, read, read_bed, _meaning(dataset[chosen]))
+
+
+def _without_flags(dataset: Any, candidates: list[str], variable: str | None) -> list[str]:
+    """Variables that hold numbers of metres, or classes of depth."""
+    found, error = [], None
+    for name in candidates:
+        try:
+            if has_flags(dataset[name]):
+                _ranges(dataset, name)
+            found.append(name)
+        except SourceError as problem:
+            if name == variable:
+                raise ParameterError(str(problem)) from None
+            error = error or problem
+    if error is not None and not found:
+        raise error
+    return found
+
+
+def _ranges(dataset: Any, name: str) -> dict[float, DepthRange]:
+    return ranges_of_flags(dataset, name, metres_in(unit_of(dataset[name])) or 1.0)
+
+
+def _classes(dataset: Any, name: str, is_level: bool, bed: Reader | None) -> Depths:
+    """Ranks of classes of depth."""
+    if is_level:
+        raise SourceError(
+            f"{name!r} holds classes of water levels, from which no depths follow; `variable` names one of depths"
+        )
+    by_value = _ranges(dataset, name)
+    ranges = tuple(sorted(by_value.values()))
+    read_numbers = reader_of(dataset[name], unit=1.0)
+
+    def read(places: dict[Any, Any], order: tuple[str, ...]) -> Values:
+        numbers = read_numbers(places, order)
+        ranks = np.full(numbers.shape, np.nan)
+        for value, one in by_value.items():
+            ranks[numbers == value] = 1.0 + ranges.index(one)
+        return ranks
+
+    return Depths(name, read, bed, Meaning(ranges))
+
+
+def _meaning(variable: Any) -> Meaning:
+    """What the numbers of a variable are that has no flags."""
+    written = variable.encoding.get("dtype", variable.dtype)
+    is_packed = any(key in variable.encoding for key in ("scale_factor", "add_offset"))
+    are_whole = np.dtype(written).kind in "iu" and not is_packed
+    return Meaning((), unit_of(variable).lower() not in NO_UNIT, are_whole)
 
 
 def has_depths(dataset: Any, candidates: list[str]) -> bool:
@@ -134,14 +203,19 @@ def _longest(dataset: Any, names: list[str]) -> list[str]:
     return [name for name in found if not name.lower().endswith("max")] or found
 
 
-def reader_of(variable: Any, sign: float = 1.0) -> Callable[..., Values]:
-    """Function that reads a variable, times a sign, and keeps what it read last: a bed without times stays."""
+def reader_of(variable: Any, sign: float = 1.0, notes: Notes | None = None, unit: float | None = None) -> Reader:
+    """Function that reads a variable in metres, times a sign, and keeps what it read last: a bed without times stays.
+
+    `unit` is what the numbers are multiplied by in place of the metres in their unit; `notes` take what is unknown
+    without being declared so.
+    """
+    metres = metres_in(unit_of(variable)) or 1.0 if unit is None else unit
     last: list[tuple[Any, Values]] = []
 
     def again(places: dict[Any, Any], order: tuple[str, ...]) -> Values:
         key = ({dim: place for dim, place in places.items() if dim in variable.dims}, order)
         if not last or last[0][0] != key:
-            last[:] = [(key, sign * _read(variable, places, order))]
+            last[:] = [(key, sign * metres * _read(variable, places, order, metres, notes))]
         return last[0][1]
 
     return again
@@ -239,8 +313,8 @@ def loaded(variable: Any) -> Any:
         raise SourceError(f"variable {variable.name!r} cannot be read ({why}); write the file again") from None
 
 
-def _read(variable: Any, places: dict[Any, Any], order: tuple[str, ...]) -> Values:
-    """Values of a variable in metres, at the given places along its dimensions, with the dimensions in an order."""
+def _read(variable: Any, places: dict[Any, Any], order: tuple[str, ...], metres: float, notes: Notes | None) -> Values:
+    """Values of a variable in its unit, at the given places along its dimensions, with the dimensions in an order."""
     taken = variable.isel({dim: place for dim, place in places.items() if dim in variable.dims})
     extra = [dim for dim in taken.dims if dim not in order]
     if any(taken.sizes[dim] > 1 for dim in extra):
@@ -251,7 +325,9 @@ def _read(variable: Any, places: dict[Any, Any], order: tuple[str, ...]) -> Valu
     taken = taken.squeeze(extra)
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
         values: Values = loaded(taken.transpose(*order)).astype(np.float64)
-        return values * (metres_in(unit_of(variable)) or 1.0)  # a speed's unit is that of its reader
+    if has_flags(variable):
+        return values
+    return without_undeclared(values, codes_of(variable), metres, repr(str(variable.name)), notes)
 
 
 def unit_of(variable: Any) -> str:

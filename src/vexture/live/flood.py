@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -94,6 +95,7 @@ def make(
     `given`, an extent and its credits, is not read.
     """
     from vexture.flood.credits import credits_of
+    from vexture.flood.depth_classes import classes_shown
     from vexture.flood.drawn_ground import drawn_ground
     from vexture.flood.ground import encoded, ground_of
     from vexture.flood.open_water import calmed
@@ -113,7 +115,9 @@ def make(
         return relief_of(extent, asked.relief, asked.crs)
 
     relief = heights() if kept is None else kept.relief(asked, extent, heights)
-    conversion = FloodConversion(frame, asked.hmin, asked.reading, relief, asked.depths, extent.bed)
+    first = extent.steps[0]
+    depths = classes_shown(first, asked.depths)
+    conversion = FloodConversion(frame, asked.hmin, asked.reading, relief, depths, extent.bed)
     picture, told = drawn_ground(extent, relief), [DRAWN]
     if asked.ground is not None:
         picture, told = ground_of(asked.ground, frame, picture, bounds_given=asked.bounds is not None)
@@ -129,7 +133,8 @@ def make(
     flood = Flood(
         title=credits.title or asked.extent.name.partition(".")[0] or PREFIX,
         credits=credits,
-        depths=asked.depths,
+        depths=depths,
+        end=first.classes.ranges[-1].high if first.classes else inf,
         frame=frame,
         ground=encoded(picture),
         relief=relief,

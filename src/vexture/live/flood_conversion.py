@@ -58,7 +58,7 @@ class FloodConversion:
     def step(self, step: Step, surface: WaterSurface, name: str, label: str) -> Shape:
         """Shape of one step that is in this frame, with its surface; `label` is its time as people read it."""
         from vexture.flood.depth_classes import class_drawing
-        from vexture.flood.grids import deepest, depth_png
+        from vexture.flood.depth_pictures import CODE, deepest, depth_png, ranges_as_json, ranks_png
         from vexture.flood.hazard import UNIT, hazard_png
 
         load_kernels()
@@ -66,7 +66,9 @@ class FloodConversion:
         most = None if step.depth is None else deepest(step.depth)
         views = {}
         if step.depth is not None and most:
-            views["depth"] = File(depth_png(step.depth, most), "image/png", ".png")
+            views["depth"] = File(depth_png(step.depth), "image/png", ".png")
+        if step.classes is not None:
+            views["ranks"] = File(ranks_png(step.classes), "image/png", ".png")
         classes = class_drawing(step, self.depths, self.hmin, name)
         if classes is not None:
             views["classes"] = converted(classes, name, CLASS_PARAMETERS, time.perf_counter()).texture
@@ -80,6 +82,8 @@ class FloodConversion:
             "milliseconds": None,  # else two pages of one flood would differ
             "level": level_facts,
             "hazard": None if hazard is None else {"unit": UNIT},
+            "depth": None if step.depth is None else CODE,
+            "ranges": None if step.classes is None else ranges_as_json(step.classes),
             "time": None if step.time is None else step.time.isoformat(),
             "label": label,
             "dry": self._is_dry(step),
