@@ -294,7 +294,8 @@ def read_extent(
         Borders of two polygons that differ by no more than this become one, in parts of the frame's larger side; 3e-6
         by default, 0 leaves all as it is.
     depths : sequence of float
-        Depths in metres above `hmin`: each step also holds the areas under at least so much water. Polygons have none.
+        Depths in metres above `hmin`: each step also holds the areas under at least so much water. Polygons and masks
+        have none. A file of classes of depth has those that begin where its own classes do.
 
     Returns
     -------

@@ -34,9 +34,9 @@ def test_a_page_of_classes_has_ranges_and_no_depths(tmp_path, has_end):
         assert step["facts"]["ranges"] == [[0.1, 0.5], [0.5, 1.0], [1.0, 1.5 if has_end else None]]
         assert (step["facts"]["depth"], step["facts"]["deepest"]) == (None, None)
         assert {"ranks", "classes", "level"} == set(step["views"])
-    first = told["notes"][0]
-    assert first == f"run.nc: it holds classes of depth, from 0.1 to 0.5 m to {'1 to 1.5' if has_end else 'over 1'} m: " \
-        "depths are ranges."  # fmt: skip
+    to = "1 to 1.5" if has_end else "over 1"
+    said = f"run.nc: it holds classes of depth, from 0.1 to 0.5 m to {to} m: depths are ranges."
+    assert told["notes"][0] == said
 
 
 def test_a_page_of_a_mask_has_no_depths_and_says_so(tmp_path):

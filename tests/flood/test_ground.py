@@ -6,6 +6,7 @@ from io import BytesIO
 
 import numpy as np
 import pytest
+import rasterio
 from floods import BOUNDS, CRS, geotiff
 from PIL import Image
 
@@ -172,3 +173,20 @@ def test_distance_to_the_shore_is_exact():
         apart = np.hypot(3.0 * (rows[other] - row), 2.0 * (columns[other] - column)).min()
         assert abs(found[row, column]) == pytest.approx(apart)
         assert (found[row, column] < 0.0) == wet[row, column]
+
+
+def test_heights_are_metres_whatever_their_unit_and_packing(tmp_path):
+    metres = np.tile(np.linspace(8.0, 16.0, 80), (40, 1))
+    dry = Extent(FRAME, (Step(Drawing(())),))
+    in_feet = geotiff(tmp_path / "feet.tif", (metres / 0.3048).astype("f4"))
+    packed = geotiff(tmp_path / "packed.tif", np.rint(100.0 * (metres - 5.0)).astype("i2"))
+    other = geotiff(tmp_path / "other.tif", metres.astype("f4"))
+    for path, facts in ((in_feet, ("ft", 1.0, 0.0)), (packed, ("m", 0.01, 5.0)), (other, ("psu", 1.0, 0.0))):
+        with rasterio.open(path, "r+") as file:
+            (file.units, file.scales, file.offsets) = ((fact,) for fact in facts)
+    for path in (in_feet, packed):
+        relief = relief_of(dry, path)
+        assert relief.still == pytest.approx(8.0, abs=0.02)
+        assert np.ptp(relief.heights) == pytest.approx(8.0, abs=0.02)
+    with pytest.raises(SourceError, match="its values are in 'psu', no unit of length that is known"):
+        relief_of(dry, other)

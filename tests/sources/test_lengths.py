@@ -13,7 +13,39 @@ UNSAID = ["", "1", "-", "n/a", "unknown"]
 METRES = ["m", "M", "metres", "m+NAP", "m NAP", "mNAP", "m (NAVD88)", "m (MSL/NAP)", "m.a.s.l.", "m, to NAP", "m-NAP"]
 US_FEET = ["US survey foot", "us_survey_feet", "U.S. survey foot", "ftUS", "ft-us", "foot_us"]
 SPEEDS = ["m2/s", "m s-1", "m/s", "mm/h", "m per day", "m s"]
-NONE = [*SPEEDS, "m3", "m2", "m^2", "psu", "K", "dB", "days", "minutes", "inHg", "kg", "Pa", "mbar", "month", "ms"]
+TYPESET = ["m²", "m³", "m³ s⁻¹", "m·s⁻¹", "mm hr⁻¹", "m−1"]
+OTHERS = [
+    "m (log10)",
+    "ln(re 1 m)",
+    "dB re 1 m",
+    "%",
+    "m K",
+    "m psu",
+    "m kg",
+    "mm Hg",
+    "m squared",
+    "m cubed",
+    "m year",
+]
+NONE = [
+    *SPEEDS,
+    *TYPESET,
+    *OTHERS,
+    "m3",
+    "m2",
+    "m^2",
+    "psu",
+    "K",
+    "dB",
+    "days",
+    "minutes",
+    "inHg",
+    "kg",
+    "Pa",
+    "mbar",
+    "month",
+    "ms",
+]
 
 
 @pytest.mark.parametrize(

@@ -20,6 +20,7 @@ from vexture.errors import SourceError, reason_of
 from vexture.flood.grids import coverage_over, filled, noise, pixels_to, sampled, shore_distance, size_for
 from vexture.geo.extent import Extent, Frame, Step
 from vexture.geo.gdal import opened_raster
+from vexture.geo.lengths import metres_in
 
 __all__ = ["Relief", "beyond_of", "first_wet", "relief_of", "wet_samples", "widest"]
 
@@ -211,6 +212,13 @@ def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None
             system = raster.crs or crs
             if system is None:
                 raise SourceError("says no reference system; write it into the file as GeoTIFF")
+            unit = (raster.units[0] or "").strip()
+            metres = metres_in(unit)
+            if metres is None:
+                raise SourceError(
+                    f"its values are in {unit!r}, no unit of length that is known; write heights in metres"
+                )
+            scale, offset = metres * raster.scales[0], metres * raster.offsets[0]
             reproject(
                 rasterio.band(raster, 1),
                 heights,
@@ -228,4 +236,4 @@ def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None
         raise SourceError(f"`relief` {path}: {reason_of(error, 200)}; give another file") from None
     if not np.isfinite(heights).any():
         raise SourceError(f"`relief` {path}: has no height within the frame; give one that covers it")
-    return heights.astype(np.float64)
+    return heights.astype(np.float64) * scale + offset

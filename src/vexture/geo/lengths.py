@@ -24,9 +24,12 @@ LENGTHS: Final = {
 
 BY_LENGTH: Final = sorted(LENGTHS, key=len, reverse=True)
 
+TIMES: Final = r"s|sec|seconds?|h|hr|hours?|d|days?|weeks?|mo|months?|yr|years?"
+OTHERS: Final = r"m|k|g|kg|pa|rad|psu|hg|fraction|sq|squared?|cubed?|cubic"
 NO_DATUM: Final = re.compile(
-    r"/|\^|\*|\bper\b|-\d|(?<!\.)\b(s|sec|seconds?|h|hr|hours?|d|days?)\b(?!\.)", re.IGNORECASE
+    rf"/|\^|\*|\bper\b|-\d|(?<!\.)\b({TIMES})\b(?!\.)|^[\s.·]*({OTHERS})[\s\d]*$", re.IGNORECASE
 )
+LOGARITHM: Final = re.compile(r"\b(log|log10|ln|lg|db|decibels?)\b", re.IGNORECASE)
 DATUM: Final = re.compile(r"[\s(+,;:.\-]*[^\d\s].*|")
 """What may stand behind a unit: the datum of heights, and nothing that makes a speed or an area of a length."""
 
@@ -35,6 +38,10 @@ NO_UNIT: Final = frozenset({"", "1", "-", "n/a", "na", "none", "unknown"})
 
 SCALED: Final = re.compile(r"(\d*\.?\d+(?:[eE][+-]?\d+)?) ?\*? ?([A-Za-z].*)")
 """A number of units, as UDUNITS has it."""
+
+
+RAISED: Final = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
+"""Exponents, and a minus sign, as they may be typeset."""
 
 
 def metres_in(unit: str) -> float | None:
@@ -46,10 +53,14 @@ def metres_in(unit: str) -> float | None:
     (0.01, 0.3048, 1.0, 1.0, 0.01)
     >>> metres_in("m s-1"), metres_in("m3"), metres_in("psu"), metres_in("minutes")
     (None, None, None, None)
+    >>> metres_in("m²"), metres_in("m s⁻¹"), metres_in("m (log10)"), metres_in("mm Hg"), metres_in("m squared")
+    (None, None, None, None, None)
     """
-    plain = " ".join(re.sub(r"[_\-]+(?=[A-Za-z])", " ", unit).split())
+    plain = " ".join(re.sub(r"[_\-]+(?=[A-Za-z])", " ", unit.translate(RAISED)).split())
     if plain.lower() in NO_UNIT:
         return 1.0
+    if LOGARITHM.search(plain):
+        return None
     if scaled := SCALED.fullmatch(plain):
         inner = metres_in(scaled[2])
         return None if inner is None else float(scaled[1]) * inner
