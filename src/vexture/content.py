@@ -17,6 +17,7 @@ from vexture.errors import EXPECTED, DeviceError, LimitError, ParameterError, So
 __all__ = [
     "BEFORE_MARKUP",
     "BYTE_ORDER_MARK",
+    "ESRI_GRID",
     "FLATGEOBUF",
     "LARGEST_FILE",
     "NETCDF",
@@ -56,6 +57,9 @@ TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
 """First bytes of TIFF and BigTIFF, and of NetCDF of all kinds."""
 
+ESRI_GRID: Final = (b"ncols", b"nrows", b"xll", b"yll", b"cellsize")
+"""First bytes of Esri's ASCII grid, in lower case; those of its .flt are numbers."""
+
 PNG: Final = b"\x89PNG"
 PICTURES: Final = (PNG, b"\xff\xd8\xff", b"GIF87a", b"GIF89a")
 """First bytes of PNG, JPEG and GIF; `kind_of` knows WebP and BMP, whose marks have gaps."""
@@ -65,7 +69,7 @@ PICTURE_FORMATS: Final = ("PNG", "JPEG", "WEBP", "GIF", "BMP")
 
 READABLE: Final = (
     "give an SVG, GeoJSON, a picture (PNG, JPEG, WebP, GIF, BMP) or geographic data "
-    "(GeoPackage, FlatGeobuf, zipped shapefile, GeoTIFF, NetCDF)"
+    "(GeoPackage, FlatGeobuf, zipped shapefile, GeoTIFF, NetCDF, Esri .asc and .flt)"
 )
 """Remedy for a file of no kind that can be read."""
 
@@ -91,7 +95,7 @@ SUFFIXES: Final[dict[FileKind, tuple[str, ...]]] = {
     FileKind.TEXTURE: (".ktx2",),
     FileKind.GEOJSON: (".geojson", ".json"),
     FileKind.AREAS: (".gpkg", ".fgb", ".shp"),
-    FileKind.DEPTHS: (".tif", ".tiff", ".nc", ".nc4", ".cdf"),
+    FileKind.DEPTHS: (".tif", ".tiff", ".nc", ".nc4", ".cdf", ".asc", ".flt"),
 }
 """Suffixes for files of unknown content: the reader that they name reports best what is wrong with them."""
 
@@ -115,7 +119,7 @@ def kind_of(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
         return FileKind.PICTURE
     if start.startswith((FLATGEOBUF, SHAPEFILE, SQLITE, ZIP)):
         return FileKind.AREAS
-    if start.startswith((*TIFF, *NETCDF)):
+    if start.startswith((*TIFF, *NETCDF)) or start.lstrip().lower().startswith(ESRI_GRID):
         return FileKind.DEPTHS
     first = start.removeprefix(BYTE_ORDER_MARK).lstrip()[:1]
     if first == b"{":

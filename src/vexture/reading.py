@@ -271,8 +271,8 @@ def read_extent(
     Parameters
     ----------
     source : path, bytes, Dataset or DataArray
-        Polygons (GeoJSON, GeoPackage, FlatGeobuf, shapefile) or depths (GeoTIFF, NetCDF: on rows and columns, a
-        curvilinear grid or a mesh); or depths as xarray holds them, read one step at a time.
+        Polygons (GeoJSON, GeoPackage, FlatGeobuf, shapefile) or depths (GeoTIFF, Esri's .asc and .flt, NetCDF: on
+        rows and columns, a curvilinear grid or a mesh); or depths as xarray holds them, read one step at a time.
     file_name : str, optional
         Name of the file and of the drawings; by default the path.
     frame : Frame, optional

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.content import NETCDF, TIFF, start_of, unpacked
+from vexture.content import ESRI_GRID, NETCDF, TIFF, start_of, unpacked
 from vexture.drawing import Drawing
 from vexture.errors import ParameterError, SourceError
 from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period, refuse_other_units
@@ -170,7 +170,7 @@ def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Note
 
         with opened(source, time_dim) as dataset:
             yield _series_of(dataset, time_dim, variable, notes)
-    elif start.startswith(TIFF):
+    elif start.startswith(TIFF) or _is_esri_grid(start, source):
         from vexture.geo.geotiff import open_geotiff
 
         with open_geotiff(source, time_dim, variable, notes) as series:
@@ -189,7 +189,15 @@ def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Note
     elif not start:
         raise SourceError("it cannot be opened or is empty; choose another file")
     else:
-        raise SourceError("it is neither GeoTIFF nor NetCDF; write it as one of them")
+        raise SourceError("it is none of GeoTIFF, NetCDF and grids of Esri (.asc, .flt); write it as one of them")
+
+
+def _is_esri_grid(start: bytes, source: Any) -> bool:
+    """Whether a file is a grid of Esri: text, or numbers that only its name tells from those of other files."""
+    if start.lstrip().lower().startswith(ESRI_GRID):
+        return True
+    named = "" if isinstance(source, bytes) else Path(source).suffix.lower()
+    return bool(start) and named == ".flt" and not start.startswith(NETCDF)
 
 
 def _series_of(dataset: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Series | MeshSeries:

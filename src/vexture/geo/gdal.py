@@ -11,7 +11,7 @@ from pathlib import Path
 from threading import RLock
 from typing import TYPE_CHECKING, Final
 
-from vexture.content import NETCDF, TIFF, start_of
+from vexture.content import ESRI_GRID, NETCDF, TIFF, start_of
 from vexture.errors import DeviceError, SourceError, printable, reason_of, shortened
 from vexture.geo.damage import damaged_netcdf
 from vexture.geo.hdf5 import refuse_links_of_netcdf
@@ -29,10 +29,13 @@ CACHE: Final = 128 * 2**20
 GEOTIFF: Final = "GTiff"
 NETCDF_DRIVER: Final = "netCDF"
 OTHERS: Final[Mapping[str, tuple[bytes, ...]]] = {
-    "AAIGrid": (b"ncols", b"nrows", b"xll", b"yll", b"cellsize"),
+    "AAIGrid": ESRI_GRID,
     NETCDF_DRIVER: NETCDF,
 }
 """Formats of rasters, none of which is a list of other files, and their first bytes in lower case."""
+
+FLOATS: Final = ("EHdr", ".flt")
+"""The format whose file has nothing but numbers, and its suffix; the .hdr beside it leads nowhere."""
 
 VECTORS: Final = ("ESRI Shapefile", "FlatGeobuf", "GPKG", "GeoJSON", "GeoJSONSeq", "TopoJSON")
 """Formats of features. GDAL knows 60 more by words anywhere at the start of a file: some are lists of other files,
@@ -86,7 +89,7 @@ def gdal(**options: str) -> Iterator[None]:
 
 @contextmanager
 def opened_raster(source: str | os.PathLike[str] | bytes, *, others: bool = False) -> Iterator["DatasetReader"]:
-    """Open a GeoTIFF or, with `others`, a grid of text or of NetCDF, which leads to no other file.
+    """Open a GeoTIFF or, with `others`, a grid of Esri (.asc, .flt) or of NetCDF, which leads to no other file.
 
     Raises a `SourceError` that names the link if it does, and what rasterio raises if it cannot be opened.
     """
@@ -96,6 +99,9 @@ def opened_raster(source: str | os.PathLike[str] | bytes, *, others: bool = Fals
     start = start_of(source).lstrip().lower()
     known = (name for name, starts in OTHERS.items() if others and start.startswith(tuple(map(bytes.lower, starts))))
     driver = next(known, GEOTIFF)
+    if others and driver == GEOTIFF and not start.startswith(tuple(map(bytes.lower, TIFF))):
+        named = "" if isinstance(source, bytes) else Path(source).suffix.lower()
+        driver = FLOATS[0] if named == FLOATS[1] else driver
     if not isinstance(source, bytes):
         path = Path(source).absolute()  # which is no address, whatever its name
         refuse_links_beside(path)

@@ -1,13 +1,15 @@
-"""Depths in a GeoTIFF."""
+"""Depths in a GeoTIFF, or in a grid of Esri."""
 
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from datetime import datetime
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from vexture.content import TIFF, start_of
 from vexture.errors import ParameterError, SourceError, reason_of
 from vexture.geo.gdal import opened_raster
 from vexture.geo.lengths import NO_UNIT, metres_in
@@ -37,9 +39,14 @@ def open_geotiff(
 
     with ExitStack() as stack:
         try:
-            file = stack.enter_context(opened_raster(source))
+            file = stack.enter_context(opened_raster(source, others=True))
         except (RasterioError, OSError) as error:
-            raise SourceError(f"it cannot be read as GeoTIFF ({reason_of(error)}); write it again") from None
+            what = "GeoTIFF" if start_of(source).startswith(TIFF) else "a grid of Esri"
+            if not isinstance(source, bytes) and Path(source).suffix.lower() == ".flt":
+                raise SourceError(
+                    f"it cannot be read as {what}; its header, a .hdr of its name, must be beside it"
+                ) from None
+            raise SourceError(f"it cannot be read as {what} ({reason_of(error)}); write it again") from None
         yield _series(file, time_dim, variable, notes)
 
 
