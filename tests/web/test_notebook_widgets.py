@@ -278,7 +278,7 @@ def test_a_map_tells_of_what_is_hovered_and_selects_what_is_clicked(notebook: An
     purple, yellow = [68, 1, 84], [253, 231, 37]
     drawn(notebook, stage, (100, 120), purple)
     drawn(notebook, stage, (300, 120), yellow)
-    assert stage.locator(".vexture-legend").inner_text().split("\n") == ["yield", "4 - 6", "7 - 9"]
+    assert stage.locator(".vexture-legend").inner_text().split("\n") == ["yield", "4 – 6", "7 – 9"]
     notebook.page.mouse.move(1, 1)
     stage.locator(".vexture-tip").wait_for(state="hidden")
     stage.hover(position={"x": 100, "y": 120})

@@ -2,13 +2,14 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.cartography.measures import BREAKS, Measure, breaks_of, distinct, measured
 from vexture.errors import DeviceError, ParameterError
 from vexture.geo.frames import texts_of
 from vexture.notes import Notes
@@ -16,7 +17,7 @@ from vexture.notes import Notes
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["DEFAULT_CLASSES", "NO_DATA", "Scale", "colours_of", "hex_of", "rgba_of"]
+__all__ = ["DEFAULT_CLASSES", "NO_DATA", "Scale", "check_scale", "colours_of", "hex_of", "rgba_of"]
 
 DEFAULT_CLASSES: Final = 5
 MOST_CLASSES: Final = 64
@@ -40,13 +41,16 @@ GREYS: Final = ("#777777", "#a8a8a8", "#404040")
 STOPS: Final = 9
 """Colours in the legend of a continuous scale."""
 
-DIGITS: Final = range(6, 13)
-"""Significant digits of numbers in a legend: as few as tell them apart; what more would tell apart is noise."""
+RANGE: Final = " \N{EN DASH} "
+"""Between the ends of a class."""
 
-MOST_WHOLE: Final = 1e15
-"""Numbers below this are written without an exponent, and whole ones are known to the last digit."""
+NAMED: Final = ("quantiles", "equal", "continuous")
+"""Scales of numbers and of times."""
 
-KINDS: Final = "give quantiles, equal, continuous, categories or rising breaks such as 10,20,50"
+KINDS: Final = f"give {', '.join(NAMED)}, categories or {BREAKS}"
+
+TRIED: Final = (0.0, 1.0, None)
+"""Values that any scale of numbers can have."""
 
 Rgba = NDArray[np.float64]
 
@@ -60,8 +64,9 @@ class Scale:
     column : str
     kind : str
         ``quantiles`` or ``equal`` (classes), ``continuous``, ``categories``, or the inner breaks of classes, such as
-        ``10,20,50`` or a list; ``auto`` is ``categories`` of text and truth values, ``quantiles`` of numbers. The order
-        of categories is that of a column that has its own, such as a `pandas.Categorical`, or else they rise.
+        ``10,20,50``, ``2001-01-01,2011-01-01`` or a list; ``auto`` is ``categories`` of text, truth values and as few
+        dates or times as there are classes, ``quantiles`` of numbers and of more dates. The order of categories is that
+        of a column that has its own, such as a `pandas.Categorical`, or else they rise.
     palette : str, optional
         Name of a palette of cmap; colour-blind-safe by default.
     classes : int
@@ -89,33 +94,32 @@ class Scale:
 
 def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba, dict[str, Any]]:
     """Colour of each row, (f, 4), not premultiplied, and the legend, ready for JSON."""
-    import pyarrow as pa
-
     if scale.column not in table.column_names:
         raise ParameterError(
             f"it has no column {scale.column!r} for `color`; there are: {', '.join(table.column_names)}"
         )
     column = table.column(scale.column)
-    kind_of = column.type.value_type if pa.types.is_dictionary(column.type) else column.type
-    is_number = any(test(kind_of) for test in (pa.types.is_integer, pa.types.is_floating, pa.types.is_decimal))
-    kind = scale.kind if scale.kind != "auto" else "quantiles" if is_number else "categories"
+    measure, kind = measured(column), scale.kind
+    if kind == "auto":
+        few = measure is None or (measure.unit != "" and len(np.unique(_known(measure))) <= scale.classes)
+        kind = "categories" if few else "quantiles"
     if kind == "categories":
         values = column.to_pylist()
         names = texts_of(values)
         rgba, entries = _categories(names, _order(column, dict(zip(names, values, strict=True))), scale, notes)
     else:
-        breaks = None if kind in ("quantiles", "equal", "continuous") else _breaks(kind)
-        if not is_number and column.null_count < len(column):
+        breaks = None if kind in NAMED else breaks_of(kind, None if measure is None else measure.unit)
+        if measure is None and column.null_count < len(column):
             raise ParameterError(f"`color` {scale.column!r} holds {column.type}, not numbers; give `scale` categories")
-        values = np.asarray(column.cast(kind_of).cast(pa.float64(), safe=False).to_numpy(), np.float64)
-        infinite = int(np.isinf(values).sum())
+        measure = measure or Measure(np.full(len(column), np.nan))
+        infinite = int(np.isinf(measure.values).sum())
         notes.remark(f"a value of {scale.column!r} is infinite, and has the colour of no data", infinite)
-        if not np.isfinite(values).any():
-            rgba, entries = np.full((len(values), 4), np.nan), []
+        if not len(_known(measure)):
+            rgba, entries = np.full((len(column), 4), np.nan), []
         elif kind == "continuous":
-            rgba, entries = _continuous(values, scale)
+            rgba, entries = _continuous(measure, scale)
         else:
-            rgba, entries = _classes(values, kind, breaks, scale)
+            rgba, entries = _classes(measure, kind, breaks, scale)
     missing = np.isnan(rgba[:, 0])
     if len(missing) and missing.all():
         notes.remark(f"no feature has a value in {scale.column!r}, so all have the colour of no data")
@@ -125,6 +129,19 @@ def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba
     if missing.any():
         legend["no_data"] = {"color": hex_of(rgba_of(scale.no_data, "no_data")), "count": int(missing.sum())}
     return rgba, legend
+
+
+def check_scale(scale: Scale) -> None:
+    """Raise a `ParameterError` if no column could have a scale: it may be known before any column is."""
+    import pyarrow as pa
+
+    if scale.kind not in ("auto", "categories", *NAMED) and len(breaks_of(scale.kind)):
+        scale = replace(scale, kind="quantiles")
+    colours_of(pa.table({scale.column: TRIED}), scale, Notes())
+
+
+def _known(measure: Measure) -> NDArray[np.float64]:
+    return measure.values[np.isfinite(measure.values)]
 
 
 def rgba_of(text: str, parameter: str) -> Rgba:
@@ -171,24 +188,13 @@ def _sampled(palette: Any, at: NDArray[np.float64]) -> Rgba:
     return np.clip(np.asarray(palette(at), np.float64).reshape(-1, 4), 0.0, 1.0)
 
 
-def _breaks(text: str) -> NDArray[np.float64]:
-    """Inner breaks of classes."""
-    try:
-        breaks = np.array([float(part) for part in text.split(",")])
-    except ValueError:
-        breaks = np.empty(0)
-    if not len(breaks) or not np.isfinite(breaks).all() or (np.diff(breaks) <= 0).any():
-        raise ParameterError(f"`scale` is {text!r}; {KINDS}")
-    return breaks
-
-
 def _classes(
-    values: NDArray[np.float64], kind: str, breaks: NDArray[np.float64] | None, scale: Scale
+    measure: Measure, kind: str, breaks: NDArray[np.float64] | None, scale: Scale
 ) -> tuple[Rgba, list[dict[str, Any]]]:
     """Colours of classes, each from a break up to, but without, the next."""
-    known = values[np.isfinite(values)]
-    are_whole = breaks is None and _are_whole(known)
-    breaks = _told_apart(_found_breaks(known, kind, scale.classes) if breaks is None else breaks)
+    values, known = measure.values, _known(measure)
+    are_whole = breaks is None and measure.are_whole
+    breaks = distinct(_found_breaks(measure, kind, scale.classes) if breaks is None else breaks)
     colours = _sampled(_palette(scale.palette, SEQUENTIAL), np.linspace(0.0, 1.0, len(breaks) + 1))
     number = np.searchsorted(breaks, values, side="right")
     rgba = colours[number]
@@ -196,63 +202,43 @@ def _classes(
     edges = [float(min(known.min(), breaks[0])) if len(breaks) else float(known.min()), *breaks.tolist()]
     edges.append(float(max(known.max(), edges[-1])))
     counts = np.bincount(number[np.isfinite(values)], minlength=len(colours))
-    labels = _of_whole(edges) if are_whole else _ranges(edges, counts)
+    labels = _of_whole(measure, edges) if are_whole else _ranges(measure, edges, counts)
+    told = [measure.told(edge) for edge in edges]
     entries = [
         {"color": hex_of(colour), "label": label, "from": low, "to": high, "count": int(count)}
-        for colour, label, (low, high), count in zip(colours, labels, pairwise(edges), counts, strict=True)
+        for colour, label, (low, high), count in zip(colours, labels, pairwise(told), counts, strict=True)
     ]
     return rgba, entries
 
 
-def _found_breaks(known: NDArray[np.float64], kind: str, classes: int) -> NDArray[np.float64]:
+def _found_breaks(measure: Measure, kind: str, classes: int) -> NDArray[np.float64]:
     """Inner breaks of quantiles, none of which holds nothing, or of equal steps; whole ones of whole numbers."""
-    parts = np.linspace(0.0, 1.0, classes + 1)[1:-1]
+    parts, known = np.linspace(0.0, 1.0, classes + 1)[1:-1], _known(measure)
     low, high = known.min(), known.max()
     breaks = np.quantile(known, parts) if kind == "quantiles" else low + (high - low) * parts
     above = known[known > low]
     if kind == "quantiles" and len(above):  # many that are equal to the least are a class of their own
         breaks = np.where(breaks <= low, above.min(), breaks)
-    breaks = np.unique(np.ceil(breaks.round(6)) if _are_whole(known) else breaks)
-    breaks = _told_apart(np.append(low, breaks))[1:]
+    breaks = np.unique(np.ceil(breaks.round(6)) if measure.are_whole else breaks)
+    breaks = distinct(np.append(low, breaks))[1:]
     if kind == "quantiles":
         _, first = np.unique(np.searchsorted(np.sort(known), breaks), return_index=True)
         breaks = breaks[first]
     return breaks
 
 
-def _are_whole(known: NDArray[np.float64]) -> bool:
-    """Whether numbers count things or years; in pandas they are floats where one is missing."""
-    return bool((known == np.rint(known)).all() and np.abs(known).max() < MOST_WHOLE)
-
-
-def _told_apart(rising: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The first of numbers that read the same."""
-    _, first = np.unique([_text(value, DIGITS[-1]) for value in rising.tolist()], return_index=True)
-    return rising[np.sort(first)]
-
-
-def _text(number: float, digits: int) -> str:
-    """A number in so many significant digits; what is before the point is there in full."""
-    return f"{number:.0f}" if 10**digits <= abs(number) < MOST_WHOLE else f"{number:.{digits}g}"
-
-
-def _texts(numbers: list[float]) -> list[str]:
-    """Numbers in as few digits as tell them apart."""
-    most = len({_text(number, DIGITS[-1]) for number in numbers})
-    tried = ([_text(number, digits) for number in numbers] for digits in DIGITS)
-    return next(texts for texts in tried if len(set(texts)) == most)
-
-
-def _of_whole(edges: list[float]) -> list[str]:
+def _of_whole(measure: Measure, edges: list[float]) -> list[str]:
     """Labels of classes of whole numbers, of which only the last has its upper end."""
-    ends = [*(above - 1 for above in edges[1:-1]), edges[-1]]
-    return [f"{low:.0f}" if low >= high else f"{low:.0f} - {high:.0f}" for low, high in zip(edges, ends, strict=False)]
+    lows, highs = edges[:-1], [*(above - 1 for above in edges[1:-1]), edges[-1]]
+    ends = measure.texts([*lows, *highs])
+    pairs = zip(lows, highs, ends[: len(lows)], ends[len(lows) :], strict=True)
+    return [first if low >= high else f"{first}{RANGE}{last}" for low, high, first, last in pairs]
 
 
-def _ranges(edges: list[float], counts: NDArray[np.int64]) -> list[str]:
+def _ranges(measure: Measure, edges: list[float], counts: NDArray[np.int64]) -> list[str]:
     """Labels of classes; beyond the data, the first and the last have one end."""
-    pairs = list(pairwise(_texts(edges)))
-    labels = [low if low == high else f"{low} - {high}" for low, high in pairs]
+    pairs = list(pairwise(measure.texts(edges)))
+    labels = [low if low == high else f"{low}{RANGE}{high}" for low, high in pairs]
     for place, sign in ((0, "<"), (-1, ">=")):
         low, high = pairs[place]
         if low == high and not counts[place]:
@@ -260,19 +246,19 @@ def _ranges(edges: list[float], counts: NDArray[np.int64]) -> list[str]:
     return labels
 
 
-def _continuous(values: NDArray[np.float64], scale: Scale) -> tuple[Rgba, list[dict[str, Any]]]:
-    known = values[np.isfinite(values)]
+def _continuous(measure: Measure, scale: Scale) -> tuple[Rgba, list[dict[str, Any]]]:
+    values, known = measure.values, _known(measure)
     low, high = float(known.min()), float(known.max())
     palette = _palette(scale.palette, SEQUENTIAL)
     part = np.where(np.isfinite(values), (values - low) / ((high - low) or 1.0), 0.0)
     rgba = _sampled(palette, part)
     rgba[~np.isfinite(values)] = np.nan
     at = np.linspace(low, high, STOPS)
-    held: list[float] = (np.unique(np.rint(at)) if _are_whole(known) else at).tolist()
-    shown = {label: at for at, label in reversed(list(enumerate(_texts(held))))}  # the first of each
+    held: list[float] = (np.unique(np.rint(at)) if measure.are_whole else at).tolist()
+    shown = {label: at for at, label in reversed(list(enumerate(measure.texts(held))))}  # the first of each
     colours = _sampled(palette, (np.array(held) - low) / ((high - low) or 1.0))
     return rgba, [
-        {"color": hex_of(colours[at]), "label": label, "value": held[at]}
+        {"color": hex_of(colours[at]), "label": label, "value": measure.told(held[at])}
         for label, at in sorted(shown.items(), key=lambda item: item[1])
     ]
 

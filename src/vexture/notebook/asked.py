@@ -4,22 +4,19 @@ import os
 from collections.abc import Iterable
 from typing import Any, Final
 
-from vexture.cartography import Scale, Times
-from vexture.cartography.colours import colours_of
+from vexture.cartography import Times
 from vexture.content import renaming
 from vexture.errors import ParameterError
 from vexture.geo.snap import MOST_SNAP
 from vexture.notebook.picture import MARGIN
 from vexture.notebook.traits import pixels, told
 from vexture.notebook.widget import HEIGHT, PICTURE_WIDTH
-from vexture.notes import Notes
 
 __all__ = [
     "OF_LAYER",
     "OF_MAP",
     "OF_SCALE",
     "OF_STEPS",
-    "check_scale",
     "check_source",
     "checked",
     "column_of",
@@ -79,13 +76,6 @@ def checked(options: dict[str, Any], column: Any, legend: Any, *, has_colours: b
 
 def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def check_scale(scale: Scale) -> None:
-    """Refuse a scale that no column could have: a map may be shown without one at first."""
-    import pyarrow as pa
-
-    colours_of(pa.table({scale.column: [0.0, 1.0, None]}), scale, Notes())
 
 
 def check_source(source: Any) -> None:

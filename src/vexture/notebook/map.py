@@ -87,13 +87,14 @@ def map(
     >>> shown = map(fields, "yield", id="id", crs="EPSG:28992", classes=2)
     >>> shown.selected = "b"
     >>> [entry["label"] for entry in shown.legend["entries"]]
-    ['4 - 6', '7 - 9']
+    ['4 – 6', '7 – 9']
     """
     try:
         from vexture.notebook.map_widget import MapWidget
     except ModuleNotFoundError as error:
         raise DeviceError(f"map needs the package {error.name}: pip install 'vexture[notebook,map]'") from None
     from vexture.cartography import MapLayer, Scale
+    from vexture.cartography.colours import check_scale
     from vexture.cartography.convert import converted
     from vexture.cartography.place import MERCATOR
     from vexture.cartography.prepare import prepared
@@ -102,7 +103,6 @@ def map(
         OF_LAYER,
         OF_SCALE,
         OF_STEPS,
-        check_scale,
         check_source,
         checked,
         column_of,

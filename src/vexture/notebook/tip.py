@@ -82,7 +82,7 @@ def _chosen(names: Sequence[str], tooltip: Any) -> list[str] | None:
 
 
 def shown(value: Any) -> str:
-    """A value in a tip: a number is written as in legends, without marks of thousands, as it may be a year or a code.
+    """A value in a tip: a number has no marks of thousands, which legends have, as it may be a year or a code.
 
     Examples
     --------

@@ -4,12 +4,12 @@ from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, Final
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.cartography.colours import Scale, colours_of, rgba_of
+from vexture.cartography.colours import Scale, check_scale, colours_of, rgba_of
 from vexture.errors import ParameterError
 from vexture.geo.features import ID
 from vexture.geo.tables import TABLES, cast, with_legends, write_batches
@@ -23,9 +23,6 @@ __all__ = ["Attributes", "Look", "paints_of", "write_table"]
 
 ROWS, PAINTS = "attributes.arrow", "paints.npy"
 """Files in the folder of an unfinished pyramid."""
-
-TRIED: Final = (0.0, 1.0)
-"""Values of a column by which a scale is tried before the source is read."""
 
 
 @dataclass(frozen=True)
@@ -59,9 +56,7 @@ class Look:
         if self.fill is not None:
             rgba_of(self.fill, "fill")
         if self.color is not None:
-            import pyarrow as pa
-
-            colours_of(pa.table({self.color.column: TRIED}), self.color, Notes())
+            check_scale(self.color)
 
     @property
     def has_table(self) -> bool:
