@@ -3,11 +3,14 @@
 import json
 
 import geopandas
+import pandas as pd
+import pyogrio
 import pytest
 import shapely
 from click.testing import CliRunner
 
 from vexture.cartography import MapLayer, convert_map
+from vexture.cartography.place import placed
 from vexture.cli.main import main
 from vexture.errors import ParameterError, SourceError
 from vexture.geo.feature_tables import Choice, chunks_of
@@ -67,13 +70,44 @@ def test_arcs_that_a_topology_does_not_have_are_said():
     assert [chunk.damaged for chunk in later] == [0]
 
 
+@pytest.mark.parametrize("kind", ["lines", "points"])
+def test_metres_beside_places_of_zero_are_no_degrees(kind):
+    places = [(0, 0), (0, 0), (84000, 447000), (85000, 448000), (86000, 448000)]
+    shapes = [shapely.Point(place) for place in places]
+    if kind == "lines":
+        shapes = [shapely.LineString([place, (place[0] + 1, place[1])]) for place in places]
+    with pytest.raises(SourceError, match=r"0,0,8600\d,448000 \(EPSG:4326\) cannot be longitudes.* `source_crs` EPSG"):
+        convert_map([MapLayer(frame(shapes, "EPSG:4326"))])
+
+
+def test_a_place_that_is_none_is_told_by_the_feature_and_its_coordinates():
+    points = frame([shapely.Point(4, 52), shapely.Point(84000, 447000), shapely.Point(5, 53)], "EPSG:4326")
+    notes = Notes()
+    placed(read_features(points, notes=notes), "EPSG:3857", notes)
+    assert [str(note) for note in notes.listed] == [
+        "point beyond the map",
+        "a place such as 84000,447000 is no longitude and latitude; correct it, or name the system that all are in by "
+        "`source_crs` (1: 1)",
+    ]
+
+
+def test_a_file_without_geometries_says_so_whether_or_not_it_names_a_system(tmp_path):
+    place = tmp_path / "names.fgb"
+    pyogrio.write_dataframe(pd.DataFrame({"name": ["a", "b"]}), place, SPATIAL_INDEX="NO")
+    with pytest.raises(SourceError, match="none of its features has a geometry that can be drawn"):
+        convert_map([MapLayer(place)])
+    notes = Notes()
+    assert len(read_features(place, notes=notes)) == 2
+    assert [str(note) for note in notes.listed] == ["feature without geometry (2: 0, 1)"]
+
+
 def test_metres_that_are_said_to_be_degrees_name_the_option_of_the_source():
     for shape in (shapely.box(1000, 1000, 2000, 2000), shapely.LineString([(1000, 1000), (2000, 2000)])):
         far = frame([shape, shapely.Point(84000, 447000)], "EPSG:4326")
         with pytest.raises(SourceError, match=r"cannot be longitudes and latitudes; name .* by `source_crs` EPSG"):
             convert_map([MapLayer(far)])
     some = frame([shapely.Point(84000, 447000), shapely.Point(4, 52), shapely.Point(5, 52)], "EPSG:4326")
-    (lost,) = map(str, convert_map([MapLayer(some)]).conversion.notes)
+    lost = [str(note) for note in convert_map([MapLayer(some)]).conversion.notes]
     assert "point beyond the map" in lost
     done = convert_map([MapLayer(squares(), crs="EPSG:4326")], crs=METRES)
     (said,) = map(str, done.conversion.notes)

@@ -9,7 +9,7 @@ import shapely
 
 from vexture.errors import LimitError
 from vexture.geo import curves
-from vexture.geo.curves import straightened
+from vexture.geo.curves import BROKEN, straightened
 from vexture.geo.features import read_features
 from vexture.geo.vectors import read_areas
 from vexture.notes import Notes
@@ -106,7 +106,9 @@ def test_damaged_curves_are_left_out_and_named():
         deep = parted(12, deep)
     many = pack("<BII", 1, 10, 2**31)
     shapes = straightened(np.array([cut, even, deep, many, CAP, None, pack("<BI", 1, 8)], object))
-    assert [shape for shape in shapes if shape] == [shapes[4]]
+    assert [place for place, shape in enumerate(shapes) if shape == BROKEN] == [0, 1, 2, 3, 6]
+    assert shapely.from_wkb(shapes[4]).is_valid
+    assert shapely.from_wkb(BROKEN, on_invalid="fix") is None
 
 
 def test_chords_are_limited(monkeypatch):

@@ -25,7 +25,16 @@ from vexture.cartography.domain import (
 )
 from vexture.cartography.lines import continuous, lines_changed, lines_in_box, there_and_back, thicker, way_there
 from vexture.errors import SourceError
-from vexture.geo.crs import period, refuse_metres, same_system, shown_bounds, shown_system, system, transformed
+from vexture.geo.crs import (
+    are_degrees,
+    period,
+    refuse_metres,
+    same_system,
+    shown_bounds,
+    shown_system,
+    system,
+    transformed,
+)
 from vexture.geo.extent import Bounds
 from vexture.geo.features import Features, Lines, Points
 from vexture.geo.longitudes import jumping, unwrapped
@@ -65,8 +74,8 @@ def placed(features: Features, crs: str, notes: Notes) -> Features:
     """Features in another reference system; what has no place there is cut off or left out, with a note."""
     rings, turn = features.rings, period(features.crs)
     if turn:
-        for marks in (features.lines.points, features.points.points):
-            _refuse_metres_of_marks(marks, features.crs)
+        for marks in (features.lines, features.points):
+            _refuse_metres_of_marks(marks, features, notes)
     if turn and len(rings.ends):
         what = f"the coordinates {shown_bounds(rings.box, features.crs)}"
         refuse_metres(rings.points, features.crs, what, name="source_crs")
@@ -85,12 +94,22 @@ def placed(features: Features, crs: str, notes: Notes) -> Features:
     return _projected(features, crs, notes)
 
 
-def _refuse_metres_of_marks(points: NDArray[np.float64], crs: str) -> None:
-    """Refuse lines or points none of which can be in degrees; of others, those that cannot are left out later."""
-    if len(points):
+def _refuse_metres_of_marks(marks: Lines | Points, features: Features, notes: Notes) -> None:
+    """Refuse lines or points most of which cannot be in degrees; tell of others that cannot, which have no place."""
+    points = marks.points
+    wrong = ~are_degrees(points, features.crs)
+    if not wrong.any():
+        return
+    first = points[wrong][:1]
+    if wrong.sum() > len(points) / 2:
         box = (*points.min(axis=0).tolist(), *points.max(axis=0).tolist())
-        nearest = points[np.abs(points).max(axis=1).argmin()]
-        refuse_metres(nearest[None], crs, f"the coordinates {shown_bounds(box, crs)}", name="source_crs")
+        refuse_metres(first, features.crs, f"the coordinates {shown_bounds(box, features.crs)}", name="source_crs")
+    owner = marks.feature
+    if isinstance(marks, Lines):
+        owner = owner[np.searchsorted(marks.ends, np.arange(len(points)), side="right")]
+    said = f"a place such as {first[0, 0]:.10g},{first[0, 1]:.10g} is no longitude and latitude"
+    remedy = "correct it, or name the system that all are in by `source_crs`"
+    notes.features("remark", f"{said}; {remedy}", features.ids[np.unique(owner[wrong])])
 
 
 def _mover(start: str, end: str, before: Move = lambda points: points) -> Move:

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = [
     "UNPLACED",
     "MissingReferenceError",
+    "are_degrees",
     "chosen_crs",
     "frame_around",
     "frame_of",
@@ -170,15 +171,26 @@ def shown_system(crs: str) -> str:
     return crs if len(crs) <= 40 else system(crs).name
 
 
+def are_degrees(points: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
+    """Whether points, (n, 2), can be longitudes and latitudes, if those of the system are; others always can.
+
+    Examples
+    --------
+    >>> are_degrees(np.array([[190.0, 52.0], [84000.0, 447000.0]]), "EPSG:4326").tolist()
+    [True, False]
+    """
+    found = system(crs)
+    if not found.is_geographic:
+        return np.ones(len(points), np.bool_)
+    far = np.abs(points) * found.axis_info[0].unit_conversion_factor > (LONGITUDE, LATITUDE)
+    return np.asarray(~far.any(axis=1))
+
+
 def refuse_metres(
     points: NDArray[np.float64], crs: str, what: str, error: type[Exception] = SourceError, *, name: str = "crs"
 ) -> None:
     """Refuse coordinates that cannot be degrees in a geographic system; `name` is the parameter for another one."""
-    found = system(crs)
-    if not found.is_geographic or not len(points):
-        return
-    far = np.abs(points).max(axis=0) * found.axis_info[0].unit_conversion_factor
-    if far[0] > LONGITUDE or far[1] > LATITUDE:
+    if not are_degrees(points, crs).all():
         raise error(f"{what} cannot be longitudes and latitudes; name the system that they are in by `{name}` EPSG:...")
 
 

@@ -12,7 +12,10 @@ from vexture.deadline import check_time
 from vexture.errors import LimitError
 from vexture.tolerance import ROUND
 
-__all__ = ["straightened"]
+__all__ = ["BROKEN", "straightened"]
+
+BROKEN: Final = b"\x01"
+"""What no reader of WKB takes for a geometry."""
 
 POINT, LINE, POLYGON, COLLECTION = 1, 2, 3, 7
 ARCS, COMPOUND, CURVED = 8, 9, 10
@@ -128,9 +131,9 @@ def straightened(shapes: NDArray[Any]) -> NDArray[Any]:
     made = shapes.copy()
     for place, one in found.items():
         try:
-            made[place] = b"" if one is None else chords.written(one)
+            made[place] = BROKEN if one is None else chords.written(one)
         except ValueError:
-            made[place] = b""
+            made[place] = BROKEN
     return made
 
 

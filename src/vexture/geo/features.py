@@ -14,6 +14,7 @@ from vexture.geo.feature_ids import names_beside_id
 from vexture.geo.feature_tables import Choice, Chunk, chunks_of
 from vexture.geo.frames import texts_of
 from vexture.geo.geojson import UNLOCATED
+from vexture.geo.geoparquet import WORLD
 from vexture.geo.longitudes import closed_over_poles, jumping
 from vexture.geo.rings import Rings, refuse_far, repaired, rings_of
 from vexture.geo.vectors import DAMAGED, parsed_wkb, parts_of
@@ -200,7 +201,8 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     refuse_far(rings, "correct it")
     lines = (kinds == shapely.GeometryType.LINESTRING) | (kinds == shapely.GeometryType.LINEARRING)
     spots = (kinds == shapely.GeometryType.POINT) & ~shapely.is_empty(parts)
-    system = _system(chunk, rings, crs, notes)
+    is_nowhere = not len(whole) and not len(damaged) and not (crs or chunk.crs(rings.points))
+    system = WORLD if is_nowhere else _system(chunk, rings, crs, notes)
     rings = _valid(rings, period(system), ids, notes)
     points = Points(shapely.get_coordinates(parts[spots]), feature[spots])
     numbered = chunk.id_column is None and chunk.labels is None

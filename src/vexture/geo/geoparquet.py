@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vexture.deadline import check_time
 from vexture.errors import SourceError
+from vexture.geo.curves import BROKEN
 
 if TYPE_CHECKING:
     import pyarrow
@@ -61,7 +62,7 @@ class GeometryColumn:
     remarks: tuple[str, ...] = ()
 
     def shapes(self, table: "pyarrow.Table") -> NDArray[Any]:
-        """Geometries of a table in WKB, None where there is none, empty where one is damaged."""
+        """Geometries of a table in WKB, None where there is none, `BROKEN` where one is."""
         column = table.column(self.name)
         if self.encoding in DEPTHS:
             return np.concatenate([np.empty(0, object), *(_of_arrow(chunk, self.encoding) for chunk in column.chunks)])
@@ -171,7 +172,7 @@ def _of_texts(texts: NDArray[Any]) -> NDArray[Any]:
 
     plain = np.array([None if text is None else re.sub(r"^\s*SRID=\d+;", "", text) for text in texts], object)
     is_hex = np.array([text is not None and text[:2] in ("00", "01") for text in plain], np.bool_)
-    found = np.array([None if text is None else b"" for text in plain], object)
+    found = np.array([None if text is None else BROKEN for text in plain], object)
     with np.errstate(invalid="ignore"):
         found[is_hex] = [_bytes_of(text) for text in plain[is_hex]]
         others = ~is_hex & (plain != None)  # noqa: E711  (of each)
@@ -188,7 +189,7 @@ def _bytes_of(digits: str) -> bytes:
     try:
         return bytes.fromhex(digits)
     except ValueError:
-        return b""
+        return BROKEN
 
 
 def _of_arrow(array: Any, encoding: str) -> NDArray[Any]:
@@ -205,7 +206,7 @@ def _of_arrow(array: Any, encoding: str) -> NDArray[Any]:
         made[:] = shapely.to_wkb(shapely.from_ragged_array(kind, points, offsets))
     except (ValueError, shapely.errors.GEOSException):
         if len(made) == 1:
-            made[0] = b""
+            made[0] = BROKEN
         elif len(made):
             check_time()
             half = len(made) // 2

@@ -259,7 +259,7 @@ def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArra
     """
     import shapely
 
-    given = np.array([shape is not None for shape in shapes], np.bool_)
+    given = np.array([shape is not None and shape != b"" for shape in shapes], np.bool_)  # as GDAL says that
     for _ in range(int((~given).sum())):
         notes.left_out(UNLOCATED)
     feature = np.flatnonzero(given)
