@@ -1,5 +1,6 @@
 """The content of a source file: its bytes, and the kind of file that they are."""
 
+import csv
 import os
 import re
 import stat
@@ -10,30 +11,39 @@ from contextlib import contextmanager
 from enum import StrEnum
 from io import BytesIO
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 from vexture.errors import EXPECTED, DeviceError, LimitError, ParameterError, SourceError
 
 __all__ = [
+    "ARROW",
     "BEFORE_MARKUP",
     "BYTE_ORDER_MARK",
+    "DELIMITERS",
     "ESRI_GRID",
     "FLATGEOBUF",
     "LARGEST_FILE",
     "NETCDF",
+    "PARQUET",
     "PICTURE_FORMATS",
     "PNG",
     "READABLE",
+    "RECORD",
     "SHAPEFILE",
     "SQLITE",
     "TIFF",
+    "VECTOR_FILES",
     "ZIP",
     "FileKind",
+    "Header",
     "about",
     "decompressed",
+    "header_of",
+    "is_geodatabase",
     "is_stream",
     "kind_of",
     "known_kind",
+    "markup_of",
     "picture_size",
     "read_bytes",
     "renaming",
@@ -52,6 +62,13 @@ FLATGEOBUF: Final = b"fgb\x03fgb"
 SHAPEFILE: Final = b"\0\0\x27\x0a"
 SQLITE: Final = b"SQLite format 3\0"
 ZIP: Final = b"PK\x03\x04"
+PARQUET: Final = b"PAR1"
+ARROW: Final = b"ARROW1"
+RECORD: Final = b"\x1e"
+"""What each text of a sequence in JSON may start with (RFC 8142; RFC 7464, 2)."""
+
+GEODATABASE: Final = "a00000001.gdbtable"
+"""The file of a FileGDB, which is a folder, that lists its tables."""
 
 TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
@@ -67,9 +84,14 @@ PICTURES: Final = (PNG, b"\xff\xd8\xff", b"GIF87a", b"GIF89a")
 PICTURE_FORMATS: Final = ("PNG", "JPEG", "WEBP", "GIF", "BMP")
 """Pictures that are read, as Pillow names them."""
 
+VECTOR_FILES: Final = (
+    "GeoPackage, SpatiaLite, FlatGeobuf, shapefile, FileGDB, KML, KMZ, GPX, GML, GeoParquet, Feather, CSV of places"
+)
+"""Files of features, besides GeoJSON, as messages list them."""
+
 READABLE: Final = (
     "give an SVG, GeoJSON, a picture (PNG, JPEG, WebP, GIF, BMP) or geographic data "
-    "(GeoPackage, FlatGeobuf, zipped shapefile, GeoTIFF, NetCDF, Esri .asc and .flt)"
+    f"({VECTOR_FILES}, GeoTIFF, NetCDF, Esri .asc and .flt); zip a shapefile or a FileGDB to send it"
 )
 """Remedy for a file of no kind that can be read."""
 
@@ -78,6 +100,21 @@ BEFORE_MARKUP: Final = BYTE_ORDER_MARK + b"\xff\xfe\0 \t\r\n"
 
 START: Final = 4096
 """Bytes that tell what a file is: more than the white space at the start of a text."""
+
+PROLOG: Final = re.compile(r"\s*(?:<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^\[>]*(?:\[.*?\]\s*)?>)", re.DOTALL)
+ROOT: Final = re.compile(r"\s*<(?:[\w.-]+:)?([\w.-]+)")
+"""What may stand before the first element of XML, and the start of that, with its name without a prefix."""
+
+GML: Final = "http://www.opengis.net/gml"
+"""Start of the names of GML's namespaces, which declare it wherever its features are."""
+
+DELIMITERS: Final = ",;\t|"
+LONGITUDES: Final = ("longitude", "lon", "long", "lng")
+LATITUDES: Final = ("latitude", "lat")
+ACROSS: Final = ("x", "easting")
+UP: Final = ("y", "northing")
+TEXTS: Final = ("wkt", "geom_wkt", "wkt_geom", "geometry", "geom", "the_geom")
+"""Columns of CSV by which features have places, in lower case: degrees, units of any system, and geometries in WKT."""
 
 
 class FileKind(StrEnum):
@@ -93,8 +130,8 @@ class FileKind(StrEnum):
 
 SUFFIXES: Final[dict[FileKind, tuple[str, ...]]] = {
     FileKind.TEXTURE: (".ktx2",),
-    FileKind.GEOJSON: (".geojson", ".json"),
-    FileKind.AREAS: (".gpkg", ".fgb", ".shp"),
+    FileKind.GEOJSON: (".geojson", ".json", ".geojsons", ".geojsonl", ".ndjson"),
+    FileKind.AREAS: (".gpkg", ".fgb", ".shp", ".gdb", ".kml", ".kmz", ".gpx", ".gml", ".csv", ".tsv", ".sqlite"),
     FileKind.DEPTHS: (".tif", ".tiff", ".nc", ".nc4", ".cdf", ".asc", ".flt"),
 }
 """Suffixes for files of unknown content: the reader that they name reports best what is wrong with them."""
@@ -111,19 +148,23 @@ def kind_of(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
     (<FileKind.GEOJSON: 'GeoJSON'>, <FileKind.SVG: 'SVG'>)
     >>> kind_of(b"CDF\x01", "run"), kind_of(b"fgb\x03fgb", "run.nc"), kind_of(b"?", "run.nc")
     (<FileKind.DEPTHS: 'depths'>, <FileKind.AREAS: 'areas'>, <FileKind.DEPTHS: 'depths'>)
+    >>> kind_of(b"<gpx/>"), kind_of(b"name,lat,lon"), kind_of(b"name,width")
+    (<FileKind.AREAS: 'areas'>, <FileKind.AREAS: 'areas'>, <FileKind.SVG: 'SVG'>)
     """
     if start.startswith(KTX):
         return FileKind.TEXTURE
     webp = start.startswith(b"RIFF") and start[8:12] == b"WEBP"
     if start.startswith(PICTURES) or webp or (start.startswith(b"BM") and start[6:10] == bytes(4)):
         return FileKind.PICTURE
-    if start.startswith((FLATGEOBUF, SHAPEFILE, SQLITE, ZIP)):
+    if start.startswith((FLATGEOBUF, SHAPEFILE, SQLITE, ZIP, PARQUET, ARROW)) or markup_of(start):
         return FileKind.AREAS
     if start.startswith((*TIFF, *NETCDF)) or start.lstrip().lower().startswith(ESRI_GRID):
         return FileKind.DEPTHS
     first = start.removeprefix(BYTE_ORDER_MARK).lstrip()[:1]
-    if first == b"{":
+    if first in (b"{", RECORD):
         return FileKind.GEOJSON
+    if first != b"<" and header_of(start).has_places:
+        return FileKind.AREAS
     suffix = Path(file_name).suffix.lower()
     named = next((kind for kind, suffixes in SUFFIXES.items() if suffix in suffixes), FileKind.SVG)
     return FileKind.SVG if first == b"<" else named
@@ -138,6 +179,82 @@ def known_kind(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind
     if no_texture or (kind is FileKind.SVG and not start.lstrip(BEFORE_MARKUP).startswith(b"<")):
         raise SourceError(f"holds nothing that can be read; {READABLE}")
     return kind
+
+
+def markup_of(start: bytes) -> str:
+    """Which XML of features a file is by its first bytes, ``kml``, ``gpx`` or ``gml``; empty if none of them.
+
+    Examples
+    --------
+    >>> markup_of(b'<?xml version="1.0"?><!-- a --><kml/>'), markup_of(b"<svg/>")
+    ('kml', '')
+    """
+    if not start.lstrip(BEFORE_MARKUP).startswith(b"<"):
+        return ""
+    wide = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16", b"<\0": "utf-16-le", b"\0<": "utf-16-be"}
+    text = start.decode(wide.get(start[:2], "utf-8-sig"), errors="replace")
+    at = 0
+    while found := PROLOG.match(text, at):
+        at = found.end()
+    root = ROOT.match(text, at)
+    if root is None or root[1] == "svg":
+        return ""
+    return root[1] if root[1] in ("kml", "gpx") else "gml" if GML in text[at:] else ""
+
+
+class Header(NamedTuple):
+    """The first line of CSV: its columns, what is between them, and those that have the places of features."""
+
+    names: tuple[str, ...]
+    delimiter: str
+    text: str | None = None
+    across: str | None = None
+    up: str | None = None
+
+    @property
+    def has_places(self) -> bool:
+        """Whether there are columns of places."""
+        return self.text is not None or (self.across is not None and self.up is not None)
+
+    @property
+    def is_degrees(self) -> bool:
+        """Whether places are said to be longitudes and latitudes."""
+        return self.text is None and str(self.across).lower() in LONGITUDES
+
+
+def header_of(start: bytes) -> Header:
+    r"""Columns of CSV by its first bytes; none if these are no line of printable text.
+
+    Examples
+    --------
+    >>> header_of(b"name;Lat;Lon\n1;52;4\n")[2:]
+    (None, 'Lon', 'Lat')
+    """
+    line = start.decode("utf-8-sig", errors="replace").splitlines()[:1]
+    if not line or not line[0].replace("\t", " ").isprintable():
+        return Header((), ",")
+    delimiter = max(DELIMITERS, key=line[0].count)
+    try:
+        names = tuple(name.strip() for name in next(csv.reader(line, delimiter=delimiter), ()))
+    except csv.Error:
+        return Header((), ",")
+    known = {name.lower(): name for name in reversed(names)}
+    across, up = _first(known, LONGITUDES), _first(known, LATITUDES)
+    if across is None or up is None:
+        across, up = _first(known, ACROSS), _first(known, UP)
+    return Header(names, delimiter, _first(known, TEXTS), across, up)
+
+
+def _first(known: Mapping[str, str], wanted: tuple[str, ...]) -> str | None:
+    return next((known[name] for name in wanted if name in known), None)
+
+
+def is_geodatabase(source: str | os.PathLike[str] | bytes) -> bool:
+    """Whether a source is the folder of a FileGDB."""
+    try:
+        return not isinstance(source, bytes) and Path(source, GEODATABASE).is_file()
+    except (OSError, ValueError):
+        return False
 
 
 def picture_size(content: bytes) -> tuple[str, int, int] | None:
@@ -192,6 +309,8 @@ def read_bytes(source: str | os.PathLike[str] | bytes) -> bytes:
     try:
         with Path(source).open("rb") as file:
             content = file.read(LARGEST_FILE + 1)
+    except IsADirectoryError:
+        raise SourceError("is a folder, and no FileGDB; name a file in it") from None
     except (OSError, ValueError) as error:  # ValueError: a null character in the name
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise SourceError(f"cannot be read: {reason}; check the file's name and permissions") from None

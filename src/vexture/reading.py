@@ -8,9 +8,9 @@ from typing import IO, TYPE_CHECKING, Any, TypeAlias
 
 from vexture.content import (
     LARGEST_FILE,
-    SHAPEFILE,
     FileKind,
     about,
+    is_geodatabase,
     kind_of,
     known_kind,
     read_bytes,
@@ -65,13 +65,13 @@ def read(
     - SVG, plain or gzipped (`vexture.read_svg`).
     - GeoJSON (`vexture.read_geojson`).
     - PNG, JPEG, WebP, GIF or BMP, traced (`vexture.read_image`; needs ``vexture[trace]``).
-    - Wet areas of a GeoPackage, FlatGeobuf, zipped shapefile, GeoTIFF or NetCDF, of a series at its first time
-      (`vexture.read_extent`; needs ``vexture[gis]``).
+    - Wet areas of a GeoPackage, SpatiaLite, FlatGeobuf, zipped shapefile or FileGDB, KML, KMZ, GPX, GML, GeoTIFF,
+      NetCDF (`vexture.read_extent`; needs ``vexture[gis]``), GeoParquet, Feather or CSV (``vexture[map]``).
 
     Parameters
     ----------
     source : path, bytes or binary file
-        The file, or its content. The path of a shapefile needs no zip.
+        The file, or its content. The paths of a shapefile and of the folder of a FileGDB need no zip.
     name : str, optional
         Name of the file in messages and, without its suffix, of the drawing; by default the path.
     select : str, optional
@@ -145,9 +145,13 @@ def read_drawing(
     source, shown = _checked(source), name_of(source, name)
     if not isinstance(trace_images, bool):
         raise ParameterError(f"`trace_images` is {trace_images!r:.80}; it must be True or False")
+    from vexture.geo.archives import unzipped
+
     with about(shown):
-        given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
-        kind = known_kind(start_of(given) or read_bytes(given), shown)
+        given = unzipped(
+            unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
+        )
+        kind = FileKind.AREAS if is_geodatabase(given) else known_kind(start_of(given) or read_bytes(given), shown)
         check_reading(kind, names, snap, fonts, page_colors, trace_images=trace_images)
         if kind is not FileKind.SVG:
             return _read_other(kind, given, shown, select, names, snap)
@@ -271,7 +275,7 @@ def read_extent(
     Parameters
     ----------
     source : path, bytes, Dataset or DataArray
-        Polygons (GeoJSON, GeoPackage, FlatGeobuf, shapefile) or depths (GeoTIFF, Esri's .asc and .flt, NetCDF: on
+        Polygons (in any format that `vexture.read` takes) or depths (GeoTIFF, Esri's .asc and .flt, NetCDF: on
         rows and columns, a curvilinear grid or a mesh); or depths as xarray holds them, read one step at a time.
     file_name : str, optional
         Name of the file and of the drawings; by default the path.
@@ -386,11 +390,8 @@ def _refuse(options: dict[str, str | float | None], kind: str) -> None:
 
 
 def content_of(path: str | os.PathLike[str]) -> bytes:
-    """Content of a file, decompressed; of a shapefile and the files beside it, a zip. Raises as `read_bytes` does."""
-    with about(os.fspath(path)):
-        content = read_bytes(path)
-        if not content.startswith(SHAPEFILE):
-            return content
-        from vexture.geo.vectors import whole_shapefile
+    """Content of a file as `read_bytes` has it; a zip of a FileGDB, or of a shapefile and the files beside it."""
+    from vexture.geo.archives import whole
 
-        return whole_shapefile(Path(path))
+    with about(os.fspath(path)):
+        return whole(Path(path)) or read_bytes(path)

@@ -16,10 +16,14 @@ import rasterio
 import shapely
 from PIL import Image
 
+from vexture.errors import EXPECTED
+
 IN_OPEN = 0x20
 EVENT = struct.Struct("iIII")
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><rect id="secret" width="9" height="9"/></svg>'
+KML = """<kml xmlns="http://www.opengis.net/kml/2.2"><Document><Style id="s"/><Placemark><name>secret</name><Point>
+<coordinates>5,52</coordinates></Point></Placemark></Document></kml>"""
 WKT = 'GEOGCS["secret",DATUM["a",SPHEROID["b",6378137,298]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]]'
 BOX = shapely.box(4.0, 52.0, 6.0, 53.0)
 
@@ -74,6 +78,23 @@ class Outside:
         os.close(self._events)
 
 
+def told(work, *given, **options):
+    """What a reader says of a source: its error, or its notes."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            found = work(*given, **options)
+        except EXPECTED as error:
+            return str(error)
+    return "READ " + "; ".join(note.message for note in getattr(found, "notes", ()))
+
+
+def one_line(text):
+    assert text
+    assert "\n" not in text
+    return text
+
+
 def _fill(folder: Path) -> None:
     """Files that readers would take, were they led to them."""
     (folder / "secret.bin").write_bytes(bytes([0] * 2000 + [9] * 2000))
@@ -89,6 +110,8 @@ def _fill(folder: Path) -> None:
     (folder / "secret.gsb").write_bytes(bytes(1000))
     (folder / "secret.wkt").write_text(WKT)
     (folder / "secret.svg").write_text(SVG)
+    (folder / "secret.kml").write_text(KML)
+    (folder / "secret.xsd").write_text('<schema xmlns="http://www.w3.org/2001/XMLSchema"/>')
     (folder / "secret.css").write_text("rect { fill: red }")
     (folder / "secret.dtd").write_text('<!ENTITY secret "secret">')
     (folder / "secret.json").write_text(json.dumps({"asset": {"version": "2.0"}}))

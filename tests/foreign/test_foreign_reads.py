@@ -4,8 +4,6 @@ import os
 import re
 import sys
 import urllib.request
-import warnings
-from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -14,12 +12,11 @@ import pytest
 from click.testing import CliRunner
 from floods import flooding, sea
 from links import ALONE, AREAS, DEPTHS, DRAWINGS, MODELS, RELIEFS, made, netcdf, plain, written
-from outside import Outside, raster
+from outside import one_line, raster, told
 from server import serving
 
 import vexture
 from vexture.cli.main import main
-from vexture.errors import EXPECTED
 from vexture.flood.ground import _warped
 from vexture.flood.relief import _heights_of
 from vexture.geo.extent import Frame
@@ -32,39 +29,6 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="inotify, which 
 FRAME = Frame((0.0, 0.0, 22_000.0, 22_000.0), "EPSG:28992", (22_000.0, 22_000.0))
 UNSAID = {"an SVG that includes", "an SVG with a DTD elsewhere", "an SVG with a DTD at an address"}
 """What SVG has no meaning for, or each editor writes."""
-
-numbers = count()
-
-
-@pytest.fixture(scope="module")
-def outside(tmp_path_factory):
-    found = Outside(tmp_path_factory.mktemp("foreign") / "outside")
-    yield found
-    found.close()
-
-
-@pytest.fixture
-def folder(outside):
-    path = outside.folder.parent / f"given-{next(numbers)}"
-    path.mkdir()
-    return path
-
-
-def told(work, *given, **options):
-    """What a reader says of a source: its error, or its notes."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            found = work(*given, **options)
-        except EXPECTED as error:
-            return str(error)
-    return "READ " + "; ".join(note.message for note in getattr(found, "notes", ()))
-
-
-def one_line(text):
-    assert text
-    assert "\n" not in text
-    return text
 
 
 def test_the_watch_sees_a_file_and_a_request(outside):

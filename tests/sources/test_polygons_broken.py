@@ -94,7 +94,7 @@ PIPELINE = b'{"type": "gdal_streamed_alg", "command_line": "gdal vector read /vs
         (VRT, "a.gpkg", "none of GeoJSON, GeoPackage"),
         (VRT, "a.shp", "none of GeoJSON, GeoPackage"),
         (PIPELINE, "a.gdalg.json", "'gdal_streamed_alg' is none that GeoJSON knows"),
-        (b"SQLite format 3\0" + bytes(200), "a.gpkg", "no GeoPackage"),
+        (b"SQLite format 3\0" + bytes(200), "a.gpkg", "damaged"),
         (inside_zip(a_vrt=VRT), "a.zip", "holds no shapefile"),
         (inside_zip(a_shp=VRT, a_shx=VRT), "a.zip", "no layers"),
         (inside_zip(a_shp=b"\0\0\x27\x0a" + bytes(200)), "a.zip", r"lacks its a\.shx"),

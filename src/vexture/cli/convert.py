@@ -157,8 +157,8 @@ def convert(
 ) -> None:
     """Convert drawings into textures.
 
-    A source is an SVG, GeoJSON, a picture to trace (PNG, JPEG, WebP, GIF, BMP), geographic data (GeoPackage,
-    FlatGeobuf, shapefile, GeoTIFF, NetCDF; where water is, at the first time), or - for standard input.
+    A source is an SVG, GeoJSON, a picture to trace (PNG, JPEG, WebP, GIF, BMP), geographic data (polygons
+    in any format that vexture map reads; depths in GeoTIFF or NetCDF, at the first time), or - for standard input.
     """
     with one_line():
         parameters = _checked(encoding, options)

@@ -66,7 +66,8 @@ def map(
 ) -> None:
     """Make a map of geographic data: one texture, and a table of the attributes beside it.
 
-    SOURCE is a GeoPackage, GeoParquet, FlatGeobuf, shapefile, GeoJSON or TopoJSON; several are layers, drawn in order.
+    SOURCE is a GeoPackage, SpatiaLite, FlatGeobuf, shapefile, FileGDB, KML, KMZ, GPX, GML, GeoJSON (also in lines),
+    TopoJSON, GeoParquet, Feather, or CSV with columns of WKT or of coordinates; several are layers, drawn in order.
     Features are elements of the texture, named by their ids.
     """
     start = perf_counter()

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.geo.vector_files import JSON
 from vexture.geo.vectors import gdal_errors
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def ids_of_json(content: bytes, has_column: bool) -> dict[int, str | None]:
         return {}
 
     options: dict[str, Any] = {"columns": [], "read_geometry": False, "return_fids": True, "use_pyarrow": True}
-    with gdal_errors(), raw.open_arrow(content, **options) as (_, reader):
+    with gdal_errors(JSON), raw.open_arrow(content, **options) as (_, reader):
         numbers = reader.read_all().column(0).to_pylist()
     ids = given_ids(content) if may_differ(content, numbers, has_column) else None
     return {} if ids is None or len(ids) != len(numbers) else dict(zip(numbers, ids, strict=True))

@@ -1,42 +1,32 @@
 """Tables of features as their formats have them: attributes in Arrow beside geometries in WKB, in chunks."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
-from io import BytesIO
 from itertools import islice
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.content import FLATGEOBUF, LARGEST_FILE, SHAPEFILE, SQLITE, ZIP, read_bytes, start_of
+from vexture.content import VECTOR_FILES, unpacked
 from vexture.errors import ParameterError, SourceError, shortened
-from vexture.geo.damage import HEADER, missing_arcs, refuse_cut
+from vexture.geo.archives import unzipped
+from vexture.geo.arrow_files import is_table, opened_table
+from vexture.geo.damage import missing_arcs
 from vexture.geo.extent import Bounds
 from vexture.geo.feature_ids import ids_of_json, with_ids
 from vexture.geo.frames import arrow_of, check_texts, labels_of
-from vexture.geo.gdal import plain_place
-from vexture.geo.geopackage import refuse_links_of_geopackage
 from vexture.geo.geoparquet import WORLD, GeometryColumn, geometry_column, objects_of
-from vexture.geo.named import refuse_files_of_json
-from vexture.geo.vectors import (
-    chosen_layer,
-    gdal_errors,
-    refuse_links_of_flatgeobuf,
-    refuse_links_of_shapefile,
-    whole_shapefile,
-    zipped_shapefiles,
-)
+from vexture.geo.vector_files import VectorFile, opened_vectors
+from vexture.geo.vectors import chosen_layer, gdal_errors, layers_of
 
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["PARQUET", "Choice", "Chunk", "chunks_of"]
+__all__ = ["Choice", "Chunk", "chunks_of"]
 
-PARQUET: Final = b"PAR1"
 PART: Final = 16_384
 """Features of which a condition chooses some, before more are read."""
 
@@ -46,7 +36,7 @@ MOST_NAMED: Final = 12
 REFUSALS: Final = ("Invalid SQL", "no such column", "syntax error")
 """What GDAL says of a condition, at once or, where it is a database's, when it reads."""
 
-READ: Final = "give GeoPackage, GeoParquet, FlatGeobuf, a shapefile, GeoJSON or TopoJSON"
+READ: Final = f"give a file of GeoJSON, TopoJSON, {VECTOR_FILES}"
 
 
 @dataclass(frozen=True)
@@ -97,8 +87,8 @@ class Chunk:
     damaged: int = 0
     """Geometries that are not whole, in the source and not only here."""
 
-    remarks: tuple[str, ...] = ()
-    """What is to be told of the source."""
+    remarks: Mapping[str, int] = field(default_factory=dict)
+    """What is to be told of the source, and how often: for instance, links that nobody reads."""
 
     def taken(self, rows: NDArray[np.intp]) -> "Chunk":
         """Some of the rows, all of which are in bounds."""
@@ -121,58 +111,26 @@ def chunks_of(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]
         return
     if not isinstance(source, str | bytes | os.PathLike):
         raise ParameterError(f"`source` is a {type(source).__name__}; {READ}, or a GeoDataFrame")
-    if start_of(source).startswith(PARQUET):
+    source = unzipped(unpacked(source))
+    if is_table(source):
         yield from _parquet(source, choice, batch)
         return
-    content, is_json = _content(source)
-    yield from _gdal(content, is_json, choice, batch)
+    with opened_vectors(source) as file:
+        yield from _gdal(file, choice, batch)
 
 
-def _content(source: str | os.PathLike[str] | bytes) -> tuple[bytes | str, bool]:
-    """What GDAL reads: a file in memory or, of one that is too large, its place; and whether it is JSON."""
-    start = start_of(source)
-    is_on_disk = start.startswith((FLATGEOBUF, SQLITE)) and not isinstance(source, bytes)
-    if is_on_disk and Path(source).stat().st_size > LARGEST_FILE:  # type: ignore[arg-type]
-        _refuse_links(source)
-        return plain_place(source), False
-    if start.startswith(SHAPEFILE):
-        if isinstance(source, bytes):
-            raise SourceError("a shapefile is several files; give them together as a .zip")
-        size = Path(source).stat().st_size
-        if size <= LARGEST_FILE:
-            return whole_shapefile(Path(source)), False
-        with Path(source).open("rb") as file:
-            refuse_cut(Path(source).name, file.read(HEADER), size)
-        refuse_links_of_shapefile(Path(source))
-        return plain_place(source), False
-    if not isinstance(source, bytes) and Path(source).is_file() and Path(source).stat().st_size > LARGEST_FILE:
-        raise SourceError(
-            f"the file is larger than {LARGEST_FILE:,} bytes, the most that is read at once; convert it to FlatGeobuf, "
-            "GeoPackage or GeoParquet, which are read in parts"
-        )
-    content = read_bytes(source)
-    if content.startswith(ZIP):
-        return zipped_shapefiles(content), False
-    is_json = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{"
-    if not is_json and not content.startswith((SQLITE, FLATGEOBUF)):
-        raise SourceError(f"holds no features that can be read; {READ}")
-    refuse_files_of_json(content) if is_json else _refuse_links(content)
-    return content, is_json
-
-
-def _refuse_links(source: str | os.PathLike[str] | bytes) -> None:
-    is_base = start_of(source).startswith(SQLITE)
-    (refuse_links_of_geopackage if is_base else refuse_links_of_flatgeobuf)(source)
-
-
-def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None) -> Iterator[Chunk]:
+def _gdal(file: VectorFile, choice: Choice, batch: int | None) -> Iterator[Chunk]:
     import pyarrow as pa
-    from pyogrio import list_layers, raw, read_info
+    from pyogrio import raw, read_info
 
-    with gdal_errors():
-        layers = [(str(name), str(kind)) for name, kind in list_layers(content) if kind is not None]
+    content, is_json = file.content, file.is_json
+    with gdal_errors(file.formats):
+        found = layers_of(file, choice.layer)
+        layers = [(name, kind) for name, kind in found if kind is not None]
+        if found and not layers:
+            raise SourceError(f"it has no geometries, only a table ({found[0][0]}); give the file of its places")
         name: str | None = chosen_layer(layers, choice.layer, any_kind=True)
-        if len(layers) == 1 and choice.layer is None:
+        if is_json and len(found) == 1 and choice.layer is None:
             name = None  # GeoJSON without a name has that of the file in memory, which is another each time
         info = read_info(content, layer=name)
     names = [str(each) for each in info["fields"]]
@@ -186,19 +144,21 @@ def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None
     options |= {"return_fids": True, "batch_size": batch or 65_536, "use_pyarrow": True}
     topology = is_json and not info["crs"]
     damaged = missing_arcs(content) if topology and isinstance(content, bytes) else 0
+    links = file.links
     with ExitStack() as stack:
-        with _condition(choice.where, names), gdal_errors():
+        with _condition(choice.where, names), gdal_errors(file.formats):
             meta, reader = stack.enter_context(raw.open_arrow(content, **options))
         places = meta["fid_column"] or "OGC_FID", meta["geometry_name"] or "wkb_geometry"
         while True:  # nothing of GDAL's is held while who asked works with what it got
-            with _condition(choice.where, names), gdal_errors():
+            with _condition(choice.where, names), gdal_errors(file.formats):
                 table = (
                     reader.read_all() if batch is None else pa.Table.from_batches([*islice(reader, 1)], reader.schema)
                 )
             if batch is None or len(table):
                 chunk = _arrow_chunk(table, *places, own, topology, is_json, meta["crs"], damaged)
+                chunk = replace(chunk, remarks=links)
                 yield replace(chunk, table=with_ids(chunk.table, chunk.numbers, ids), id_column="id") if ids else chunk
-                damaged = 0
+                damaged, links = 0, {}
             if batch is None or not len(table):
                 return
 
@@ -250,12 +210,11 @@ def _refused(where: str, names: list[str]) -> str:
 
 def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
     import pyarrow as pa
-    import pyarrow.parquet as pq
 
     if choice.layer is not None:
-        raise ParameterError(f"GeoParquet has no layers, so none {choice.layer!r}; leave `layer` out")
+        raise ParameterError(f"a table has no layers, so none {choice.layer!r}; leave `layer` out")
     try:
-        file = pq.ParquetFile(BytesIO(source) if isinstance(source, bytes) else os.path.abspath(source))
+        file = opened_table(source)
         geometry = geometry_column(file)
         names = [name for name in file.schema_arrow.names if name != geometry.name]
         columns = choice.kept(names)
@@ -282,7 +241,7 @@ def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
             numbers = np.concatenate([np.empty(0, np.int64), *(each for _, each in kept)])
             yield _parquet_chunk(pa.concat_tables(tables), numbers, geometry, columns, choice)
     except (pa.ArrowInvalid, pa.ArrowNotImplementedError, OSError, UnicodeDecodeError) as error:  # of a column's name
-        raise SourceError(f"the Parquet file cannot be read ({shortened(str(error), 120)}); save it again") from None
+        raise SourceError(f"the table cannot be read ({shortened(str(error), 120)}); save it again") from None
 
 
 def _parquet_chunk(
@@ -293,8 +252,9 @@ def _parquet_chunk(
     choice: Choice,
 ) -> Chunk:
     shapes, crs = geometry.shapes(table), geometry.crs
+    told = dict.fromkeys(geometry.remarks, 1)
     is_told = crs not in (None, WORLD)
-    return Chunk(table.select(columns), shapes, numbers, crs, choice.id, is_told=is_told, remarks=geometry.remarks)
+    return Chunk(table.select(columns), shapes, numbers, crs, choice.id, is_told=is_told, remarks=told)
 
 
 def _rows_where(table: "pyarrow.Table", where: str) -> NDArray[np.intp]:

@@ -109,7 +109,7 @@ def read_features(
     bounds: Bounds | None = None,
     notes: Notes,
 ) -> Features:
-    """Read the features of GeoPackage, GeoParquet, FlatGeobuf, shapefile, GeoJSON, TopoJSON or a GeoDataFrame.
+    """Read the features of a file of any supported format (`content.VECTOR_FILES`), or of a GeoDataFrame.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def feature_batches(
     notes: Notes,
     batch: int = BATCH,
 ) -> Iterator[Features]:
-    """Read features as `read_features` does, at most `batch` at once; files in GeoJSON, TopoJSON and zips are small."""
+    """Read features as `read_features` does, at most `batch` at once; files that are read as a whole are small."""
     if batch < 1:
         raise ParameterError(f"`batch` is {batch}; it must be 1 or more features")
     choice = Choice(layer, where, id, None if columns is None else tuple(columns), bounds)
@@ -169,8 +169,8 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     import shapely
 
     notes.remark("the file is damaged: a geometry refers to arcs that it does not have", chunk.damaged)
-    for said in chunk.remarks:
-        notes.remark(said)
+    for said, count in chunk.remarks.items():
+        notes.remark(said, count)
     if chunk.unlabelled and chunk.id_column is None:
         notes.remark(f"its index {chunk.unlabelled}, so ids are the numbers of rows; name a column of ids by `id`")
     if chunk.parsed:

@@ -5,7 +5,7 @@ What a raster says of other files is refused, and so is a file beside it that GD
 
 import os
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from threading import RLock
@@ -37,14 +37,19 @@ OTHERS: Final[Mapping[str, tuple[bytes, ...]]] = {
 FLOATS: Final = ("EHdr", ".flt")
 """The format whose file has nothing but numbers, and its suffix; the .hdr beside it leads nowhere."""
 
-VECTORS: Final = ("ESRI Shapefile", "FlatGeobuf", "GPKG", "GeoJSON", "GeoJSONSeq", "TopoJSON")
-"""Formats of features. GDAL knows 60 more by words anywhere at the start of a file: some are lists of other files,
-addresses or commands."""
+VECTORS: Final = (
+    *("ESRI Shapefile", "FlatGeobuf", "GML", "GPKG", "GPX", "GeoJSON", "KML", "LIBKML", "OpenFileGDB", "SQLite"),
+    "TopoJSON",
+)
+"""Formats of features, of which GDAL knows only those at once that a file may have. It knows 60 more by words anywhere
+at the start of a file: some are lists of other files, addresses or commands."""
 
 OFFLINE: Final[Mapping[str, str]] = {
     "CPL_LOG": os.devnull,
     "CPL_VSIL_CURL_ALLOWED_EXTENSIONS": ".none",
     "GDAL_HTTP_PROXY": "127.0.0.1:9",  # where nothing answers
+    "GML_SKIP_RESOLVE_ELEMS": "ALL",
+    "LIBKML_EXTERNAL_STYLE": "NO",
     "OGR_ARC_STEPSIZE": "0.5",  # degrees; chords are nearer than 1e-5 of the radius to the arc
     "OGR_SQLITE_ALLOW_EXTERNAL_ACCESS": "NO",
     "OGR_SQLITE_LOAD_EXTENSIONS": "NO",
@@ -229,8 +234,8 @@ def _link(name: str, value: str) -> str:
 
 
 @contextmanager
-def vector_formats() -> Iterator[None]:
-    """Read features within this context, in which GDAL knows their formats only.
+def vector_formats(formats: Sequence[str]) -> Iterator[None]:
+    """Read features within this context, in which GDAL knows some of `VECTORS` only.
 
     The list is that of pyogrio's GDAL, and is as before afterwards: others who use pyogrio may need more.
     """
@@ -239,11 +244,11 @@ def vector_formats() -> Iterator[None]:
 
     with CHANGING:
         before = {name: pyogrio.get_gdal_config_option(name) for name in ("GDAL_SKIP", *OFFLINE)}
-        others = [name for name in pyogrio.list_drivers() if name not in VECTORS]
+        others = [name for name in pyogrio.list_drivers() if name not in formats or name not in VECTORS]
         try:
             pyogrio.set_gdal_config_options({"GDAL_SKIP": ",".join([*others, before["GDAL_SKIP"] or ""]), **OFFLINE})
             _register_drivers()
-            if not set(pyogrio.list_drivers()) <= {*VECTORS}:
+            if not set(pyogrio.list_drivers()) <= {*formats}:
                 raise DeviceError("this pyogrio does not keep to some formats; install another: pip install -U pyogrio")
             yield
         finally:

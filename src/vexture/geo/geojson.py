@@ -17,6 +17,7 @@ from vexture.content import BYTE_ORDER_MARK, READABLE, about, decompressed, read
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
 from vexture.geo.named import LINK_TYPES, refuse_link
+from vexture.geo.sequences import one_json
 from vexture.geo.snap import snapped
 from vexture.notes import Notes, line_of, warn_of
 from vexture.paint import BLACK, Paint
@@ -123,7 +124,7 @@ def read_geojson(
 def geojson_drawing(content: bytes, name: str, *, names: str | None = None, snap: float | None = None) -> Drawing:
     """Read GeoJSON, plain or gzipped, as `read_geojson` does, but without a warning: all notes are in the drawing."""
     notes = Notes()
-    value = _parsed(decompressed(content))
+    value = _parsed(one_json(decompressed(content)))
     reader = _Reader(notes, names)
     areas = list(reader.areas(value))
     if not areas:

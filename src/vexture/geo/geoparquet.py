@@ -1,4 +1,4 @@
-"""Geometries of a Parquet file: which column has them, how they are encoded, and in which reference system they are."""
+"""Geometries of a table of Arrow: which column has them, how they are encoded, and in which reference system."""
 
 import json
 import re
@@ -15,6 +15,8 @@ from vexture.geo.curves import BROKEN
 if TYPE_CHECKING:
     import pyarrow
     import pyarrow.parquet
+
+    from vexture.geo.arrow_files import TableFile
 
 __all__ = ["WORLD", "GeometryColumn", "geometry_column", "objects_of"]
 
@@ -70,12 +72,17 @@ class GeometryColumn:
         return _of_texts(shapes) if self.encoding == WKT else shapes
 
 
-def geometry_column(file: "pyarrow.parquet.ParquetFile") -> GeometryColumn:
-    """The column of geometries of a Parquet file: that of its metadata, of a type for geometries, or of such a name."""
-    schema, metadata = file.schema_arrow, file.metadata.metadata or {}
+def geometry_column(file: "pyarrow.parquet.ParquetFile | TableFile") -> GeometryColumn:
+    """The column of geometries of a table: that of its metadata, of a type for geometries, or of such a name."""
+    import pyarrow.parquet as pq
+
+    schema = file.schema_arrow
+    metadata, logical = schema.metadata or {}, dict[str, Any]()
+    if isinstance(file, pq.ParquetFile):
+        metadata = file.metadata.metadata or {}
+        logical = {column.name: column.logical_type for column in map(file.schema.column, range(len(file.schema)))}
     if (geo := metadata.get(b"geo")) is not None:
         return _of_metadata(geo, schema)
-    logical = {column.name: column.logical_type for column in map(file.schema.column, range(len(file.schema)))}
     for field in schema:
         kind = str(getattr(logical.get(field.name), "type", ""))
         if kind in ("GEOMETRY", "GEOGRAPHY"):
@@ -97,7 +104,7 @@ def _of_metadata(geo: bytes, schema: "pyarrow.Schema") -> GeometryColumn:
         column = about["columns"][name]
         encoding, crs, edges = column["encoding"].lower(), column.get("crs", WORLD), column.get("edges")
     except (ValueError, KeyError, TypeError, AttributeError):
-        raise SourceError('the metadata "geo" of the Parquet file are damaged; save it again') from None
+        raise SourceError('the metadata "geo" of the table are damaged; save it again') from None
     if name not in schema.names:
         raise SourceError(f"its metadata name a column of geometries, {name!r:.60}, that it does not have; {REMEDY}")
     return _checked(str(name), encoding, crs, edges)
@@ -149,7 +156,7 @@ def _of_name(schema: "pyarrow.Schema") -> GeometryColumn:
         if field.name.lower() in NAMES and (is_text or is_bytes):
             return GeometryColumn(field.name, WKT if is_text else WKB, None, (TEXTS,) if is_text else ())
     raise SourceError(
-        'the Parquet file has no geometries: neither metadata named "geo" nor a column of a type for them; '
+        'the table has no geometries: neither metadata named "geo" nor a column of a type for them; '
         "save it as GeoParquet"
     )
 

@@ -8,9 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
+from vexture.content import unpacked
 from vexture.contours import ring_contours
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
+from vexture.geo.archives import unzipped
+from vexture.geo.arrow_files import is_table
 from vexture.geo.crs import (
     UNPLACED,
     chosen_crs,
@@ -27,10 +30,11 @@ from vexture.geo.crs import (
     transformed_bounds,
 )
 from vexture.geo.extent import Bounds, Extent, Frame, Step, bounds_of_square
+from vexture.geo.feature_tables import Choice, chunks_of
 from vexture.geo.geojson import UNLOCATED, met
 from vexture.geo.longitudes import unwrapped
 from vexture.geo.rings import Rings, cut, moved, oriented, refuse_far, repaired, shared, within
-from vexture.geo.vectors import read_areas
+from vexture.geo.vectors import areas_of_wkb, read_areas
 from vexture.notes import Notes
 from vexture.tolerance import CLOSED
 from vexture.unit_square import clipped, tidied
@@ -52,14 +56,14 @@ def read_polygons(
     layer: str | None = None,
     snap: float | None = None,
 ) -> Extent:
-    """Read the area under water from GeoJSON, GeoPackage, FlatGeobuf or a shapefile.
+    """Read the area under water from a file of features of any format (`content.VECTOR_FILES`), or GeoJSON.
 
     All polygons in the file are water, where they overlap too. Straight sides stay straight; rings that cross the
     antimeridian are unwrapped; invalid polygons are repaired, and borders that differ by `snap` become
     one. Parameters and errors as in `vexture.read_extent`.
     """
     notes = Notes()
-    rings, named = read_areas(source, file_name, layer, notes)
+    rings, named = _areas(source, file_name, layer, notes)
     own = chosen_crs(crs, named)
     refuse_far(rings, "correct it")
     turn = period(own)
@@ -78,6 +82,18 @@ def read_polygons(
     rings = shared(_placed(rings, own, frame), float(np.abs(frame.to_source[:, :2]).max()), snap, notes)
     drawing = _drawn(rings, frame, FilePath(file_name).stem)
     return Extent(frame, (Step(replace(drawing, notes=notes.listed)),), notes=notes.listed)
+
+
+def _areas(
+    source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, notes: Notes
+) -> tuple[Rings, str | None]:
+    """Polygons of any file, in its own coordinates, and the reference system that it names."""
+    source = unzipped(unpacked(source))
+    if not is_table(source):
+        return read_areas(source, file_name, layer, notes)
+    (chunk,) = chunks_of(source, Choice(layer, columns=()), None)
+    rings = areas_of_wkb(chunk.shapes, notes)
+    return rings, chunk.crs(rings.points)
 
 
 def _placed(rings: Rings, own: str, frame: Frame) -> Rings:

@@ -1,69 +1,43 @@
 """Vector files of geographic data as rings.
 
-GDAL reads all formats but GeoJSON. It gets a file only if the first bytes are those of a supported format, and only
-in memory, so that it opens, fetches and writes nothing else, whatever the file refers to.
+GDAL reads all formats but GeoJSON and tables.
 """
 
 import os
 import warnings
-import zipfile
-import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
-from io import BytesIO
-from pathlib import Path
 from threading import Lock
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.content import (
-    FLATGEOBUF,
-    LARGEST_FILE,
-    SHAPEFILE,
-    SQLITE,
-    ZIP,
-    FileKind,
-    decompressed,
-    kind_of,
-    read_bytes,
-    start_of,
-)
-from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.content import FileKind, decompressed, is_geodatabase, kind_of, read_bytes, start_of
+from vexture.errors import LimitError, ParameterError, SourceError
+from vexture.geo.archives import unzipped
 from vexture.geo.curves import straightened
-from vexture.geo.damage import refuse_cut
 from vexture.geo.gdal import vector_formats
 from vexture.geo.geojson import UNLOCATED, areas_of
-from vexture.geo.geopackage import refuse_links_of_geopackage
-from vexture.geo.named import refuse_files_of_system
 from vexture.geo.rings import Rings, rings_of
+from vexture.geo.sequences import one_json
+from vexture.geo.vector_files import VectorFile, opened_vectors
 from vexture.notes import Notes
 
 __all__ = [
     "DAMAGED",
+    "areas_of_wkb",
     "check_memory",
     "chosen_layer",
     "gdal_errors",
     "gdal_reason",
     "is_memory",
+    "layers_of",
     "parsed_wkb",
     "parts_of",
     "read_areas",
-    "refuse_links_of_flatgeobuf",
-    "refuse_links_of_shapefile",
-    "whole_shapefile",
-    "zipped_shapefiles",
 ]
-
-PARTS: Final = (".shp", ".shx", ".dbf", ".prj", ".cpg")
-"""Files of one shapefile, of which the first two are required."""
-
-SIZE_OF_HEADER: Final = slice(8, 12)
-HEADER_START: Final = 12
-FLATGEOBUF_HEADER: Final = 16 * 2**20
-"""Where a FlatGeobuf says the size of its header, where that starts, and more bytes than GDAL takes."""
 
 AREAL: Final = ("Polygon", "Surface", "Unknown", "GeometryCollection", "Triangle", "TIN")
 """Words in the geometry types of layers that may hold polygons."""
@@ -79,6 +53,15 @@ NO_MEMORY: Final = "bad_alloc"
 MOST_NAMED: Final = 12
 """Layers that a message names."""
 
+POINTS_OF_LINES: Final = "_points"
+"""End of the names of layers that have the points of another layer's lines."""
+
+FORMATS: Final = "not recognized as being in a supported file format"
+"""What GDAL says of damage in its first bytes; advice on its own options follows."""
+
+SCHEMAS: Final = "*.gfs"
+"""Files that GDAL makes of GML for its next reading, in memory."""
+
 
 def read_areas(
     source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, notes: Notes
@@ -87,28 +70,19 @@ def read_areas(
 
     `LimitError` if it has several layers and `layer` is None, `ParameterError` if it has no such layer.
     """
-    content = decompressed(source) if isinstance(source, bytes) else read_bytes(source)
-    kind = kind_of(start_of(content), file_name)
+    source = unzipped(decompressed(source) if isinstance(source, bytes) else source)
+    kind = FileKind.AREAS if is_geodatabase(source) else kind_of(start_of(source) or read_bytes(source), file_name)
     if kind is FileKind.TEXTURE:
         raise SourceError("is a texture already; give the data that it was made from")
     if kind is FileKind.GEOJSON:
         if layer is not None:
             raise ParameterError(f"GeoJSON has no layers, so none {layer!r}; leave `layer` out")
-        return _geojson(content, notes)
-    if content.startswith(SHAPEFILE):
-        if isinstance(source, bytes):
-            raise SourceError("a shapefile is several files; give them together as a .zip")
-        content = whole_shapefile(Path(source))
-    elif content.startswith(ZIP):
-        content = zipped_shapefiles(content)
-    elif content.startswith(SQLITE):
-        import_module("pyogrio")  # who lacks it is told so first
-        refuse_links_of_geopackage(content)
-    elif content.startswith(FLATGEOBUF):
-        refuse_links_of_flatgeobuf(content)
-    else:
-        raise SourceError("none of GeoJSON, GeoPackage, FlatGeobuf and shapefile; convert it to one of them")
-    return _gdal(content, layer, notes)
+        return _geojson(one_json(read_bytes(source)), notes)
+    import_module("pyogrio")  # who lacks it is told so first
+    with opened_vectors(source) as file:
+        for link, count in file.links.items():
+            notes.remark(link, count)
+        return _gdal(file, layer, notes)
 
 
 def _geojson(content: bytes, notes: Notes) -> tuple[Rings, str | None]:
@@ -120,90 +94,44 @@ def _geojson(content: bytes, notes: Notes) -> tuple[Rings, str | None]:
     return Rings(points, ends, owner, lambda index: areas[index].where), crs
 
 
-def whole_shapefile(path: Path) -> bytes:
-    """Content of a ``.shp`` and of the files beside it, in one zip; equal files give equal bytes."""
-    try:
-        beside = {each.name.lower(): each for each in path.parent.iterdir()}
-    except OSError as error:
-        raise SourceError(f"its folder cannot be read: {error.strerror}; the files beside it are needed") from None
-    found = {part: beside.get(path.stem.lower() + part) for part in PARTS} | {".shp": path}
-    return _zipped({f"{path.stem}{part}": read_bytes(each) for part, each in found.items() if each is not None})
-
-
-def refuse_links_of_shapefile(path: Path) -> None:
-    """Raise a `SourceError` if the .prj beside a ``.shp`` names a file or an address."""
-    for beside in path.parent.iterdir():
-        if beside.name.lower() == f"{path.stem.lower()}.prj":
-            refuse_files_of_system(read_bytes(beside).decode(errors="replace"))
-
-
-def refuse_links_of_flatgeobuf(source: str | os.PathLike[str] | bytes) -> None:
-    """Raise a `SourceError` if the reference system in the header of a FlatGeobuf names a file or an address."""
-    if isinstance(source, bytes):
-        start = source[:FLATGEOBUF_HEADER]
-    else:
-        with Path(source).open("rb") as file:
-            start = file.read(FLATGEOBUF_HEADER)
-    header = start[: HEADER_START + int.from_bytes(start[SIZE_OF_HEADER], "little")]
-    refuse_files_of_system(header.decode("latin-1"))
-
-
-def zipped_shapefiles(content: bytes) -> bytes:
-    """The shapefiles of a zip as one zip of their files only."""
-    return _zipped(_members(content))
-
-
-def _members(content: bytes) -> dict[str, bytes]:
-    """Files of the shapefiles in a zip, by name."""
-    try:
-        with zipfile.ZipFile(BytesIO(content)) as archive:
-            infos = [info for info in archive.infolist() if Path(info.filename).suffix.lower() in PARTS]
-            if sum(info.file_size for info in infos) > LARGEST_FILE:
-                raise SourceError(f"its shapefiles are larger than {LARGEST_FILE:,} bytes; split them")
-            return {Path(info.filename).name: archive.read(info) for info in infos}
-    except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError, OSError, ValueError) as error:
-        raise SourceError(f"the zip is damaged or encrypted ({reason_of(error)}); zip the shapefile again") from None
-
-
-def _zipped(files: dict[str, bytes]) -> bytes:
-    """Files of shapefiles in one zip."""
-    named = {Path(name).stem + Path(name).suffix.lower(): content for name, content in files.items()}
-    stems = [Path(name).stem for name in named if name.endswith(".shp")]
-    if not stems:
-        raise SourceError("the zip holds no shapefile (.shp); zip the .shp, .shx, .dbf and .prj together")
-    for stem in stems:
-        if f"{stem}.shx" not in named:
-            raise SourceError(f"the shapefile {stem}.shp lacks its {stem}.shx; keep its files together")
-        for name in (f"{stem}.shp", f"{stem}.shx"):
-            refuse_cut(name, named[name], len(named[name]))
-        refuse_files_of_system(named.get(f"{stem}.prj", b"").decode(errors="replace"))
-    packed = BytesIO()
-    with zipfile.ZipFile(packed, "w") as archive:
-        for name, content in named.items():
-            archive.writestr(zipfile.ZipInfo(name), content)  # without a time: equal files give equal bytes
-    return packed.getvalue()
-
-
-def _gdal(content: bytes, layer: str | None, notes: Notes) -> tuple[Rings, str | None]:
+def _gdal(file: VectorFile, layer: str | None, notes: Notes) -> tuple[Rings, str | None]:
     """Polygons that GDAL reads."""
-    from pyogrio import list_layers, raw
+    from pyogrio import raw
 
-    with gdal_errors():
-        name = chosen_layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer)
-        meta, _, shapes, _ = raw.read(content, layer=name, columns=[], force_2d=True)
+    with gdal_errors(file.formats):
+        name = chosen_layer([(each, str(kind)) for each, kind in layers_of(file, layer)], layer)
+        meta, _, shapes, _ = raw.read(file.content, layer=name, columns=[], force_2d=True)
     if shapes is None:
         raise SourceError(f"its layer {name!r} has no geometries; choose another by `layer`")
-    return _parsed(shapes, notes), meta["crs"]
+    return areas_of_wkb(shapes, notes), meta["crs"]
+
+
+def layers_of(file: VectorFile, wanted: str | None) -> list[tuple[str, str | None]]:
+    """Layers to choose from, and the kinds of their geometries, None of those without; within `gdal_errors`.
+
+    A format that always has the same layers has those with features, unless one is `wanted`, and none that has the
+    points of another: GPX has those of its routes and tracks once more.
+    """
+    from pyogrio import list_layers, read_info
+
+    found = [(str(name), None if kind is None else str(kind)) for name, kind in list_layers(file.content)]
+    if not file.has_fixed_layers or wanted is not None:
+        return found
+    own = [layer for layer in found if not layer[0].endswith(POINTS_OF_LINES)]
+    count = {name: read_info(file.content, layer=name, force_feature_count=True)["features"] for name, _ in own}
+    return [layer for layer in own if count[layer[0]]] or own[:1]
 
 
 @contextmanager
-def gdal_errors() -> Iterator[None]:
-    """Let GDAL read features, silence its warnings, and turn what it raises into a `SourceError`."""
+def gdal_errors(formats: Sequence[str]) -> Iterator[None]:
+    """Let GDAL read features in some formats, silence its warnings, and turn what it raises into a `SourceError`."""
     with QUIET, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # warnings of GDAL; invalid geometries are found later
         try:
-            with vector_formats():
+            with vector_formats(formats):
                 yield
+                if "GML" in formats:
+                    _forget_schemas()
         except ParameterError:  # of `layer`; it is a ValueError too
             raise
         except (
@@ -218,11 +146,20 @@ def gdal_errors() -> Iterator[None]:
             raise SourceError(f"GDAL cannot read it ({gdal_reason(error)}); save it again") from None
 
 
+def _forget_schemas() -> None:
+    from pyogrio import vsi_listtree, vsi_unlink
+
+    for path in vsi_listtree("/vsimem/", SCHEMAS):
+        vsi_unlink(path)
+
+
 def gdal_reason(error: Exception) -> str:
     """What GDAL says, without its internals."""
     text = " ".join(str(error).split()).rpartition("Raw error: ")[2]
     if isinstance(error, NameError):
         return "its reference system is damaged"
+    if FORMATS in text:
+        return f"the file is {FORMATS}, or damaged"
     if "sqlite3" in text:  # followed by the query
         return "its database is damaged"
     start = text.find("/vsi")
@@ -259,7 +196,7 @@ def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArra
     """
     import shapely
 
-    given = np.array([shape is not None and shape != b"" for shape in shapes], np.bool_)  # as GDAL says that
+    given = np.array([bool(shape) for shape in shapes], np.bool_)  # FlatGeobuf has empty ones for none
     for _ in range(int((~given).sum())):
         notes.left_out(UNLOCATED)
     feature = np.flatnonzero(given)
@@ -309,7 +246,7 @@ def parts_of(whole: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
     return parts, owner
 
 
-def _parsed(shapes: NDArray[Any], notes: Notes) -> Rings:
+def areas_of_wkb(shapes: NDArray[Any], notes: Notes) -> Rings:
     """Polygons of geometries in WKB."""
     import shapely
 

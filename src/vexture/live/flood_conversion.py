@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.content import FileKind, kind_of, start_of, unpacked
+from vexture.content import VECTOR_FILES, FileKind, kind_of, start_of, unpacked
 from vexture.errors import LimitError, ParameterError, SourceError, VextureError
 from vexture.flood.relief import Relief
 from vexture.flood.scene import PREFIX, labels
@@ -41,7 +41,7 @@ OPTIONS: Final[dict[FileKind, tuple[str, ...]]] = {
 }
 """Parameters of the reader by kind of data; data of other kinds are not georeferenced."""
 
-KINDS: Final = "GeoJSON, GeoPackage, FlatGeobuf, a zipped shapefile, GeoTIFF, NetCDF or a packed texture"
+KINDS: Final = f"GeoJSON, {VECTOR_FILES} (a shapefile or FileGDB zipped), GeoTIFF, NetCDF or a packed texture"
 
 
 @dataclass(frozen=True, slots=True)

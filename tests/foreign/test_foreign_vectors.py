@@ -1,0 +1,103 @@
+"""No file of features in XML, a database or a zip leads to another file or address, nor to a place outside a zip."""
+
+import sys
+import zipfile
+
+import pytest
+from click.testing import CliRunner
+from links import made
+from outside import one_line, told
+from server import serving
+from vector_links import IGNORED, NOTED, REFUSED, gml, kml, zipped
+
+import vexture
+from vexture.cli.main import main
+from vexture.errors import SourceError
+from vexture.geo.crs import MissingReferenceError
+from vexture.geo.features import feature_batches, read_features
+from vexture.notes import Notes
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="inotify, which sees files that are opened, is Linux's")
+
+ALL = REFUSED | NOTED | IGNORED
+
+
+@pytest.mark.parametrize("way", ALL)
+def test_vectors_lead_nowhere(way, folder, outside):
+    path = made(ALL, way, folder, outside)
+    notes = Notes()
+    said = one_line(told(read_features, path, notes=notes))
+    assert outside.touched() == []
+    assert said.startswith("READ") == (way not in REFUSED), said
+    assert any("is not read" in str(note) for note in notes.listed) == (way in NOTED)
+    one_line(told(lambda: [*feature_batches(path.read_bytes(), notes=Notes())]))
+    one_line(told(vexture.read, path))
+    one_line(told(vexture.read, path.read_bytes()))
+    assert outside.touched() == []
+
+
+def sources(folder, outside):
+    found = []
+    for number, way in enumerate(ALL):
+        place = folder / str(number)
+        place.mkdir()
+        found.append(made(ALL, way, place, outside))
+    return found
+
+
+def test_servers_and_the_command_line_are_led_nowhere(folder, outside):
+    given = sources(folder, outside)
+    outcome = CliRunner().invoke(main, ["convert", *map(str, given), "-o", str(folder / "out"), "--jobs", "1"])
+    assert outcome.exit_code == 1, outcome.output
+    assert "Traceback" not in outcome.output
+    assert outside.touched() == []
+    (folder / "shapes").mkdir()
+    with serving(folder / "shapes") as server:
+        for number, source in enumerate(given):
+            server.put(f"a{number}", source.read_bytes())
+        assert outside.touched() == []
+        assert server.ask("GET", "/")[0] == 200
+
+
+def test_what_is_beside_a_file_of_features_is_not_read(folder):
+    (folder / "a.csv").write_text("x,y\n1,2\n")
+    (folder / "a.prj").write_text("EPSG:28992")
+    (folder / "a.csvt").write_text('"Integer","Integer"\n')
+    with pytest.raises(MissingReferenceError):
+        read_features(folder / "a.csv", notes=Notes())
+    before = read_features(gml(folder), notes=Notes()).table
+    (folder / "a.xsd").write_text("no schema")
+    (folder / "a.gfs").write_text(
+        "<GMLFeatureClassList><GMLFeatureClass><Name>x</Name></GMLFeatureClass></GMLFeatureClassList>"
+    )
+    assert read_features(folder / "a.gml", notes=Notes()).table.equals(before)
+    assert {path.name for path in folder.iterdir()} == {"a.csv", "a.prj", "a.csvt", "a.gml", "a.xsd", "a.gfs"}
+
+
+def test_names_in_a_zip_are_no_places(folder, tmp_path):
+    content = kml(folder, "").read_text()
+    archive = zipped(folder, **{"../out_kml": content})
+    assert len(read_features(archive, notes=Notes())) == 1
+    with zipfile.ZipFile(folder / "b.zip", "w") as packed:
+        packed.writestr("../up.gdb/a00000001.gdbtable", bytes(40))
+        packed.writestr("../up.gdb/../../b.txt", "b")
+    with pytest.raises(SourceError, match="GDAL cannot read it"):
+        read_features(folder / "b.zip", notes=Notes())
+    assert sorted(path.name for path in folder.iterdir()) == ["a.kml", "a.kmz", "b.zip"]
+    assert not [*folder.parent.glob("*.gdb")]
+
+
+def test_a_zip_that_says_too_much_is_refused(folder):
+    archive = zipped(folder, a_kml="<kml/>")
+    content = bytearray(archive.read_bytes())
+    entry = content.index(b"PK\x01\x02")
+    content[entry + 24 : entry + 28] = (2**31).to_bytes(4, "little")
+    with pytest.raises(SourceError, match="larger than 268,435,456 bytes"):
+        read_features(bytes(content), notes=Notes())
+
+
+def test_entities_do_not_grow(folder):
+    lines = "".join(f'<!ENTITY a{k} "{f"&a{k - 1};" * 10}">' for k in range(1, 9))
+    path = kml(folder, "<name>&a8;</name>", f'<!DOCTYPE kml [<!ENTITY a0 "a">{lines}]>')
+    with pytest.raises(SourceError, match="its DTD, 'kml', is not read; save it without a DOCTYPE"):
+        read_features(path, notes=Notes())
