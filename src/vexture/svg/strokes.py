@@ -5,7 +5,9 @@ scaled so that a unit is `ROUND` of the drawing: a quarter for Skia, with its ro
 replace its many pieces.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -36,6 +38,9 @@ SLOWING: Final = 1 - 1 / 32
 
 MOST_DASHES: Final = 100_000
 """Dashes in one path; Skia itself silently gives up at ten times as many."""
+
+KEPT, KEPT_CUBICS = 64, 64
+"""Strokes that are kept for the next shape of the same outlines, and the most cubics of such outlines."""
 
 CAPS = {"butt": pathops.LineCap.BUTT_CAP, "round": pathops.LineCap.ROUND_CAP, "square": pathops.LineCap.SQUARE_CAP}
 JOINS = {
@@ -82,6 +87,21 @@ def stroke_contours(outlines: list[Outline], stroke: Stroke, size: float) -> lis
     >>> np.ptp(contour[:, 0], axis=0).round(6)
     array([10.,  2.])
     """
+    if sum(len(outline.cubics) for outline in outlines) > KEPT_CUBICS:
+        return traced(outlines, stroke, size)
+    key = tuple((outline.cubics.tobytes(), outline.closed) for outline in outlines)
+    return [contour.copy() for contour in kept(key, stroke, size)]
+
+
+@lru_cache(KEPT)
+def kept(outlines: tuple[tuple[bytes, bool], ...], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
+    """As `stroke_contours`: what `use` and markers show, they often show at thousands of places."""
+    read = [Outline(np.frombuffer(cubics).reshape(-1, 4, 2), closed) for cubics, closed in outlines]
+    return traced(read, stroke, size)
+
+
+def traced(outlines: Sequence[Outline], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
+    """As `stroke_contours`, made anew."""
     together = np.concatenate([outline.cubics for outline in outlines])
     if stroke.dashes:
         dashes = arc_length(together) / sum(stroke.dashes) * len(stroke.dashes) / 2

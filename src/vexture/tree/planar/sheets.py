@@ -36,7 +36,10 @@ BUDGET: Final = 2
 """Texels of all sheets for each cubic and path: about twice those of the drawing's layers."""
 
 SPARED: Final = 8
-"""Part of a sheet's layers that it may do without: to find how many just fit takes as long again."""
+"""Part of a sheet's texels that it may do without: to find how many layers just fit takes as long again."""
+
+STEPS: Final = 4
+"""Numbers of layers that are tried between one and its double."""
 
 
 class Sheet(NamedTuple):
@@ -100,7 +103,7 @@ def _within_budget(drawing: Drawing, restyle: bool, **parameters: Any) -> list[S
         planar = build_map(part, most_texels=share, restyle=restyle, **parameters)
         return None if planar is None else Sheet(part, planar)
 
-    found = _greedy(len(items), tried)
+    found = _greedy(len(items), budget / len(items), tried)
     return [sheet.named(drawing.name, number) for number, sheet in enumerate(found, 1)]
 
 
@@ -118,26 +121,51 @@ def notes_of_sheets(sheets: Sequence[Sheet]) -> tuple[Note, ...]:
     return tuple(notes)
 
 
-def _greedy(count: int, tried: Callable[[int, int], Sheet | None]) -> list[Sheet]:
-    """Sheets of so many items: each of as many as are found to fit, by doubling their number and then halving the step.
+def _greedy(count: int, share: float, tried: Callable[[int, int], Sheet | None]) -> list[Sheet]:
+    """Sheets of so many items, each of about as many as fit.
 
-    `tried` makes a sheet of the items first..last-1, or none if they need too many texels; of one it always does.
+    A sheet fills its share but for an eighth, or does not hold one step of items more. `tried` makes a sheet of the
+    items first..last-1, or none if they need too many texels; of one it always does. `share` are the texels of one
+    item. The search begins at the number of items in the sheet below, and goes in steps that double, then halve.
     """
     sheets: list[Sheet] = []
-    first = 0
+    first = below = 0
     while first < count:
-        best, fitting, step, grows = tried(first, first + 1), 1, 1, True
-        while step > fitting // SPARED and first + fitting < count:
-            last = min(first + fitting + step, count)
-            more = tried(first, last)
-            grows = grows and more is not None
-            if more is not None:
-                best, fitting = more, last - first
-            step = 2 * step if grows else step // 2
+        sizes = _sizes(count - first)
+        fitting, failing, at, step = -1, len(sizes), min(below, len(sizes) - 1), 1
+        best: Sheet | None = None
+        while failing - fitting > 1:
+            made = tried(first, first + sizes[at])
+            if made is None:
+                failing = at
+            else:
+                best, fitting = made, at
+                if SPARED * made.tree.texels >= (SPARED - 1) * share * sizes[at]:
+                    break
+            if fitting >= 0 and failing < len(sizes):
+                at = (fitting + failing) // 2
+            else:
+                at = min(max(at + (step if made else -step), 0), len(sizes) - 1)
+                step *= 2
         assert best is not None
         sheets.append(best)
-        first += fitting
+        first, below = first + sizes[fitting], fitting
     return sheets
+
+
+def _sizes(most: int) -> list[int]:
+    """Numbers of items that are tried, up to `most`.
+
+    Examples
+    --------
+    >>> _sizes(13)
+    [1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 13]
+    """
+    sizes, step = [*range(1, 2 * STEPS)], 2
+    while sizes[-1] < most:
+        sizes += [step * (STEPS + k) for k in range(STEPS)]
+        step *= 2
+    return [size for size in sizes if size < most] + [most]
 
 
 def _items(drawing: Drawing) -> list[list[Path]]:
