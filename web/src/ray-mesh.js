@@ -1,4 +1,5 @@
 // Lets rays pass a mesh where its mask lets them, and those of its clones.
+import { takePartIn } from './methods.js';
 
 /**
  * @typedef {object} Rays The interface of a mask to its meshes.
@@ -13,8 +14,7 @@
  *   geometry: import('three').BufferGeometry
  * }} Masked a mesh, or whatever else has a geometry and a material
  *
- * @typedef {import('three').Intersection & { element?: import('./element-at.js').FoundElement | null }} MaskedIntersection
- *   what a ray finds on an attached mesh: `element` is the element of the drawing there, null without any
+ * @typedef {import('./masked-intersection.js').MaskedIntersection} MaskedIntersection
  */
 
 /** A mesh whose rays a mask filters. */
@@ -22,7 +22,6 @@ export class RayMesh {
   #mesh;
   #rays;
   #takeBack;
-  #isReleased = false;
 
   /**
    * @param {Masked} mesh
@@ -31,47 +30,20 @@ export class RayMesh {
   constructor(mesh, rays) {
     this.#mesh = mesh;
     this.#rays = rays;
-    this.#takeBack = [this.#filterRays(), this.#followClones()];
-  }
-
-  #filterRays() {
-    const { raycast } = this.#mesh;
-    return this.#replace('raycast', (raycaster, hits) => {
-      if (this.#isReleased) return raycast.call(this.#mesh, raycaster, hits);
-      /** @type {MaskedIntersection[]} */
-      const found = [];
-      raycast.call(this.#mesh, raycaster, found);
-      for (const hit of found) if (this.#isHit(hit)) hits.push(hit);
-    });
-  }
-
-  /** three.js copies nothing of a mask to a clone, of a mesh or of a model around it. */
-  #followClones() {
-    const { clone } = this.#mesh;
-    return this.#replace('clone', (recursive) => {
-      const copy = clone.call(this.#mesh, recursive);
-      if (!this.#isReleased) this.#rays.attach(/** @type {Masked} */ (copy));
-      return copy;
-    });
-  }
-
-  /**
-   * Replace a method of the mesh.
-   *
-   * @template {'raycast' | 'clone'} Name
-   * @param {Name} name
-   * @param {Masked[Name]} method
-   * @returns {() => void} takes it back, unless another one has replaced it, which calls it
-   */
-  #replace(name, method) {
-    const mesh = this.#mesh;
-    const before = Object.hasOwn(mesh, name) ? mesh[name] : null;
-    mesh[name] = method;
-    return () => {
-      if (mesh[name] !== method) return;
-      if (before) mesh[name] = before;
-      else delete (/** @type {Partial<Masked>} */ (mesh)[name]);
-    };
+    this.#takeBack = [
+      takePartIn(mesh, 'raycast', (raycast, raycaster, hits) => {
+        /** @type {MaskedIntersection[]} */
+        const found = [];
+        raycast(raycaster, found);
+        for (const hit of found) if (this.#isHit(hit)) hits.push(hit);
+      }),
+      // three.js copies nothing of a mask to a clone, of a mesh or of a model around it
+      takePartIn(mesh, 'clone', (clone, recursive) => {
+        const copy = clone(recursive);
+        rays.attach(copy);
+        return copy;
+      }),
+    ];
   }
 
   /**
@@ -95,7 +67,6 @@ export class RayMesh {
   dispose() {}
 
   release() {
-    this.#isReleased = true; // methods that replaced these later still call them
     for (const takeBack of this.#takeBack) takeBack();
     this.dispose();
   }

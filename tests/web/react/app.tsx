@@ -8,10 +8,13 @@ import type {
   Paint, PaintList, Root, RootChoice, RootPaint, TextureData, VectorMaterialParameters, VectorTextureEvents,
 } from 'vexture';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { VectorGlobe, openTiles } from 'vexture/globe';
 import { VectorTexturePlugin } from 'vexture/gltf';
+import { VectorTileLayer } from 'vexture/maplibre';
 import {
   VectorMask, VectorMaterial, useFold, useVectorTexture, type VectorMaskProps, type VectorMaterialProps,
 } from 'vexture/react';
+import * as nodes from 'vexture/webgpu';
 import { ThesisLoader, ThesisTexture, readThesis, type ThesisData } from 'vexture/thesis';
 import {
   SimpleWater, VectorWater, chooseWater, waterNormals, type Calm, type DepthColors, type Foam, type SimpleWaterOptions,
@@ -59,6 +62,15 @@ function Wall(props: VectorMaskProps) {
   );
 }
 
+/** What is hovered, as the README has it. */
+export function Hovered({ onHover }: { onHover: (name?: string) => void }) {
+  return (
+    <mesh onPointerMove={(event) => onHover(event.element?.name)}>
+      <VectorMaterial src={map} mode="paint" />
+    </mesh>
+  );
+}
+
 export function App() {
   return (
     <Canvas>
@@ -97,8 +109,9 @@ export async function withoutReact(bytes: Bytes, onProgress: OnProgress, source:
   const mask = vexture.applyVectorMask(mesh.material as MeshStandardMaterial, texture, options(fold)).attach(mesh);
   [mask.mode, mask.invert, mask.transform] = ['alpha', true, new Matrix3()];
   const found: vexture.VectorMask | undefined = vexture.vectorMaskOf(material);
-  const [hit]: MaskedIntersection[] = new Raycaster().intersectObject(mesh as Mesh);
-  const element: FoundElement | null | undefined = hit?.element ?? found?.elementAt(0.5, 0.5);
+  const [hit] = new Raycaster().intersectObject(mesh as Mesh);
+  const same: MaskedIntersection | undefined = hit;
+  const element: FoundElement | null | undefined = hit?.element ?? same?.element ?? found?.elementAt(0.5, 0.5);
   const instances = new InstancedMesh(new PlaneGeometry(), material, 2);
   instances.geometry.setAttribute('vextureRoot', vexture.rootAttribute(live, ['logo', 0]));
   const choice: RootChoice = 'logo';
@@ -133,4 +146,16 @@ export async function model(texture: vexture.VectorTexture): Promise<void> {
   const all = vexture.applyVectorMaskToScene(scene, texture, options);
   all.set({ wrap: 'repeat', root: all.masks[0].root });
   all.remove();
+}
+
+/** Maps, and what WebGPURenderer draws. */
+export async function tilesAndNodes(texture: vexture.VectorTexture): Promise<void> {
+  const layer = new VectorTileLayer({ id: 'parcels', source: 'parcels.pmtiles' });
+  layer.setPaint((id) => (id === 'sold' ? 'red' : undefined));
+  layer.on('click', ({ feature, lngLat }) => console.log(feature?.id, lngLat.lng));
+  const globe = new VectorGlobe({ source: await openTiles('parcels.pmtiles'), radius: 1 });
+  const material = new nodes.VectorNodeMaterial({ texture, mode: 'paint', side: 2 });
+  // @ts-expect-error there is no such mode
+  material.mode = 'glow';
+  console.log(globe.attribution, nodes.vectorCoverage(texture, { wrap: 'repeat', root: nodes.instancedRoot() }));
 }

@@ -2,6 +2,8 @@ import { MeshBasicNodeMaterial } from 'three/webgpu';
 import { shapeMaterial } from '../shape-material.js';
 import { VectorNodeMask } from './vector-node-mask.js';
 
+/** @typedef {import('../shape-material.js').VectorMaterialParameters} VectorMaterialParameters */
+
 const Base = /** @type {new () => import('three').MeshBasicMaterial} */ (/** @type {unknown} */ (MeshBasicNodeMaterial));
 
 /**
