@@ -24,6 +24,9 @@ SHADES: Final = ROOT / "web" / "test" / "fixtures" / "shades.svg"
 
 ATLAS: Final = ("holes", "flame", "cake", "thumb")
 
+INKS: Final = {"ink": ("duck", 0x1858A8), "cake": ("cake", 0xB03020)}
+"""Drawings of one colour: shape and colour."""
+
 PAGE: Final = Path(__file__).parent / "pages" / "mask.js"
 
 THREES: Final = ("three-floor", "three")
@@ -66,6 +69,9 @@ def prepare(folder: Path) -> None:
     elements().save(folder / "elements.ktx2")
     sheets().save(folder / "sheets.ktx2")
     vexture.atlas([SHAPES / f"{name}.svg" for name in ATLAS]).save(folder / "atlas.ktx2")
+    inks = [_inked(name, *ink) for name, ink in INKS.items()]
+    vexture.convert(inks[0]).save(folder / "ink.ktx2")
+    vexture.atlas(inks).save(folder / "inks.ktx2")
     vexture.convert(drawing("duck"), encoding="thesis").save(folder / "thesis")
     for three in THREES:
         bundle(PAGE, folder / f"{three}.js", three)
@@ -73,6 +79,11 @@ def prepare(folder: Path) -> None:
         (folder / f"{three}.html").write_text(
             f'{icon}<script type="module" src="{three}.js"></script>', encoding="utf-8"
         )
+
+
+def _inked(name: str, shape: str, color: int) -> Drawing:
+    paint = Paint(((color >> 16) / 255, (color >> 8 & 255) / 255, (color & 255) / 255))
+    return Drawing(tuple(replace(path, paint=paint) for path in drawing(shape).paths), name=name)
 
 
 @cache

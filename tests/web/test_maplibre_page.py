@@ -166,3 +166,18 @@ def test_a_listener_that_throws_does_not_silence_the_others(opened_map: Callable
     page.mouse.click(128, 128)
     assert page.evaluate("heard") == 2
     assert page.errors == ["mine"]
+
+
+def test_a_terrain_is_told_as_what_the_layer_does_not_follow(opened_map: Callable[..., Any]) -> None:
+    page = opened_map({"zoom": 4, "pitch": 50, "center": tile_pyramid.lng_lat(*MIDDLE)})
+    page.evaluate(
+        """async () => {
+            const plateau = Object.assign(document.createElement('canvas'), { width: 256, height: 256 });
+            map.addSource('dem', { type: 'raster-dem', tiles: [plateau.toDataURL()] });
+            map.setTerrain({ source: 'dem' });
+            await frame();
+            await frame();
+        }"""
+    )
+    (event,) = page.evaluate("events.filter(([type]) => type === 'error')")
+    assert "map.setTerrain(null)" in event[1]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browser import served
-from mask_page import ATLAS, NEWEST, THREES, decode, distance, draw, drawing, encoded, exact, linear, tiled
+from mask_page import ATLAS, INKS, NEWEST, THREES, decode, distance, draw, drawing, encoded, exact, linear, tiled
 
 import vexture
 
@@ -133,6 +133,14 @@ def test_a_drawing_is_painted_in_its_colours(page: Any, screenshot: Callable[...
     plain = draw(page, material="MeshStandardMaterial")
     assert distance(np.where(alpha == 0, lit, plain), plain) == 0.0
     assert distance(lit, plain) > 10.0
+
+
+def test_a_drawing_of_one_colour_is_shown_in_it(page: Any) -> None:
+    for texture, root in (("ink", None), ("inks", "cake"), ("inks", "ink")):
+        parameters = {} if root is None else {"root": root}
+        picture = draw(page, material="VectorMaterial", parameters=parameters, texture=texture)
+        name, color = INKS[root or "ink"]
+        assert distance(picture, over_white(exact(name), color)) <= HALF_STEP
 
 
 def test_a_tilted_plane_is_filtered_as_its_perspective_asks(page: Any, screenshot: Callable[..., Path]) -> None:
@@ -262,8 +270,9 @@ def test_a_lost_context_comes_back(address: str, open_page: Callable[..., Any]) 
 def test_a_material_keeps_its_own_changes(page: Any) -> None:
     for mask in ({}, {"mode": "cut"}):
         own = draw(page, parameters={"color": 0x205080}, mask=mask, size=256)
-        chained = draw(page, parameters={"color": 0x205080}, mask=mask, size=256, chain=True)
-        assert distance(chained, np.roll(own, 1, axis=-1)) == 0.0
+        for when in ("before", "after"):
+            chained = draw(page, parameters={"color": 0x205080}, mask=mask, size=256, chain=when)
+            assert distance(chained, np.roll(own, 1, axis=-1)) == 0.0
 
 
 def test_what_cannot_be_is_refused_in_one_line(page: Any) -> None:

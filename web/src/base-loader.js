@@ -42,12 +42,6 @@ export function nameOf(url, suffixes) {
   }
 }
 
-/** @param {ArrayBuffer | Uint8Array} file */
-function isPage(file) {
-  const start = String.fromCharCode(...new Uint8Array(file.slice(0, 64)));
-  return /^\s*<(!doctype html|html)\b/i.test(start);
-}
-
 /** @param {number[]} numbers */
 const sum = (numbers) => numbers.reduce((one, other) => one + other, 0);
 
@@ -149,9 +143,7 @@ export class BaseLoader extends Loader {
     const resolved = this.addressOf(url);
     this.manager.itemStart(resolved);
     try {
-      const bytes = await fetchBytes(resolved, { signal, ...this.requestOptions() }, most, onBytes);
-      if (isPage(bytes)) throw new VextureError(`${resolved}: is a web page, not a texture; check the address`, 'page');
-      return bytes;
+      return await fetchBytes(resolved, { signal, ...this.requestOptions() }, most, onBytes);
     } catch (error) {
       this.manager.itemError(resolved);
       throw error;

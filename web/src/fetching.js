@@ -108,9 +108,9 @@ export function isTransport(error) {
 function failure(url, signal, error) {
   if (signal.aborted) return error; // as three's loaders do: an AbortError stays one
   const cause = error instanceof Error && error.cause instanceof Error ? error.cause : error;
-  return new VextureError(`${shown(url)}: cannot be fetched (${line(cause)}); check the address and the network`, 'url', {
-    cause: error,
-  });
+  // scripts in a browser cannot tell a refusal by CORS from a dead server
+  const remedy = "check the address, the network and, for another site, the server's Access-Control-Allow-Origin (CORS)";
+  return new VextureError(`${shown(url)}: cannot be fetched (${line(cause)}); ${remedy}`, 'url', { cause: error });
 }
 
 /**

@@ -1,6 +1,7 @@
 // Named places in three.js's own shaders where text is inserted.
-import { Material, ShaderLib } from 'three';
+import { ShaderLib } from 'three';
 import { VextureError } from './errors.js';
+import { takePartIn } from './methods.js';
 
 /**
  * @typedef {'vertexDeclare' | 'vertexUv' | 'fragmentDeclare' | 'fragmentCut' | 'fragmentColor' | 'fragmentLight'
@@ -10,6 +11,7 @@ import { VextureError } from './errors.js';
  * @property {string} vertexShader
  * @property {string} fragmentShader
  *
+ * @typedef {import('three').Material} Material
  * @typedef {import('three').WebGLProgramParametersWithUniforms} Program
  */
 
@@ -97,7 +99,7 @@ export function check(material, texts) {
 }
 
 /**
- * Run a function when a material is compiled, after the functions that are registered already.
+ * Run a function when a material is compiled, after its own `onBeforeCompile`, also after one that is set later.
  *
  * @param {Material} material
  * @param {() => string} key names what is done to the program: programs of one key are shared
@@ -105,25 +107,19 @@ export function check(material, texts) {
  * @returns {() => void} takes it back
  */
 export function takePart(material, key, compile) {
-  const { onBeforeCompile, customProgramCacheKey } = material;
-  const isDefault = customProgramCacheKey === Material.prototype.customProgramCacheKey;
-  let taken = true;
-  /** @type {Material['onBeforeCompile']} */
-  const chained = (program, renderer) => {
-    onBeforeCompile.call(material, program, renderer);
-    if (taken) compile(program);
-  };
-  const chainedKey = () => {
-    const before = isDefault ? onBeforeCompile.toString() : customProgramCacheKey.call(material);
-    return taken ? `${before} ${key()}` : before;
-  };
-  material.onBeforeCompile = chained;
-  material.customProgramCacheKey = chainedKey;
+  /** @type {WeakSet<Program>} */
+  const compiled = new WeakSet();
+  const takeBack = [
+    takePartIn(material, 'onBeforeCompile', (own, program, renderer) => {
+      own(program, renderer);
+      if (!compiled.has(program)) compile(program); // a later function may have called the one before it
+      compiled.add(program);
+    }),
+    takePartIn(material, 'customProgramCacheKey', (own) => `${own()} ${key()}`),
+  ];
   material.needsUpdate = true;
   return () => {
-    taken = false; // functions chained to these later still call them
-    if (material.onBeforeCompile === chained) material.onBeforeCompile = onBeforeCompile;
-    if (material.customProgramCacheKey === chainedKey) material.customProgramCacheKey = customProgramCacheKey;
+    for (const restore of takeBack) restore();
     material.needsUpdate = true;
   };
 }

@@ -7,6 +7,18 @@ import { inflate } from './inflate.js';
 /** The file identifier of KTX 2.0. */
 export const MAGIC = Object.freeze([0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 0x0d, 0x0a, 0x1a, 0x0a]);
 
+const CONVERT = 'convert it first: vexture convert FILE';
+
+/** What is taken for a texture, by its first bytes as characters of these numbers, and the remedy. */
+const OTHERS = /** @type {const} */ ([
+  [/^\s*<(!doctype html|html)\b/i, 'a web page', 'check the address'],
+  [/<svg\b/i, 'an SVG', `${CONVERT}, or import FILE?vexture with vexture/vite`],
+  [/^(\x89PNG|\xff\xd8\xff|GIF8|RIFF)/, 'a picture', CONVERT],
+]);
+
+/** Bytes in which an SVG begins: comments may precede it. */
+const START_BYTES = 4096;
+
 const HEADER_BYTES = 80;
 const LEVEL_BYTES = 24;
 const TEXEL_BYTES = 16;
@@ -87,8 +99,10 @@ function asBytes(file) {
  */
 function readHeader(bytes, view) {
   if (!isKtx2(bytes)) {
-    const found = line(String.fromCharCode(...bytes.subarray(0, MAGIC.length)));
-    throw new VextureError(`begins with ${found}; a packed texture is a KTX 2.0 file; ${REMEDY}`, 'identifier');
+    const start = String.fromCharCode(...bytes.subarray(0, START_BYTES));
+    const [, kind, remedy] = OTHERS.find(([pattern]) => pattern.test(start)) ?? [];
+    const found = kind ? `is ${kind}, not a texture` : `begins with ${line(start.slice(0, MAGIC.length))}; a packed texture is a KTX 2.0 file`;
+    throw new VextureError(`${found}; ${remedy ?? REMEDY}`, 'identifier');
   }
   if (bytes.length < HEADER_BYTES + LEVEL_BYTES) {
     throw new VextureError(

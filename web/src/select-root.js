@@ -64,7 +64,7 @@ export function shapeIndex({ name, roots }, choice, otherwise = '') {
   }
   const place = roots.findIndex((root) => root.name === choice);
   if (place >= 0) return place;
-  throw new VextureError(`${name}: no root ${line(choice)}; ${nearNames(choice, roots.map((root) => root.name))}`, 'root');
+  throw new VextureError(`${name}: no root ${line(choice)}; ${nearNames(`${choice}`, roots.map((root) => root.name))}`, 'root');
 }
 
 /**

@@ -1,12 +1,13 @@
 import { Color } from 'three';
-import { UV_ATTRIBUTES } from './attributes.js';
-import { VextureError } from './errors.js';
+import { UV_ATTRIBUTES, warnOfMissing } from './attributes.js';
+import { VextureError, line } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
 import { NAMES, isTranslucent, withOptions } from './mask-options.js';
 import { texts } from './mask-shader.js';
 import { mapTransform, uniformValues } from './mask-uniforms.js';
 import { variantOf } from './mask-variant.js';
+import { takePartIn, warnOfJSON } from './methods.js';
 import { MaskedMeshes } from './ray-mesh.js';
 import { ShownShape, checkMesh, isOn } from './shown-shape.js';
 
@@ -39,16 +40,6 @@ export class VectorMask extends WithOptions {
   #shown;
   #transparent;
   #takeBack;
-  #clone;
-  /** three.js copies nothing that it does not know to a clone. */
-  #cloned = () => {
-    const copy = this.#clone.call(this.#material);
-    if (MASKS.get(this.#material) === this && !MASKS.has(copy)) { // a VectorMaterial copies its own
-      copy.transparent = this.#transparent;
-      new VectorMask(copy, this.texture, { ...this.options, transform: this.options.transform.clone() });
-    }
-    return copy;
-  };
   #inside = new Color();
   #isListening = false;
   /** Key of the program since the last refresh: three.js compiles nothing when it goes back to an earlier one. */
@@ -69,6 +60,9 @@ export class VectorMask extends WithOptions {
    */
   constructor(material, texture, options = {}) {
     super();
+    if (!material?.isMaterial) {
+      throw new VextureError(`the material is ${line(material?.constructor?.name)}; give one, such as mesh.material`, 'material');
+    }
     if ('isNodeMaterial' in material) {
       throw new VextureError(
         `${material.type} is a material of WebGPURenderer; take applyVectorMask of 'vexture/webgpu'`,
@@ -85,18 +79,36 @@ export class VectorMask extends WithOptions {
     this.#transparent = material.transparent;
     this.#shown = new ShownShape(texture, options, material.type);
     check(material, texts(this.#variant()));
-    this.#takeBack = takePart(
-      material,
-      () => JSON.stringify(this.#variant()),
-      (program) => this.#compile(program, this.#variant()),
-    );
-    this.#clone = material.clone;
-    material.clone = this.#cloned;
+    const variant = () => this.#variant();
+    this.#takeBack = [
+      takePart(material, () => JSON.stringify(variant()), (program) => this.#compile(program, variant())),
+      takePartIn(material, 'clone', (clone) => this.#masked(clone())),
+      takePartIn(material, 'toJSON', (toJSON, meta) => {
+        warnOfJSON(material);
+        return toJSON(meta);
+      }),
+      takePartIn(material, 'onBeforeRender', (own, renderer, scene, camera, geometry, object, group) => {
+        own(renderer, scene, camera, geometry, object, group);
+        warnOfMissing(object, geometry, this.#shown.options);
+      }),
+    ];
     Object.assign(material, { build: refuseWebGPU });
     MASKS.set(material, this);
     this.#refresh();
     this.#listen(true);
     material.addEventListener('dispose', this.#onDispose);
+  }
+
+  /**
+   * A clone with a mask of its own: three.js copies nothing that it does not know.
+   *
+   * @param {import('three').Material} copy
+   */
+  #masked(copy) {
+    if (MASKS.has(copy)) return copy; // a VectorMaterial copies its own
+    this.restore(copy);
+    new VectorMask(copy, this.texture, { ...this.options, transform: this.options.transform.clone() });
+    return copy;
   }
 
   /** @returns {Variant} */
@@ -254,8 +266,7 @@ export class VectorMask extends WithOptions {
   /** Restore the material and all meshes. The texture, which others may use, is not disposed of. */
   remove() {
     this.#meshes.releaseAll();
-    this.#takeBack();
-    if (this.#material.clone === this.#cloned) this.#material.clone = this.#clone;
+    for (const takeBack of this.#takeBack) takeBack();
     this.#listen(false);
     this.#material.removeEventListener('dispose', this.#onDispose);
     this.#material.transparent = this.#transparent;
@@ -273,7 +284,7 @@ export class VectorMask extends WithOptions {
  * Mask a built-in mesh material or sprite material with a shape. `material.clone()` has a mask of its own with the same
  * options; `vectorMaskOf` finds it, to attach it to a mesh or change it.
  *
- * @param {import('three').Material} material its own `onBeforeCompile`, if any, runs first
+ * @param {import('three').Material} material its own `onBeforeCompile` runs first, also one that is set later
  * @param {VectorTexture} texture
  * @param {MaskOptions} [options]
  * @returns {VectorMask}

@@ -1,5 +1,5 @@
-import { Color, Matrix3, Mesh, MeshBasicMaterial, MeshDepthMaterial, ShaderLib, Texture } from 'three';
-import { describe, expect, test } from 'vitest';
+import { BoxGeometry, BufferGeometry, Color, InstancedMesh, Matrix3, Mesh, MeshBasicMaterial, MeshDepthMaterial, PlaneGeometry, ShaderLib, Texture } from 'three';
+import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
 import { VextureError } from '../src/errors.js';
 import { readPacked } from '../src/packed.js';
 import { texts } from '../src/mask-shader.js';
@@ -12,6 +12,12 @@ import { fixture } from './files.js';
 const read = async (/** @type {string} */ name) => new VectorTexture(await readPacked(fixture(`${name}.ktx2`), name));
 const [duck, badge, drawings] = await Promise.all([read('duck'), read('badge'), read('drawings')]);
 const other = drawings.roots[1].name;
+
+/** Call what three.js calls before it draws a mesh. @param {Mesh<BufferGeometry, import('three').Material>} mesh */
+function announce(mesh) {
+  const unread = /** @type {any} */ (null);
+  mesh.material.onBeforeRender(unread, unread, unread, mesh.geometry, mesh, unread);
+}
 
 describe('several changes at once', () => {
   test('a texture and a shape of it, which neither goes with the old ones', () => {
@@ -123,7 +129,7 @@ describe('a material without a mode', () => {
     const material = new VectorMaterial({ texture: badge, root: 0 });
     material.color.set('red');
     expect(programOf(material)).toBe(painted);
-    material.onBeforeRender();
+    announce(new Mesh(new PlaneGeometry(), material));
     expect(programOf(material)).toBe(silhouette);
     expect(new VectorMaterial({ texture: badge, color: 'red', mode: 'paint' }).mode).toBe('paint');
   });
@@ -229,6 +235,102 @@ test('colour and map inside are as they are when a picture is drawn', () => {
   expect(program.uniforms.vextureInside.value.getHex()).toBe(0x0000ff);
 });
 
+describe("a material's own shader", () => {
+  const source = () => ({ ...ShaderLib.basic, uniforms: {} });
+  /** @param {import('three').Material} material @param {any} program */
+  const compile = (material, program = source()) => {
+    material.onBeforeCompile(program, /** @type {any} */ (null));
+    return program;
+  };
+  const isMasked = (/** @type {any} */ program) => program.fragmentShader.split('uniform uint vextureRootQuad').length - 1;
+  const tint = (/** @type {any} */ program) => void (program.fragmentShader += '\n// tinted');
+
+  test('may be set after the mask, alone or with what was there', () => {
+    const material = new VectorMaterial({ texture: duck });
+    const plain = material.customProgramCacheKey();
+    material.onBeforeCompile = tint;
+    const replaced = compile(material);
+    expect([isMasked(replaced), replaced.fragmentShader.endsWith('tinted')]).toEqual([1, true]);
+    const { onBeforeCompile } = material;
+    material.onBeforeCompile = (...all) => {
+      onBeforeCompile.apply(material, all);
+      tint(all[0]);
+    };
+    const chained = compile(material);
+    expect([isMasked(chained), chained.fragmentShader.split('// tinted').length]).toEqual([1, 3]);
+    expect(material.customProgramCacheKey()).not.toBe(plain);
+  });
+
+  test('has keys of its own, and those of the mask', () => {
+    const [one, two] = [duck, badge].map((texture) => new VectorMaterial({ texture }));
+    for (const material of [one, two]) material.customProgramCacheKey = () => 'mine';
+    expect(one.customProgramCacheKey()).toMatch(/^mine /);
+    expect(one.customProgramCacheKey()).not.toBe(two.customProgramCacheKey());
+    two.onBeforeCompile = tint;
+    expect(two.customProgramCacheKey()).toMatch(/^mine /);
+  });
+
+  test('stays when the mask is removed', () => {
+    const material = new MeshBasicMaterial();
+    const mask = applyVectorMask(material, duck);
+    const { onBeforeCompile } = material;
+    material.onBeforeCompile = tint;
+    mask.remove();
+    expect(material.onBeforeCompile).toBe(tint);
+    expect(material.customProgramCacheKey()).toBe(String(tint));
+    const program = compile(material);
+    onBeforeCompile.call(material, program, /** @type {any} */ (null));
+    expect(isMasked(program)).toBe(0);
+  });
+});
+
+describe('what would be drawn as nothing is said in the console', () => {
+  /** @type {string[]} */
+  let said;
+  beforeEach(() => {
+    said = [];
+    vi.spyOn(console, 'warn').mockImplementation((message) => void said.push(message));
+  });
+  afterEach(() => vi.restoreAllMocks());
+
+  test('a geometry without texture coordinates, once', () => {
+    const mesh = new Mesh(new PlaneGeometry(), new VectorMaterial({ texture: duck }));
+    announce(mesh);
+    expect(said).toEqual([]);
+    const bare = new Mesh(new BufferGeometry(), mesh.material);
+    bare.name = 'wall';
+    announce(bare);
+    announce(bare);
+    expect(said).toEqual([expect.stringMatching(/^vexture: wall has no attribute uv; give it texture coordinates/)]);
+    mesh.material.channel = 1;
+    announce(mesh);
+    expect(said[1]).toMatch(/has no attribute uv1; .*channel/);
+  });
+
+  test('instances without shapes, or with too few', () => {
+    const mesh = new InstancedMesh(new PlaneGeometry(), new VectorMaterial({ texture: drawings, instanced: true }), 3);
+    announce(mesh);
+    mesh.geometry = new PlaneGeometry();
+    mesh.geometry.setAttribute('vextureRoot', rootAttribute(drawings, [0, other]));
+    announce(mesh);
+    mesh.geometry = new PlaneGeometry();
+    mesh.geometry.setAttribute('vextureRoot', rootAttribute(drawings, [0, other, 0]));
+    announce(mesh);
+    expect(said).toHaveLength(2);
+    for (const one of said) expect(one).toMatch(/no attribute vextureRoot of 3 instances; make it by rootAttribute\(/);
+  });
+
+  test('JSON, which has no mask', () => {
+    const material = new VectorMaterial({ texture: duck, name: 'logo' });
+    const { materials } = new Mesh(new BoxGeometry(), material).toJSON();
+    expect(materials).toHaveLength(1);
+    expect(said).toEqual([expect.stringMatching(/^vexture: the JSON of logo is without its vector texture; mask it again/)]);
+    material.texture = null;
+    material.toJSON();
+    expect(said).toHaveLength(1);
+  });
+});
+
 describe('what a mask cannot be', () => {
   /** @type {[Record<string, unknown>, string][]} */
   const wrong = [
@@ -273,6 +375,17 @@ describe('what a mask cannot be', () => {
     expect(error).toBeInstanceOf(VextureError);
     expect(error).toMatchObject({ field });
     expect(new VectorMaterial({ texture: null, color: 0xff0000, side: 2 }).color.getHex()).toBe(0xff0000);
+  });
+
+  test.each([undefined, null, new Mesh(), [new MeshBasicMaterial()]])('on what is no material', (/** @type {any} */ material) => {
+    expect(() => applyVectorMask(material, duck)).toThrow(/^the material is .*; give one, such as mesh.material$/);
+  });
+
+  test('shapes that are no list, and a root that is no name', () => {
+    for (const roots of [undefined, 'duck']) {
+      expect(() => rootAttribute(duck, /** @type {any} */ (roots))).toThrow(/^roots is .*; give an array of names$/);
+    }
+    expect(() => new VectorMaterial({ texture: drawings, root: /** @type {any} */ ({}) })).toThrow(/no root {}; near names/);
   });
 
   test.each([undefined, null, new Texture(), {}])('a mask of %j', (texture) => {

@@ -107,12 +107,13 @@ async function build(config) {
     mask = material.mask;
   } else {
     material = new THREE[config.material ?? 'MeshBasicMaterial'](completed(config.parameters ?? {}));
-    if (config.chain) chain(material);
+    if (config.chain === 'before') chain(material);
     if (options) mask = applyVectorMask(material, texture, completed(options));
     if (options && config.clone) {
       material = material.clone();
       mask = vectorMaskOf(material);
     }
+    if (config.chain === 'after') chain(material);
   }
   const mesh = meshOf(config, material, texture);
   if (mask) mask.attach(mesh);

@@ -63,6 +63,8 @@ export class VectorTileLayer {
   #hovered = null;
   /** The layers of the map when it was drawn last, from below. @type {string[]} */
   #order = [];
+  /** Whether the listeners know of the map's terrain. */
+  #isTold = false;
 
   /**
    * @param {VectorTileLayerOptions} options
@@ -342,11 +344,22 @@ export class VectorTileLayer {
     const painter = this.#painter;
     if (!client || !painter || !this.#map) return;
     this.#order = this.#map.getLayersOrder();
+    this.#warnOfTerrain(this.#map);
     const shown = this.#pyramid.update(this.#quads(this.#map), (loaded, rows) => painter.send(loaded, rows));
     const { transform } = /** @type {any} */ (this.#map);
     // versions before 6 have it there
     const getProjectionData = render.getProjectionData ?? ((/** @type {any} */ given) => transform.getProjectionData(given));
     painter.draw(shown, { ...render, getProjectionData }, client.source.margin, this.#opacity);
+  }
+
+  /** MapLibre does not lay custom layers over a terrain. @param {MapLibreMap} map */
+  #warnOfTerrain(map) {
+    const isTold = Boolean(map.getTerrain());
+    if (isTold && !this.#isTold) {
+      const message = `the layer "${this.id}" lies at sea level, not on the map's terrain; take that away by map.setTerrain(null)`;
+      this.#emit('error', { error: new VextureError(message, 'terrain') });
+    }
+    this.#isTold = isTold;
   }
 
   /** @param {MapLibreMap} map @returns {import('../tiles/choose.js').Quad[]} */

@@ -19,6 +19,7 @@ import { ShapeNode } from './shape-node.js';
  * @property {boolean} [linear]
  * @property {import('../fold-texture.js').FoldTexture | null} [fold]
  * @property {() => number} time
+ * @property {(builder: any) => void} [onBuild] called when a program is built, for an object and its geometry
  */
 
 /**
@@ -84,7 +85,7 @@ export function nodeVariant(texture, { instance, wrap = 'none', flat = false, li
  * @returns {{ node: any, follow: () => void }}
  */
 export function livingShapeNode(what, texture, shape) {
-  const { uv, dx, dy, instance, range, fold = null, time } = shape;
+  const { uv, dx, dy, instance, range, fold = null, time, onBuild } = shape;
   const { variant, isSheets } = nodeVariant(texture, shape, range());
   const inputs = {
     texels: wordsNode(() => texture.textures.texels),
@@ -102,7 +103,7 @@ export function livingShapeNode(what, texture, shape) {
       cycle: uniformNode(() => fold.cycle, 'float'),
     },
   };
-  const made = new ShapeNode(what, variant, isSheets, /** @type {any} */ (inputs));
+  const made = new ShapeNode(what, variant, isSheets, /** @type {any} */ (inputs), onBuild);
   const follow = () => {
     const now = nodeVariant(texture, shape, range());
     made.become(now.variant, now.isSheets);

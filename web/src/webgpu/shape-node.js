@@ -53,12 +53,14 @@ export class ShapeNode extends /** @type {new (type: string) => Node} */ (Node) 
    * @param {NodeVariant} variant
    * @param {boolean} isSheets whether several layers or maps may be shown, and not one map or shape
    * @param {ShapeInputs} inputs
+   * @param {(builder: Builder) => void} [onBuild] called when a program is built
    */
-  constructor(what, variant, isSheets, { fold, ...inputs }) {
+  constructor(what, variant, isSheets, { fold, ...inputs }, onBuild) {
     super(what === 'coverage' ? 'float' : 'vec4');
     this.what = what;
     this.variant = variant;
     this.isSheets = isSheets;
+    this.onBuild = onBuild;
     Object.assign(this, inputs, {
       foldTexels: fold?.texels ?? null,
       foldTime: fold?.time ?? null,
@@ -93,6 +95,7 @@ export class ShapeNode extends /** @type {new (type: string) => Node} */ (Node) 
    * @param {string} output
    */
   generate(builder, output) {
+    this.onBuild?.(builder);
     if (builder.material) this.#materials.add(new WeakRef(builder.material)); // the texture, which outlives them, holds this
     const isWgsl = /** @type {any} */ (builder.renderer.backend).isWebGPUBackend === true;
     codeOf(this.variant, isWgsl ? 'wgsl' : 'glsl').build(builder, 'void');

@@ -1,8 +1,9 @@
 import { Color } from 'three';
 import { bool, float, materialColor, materialOpacity, mix, texture as textureNode, uniform, uv, vec3, vec4 } from 'three/tsl';
-import { UV_ATTRIBUTES } from '../attributes.js';
+import { UV_ATTRIBUTES, warnOfMissing } from '../attributes.js';
 import { VextureError } from '../errors.js';
 import { NAMES, isTranslucent, withOptions } from '../mask-options.js';
+import { takePartIn, warnOfJSON } from '../methods.js';
 import { MaskedMeshes, RayMesh } from '../ray-mesh.js';
 import { ShownShape, checkMesh, isOn } from '../shown-shape.js';
 import { nodeVariant, shapeNode } from './shape-inputs.js';
@@ -15,7 +16,7 @@ import { instancedRoot } from './vector-nodes.js';
 /** @typedef {any} NodeMaterial three.js's types know node materials of some versions only */
 
 /** What a mask sets of a material. */
-const SET = Object.freeze(['transparent', 'colorNode', 'opacityNode', 'maskNode', 'maskShadowNode', 'clone', 'onBeforeRender']);
+const SET = Object.freeze(['transparent', 'colorNode', 'opacityNode', 'maskNode', 'maskShadowNode']);
 
 /** @type {WeakMap<NodeMaterial, VectorNodeMask>} */
 const MASKS = new WeakMap();
@@ -41,6 +42,7 @@ export class VectorNodeMask extends WithOptions {
   #shown;
   /** @type {Record<string, any>} */
   #before;
+  #takeBack;
   #meshes = new MaskedMeshes();
   #drawn = '';
   /** What the nodes read, and follow by themselves. @type {unknown[]} */
@@ -84,20 +86,33 @@ export class VectorNodeMask extends WithOptions {
     this.#uniforms.transform.onRenderUpdate(() => this.#transform.copy(this.#shown.options.transform));
     this.#uniforms.inside.onRenderUpdate(() => this.#inside.set(this.#shown.options.color));
     this.#uniforms.threshold.onRenderUpdate(() => this.#shown.options.threshold);
-    material.onBeforeRender = refuseWebGL;
-    material.clone = () => this.#clone();
+    this.#takeBack = [
+      takePartIn(material, 'onBeforeRender', (_own, renderer) => refuseWebGL(renderer)),
+      takePartIn(material, 'clone', (clone) => this.#masked(clone())),
+      takePartIn(material, 'toJSON', (toJSON, meta) => this.#plainly(() => toJSON(meta))),
+    ];
     MASKS.set(material, this);
     this.#shown.texture.addEventListener('change', this.#onChange);
     this.#refresh();
   }
 
-  #clone() {
-    const copy = this.#before.clone.call(this.#material);
-    if (!MASKS.has(copy)) { // a VectorNodeMaterial copies its own
-      this.restore(copy);
-      new VectorNodeMask(copy, this.texture, { ...this.options, transform: this.transform.clone() });
-    }
+  /** A clone with a mask of its own. @param {NodeMaterial} copy */
+  #masked(copy) {
+    if (MASKS.has(copy)) return copy; // a VectorNodeMaterial copies its own
+    this.restore(copy);
+    new VectorNodeMask(copy, this.texture, { ...this.options, transform: this.transform.clone() });
     return copy;
+  }
+
+  /** Do something while the material is as it was before the mask. @param {() => unknown} act */
+  #plainly(act) {
+    const material = this.#material;
+    const shown = Object.fromEntries(SET.map((name) => [name, material[name]]));
+    warnOfJSON(material);
+    this.restore(material);
+    const done = act();
+    Object.assign(material, shown);
+    return done;
   }
 
   /**
@@ -106,7 +121,7 @@ export class VectorNodeMask extends WithOptions {
    * @param {NodeMaterial} copy
    */
   restore(copy) {
-    for (const name of SET) if (name !== 'clone' && name !== 'onBeforeRender') copy[name] = this.#before[name];
+    for (const name of SET) copy[name] = this.#before[name];
   }
 
   /** Make the nodes again where they would be others. */
@@ -137,6 +152,7 @@ export class VectorNodeMask extends WithOptions {
       instance: options.instanced ? /** @type {any} */ (instancedRoot()) : null,
       range: () => this.#shown.range,
       time: () => this.#shown.options.time,
+      onBuild: ({ object, geometry }) => warnOfMissing(object, geometry, this.#shown.options),
     });
   }
 
@@ -269,7 +285,8 @@ export class VectorNodeMask extends WithOptions {
   remove() {
     this.#meshes.releaseAll();
     this.#shown.texture.removeEventListener('change', this.#onChange);
-    for (const name of SET) this.#material[name] = this.#before[name];
+    for (const takeBack of this.#takeBack) takeBack();
+    this.restore(this.#material);
     this.#material.needsUpdate = true;
     MASKS.delete(this.#material);
   }
