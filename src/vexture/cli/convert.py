@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.apart import each_apart
 from vexture.cli.messages import echo, one_line, say
 from vexture.cli.options import (
     PATH,
@@ -297,6 +296,8 @@ def _convert_one(
 
 def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int, max_seconds: float) -> Iterator[Outcome]:
     """Outcomes in the order of the sources, from other processes; a terminal shows the progress of several."""
+    from vexture.apart import each_apart
+
     tasks = [(source, streamed(source)) for source in sources]
     results: Iterable[Any] = each_apart(work, tasks, [shown_name(source) for source in sources], max_seconds, jobs)
     with ExitStack() as opened:

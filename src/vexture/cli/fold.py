@@ -6,7 +6,6 @@ from pathlib import Path
 
 import click
 
-from vexture.apart import apart
 from vexture.cli.messages import echo, one_line, say_notes
 from vexture.cli.options import PATH, font_option
 from vexture.errors import ParameterError
@@ -42,6 +41,7 @@ def fold(
     with one_line():
         import numpy as np
 
+        from vexture.apart import apart
         from vexture.fold.layout import FOLD_SUFFIX
         from vexture.fold.shore import fold_of_shore
         from vexture.layout import PACKED_SUFFIX

@@ -6,7 +6,6 @@ from typing import Any, NamedTuple
 
 import click
 
-from vexture.apart import apart
 from vexture.cli.convert import check_places, given_options, options_of_convert
 from vexture.cli.messages import echo, one_line, say_notes
 from vexture.cli.options import PATH
@@ -61,6 +60,7 @@ def font(
     FONT is a file, or a folder of the faces of a font; by default Noto Sans.
     """
     with one_line():
+        from vexture.apart import apart
         from vexture.texture.files import write_together
 
         check_places((), output, None, DEFAULT, False)

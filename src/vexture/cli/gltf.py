@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vexture.apart import apart
 from vexture.cli.convert import given_options, options_of_convert
 from vexture.cli.messages import echo, one_line, say_notes
 from vexture.cli.options import PATH, drawing_kind
@@ -150,6 +149,7 @@ def _checked(materials: Sequence[str], drawings: Sequence[Path], output: Path | 
 
 def _texture_of(drawing: Path, shown: Any, parameters: dict[str, Any], strict: bool, quiet: bool) -> "Texture":
     """The texture of a file, which may be one, or is converted."""
+    from vexture.apart import apart
     from vexture.gltf.model import texture_of
     from vexture.notes import check_losses
     from vexture.pipeline import run

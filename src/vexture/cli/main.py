@@ -5,16 +5,18 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
-from importlib.metadata import entry_points
 from threading import Timer, current_thread, main_thread
 from types import FrameType
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
 from vexture.cli.interrupt import INTERRUPTED, at_once
 from vexture.cli.messages import say
 from vexture.errors import printable
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 __all__ = ["COMMANDS", "main"]
 
@@ -38,16 +40,16 @@ class _Commands(click.Group):
     """The commands by name, and those that other distributions add."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        return [*COMMANDS, *(point.name for point in entry_points(group=PLUGINS))]
+        return [*COMMANDS, *_added(ctx)]
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name in COMMANDS:
             command: click.Command = getattr(import_module(COMMANDS[cmd_name]), cmd_name)
             return command
-        added = [point for point in entry_points(group=PLUGINS) if point.name == cmd_name]
-        if not added and cmd_name in ELSEWHERE:
+        added = _added(ctx).get(cmd_name)
+        if added is None and cmd_name in ELSEWHERE:
             ctx.fail(f"No such command {cmd_name!r}; {ELSEWHERE[cmd_name]}")
-        return added[0].load() if added else None
+        return None if added is None else added.load()
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         with _printable_errors():
@@ -68,6 +70,16 @@ class _Commands(click.Group):
         finally:
             if ours:
                 signal.signal(signal.SIGINT, before)
+
+
+def _added(ctx: click.Context) -> "dict[str, EntryPoint]":
+    """Commands of other distributions by name; all that are installed are looked through once."""
+    if PLUGINS not in ctx.meta:
+        from importlib.metadata import entry_points
+
+        ctx.meta[PLUGINS] = {point.name: point for point in entry_points(group=PLUGINS)}
+    found: dict[str, EntryPoint] = ctx.meta[PLUGINS]
+    return found
 
 
 @contextmanager

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.apart import apart
 from vexture.cli.messages import echo, note_facts, one_line, say_notes
 from vexture.cli.options import PATH, colour_options, columns_of, refuse_idle_colours, scale_of, streamed
 from vexture.errors import ParameterError, counted
@@ -72,6 +71,7 @@ def map(
     """
     start = perf_counter()
     with one_line():
+        from vexture.apart import apart
         from vexture.geo.tables import check_targets
         from vexture.layout import PACKED_SUFFIX
         from vexture.texture.files import write_together

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.apart import apart
 from vexture.cli.messages import one_line, say_notes
 from vexture.cli.options import (
     PATH,
@@ -189,6 +188,7 @@ def _root_of(shown: "Shown", root: str | None) -> str | int | None:
 
 def _shown(path: Path, reading: dict[str, Any], *, strict: bool) -> "Shown":
     """Read a drawing with parameters, or load a texture by one of its files or what their names have in common."""
+    from vexture.apart import apart
     from vexture.content import FileKind, kind_of, start_of
     from vexture.notes import check_losses
     from vexture.reading import read_drawing

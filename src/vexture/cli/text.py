@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vexture.apart import apart
 from vexture.cli.convert import check_places, given_options, options_of_convert
 from vexture.cli.messages import one_line
 from vexture.cli.options import PATH, STANDARD, Colour, standard_input
@@ -108,6 +107,8 @@ def text(
     colour font (COLR) become a planar map.
     """
     with one_line():
+        from vexture.apart import apart
+
         to_pipe = output == Path(STANDARD)
         level = QUIET if quiet else VERBOSE if verbose else NORMAL
         check_places((), output, None, DEFAULT, to_pipe)

@@ -236,5 +236,5 @@ def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None
         raise SourceError(f"`relief` {path}: {reason_of(error, 200)}; give another file") from None
     if not np.isfinite(heights).any():
         raise SourceError(f"`relief` {path}: has no height within the frame; give one that covers it")
-    metres: NDArray[np.float64] = heights.astype(np.float64) * scale + offset
-    return metres
+    found: NDArray[np.float64] = heights.astype(np.float64) * scale + offset
+    return found

@@ -19,7 +19,8 @@ from vexture.flood.options import FloodOptions
 from vexture.flood.scene import PREFIX, Flood, PageNote, labels, scene, step_names
 from vexture.geo.extent import Extent, Frame
 from vexture.live.flood_conversion import FloodConversion
-from vexture.live.limits import LimitedShelf, Limits
+from vexture.live.limited_shelf import LimitedShelf
+from vexture.live.limits import Limits
 from vexture.live.page import FLOOD, built, check_output, data_address, served_page, whole_page
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape, manifest
 from vexture.notes import HEADINGS, Note, line_of

@@ -12,7 +12,8 @@ from typing import IO, Final
 from vexture.content import SHAPEFILE
 from vexture.errors import EXPECTED, DeviceError, LimitError
 from vexture.live.converter import BusyError, Converter
-from vexture.live.limits import LimitedShelf, Limits
+from vexture.live.limited_shelf import LimitedShelf
+from vexture.live.limits import Limits
 from vexture.live.names import checked_name, manifest_name
 from vexture.live.shelf import File, Shape
 from vexture.reading import content_of

@@ -18,7 +18,7 @@ from vexture.geo.growing import Change, Known, Run, files_of, growing, whole_run
 from vexture.geo.netcdf import MOST_STEPS
 from vexture.live.documents import load_kernels
 from vexture.live.flood_conversion import FloodConversion
-from vexture.live.limits import LimitedShelf
+from vexture.live.limited_shelf import LimitedShelf
 from vexture.live.shelf import Shape
 from vexture.live.worker import Worker
 

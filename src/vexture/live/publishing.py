@@ -13,7 +13,8 @@ from starlette.routing import Route
 
 from vexture.errors import EXPECTED, DeviceError, LimitError
 from vexture.live.converter import BusyError, Converter
-from vexture.live.limits import FullError, LimitedShelf, Limits, Pace
+from vexture.live.limited_shelf import FullError, LimitedShelf
+from vexture.live.limits import Limits, Pace
 from vexture.live.names import checked_name
 from vexture.live.routes import entity_tag, levels_below, refusal
 from vexture.live.shelf import manifest
