@@ -14,7 +14,7 @@ from vexture.drawing import Drawing
 from vexture.errors import LimitError, ParameterError, SourceError, counted
 from vexture.fonts.face import Face
 from vexture.fonts.levels import LATIN, scripts
-from vexture.fonts.lines import Placed, named
+from vexture.fonts.lines import Choice, Placed, named
 from vexture.fonts.shaping import Glyph, shape
 from vexture.fonts.text import Canvas, Places, TextOptions
 from vexture.notes import Note, Notes, warn_of
@@ -142,35 +142,38 @@ def made_atlas(
     `optional` are codes of characters that the font need not have.
     """
     notes = Notes()
-    face = options.choice(notes).first
     given, ranged = [*characters], [*optional]
     if not given and not ranged:
         raise ParameterError("`characters` is empty; give some, such as a text that holds them")
     for each in given:
         if not (isinstance(each, str) and len(each) == 1):
             raise ParameterError(f"`characters` holds {each!r}, which is not one character; give them one by one")
-    wanted = [*dict.fromkeys([*given, *(chr(code) for code in ranged if face.has(code))])]
-    if len(wanted) > MOST_CHARACTERS:
-        raise LimitError(f"{len(wanted):,} characters, of at most {MOST_CHARACTERS:,}; make several atlases")
-    known = [character for character in wanted if face.has(ord(character))]
-    missing = [character for character in wanted if not face.has(ord(character))]
-    for character in missing:
-        notes.left_out(f"{named(character)}, which {face.family} lacks")
-    if not known:
-        asked = counted(len(given) + len(ranged), "character")
-        raise SourceError(f"{face.family} has none of what is asked for ({asked}); give others as `characters`")
     with within(parameters.get("max_seconds", DEFAULT_SECONDS)):
-        glyphs = {character: shape(face, character, features=PLAIN)[0] for character in known}
+        asked = [*dict.fromkeys([*given, *map(chr, ranged)])]
+        choice = options.choice(notes, asked)
+        face = choice.first
+        faces = faces_of_characters(choice, asked)
+        found = {character: faces[character] for character in asked if character in faces}
+        missing = [character for character in dict.fromkeys(given) if character not in found]
+        if len(found) + len(missing) > MOST_CHARACTERS:
+            many = f"{len(found) + len(missing):,} characters, of at most {MOST_CHARACTERS:,}"
+            raise LimitError(f"{many}; make several atlases")
+        for character in missing:
+            notes.left_out(f"{named(character)}, which {face.family} lacks")
+        if not found:
+            number = counted(len(given) + len(ranged), "character")
+            raise SourceError(f"{face.family} has none of what is asked for ({number}); give others as `characters`")
+        glyphs = {character: shape(of, character, features=PLAIN)[0] for character, of in found.items()}
         box = missing_glyph(face)
         shapes = drawn(glyphs | {NOTDEF: box}, notes)
-        if not shapes.keys() - {box.glyph}:
+        if not shapes.keys() - {key_of(box)}:
             raise SourceError(f"the characters of {face.family} show nothing; give others as `characters`")
         texture = atlas([each.drawing for each in shapes.values()], name=options.name or face.family, **parameters)
         uncoloured = tuple(replace(root, paint=None) for root in texture.roots)  # programs colour them
         texture = replace(texture, roots=uncoloured)
         entries = {character: entry(glyph, shapes) for character, glyph in glyphs.items()}
-        pairs = kerning(glyphs) if len(known) <= MOST_KERNED else {}
-    if len(known) > MOST_KERNED:
+        pairs = kerning(glyphs) if len(found) <= MOST_KERNED else {}
+    if len(found) > MOST_KERNED:
         notes.left_out(UNKERNED)
     metrics = {
         "font": facts(face),
@@ -181,6 +184,19 @@ def made_atlas(
         "missing": missing,
     }
     return FontAtlas(texture, metrics, notes.listed)
+
+
+def faces_of_characters(choice: Choice, characters: Iterable[str]) -> dict[str, Face]:
+    """The face of each character: the first of all, or another subset of the same font; without those of neither."""
+    left = dict.fromkeys(characters)
+    found: dict[str, Face] = {}
+    for face in choice.subsets():
+        check_time()
+        found |= {character: face for character in left if face.has(ord(character))}
+        left = {character: None for character in left if character not in found}
+        if not left:
+            break
+    return found
 
 
 PLAIN: Final = ("-liga", "-clig", "-calt", "-rlig")
@@ -206,11 +222,16 @@ class Shape:
     box: tuple[float, float, float, float]
 
 
-def drawn(glyphs: dict[str, Glyph], notes: Notes) -> dict[int, Shape]:
-    """Shapes by the numbers of their glyphs, each named after the first character that it stands for."""
-    found: dict[int, Shape] = {}
+def key_of(glyph: Glyph) -> tuple[Face, int]:
+    """What tells glyphs apart: several faces may be subsets of one font."""
+    return glyph.face, glyph.glyph
+
+
+def drawn(glyphs: dict[str, Glyph], notes: Notes) -> dict[tuple[Face, int], Shape]:
+    """Shapes by the keys of their glyphs, each named after the first character that it stands for."""
+    found: dict[tuple[Face, int], Shape] = {}
     for character, glyph in glyphs.items():
-        if glyph.glyph in found:
+        if key_of(glyph) in found:
             continue
         canvas = Canvas(1.0, BLACK, notes)
         canvas.draw(Placed(glyph, 0.0, 0.0, character), 0.0, 0.0)
@@ -218,20 +239,20 @@ def drawn(glyphs: dict[str, Glyph], notes: Notes) -> dict[int, Shape]:
         if left < right and top < bottom:
             drawing = canvas.drawing(canvas.painted, character)
             upwards = np.array([[1.0], [-1.0]]) * drawing.to_source + 0.0  # no -0.0
-            found[glyph.glyph] = Shape(replace(drawing, to_source=upwards), (left, -bottom, right, -top))
+            found[key_of(glyph)] = Shape(replace(drawing, to_source=upwards), (left, -bottom, right, -top))
     return found
 
 
-def entry(glyph: Glyph, shapes: dict[int, Shape]) -> dict[str, Any]:
+def entry(glyph: Glyph, shapes: dict[tuple[Face, int], Shape]) -> dict[str, Any]:
     """Metrics of a character."""
     advance = glyph.advance[0] / glyph.face.units_per_em
-    if glyph.glyph not in shapes:
+    if key_of(glyph) not in shapes:
         return {"shape": None, "advance": rounded(advance)}
-    found = shapes[glyph.glyph]
+    found = shapes[key_of(glyph)]
     (side, _, x), (_, _, y) = found.drawing.to_source.tolist()
     left, _, right, _ = found.box
     return {
-        "shape": [*shapes].index(glyph.glyph),
+        "shape": [*shapes].index(key_of(glyph)),
         "advance": rounded(advance),
         "bearings": [rounded(left), rounded(advance - right)],
         "box": [rounded(part) for part in found.box],
@@ -240,16 +261,16 @@ def entry(glyph: Glyph, shapes: dict[int, Shape]) -> dict[str, Any]:
 
 
 def kerning(glyphs: dict[str, Glyph]) -> dict[str, dict[str, float]]:
-    """What is added to the advance of a character before another, in ems, where it is not 0."""
+    """What is added to the advance of a character before another of its face, in ems, where it is not 0."""
     kinds = {character: scripts([character])[0] for character in glyphs}  # Latin, if it is common to several
-    groups: dict[str, list[str]] = {}
+    groups: dict[Face, dict[str, list[str]]] = {}
     for character, script in kinds.items():
-        groups.setdefault(script, []).append(character)
+        groups.setdefault(glyphs[character].face, {}).setdefault(script, []).append(character)
     found: dict[str, dict[str, float]] = {}
     for first, one in glyphs.items():
         check_time()
         pairs = {}
-        for group, seconds in groups.items():
+        for group, seconds in groups[one.face].items():
             script = group if kinds[first] == LATIN else kinds[first]
             line = "".join(first + second for second in seconds)
             row = shape(one.face, line, direction="ltr", script=script, features=PLAIN)

@@ -69,10 +69,29 @@ SHAPES = {
 """Glyphs that those in colour are painted of."""
 
 
-def made_font(characters, paints=None, family="Made", weight=400, advance=900, kerning=None, alike=(), **info):
+def packed(content, flavor="woff2"):
+    """Bytes of a font of the web."""
+    font, file = TTFont(io.BytesIO(content)), io.BytesIO()
+    font.flavor = flavor
+    font.save(file)
+    return file.getvalue()
+
+
+def made_font(
+    characters,
+    paints=None,
+    family="Made",
+    weight=400,
+    advance=900,
+    kerning=None,
+    alike=(),
+    style="Regular",
+    **info,
+):
     """Bytes of a font: glyphs of characters, by the name of a shape or as a glyph, some of them with a COLR paint.
 
-    `alike` are further characters, and those whose glyphs they have; `info` goes into the table OS/2.
+    `alike` are further characters, and those whose glyphs they have; `style` is in its own names, and `info` goes into
+    the table OS/2.
     """
     glyphs = {".notdef": box(50, 0, 450, 700), "space": TTGlyphPen(None).glyph(), **SHAPES}
     names = {char: f"u{ord(char):04X}" for char in characters}
@@ -85,7 +104,7 @@ def made_font(characters, paints=None, family="Made", weight=400, advance=900, k
     builder.setupGlyf(glyphs)
     builder.setupHorizontalMetrics({name: (advance, getattr(glyph, "xMin", 0)) for name, glyph in glyphs.items()})
     builder.setupHorizontalHeader(ascent=800, descent=-200)
-    own = {"fullName": f"{family} Regular", "psName": f"{family}-Regular"}
+    own = {"fullName": f"{family} {style}", "psName": f"{family}-{style}"}
     builder.setupNameTable({"familyName": family, "styleName": "Regular", **own})
     builder.setupOS2(usWeightClass=weight, sxHeight=500, sCapHeight=700, **info)
     builder.setupPost(underlinePosition=-100, underlineThickness=50)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from fontTools.pens.areaPen import AreaPen
 from fontTools.ttLib import TTCollection, TTFont
-from made import disc, made_font
+from made import disc, made_font, packed
 
 from vexture.bezier.area import integral_x_dy
 from vexture.errors import DeviceError, SourceError
@@ -17,13 +17,6 @@ from vexture.fonts.face import faces_in, faces_of
 from vexture.fonts.files import LARGEST_FONT
 
 PLAIN = made_font({"A": "square", "B": disc(300, 350, 300)}, weight=300, usWidthClass=3)
-
-
-def in_format(font, flavor):
-    read, file = TTFont(io.BytesIO(font)), io.BytesIO()
-    read.flavor = flavor
-    read.save(file)
-    return file.getvalue()
 
 
 def area(face, glyph):
@@ -64,13 +57,37 @@ def test_variable_face_takes_the_nearest_style_that_it_has(default_faces):
 
 
 def test_woff_is_the_font_in_it():
-    (plain,), (packed,) = faces_in(PLAIN), faces_in(in_format(PLAIN, "woff"))
-    assert [contour.tolist() for contour in packed.outline(5)] == [contour.tolist() for contour in plain.outline(5)]
+    (plain,), (woff,) = faces_in(PLAIN), faces_in(packed(PLAIN, "woff"))
+    assert [contour.tolist() for contour in woff.outline(5)] == [contour.tolist() for contour in plain.outline(5)]
 
 
 def test_woff2_is_the_font_in_it_or_names_what_it_needs():
     pytest.importorskip("brotli", reason="brotli is not installed: pip install 'vexture[text]'")
-    assert faces_in(in_format(PLAIN, "woff2"))[0].family == "Made"
+    assert faces_in(packed(PLAIN, "woff2"))[0].family == "Made"
+
+
+def test_damaged_outlines_of_a_web_font_are_met_when_they_are_used_and_name_the_file(tmp_path):
+    brotli = pytest.importorskip("brotli", reason="brotli is not installed: pip install 'vexture[text]'")
+    content, file = packed(PLAIN), tmp_path / "damaged.woff2"
+    reader = TTFont(io.BytesIO(content)).reader
+    tables = bytearray(reader.transformBuffer.getvalue())
+    head = bytearray(content[: content.index(brotli.compress(bytes(tables), mode=brotli.MODE_FONT))])
+    start = reader.tables["glyf"].offset
+    tables[start : start + 36] = b"\xff" * 36
+    body = brotli.compress(bytes(tables))
+    struct.pack_into(">I", head, 8, len(head) + len(body))
+    struct.pack_into(">I", head, 20, len(body))
+    file.write_bytes(head + body)
+    (face,) = faces_of(file)
+    assert (face.family, face.has(ord("A"))) == ("Made", True)
+    with pytest.raises(SourceError, match=r"damaged\.woff2: the font is damaged \(.*\); save it again"):
+        face.outline(1)
+
+
+@pytest.mark.parametrize(("style", "weight"), [("ThinItalic", 100), ("ExtraLight", 200), ("Regular", 250)])
+def test_fonts_lighter_than_their_weight_class_have_the_weight_of_their_name(style, weight):
+    """Older Windows made fonts of classes below 250 bolder, so that thin ones have this one."""
+    assert faces_in(made_font({"A": "square"}, weight=250, style=style))[0].weight == weight
 
 
 def test_woff2_without_brotli_names_the_remedy(monkeypatch):

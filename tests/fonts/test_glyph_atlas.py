@@ -4,10 +4,14 @@ import json
 
 import numpy as np
 import pytest
-from made import BLUE, RED, filled, made_font, solid, stacked
+from made import BLUE, RED, box, filled, made_font, packed, solid, stacked
 
 import vexture
+from vexture.fonts.library import of_files
+from vexture.fonts.system import font_files
 from vexture.fonts.text import TextOptions, text_drawing
+from vexture.glyph_atlas import faces_of_characters
+from vexture.notes import Notes
 
 
 @pytest.fixture(scope="module")
@@ -105,3 +109,52 @@ def test_characters_that_a_font_lacks_are_named_by_the_parameter():
         vexture.errors.SourceError, match=r"has none of what is asked for .1 character.; give others as `characters`$"
     ):
         vexture.font_atlas(characters="\ue000")
+
+
+@pytest.fixture(scope="module")
+def web_fonts(tmp_path_factory):
+    """A folder as packages of web fonts are: weights in subsets, some letters in several; and one weight of its own."""
+    pytest.importorskip("brotli", reason="brotli is not installed: pip install 'vexture[text]'")
+    folder = tmp_path_factory.mktemp("web-fonts")
+    for weight, family, style in ((400, "Made", "Regular"), (700, "Made", "Bold"), (900, "Made Black", "Regular")):
+        for subset, letters in (("cyrillic", "Aж"), ("latin", "AV"), ("latin-ext", "Aą")):
+            shapes = dict.fromkeys(letters, box(100, 0, 100 + weight // 2, 700))
+            kerning = [("u0041", "u0056", -weight // 10)] if "V" in letters else None
+            content = made_font(shapes, family=family, weight=weight, style=style, kerning=kerning)
+            (folder / f"made-{subset}-{weight}.woff2").write_bytes(packed(content))
+    return folder
+
+
+def test_characters_come_from_all_subsets_of_the_face_that_is_asked_for(web_fonts):
+    with pytest.warns(vexture.SourceWarning) as caught:
+        made = vexture.font_atlas(web_fonts, "AVąж字", weight=700)
+    (warning,) = caught
+    assert str(warning.message).endswith("left out: character '字' (U+5B57), which Made lacks")
+    assert made.metrics["font"] == {"family": "Made", "weight": 700, "style": "normal", "stretch": 100.0}
+    assert made.metrics["missing"] == ["字"]
+    boxes = {character: entry["box"] for character, entry in made.metrics["glyphs"].items()}
+    assert boxes == {character: [0.1, 0.0, 0.45, 0.7] for character in "AVąж"}
+    assert [root.name for root in made.texture.roots] == ["A", "V", "ą", "ж", ".notdef"]
+    assert made.metrics["kerning"] == {"A": {"V": -0.07}}, "both are of the subset that has most of the characters"
+
+
+def test_only_the_subsets_that_are_used_are_unpacked(web_fonts):
+    def unpacked():
+        return {listed.face for listed in of_files(tuple(font_files(web_fonts))) if "_font" in vars(listed.face)}
+
+    before = unpacked()
+    choice = TextOptions(web_fonts, weight=400).choice(Notes(), "AV")
+    assert [*faces_of_characters(choice, "AV").values()] == [choice.first] * 2
+    assert unpacked() == before
+    choice.first.outline(1)
+    assert unpacked() - before == {choice.first}
+
+
+def test_a_folder_of_a_family_for_each_weight_gives_that_of_the_weight(web_fonts):
+    assert vexture.font_atlas(web_fonts, "Aж", weight=900).metrics["font"]["family"] == "Made Black"
+
+
+def test_a_text_in_several_subsets_is_in_one_font(web_fonts):
+    drawing = text_drawing("AVąж", TextOptions(web_fonts, weight=700))
+    assert drawing.notes == ()
+    assert len({path.box[1, 1] - path.box[0, 1] for path in drawing.paths}) == 1

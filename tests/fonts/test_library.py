@@ -98,6 +98,12 @@ def test_a_given_file_that_is_no_font_is_named(folder):
             next(Fonts([folder / name]).faces(["Harbour"]))
 
 
+def test_a_font_that_is_there_as_woff2_is_not_read_as_woff_too(tmp_path):
+    for name in ("a.woff", "a.woff2", "b.woff", "c.ttf"):
+        (tmp_path / name).touch()
+    assert [path.name for path in system.font_files(tmp_path)] == ["a.woff2", "b.woff", "c.ttf"]
+
+
 def test_system_fonts_come_from_fontconfig_or_the_usual_folders(folder, monkeypatch):
     monkeypatch.setattr(
         system, "asked", lambda *command: f"{folder / 'a.ttf'}\n{folder / 'a.ttf'}\n{folder / 'x.pcf'}\n"

@@ -1,18 +1,19 @@
 """One face of a font: its names, metrics and outlines, in font units."""
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.content import read_bytes, start_of
+from vexture.content import about, read_bytes, start_of
 from vexture.errors import SourceError
 from vexture.fonts.engine import harfbuzz
-from vexture.fonts.files import is_sfnt, sfnt_of
+from vexture.fonts.files import DESCRIBING, is_sfnt, sfnt_of
 from vexture.fonts.layers import Layers, glyph_layers
 from vexture.fonts.outlines import glyph_outline
 from vexture.fonts.places import NO_FILE
@@ -28,6 +29,15 @@ VERTICAL: Final = frozenset({"vmtx", "VORG"})
 
 OWN: Final = frozenset({4, 6})
 """Name IDs of a face itself: full and PostScript."""
+
+RAISED: Final = 250
+"""Weight class that fonts lighter than it have instead of their own: older Windows made those bolder."""
+
+LIGHTEST: Final = {"thin": 100, "hairline": 100, "extralight": 200, "ultralight": 200}
+"""Weights of such fonts, by how the style begins in their PostScript names."""
+
+POSTSCRIPT: Final = 6
+"""Name ID."""
 
 MOST_FACES: Final = 1000
 """Of a collection."""
@@ -49,11 +59,13 @@ class Face:
         Places on the axes of a variable font, such as ``("wght", 700)``; the others have their defaults.
     ranges : tuple of (int, int)
         First and last characters of ranges that it is to be used for; all of its characters without any.
+    load : callable, optional
+        Returns the whole font, if `blob` holds only the tables that describe it.
 
     Raises
     ------
     SourceError
-        If it is no font.
+        If it is no font; what is damaged in the rest of the font is met when a glyph is first used.
     DeviceError
         If uharfbuzz is not installed.
     """
@@ -62,15 +74,25 @@ class Face:
     index: int = 0
     variations: tuple[tuple[str, float], ...] = ()
     ranges: tuple[tuple[int, int], ...] = ()
+    load: Callable[[], Any] | None = None
 
     def __post_init__(self) -> None:
-        if not self._font.face.glyph_count:
+        if not self.glyph_count:
             raise SourceError("the font is damaged: it has no glyphs; save it again")
 
     @cached_property
     def _font(self) -> Any:
+        """The whole font."""
+        return self._described if self.load is None else self._font_of(self.load())
+
+    @cached_property
+    def _described(self) -> Any:
+        """The font, of which only the tables that describe it may be there."""
+        return self._font_of(self.blob)
+
+    def _font_of(self, blob: Any) -> Any:
         hb = harfbuzz()
-        font = hb.Font(hb.Face(self.blob, self.index))
+        font = hb.Font(hb.Face(blob, self.index))
         if self.variations:
             font.set_variations(dict(self.variations))
         return font
@@ -78,7 +100,7 @@ class Face:
     @cached_property
     def names(self) -> tuple[str, ...]:
         """All names of its family, in all languages; the first is `family`."""
-        face = self._font.face
+        face = self._described.face
         entries = {(entry.name_id, entry.language) for entry in face.list_names()}
         english = [face.get_name(number) for number in FAMILY_NAMES if any(number == known for known, _ in entries)]
         others = [face.get_name(number, language) for number, language in sorted(entries) if number in FAMILY_NAMES]
@@ -87,7 +109,7 @@ class Face:
     @cached_property
     def full_names(self) -> frozenset[str]:
         """Its own names, of which no other face of its family has one: in words, and as PostScript knows it."""
-        face = self._font.face
+        face = self._described.face
         found = (face.get_name(entry.name_id, entry.language) for entry in face.list_names() if entry.name_id in OWN)
         return frozenset(name.casefold() for name in found if name)
 
@@ -99,7 +121,11 @@ class Face:
     @cached_property
     def weight(self) -> int:
         """CSS weight, 1 to 1000: 400 is regular, 700 bold."""
-        return min(max(round(self._style("WEIGHT")), 1), 1000)
+        said = min(max(round(self._style("WEIGHT")), 1), 1000)
+        if said == RAISED and not self.axes:
+            style = (self._described.face.get_name(POSTSCRIPT) or "").partition("-")[2].casefold()
+            return next((weight for start, weight in LIGHTEST.items() if style.startswith(start)), said)
+        return said
 
     @cached_property
     def stretch(self) -> float:
@@ -114,18 +140,18 @@ class Face:
         return "oblique" if self._style("SLANT_ANGLE") != 0.0 else "normal"
 
     def _style(self, name: str) -> float:
-        value: float = self._font.get_style_value(harfbuzz().StyleTag[name])
+        value: float = self._described.get_style_value(harfbuzz().StyleTag[name])
         return value
 
     @cached_property
     def axes(self) -> dict[str, tuple[float, float]]:
         """Least and greatest place on each axis of a variable font."""
-        return {axis.tag: (axis.min_value, axis.max_value) for axis in self._font.face.axis_infos}
+        return {axis.tag: (axis.min_value, axis.max_value) for axis in self._described.face.axis_infos}
 
     @property
     def units_per_em(self) -> int:
         """Units that make an em."""
-        return int(self._font.face.upem)
+        return int(self._described.face.upem)
 
     @property
     def ascender(self) -> float:
@@ -180,7 +206,12 @@ class Face:
         """Whether it has a glyph of a character, and is to be used for it."""
         if self.ranges and not any(first <= codepoint <= last for first, last in self.ranges):
             return False
-        return self._font.get_nominal_glyph(codepoint) is not None
+        return self._described.get_nominal_glyph(codepoint) is not None
+
+    @cached_property
+    def characters(self) -> frozenset[int]:
+        """Codes of the characters in its table; a font of symbols `has` others in their stead, too."""
+        return frozenset(self._described.face.unicodes)
 
     def lowered(self, glyph: int) -> float:
         """How far a glyph of vertical text is to be moved from where HarfBuzz puts it.
@@ -200,7 +231,7 @@ class Face:
     @property
     def glyph_count(self) -> int:
         """Number of glyphs."""
-        return int(self._font.face.glyph_count)
+        return int(self._described.face.glyph_count)
 
     def outline(self, glyph: int) -> tuple[NDArray[np.float64], ...]:
         """Closed contours of cubics (n, 4, 2), filled by the nonzero rule; none of a glyph that is empty."""
@@ -259,13 +290,20 @@ def faces_of(path: Path) -> list[Face]:
     if not path.is_file():  # a pipe would be waited for
         raise SourceError(NO_FILE)
     start = start_of(path)
-    if not is_sfnt(start):
-        return faces_in(read_bytes(path))
-    return _all_faces(harfbuzz().Blob.from_file_path(os.fspath(path)))
+    if is_sfnt(start):
+        return _all_faces(harfbuzz().Blob.from_file_path(os.fspath(path)))
+    content = read_bytes(path)
+
+    @cache
+    def load() -> Any:
+        with about(os.fspath(path)):
+            return harfbuzz().Blob(sfnt_of(content))
+
+    return _all_faces(harfbuzz().Blob(sfnt_of(content, DESCRIBING)), load)
 
 
-def _all_faces(blob: Any) -> list[Face]:
+def _all_faces(blob: Any, load: Callable[[], Any] | None = None) -> list[Face]:
     count = min(harfbuzz().Face(blob).count, MOST_FACES)
     if not count:
         raise SourceError("the font is damaged: it has no faces; save it again")
-    return [Face(blob, index) for index in range(count)]
+    return [Face(blob, index, load=load) for index in range(count)]

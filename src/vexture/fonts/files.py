@@ -4,18 +4,22 @@ import io
 import logging
 import struct
 import zlib
+from collections.abc import Collection
 from importlib import import_module
 from typing import Final
 
 from vexture.errors import DeviceError, SourceError, reason_of
 
-__all__ = ["SUFFIXES", "is_sfnt", "sfnt_of"]
+__all__ = ["DESCRIBING", "SUFFIXES", "is_sfnt", "sfnt_of"]
 
 SUFFIXES: Final = (".ttf", ".otf", ".ttc", ".otc", ".woff", ".woff2")
 """Of files that hold fonts."""
 
 SFNT: Final = (b"\0\1\0\0", b"OTTO", b"true", b"ttcf")
 """First bytes of fonts that HarfBuzz reads: TrueType, CFF, Apple's TrueType, collections."""
+
+DESCRIBING: Final = frozenset({"OS/2", "STAT", "cmap", "fvar", "head", "hhea", "maxp", "name", "post"})
+"""Tables that say what a face is called, which style it has and of which characters it has glyphs."""
 
 WOFF, WOFF2 = b"wOFF", b"wOF2"
 WOFF_HEADER, WOFF2_HEADER, METADATA = 44, 48, 20
@@ -30,8 +34,10 @@ def is_sfnt(start: bytes) -> bool:
     return start.startswith(SFNT)
 
 
-def sfnt_of(content: bytes) -> bytes:
+def sfnt_of(content: bytes, tables: Collection[str] | None = None) -> bytes:
     """Content of a font file as HarfBuzz reads it: that of a WOFF or WOFF2 decompressed.
+
+    Of a WOFF or WOFF2 it is some `tables` only, if they are given: the outlines of a WOFF2 take most of the time.
 
     Raises a `SourceError` if it is no font, is damaged or too large, a `DeviceError` if a package is missing.
     """
@@ -39,7 +45,7 @@ def sfnt_of(content: bytes) -> bytes:
     if content.startswith((WOFF, WOFF2)):
         try:
             (check_woff if content.startswith(WOFF) else check_woff2)(content)
-            content = decompressed(content)
+            content = decompressed(content, tables)
         except (SourceError, DeviceError):
             raise
         except Exception as error:  # fontTools raises whatever a damaged table leads to
@@ -82,8 +88,8 @@ def check_woff2(content: bytes) -> None:
     check_size(len(brotli.Decompressor().process(file.read(packed), output_buffer_limit=LARGEST_FONT + 1)))
 
 
-def decompressed(content: bytes) -> bytes:
-    """Font in a WOFF or WOFF2, without the metadata, which may be of any size."""
+def decompressed(content: bytes, tables: Collection[str] | None) -> bytes:
+    """Font in a WOFF or WOFF2, or some of its tables, without the metadata, which may be of any size."""
     from fontTools.ttLib import TTFont
 
     logging.getLogger("fontTools").addHandler(logging.NullHandler())  # errors are raised, and warnings are nobody's
@@ -91,6 +97,9 @@ def decompressed(content: bytes) -> bytes:
     file = io.BytesIO(content[: header - METADATA] + bytes(METADATA) + content[header:])
     font = TTFont(file, recalcBBoxes=False, recalcTimestamp=False)
     font.flavor = None
+    if tables is not None:
+        for tag in set(font.reader.keys()) - set(tables):
+            del font[tag]
     plain = io.BytesIO()
     font.save(plain, reorderTables=None)
     return plain.getvalue()

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import chain
 from pathlib import Path
+from string import ascii_letters
 from typing import Final, TypeAlias
 
 from vexture.content import about
@@ -20,6 +21,7 @@ __all__ = ["GENERIC", "EmbeddedFont", "Fonts"]
 Place: TypeAlias = str | os.PathLike[str]
 
 SANS: Final = ("Noto Sans", "DejaVu Sans", "Liberation Sans", "Arial", "Helvetica", "Segoe UI")
+LATIN: Final = frozenset(map(ord, ascii_letters))
 GENERIC: Final = {
     "serif": ("Noto Serif", "DejaVu Serif", "Liberation Serif", "Times New Roman", "Times"),
     "sans-serif": SANS,
@@ -52,6 +54,36 @@ class Listed:
     names: frozenset[str]
     traits: Traits
     face: Face
+    place: int = 0  # of the given files and folders, that which it is from
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What a text wants of a face: a style, and glyphs of some characters, by their codes."""
+
+    weight: float
+    style: str
+    stretch: float
+    codes: frozenset[int] = frozenset()
+
+    def rank(self, listed: Listed) -> tuple[float, ...]:
+        """Sorts faces by their style, the best first."""
+        return preference(listed.traits, self.weight, self.style, self.stretch)
+
+    def best_of(self, faces: Sequence[Listed]) -> list[Listed]:
+        """The best of some faces; all subsets of it, if it is cut into some, that with most of the characters first.
+
+        Many subsets have a few Latin letters, too: of those with as many of the characters, that with most of these is
+        first, so that pairs of letters are kerned.
+        """
+        best = min(faces, key=self.rank)
+        name, rank = best.face.full_names, self.rank(best)
+        subsets = [one for one in faces if one.face.full_names == name and self.rank(one) == rank]
+        if len(subsets) > 1:
+            subsets.sort(
+                key=lambda one: (len(self.codes & (own := one.face.characters)), len(LATIN & own)), reverse=True
+            )
+        return subsets
 
 
 class Fonts:
@@ -80,15 +112,22 @@ class Fonts:
         self.system = system
 
     def faces(
-        self, families: Sequence[str], weight: int = 400, style: str = "normal", stretch: float = 100.0
+        self,
+        families: Sequence[str],
+        weight: int = 400,
+        style: str = "normal",
+        stretch: float = 100.0,
+        characters: Iterable[str] = ascii_letters,
     ) -> Iterator[Face]:
         """Faces for a text, the best first: use for each character the first that has it.
 
         Those of the families come first, and then one of each other family: of the given files, of the default font,
-        of the system. `Face.family` tells what a face is of.
+        of the system. `Face.family` tells what a face is of. A font may be cut into subsets, as those of the web are:
+        all of a face come one after another, that with most of the `characters` first.
         """
         shown: set[int] = set()
-        for listed in chain(self._named(families, weight, style, stretch), self._others(weight, style, stretch)):
+        wanted = Wanted(weight, style, stretch, frozenset(map(ord, characters)))
+        for listed in chain(self._named(families, wanted), self._others(wanted)):
             if id(listed) not in shown:
                 shown.add(id(listed))
                 yield listed.face.varied(weight, stretch, style)
@@ -97,12 +136,12 @@ class Fonts:
         self, families: Sequence[str], weight: int = 400, style: str = "normal", stretch: float = 100.0
     ) -> int:
         """Number of the first `faces` that are of the families; the others stand in for these."""
-        return len({id(listed) for listed in self._named(families, weight, style, stretch)})
+        return len({id(listed) for listed in self._named(families, Wanted(weight, style, stretch))})
 
-    def _named(self, families: Sequence[str], weight: float, style: str, stretch: float) -> Iterator[Listed]:
+    def _named(self, families: Sequence[str], wanted: Wanted) -> Iterator[Listed]:
         """The best face of each of some families."""
         for name in self._asked(families):
-            yield from self._chosen(name, weight, style, stretch)
+            yield from self._chosen(name, wanted)
 
     def _asked(self, families: Sequence[str]) -> Iterator[str]:
         """Names of families, with those that stand for generic ones: given ones, the system's choice, and others."""
@@ -125,34 +164,39 @@ class Fonts:
         )
         return next(found, None)
 
-    def _chosen(self, name: str, weight: float, style: str, stretch: float) -> Iterator[Listed]:
+    def _chosen(self, name: str, wanted: Wanted) -> Iterator[Listed]:
         """The best face of a family in the first source that has the family.
 
         Of a family of the drawing all that are as good come, the last one first: each is for characters of its own
         (CSS Fonts 4, 5.3).
         """
-
-        def rank(listed: Listed) -> tuple[float, ...]:
-            return preference(listed.traits, weight, style, stretch)
-
         for source in self._sources():
             named = [listed for listed in source if name.casefold() in listed.names]
             if named:
-                best = min(named, key=rank)
-                is_own = source is self._embedded
-                yield from [one for one in reversed(named) if rank(one) == rank(best)] if is_own else [best]
+                if source is self._embedded:
+                    best = min(map(wanted.rank, named))
+                    yield from (one for one in reversed(named) if wanted.rank(one) == best)
+                else:
+                    yield from wanted.best_of(named)
                 return
 
-    def _others(self, weight: float, style: str, stretch: float) -> Iterator[Listed]:
-        """The best face of each family of each source; a font of the drawing stands in for no other one."""
+    def _others(self, wanted: Wanted) -> Iterator[Listed]:
+        """The best face of each family of each source; a font of the drawing stands in for no other one.
+
+        Of the families in a given folder, that which has the style comes first: fonts with nine weights often have a
+        family for each.
+        """
         for source in self._sources():
             if source is self._embedded:
                 continue
             families: dict[str, list[Listed]] = {}
             for listed in source:
                 families.setdefault(listed.face.family, []).append(listed)
-            for named in families.values():
-                yield min(named, key=lambda listed: preference(listed.traits, weight, style, stretch))
+            ordered = [*families.values()]
+            if source is self._given:
+                ordered.sort(key=lambda named: (named[0].place, min(map(wanted.rank, named))))
+            for named in ordered:
+                yield from wanted.best_of(named)
 
     def _sources(self) -> Iterator[tuple[Listed, ...]]:
         yield self._given
@@ -164,16 +208,16 @@ class Fonts:
     @cached_property
     def _given(self) -> tuple[Listed, ...]:
         found: list[Listed] = []
-        for path in self.files:
+        for place, path in enumerate(self.files):
             if path.is_dir():
                 in_it = of_files(tuple(font_files(path)))
                 if not in_it:
                     kinds = ", ".join(SUFFIXES)
                     raise SourceError(f"{path}: the folder holds no font that can be read; give one with {kinds}")
-                found += in_it
+                found += (replace(listed, place=place) for listed in in_it)
                 continue
             with about(os.fspath(path)):
-                found += map(listed_of, faces_of(path))
+                found += (replace(listed_of(face), place=place) for face in faces_of(path))
         return tuple(found)
 
     @cached_property

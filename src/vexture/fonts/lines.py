@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from typing import Final
 from unicodedata import category
 
@@ -70,13 +70,21 @@ class Choice:
         for face in self._all():
             check_time()
             if face.has(ord(character)):
-                if self.is_asked and face is not self.first and not character.isspace():
+                if self.is_asked and not self.is_first(face) and not character.isspace():
                     example = self.others.setdefault(face.family, named(character))
                     self.notes.simplified(f"{example}, which {self.first.family} lacks, and such in {face.family}")
                 return face
         if is_seen(character):
             self.notes.boxed(character)
         return last or self.first
+
+    def subsets(self) -> Iterator[Face]:
+        """The first face, and other subsets of the same font."""
+        return takewhile(self.is_first, self._all())
+
+    def is_first(self, face: Face) -> bool:
+        """Whether a face is the first one, or another subset of the same font."""
+        return face.full_names == self.first.full_names
 
     def _all(self) -> Iterator[Face]:
         at = 0

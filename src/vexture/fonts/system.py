@@ -27,10 +27,13 @@ WINDOWS: Final = ("%WINDIR%/Fonts", "%LOCALAPPDATA%/Microsoft/Windows/Fonts")
 
 
 def font_files(folder: Path) -> Iterator[Path]:
-    """All font files in a folder and the folders in it, in the order of their names."""
-    for path in sorted(folder.rglob("*")):
-        if path.suffix.lower() in SUFFIXES and path.is_file():
-            yield path
+    """All font files in a folder and the folders in it, in the order of their names.
+
+    A WOFF beside the WOFF2 of its name is passed over: packages of web fonts have each font as both.
+    """
+    found = [path for path in sorted(folder.rglob("*")) if path.suffix.lower() in SUFFIXES and path.is_file()]
+    newer = {path.with_suffix("") for path in found if path.suffix.lower() == ".woff2"}
+    yield from (path for path in found if path.suffix.lower() != ".woff" or path.with_suffix("") not in newer)
 
 
 @cache

@@ -1,7 +1,7 @@
 """Drawings of texts."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 from typing import Final, Literal, TypeAlias
@@ -90,10 +90,10 @@ class TextOptions:
         """Names of families in order of preference."""
         return [self.family] if isinstance(self.family, str) else [*self.family]
 
-    def choice(self, notes: Notes) -> Choice:
+    def choice(self, notes: Notes, characters: Iterable[str]) -> Choice:
         """Faces of the fonts, with notes of what the first of them is not."""
         given = [self.font] if isinstance(self.font, str | os.PathLike) else [*self.font]
-        faces = Fonts(given).faces(self.families, round(self.weight), self.style, self.stretch)
+        faces = Fonts(given).faces(self.families, round(self.weight), self.style, self.stretch, characters)
         choice = Choice(faces, notes, is_asked=bool(given or self.families))
         face = choice.first
         first = next(iter(self.families), face.family)
@@ -202,7 +202,7 @@ def text_drawing(text: str, options: TextOptions) -> Drawing:
     if len(text) > MOST_CHARACTERS:
         raise LimitError(f"`text` has {len(text):,} characters, of at most {MOST_CHARACTERS:,}; draw it in parts")
     notes = Notes()
-    choice = options.choice(notes)
+    choice = options.choice(notes, text)
     base = base_level(text, options.direction)
     setting = Typesetting(base, options.language, options.features)
     lines = [line_of_glyphs(line.translate(BLANKS), choice, setting) for line in text.splitlines() or [""]]
