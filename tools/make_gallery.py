@@ -62,8 +62,13 @@ CREDITS: Final = (
 )
 
 
+def say(step: str) -> None:
+    """Print what is done now, at once: the whole takes minutes."""
+    print(f"{step} ...", flush=True)
+
+
 def bundle(folder: Path, name: str) -> None:
-    """Bundle a library of gallery/libraries as a classic script, minified."""
+    """Bundle a library of gallery/libraries as a classic script, minified; and its text for pages from the disk."""
     modules = WEB / "node_modules"
     three = modules / "three"
     options = ["--bundle", "--minify", "--format=iife", "--legal-comments=none", "--log-level=error"]
@@ -81,6 +86,9 @@ def bundle(folder: Path, name: str) -> None:
     outcome = subprocess.run(call, cwd=WEB, env=environment, capture_output=True, text=True, check=False)
     if outcome.returncode:
         sys.exit(f"{source.name} cannot be bundled: {outcome.stderr.strip().splitlines()[0]}")
+    text = json.dumps((folder / f"{name}.js").read_text(encoding="utf-8"), ensure_ascii=False)
+    given = f"(globalThis.galleryTexts ??= {{}})[{json.dumps(name)}] = {text};\n"
+    (folder / f"{name}.text.js").write_text(given, encoding="utf-8")
 
 
 def run(line: str, folder: Path) -> None:
@@ -99,9 +107,11 @@ def make_files(folder: Path, example: Example, *, quick: bool) -> None:
     own.mkdir()
     made = set(own.iterdir())
     for name in example.sources:
+        say(f"{example.name}: making {name}")
         SOURCES[name](own, quick=quick)
     unwanted = set(own.iterdir()) - made
     for line in example.commands:
+        say(f"{example.name}: {line}")
         run(line, own)
     for path in unwanted - {own / name for name in example.files}:
         shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
@@ -153,6 +163,7 @@ def photographed(folder: Path, shown: list[Example]) -> bool:
     try:
         with chromium("--enable-unsafe-webgpu") as browser:
             for example in shown:
+                say(f"{example.name}: taking its picture in Chromium")
                 page = browser.new_page(viewport={"width": 1280, "height": 800}, device_scale_factor=1)
                 page.goto((folder / example.name / "index.html").as_uri())
                 page.add_style_tag(content="#stage { position: fixed !important; inset: 0; z-index: 9 }")
@@ -211,18 +222,19 @@ def build(folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), pict
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "lib").mkdir(parents=True)
     for name in sorted({name for one in shown for name in one.libraries}):
+        say(f"bundling lib/{name}.js")
         bundle(folder / "lib", name)
     for name in ("gallery.css", "page.js", "frame.js", "jsx.js"):
         shutil.copyfile(GALLERY / "pages" / name, folder / name)
     write_licences(folder, shown)
     for example in shown:
-        print(f"{example.name} ...", flush=True)
         make_files(folder, example, quick=quick)
     for place, example in enumerate(shown):
         around = shown[place - 1], shown[(place + 1) % len(shown)]
         write_page(folder, example, around, measured(folder, example))
     if not (pictures and photographed(folder, shown)):
         for example in shown:
+            say(f"{example.name}: drawing its picture")
             drawn_thumbnail(folder, example)
     write_index(folder, shown, {one.name: "thumbnail.jpg" for one in shown}, CREDITS)
 

@@ -1,7 +1,12 @@
 // Runs in the frame of an example: gives its source the libraries of the page by an import map, and tells the page what
 // goes wrong. A page from the disk may not load modules, nor fetch files: the libraries are classic scripts, and the
-// files are given by `files.js`.
+// files are given by `files.js`. Scripts from the disk are of another origin, and browsers hide what their errors say:
+// there the libraries come as text, and are scripts of this page.
 (() => {
+  for (const [name, text] of Object.entries(globalThis.galleryTexts ?? {})) {
+    document.head.append(Object.assign(document.createElement('script'), { textContent: `${text}\n//# sourceURL=${name}.js` }));
+  }
+
   const { source, jsx } = JSON.parse(document.getElementById('source').textContent);
   const modules = globalThis.galleryModules;
 

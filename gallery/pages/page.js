@@ -10,7 +10,8 @@
   const asJson = (value) => JSON.stringify(value).replaceAll('<', '\\u003c');
 
   function documentOf(source) {
-    const scripts = [...about.libraries.map((name) => `../lib/${name}.js`), ...(isFile && about.files ? ['files.js'] : [])];
+    const libraries = about.libraries.map((name) => `../lib/${name}${isFile ? '.text' : ''}.js`);
+    const scripts = [...libraries, ...(isFile && about.files ? ['files.js'] : [])];
     if (about.jsx) scripts.push('../jsx.js');
     return `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>${about.title}</title>
 <meta name="viewport" content="width=device-width, initial-scale=1">

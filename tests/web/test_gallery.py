@@ -4,6 +4,7 @@ import io
 import runpy
 import sys
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +42,9 @@ const material = new VectorMaterial({ texture, mode: 'paint' });
 scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material));
 renderer.render(scene, new THREE.OrthographicCamera(-1, 1, 1, -1, -1, 1));
 """
+
+IMPORTED = "import { VectorMaterial } from 'vexture';"
+NO_OPTION = 'VextureError: VectorMaterial has no option "colour"; correct its name'
 
 
 @pytest.fixture(scope="session")
@@ -95,6 +99,12 @@ def share(picture: NDArray[np.float64], colour: tuple[int, int, int], within: fl
 def test_sources_are_short(name: str) -> None:
     assert 5 < len(EXAMPLES[name].source.splitlines()) < MOST_LINES
     assert max(map(len, EXAMPLES[name].source.splitlines())) <= LONGEST_LINE
+
+
+def test_building_says_each_step(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    example = replace(EXAMPLES["logo"], commands=("vexture info --help",), files=())
+    runpy.run_path(str(ROOT / "tools" / "make_gallery.py"))["make_files"](tmp_path, example, quick=True)
+    assert capsys.readouterr().out.splitlines() == ["logo: making logo.svg ...", "logo: vexture info --help ..."]
 
 
 def test_there_are_enough() -> None:
@@ -173,6 +183,12 @@ def test_an_edited_source_is_run_and_is_the_truth(run: Callable[..., Any], galle
         ("logo", "const a = 1;\nnothing.here();", "line 2: ReferenceError: nothing is not defined"),
         ("logo", "const a = 1;\nconst a = 2;", "line 2: SyntaxError: Identifier 'a' has already been declared"),
         ("logo", "\nawait Promise.reject(new Error('none'));", "line 2: Error: none"),
+        ("logo", f"{IMPORTED}\nnew VectorMaterial({{ texture: null, colour: 'red' }});", f"line 2: {NO_OPTION}"),
+        (
+            "logo",
+            f"{IMPORTED}\nsetTimeout(() => new VectorMaterial({{ texture: null, colour: 1 }}));",
+            f"line 2: {NO_OPTION}",
+        ),
         ("react", "const a = (\n  <b><i></b>\n);", "line 2: SyntaxError: <i> ends as </b>"),
     ],
 )
