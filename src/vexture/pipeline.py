@@ -2,7 +2,7 @@
 
 import inspect
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
@@ -24,6 +24,7 @@ __all__ = [
     "atlas",
     "combine",
     "convert",
+    "parts_of",
     "run",
     "trees_of",
     "warn_of_loss",
@@ -94,6 +95,24 @@ def run(
         drawing = drawing_of(source, {} if select is None else {"select": select}).unmasked()
         tree, other_texture, rounding = other.convert(drawing, **parameters)
     return Conversion(drawing, (tree,), other_texture, CLOCK.seconds() - start, rounding, notes=drawing.notes)
+
+
+def parts_of(source: "Source | bytes", parameters: Parameters, name: str | None = None) -> Iterator[Conversion[Any]]:
+    """Read the drawings of one source for an atlas, and build the trees of each, as `trees_of` does.
+
+    `name` is that of a source that is the content of a file.
+    """
+    if not isinstance(source, str | bytes | os.PathLike):
+        yield trees_of(source, parameters)
+        return
+    from vexture.sprites import read_drawings
+
+    given = replace(parameters, select=None, names=None, snap=None, fonts=None, trace_images=False, page_colors=None)
+    with within(parameters.max_seconds):
+        start = CLOCK.seconds()
+        for shown, drawing in read_drawings(source, name=name, **parameters.reading):
+            yield replace(trees_of(drawing, given), source=shown, seconds=CLOCK.seconds() - start)
+            start = CLOCK.seconds()
 
 
 def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
@@ -324,7 +343,7 @@ def atlas(
     ----------
     sources : iterable of Drawing or path
         A shape is named after its drawing; that of a file after the file, without its last suffix. Layers are
-        ``name/layer``.
+        ``name/layer``. An SVG that holds symbols and paints nothing is a shape for each symbol, named after its id.
     name : str
         Names the texture.
     split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts, trace_images, \
@@ -357,12 +376,12 @@ page_colors
         sources = [sources]
     parts = []
     for source in sources:
-        part = trees_of(source, parameters)
-        parts.append(part)
-        if _is_drawing(source):
-            warn_of_loss(part.drawing, part.notes)
-        else:
-            warn_of(part.source, part.notes)
+        for part in parts_of(source, parameters):
+            parts.append(part)
+            if _is_drawing(source):
+                warn_of_loss(part.drawing, part.notes)
+            else:
+                warn_of(part.source, part.notes)
     return combine(parts, name)
 
 

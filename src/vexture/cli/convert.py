@@ -41,11 +41,12 @@ from vexture.cli.outcome import (
 )
 from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT, REGISTERED
-from vexture.errors import EXPECTED, ParameterError, VextureError, counted
+from vexture.errors import EXPECTED, ParameterError, SourceError, VextureError, counted
 from vexture.layout import PACKED_SUFFIX
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
+    from vexture.pipeline import Conversion
 
 __all__ = ["check_places", "convert", "given_options", "options_of_convert"]
 
@@ -86,7 +87,12 @@ Examples:
     type=PATH,
     help="Folder to write to, or the file for one drawing; - is standard output.  [default: .]",
 )
-@click.option("--atlas", metavar="FILE.ktx2|-", type=PATH, help="Write one texture of all files, a shape for each.")
+@click.option(
+    "--atlas",
+    metavar="FILE.ktx2|-",
+    type=PATH,
+    help="Write one texture of all files, a shape for each, or of a sprite for each symbol.",
+)
 @click.option(
     "--split",
     type=click.Choice(["auto", "faces", "paint"]),
@@ -156,11 +162,13 @@ def convert(
 ) -> None:
     """Convert drawings into textures.
 
-    A source is an SVG, GeoJSON, a picture to trace (PNG, JPEG, WebP, GIF, BMP), geographic data (polygons
-    in any format that vexture map reads; depths in GeoTIFF or NetCDF, at the first time), or - for standard input.
+    A source is an SVG, GeoJSON, a picture to trace (PNG, JPEG, WebP, GIF, BMP), geographic data (polygons in any
+    format that vexture map reads; depths in GeoTIFF, a grid of Esri or NetCDF, at the first time), a folder, for the
+    SVGs in it, or - for standard input.
     """
     with one_line():
         parameters = _checked(encoding, options)
+        sources = drawings_in(sources)
         to_pipe = Path(STANDARD) in (output, atlas)
         level = QUIET if quiet else VERBOSE if verbose else NORMAL
         check_places(sources, output, atlas, encoding, to_pipe)
@@ -218,6 +226,25 @@ def options_of_convert(*names: str) -> Callable[[click.Command], click.Command]:
     return with_options
 
 
+def drawings_in(sources: tuple[Path, ...]) -> tuple[Path, ...]:
+    """The sources, with the SVG files in a folder, in the order of their names, in place of the folder."""
+    files = list[Path]()
+    for source in sources:
+        if not source.is_dir():
+            files.append(source)
+            continue
+        found = sorted(file for file in source.iterdir() if _is_drawing(file))
+        if not found:
+            raise SourceError(f"{source}: the folder holds no SVG file; name a folder that does, or files")
+        files += found
+    return tuple(files)
+
+
+def _is_drawing(file: Path) -> bool:
+    """Whether a file of a folder is an SVG by its name, and not hidden."""
+    return file.suffix.lower() in (".svg", ".svgz") and not file.name.startswith(".") and file.is_file()
+
+
 def check_places(
     sources: tuple[Path, ...], output: Path | None, atlas: Path | None, encoding: str, to_pipe: bool
 ) -> None:
@@ -260,38 +287,48 @@ def _convert_one(
     for_atlas: bool,
     strict: bool,
     quiet: bool,
-) -> Outcome:
+) -> list[Outcome]:
     """Convert one source, in this process or another; an error is returned as its line.
+
+    Of a sprite, there is an outcome for each symbol in an atlas.
 
     `stored` are the parameters of the texture's `files`.
     """
     from vexture.notes import check_losses, line_of
     from vexture.parameters import READING, Parameters
-    from vexture.pipeline import run, trees_of
+    from vexture.pipeline import parts_of, run
     from vexture.reading import read_drawing
-    from vexture.texture.ktx2 import TEXEL_BYTES
 
     if quiet:  # kernels announce that they are compiled
         logging.getLogger("vexture").setLevel(logging.ERROR)
-    given: Drawing | Path = source
-    files = None
     try:
+        if for_atlas:
+            whole = source if content is None else content
+            parts = [*parts_of(whole, Parameters(**parameters), shown_name(source))]
+            for part in parts:
+                check_losses(part.source, part.notes, is_empty=not part.drawing.paths, strict=strict)
+            return [_for_atlas(source, part) for part in parts]
+        given: Drawing | Path = source
         if content is not None:
             parameters = dict(parameters)
             reading = {name: parameters.pop(name) for name in READING if name in parameters}
             given = read_drawing(content, name=shown_name(source), **reading)
-        if for_atlas:
-            done = trees_of(given, Parameters(**parameters))
-            size = TEXEL_BYTES * sum(tree.texels for tree in done.trees)
-        else:
-            done = run(given, encoding=encoding, **parameters)
-            files = done.texture.files(**stored)
-            size = sum(map(len, files.values()))
+        done = run(given, encoding=encoding, **parameters)
+        files = done.texture.files(**stored)
         check_losses(str(source), done.notes, is_empty=not done.drawing.paths, strict=strict)
     except EXPECTED as error:
-        return Outcome(source, {}, error=str(error))
-    warning = line_of(str(source), done.notes)
-    return Outcome(source, shape_facts(done) | {"bytes": size}, files, done if for_atlas else None, warning)
+        return [Outcome(source, {}, error=str(error))]
+    facts = shape_facts(done) | {"bytes": sum(map(len, files.values()))}
+    return [Outcome(source, facts, files, warning=line_of(str(source), done.notes))]
+
+
+def _for_atlas(source: Path, part: "Conversion[Any]") -> Outcome:
+    """Outcome of a drawing whose trees become a part of an atlas."""
+    from vexture.notes import line_of
+    from vexture.texture.ktx2 import TEXEL_BYTES
+
+    size = TEXEL_BYTES * sum(tree.texels for tree in part.trees)
+    return Outcome(source, shape_facts(part) | {"bytes": size}, None, part, line_of(part.source, part.notes))
 
 
 def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int, max_seconds: float) -> Iterator[Outcome]:
@@ -308,7 +345,10 @@ def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int, max_s
             progress = opened.enter_context(Progress(console=Console(stderr=True), transient=True))
             results = progress.track(results, total=len(tasks), description="converting")
         for source, result in zip(sources, results, strict=True):
-            yield Outcome(source, {}, error=str(result)) if isinstance(result, VextureError) else result
+            if isinstance(result, VextureError):
+                yield Outcome(source, {}, error=str(result))
+            else:
+                yield from result
 
 
 def _write_atlas(outcomes: list[Outcome], atlas: Path, stored: dict[str, Any], *, silent: bool, to_pipe: bool) -> None:

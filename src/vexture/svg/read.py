@@ -1,12 +1,14 @@
 """Reading SVG: the shapes of a drawing and their paints."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Final, TypeAlias
 
 import numpy as np
+from lxml import etree
 from numpy.typing import NDArray
 
 from vexture.bezier.bounds import bounds
@@ -22,7 +24,7 @@ from vexture.svg.images import Images
 from vexture.svg.page import CURRENT_IS_BLACK, Page, has_colors
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
-from vexture.svg.select import chosen, nothing_painted, unpainted, with_symbols_used
+from vexture.svg.select import UNPAINTED, chosen, nothing_painted, unpainted, with_symbols_used
 from vexture.svg.style import UNCLEAR
 from vexture.svg.subjects import subject_of
 from vexture.svg.transform import Identity, Transform
@@ -30,7 +32,7 @@ from vexture.svg.unseen import ANIMATION
 from vexture.svg.values import Viewport, is_relative
 from vexture.svg.viewport import THINNEST, Rectangle
 
-__all__ = ["framed_drawing", "read_svg", "svg_drawing"]
+__all__ = ["Found", "Request", "found_in", "framed_drawing", "read_svg", "svg_drawing"]
 
 Frame: TypeAlias = tuple[tuple[float, float], Viewport, Transform]
 """Size of a drawing in pixels, the root's viewport, and the map from user units to pixels."""
@@ -156,36 +158,30 @@ def framed_drawing(
     """
     named, page = "id" if names is None else names, Page.of(page_colors)
     with about(source):
-        try:
-            plain = decompressed(content)
-            whole = Request(plain, Path(source).stem, select, named, fonts, images or Images(), page)
-            first = found = at_moment(whole, Moment.START)
-            for moment in (Moment.REST, Moment.END):
-                if not found.drawing.paths and first.is_animated:
-                    found = at_moment(whole, moment)
-        except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
-            raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
+        for name, value in (("select", select), ("names", names)):
+            if value is not None and not isinstance(value, str):
+                raise ParameterError(f"`{name}` is {value!r:.80}; it must be text")
+        document = partial(parse_svg, decompressed(content))
+        part = None if select is None else partial(selected, select=select)
+        found = found_in(Request(document, Path(source).stem, part, named, fonts, images or Images(), page))
         if select is not None and not found.drawing.paths and found.chosen:
             raise nothing_painted(select, found.chosen)
-    return found.drawing if found.drawing.paths else first.unseen, found.frame
+    return found.drawing, found.frame
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What is to be read of a document, as in `svg_drawing`."""
+    """What is to be read of a document."""
 
-    content: bytes
+    document: Callable[[], etree._Element]  # makes the document, which is changed, anew
     name: str
-    select: str | None
+    part: Callable[[etree._Element], set[etree._Element]] | None  # finds the elements that are chosen
     names: str
     fonts: Sequence[str | os.PathLike[str]]
     images: Images
     page: Page
 
     def __post_init__(self) -> None:
-        for name, value in (("select", self.select), ("names", self.names)):
-            if value is not None and not isinstance(value, str):
-                raise ParameterError(f"`{name}` is {value!r:.80}; it must be text")
         font_places(self.fonts, "fonts")
 
 
@@ -210,18 +206,35 @@ class Found:
         return replace(self.drawing, notes=(*notes, told)) if self.is_animated else self.drawing
 
 
+def found_in(request: Request) -> Found:
+    """Read a document at its start, or if it shows nothing then, at another moment of its animation."""
+    try:
+        first = found = at_moment(request, Moment.START)
+        for moment in (Moment.REST, Moment.END):
+            if not found.drawing.paths and first.is_animated:
+                found = at_moment(request, moment)
+    except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
+        raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
+    return found if found.drawing.paths else replace(found, drawing=first.unseen)
+
+
+def selected(root: etree._Element, select: str) -> set[etree._Element]:
+    """Elements to paint for a selector."""
+    return with_symbols_used(root, chosen(root, select))
+
+
 def at_moment(request: Request, moment: Moment) -> Found:
     """Read a document at a moment of its animation."""
     report = Report()
-    root = parse_svg(request.content)
+    root = request.document()
     for element in show_moment(root, request.page, moment):
         report.simplified(UNCLEAR, element.getparent())
-    part = None if request.select is None else with_symbols_used(root, chosen(root, request.select))
+    part = None if request.part is None else request.part(root)
     scene = Scene(root, report, request.images, part, request.names, request.fonts, request.page)
     framed = frame(scene)
     drawing, to_pixels = drawing_of(scene, framed, request.name)
     if not drawing.paths:
-        report.remark(unpainted(root))
+        report.remark(unpainted(root) if part is None else UNPAINTED)
     elif moment.remark:
         report.remark(moment.remark)
     if scene.servers.lacks_color and has_colors(drawing):  # of one colour, it is a shape for any

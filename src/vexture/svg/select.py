@@ -11,12 +11,27 @@ from vexture.deadline import check_time
 from vexture.errors import LimitError, ParameterError, counted, shortened
 from vexture.svg.document import language, local_name
 
-__all__ = ["Node", "chosen", "nothing_painted", "unpainted", "with_symbols_used"]
+__all__ = [
+    "UNPAINTED",
+    "Node",
+    "chosen",
+    "nothing_painted",
+    "symbol_alone",
+    "symbols_of",
+    "unpainted",
+    "with_symbols_used",
+]
 
 LONGEST_NAMED = 80
 """Most characters of a selector in a message."""
 
 LINKS = ("href", "{http://www.w3.org/1999/xlink}href")
+
+UNPAINTED = "nothing in it is painted"
+"""Remark about a document."""
+
+SHOWN = ("display:inline!important", "visibility:visible!important", "opacity:1!important")
+"""Undoes what hides a sprite in a page."""
 
 FRAME = ("viewBox", "width", "height", "preserveAspectRatio")
 """What sets the frame of a document, or of a symbol."""
@@ -112,29 +127,53 @@ def with_symbols_used(root: etree._Element, found: set[etree._Element]) -> set[e
     used = {link for use in root.iter("{*}use", "use") for name in LINKS if (link := use.get(name, "").strip())}
     symbols = [one for one in found if local_name(one) == "symbol" and f"#{one.get('id')}" not in used]
     if len(found) == 1 and symbols:
-        for name in FRAME:
-            value = symbols[0].get(name)
-            if value is not None:
-                root.set(name, value)
-            elif name in root.attrib:
-                del root.attrib[name]
-    uses = set()
-    for number, symbol in enumerate(symbols):
-        name = symbol.get("id") or f"vexture-symbol-{number}"
-        symbol.set("id", name)
-        use = etree.SubElement(root, etree.QName(etree.QName(root).namespace, "use"))
-        use.set("href", f"#{name}")
-        uses.add(use)
-    return found.difference(symbols) | uses
+        return symbol_alone(root, symbols[0])
+    return found.difference(symbols) | {use_of(root, symbol, number) for number, symbol in enumerate(symbols)}
+
+
+def symbol_alone(root: etree._Element, symbol: etree._Element) -> set[etree._Element]:
+    """An element `use` of a symbol, which fills the drawing: its viewBox becomes that of the document.
+
+    What hides a sprite in a page, or gives it no size there, is undone: a page shows the symbols elsewhere.
+    """
+    for name in FRAME:
+        value = symbol.get(name)
+        if value is not None:
+            root.set(name, value)
+        elif name in root.attrib:
+            del root.attrib[name]
+    sides = (f"{name}:{root.get(name, 'auto')}!important" for name in ("width", "height"))
+    root.set("style", ";".join((root.get("style", ""), *SHOWN, *sides)))
+    return {use_of(root, symbol, 0)}
+
+
+def use_of(root: etree._Element, symbol: etree._Element, number: int) -> etree._Element:
+    """A new element `use` of a symbol, at the end of the document; a symbol without a name gets one with a number."""
+    name = symbol.get("id") or f"vexture-symbol-{number}"
+    symbol.set("id", name)
+    use = etree.SubElement(root, etree.QName(etree.QName(root).namespace, "use"))
+    use.set("href", f"#{name}")
+    return use
 
 
 def unpainted(root: etree._Element) -> str:
     """Remark about a document that paints nothing: a sprite is one of symbols."""
-    names = [name for element in root.iter("{*}symbol", "symbol") if (name := element.get("id"))]
+    names = [*symbols_of(root)]
     if not names:
-        return "nothing in it is painted"
+        return UNPAINTED
     first = f"#{shortened(names[0], LONGEST_NAMED)}"
-    return f"nothing in it is painted, but it has {counted(len(names), 'symbol')}; choose one by `select`, as {first!r}"
+    symbols = f"{UNPAINTED}, but it has {counted(len(names), 'symbol')}"
+    return f"{symbols}; choose one by `select`, as {first!r}, or convert all of them by `atlas`"
+
+
+def symbols_of(root: etree._Element) -> dict[str, etree._Element]:
+    """The symbols of a document by their names; of several with one name only the first can be used."""
+    found: dict[str, etree._Element] = {}
+    for element in root.iter("{*}symbol", "symbol"):
+        name = element.get("id")
+        if name and local_name(element) == "symbol":
+            found.setdefault(name, element)
+    return found
 
 
 def nothing_painted(select: str, count: int) -> LimitError:
