@@ -66,7 +66,8 @@ def read(
     - GeoJSON (`vexture.read_geojson`).
     - PNG, JPEG, WebP, GIF or BMP, traced (`vexture.read_image`; needs ``vexture[trace]``).
     - Wet areas of a GeoPackage, SpatiaLite, FlatGeobuf, zipped shapefile or FileGDB, KML, KMZ, GPX, GML, GeoTIFF,
-      NetCDF (`vexture.read_extent`; needs ``vexture[gis]``), GeoParquet, Feather or CSV (``vexture[map]``).
+      Esri grid or NetCDF, of a series at its first time (`vexture.read_extent`; needs ``vexture[gis]``), GeoParquet,
+      Feather or CSV (``vexture[map]``).
 
     Parameters
     ----------

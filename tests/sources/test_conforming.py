@@ -84,6 +84,13 @@ def test_a_mesh_that_shares_its_nodes_stays_as_it_is():
     assert mesh.numbers is None
 
 
+@pytest.mark.parametrize("side", [0.0, 5e-324, 1.0, 8e307])
+def test_faces_on_one_another_and_of_any_size_are_kept(side):
+    """Places that no number can tell apart, or that are infinitely far apart, are refused later."""
+    corners = np.concatenate([side * CORNERS, side * CORNERS])
+    assert len(conforming(corners, np.arange(8, dtype=np.int32).reshape(2, 4)).faces) == 2
+
+
 def test_values_at_one_place_are_their_mean():
     nodes, faces = squares((0,) * 8)
     mesh = conforming(nodes, faces)

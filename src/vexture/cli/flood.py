@@ -97,8 +97,8 @@ def flood(
 ) -> None:
     """Show a flood as a living sea, on one page or on a server.
 
-    The extent is wet places in any format that vexture map reads (but TopoJSON), or depths: GeoTIFF, a grid of Esri, or
-    NetCDF on rows and columns, a curvilinear grid or a mesh (UGRID).
+    The extent is wet places in any format that vexture map reads (but TopoJSON), or depths: GeoTIFF, a grid of Esri
+    (.asc, .flt), or NetCDF on rows and columns, a curvilinear grid, or a mesh (UGRID: D-Flow FM, ADCIRC, SCHISM).
     """
     from vexture.geo.crs import gis_packages
 

@@ -53,6 +53,7 @@ class Conforming(NamedTuple):
             return np.asarray(sums / np.bincount(self.numbers[known], minlength=count))
 
 
+@np.errstate(all="ignore")  # places so far apart that they are refused later
 def conforming(nodes: Places, faces: Faces) -> Conforming:
     """Mesh of the same faces, which share nodes at one place, and have those amid their sides as corners.
 
@@ -108,15 +109,17 @@ def _alike(points: Places, near: float) -> NDArray[np.intp]:
     Points are put into square cells, twice as wide as points of one place are near. In one of four grids of them, half
     a cell apart, such points are in one cell. Other points are much farther away.
     """
-    first = np.arange(len(points))
-    cells = (points - points.min(axis=0)) / (2.0 * near)
+    _, one, place = np.unique(points[:, 0] + 1j * points[:, 1], return_index=True, return_inverse=True)
+    kept, rank = np.sort(one), np.argsort(np.argsort(one))  # equal points first, which are the most
+    first = np.arange(len(kept))
+    cells = (points[kept] - points.min(axis=0)) / (2.0 * near)
     for x in (0.0, 0.5):
         for y in (0.0, 0.5):
             check_time()
             at = np.floor(cells + np.array([x, y]))
-            _, one, place = np.unique(at[:, 0] + 1j * at[:, 1], return_index=True, return_inverse=True)
-            first = first[one][place]
-    return first
+            _, leader, cell = np.unique(at[:, 0] + 1j * at[:, 1], return_index=True, return_inverse=True)
+            first = first[leader][cell]
+    return np.asarray(kept[first][rank[place]])
 
 
 def _divided(nodes: Places, faces: Faces, near: float) -> Faces:
@@ -133,6 +136,8 @@ def _divided(nodes: Places, faces: Faces, near: float) -> Faces:
 def _halved(nodes: Places, faces: Faces, near: float) -> Faces:
     """Faces with the nodes amid their sides as corners; the same if there are none, or too many for a face."""
     border = border_of(faces, len(nodes))
+    if not border.any():  # faces that lie on one another
+        return faces
     start, end = faces[border], after_each(faces)[border]
     ends = np.unique(start)
     same = _alike(np.concatenate([nodes[ends], (nodes[start] + nodes[end]) / 2.0]), near)[len(ends) :]
