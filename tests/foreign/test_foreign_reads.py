@@ -149,7 +149,7 @@ def test_what_leads_nowhere_is_read(folder):
 
 
 def test_a_world_file_beside_a_raster_places_it(folder):
-    path = raster(folder / "b.tif", np.ones((4, 4), np.float32), placed=False)
+    path = raster(folder / "b.tif", np.full((4, 4), 2.0, np.float32), placed=False)
     (folder / "b.tfw").write_text("10\n0\n0\n-10\n5\n35\n")
     assert vexture.read_extent(path).frame.bounds == pytest.approx((0.0, 0.0, 40.0, 40.0), abs=4.0)
 

@@ -206,5 +206,5 @@ def _small_tiff(frame: Frame) -> bytes:
             driver="GTiff", width=4, height=4, count=1, dtype="float32", crs=frame.crs,
             transform=pixels_to(frame.bounds, (4, 4)),
         ) as raster:  # fmt: skip
-            raster.write(np.tile(np.array([0, 0, 1, 1], np.float32), (4, 1)), 1)
+            raster.write(np.tile(np.array([0, 0, 2, 2], np.float32), (4, 1)), 1)
         return bytes(file.read())
