@@ -262,8 +262,7 @@ def test_picture_of_the_browser_is_placed(tmp_path):
     (tmp_path / "unsized.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"><path d="M30 30h60v60h-60z"/></svg>')
     with viewing(tmp_path, tmp_path / "wide.svg", tmp_path / "unsized.svg") as running:
         assert running.manifest("wide")["facts"]["box"] == pytest.approx([0, 0.375, 1, 0.625])
-        # browsers draw it in 300 x 150 pixels, of which the drawing is the part from 30 to 90
-        assert running.manifest("unsized")["facts"]["box"] == pytest.approx([-0.5, -1.0, 4.5, 1.5])
+        assert running.manifest("unsized")["facts"]["box"] == pytest.approx([0, 0.25, 1, 0.75])  # 300 x 150
 
 
 def test_data_addresses_hold_what_was_served():

@@ -12,6 +12,7 @@ FIXTURES = Path(__file__).parent / "fixtures" / "errors"
 GREEN, RED, BLACK = "#008000", "#ff0000", "#000000"
 LARGE = "the number 1e300 is too large; the limit is 1e+12"
 FAR = "it has a coordinate of {}; the limit is 1e+12; correct it"
+UNSIZED = "it has no viewBox and no size, and is 300 x 150, as in browsers"
 FLAT = ["its width or height is zero, at which nothing is shown", "nothing in it is painted"]
 
 SHOWN = {
@@ -42,13 +43,13 @@ SHOWN = {
     "use-ancestor": ([GREEN], ["<use> in line 2 that shows itself"]),
     "use-cycle": ([RED, RED, GREEN], ["<use> in line 3 that shows itself", "<use> in line 2 that shows itself"]),
     "use-itself": ([GREEN], ['<use id="a"> in line 2 that shows itself']),
-    "view-box-nan": ([BLACK], ["viewBox='0 0 nan 10' of <svg> in line 1"]),
+    "view-box-nan": ([BLACK], ["viewBox='0 0 nan 10' of <svg> in line 1", UNSIZED]),
     "view-box-negative": ([GREEN], ["viewBox='0 0 -10 10' of <svg> in line 1"]),
     "view-box-nested-three": ([RED, GREEN], ["viewBox='0 0 10' of <svg> in line 2"]),
     "view-box-nested-zero": ([GREEN], []),
     "view-box-of-pattern": ([GREEN], []),
     "view-box-of-symbol-1e300": ([GREEN], ['<symbol id="s"> in line 2: ' + LARGE]),
-    "view-box-three": ([BLACK], ["viewBox='0 0 10' of <svg> in line 1"]),
+    "view-box-three": ([BLACK], ["viewBox='0 0 10' of <svg> in line 1", UNSIZED]),
     "view-box-zero": ([], FLAT),
     "width-nan": ([GREEN], ["width='nan' of <svg> in line 1"]),
     "width-zero": ([], FLAT),
@@ -97,6 +98,6 @@ def test_uses_that_show_one_another_too_often_are_an_error() -> None:
 def test_an_encoding_of_two_bytes_in_a_text_of_one_is_ignored(encoding: str) -> None:
     """Browsers draw it: some programs write the encoding of their memory."""
     text = f"<?xml version='1.0' encoding='{encoding}'?>"
-    text += "<svg xmlns='http://www.w3.org/2000/svg'><rect id='ö' width='9' height='9'/></svg>"
+    text += "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 9 9'><rect id='ö' width='9' height='9'/></svg>"
     for content in (text.encode(), b"\xef\xbb\xbf" + text.encode(), text.replace(encoding, "UTF-16").encode("utf-16")):
         assert len(vexture.read(content, select="#ö").paths) == 1

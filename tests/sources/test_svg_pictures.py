@@ -88,7 +88,6 @@ def test_the_whole_viewport_fills_the_square(tmp_path: Path) -> None:
         'viewBox="-5 7 30 20" width="90" height="90" preserveAspectRatio="xMinYMax"',
         'viewBox="-5 7 30 20" width="90" height="50" preserveAspectRatio="none"',
         'width="40" height="60"',
-        "",
     ],
 )
 def test_to_source_gives_user_units(tmp_path: Path, root: str) -> None:
@@ -98,12 +97,38 @@ def test_to_source_gives_user_units(tmp_path: Path, root: str) -> None:
     np.testing.assert_allclose(user, [[3, 9], [11, 9], [11, 13]], atol=1e-12)
 
 
-def test_a_file_without_size_is_as_large_as_what_it_paints(tmp_path: Path) -> None:
-    body = '<circle cx="50" cy="70" r="30" fill="none" stroke="red" stroke-width="20"/>'
-    drawing = drawing_of(tmp_path, body, "")
-    ends = np.concatenate([contour[:, 0] for contour in drawing.paths[0].contours])
-    np.testing.assert_allclose([ends.min(axis=0), ends.max(axis=0)], [[0, 0], [1, 1]], atol=1e-5)
-    np.testing.assert_allclose(drawing.to_source @ (0.5, 0.5, 1), [50, 70], atol=1e-3)
+@pytest.mark.parametrize(
+    ("root", "size", "note"),
+    [
+        ("", (300, 150), "it has no viewBox and no size, and is 300 x 150, as in browsers"),
+        ('width="100%" height="100%"', (300, 150), "it has no viewBox and no size, and is 300 x 150, as in browsers"),
+        ('width="60"', (60, 150), "it has no viewBox and no height, and is 60 x 150, as in browsers"),
+        ('height="60"', (300, 60), "it has no viewBox and no width, and is 300 x 60, as in browsers"),
+    ],
+)
+def test_a_file_without_size_is_as_large_as_in_browsers(
+    tmp_path: Path, root: str, size: tuple[float, float], note: str
+) -> None:
+    with pytest.warns(SourceWarning, match=f"drawing.svg: {note}$"):
+        drawing = drawing_of(tmp_path, '<path d="M0 0h60v60h-60z"/>', root)
+    assert [str(each) for each in drawing.notes] == [note]
+    np.testing.assert_allclose(max(size) * np.array(drawing.sides), size)
+    np.testing.assert_allclose(drawing.to_source @ (0.5, 0.5, 1), [size[0] / 2, size[1] / 2])
+
+
+@pytest.mark.parametrize("select", [None, "#inside"])
+def test_what_a_file_without_size_cuts_is_named_with_the_remedy(tmp_path: Path, select: str | None) -> None:
+    body = '<path id="inside" d="M20 -7.5h60v60z"/><path d="M250 90h90v80.2z"/>'
+    file = tmp_path / "drawing.svg"
+    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg">{body}</svg>')
+    with pytest.warns(SourceWarning, match=r'which cuts it \(with viewBox="0 -8 340 179" it shows all\)$'):
+        cut = read_svg(file, select)
+    ends = np.concatenate([contour[:, 0] for path in cut.paths for contour in path.contours])
+    assert ends[:, 1].max() == 0.75  # at the upper side
+    whole = drawing_of(tmp_path, body, 'viewBox="0 -8 340 179"')
+    ends = np.concatenate([contour[:, 0] for path in whole.paths for contour in path.contours])
+    user = ends @ whole.to_source[:, :2].T + whole.to_source[:, 2]
+    np.testing.assert_allclose([user.min(axis=0), user.max(axis=0)], [[20, -7.5], [340, 170.2]], atol=1e-9)
 
 
 def test_size_of_a_unitless_side_follows_the_view_box(tmp_path: Path) -> None:

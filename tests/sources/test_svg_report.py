@@ -54,7 +54,8 @@ SAID = {
     " all patterns of a drawing may have 400,000",
     "perspective": "left out: perspective",
     "script": "left out: script",
-    "transform-without-size": "left out: transform of the outermost <svg>, which has no size",
+    "transform-without-size": "it has no viewBox and no size, and is 300 x 150, as in browsers, which cuts it; "
+    "nothing in it is painted",
     "unknown-element": "left out: <flowRoot>",
     "view-and-cursor": "its cursors are left out, which no picture shows; "
     "its views are not followed; all of it is shown",
@@ -242,11 +243,13 @@ def test_a_long_list_is_cut(tmp_path: Path) -> None:
 
 
 def test_a_file_without_size_is_reported_once(tmp_path: Path) -> None:
-    """It is painted twice, the first time to find its size."""
+    """It is painted twice, the first time to find what lies beyond its size."""
     file = tmp_path / "a.svg"
     file.write_text('<svg><foreignObject/><rect width="9" height="9"/></svg>')
-    with pytest.warns(SourceWarning, match="left out: <foreignObject>$"):
+    with pytest.warns(
+        SourceWarning, match="left out: <foreignObject>; it has no viewBox and no size, and is 300 x 150"
+    ):
         read_svg(file)
     file.write_text("<svg><foreignObject/></svg>")
-    with pytest.warns(SourceWarning, match="left out: <foreignObject>; nothing in it is painted$"):
+    with pytest.warns(SourceWarning, match="left out: <foreignObject>; .*, as in browsers; nothing in it is painted$"):
         read_svg(file)

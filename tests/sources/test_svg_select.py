@@ -76,7 +76,8 @@ def test_parts_align_where_the_file_has_no_size(tmp_path: Path, select: str) -> 
         '<svg xmlns="http://www.w3.org/2000/svg"><path id="island" d="M10 10h50v50z"/><g><path id="leaf" '
         'd="M70 80h9v9z"/></g></svg>'
     )
-    whole, part = read_svg(file), read_svg(file, select)
+    with pytest.warns(SourceWarning, match="300 x 150"):
+        whole, part = read_svg(file), read_svg(file, select)
     np.testing.assert_array_equal(part.to_source, whole.to_source)
     k = ["#island", "#leaf"].index(select)
     np.testing.assert_array_equal(part.paths[0].contours[0], whole.paths[k].contours[0])

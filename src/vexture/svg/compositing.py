@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass, field, replace
 
-from vexture.drawing import Path
+from vexture.drawing import Drawing, Path
 from vexture.group import Blend, Group, Mask
 from vexture.svg.properties import BLENDS
 from vexture.svg.style import Style
 
-__all__ = ["Veil", "grouped", "occupied", "veil_of"]
+__all__ = ["Veil", "grouped", "has_colors", "masking", "occupied", "veil_of"]
 
 MOST_BOXES = 500
 """Paths in a veil that are compared with one another."""
@@ -122,6 +122,21 @@ def grouped(paths: list[Path], veils: list[Veil | None]) -> tuple[list[Path], tu
             path = replace(path, paint=path.paint.faded(opacity), group=place)
         done.append(path)
     return done, tuple(groups)
+
+
+def masking(groups: tuple[Group, ...]) -> list[bool]:
+    """Whether what is in each group only masks others."""
+    found = list[bool]()
+    for group in groups:
+        found.append(bool(group.mask) or (group.outer >= 0 and found[group.outer]))
+    return found
+
+
+def has_colors(drawing: Drawing) -> bool:
+    """Whether what is seen of a drawing has more than one colour; opacities and masks make none."""
+    masks = masking(drawing.groups)
+    paints = {path.paint for path in drawing.paths if path.group < 0 or not masks[path.group]}
+    return len({paint.color for paint in paints}) > 1 or any(paint.gradient is not None for paint in paints)
 
 
 def occupied(paths: tuple[Path, ...], groups: tuple[Group, ...]) -> tuple[tuple[Path, ...], tuple[Group, ...]]:

@@ -4,11 +4,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
-from vexture.drawing import Drawing
 from vexture.errors import ParameterError, shortened
 from vexture.svg.colors import CONTEXT, CURRENT, Color, parse_color
 
-__all__ = ["CURRENT_IS_BLACK", "ENCLOSED", "Page", "has_colors"]
+__all__ = ["CURRENT_IS_BLACK", "ENCLOSED", "Page"]
 
 NAMED: Final = "currentColor, context-fill, context-stroke or a custom property, such as --primary"
 CURRENT_IS_BLACK: Final = "currentColor has no value in it, and is black as in browsers (`page_colors` gives it one)"
@@ -59,15 +58,6 @@ class Page:
 
 ENCLOSED: Final = Page(is_open=False)
 """What surrounds a drawing in an image: it gives none."""
-
-
-def has_colors(drawing: Drawing) -> bool:
-    """Whether what is seen of a drawing has more than one colour; opacities and masks make none."""
-    masking = list[bool]()
-    for group in drawing.groups:
-        masking.append(bool(group.mask) or (group.outer >= 0 and masking[group.outer]))
-    paints = {path.paint for path in drawing.paths if path.group < 0 or not masking[path.group]}
-    return len({paint.color for paint in paints}) > 1 or any(paint.gradient is not None for paint in paints)
 
 
 def checked_name(name: object) -> str:

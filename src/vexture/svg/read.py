@@ -4,6 +4,7 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from math import ceil, floor
 from pathlib import Path
 from typing import Final, TypeAlias
 
@@ -18,19 +19,20 @@ from vexture.errors import ParameterError, SourceError
 from vexture.fonts.places import font_places
 from vexture.notes import Note, warn_of
 from vexture.svg.animation import Moment, show_moment
-from vexture.svg.compositing import occupied
+from vexture.svg.compositing import has_colors, masking, occupied
 from vexture.svg.document import parse_svg
 from vexture.svg.images import Images
-from vexture.svg.page import CURRENT_IS_BLACK, Page, has_colors
+from vexture.svg.page import CURRENT_IS_BLACK, Page
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
 from vexture.svg.select import UNPAINTED, chosen, nothing_painted, unpainted, with_symbols_used
+from vexture.svg.spatial import TRANSFORMS
 from vexture.svg.style import UNCLEAR
 from vexture.svg.subjects import subject_of
 from vexture.svg.transform import Identity, Transform
 from vexture.svg.unseen import ANIMATION
 from vexture.svg.values import Viewport, is_relative
-from vexture.svg.viewport import THINNEST, Rectangle
+from vexture.svg.viewport import ANONYMOUS, THINNEST, Rectangle
 
 __all__ = ["Found", "Request", "found_in", "framed_drawing", "read_svg", "svg_drawing"]
 
@@ -59,7 +61,7 @@ def read_svg(
     `use`, a marker or a pattern shows by that of the `use` or the shape; a stroke is ``id/stroke``.
 
     The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
-    is missing or a percentage. A drawing without any of them is as large as what it paints.
+    is missing or a percentage. A side that none of them says is 300 or 150 pixels long, as in browsers, with a note.
 
     Parameters
     ----------
@@ -243,38 +245,24 @@ def at_moment(request: Request, moment: Moment) -> Found:
     return Found(replace(drawing, notes=notes), None if framed is EMPTY else framed, len(part or ()))
 
 
-def drawing_of(scene: Scene, framed: Frame | None, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:
-    """Paint a scene into the frame that its outermost element sets, or around what it paints.
+def drawing_of(scene: Scene, framed: Frame, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:
+    """Paint a scene into the frame that its outermost element sets.
 
     Return the map from the unit square to pixels, too, if there is one.
     """
-    nothing = Drawing((), name=name), None
     if framed is EMPTY:
-        return nothing
-    if framed is not None:
-        size, viewport, matrix = framed
-        box: Rectangle = (0.0, 0.0, *size)
-    else:
-        viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        fonts, page = scene.typesetter.files, scene.cascade.page
-        whole = Scene(scene.root, Report(), scene.images, fonts=fonts, page=page)  # to measure; notes come later
-        paths, _ = whole.paint(viewport, matrix, None)
-        if not paths:
-            scene.paint(viewport, matrix, None)  # for its notes
-            return nothing
-        left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))
-        box = (left, top, right - left, bottom - top)
-        if box[2] == 0.0 or box[3] == 0.0:
-            return nothing
-    paths, groups = scene.paint(viewport, matrix, box, None if framed is None else framed[0])
+        return Drawing((), name=name), None
+    size, viewport, matrix = framed
+    box: Rectangle = (0.0, 0.0, *size)
+    paths, groups = scene.paint(viewport, matrix, box, size)
     drawing = Drawing.from_source(paths, box, name, groups)
     shown, groups = occupied(drawing.paths, groups)
     to_source = after(drawing.to_source, matrix.inverse())
     return replace(drawing, paths=shown, groups=groups, to_source=to_source), drawing.to_source
 
 
-def frame(scene: Scene) -> Frame | None:
-    """Frame that the outermost element sets, or None if it sets no size; `EMPTY`, with a note, if a side is zero."""
+def frame(scene: Scene) -> Frame:
+    """Frame that the outermost element sets; `EMPTY`, with a note, if a side is zero."""
     root, style = scene.root, scene.style
     box = scene.view(root)
     absolute = Viewport(0.0, 0.0, style.font_size)
@@ -293,9 +281,33 @@ def frame(scene: Scene) -> Frame | None:
             width, height = box[2:]
         size = (width or (height or 0.0) * ratio, height or (width or 0.0) / ratio)
         return size, replace(absolute, width=box[2], height=box[3], outermost=size), scene.fit(root, box, *size)
-    if width is None or height is None:
-        return None
-    return (width, height), replace(absolute, width=width, height=height), Identity
+    given = width is not None, height is not None
+    width, height = (side or default for side, default in zip(sides, ANONYMOUS, strict=True))
+    found: Frame = (width, height), replace(absolute, width=width, height=height), Identity
+    if not all(given):
+        scene.report.remark(unsized(scene, found, {(True, False): "height", (False, True): "width"}.get(given, "size")))
+    return found
+
+
+def unsized(scene: Scene, framed: Frame, lacking: str) -> str:
+    """What a note says of a drawing that lacks a size and a `viewBox`: what to write to see all of it, if it is cut."""
+    size, viewport, matrix = framed
+    fonts, page = scene.typesetter.files, scene.cascade.page
+    whole = Scene(scene.root, Report(), scene.images, fonts=fonts, page=page)  # to measure; notes come later
+    painted, groups = whole.paint(viewport, matrix, None, size)
+    masks = masking(groups)
+    paths = [path for path in painted if path.group < 0 or not masks[path.group]]
+    told = f"it has no viewBox and no {lacking}, and is {size[0]:g} x {size[1]:g}, as in browsers"
+    if not paths:
+        return told
+    left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))
+    if left >= 0.0 and top >= 0.0 and right <= size[0] and bottom <= size[1]:
+        return told
+    if not scene.style.own.keys().isdisjoint(TRANSFORMS):  # it would be about another middle with a viewBox
+        return f"{told}, which cuts it"
+    x, y = floor(min(left, 0.0)), floor(min(top, 0.0))
+    wide, high = ceil(max(right, size[0])) - x, ceil(max(bottom, size[1])) - y
+    return f'{told}, which cuts it (with viewBox="{x} {y} {wide} {high}" it shows all)'
 
 
 def after(first: NDArray[np.float64], second: Transform) -> NDArray[np.float64]:

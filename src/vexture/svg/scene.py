@@ -137,7 +137,7 @@ class Scene:
         if self.style["display"].lower() == "none" or opacity == 0.0 or not self.note_effects(self.root, self.style):
             return []
         around = place.space
-        place = replace(place, space=self.space_inside(around, content, size))
+        place = replace(place, space=self.space_inside(around, content, size, is_cut=frame is not None))
         if opacity < 1.0 or place.outer is not None or not MASKING.keys().isdisjoint(self.style.own):
             place = replace(place, veil=Veil(place.veil, opacity))  # a blend mode has nothing to mix with here
         note_outer_units(self, self.root, self.style, size)
@@ -148,24 +148,23 @@ class Scene:
                 painter.add(whole, replace(place, space=around), FillRule.NONZERO, paint.after(into), place.name)
         return [*stack, *((child, place) for child in reversed(self.root))]
 
-    def space_inside(self, around: Space, content: Transform, size: tuple[float, float] | None) -> Space:
+    def space_inside(
+        self, around: Space, content: Transform, size: tuple[float, float] | None, *, is_cut: bool
+    ) -> Space:
         """The space inside the outermost element, as in `inside_root`.
 
         It is a box of CSS, which its transform moves as a whole, about its middle if nothing else is said (CSS
         Transforms 1, 5).
         """
-        if self.style.own.keys().isdisjoint(TRANSFORMS):
-            return around.moved(content)
-        reason = ", which has no size"
-        if size is not None:
+        if size is not None and not self.style.own.keys().isdisjoint(TRANSFORMS):
             own = {"transform-origin": "center", **self.style.own, "transform-box": "view-box"}
             box = Place(Viewport(*size, self.style.font_size), around)
             try:
                 matrix = self.transform(self.root, replace(self.style, own=own), box)
-                return around.moved(matrix).window((0.0, 0.0, *size), content)
+                inner = around.moved(matrix)
+                return inner.window((0.0, 0.0, *size), content) if is_cut else inner.moved(content)
             except TooLargeError as error:
-                reason = f": {error}"
-        self.report.left_out(f"transform of the outermost <svg>{reason}", self.root)
+                self.report.left_out(f"transform of the outermost <svg>: {error}", self.root)
         return around.moved(content)
 
     def paint_embedded(self, root: etree._Element, place: Place, painter: Painter) -> None:
