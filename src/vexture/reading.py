@@ -18,6 +18,7 @@ from vexture.content import (
     unpacked,
 )
 from vexture.errors import LimitError, ParameterError, SourceError
+from vexture.geo.foreign import refuse_foreign
 from vexture.notes import Note, warn_of
 from vexture.parameters import check_reading
 from vexture.tolerance import HMIN
@@ -287,8 +288,7 @@ def read_extent(
     crs : str, optional
         Reference system of the data; it overrides the one in the file.
     time_dim : str, optional
-        Dimension of time, for depths; by default the one that looks like it. With any name, the bands of a GeoTIFF are
-        steps.
+        Dimension of time, for depths; by default the one that looks like it. With any, bands of a GeoTIFF are steps.
     hmin : float
         Depth in metres from which there is water, for depths; 0.05 by default.
     variable : str, optional
