@@ -56,7 +56,7 @@ def test_servers_and_the_command_line_are_led_nowhere(folder, outside):
         for number, source in enumerate(given):
             server.put(f"a{number}", source.read_bytes())
         assert outside.touched() == []
-        assert server.ask("GET", "/")[0] == 200
+        assert server.ask("GET", "/openapi.json")[0] == 200
 
 
 def test_what_is_beside_a_file_of_features_is_not_read(folder):
