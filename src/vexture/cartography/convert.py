@@ -132,7 +132,7 @@ def _drawing(ready: Prepared, snap: float | None) -> Drawing:
         border = one.outline
         paths += area_paths(border.rings, np.array([border.name], object), border.rgba, np.zeros(1, np.int64), fit)
         paths += area_paths(one.lines, one.names, one.colours(INK), np.arange(len(one.features)), fit)
-        paths += fitted(iter(one.symbols), fit)
+        paths += fitted(one.symbols, fit)
     if not paths:
         raise SourceError("its features enclose no area; correct them")
     return Drawing(tuple(paths), fit.to_source, ready.name, ready.crs, sides=fit.sides)

@@ -316,7 +316,8 @@ def _marked(painted: list[Painted], crs: str, size: int | Box, notes: Notes) -> 
         taken.add(outline.name)
         lines = strokes(one.features.lines, width_of(one.layer.stroke, "stroke"), crs, pixel)
         symbols = tuple(_symbols(one, crs, pixel))
-        own = [lines.points, outline.rings.points, *(np.concatenate(path.contours)[:, 0] for path in symbols)]
+        corners = [contour[:, 0] for path in symbols for contour in path.contours]
+        own = [lines.points, outline.rings.points, np.concatenate(corners) if corners else NO_LINES.points]
         reach += [corner for points in own if len(points) for corner in (points.min(axis=0), points.max(axis=0))]
         marked.append(replace(one, outline=outline, lines=lines, symbols=symbols))
     low, high = np.min(reach, axis=0), np.max(reach, axis=0)
@@ -347,7 +348,8 @@ def _symbols(one: Painted, crs: str, pixel: float) -> Iterator[Path]:
     names = [str(one.names[feature]) for feature in points.feature.tolist()]
     own_colours = layer.symbol is not None and one.rgba is None and layer.fill is None
     colours = one.colours(DOT)[points.feature].tolist()
-    paints = [None if own_colours else Paint((red, green, blue), alpha) for red, green, blue, alpha in colours]
+    known = {rgba: None if own_colours else Paint(rgba[:3], rgba[3]) for rgba in set(map(tuple, colours))}
+    paints = [known[tuple(rgba)] for rgba in colours]
     yield from symbol_paths(layer.symbol or _dot(), points.points, sizes, names, paints)
 
 
