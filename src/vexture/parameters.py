@@ -79,6 +79,7 @@ class Parameters:
 
 def check_reading(
     kind: FileKind,
+    select: str | None,
     names: str | None,
     snap: float | None,
     fonts: "str | os.PathLike[str] | Sequence[str | os.PathLike[str]]",
@@ -91,8 +92,10 @@ def check_reading(
         raise ParameterError(f"`names` {names!r} is for the elements of GeoJSON and SVG; leave it out")
     if snap is not None and kind in (FileKind.SVG, FileKind.PICTURE):
         raise ParameterError(f"`snap` {snap} is for the borders of polygons in a map; leave it out")
-    if kind is FileKind.SVG:
+    if kind in (FileKind.SVG, FileKind.TEXTURE):
         return
+    if select is not None:
+        raise ParameterError(f"`select` {select!r} chooses elements of an SVG; leave it out")
     if fonts:
         given = fonts if isinstance(fonts, str | os.PathLike) else fonts[0]
         raise ParameterError(f"`fonts` {os.fspath(given)!r} is for the texts of an SVG; leave it out")

@@ -153,10 +153,14 @@ def read_drawing(
         given = unzipped(
             unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
         )
-        kind = FileKind.AREAS if is_geodatabase(given) else known_kind(start_of(given) or read_bytes(given), shown)
-        check_reading(kind, names, snap, fonts, page_colors, trace_images=trace_images)
+        if is_geodatabase(given):
+            kind = FileKind.AREAS
+        else:
+            refuse_foreign(start_of(given), shown)
+            kind = known_kind(start_of(given) or read_bytes(given), shown)
+        check_reading(kind, select, names, snap, fonts, page_colors, trace_images=trace_images)
         if kind is not FileKind.SVG:
-            return _read_other(kind, given, shown, select, names, snap)
+            return _read_other(kind, given, shown, names, snap)
         content = read_bytes(given)
     from vexture.svg.read import svg_drawing
 
@@ -221,14 +225,10 @@ def name_of(source: Source, name: str | None = None) -> str:
     return called if isinstance(called, str) else UNNAMED
 
 
-def _read_other(
-    kind: FileKind, source: Place | bytes, shown: str, select: str | None, names: str | None, snap: float | None
-) -> "Drawing":
+def _read_other(kind: FileKind, source: Place | bytes, shown: str, names: str | None, snap: float | None) -> "Drawing":
     """Read anything but SVG; the caller puts the name in front of errors."""
     if kind is FileKind.TEXTURE:
         raise SourceError("is a texture already; give the drawing that it was made from")
-    if select is not None:
-        raise ParameterError(f"`select` {select!r} chooses elements of an SVG; leave it out")
     name = Path(shown).stem or UNNAMED
     if kind is FileKind.PICTURE:
         from vexture.tracing.trace import image_drawing
@@ -367,8 +367,11 @@ def extent_of(
 ) -> "Extent":
     """Read wet areas as `read_extent` does, but without a warning, and without the file's name in errors."""
     from vexture.geo.datasets import is_dataset
+    from vexture.geo.foreign import refuse_foreign
 
-    source = source if is_dataset(source) else unpacked(source)
+    if not is_dataset(source):
+        source = unpacked(source)
+        refuse_foreign(start_of(source), file_name)
     if is_dataset(source) or kind_of(start_of(source), file_name) is FileKind.DEPTHS:
         from vexture.geo.depths import read_depths
 

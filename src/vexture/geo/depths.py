@@ -15,6 +15,7 @@ from vexture.errors import ParameterError, SourceError
 from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period, refuse_other_units
 from vexture.geo.datasets import is_dataset
 from vexture.geo.extent import Bounds, DepthClasses, Extent, Frame, Step
+from vexture.geo.foreign import refuse_foreign_dataset
 from vexture.geo.mesh import MeshInFrame, MeshSeries
 from vexture.geo.raster import RasterInFrame
 from vexture.geo.series import Reading, Series, Values
@@ -208,6 +209,7 @@ def _series_of(dataset: Any, time_dim: str | None, variable: str | None, notes: 
 
     if holds_mesh(dataset):
         return mesh_series(dataset, time_dim, variable, notes)
+    refuse_foreign_dataset(dataset)
     grids = places_of_grid(dataset, time_dim)
     if grids:
         return grid_series(dataset, grids, time_dim, variable, notes)

@@ -16,6 +16,7 @@ from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.geo.crs import system
 from vexture.geo.damage import damaged_netcdf
 from vexture.geo.datasets import dataset_of, is_dataset
+from vexture.geo.foreign import refuse_foreign_hdf5
 from vexture.geo.hdf5 import refuse_links_of_netcdf
 from vexture.geo.lengths import NO_UNIT, metres_in
 from vexture.geo.moments import rising_moments
@@ -69,6 +70,7 @@ def _file(source: bytes | str | os.PathLike[str], stack: ExitStack) -> Any:
             here = os.path.dirname(os.path.dirname(place)) or "all usual folders"
             raise OSError(error.errno, error.strerror, f"temporary files in {here} (TMPDIR)") from None
     refuse_links_of_netcdf(place)
+    refuse_foreign_hdf5(place)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
