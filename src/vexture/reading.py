@@ -144,18 +144,17 @@ def read_drawing(
     page_colors: Mapping[str, str] | None = None,
 ) -> "Drawing":
     """Read a drawing as `read` does, but without a warning."""
+    from vexture.geo.archives import unzipped
+
     source, shown = _checked(source), name_of(source, name)
     if not isinstance(trace_images, bool):
         raise ParameterError(f"`trace_images` is {trace_images!r:.80}; it must be True or False")
-    from vexture.geo.archives import unzipped
-
     with about(shown):
         given = unzipped(
             unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
         )
-        if is_geodatabase(given):
-            kind = FileKind.AREAS
-        else:
+        kind = FileKind.AREAS
+        if not is_geodatabase(given):
             refuse_foreign(start_of(given), shown)
             kind = known_kind(start_of(given) or read_bytes(given), shown)
         check_reading(kind, select, names, snap, fonts, page_colors, trace_images=trace_images)

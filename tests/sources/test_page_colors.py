@@ -204,7 +204,7 @@ def test_viewer_takes_page_colours() -> None:
 def test_commands_take_page_colours(tmp_path: Path) -> None:
     file, out = tmp_path / "a.svg", tmp_path / "a.ktx2"
     file.write_bytes(svg(squares("var(--primary)", "currentColor")))
-    given = ["--page-color", "--primary=#0000ff", "--page-color=currentColor=#f00"]
+    given = ["--color", "--primary=#0000ff", "--page-color=currentColor=#f00"]
     result = CliRunner().invoke(main, ["convert", str(file), "--strict", "-o", str(out), "--split", "paint", *given])
     assert (result.exit_code, "warning" in result.output) == (0, False)
     assert [root.paint.color for root in vexture.load(out).roots if root.paint] == [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]

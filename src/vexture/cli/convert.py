@@ -5,6 +5,7 @@ import logging
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
+from copy import copy
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -216,11 +217,15 @@ def given_options(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def options_of_convert(*names: str) -> Callable[[click.Command], click.Command]:
-    """Give a command some of the options of `convert`, at the end of its own."""
+    """Give a command some of the options of `convert`, at the end of its own, without flags that it has already."""
 
     def with_options(command: click.Command) -> click.Command:
         known = {option.name: option for option in convert.params}
-        command.params += [known[name] for name in names]
+        taken = {flag for option in command.params for flag in option.opts}
+        for name in names:
+            option = copy(known[name])
+            option.opts = [flag for flag in option.opts if flag not in taken]
+            command.params.append(option)
         return command
 
     return with_options

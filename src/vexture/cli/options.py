@@ -246,6 +246,7 @@ class NamedColour(ParamType):
 
 
 page_color_option = click.option(
+    "--color",
     "--page-color",
     "page_colors",
     type=NamedColour(),

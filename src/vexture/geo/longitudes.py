@@ -16,7 +16,6 @@ __all__ = ["FULL_TURN", "closed_over_poles", "jumping", "unwrapped"]
 FULL_TURN: Final = 1.0 - 1e-9
 """Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
 
-
 LEAST_CORNERS: Final = 3
 """Of a ring that encloses something."""
 

@@ -20,7 +20,6 @@ __all__ = ["MOST_FACES", "holds_mesh", "mesh_series", "name_of_mesh"]
 MOST_FACES: Final = 10_000_000
 """For a mesh of a million faces, reading needs about 0.3 GB."""
 
-
 DRY: Final = {"dryflagnode", "dryflagelement", "wetdry_node", "wetdry_elem"}
 """Variables of SCHISM, in lower case, that are 1 where it has no water, whatever its level there."""
 
