@@ -129,7 +129,7 @@ def test_unknown_reference_systems_name_the_right_option(where):
     source = frame([1] * 4, crs=None)
     given = {"source_crs": METRES, "crs": METRES, where: "EPSG:99999"}
     with pytest.raises((SourceError, ParameterError), match=f"name it as `{where}` EPSG"):
-        convert_map([MapLayer(source, crs=given["source_crs"])], crs=given["crs"])
+        convert_map([MapLayer(source, source_crs=given["source_crs"])], crs=given["crs"])
 
 
 def test_a_ring_that_encloses_nothing_is_no_geometry():

@@ -278,5 +278,5 @@ def test_a_frame_without_a_reference_system_is_not_put_on_a_map_that_has_one():
     for layers, options in (([plain, placed], {}), ([plain], {"crs": "EPSG:28992"})):
         with pytest.raises(SourceError, match=r"give `source_crs` EPSG:\.\.\., or set it by set_crs"):
             convert_map([MapLayer(layer) for layer in layers], **options)
-    done = convert_map([MapLayer(plain, crs="EPSG:28992")])
+    done = convert_map([MapLayer(plain, source_crs="EPSG:28992")])
     assert done.conversion.drawing.crs == "EPSG:3857"

@@ -32,7 +32,7 @@ def continuous(lines: Lines, turn: float) -> Lines:
     """
     if not len(lines.ends):
         return lines
-    step = np.diff(lines.points[:, 0], prepend=lines.points[0, 0])
+    step = lines.steps
     turns = np.where(np.abs(step) > turn / 2, -np.rint(step / turn), 0.0)
     starts = np.append(0, lines.ends[:-1])
     full = np.abs(step) >= turn * FULL_TURN

@@ -37,7 +37,7 @@ from vexture.geo.crs import (
 )
 from vexture.geo.extent import Bounds
 from vexture.geo.features import Features, Lines, Points
-from vexture.geo.longitudes import jumping, unwrapped
+from vexture.geo.longitudes import jumping, note_short_ways, unwrapped
 from vexture.geo.rings import Rings, moved, refuse_far, repaired
 from vexture.notes import Notes
 
@@ -80,9 +80,11 @@ def placed(features: Features, crs: str, notes: Notes) -> Features:
         what = f"the coordinates {shown_bounds(rings.box, features.crs)}"
         refuse_metres(rings.points, features.crs, what, name="source_crs")
         jumps = jumping(rings, turn).any()
+        note_short_ways(rings.steps, turn, notes)
         rings = unwrapped(rings, turn)
         rings = repaired(rings, notes) if jumps else rings
     if turn:
+        note_short_ways(features.lines.steps, turn, notes)
         features = replace(features, rings=rings, lines=continuous(features.lines, turn))
     if same_system(crs, features.crs):
         wide = turn is not None and len(rings.ends) > 0 and rings.box[2] - rings.box[0] > turn

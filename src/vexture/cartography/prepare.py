@@ -47,8 +47,10 @@ class MapLayer:
     Parameters
     ----------
     source : path, bytes or GeoDataFrame
-    layer, where, crs, id, columns
-        As in `vexture.geo.features.read_features`; `crs` is that of the source.
+    layer, where, id, columns
+        As in `vexture.geo.features.read_features`.
+    source_crs : str, optional
+        Reference system of the source, where it names none.
     color : Scale or str, optional
         Colours by an attribute; a text is the column of a scale with defaults.
     times : Times, optional
@@ -72,7 +74,7 @@ class MapLayer:
     source: Any
     layer: str | None = None
     where: str | None = None
-    crs: str | None = None
+    source_crs: str | None = None
     id: str | None = None
     columns: tuple[str, ...] | None = None
     color: Scale | None = None
@@ -218,14 +220,14 @@ def prepared(
 
 def _planar(layers: Sequence[MapLayer], crs: str, notes: Notes) -> tuple[Sequence[MapLayer], str]:
     """Layers and the system of their map: where none is known of any GeoDataFrame, a plane, as GeoPandas plots them."""
-    frames = [layer.source for layer in layers if layer.crs is None and hasattr(layer.source, "geometry")]
+    frames = [layer.source for layer in layers if layer.source_crs is None and hasattr(layer.source, "geometry")]
     if len(frames) < len(layers) or not same_system(crs, MERCATOR):
         return layers, crs
     if any(getattr(frame, "crs", None) is not None for frame in frames):
         return layers, crs
     remedy = "name it by `source_crs`, or set it by set_crs"
     notes.remark(f"it names no reference system, so it is drawn as a plane; {remedy}")
-    return [replace(layer, crs=UNPLACED) for layer in layers], UNPLACED
+    return [replace(layer, source_crs=UNPLACED) for layer in layers], UNPLACED
 
 
 def _read(layer: MapLayer, crs: str, notes: Notes) -> Features:
@@ -233,7 +235,7 @@ def _read(layer: MapLayer, crs: str, notes: Notes) -> Features:
     with about(str(layer.source) if isinstance(layer.source, str | FilePath) else layer.name):
         options = {"layer": layer.layer, "where": layer.where, "id": layer.id, "columns": _columns(layer)}
         with renaming({"crs": "source_crs"}):
-            features = read_features(layer.source, crs=layer.crs, notes=notes, **options)  # type: ignore[arg-type]
+            features = read_features(layer.source, crs=layer.source_crs, notes=notes, **options)  # type: ignore[arg-type]
         if not len(features):
             reason = f"no feature meets `where` {layer.where!r}" if layer.where else "it has no features"
             raise SourceError(f"{reason}; there is nothing to draw")

@@ -44,6 +44,13 @@ class Lines:
     ends: NDArray[np.intp]
     feature: NDArray[np.intp]
 
+    @property
+    def steps(self) -> NDArray[np.float64]:
+        """How far east the side goes that ends at each point; 0 for the first of a line."""
+        steps = np.diff(self.points[:, 0], prepend=self.points[:1, 0])
+        steps[self.ends[:-1]] = 0.0
+        return steps
+
 
 @dataclass(frozen=True, eq=False)
 class Points:

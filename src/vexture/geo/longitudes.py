@@ -10,11 +10,15 @@ from numpy.typing import NDArray
 from vexture.errors import SourceError
 from vexture.geo.rings import Rings, rings_of
 from vexture.geo.validity import made_valid
+from vexture.notes import Notes
 
-__all__ = ["FULL_TURN", "closed_over_poles", "jumping", "unwrapped"]
+__all__ = ["FULL_TURN", "closed_over_poles", "jumping", "note_short_ways", "unwrapped"]
 
 FULL_TURN: Final = 1.0 - 1e-9
 """Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
+
+CLEAR_JUMP: Final = 5.0 / 6.0
+"""Turns. A shorter jump may as well be a long side: borders that cross the antimeridian are far from half a turn."""
 
 LEAST_CORNERS: Final = 3
 """Of a ring that encloses something."""
@@ -34,8 +38,7 @@ class _Jumps:
 
 def _jumps(rings: Rings, turn: float) -> _Jumps:
     """Jumps of longitudes of period `turn`, of at least one ring: a longer side than half a turn is one."""
-    longitude = rings.points[:, 0]
-    step = longitude[rings.following] - longitude
+    step = rings.steps
     turns = np.where(np.abs(step) > turn / 2, np.rint(step / turn), 0.0)
     full = np.abs(step) >= turn * FULL_TURN
     for ring in np.flatnonzero(np.logical_or.reduceat(full, rings.starts)):
@@ -96,6 +99,26 @@ def unwrapped(rings: Rings, turn: float) -> Rings:
     if highs.max() - lows.min() >= min(turn / 2, boxes[:, 1, 0].max() - boxes[:, 0, 0].min()):
         return rings
     return rings.shifted(shift[rings.polygon])
+
+
+def note_short_ways(steps: NDArray[np.float64], turn: float, notes: Notes) -> None:
+    """Note sides that are read as going the other way around the world, and might be meant to be as long as they are.
+
+    Examples
+    --------
+    >>> notes = Notes()
+    >>> note_short_ways(np.array([200.0, 90.0, -359.0]), 360.0, notes)
+    >>> [note.count for note in notes.listed]
+    [1]
+    """
+    length = np.abs(steps)
+    wide = length[(length > turn / 2) & (length < turn * CLEAR_JUMP)]
+    if wide.size:
+        notes.remark(
+            f"sides longer than half the world, such as one of {wide[0]:.6g} of {turn:.6g}, go the other way around; "
+            "give a side that is meant to be so long another corner in its middle",
+            len(wide),
+        )
 
 
 def jumping(rings: Rings, turn: float) -> NDArray[np.bool_]:

@@ -32,7 +32,7 @@ from vexture.geo.crs import (
 from vexture.geo.extent import Bounds, Extent, Frame, Step, bounds_of_square
 from vexture.geo.feature_tables import Choice, chunks_of
 from vexture.geo.geojson import UNLOCATED, met
-from vexture.geo.longitudes import unwrapped
+from vexture.geo.longitudes import note_short_ways, unwrapped
 from vexture.geo.rings import Rings, cut, moved, oriented, refuse_far, repaired, shared, within
 from vexture.geo.vectors import areas_of_wkb, read_areas
 from vexture.notes import Notes
@@ -69,6 +69,7 @@ def read_polygons(
     turn = period(own)
     if turn and len(rings.ends):
         refuse_metres(rings.points, own, f"the coordinates {shown_bounds(rings.box, own)}")
+        note_short_ways(rings.steps, turn, notes)
         rings = unwrapped(rings, turn)
     if len(rings.ends):
         rings = repaired(rings, notes)

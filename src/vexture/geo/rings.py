@@ -76,6 +76,12 @@ class Rings:
         after[self.ends - 1] = self.starts
         return after
 
+    @property
+    def steps(self) -> NDArray[np.float64]:
+        """How far east the side goes that leaves each point."""
+        across = self.points[:, 0]
+        return np.asarray(across[self.following] - across)
+
     @cached_property
     def boxes(self) -> NDArray[np.float64]:
         """Least and greatest coordinates of each polygon, (p, 2, 2)."""

@@ -17,7 +17,6 @@ __all__ = ["map"]
 CAPACITY: Final = 15
 """Pieces in a leaf: more than by default, as the bytes are sent to the page at once."""
 
-NAMES: Final = {"source_crs": "crs"}
 SCALE_NAMES: Final = {"scale": "kind"}
 """Options that layers and scales have another name for."""
 
@@ -121,7 +120,7 @@ def map(
     )
     if shown is None and changing is None:
         check_scale(scale)
-    of_layer = {"stroke": STROKE, **{NAMES.get(each, each): given.pop(each) for each in OF_LAYER if each in given}}
+    of_layer = {"stroke": STROKE, **{each: given.pop(each) for each in OF_LAYER if each in given}}
     layer = MapLayer(source, color=None if shown is None and changing is None else scale, times=changing, **of_layer)
     title = None if isinstance(source, str | os.PathLike) else "map"
     size = size_of(given.pop("size", None), width, height)

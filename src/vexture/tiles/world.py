@@ -6,7 +6,7 @@ import numpy as np
 
 from vexture.errors import SourceError
 from vexture.geo.crs import period, refuse_metres, shown_bounds, system, transformed
-from vexture.geo.longitudes import unwrapped
+from vexture.geo.longitudes import note_short_ways, unwrapped
 from vexture.geo.rings import Rings, cut, moved, refuse_far, repaired, within
 from vexture.notes import Notes
 from vexture.tiles.grid import CRS, HALF, LATITUDE, MARGIN, pixel
@@ -42,6 +42,7 @@ def _in_degrees(rings: Rings, own: str, most: int, notes: Notes) -> Rings:
     assert turn is not None
     degree = turn / 360.0
     refuse_metres(rings.points, own, f"the coordinates {shown_bounds(rings.box, own)}")
+    note_short_ways(rings.steps, turn, notes)
     rings = repaired(unwrapped(rings, turn), notes)
     reach = turn / 2.0 * (1.0 + BEYOND)
     world = (-reach, -LATITUDE * degree, reach, LATITUDE * degree)
