@@ -131,6 +131,35 @@ def test_a_gpx_has_the_layers_with_features():
     assert len(read_features(GPX % PLACE, layer="track_points", notes=Notes()).points.points) == 2
 
 
+MARK = "<Placemark><name>%s</name><Point><coordinates>%d,52</coordinates></Point></Placemark>"
+RING = "0,0 1,0 1,1 0,0"
+SIDES = f"<outerBoundaryIs><LinearRing><coordinates>{RING}</coordinates></LinearRing></outerBoundaryIs>"
+SQUARE = f"<Polygon>{SIDES}</Polygon>"
+UNNAMED = ["<Document>%s</Document>", "<Folder>%s</Folder>", "<Document><Folder>%s</Folder></Document>", "%s"]
+
+
+def kml(content):
+    return f'<kml xmlns="http://www.opengis.net/kml/2.2">{content}</kml>'
+
+
+@pytest.mark.parametrize("around", UNNAMED)
+def test_kml_needs_no_names(around, tmp_path):
+    (tmp_path / "doc.kml").write_text(kml(around % f"<Placemark><name>a</name>{SQUARE}</Placemark>"))
+    for source in [tmp_path / "doc.kml", zipped(tmp_path / "a.kmz", tmp_path / "doc.kml")]:
+        found = read_features(source, notes=Notes())
+        assert found.table["Name"].to_pylist() == ["a"]
+        assert found.rings.shapes[0].area == 0.5
+        assert len(read_drawing(source).paths) == 1
+
+
+def test_a_layer_without_a_name_can_be_chosen():
+    content = kml(f"<Document>{MARK % ('a', 4)}<Folder><name>F</name>{MARK % ('b', 5)}</Folder></Document>").encode()
+    with pytest.raises(LimitError, match="it has 2 layers; choose one by `layer`: unnamed, F"):
+        read_features(content, notes=Notes())
+    for layer, name in (("unnamed", "a"), ("F", "b")):
+        assert read_features(content, layer=layer, notes=Notes()).table["Name"].to_pylist() == [name]
+
+
 @pytest.mark.parametrize("header", ["name,lon,lat", "name\tLongitude\tLatitude", '"name";"LON";"LAT"', "name,x,y"])
 def test_csv_has_points_where_columns_say(header):
     between = next(sign for sign in ",\t;" if sign in header)

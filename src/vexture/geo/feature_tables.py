@@ -126,13 +126,11 @@ def _gdal(file: VectorFile, choice: Choice, batch: int | None) -> Iterator[Chunk
     content, is_json = file.content, file.is_json
     with gdal_errors(file.formats):
         found = layers_of(file, choice.layer)
-        layers = [(name, kind) for name, kind in found if kind is not None]
+        layers = [layer for layer in found if layer.kind is not None]
         if found and not layers:
-            raise SourceError(f"it has no geometries, only a table ({found[0][0]}); give the file of its places")
-        name: str | None = chosen_layer(layers, choice.layer, any_kind=True)
-        if is_json and len(found) == 1 and choice.layer is None:
-            name = None  # GeoJSON without a name has that of the file in memory, which is another each time
-        info = read_info(content, layer=name)
+            raise SourceError(f"it has no geometries, only a table ({found[0].name}); give the file of its places")
+        number = chosen_layer(layers, choice.layer, any_kind=True).number
+        info = read_info(content, layer=number)
     names = [str(each) for each in info["fields"]]
     columns = choice.kept(names)
     may_have_ids = is_json and choice.id is None
@@ -140,7 +138,7 @@ def _gdal(file: VectorFile, choice: Choice, batch: int | None) -> Iterator[Chunk
     own = "id" if may_have_ids and "id" in names and not ids else choice.id
     if own is not None and own not in columns:
         columns.append(own)
-    options: dict[str, Any] = {"layer": name, "columns": columns, "where": choice.where, "bbox": choice.bounds}
+    options: dict[str, Any] = {"layer": number, "columns": columns, "where": choice.where, "bbox": choice.bounds}
     options |= {"return_fids": True, "batch_size": batch or 65_536, "use_pyarrow": True}
     topology = is_json and not info["crs"]
     damaged = missing_arcs(content) if topology and isinstance(content, bytes) else 0

@@ -4,12 +4,13 @@ GDAL reads all formats but GeoJSON and tables.
 """
 
 import os
+import re
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from threading import Lock
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,7 @@ from vexture.notes import Notes
 
 __all__ = [
     "DAMAGED",
+    "Layer",
     "areas_of_wkb",
     "check_memory",
     "chosen_layer",
@@ -56,11 +58,25 @@ MOST_NAMED: Final = 12
 POINTS_OF_LINES: Final = "_points"
 """End of the names of layers that have the points of another layer's lines."""
 
+OF_MEMORY: Final = re.compile("pyogrio_[0-9a-f]{32}")
+"""Name of a file in memory, which a layer without a name gets: it is another whenever the file is opened."""
+
+UNNAMED: Final = "unnamed"
+"""Name of such a layer here."""
+
 FORMATS: Final = "not recognized as being in a supported file format"
 """What GDAL says of damage in its first bytes; advice on its own options follows."""
 
 SCHEMAS: Final = "*.gfs"
 """Files that GDAL makes of GML for its next reading, in memory."""
+
+
+class Layer(NamedTuple):
+    """A layer of a file: its number, by which it is opened, its name, and the kind of its geometries, None of none."""
+
+    number: int
+    name: str
+    kind: str | None
 
 
 def read_areas(
@@ -99,27 +115,30 @@ def _gdal(file: VectorFile, layer: str | None, notes: Notes) -> tuple[Rings, str
     from pyogrio import raw
 
     with gdal_errors(file.formats):
-        name = chosen_layer([(each, str(kind)) for each, kind in layers_of(file, layer)], layer)
-        meta, _, shapes, _ = raw.read(file.content, layer=name, columns=[], force_2d=True)
+        chosen = chosen_layer(layers_of(file, layer), layer)
+        meta, _, shapes, _ = raw.read(file.content, layer=chosen.number, columns=[], force_2d=True)
     if shapes is None:
-        raise SourceError(f"its layer {name!r} has no geometries; choose another by `layer`")
+        raise SourceError(f"its layer {chosen.name!r} has no geometries; choose another by `layer`")
     return areas_of_wkb(shapes, notes), meta["crs"]
 
 
-def layers_of(file: VectorFile, wanted: str | None) -> list[tuple[str, str | None]]:
-    """Layers to choose from, and the kinds of their geometries, None of those without; within `gdal_errors`.
+def layers_of(file: VectorFile, wanted: str | None) -> list[Layer]:
+    """Layers to choose from, within `gdal_errors`.
 
     A format that always has the same layers has those with features, unless one is `wanted`, and none that has the
     points of another: GPX has those of its routes and tracks once more.
     """
     from pyogrio import list_layers, read_info
 
-    found = [(str(name), None if kind is None else str(kind)) for name, kind in list_layers(file.content)]
+    found = [
+        Layer(number, OF_MEMORY.sub(UNNAMED, str(name)), None if kind is None else str(kind))
+        for number, (name, kind) in enumerate(list_layers(file.content))
+    ]
     if not file.has_fixed_layers or wanted is not None:
         return found
-    own = [layer for layer in found if not layer[0].endswith(POINTS_OF_LINES)]
-    count = {name: read_info(file.content, layer=name, force_feature_count=True)["features"] for name, _ in own}
-    return [layer for layer in own if count[layer[0]]] or own[:1]
+    own = [layer for layer in found if not layer.name.endswith(POINTS_OF_LINES)]
+    infos = (read_info(file.content, layer=layer.number, force_feature_count=True) for layer in own)
+    return [layer for layer, info in zip(own, infos, strict=True) if info["features"]] or own[:1]
 
 
 @contextmanager
@@ -168,23 +187,23 @@ def gdal_reason(error: Exception) -> str:
     return text[:160]
 
 
-def chosen_layer(layers: list[tuple[str, str]], wanted: str | None, *, any_kind: bool = False) -> str:
-    """Name of the layer to read: one that may hold polygons, unless `any_kind`."""
-    names = [name for name, _ in layers]
-    areal = [name for name, kind in layers if any_kind or any(word in kind for word in AREAL)]
+def chosen_layer(layers: list[Layer], wanted: str | None, *, any_kind: bool = False) -> Layer:
+    """The layer to read: one that may hold polygons, unless `any_kind`."""
+    areal = [layer for layer in layers if any_kind or any(word in str(layer.kind) for word in AREAL)]
     if wanted is None:
-        if len(areal) == 1 or len(names) == 1:
-            return (areal or names)[0]
-        if not names:
+        if len(areal) == 1 or len(layers) == 1:
+            return (areal or layers)[0]
+        if not layers:
             raise SourceError("it has no layers; save it again")
-        raise LimitError(f"it has {len(areal or names)} layers; choose one by `layer`: {_named(areal or names)}")
-    if wanted not in names:
-        raise ParameterError(f"it has no layer {wanted!r}; its layers are: {_named(names)}")
-    return wanted
+        raise LimitError(f"it has {len(areal or layers)} layers; choose one by `layer`: {_named(areal or layers)}")
+    for layer in layers:
+        if layer.name == wanted:
+            return layer
+    raise ParameterError(f"it has no layer {wanted!r}; its layers are: {_named(layers)}")
 
 
-def _named(layers: list[str]) -> str:
-    return ", ".join(layers[:MOST_NAMED]) + (", ..." if len(layers) > MOST_NAMED else "")
+def _named(layers: list[Layer]) -> str:
+    return ", ".join(layer.name for layer in layers[:MOST_NAMED]) + (", ..." if len(layers) > MOST_NAMED else "")
 
 
 def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArray[np.intp], NDArray[np.intp]]:
