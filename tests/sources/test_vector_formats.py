@@ -7,6 +7,8 @@ from contextlib import closing
 
 import geopandas
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 import shapely
 
@@ -194,6 +196,39 @@ def test_damage_is_one_line(content, error, line):
     with pytest.raises(error, match=line) as raised:
         read_features(content, notes=Notes())
     assert "\n" not in str(raised.value)
+
+
+CURVES = {
+    "CIRCULARSTRING (0 0, 1 1, 2 0)": np.pi,  # of a line, the length
+    "COMPOUNDCURVE ((0 0, 3 0), CIRCULARSTRING (3 0, 4 1, 5 0))": 3 + np.pi,
+    "MULTICURVE ((0 0, 3 0), CIRCULARSTRING (0 0, 1 1, 2 0))": 3 + np.pi,
+    "CURVEPOLYGON (CIRCULARSTRING (0 0, 2 0, 0 0))": np.pi,
+    "MULTISURFACE (CURVEPOLYGON (CIRCULARSTRING (0 0, 2 0, 0 0)), ((3 0, 4 0, 4 1, 3 0)))": np.pi + 0.5,
+    "SRID=4326;TIN (((0 0, 1 0, 1 1, 0 0)), ((0 0, 1 1, 0 1, 0 0)))": 1.0,
+    "TRIANGLE Z ((0 0 5, 1 0 5, 1 1 5, 0 0 5))": 0.5,
+    "PolyhedralSurface (((0 0, 1 0, 1 1, 0 0)))": 0.5,
+    "GEOMETRYCOLLECTION (TIN (((0 0, 1 0, 1 1, 0 0))))": 0.5,
+}
+
+
+@pytest.mark.parametrize("text", CURVES)
+@pytest.mark.parametrize("kind", ["csv", "parquet"])
+def test_curves_and_surfaces_in_wkt_are_read(text, kind, tmp_path):
+    table = pa.table({"n": [1], "wkt": [text]})
+    if kind == "csv":
+        (tmp_path / "a.csv").write_text(f'n,wkt\n1,"{text}"\n')
+    else:
+        pq.write_table(table, tmp_path / "a.parquet")
+    found = read_features(tmp_path / f"a.{kind}", crs="EPSG:28992", notes=Notes())
+    lines = np.split(found.lines.points, found.lines.ends[:-1])
+    size = sum(shapely.LineString(line).length for line in lines if len(line)) + shapely.area(found.rings.shapes).sum()
+    assert size == pytest.approx(CURVES[text], rel=1e-3)
+
+
+@pytest.mark.parametrize("text", ["CURVEPOLYGON (CIRCULARSTRING (0 0", "TIN (((0 0, 1 0, 1 1, 0 0))), POINT (1 2)"])
+def test_damaged_curves_in_csv_are_named(text):
+    with pytest.raises(SourceError, match=r"row 2 has no WKT in the column 'wkt', but '(CURVE|TIN)"):
+        read_features(f'n,wkt\n1,POINT (1 2)\n2,"{text}"\n'.encode(), crs="EPSG:28992", notes=Notes())
 
 
 def test_csv_without_places_says_what_it_has(tmp_path):

@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from vexture.content import ARROW, PARQUET, Header, header_of, read_bytes, start_of
 from vexture.errors import SourceError, shortened
+from vexture.geo.curves import BROKEN
 from vexture.geo.geoparquet import WORLD
+from vexture.geo.wkt import wkb_of_texts
 
 if TYPE_CHECKING:
     import pyarrow
@@ -94,7 +96,8 @@ def _csv(content: bytes, header: Header) -> "pyarrow.Table":
         shown = ", ".join(header.names[:MOST_NAMED]) + (", ..." if len(header.names) > MOST_NAMED else "")
         raise SourceError(f"its first line names no columns of places (wkt, or lon and lat, or x and y): {shown}")
     parsing = csv.ParseOptions(delimiter=header.delimiter, newlines_in_values=True)
-    converting = csv.ConvertOptions(strings_can_be_null=True, quoted_strings_can_be_null=False)
+    types = {} if header.text is None else {header.text: pa.string()}  # WKB in hexadecimal digits looks like a number
+    converting = csv.ConvertOptions(column_types=types, strings_can_be_null=True, quoted_strings_can_be_null=False)
     table = csv.read_csv(pa.py_buffer(content), csv.ReadOptions(use_threads=False), parsing, converting)
     table = table.rename_columns([name.strip() for name in table.column_names])
     if header.text is not None:
@@ -114,22 +117,13 @@ def _csv(content: bytes, header: Header) -> "pyarrow.Table":
 
 
 def _from_texts(column: Any, name: str) -> NDArray[Any]:
-    """WKB of texts in WKT; None where there is none."""
-    import shapely
-
-    texts = np.array([text.strip() if isinstance(text, str) else text for text in column.to_pylist()], object)
-    given = np.array([text not in (None, "") for text in texts], np.bool_)
-    try:
-        shapes = shapely.from_wkt(texts[given], on_invalid="ignore")
-    except TypeError:  # numbers
-        shapes = np.full(int(given.sum()), None, object)
-    wrong = shapely.is_missing(shapes)
-    if wrong.any():
-        row = int(np.flatnonzero(given)[wrong][0])
-        shown = shortened(" ".join(str(texts[row]).split()), SHOWN)
-        raise SourceError(f"row {row + 1} has no WKT in the column {name!r}, but {shown!r}; correct it")
-    found = np.full(len(texts), None, object)
-    found[given] = shapely.to_wkb(shapes)
+    """WKB of texts; None where there is none."""
+    texts = np.array([(text or "").strip() or None for text in column.to_pylist()], object)
+    found = wkb_of_texts(texts)
+    for row, shape in enumerate(found):
+        if shape is BROKEN:
+            shown = shortened(" ".join(str(texts[row]).split()), SHOWN)
+            raise SourceError(f"row {row + 1} has no WKT in the column {name!r}, but {shown!r}; correct it")
     return found
 
 

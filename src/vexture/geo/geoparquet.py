@@ -1,7 +1,6 @@
 """Geometries of a table of Arrow: which column has them, how they are encoded, and in which reference system."""
 
 import json
-import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 from vexture.deadline import check_time
 from vexture.errors import SourceError
 from vexture.geo.curves import BROKEN
+from vexture.geo.wkt import wkb_of_texts
 
 if TYPE_CHECKING:
     import pyarrow
@@ -69,7 +69,7 @@ class GeometryColumn:
         if self.encoding in DEPTHS:
             return np.concatenate([np.empty(0, object), *(_of_arrow(chunk, self.encoding) for chunk in column.chunks)])
         shapes = objects_of(column)
-        return _of_texts(shapes) if self.encoding == WKT else shapes
+        return wkb_of_texts(shapes) if self.encoding == WKT else shapes
 
 
 def geometry_column(file: "pyarrow.parquet.ParquetFile | TableFile") -> GeometryColumn:
@@ -171,32 +171,6 @@ def objects_of(column: "pyarrow.ChunkedArray") -> NDArray[Any]:
         if WRAPPING in str(error)[: 2 * len(WRAPPING)]:  # the rest of this message is the geometry
             raise MemoryError from None
         raise
-
-
-def _of_texts(texts: NDArray[Any]) -> NDArray[Any]:
-    """WKT, or WKB in hexadecimal digits, as WKB."""
-    import shapely
-
-    plain = np.array([None if text is None else re.sub(r"^\s*SRID=\d+;", "", text) for text in texts], object)
-    is_hex = np.array([text is not None and text[:2] in ("00", "01") for text in plain], np.bool_)
-    found = np.array([None if text is None else BROKEN for text in plain], object)
-    with np.errstate(invalid="ignore"):
-        found[is_hex] = [_bytes_of(text) for text in plain[is_hex]]
-        others = ~is_hex & (plain != None)  # noqa: E711  (of each)
-        try:
-            shapes = shapely.from_wkt(plain[others], on_invalid="ignore")
-        except NotImplementedError:
-            raise SourceError(f"its geometries are curves in WKT; {REMEDY}") from None
-        known = ~shapely.is_missing(shapes)
-        found[np.flatnonzero(others)[known]] = shapely.to_wkb(shapes[known])
-    return found
-
-
-def _bytes_of(digits: str) -> bytes:
-    try:
-        return bytes.fromhex(digits)
-    except ValueError:
-        return BROKEN
 
 
 def _of_arrow(array: Any, encoding: str) -> NDArray[Any]:
