@@ -8,6 +8,7 @@ from contextlib import closing
 import geopandas
 import numpy as np
 import pyarrow as pa
+import pyarrow.feather as pa_feather
 import pyarrow.parquet as pq
 import pytest
 import shapely
@@ -184,7 +185,15 @@ def test_csv_has_points_where_columns_say(header):
             r"row 2 has no WKT in .* 'wkt', but 'POINT \(1\)'",
         ),
         (b"wkt,n\nPOINT (1 2),1\nPOINT (1 2)\n", SourceError, "the table cannot be read"),
-        (b"lon,lat\n1,\xff\n", SourceError, "is no number|cannot be read"),
+        (b"lon,lat\n1,\xff\n", SourceError, "its line 2 is no text in UTF-8"),
+        (
+            "name,lon,lat\na,4,52\nBesançon,5,53\n".encode("cp1252"),
+            SourceError,
+            "line 3 is no text in UTF-8, .* Windows-1252 .*'Besançon,5,53'.*; save the file as UTF-8",
+        ),
+        ("name,lon,lat\na,4,52\n".encode("utf-16"), SourceError, "it is text in UTF-16; save it as UTF-8"),
+        (b"a,a,lon,lat\n1,2,4,52\n", SourceError, "it has several columns 'a'; rename all but one"),
+        (b"lon,lat,,\n4,52,,\n", SourceError, "several of its columns have no name; give each one"),
         (b"ARROW1\0\0" + bytes(40), SourceError, "the table cannot be read"),
         (b"<gpx><wpt lat='1' lon='2'/>", SourceError, "the XML is damaged"),
         (b'{"type": "Feature"}\n{"type": "Feature"\n', SourceError, "record 2 is no JSON"),
@@ -229,6 +238,30 @@ def test_curves_and_surfaces_in_wkt_are_read(text, kind, tmp_path):
 def test_damaged_curves_in_csv_are_named(text):
     with pytest.raises(SourceError, match=r"row 2 has no WKT in the column 'wkt', but '(CURVE|TIN)"):
         read_features(f'n,wkt\n1,POINT (1 2)\n2,"{text}"\n'.encode(), crs="EPSG:28992", notes=Notes())
+
+
+def test_codes_in_csv_keep_their_zeros():
+    content = b'code,quoted,number,depth,lon,lat\n10,"07",10,0.5,004.5,52\n01,8,0,-0.25,5,52\n,,,,6,52\n'
+    found = read_features(content, notes=Notes())
+    assert found.table["code"].to_pylist() == ["10", "01", None]
+    assert found.table["quoted"].to_pylist() == ["07", "8", None]
+    assert found.table["number"].to_pylist() == [10, 0, None]
+    assert found.table["depth"].to_pylist() == [0.5, -0.25, None]
+    assert found.points.points[:, 0].tolist() == [4.5, 5.0, 6.0]
+
+
+def test_a_long_first_line_of_csv_is_read_as_a_whole():
+    names = [f"column_{number:04}" for number in range(500)]
+    content = f"lon,lat,{','.join(names)}\n4,52,{','.join('1' for _ in names)}\n"
+    assert read_features(content.encode(), notes=Notes()).table.column_names[-500:] == names
+
+
+@pytest.mark.parametrize("write", [pq.write_table, pa_feather.write_feather])
+def test_two_columns_of_one_name_are_refused(write, tmp_path):
+    shapes = pa.array([shapely.to_wkb(shape) for shape in SHAPES])
+    write(pa.Table.from_arrays([pa.array([1, 2]), pa.array([3, 4]), shapes], ["a", "a", "geometry"]), tmp_path / "a")
+    with pytest.raises(SourceError, match="it has several columns 'a'; rename all but one"):
+        read_features(tmp_path / "a", crs="EPSG:4326", notes=Notes())
 
 
 def test_csv_without_places_says_what_it_has(tmp_path):
