@@ -51,3 +51,35 @@ def test_a_grid_that_leads_elsewhere_is_refused(tmp_path):
     path.with_name("a.asc.aux.xml").write_text(text)
     with pytest.raises(SourceError, match=r"a\.asc\.aux\.xml beside it is not to be trusted"):
         read_depths(path, "a.asc", crs="EPSG:28992")
+
+
+@pytest.mark.parametrize(("rows", "nbits"), [(2, ""), (1, ""), (6, ""), (2, "nbits 32\n")])
+def test_a_grid_of_floats_of_another_size_than_its_header_says_is_refused(tmp_path, rows, nbits):
+    path = grid(tmp_path, "a.flt")
+    np.resize(DEPTHS, (rows, 4)).astype("<f4").tofile(path)
+    path.with_suffix(".hdr").write_text(f"{HEADER}{nbits}byteorder LSBFIRST\n")
+    said = rf"it has {16 * rows} bytes, and its header says 3 rows of 4 numbers, which are 48 bytes of 32 bits"
+    with pytest.raises(SourceError, match=said):
+        read_depths(path, "a.flt", crs="EPSG:28992")
+
+
+@pytest.mark.parametrize("rows", [2, 4])
+def test_a_grid_of_text_with_more_or_fewer_rows_than_its_header_says_is_refused(tmp_path, rows):
+    path = grid(tmp_path, "a.asc")
+    path.write_text(HEADER + "1 1 1.5 -9999\n" * rows)
+    with pytest.raises(SourceError, match=rf"holds {4 * rows} numbers, and its header says 3 rows of 4 numbers \(12\)"):
+        read_depths(path, "a.asc", crs="EPSG:28992")
+
+
+def test_numbers_of_a_long_grid_of_text_are_counted_across_blocks(tmp_path):
+    path = tmp_path / "a.asc"
+    header = HEADER.replace("nrows 3", "nrows 300000")
+    path.write_text(header + "1.25 1 1.5 -9999\n" * 300_000)
+    assert read_depths(path, "a.asc", crs="EPSG:28992").frame.metres == (200.0, 15e6)
+
+
+def test_a_byte_order_mark_is_named(tmp_path):
+    path = grid(tmp_path, "a.asc")
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+    with pytest.raises(SourceError, match="behind a byte order mark; save it as UTF-8 without one"):
+        extent_of(path, "a.asc", crs="EPSG:28992")

@@ -1,5 +1,7 @@
 """The option `crs` and what a file of depths says of its coordinates: what is unknown, and what contradicts it."""
 
+import json
+
 import numpy as np
 import pytest
 import rasterio
@@ -8,6 +10,7 @@ from rasterio.transform import Affine
 
 from vexture.errors import ParameterError, SourceError
 from vexture.geo.depths import read_depths
+from vexture.reading import extent_of
 
 DEGREES = {"x": {"units": "degrees_east"}, "y": {"units": "degrees_north"}}
 METRES = {"x": {"units": "m"}, "y": {"units": "m"}}
@@ -53,3 +56,55 @@ def test_a_given_system_replaces_that_of_a_geotiff_where_it_cannot_be_right(tmp_
             read_depths(tmp_path / "a.tif", "a.tif", crs="EPSG:28992")
     else:
         assert read_depths(tmp_path / "a.tif", "a.tif", crs="EPSG:28992").frame.crs == "EPSG:28992"
+
+
+SMALL = [4.0, 52.0, 4.03, 52.02]
+"""Degrees: 2 km of the Netherlands, and 3 cm where they are taken for metres."""
+
+
+def shape(path, west, south, east, north):
+    ring = [[west, south], [east, south], [east, north], [west, north], [west, south]]
+    feature = {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": [feature]}))
+    return path
+
+
+def grid(path, west, south, cell):
+    header = f"ncols 4\nnrows 3\nxllcorner {west}\nyllcorner {south}\ncellsize {cell}\n"
+    path.write_text(header + "1 1 1 1\n" * 3)
+    return path
+
+
+@pytest.mark.parametrize("crs", ["EPSG:28992", "EPSG:32610", "+proj=utm +zone=10 +datum=WGS84"])
+def test_degrees_without_a_unit_are_refused_in_metres(tmp_path, crs):
+    for path in (grid(tmp_path / "a.asc", 4.0, 52.0, 0.01), shape(tmp_path / "a.geojson", *SMALL)):
+        with pytest.raises(ParameterError, match=r"coordinates 4,52,4\.0\d,52\.0\d .*degrees.*give `crs` EPSG:4326"):
+            extent_of(path, path.name, crs=crs)
+
+
+@pytest.mark.parametrize("crs", ["EPSG:3857", "EPSG:27700"])
+def test_degrees_are_refused_also_where_a_system_is_used_around_its_origin(tmp_path, crs):
+    path = grid(tmp_path / "a.asc", 4.0, 52.0, 0.01)
+    with pytest.raises(ParameterError, match="look like degrees"):
+        extent_of(path, "a.asc", crs=crs)
+
+
+def test_a_flume_of_metres_around_the_origin_is_read(tmp_path):
+    path = grid(tmp_path / "a.asc", 0.0, 0.0, 0.75)
+    assert extent_of(path, "a.asc", crs="EPSG:28992").frame.metres == (3.0, 2.25)
+    path = shape(tmp_path / "a.geojson", 0.0, 0.0, 3.0, 1.0)
+    assert extent_of(path, "a.geojson", crs="EPSG:28992").frame.metres == (3.0, 1.0)
+
+
+def test_the_system_of_a_file_is_refused_where_its_coordinates_are_degrees(tmp_path):
+    path = pond(tmp_path / "a.nc", DEGREES, 4.0, 0.01, {"spatial_ref": "EPSG:32610"})
+    with pytest.raises(SourceError, match=r"its system EPSG:32610 is not in degrees.* are; give `crs` EPSG:4326"):
+        read_depths(path, "a.nc")
+    assert read_depths(path, "a.nc", crs="EPSG:4326").frame.crs == "EPSG:4326"
+
+
+def test_coordinates_in_radians_are_refused(tmp_path):
+    about = {axis: {"units": "radian", "standard_name": name} for axis, name in (("x", "longitude"), ("y", "latitude"))}
+    path = pond(tmp_path / "a.nc", about, 0.07, 0.0002)
+    with pytest.raises(SourceError, match="are in 'radian'; write them in degrees"):
+        read_depths(path, "a.nc")

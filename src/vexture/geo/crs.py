@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from vexture.errors import DeviceError, LimitError, ParameterError, SourceError
 from vexture.geo.extent import Bounds, Frame
-from vexture.geo.lengths import NO_UNIT, metres_in
 from vexture.geo.named import refuse_files_of_system
 from vexture.tolerance import CLOSED
 
@@ -33,7 +32,6 @@ __all__ = [
     "like_degrees",
     "period",
     "refuse_metres",
-    "refuse_other_units",
     "same_system",
     "shown_bounds",
     "shown_system",
@@ -197,31 +195,6 @@ def refuse_metres(
 def like_degrees(bounds: Bounds) -> bool:
     """Whether bounds can be longitudes and latitudes."""
     return max(abs(bounds[0]), abs(bounds[2])) <= 360.0 and max(abs(bounds[1]), abs(bounds[3])) <= 90.0
-
-
-def refuse_other_units(given: str, found: str | None, unit: str, box: Bounds) -> None:
-    """Refuse the system that the user gives for coordinates that are degrees, if it is in metres; and the reverse.
-
-    `found` is the system that the file names, `unit` the unit of its coordinates as it writes it, and `box` their
-    bounds. Files with another system than that of their coordinates are common, so that these decide, too.
-    """
-    shown = ",".join(f"{value:.6g}" for value in box)
-    if not system(given).is_geographic:
-        try:
-            is_geographic = found is not None and found != UNPLACED and system(found).is_geographic
-        except ParameterError:  # which is what the user's system is given for
-            is_geographic = False
-        if ("degree" in unit.lower() or is_geographic) and like_degrees(box):
-            own = shown_system(_shortest(found)) if is_geographic and found else "EPSG:4326"
-            raise ParameterError(
-                f"`crs` {shown_system(given)} is not in degrees, and the coordinates {shown} are; leave it out or give "
-                f"`crs` {own}"
-            )
-    elif unit.lower() not in NO_UNIT and metres_in(unit) is not None:
-        raise ParameterError(
-            f"`crs` {shown_system(given)} is in degrees, and the coordinates {shown} are in {unit!r}; name the system "
-            "that they are in by `crs` EPSG:..."
-        )
 
 
 def frame_of(bounds: Bounds | None, extent: Bounds, crs: str) -> Frame:

@@ -9,11 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.content import ESRI_GRID, NETCDF, TIFF, start_of, unpacked
+from vexture.content import NETCDF, TIFF, start_of, unpacked
 from vexture.drawing import Drawing
 from vexture.errors import ParameterError, SourceError
-from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period, refuse_other_units
+from vexture.geo.coordinate_units import refuse_other_units
+from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period
 from vexture.geo.datasets import is_dataset
+from vexture.geo.esri_grids import is_esri_text, refuse_marked
 from vexture.geo.extent import Bounds, DepthClasses, Extent, Frame, Step
 from vexture.geo.foreign import refuse_foreign_dataset
 from vexture.geo.mesh import MeshInFrame, MeshSeries
@@ -155,8 +157,7 @@ def depths_in_frame(
     notes = Notes()
     with _opened(source if is_dataset(source) else unpacked(source), time_dim, variable, notes) as series:
         system = chosen_crs(crs, series.crs)
-        if crs is not None:
-            refuse_other_units(system, series.crs, series.unit, series.box)
+        refuse_other_units(system, series.crs, series.unit, series.box, is_given=crs is not None)
         if frame is None:
             frame = frame_of(bounds, _whole(series.box, system), system)
         yield DepthsInFrame(series, Path(file_name).stem or "flood", system, frame, hmin, tuple(depths), notes)
@@ -195,7 +196,8 @@ def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Note
 
 def _is_esri_grid(start: bytes, source: Any) -> bool:
     """Whether a file is a grid of Esri: text, or numbers that only its name tells from those of other files."""
-    if start.lstrip().lower().startswith(ESRI_GRID):
+    refuse_marked(start)
+    if is_esri_text(start):
         return True
     named = "" if isinstance(source, bytes) else Path(source).suffix.lower()
     return bool(start) and named == ".flt" and not start.startswith(NETCDF)

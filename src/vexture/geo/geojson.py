@@ -22,7 +22,7 @@ from vexture.geo.snap import snapped
 from vexture.notes import Notes, line_of, warn_of
 from vexture.paint import BLACK, Paint
 
-__all__ = ["LARGEST", "UNLOCATED", "Area", "areas_of", "geojson_drawing", "met", "read_geojson"]
+__all__ = ["LARGEST", "UNLOCATED", "WORLD", "Area", "areas_of", "geojson_drawing", "met", "read_geojson"]
 
 MOST_POSITIONS: Final = 20_000_000
 LARGEST: Final = 1e15

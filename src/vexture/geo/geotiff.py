@@ -5,12 +5,13 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from vexture.content import TIFF, start_of
 from vexture.errors import ParameterError, SourceError, reason_of
+from vexture.geo.esri_grids import refuse_other_count, refuse_other_size
 from vexture.geo.gdal import opened_raster
 from vexture.geo.lengths import NO_UNIT, metres_in
 from vexture.geo.moments import rising_moments
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
     from rasterio import DatasetReader
 
 __all__ = ["open_geotiff"]
+
+FLOATS: Final = ".flt"
+"""Suffix of grids of floats."""
 
 
 @contextmanager
@@ -37,16 +41,20 @@ def open_geotiff(
     """
     from rasterio.errors import RasterioError
 
+    is_floats = not isinstance(source, bytes) and Path(source).suffix.lower() == FLOATS
+    if is_floats and not start_of(source).startswith(TIFF):
+        refuse_other_size(Path(os.fspath(source)))  # type: ignore[arg-type]
     with ExitStack() as stack:
         try:
             file = stack.enter_context(opened_raster(source, others=True))
         except (RasterioError, OSError) as error:
             what = "GeoTIFF" if start_of(source).startswith(TIFF) else "a grid of Esri"
-            if not isinstance(source, bytes) and Path(source).suffix.lower() == ".flt":
+            if is_floats:
                 raise SourceError(
                     f"it cannot be read as {what}; its header, a .hdr of its name, must be beside it"
                 ) from None
             raise SourceError(f"it cannot be read as {what} ({reason_of(error)}); write it again") from None
+        refuse_other_count(source, file)
         yield _series(file, time_dim, variable, notes)
 
 

@@ -14,6 +14,7 @@ from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
 from vexture.geo.archives import unzipped
 from vexture.geo.arrow_files import is_table
+from vexture.geo.coordinate_units import refuse_other_units
 from vexture.geo.crs import (
     UNPLACED,
     chosen_crs,
@@ -31,7 +32,7 @@ from vexture.geo.crs import (
 )
 from vexture.geo.extent import Bounds, Extent, Frame, Step, bounds_of_square
 from vexture.geo.feature_tables import Choice, chunks_of
-from vexture.geo.geojson import UNLOCATED, met
+from vexture.geo.geojson import UNLOCATED, WORLD, met
 from vexture.geo.longitudes import note_short_ways, unwrapped
 from vexture.geo.rings import Rings, cut, moved, oriented, refuse_far, repaired, shared, within
 from vexture.geo.vectors import areas_of_wkb, read_areas
@@ -72,6 +73,8 @@ def read_polygons(
         note_short_ways(rings.steps, turn, notes)
         rings = unwrapped(rings, turn)
     if len(rings.ends):
+        said = None if named == WORLD else named  # GeoJSON that names no system may be a plane of its own
+        refuse_other_units(own, said, "", rings.box, is_given=crs is not None)
         rings = repaired(rings, notes)
     # features without geometry are an empty flood; anything else without polygons is a mistake
     if not len(rings.ends) and any(note.message != UNLOCATED for note in notes.listed):
