@@ -30,16 +30,16 @@ def border_length(mesh):
     return np.hypot(*sides.T).sum()
 
 
-def written(path, nodes, faces, depth, on="face"):
+def written(path, nodes, faces, depth, on="face", units="m"):
     topology = {"cf_role": "mesh_topology", "topology_dimension": 2, "node_coordinates": "node_x node_y"}
     data = {
         "mesh2d": ((), 0, {**topology, "face_node_connectivity": "face_nodes"}),
-        "node_x": ("nodes", nodes[:, 0], {"standard_name": "projection_x_coordinate"}),
-        "node_y": ("nodes", nodes[:, 1], {"standard_name": "projection_y_coordinate"}),
+        "node_x": ("nodes", nodes[:, 0], {"units": units}),
+        "node_y": ("nodes", nodes[:, 1], {"units": units.replace("east", "north")}),
         "face_nodes": (("faces", "corners"), faces, {"start_index": 0}),
         "waterdepth": ("faces" if on == "face" else "nodes", depth, {"units": "m"}),
     }
-    xarray.Dataset(data, attrs={"epsg": 32610}).to_netcdf(path)
+    xarray.Dataset(data, attrs={"epsg": 32610 if units == "m" else 4326}).to_netcdf(path)
     return path
 
 
@@ -98,3 +98,43 @@ def test_values_at_one_place_are_their_mean():
     at = np.flatnonzero((nodes == (100.0, 100.0)).all(axis=1))
     values[at] = 1.0, 2.0, 6.0, np.nan
     assert mesh.values(values)[mesh.numbers[at]].tolist() == [3.0] * 4
+
+
+def grid_of_faces(columns, rows, side, west, south):
+    x, y = np.meshgrid(west + side * np.arange(columns + 1), south + side * np.arange(rows + 1))
+    first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    faces = np.stack([first, first + 1, first + columns + 2, first + columns + 1], axis=1)
+    return np.stack([x.ravel(), y.ravel()], axis=1), faces.astype(np.int32)
+
+
+@pytest.mark.parametrize(("units", "on"), [("degrees_east", "face"), ("degrees_east", "node"), ("", "face")])
+def test_a_mesh_across_the_antimeridian_is_one_area(tmp_path, units, on):
+    nodes, faces = grid_of_faces(6, 4, 0.01, 179.97, 52.0)
+    nodes[:, 0] = (nodes[:, 0] + 180.0) % 360.0 - 180.0
+    path = written(tmp_path / "a.nc", nodes, faces, np.ones(len(faces if on == "face" else nodes)), on, units)
+    extent = read_depths(path, "a.nc")
+    assert extent.frame.bounds == pytest.approx((179.97, 52.0, 180.03, 52.04))
+    assert [len(one.contours) for one in extent.steps[0].drawing.paths] == [1]
+
+
+def test_faces_of_a_world_that_cross_the_antimeridian_are_left_out(tmp_path):
+    nodes, faces = grid_of_faces(36, 4, 10.0, -175.0, -20.0)
+    nodes[:, 0] = (nodes[:, 0] + 180.0) % 360.0 - 180.0
+    depth = np.zeros(len(faces))
+    depth[35::36] = 1.0
+    extent = read_depths(written(tmp_path / "a.nc", nodes, faces, depth, units="degrees_east"), "a.nc")
+    assert not extent.steps[0].drawing.paths
+    assert "faces across the antimeridian are left out: 4" in " ".join(map(str, extent.notes))
+
+
+@pytest.mark.parametrize("again", [slice(None), slice(8, 16)])
+def test_faces_that_are_listed_twice_count_once(tmp_path, again):
+    nodes, faces = grid_of_faces(8, 8, 100.0, 5e5, 4e6)
+    depth = np.where(np.arange(64) % 8 < 4, 1.0, 0.0)
+    turned = np.roll(faces[again], 1, axis=1)
+    path = written(tmp_path / "a.nc", nodes, np.concatenate([faces, turned]), np.concatenate([depth, depth[again]]))
+    once = read_depths(written(tmp_path / "b.nc", nodes, faces, depth), "b.nc")
+    extent = read_depths(path, "a.nc")
+    (one,), (other,) = extent.steps[0].drawing.paths, once.steps[0].drawing.paths
+    assert np.array_equal(one.box, other.box)
+    assert f"its mesh has {len(turned)} faces more than once" in " ".join(map(str, extent.notes))

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vexture.errors import LimitError, SourceError
 from vexture.geo.conforming import conforming
+from vexture.geo.longitudes import narrower
 from vexture.geo.mesh import MeshSeries
 from vexture.geo.netcdf import axes_of, crs_of, points_east, points_north, times_of
 from vexture.geo.patch import Faces, counter_clockwise
@@ -35,7 +36,7 @@ MASKS: Final = {"msk", "mask_rho", "wetdry_mask_rho", "kcs"}
 OFF_LATTICE: Final = 0.02
 """Cells by which the places of a lattice may differ from even ones, besides the rounding of those of 32 bits."""
 
-HALF_TURN: Final = 180.0
+TURN: Final = 360.0
 
 
 class GridPlaces(NamedTuple):
@@ -166,15 +167,9 @@ def _coordinates(dataset: Any, places: GridPlaces) -> tuple[Values, Values, int]
         for key in (places.x, places.y)
     )
     x, y = without_fill(x, y)
-    if "degree" in str(dataset[places.x].attrs.get("units", "")) and _width(x) > HALF_TURN:
-        turned = np.mod(x, 2.0 * HALF_TURN)  # a grid across the antimeridian, in degrees of up to half a turn
-        x = turned if _width(turned) < HALF_TURN else x
+    if "degree" in str(dataset[places.x].attrs.get("units", "")):
+        x = narrower(x, TURN)
     return x, y, stride
-
-
-def _width(places: Values) -> float:
-    known = places[np.isfinite(places)]
-    return float(np.ptp(known)) if known.size else 0.0
 
 
 def _lattice(

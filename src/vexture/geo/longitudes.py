@@ -12,7 +12,7 @@ from vexture.geo.rings import Rings, rings_of
 from vexture.geo.validity import made_valid
 from vexture.notes import Notes
 
-__all__ = ["FULL_TURN", "closed_over_poles", "jumping", "note_short_ways", "unwrapped"]
+__all__ = ["FULL_TURN", "closed_over_poles", "jumping", "narrower", "note_short_ways", "unwrapped"]
 
 FULL_TURN: Final = 1.0 - 1e-9
 """Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
@@ -129,6 +129,25 @@ def jumping(rings: Rings, turn: float) -> NDArray[np.bool_]:
     jump = np.logical_or.reduceat(jumps.turns != 0.0, rings.starts)
     around: NDArray[np.bool_] = np.logical_or.reduceat(jumps.net != 0.0, rings.outer)
     return np.logical_or.reduceat(jump, rings.outer) & ~around
+
+
+def narrower(longitudes: NDArray[np.float64], turn: float) -> NDArray[np.float64]:
+    """Longitudes from 0 to a turn, if they span less than half of it so, and more as they are; else as they are.
+
+    Examples
+    --------
+    >>> narrower(np.array([179.5, -179.5, np.nan]), 360.0)
+    array([179.5, 180.5,   nan])
+    """
+    if _span(longitudes) <= turn / 2:
+        return longitudes
+    turned = np.mod(longitudes, turn)
+    return turned if _span(turned) < turn / 2 else longitudes
+
+
+def _span(longitudes: NDArray[np.float64]) -> float:
+    known = longitudes[np.isfinite(longitudes)]
+    return float(np.ptp(known)) if known.size else 0.0
 
 
 def _without_jumps(rings: Rings, jumps: _Jumps, turn: float) -> Rings:

@@ -11,6 +11,7 @@ from vexture.geo.mesh import MeshSeries
 from vexture.geo.netcdf import crs_of, points_east, times_of
 from vexture.geo.patch import Faces, counter_clockwise
 from vexture.geo.series import Reading
+from vexture.geo.sound_faces import faces_once, faces_unwrapped
 from vexture.geo.speeds import speed_of
 from vexture.geo.variables import depths_of, has_depths, listed, loaded, reader_of, refuse_layers, time_axis, unit_of
 from vexture.notes import Notes
@@ -58,7 +59,10 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes:
         raise SourceError(f"its mesh {mesh!r} cannot be read ({reason_of(error)}); write it again") from None
     if not len(faces) or not np.isfinite(nodes).all() or faces[:, 0].min() < 0 or faces.max() >= len(nodes):
         raise SourceError("its mesh has no faces, or names nodes that do not exist; write it again")
-    whole = conforming(nodes, faces)
+    units = unit_of(axes[0])
+    nodes, kept = faces_unwrapped(nodes, faces, are_degrees="degree" in units.lower(), notes=notes)
+    kept = _taken(kept, faces_once(faces if kept is None else faces[kept], notes))
+    whole = conforming(nodes, faces if kept is None else faces[kept])
     candidates = [
         str(name)
         for name in dataset.data_vars
@@ -87,11 +91,18 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes:
         for flag in dry:
             values = np.where(flag(where, order) == 1.0, np.minimum(values, 0.0), values)
         found = Reading(values, *(one(where, order) if one else None for one in (bed, speed)))
-        return found if on_faces else found.each(whole.values)
+        if on_faces:
+            return found if kept is None else found.at(kept)
+        return found.each(whole.values)
 
     crs = crs_of(dataset, name, axes)
     turned = counter_clockwise(whole.nodes, whole.faces)
-    return MeshSeries(whole.nodes, turned, on_faces, crs, name, times, read, meaning, unit_of(axes[0]))
+    return MeshSeries(whole.nodes, turned, on_faces, crs, name, times, read, meaning, units)
+
+
+def _taken(some: NDArray[np.intp] | None, of: NDArray[np.intp] | None) -> NDArray[np.intp] | None:
+    """Numbers of some of the faces that were kept; None where all of them are."""
+    return some if of is None else (of if some is None else some[of])
 
 
 def _parts(dataset: Any, mesh: str) -> tuple[list[Any], Any, tuple[str, str]]:
