@@ -1,11 +1,14 @@
 """Files of flood models that are not read: the error names the format and what to do."""
 
+import zipfile
+
 import h5py
 import numpy as np
 import pytest
 import xarray
 
 from vexture.errors import SourceError
+from vexture.geo.depths import read_depths
 from vexture.reading import extent_of, read_drawing
 
 SELAFIN = b"\0\0\0\x50" + b"Breach of a dam".ljust(72) + b"SERAFIN " + b"\0\0\0\x50"
@@ -59,3 +62,17 @@ def test_results_of_anuga_and_3di_are_known(tmp_path):
 def test_unknown_data_are_told_all_that_is_read():
     with pytest.raises(SourceError, match=r"none of GeoJSON, .*shapefile, GeoTIFF, NetCDF and Esri's \.asc and \.flt"):
         extent_of(b"\x81\x82\x83", "run.bin")
+
+
+def test_a_zip_of_a_raster_of_depths_is_to_be_unzipped(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        archive.writestr("run/depth.tif", b"II*")
+    with pytest.raises(SourceError, match=r"run/depth\.tif is not read in a zip; unzip it, and give the file itself"):
+        extent_of(tmp_path / "a.zip", "a.zip")
+
+
+def test_depths_of_hdf5_without_places_say_what_to_write(tmp_path):
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["depth"] = np.ones((3, 4))
+    with pytest.raises(SourceError, match="it has 'depth'; write x and y, the coordinates of columns and rows"):
+        read_depths(tmp_path / "a.h5", "a.h5")

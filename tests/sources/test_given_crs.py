@@ -108,3 +108,9 @@ def test_coordinates_in_radians_are_refused(tmp_path):
     path = pond(tmp_path / "a.nc", about, 0.07, 0.0002)
     with pytest.raises(SourceError, match="are in 'radian'; write them in degrees"):
         read_depths(path, "a.nc")
+
+
+def test_coordinates_that_are_no_degrees_are_told_as_the_file_has_them(tmp_path):
+    path = pond(tmp_path / "a.nc", {"x": {}, "y": {}}, 5e5, 100.0)
+    with pytest.raises(SourceError, match="the bounds 499950,499950,500350,500350 "):
+        read_depths(path, "a.nc", crs="EPSG:4326")

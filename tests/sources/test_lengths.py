@@ -10,7 +10,20 @@ from vexture.errors import SourceError
 from vexture.geo.lengths import metres_in
 
 UNSAID = ["", "1", "-", "n/a", "unknown"]
-METRES = ["m", "M", "metres", "m+NAP", "m NAP", "mNAP", "m (NAVD88)", "m (MSL/NAP)", "m.a.s.l.", "m, to NAP", "m-NAP"]
+METRES = [
+    "m",
+    "M",
+    "metres",
+    "m+NAP",
+    "m NAP",
+    "mNAP",
+    "m (NAVD88)",
+    "m (MSL/NAP)",
+    "m.a.s.l.",
+    "m, to NAP",
+    "m-NAP",
+]
+ENCLOSED = ["[m]", "(m)", "m1"]
 US_FEET = ["US survey foot", "us_survey_feet", "U.S. survey foot", "ftUS", "ft-us", "foot_us"]
 SPEEDS = ["m2/s", "m s-1", "m/s", "mm/h", "m per day", "m s"]
 TYPESET = ["m²", "m³", "m³ s⁻¹", "m·s⁻¹", "mm hr⁻¹", "m−1"]
@@ -26,6 +39,11 @@ OTHERS = [
     "m squared",
     "m cubed",
     "m year",
+    "m x 100",
+    "feet (x10)",
+    "m (×0.01)",
+    "Mm",
+    "Mm NAP",
 ]
 NONE = [
     *SPEEDS,
@@ -51,7 +69,7 @@ NONE = [
 @pytest.mark.parametrize(
     ("units", "metres"),
     [
-        ([*UNSAID, *METRES], 1.0),
+        ([*UNSAID, *METRES, *ENCLOSED], 1.0),
         (["ft", "feet", "ft NAVD88", "Feet (NGVD29)"], 0.3048),
         (US_FEET, 1200 / 3937),
         (["yards", "yd"], 0.9144),

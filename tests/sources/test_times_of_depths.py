@@ -8,6 +8,7 @@ import rasterio
 import xarray
 from rasterio.transform import Affine
 
+from vexture.errors import SourceError
 from vexture.geo.depths import read_depths
 
 NOON = [datetime(2026, 2, day, 12, tzinfo=UTC) for day in (27, 28)]
@@ -36,7 +37,7 @@ def read(path, **options):
     return [step.time for step in extent.steps], " ".join(map(str, extent.notes))
 
 
-@pytest.mark.parametrize("calendar", ["standard", "noleap", "julian", "360_day"])
+@pytest.mark.parametrize("calendar", ["standard", "noleap", "360_day"])
 def test_dates_of_other_calendars_are_those_that_the_file_names(tmp_path, calendar):
     days = [27.5, 28.5] if calendar == "360_day" else [26.5, 27.5]
     start = "2026-01-30" if calendar == "360_day" else "2026-02-01"
@@ -48,8 +49,26 @@ def test_dates_that_our_calendar_has_not_are_named(tmp_path):
     path = netcdf(tmp_path / "a.nc", [0.5, 1.5], units="days since 2026-02-29", calendar="360_day")
     times, said = read(path)
     assert times == [None, None]
-    assert "its steps are numbered: 'time' has dates that are none of ours" in said
-    assert "'360_day'" in said
+    assert "its steps are numbered: 'time' has dates that are none of ours, by its calendar '360_day'; write" in said
+    assert "write times of the calendar 'standard'" in said
+
+
+def test_a_calendar_that_is_unknown_is_named(tmp_path):
+    times, said = read(netcdf(tmp_path / "a.nc", [0.0, 6.0], units="hours since 2026-01-01", calendar="foo"))
+    assert times == [None, None]
+    assert "by its calendar 'foo'; write times of the calendar 'standard'" in said
+
+
+def test_dates_of_the_julian_calendar_are_told(tmp_path):
+    times, said = read(netcdf(tmp_path / "a.nc", [26.5, 27.5], units="days since 2026-02-01", calendar="julian"))
+    assert times == NOON
+    assert "'time' has dates of the calendar 'julian', 13 days before ours" in said
+
+
+def test_a_step_without_a_time_is_named(tmp_path):
+    path = netcdf(tmp_path / "a.nc", [0.0, np.nan], units="hours since 2026-01-01")
+    with pytest.raises(SourceError, match=r"the time axis 'time' has no time at step 2 \(counted from 1\); write one"):
+        read(path)
 
 
 def test_times_since_no_date_are_named(tmp_path):

@@ -104,6 +104,7 @@ def width(drawing, frame):
         {**FLAGS, "units": "m", "flag_bounds": "class_bounds_hs"},
         {**FLAGS, "units": "m"},
         {"flag_values": "1 2 3 4", "flag_meanings": MEANINGS},
+        {"flag_values": "1b, 2b, 3ub, 4s", "flag_meanings": MEANINGS},
         {**FLAGS, "flag_meanings": "below_0.5 0.5_to_1.0 1-5 >5", "units": "m"},
         {**FLAGS, "flag_meanings": "dry 50cm_to_100cm 100cm_to_500cm more_than_500cm", "units": "m"},
         {**FLAGS, "flag_meanings": "below_50 50_to_100 100_to_500 over_500", "units": "cm"},
@@ -179,6 +180,23 @@ def test_classes_of_water_levels_and_of_speeds_are_not_taken_for_numbers(tmp_pat
     depth = (columns(1, 2), {"units": "m"})
     path = netcdf(tmp_path / "speed.nc", {"depth": depth, "ucmag": (columns(1, 2), dict(FLAGS))})
     assert read(path).steps[0].speed is None
+
+
+@pytest.mark.parametrize(
+    ("values", "meanings", "why"),
+    [
+        ([1, 2, 3, 4], "dry 0.1-0.5m 0.5-1m", "there are 4 flag_values, and 3 ranges for them"),
+        ([1, 2, 3, 4], "dry 0.1-0.8m 0.5-1m >1m", "0.1 to 0.8 m and 0.5 to 1 m overlap"),
+        ([1, 2], "dry deep", "'deep' is none"),
+        ([1, 2], "dry 2-1m", "'2-1m' ends where it begins, or below"),
+        ("one two", "dry wet", "flag_values are missing, or no numbers"),
+    ],
+)
+def test_what_is_wrong_with_flags_is_told_and_how_to_write_them(tmp_path, values, meanings, why):
+    flags = {"flag_values": values if isinstance(values, str) else np.array(values, "i1"), "flag_meanings": meanings}
+    path = netcdf(tmp_path / "run.nc", {"depth": (columns(1, 2), flags)})
+    with pytest.raises(SourceError, match=rf"no ranges of depth: {why}; write each as 0\.5-1m, .* flag_bounds"):
+        read(path)
 
 
 def test_states_of_wet_and_dry_are_areas_without_depth(tmp_path):

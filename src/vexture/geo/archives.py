@@ -32,6 +32,9 @@ SINGLE: Final = (
 )
 """Suffixes of formats that are one file."""
 
+DEPTHS: Final = (".tif", ".tiff", ".nc", ".nc4", ".asc", ".flt")
+"""Suffixes of rasters and meshes of depths."""
+
 KML: Final = ".kml"
 MAIN: Final = "doc.kml"
 """Suffix of KML, and the name of what of a KMZ is shown."""
@@ -72,6 +75,9 @@ def _held(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> bytes:
     texts = [info for info in singles if _suffix(info.filename) == KML]
     if main and len(texts) > 1:  # a KMZ may be in parts, to which its main one links
         return _packed({info.filename: read for info, read in _read(archive, texts)})
+    depths = [info.filename for info in infos if _suffix(info.filename) in DEPTHS]
+    if depths and not singles:
+        raise SourceError(f"{_shown(depths[0])} is not read in a zip; unzip it, and give the file itself")
     if not singles:
         raise SourceError(f"the zip holds no shapefile (.shp), FileGDB (.gdb) or other geographic data; {REMEDY}")
     chosen = main[:1] or singles

@@ -30,6 +30,11 @@ ABOVE: Final = re.compile(
     rf"(?:above|over|more[ _]than|greater[ _]than|at[ _]least|gt|ge|>=?)[ _]*{NUMBER}", re.IGNORECASE
 )
 
+TYPED: Final = re.compile(r"(?<=[\d.])(u?b|u?s|u?l{1,2}|[ufd])$", re.IGNORECASE)
+"""What CDL writes behind a number for its type."""
+
+HOW: Final = "write each as 0.5-1m, below_0.5m or above_2m, or their bounds in a variable that flag_bounds names"
+
 LONGEST: Final = 80
 """Characters of a meaning that says a range, and of meanings in a message."""
 
@@ -77,15 +82,34 @@ def ranges_of_flags(dataset: Any, name: str, metres: float) -> dict[float, Depth
         ranges = [_range_of(text, metres) for text in meanings]
     if len(ranges) > MOST_RANGES:
         raise SourceError(f"{name!r} has {len(ranges):,} classes; the limit is {MOST_RANGES}; write depths in metres")
-    known = [one for one in ranges if one is not None and one.low < one.high]
-    apart = all(one.high <= other.low + TOUCHING for one, other in pairwise(sorted(known)))
-    if not values or len(ranges) != len(values) or len(known) != len(values) or not apart:
+    wrong = _wrong(values, ranges, meanings)
+    if wrong:
         said = shortened(" ".join(meanings), LONGEST)
         raise SourceError(
-            f"{name!r} holds flags ({said or 'without meanings'}) that are no ranges of depth, so it holds no depths; "
-            "`variable` names another"
+            f"{name!r} holds flags ({said or 'without meanings'}) that are no ranges of depth: {wrong}; {HOW}, or name "
+            "another `variable`"
         )
+    known = [one for one in ranges if one is not None]
     return dict(zip(values, known, strict=True))
+
+
+def _wrong(values: list[float], ranges: list[DepthRange | None], meanings: list[str]) -> str:
+    """What is wrong with values of flags and their ranges; empty if nothing is."""
+    if not values:
+        return "flag_values are missing, or no numbers"
+    if len(ranges) != len(values):
+        return f"there are {len(values)} flag_values, and {len(ranges)} ranges for them"
+    for at, one in enumerate(ranges):
+        said = shortened(meanings[at], LONGEST) if at < len(meanings) else str(at + 1)
+        if one is None:
+            return f"{said!r} is none"
+        if not one.low < one.high:
+            return f"{said!r} ends where it begins, or below"
+    known = sorted(one for one in ranges if one is not None)
+    for one, other in pairwise(known):
+        if one.high > other.low + TOUCHING:
+            return f"{shown_range(one)} and {shown_range(other)} overlap"
+    return ""
 
 
 def wet_ranges(ranges: Sequence[DepthRange], hmin: float) -> tuple[DepthRange, ...]:
@@ -143,7 +167,7 @@ def _numbers(values: Any) -> list[float]:
     """Values of flags: numbers or, where they were written as a text, the numbers in it."""
     try:
         if isinstance(values, str):
-            return [float(part) for part in values.replace(",", " ").removesuffix("b").split()]
+            return [float(TYPED.sub("", part)) for part in values.replace(",", " ").split()]
         return [] if values is None else [float(value) for value in np.atleast_1d(values)]
     except (TypeError, ValueError):
         return []

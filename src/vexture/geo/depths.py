@@ -244,6 +244,6 @@ def _step(placed: DepthsInFrame, values: tuple[int, Reading]) -> Step:
 def _whole(box: Bounds, system: str) -> Bounds:
     """Box of a raster, with longitudes of up to half a turn if it does not cross the antimeridian."""
     turn = period(system)
-    if turn and box[0] >= turn / 2:
+    if turn and turn / 2 <= box[0] <= turn:  # more are no degrees, which is told with the numbers of the file
         return (box[0] - turn, box[1], box[2] - turn, box[3])
     return box

@@ -40,6 +40,17 @@ SCALED: Final = re.compile(r"(\d*\.?\d+(?:[eE][+-]?\d+)?) ?\*? ?([A-Za-z].*)")
 """A number of units, as UDUNITS has it."""
 
 
+ENCLOSED: Final = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)")
+"""A unit in brackets."""
+
+FIRST_POWER: Final = re.compile(r"([A-Za-z]+) ?\^?1")
+
+TIMES_A_NUMBER: Final = re.compile(r"(?<![A-Za-z])[x×*] ?\.?\d")
+"""What says that the numbers are not of the unit itself."""
+
+MEGA: Final = re.compile(r"Mm\b")
+"""A million metres, which no case may turn into a thousandth of one."""
+
 RAISED: Final = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
 """Exponents, and a minus sign, as they may be typeset."""
 
@@ -59,8 +70,12 @@ def metres_in(unit: str) -> float | None:
     plain = " ".join(re.sub(r"[_\-]+(?=[A-Za-z])", " ", unit.translate(RAISED)).split())
     if plain.lower() in NO_UNIT:
         return 1.0
-    if LOGARITHM.search(plain):
+    if LOGARITHM.search(plain) or TIMES_A_NUMBER.search(plain) or MEGA.match(plain):
         return None
+    if enclosed := ENCLOSED.fullmatch(plain):
+        return metres_in(enclosed[1] or enclosed[2] or "")
+    if first := FIRST_POWER.fullmatch(plain):
+        return metres_in(first[1])
     if scaled := SCALED.fullmatch(plain):
         inner = metres_in(scaled[2])
         return None if inner is None else float(scaled[1]) * inner

@@ -35,6 +35,12 @@ LONGITUDES: Final = {"degrees_east", "degree_east", "degrees_e", "degree_e"}
 
 MOST_STEPS: Final = 1000
 
+OURS: Final = frozenset({"standard", "gregorian", "proleptic_gregorian"})
+JULIAN: Final = "julian"
+"""Calendars, in lower case: names of ours, and the one whose dates are all ours, but mean other days."""
+
+SINCE: Final = "write 'hours since 2026-01-01' or the like"
+
 UNSAID: Final = re.compile(r"-|(EPSG:)?(nan|none|0)?", re.IGNORECASE)
 """What models write for a reference system that they have not been told."""
 
@@ -221,6 +227,12 @@ def times_of(dataset: Any, dim: str | None, notes: Notes) -> tuple[datetime | No
     if dim not in dataset.variables or dataset[dim].ndim != 1 or dataset[dim].dtype.kind not in "iuf":
         return _written(dataset, dim, count, notes)
     places = loaded(dataset[dim]).astype(np.float64)
+    if not np.isfinite(places).all():
+        missing = int(np.argmin(np.isfinite(places))) + 1
+        raise SourceError(
+            f"the time axis {dim!r} has no time at step {missing} (counted from 1); write one for each step, or leave "
+            f"such steps out: xarray's dropna({dim!r})"
+        )
     step = np.diff(places)
     if not (step > 0.0).all():
         wrong = int(np.argmin(step > 0.0)) + 1
@@ -237,9 +249,17 @@ def times_of(dataset: Any, dim: str | None, notes: Notes) -> tuple[datetime | No
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             decoded = xarray.decode_cf(xarray.Dataset(coords={dim: dataset[dim].variable}))[dim].values
-        return tuple(_moment(time) for time in decoded)
+        found = tuple(_moment(time) for time in decoded)
     except Exception:  # a calendar without such a date, or text that is none
-        return _numbered(count, f"{dim!r} has dates that are none of ours ({unit!r}, calendar {calendar!r})", notes)
+        if calendar.lower() in OURS:
+            return _numbered(count, f"{dim!r} has dates that are none of ours ({unit!r})", notes)
+        why = f"{dim!r} has dates that are none of ours, by its calendar {calendar!r}"
+        return _numbered(count, why, notes, "write times of the calendar 'standard', as xarray's convert_calendar does")
+    if calendar.lower() == JULIAN:
+        notes.remark(
+            f"{dim!r} has dates of the calendar {calendar!r}, 13 days before ours in this century, left as they are"
+        )
+    return found
 
 
 def _written(dataset: Any, dim: str, count: int, notes: Notes) -> tuple[datetime | None, ...]:
@@ -250,10 +270,10 @@ def _written(dataset: Any, dim: str, count: int, notes: Notes) -> tuple[datetime
     return rising_moments(texts) or _numbered(count, f"{dim!r} holds texts that are no times ({listed(texts)})", notes)
 
 
-def _numbered(count: int, why: str, notes: Notes) -> tuple[None, ...]:
+def _numbered(count: int, why: str, notes: Notes, remedy: str = SINCE) -> tuple[None, ...]:
     """Steps without dates; a note says why, if there are several and the file says anything of their times."""
     if count > 1 and why:
-        notes.remark(f"its steps are numbered: {why}; write 'hours since 2026-01-01' or the like")
+        notes.remark(f"its steps are numbered: {why}; {remedy}")
     return (None,) * count
 
 

@@ -184,7 +184,10 @@ def _chosen(dataset: Any, candidates: list[str], bed: str | None, level: str | N
     choice = choice or [name for name in candidates if name not in (bed, level)]
     choice = [name for name in choice if metres_in(unit_of(dataset[name])) is not None] or choice
     if not choice and level is None:
-        raise SourceError(f"no variable is on rows and columns; it has {listed(dataset.data_vars)}")
+        raise SourceError(
+            f"no variable is on rows and columns; it has {listed(dataset.data_vars)}; write x and y, the coordinates "
+            "of columns and rows, into the file, as to_netcdf of xarray does"
+        )
     choice = choice or [level or ""]
     if len(choice) > 1:
         raise LimitError(f"depths may be in {listed(choice)}; choose one by `variable`")
