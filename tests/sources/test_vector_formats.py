@@ -291,7 +291,7 @@ def test_a_sequence_names_the_record_that_is_no_feature():
 
 def test_a_sequence_that_is_not_in_utf_8_is_refused():
     content = "\n".join(f'{{"type": "Feature", "id": "{name}", "geometry": null}}' for name in ("a", "ç"))
-    with pytest.raises(SourceError, match="it is no UTF-8 text .*; save it as UTF-8"):
+    with pytest.raises(SourceError, match=r"it is no UTF-8 text .*; save it as UTF-8"):
         read_features(content.encode("cp1252"), notes=Notes())
 
 
