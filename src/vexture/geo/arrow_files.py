@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vexture.content import ARROW, PARQUET, Header, header_of, read_bytes, start_of
 from vexture.errors import SourceError, shortened
 from vexture.geo.curves import BROKEN
-from vexture.geo.geoparquet import WORLD
+from vexture.geo.geojson import WORLD
 from vexture.geo.wkt import wkb_of_texts
 
 if TYPE_CHECKING:

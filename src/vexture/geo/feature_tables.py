@@ -18,7 +18,8 @@ from vexture.geo.damage import missing_arcs
 from vexture.geo.extent import Bounds
 from vexture.geo.feature_ids import ids_of_json, with_ids
 from vexture.geo.frames import arrow_of, check_texts, labels_of
-from vexture.geo.geoparquet import WORLD, GeometryColumn, geometry_column, objects_of
+from vexture.geo.geojson import WORLD
+from vexture.geo.geoparquet import GeometryColumn, geometry_column, objects_of
 from vexture.geo.vector_files import VectorFile, opened_vectors
 from vexture.geo.vectors import chosen_layer, gdal_errors, layers_of
 

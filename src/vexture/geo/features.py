@@ -13,8 +13,7 @@ from vexture.geo.extent import Bounds
 from vexture.geo.feature_ids import names_beside_id
 from vexture.geo.feature_tables import Choice, Chunk, chunks_of
 from vexture.geo.frames import texts_of
-from vexture.geo.geojson import UNLOCATED
-from vexture.geo.geoparquet import WORLD
+from vexture.geo.geojson import UNLOCATED, WORLD
 from vexture.geo.longitudes import closed_over_poles, jumping
 from vexture.geo.rings import Rings, refuse_far, repaired, rings_of
 from vexture.geo.vectors import DAMAGED, parsed_wkb, parts_of

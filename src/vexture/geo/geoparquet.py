@@ -10,18 +10,15 @@ from numpy.typing import NDArray
 from vexture.deadline import check_time
 from vexture.errors import SourceError
 from vexture.geo.curves import BROKEN
+from vexture.geo.geojson import WORLD
 from vexture.geo.wkt import wkb_of_texts
 
 if TYPE_CHECKING:
     import pyarrow
     import pyarrow.parquet
 
-    from vexture.geo.arrow_files import TableFile
 
-__all__ = ["WORLD", "GeometryColumn", "geometry_column", "objects_of"]
-
-WORLD: Final = "OGC:CRS84"
-"""Reference system of geometries that name none, in GeoParquet and in columns of the types GEOMETRY and GEOGRAPHY."""
+__all__ = ["GeometryColumn", "geometry_column", "objects_of"]
 
 NAMES: Final = ("geometry", "geom", "wkb_geometry", "wkb", "wkt")
 """Columns that may hold geometries, where nothing in the file says which do."""
@@ -72,7 +69,7 @@ class GeometryColumn:
         return wkb_of_texts(shapes) if self.encoding == WKT else shapes
 
 
-def geometry_column(file: "pyarrow.parquet.ParquetFile | TableFile") -> GeometryColumn:
+def geometry_column(file: Any) -> GeometryColumn:
     """The column of geometries of a table: that of its metadata, of a type for geometries, or of such a name."""
     import pyarrow.parquet as pq
 
