@@ -24,12 +24,12 @@ HEADER: Final = 9
 
 
 def wkb_of_texts(texts: NDArray[Any]) -> NDArray[Any]:
-    """Geometries of texts in WKB, with curves as they are: None where there is none, `BROKEN` where one is.
+    r"""Geometries of texts in WKB, with curves as they are: None where there is none, `BROKEN` where one is.
 
     Examples
     --------
-    >>> shapely.from_wkb(wkb_of_texts(np.array(["SRID=4326;POINT (1 2)", None], object))).tolist()
-    [<POINT (1 2)>, None]
+    >>> wkb_of_texts(np.array(["SRID=4326;0102000000", "LINESTRING EMPTY", "LINE", None], object)).tolist()
+    [b'\x01\x02\x00\x00\x00', b'\x01\x02\x00\x00\x00\x00\x00\x00\x00', b'\x01', None]
     """
     import shapely
 
