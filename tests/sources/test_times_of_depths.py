@@ -25,7 +25,7 @@ def netcdf(path, times, **about):
 def geotiff(path, descriptions):
     where = {"crs": "EPSG:28992", "transform": Affine(50.0, 0.0, 1e5, 0.0, -50.0, 5e5)}
     with rasterio.open(path, "w", "GTiff", 3, 3, len(descriptions), dtype="float32", **where) as file:
-        file.write(np.ones((len(descriptions), 3, 3), np.float32))
+        file.write(np.full((len(descriptions), 3, 3), 2.0, np.float32))
         for band, text in enumerate(descriptions, 1):
             file.set_band_description(band, text)
     return path

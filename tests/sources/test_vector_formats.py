@@ -309,14 +309,6 @@ def test_a_folder_says_what_it_is_not(tmp_path):
         read_features(tmp_path / "map", notes=Notes())
 
 
-def test_a_file_without_geometries_says_so(tmp_path):
-    empty = geopandas.GeoDataFrame({"name": ["a", "b"]}, geometry=[None, None])
-    with warnings.catch_warnings(action="ignore"):
-        empty.to_file(tmp_path / "a.fgb", driver="FlatGeobuf", SPATIAL_INDEX="NO")
-    with pytest.raises(SourceError, match="none of its features has a geometry; give the file that has their places"):
-        read_features(tmp_path / "a.fgb", notes=Notes())
-
-
 def test_a_zip_of_several_maps_asks_for_one(tmp_path):
     names = ("a.geojson", "b.geojson")
     archive = zipped(tmp_path / "a.zip", *(saved(tmp_path / name, "GeoJSON") for name in names))

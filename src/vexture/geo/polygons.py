@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
-from vexture.content import unpacked
+from vexture.content import VECTOR_FILES, FileKind, is_geodatabase, kind_of, start_of, unpacked
 from vexture.contours import ring_contours
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
@@ -94,6 +94,11 @@ def _areas(
     """Polygons of any file, in its own coordinates, and the reference system that it names."""
     source = unzipped(unpacked(source))
     if not is_table(source):
+        if not is_geodatabase(source) and kind_of(start_of(source), file_name) is FileKind.SVG:  # by no other sign
+            raise SourceError(
+                f"it is none of GeoJSON, {VECTOR_FILES}, GeoTIFF, NetCDF and Esri's .asc and .flt; "
+                "convert it to one of them"
+            )
         return read_areas(source, file_name, layer, notes)
     (chunk,) = chunks_of(source, Choice(layer, columns=()), None)
     rings = areas_of_wkb(chunk.shapes, notes)
