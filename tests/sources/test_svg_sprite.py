@@ -1,5 +1,6 @@
 """Sprites: each symbol is a drawing by itself."""
 
+import numpy as np
 import pytest
 
 from vexture.svg.read import svg_drawing
@@ -49,3 +50,45 @@ def test_a_symbol_that_paints_nothing_says_so():
     sprite = f'<svg {ROOT}><symbol id="empty" viewBox="0 0 1 1"/><symbol id="wide">{SQUARE}</symbol></svg>'
     empty, _ = symbol_drawings(sprite.encode(), "sprite.svg")
     assert [note.message for note in empty.notes] == ["nothing in it is painted"]
+
+
+FRAMED = {
+    "above-the-origin": ("0 -960 960 960", ""),
+    "around-the-origin": ("-8 -8 16 16", ""),
+    "in-parts": ("4.3 4.7 16.1 16", 'overflow="visible"'),
+    "own-size": ("0 0 24 24", 'width="48" height="48"'),
+    "own-place": ("2 2 24 24", 'x="3" y="4"'),
+    "stretched": ("0 0 24 12", 'preserveAspectRatio="none" width="48" height="48"'),
+    "sliced": ("-4 0 16 8", 'preserveAspectRatio="xMinYMin slice" width="20" height="20"'),
+}
+
+
+@pytest.mark.parametrize(("box", "others"), FRAMED.values(), ids=FRAMED)
+def test_a_symbol_fills_the_frame_of_its_own_view_box(box, others):
+    left, top, width, height = map(float, box.split())
+    shapes = f'<path d="M{left} {top}h{width / 2}v{height / 4}z"/><rect width="40%" height="3" stroke="red"/>'
+    sheet = "<style>use { x: 5px; width: 1em } symbol { height: 9px } svg { width: 7px }</style>"
+    symbol = f'<symbol id="a" viewBox="{box}" {others}>{shapes}</symbol>'
+    sprite = f'<svg {ROOT} viewBox="1 2 3 4" height="5">{sheet}{symbol}</svg>'.encode()
+    alone = svg_drawing(f'<svg {ROOT} viewBox="{box}">{shapes}</svg>'.encode(), "a.svg")
+    (of_atlas,) = symbol_drawings(sprite, "sprite.svg")
+    for drawing in (of_atlas, svg_drawing(sprite, "sprite.svg", "#a")):
+        assert (drawing.sides, drawing.notes) == (alone.sides, ())
+        np.testing.assert_array_equal(drawing.to_source, alone.to_source)
+        assert len(drawing.paths) == len(alone.paths) == 3
+        for path, same in zip(drawing.paths, alone.paths, strict=True):
+            np.testing.assert_allclose(np.hstack(path.contours), np.hstack(same.contours), atol=1e-12)
+
+
+def test_a_symbol_without_a_view_box_has_a_frame_of_its_size_or_of_what_it_paints():
+    symbols = f'<symbol id="sized" width="12" height="24" x="5">{SQUARE}</symbol>'
+    symbols += f'<symbol id="painted"><g transform="translate(-500 200)">{SQUARE}</g></symbol>'
+    symbols += '<symbol id="small"><path d="M.5 0h.02v.01h-.02z"/></symbol>'
+    sized, painted, small = symbol_drawings(f"<svg {ROOT}>{symbols}</svg>".encode(), "sprite.svg")
+    assert (sized.sides, sized.notes) == ((0.5, 1.0), ())
+    assert sized.paths[0].box.tolist() == [[0.25, 0.75], [0.75, 1.0]]
+    assert painted.paths[0].box.tolist() == [[0.0, 0.0], [1.0, 1.0]]
+    assert painted.to_source @ [0.0, 1.0, 1.0] == pytest.approx([-500, 200])
+    told = "it has no viewBox and no size; its frame is what it paints, viewBox="
+    assert [note.message for note in painted.notes] == [f'{told}"-500 200 6 6"']
+    assert [note.message for note in small.notes] == [f'{told}"0.5 0 0.02 0.01"']

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from vexture.drawing import Drawing
-    from vexture.svg.read import Frame
+    from vexture.svg.frames import Frame
 
 __all__ = [
     "PUBLISHED_PARAMETERS",

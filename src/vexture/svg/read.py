@@ -4,43 +4,33 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import ceil, floor
 from pathlib import Path
-from typing import Final, TypeAlias
 
 import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
-from vexture.bezier.bounds import bounds
 from vexture.content import about, decompressed, read_bytes
 from vexture.drawing import Drawing
 from vexture.errors import ParameterError, SourceError
 from vexture.fonts.places import font_places
 from vexture.notes import Note, warn_of
 from vexture.svg.animation import Moment, show_moment
-from vexture.svg.compositing import has_colors, masking, occupied
+from vexture.svg.compositing import has_colors, occupied
 from vexture.svg.document import parse_svg
+from vexture.svg.frames import EMPTY, Frame, frame, painted_frame
 from vexture.svg.images import Images
 from vexture.svg.page import CURRENT_IS_BLACK, Page
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
-from vexture.svg.select import UNPAINTED, chosen, nothing_painted, unpainted, with_symbols_used
-from vexture.svg.spatial import TRANSFORMS
+from vexture.svg.select import UNPAINTED, Part, chosen, nothing_painted, unpainted, with_symbols_used
 from vexture.svg.style import UNCLEAR
 from vexture.svg.subjects import subject_of
-from vexture.svg.transform import Identity, Transform
+from vexture.svg.transform import Transform
 from vexture.svg.unseen import ANIMATION
-from vexture.svg.values import Viewport, is_relative
-from vexture.svg.viewport import ANONYMOUS, THINNEST, Rectangle
+from vexture.svg.viewport import Rectangle
 
 __all__ = ["Found", "Request", "found_in", "framed_drawing", "read_svg", "svg_drawing"]
-
-Frame: TypeAlias = tuple[tuple[float, float], Viewport, Transform]
-"""Size of a drawing in pixels, the root's viewport, and the map from user units to pixels."""
-
-EMPTY: Final[Frame] = (0.0, 0.0), Viewport(0.0, 0.0), Identity
-"""Frame that shows nothing."""
 
 
 def read_svg(
@@ -177,7 +167,7 @@ class Request:
 
     document: Callable[[], etree._Element]  # makes the document, which is changed, anew
     name: str
-    part: Callable[[etree._Element], set[etree._Element]] | None  # finds the elements that are chosen
+    part: Callable[[etree._Element], Part] | None  # finds what is chosen
     names: str
     fonts: Sequence[str | os.PathLike[str]]
     images: Images
@@ -220,8 +210,8 @@ def found_in(request: Request) -> Found:
     return found if found.drawing.paths else replace(found, drawing=first.unseen)
 
 
-def selected(root: etree._Element, select: str) -> set[etree._Element]:
-    """Elements to paint for a selector."""
+def selected(root: etree._Element, select: str) -> Part:
+    """What to paint for a selector."""
     return with_symbols_used(root, chosen(root, select))
 
 
@@ -232,8 +222,9 @@ def at_moment(request: Request, moment: Moment) -> Found:
     for element in show_moment(root, request.page, moment):
         report.simplified(UNCLEAR, element.getparent())
     part = None if request.part is None else request.part(root)
-    scene = Scene(root, report, request.images, part, request.names, request.fonts, request.page)
-    framed = frame(scene)
+    elements = None if part is None else part.elements
+    scene = Scene(root, report, request.images, elements, request.names, request.fonts, request.page)
+    framed = painted_frame(scene) if part is not None and part.is_unframed else frame(scene)
     drawing, to_pixels = drawing_of(scene, framed, request.name)
     if not drawing.paths:
         report.remark(unpainted(root) if part is None else UNPAINTED)
@@ -242,7 +233,7 @@ def at_moment(request: Request, moment: Moment) -> Found:
     if scene.servers.lacks_color and has_colors(drawing):  # of one colour, it is a shape for any
         report.remark(CURRENT_IS_BLACK)
     notes = report.about(lambda element: subject_of(element, scene.names, scene.boxes, to_pixels))
-    return Found(replace(drawing, notes=notes), None if framed is EMPTY else framed, len(part or ()))
+    return Found(replace(drawing, notes=notes), None if framed is EMPTY else framed, len(elements or ()))
 
 
 def drawing_of(scene: Scene, framed: Frame, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:
@@ -259,55 +250,6 @@ def drawing_of(scene: Scene, framed: Frame, name: str) -> tuple[Drawing, NDArray
     shown, groups = occupied(drawing.paths, groups)
     to_source = after(drawing.to_source, matrix.inverse())
     return replace(drawing, paths=shown, groups=groups, to_source=to_source), drawing.to_source
-
-
-def frame(scene: Scene) -> Frame:
-    """Frame that the outermost element sets; `EMPTY`, with a note, if a side is zero."""
-    root, style = scene.root, scene.style
-    box = scene.view(root)
-    absolute = Viewport(0.0, 0.0, style.font_size)
-    sides = []
-    for name in ("width", "height"):
-        text = style[name]
-        relative = text.lower() == "auto" or is_relative(text)
-        sides.append(None if relative else absolute.length(text, 0.0, style.font_size))
-    width, height = sides
-    if any(side is not None and side < THINNEST for side in (*sides, *(box or ())[2:])):
-        scene.report.remark("its width or height is zero, at which nothing is shown")
-        return EMPTY
-    if box is not None:
-        ratio = box[2] / box[3]
-        if width is None and height is None:
-            width, height = box[2:]
-        size = (width or (height or 0.0) * ratio, height or (width or 0.0) / ratio)
-        return size, replace(absolute, width=box[2], height=box[3], outermost=size), scene.fit(root, box, *size)
-    given = width is not None, height is not None
-    width, height = (side or default for side, default in zip(sides, ANONYMOUS, strict=True))
-    found: Frame = (width, height), replace(absolute, width=width, height=height), Identity
-    if not all(given):
-        scene.report.remark(unsized(scene, found, {(True, False): "height", (False, True): "width"}.get(given, "size")))
-    return found
-
-
-def unsized(scene: Scene, framed: Frame, lacking: str) -> str:
-    """What a note says of a drawing that lacks a size and a `viewBox`: what to write to see all of it, if it is cut."""
-    size, viewport, matrix = framed
-    fonts, page = scene.typesetter.files, scene.cascade.page
-    whole = Scene(scene.root, Report(), scene.images, fonts=fonts, page=page)  # to measure; notes come later
-    painted, groups = whole.paint(viewport, matrix, None, size)
-    masks = masking(groups)
-    paths = [path for path in painted if path.group < 0 or not masks[path.group]]
-    told = f"it has no viewBox and no {lacking}, and is {size[0]:g} x {size[1]:g}, as in browsers"
-    if not paths:
-        return told
-    left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))
-    if left >= 0.0 and top >= 0.0 and right <= size[0] and bottom <= size[1]:
-        return told
-    if not scene.style.own.keys().isdisjoint(TRANSFORMS):  # it would be about another middle with a viewBox
-        return f"{told}, which cuts it"
-    x, y = floor(min(left, 0.0)), floor(min(top, 0.0))
-    wide, high = ceil(max(right, size[0])) - x, ceil(max(bottom, size[1])) - y
-    return f'{told}, which cuts it (with viewBox="{x} {y} {wide} {high}" it shows all)'
 
 
 def after(first: NDArray[np.float64], second: Transform) -> NDArray[np.float64]:

@@ -1,6 +1,7 @@
 """CSS selectors: the relatives of an element, and choosing a part of a document."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
 
@@ -10,10 +11,13 @@ from lxml import etree
 from vexture.deadline import check_time
 from vexture.errors import LimitError, ParameterError, counted, shortened
 from vexture.svg.document import language, local_name
+from vexture.svg.values import INITIAL_SIZE, Viewport, is_relative
+from vexture.svg.viewport import Rectangle, view_box
 
 __all__ = [
     "UNPAINTED",
     "Node",
+    "Part",
     "chosen",
     "nothing_painted",
     "symbol_alone",
@@ -30,11 +34,19 @@ LINKS = ("href", "{http://www.w3.org/1999/xlink}href")
 UNPAINTED = "nothing in it is painted"
 """Remark about a document."""
 
-SHOWN = ("display:inline!important", "visibility:visible!important", "opacity:1!important")
+SHOWN = ("display:inline", "visibility:visible", "opacity:1")
 """Undoes what hides a sprite in a page."""
 
 FRAME = ("viewBox", "width", "height", "preserveAspectRatio")
 """What sets the frame of a document, or of a symbol."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Elements of a document that are to be painted."""
+
+    elements: set[etree._Element]
+    is_unframed: bool = False  # whether it is a symbol without a frame: its frame is what it paints
 
 
 class Node(cssselect2.ElementWrapper):  # type: ignore[misc]
@@ -113,7 +125,7 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
     return found
 
 
-def with_symbols_used(root: etree._Element, found: set[etree._Element]) -> set[etree._Element]:
+def with_symbols_used(root: etree._Element, found: set[etree._Element]) -> Part:
     """Chosen elements, with an element `use` in place of each `symbol` that the document does not use.
 
     A single one fills the drawing: its viewBox becomes that of the document, which is changed.
@@ -121,35 +133,63 @@ def with_symbols_used(root: etree._Element, found: set[etree._Element]) -> set[e
     Examples
     --------
     >>> root = etree.fromstring('<svg><symbol id="a" viewBox="0 0 24 24"><path d="M0 0h9v9z"/></symbol></svg>')
-    >>> [etree.QName(one).localname for one in with_symbols_used(root, {root[0]})], root.get("viewBox")
+    >>> part = with_symbols_used(root, {root[0]})
+    >>> [etree.QName(one).localname for one in part.elements], root.get("viewBox")
     (['use'], '0 0 24 24')
     """
     used = {link for use in root.iter("{*}use", "use") for name in LINKS if (link := use.get(name, "").strip())}
     symbols = [one for one in found if local_name(one) == "symbol" and f"#{one.get('id')}" not in used]
     if len(found) == 1 and symbols:
         return symbol_alone(root, symbols[0])
-    return found.difference(symbols) | {use_of(root, symbol, number) for number, symbol in enumerate(symbols)}
+    return Part(found.difference(symbols) | {use_of(root, symbol, number) for number, symbol in enumerate(symbols)})
 
 
-def symbol_alone(root: etree._Element, symbol: etree._Element) -> set[etree._Element]:
-    """An element `use` of a symbol, which fills the drawing: its viewBox becomes that of the document.
+def symbol_alone(root: etree._Element, symbol: etree._Element) -> Part:
+    """An element `use` of a symbol, which fills the drawing, as an `<svg>` with the symbol's viewBox alone does.
 
-    What hides a sprite in a page, or gives it no size there, is undone: a page shows the symbols elsewhere.
+    A symbol without a viewBox has a frame of its width and height. What hides a sprite in a page, or gives it no size
+    there, is undone: a page shows the symbols elsewhere.
     """
+    box = view_box(symbol.get("viewBox", ""))
+    sides = own_sides(symbol) if box is None else None
     for name in FRAME:
-        value = symbol.get(name)
-        if value is not None:
-            root.set(name, value)
-        elif name in root.attrib:
-            del root.attrib[name]
-    sides = (f"{name}:{root.get(name, 'auto')}!important" for name in ("width", "height"))
-    root.set("style", ";".join((root.get("style", ""), *SHOWN, *sides)))
-    return {use_of(root, symbol, 0)}
+        root.attrib.pop(name, "")
+    if box is not None:
+        root.set("viewBox", symbol.get("viewBox", ""))
+    own = ("auto", "auto") if sides is None else [f"{side!r}px" for side in sides]
+    add_style(root, *SHOWN, f"width:{own[0]}", f"height:{own[1]}")
+    add_style(symbol, "x:0", "y:0")
+    use = use_of(root, symbol, 0)
+    if box is None and sides is None:
+        add_style(symbol, "overflow:visible")
+        return Part({use}, is_unframed=True)
+    placed: Rectangle = box or (0.0, 0.0, *(sides or (0.0, 0.0)))
+    add_style(use, *(f"{name}:{side!r}px" for name, side in zip(("x", "y", "width", "height"), placed, strict=True)))
+    return Part({use})
+
+
+def own_sides(symbol: etree._Element) -> tuple[float, float] | None:
+    """Width and height of a symbol by its attributes; None if one of them refers to where it is used."""
+    texts = [symbol.get(name, "auto") for name in ("width", "height")]
+    width, height = (
+        None if is_relative(text) else Viewport(0.0, 0.0).length(text, 0.0, INITIAL_SIZE) for text in texts
+    )
+    return None if width is None or height is None else (width, height)
+
+
+def add_style(element: etree._Element, *declarations: str) -> None:
+    """Add declarations to the style of an element, which no style sheet overrides."""
+    element.set("style", ";".join((element.get("style", ""), *(f"{each}!important" for each in declarations))))
 
 
 def use_of(root: etree._Element, symbol: etree._Element, number: int) -> etree._Element:
-    """A new element `use` of a symbol, at the end of the document; a symbol without a name gets one with a number."""
-    name = symbol.get("id") or f"vexture-symbol-{number}"
+    """A new element `use` of a symbol, at the end of the document.
+
+    A symbol without a name, or with that of an element before it, gets one with a number.
+    """
+    name = symbol.get("id")
+    if not name or next(one for one in root.iter("*") if one.get("id") == name) is not symbol:
+        name = f"vexture-symbol-{number}"
     symbol.set("id", name)
     use = etree.SubElement(root, etree.QName(etree.QName(root).namespace, "use"))
     use.set("href", f"#{name}")

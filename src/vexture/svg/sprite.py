@@ -17,7 +17,7 @@ from vexture.svg.images import Images
 from vexture.svg.links import Links, reference
 from vexture.svg.page import Page
 from vexture.svg.read import Request, found_in
-from vexture.svg.select import symbol_alone, symbols_of
+from vexture.svg.select import Part, symbol_alone, symbols_of
 
 __all__ = ["symbol_drawings"]
 
@@ -57,8 +57,8 @@ def symbol_drawings(
             yield found_in(request).drawing
 
 
-def alone_in(root: etree._Element, name: str) -> set[etree._Element]:
-    """The only element to paint in a document that is there for a symbol."""
+def alone_in(root: etree._Element, name: str) -> Part:
+    """What to paint in a document that is there for a symbol."""
     return symbol_alone(root, symbols_of(root)[name])
 
 
