@@ -66,7 +66,8 @@ FRAMED = {
 @pytest.mark.parametrize(("box", "others"), FRAMED.values(), ids=FRAMED)
 def test_a_symbol_fills_the_frame_of_its_own_view_box(box, others):
     left, top, width, height = map(float, box.split())
-    shapes = f'<path d="M{left} {top}h{width / 2}v{height / 4}z"/><rect width="40%" height="3" stroke="red"/>'
+    rect = f'<rect x="{left}" y="{top}" width="40%" height="3" stroke="red"/>'
+    shapes = f'<path d="M{left} {top}h{width / 2}v{height / 4}z"/>{rect}'
     sheet = "<style>use { x: 5px; width: 1em } symbol { height: 9px } svg { width: 7px }</style>"
     symbol = f'<symbol id="a" viewBox="{box}" {others}>{shapes}</symbol>'
     sprite = f'<svg {ROOT} viewBox="1 2 3 4" height="5">{sheet}{symbol}</svg>'.encode()
@@ -86,9 +87,18 @@ def test_a_symbol_without_a_view_box_has_a_frame_of_its_size_or_of_what_it_paint
     symbols += '<symbol id="small"><path d="M.5 0h.02v.01h-.02z"/></symbol>'
     sized, painted, small = symbol_drawings(f"<svg {ROOT}>{symbols}</svg>".encode(), "sprite.svg")
     assert (sized.sides, sized.notes) == ((0.5, 1.0), ())
-    assert sized.paths[0].box.tolist() == [[0.25, 0.75], [0.75, 1.0]]
+    assert sized.paths[0].box.tolist() == [[0.25, 0.75], [0.5, 1.0]]
     assert painted.paths[0].box.tolist() == [[0.0, 0.0], [1.0, 1.0]]
     assert painted.to_source @ [0.0, 1.0, 1.0] == pytest.approx([-500, 200])
     told = "it has no viewBox and no size; its frame is what it paints, viewBox="
     assert [note.message for note in painted.notes] == [f'{told}"-500 200 6 6"']
     assert [note.message for note in small.notes] == [f'{told}"0.5 0 0.02 0.01"']
+
+
+def test_symbols_that_no_name_leads_to_are_named():
+    symbol = f'<symbol {{}} viewBox="0 0 6 6">{SQUARE}</symbol>'
+    symbols = "".join(map(symbol.format, ('id="up"', 'id="dup"', "", 'id="dup"', 'id=""')))
+    first, second = symbol_drawings(f"<svg {ROOT}>{symbols}</svg>".encode(), "sprite.svg")
+    said = ["symbol without an id (2)", "symbol with the id of another, 'dup'"]
+    assert ([str(note) for note in first.notes], second.notes) == (said, ())
+    assert all(note.is_loss for note in first.notes)

@@ -4,6 +4,7 @@ import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from copy import deepcopy
+from dataclasses import replace
 from functools import partial
 from typing import Final
 
@@ -12,6 +13,8 @@ from lxml import etree
 from vexture.content import about, decompressed
 from vexture.deadline import check_time
 from vexture.drawing import Drawing
+from vexture.errors import shortened
+from vexture.notes import Note, Notes
 from vexture.svg.document import local_name, parse_svg
 from vexture.svg.images import Images
 from vexture.svg.links import Links, reference
@@ -47,6 +50,7 @@ def symbol_drawings(
     named, page = "id" if names is None else names, Page.of(page_colors)
     with about(source):
         root = parse_svg(decompressed(content))
+    unread = unread_symbols(root)  # of the file: the first drawing has them
     sprite = Sprite(root)
     for name in sprite.symbols:
         check_time(source)
@@ -54,7 +58,21 @@ def symbol_drawings(
         with about(f"{source}#{name}"):
             part = partial(sprite.document, name)
             request = Request(part, name, alone, named, fonts, images or Images(), page)
-            yield found_in(request).drawing
+            drawing = found_in(request).drawing
+        yield replace(drawing, notes=(*drawing.notes, *unread))
+        unread = ()
+
+
+def unread_symbols(root: etree._Element) -> tuple[Note, ...]:
+    """Notes about symbols of a sprite that no name leads to."""
+    notes, named = Notes(), set(symbols_of(root).values())
+    for symbol in root.iter("{*}symbol", "symbol"):
+        if local_name(symbol) == "symbol" and symbol not in named:
+            name = symbol.get("id")
+            notes.left_out(
+                f"symbol with the id of another, {shortened(name, 40)!r}" if name else "symbol without an id"
+            )
+    return notes.listed
 
 
 def alone_in(root: etree._Element, name: str) -> Part:
