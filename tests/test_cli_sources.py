@@ -92,3 +92,18 @@ def test_a_chosen_symbol_is_one_shape(tmp_path):
         run("convert", tmp_path / "sprite.svg", "--select", "#icon-6", "--atlas", tmp_path / "one.ktx2").exit_code == 0
     )
     assert names(tmp_path / "one.ktx2") == ["sprite"]
+
+
+@pytest.mark.parametrize("command", ["convert", "render", "gltf"])
+def test_a_sprite_is_refused_where_it_would_be_empty(tmp_path, command):
+    source, target = (
+        tmp_path / "sprite.svg",
+        tmp_path / {"convert": "a.ktx2", "render": "a.png", "gltf": "a.glb"}[command],
+    )
+    source.write_text(SPRITE)
+    result = run(command, source, "-o", target)
+    assert (result.exit_code, target.exists()) == (1, False)
+    assert result.stderr == (
+        f"vexture: {source}: left out: 2 symbols: '#icon-4', '#icon-6' (choose one by --select, or make an atlas "
+        "of all, as `vexture convert --atlas` does); nothing else is in it\n"
+    )

@@ -78,6 +78,8 @@ class Note:
         The first 32 elements that it is about, where the reader knows them.
     is_named : bool
         Whether a line names the first of the elements: they are features, and their names the user's ids.
+    has_remedy : bool
+        Whether the message says what to do, where nothing else is in the source.
 
     Examples
     --------
@@ -92,6 +94,7 @@ class Note:
     count: int = 1
     elements: tuple[Subject, ...] = ()
     is_named: bool = False
+    has_remedy: bool = False
 
     def __str__(self) -> str:
         if self.is_named and self.elements:
@@ -262,6 +265,7 @@ def check_losses(source: str, notes: Sequence[Note], *, is_empty: bool, strict: 
     """
     line = line_of(source, [note for note in notes if note.is_loss])
     if line and is_empty:
-        raise SourceError(f"{line}; nothing else is in it; correct it, or draw it as paths")
+        remedy = "" if any(note.has_remedy for note in notes) else "; correct it, or draw it as paths"
+        raise SourceError(f"{line}; nothing else is in it{remedy}")
     if line and strict:
         raise SourceError(f"{line}; `strict` accepts no such note; correct the source, or leave it out")

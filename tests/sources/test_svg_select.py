@@ -142,8 +142,8 @@ def test_a_symbol_that_is_chosen_is_the_drawing() -> None:
 
 def test_a_sprite_names_its_symbols() -> None:
     notes = [note.message for note in svg_drawing(SPRITE.encode(), "sprite.svg").notes]
-    choice = "choose one by `select`, as '#a', or convert all of them by `atlas`"
-    assert notes == [f"nothing in it is painted, but it has 1 symbol; {choice}"]
+    choice = "choose one by `select`, or make an atlas of all, as `vexture convert --atlas` does"
+    assert notes == [f"1 symbol: '#a' ({choice})"]
 
 
 def test_box_of_a_group_is_that_of_all_that_it_shows() -> None:

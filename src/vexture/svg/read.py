@@ -226,14 +226,13 @@ def at_moment(request: Request, moment: Moment) -> Found:
     scene = Scene(root, report, request.images, elements, request.names, request.fonts, request.page)
     framed = painted_frame(scene) if part is not None and part.is_unframed else frame(scene)
     drawing, to_pixels = drawing_of(scene, framed, request.name)
-    if not drawing.paths:
-        report.remark(unpainted(root) if part is None else UNPAINTED)
-    elif moment.remark:
+    empty = () if drawing.paths else (unpainted(root) if part is None else Note("remark", UNPAINTED),)
+    if drawing.paths and moment.remark:
         report.remark(moment.remark)
     if scene.servers.lacks_color and has_colors(drawing):  # of one colour, it is a shape for any
         report.remark(CURRENT_IS_BLACK)
     notes = report.about(lambda element: subject_of(element, scene.names, scene.boxes, to_pixels))
-    return Found(replace(drawing, notes=notes), None if framed is EMPTY else framed, len(elements or ()))
+    return Found(replace(drawing, notes=(*notes, *empty)), None if framed is EMPTY else framed, len(elements or ()))
 
 
 def drawing_of(scene: Scene, framed: Frame, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:

@@ -9,7 +9,8 @@ import cssselect2
 from lxml import etree
 
 from vexture.deadline import check_time
-from vexture.errors import LimitError, ParameterError, counted, shortened
+from vexture.errors import LimitError, ParameterError, counted, printable, shortened
+from vexture.notes import Note
 from vexture.svg.document import language, local_name
 from vexture.svg.values import INITIAL_SIZE, Viewport, is_relative
 from vexture.svg.viewport import Rectangle, view_box
@@ -28,6 +29,9 @@ __all__ = [
 
 LONGEST_NAMED = 80
 """Most characters of a selector in a message."""
+
+MOST_NAMED = 3
+"""Symbols of a sprite that a message names."""
 
 LINKS = ("href", "{http://www.w3.org/1999/xlink}href")
 
@@ -196,14 +200,15 @@ def use_of(root: etree._Element, symbol: etree._Element, number: int) -> etree._
     return use
 
 
-def unpainted(root: etree._Element) -> str:
-    """Remark about a document that paints nothing: a sprite is one of symbols."""
-    names = [*symbols_of(root)]
+def unpainted(root: etree._Element) -> Note:
+    """Note about a document that paints nothing: of a sprite, one about its symbols, which are left out."""
+    names = [f"#{name}" for name in symbols_of(root)]
     if not names:
-        return UNPAINTED
-    first = f"#{shortened(names[0], LONGEST_NAMED)}"
-    symbols = f"{UNPAINTED}, but it has {counted(len(names), 'symbol')}"
-    return f"{symbols}; choose one by `select`, as {first!r}, or convert all of them by `atlas`"
+        return Note("remark", UNPAINTED)
+    shown = ", ".join(repr(shortened(printable(name), LONGEST_NAMED)) for name in names[:MOST_NAMED])
+    more = ", ..." if len(names) > MOST_NAMED else ""
+    remedy = "choose one by `select`, or make an atlas of all, as `vexture convert --atlas` does"
+    return Note("left out", f"{counted(len(names), 'symbol')}: {shown}{more} ({remedy})", has_remedy=True)
 
 
 def symbols_of(root: etree._Element) -> dict[str, etree._Element]:
