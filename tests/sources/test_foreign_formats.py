@@ -60,9 +60,7 @@ def test_results_of_anuga_and_3di_are_known(tmp_path):
 
 
 def test_unknown_data_are_told_all_that_is_read():
-    with pytest.raises(
-        SourceError, match=r"none of GeoJSON, .*, GeoTIFF, NetCDF and Esri's \.asc and \.flt"
-    ):
+    with pytest.raises(SourceError, match=r"none of GeoJSON, .*, GeoTIFF, NetCDF and Esri's \.asc and \.flt"):
         extent_of(b"\x81\x82\x83", "run.bin")
 
 
