@@ -309,11 +309,9 @@ def read_bytes(source: str | os.PathLike[str] | bytes) -> bytes:
     try:
         with Path(source).open("rb") as file:
             content = file.read(LARGEST_FILE + 1)
-    except IsADirectoryError:
-        raise SourceError("is a folder, and no FileGDB; name a file in it") from None
     except (OSError, ValueError) as error:  # ValueError: a null character in the name
         if isinstance(error, OSError) and Path(source).is_dir():
-            raise SourceError("is a folder; name the files in it") from None
+            raise SourceError("is a folder, and no FileGDB; name a file in it") from None
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise SourceError(f"cannot be read: {reason}; check the file's name and permissions") from None
     return decompressed(content)
