@@ -261,7 +261,7 @@ def test_render_of_an_atlas(square, tmp_path):
         ("all.ktx2", ("--root", "square/1-#00000"), "near names are 'square/1-#000000'"),
         ("all.ktx2", ("--root", "nope"), "no shape 'nope'; there are 'square/1-#000000'"),
         ("all.ktx2", ("--root", "7"), "7"),
-        ("all.ktx2", ("--select", "#word"), "needs the drawing"),
+        ("all.ktx2", ("--select", "#word"), "--select #word is for a drawing; give it to vexture convert"),
         ("all.ktx2", ("--root", "logo", "--renderer", "exact"), "renders drawings"),
         ("logo.svg", ("--root", "logo"), "leave it out"),
         ("logo.svg", ("--select", "#wrod"), "matches no element"),

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 
+import click
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -64,7 +65,10 @@ def test_a_texture_goes_through_a_pipe_into_a_picture(logo):
     assert result.exit_code == 0
     with Image.open(io.BytesIO(result.stdout_bytes)) as image:
         assert image.size == (8, 8)
-    assert "standard input: --select g needs" in run("render", "-", "-o", "x.png", "--select", "g", given=data).stderr
+    assert (
+        "standard input: --select g is for a drawing"
+        in run("render", "-", "-o", "x.png", "--select", "g", given=data).stderr
+    )
 
 
 @pytest.mark.slow
@@ -229,7 +233,7 @@ def test_info_says_that_a_file_is_no_texture(logo):
     assert f"{logo}: it is not a texture; give a texture, which vexture convert makes from a drawing" in result.stderr
 
 
-@pytest.mark.parametrize("command", main.list_commands(None))
+@pytest.mark.parametrize("command", main.list_commands(click.Context(main)))
 def test_every_command_has_help_with_an_example(command):
     result = run(command, "--help")
     assert result.exit_code == 0

@@ -90,8 +90,8 @@ VECTOR_FILES: Final = (
 """Files of features, besides GeoJSON, as messages list them."""
 
 READABLE: Final = (
-    "give an SVG, GeoJSON, a picture (PNG, JPEG, WebP, GIF, BMP) or geographic data "
-    f"({VECTOR_FILES}, GeoTIFF, NetCDF, Esri .asc and .flt); zip a shapefile or a FileGDB to send it"
+    "give an SVG, GeoJSON, a picture (PNG, JPEG, WebP, GIF, BMP) or geographic data (GeoPackage, FlatGeobuf, zipped "
+    "shapefile or FileGDB, KML, GPX, GML, GeoParquet, Feather, CSV, GeoTIFF, NetCDF, Esri grid)"
 )
 """Remedy for a file of no kind that can be read."""
 

@@ -376,6 +376,8 @@ page_colors
         sources = [sources]
     parts = []
     for source in sources:
+        if isinstance(source, bytes):
+            raise TypeError("`source` is of the type bytes; give a path or a Drawing, as vexture.read makes of bytes")
         for part in parts_of(source, parameters):
             parts.append(part)
             if _is_drawing(source):

@@ -47,7 +47,7 @@ def test_a_shapefile_that_is_cut_off_is_damaged(part, most, tmp_path, monkeypatc
     content = place.read_bytes()
     assert len(read_features(tmp_path / "land.shp", notes=Notes())) == 3
     place.write_bytes(content[:-8])
-    monkeypatch.setattr("vexture.geo.feature_tables.LARGEST_FILE", most)
+    monkeypatch.setattr("vexture.geo.vector_files.LARGEST_FILE", most)
     with pytest.raises(SourceError, match=rf"land\.{part} is damaged: it has \d+ of the {len(content)} bytes"):
         read_features(tmp_path / "land.shp", notes=Notes())
 
@@ -109,7 +109,7 @@ def test_metres_that_are_said_to_be_degrees_name_the_option_of_the_source():
     some = frame([shapely.Point(84000, 447000), shapely.Point(4, 52), shapely.Point(5, 52)], "EPSG:4326")
     lost = [str(note) for note in convert_map([MapLayer(some)]).conversion.notes]
     assert "point beyond the map" in lost
-    done = convert_map([MapLayer(squares(), crs="EPSG:4326")], crs=METRES)
+    done = convert_map([MapLayer(squares(), source_crs="EPSG:4326")], crs=METRES)
     (said,) = map(str, done.conversion.notes)
     assert said == "it names its own reference system, EPSG:28992, so EPSG:4326 is not used for it"
 

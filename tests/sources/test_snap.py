@@ -110,7 +110,8 @@ def test_an_area_changes_only_along_its_outline(polygons, distance):
     for old, new in zip(rings, after, strict=True):
         before = shapely.make_valid(shapely.Polygon(old))
         now = shapely.make_valid(shapely.Polygon(new)) if len(new) else shapely.Polygon()
-        assert shapely.buffer(before.symmetric_difference(now), -reach).is_empty
+        if shapely.is_valid(shapely.Polygon(old)):  # what a ring that crosses itself encloses may change by any move
+            assert shapely.buffer(before.symmetric_difference(now), -reach).is_empty
         outline = shapely.linearrings(old)
         assert all(shapely.distance(outline, shapely.points(corner)) <= reach for corner in new)
 

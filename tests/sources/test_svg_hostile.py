@@ -95,7 +95,7 @@ def test_an_element_of_many_attributes_is_refused(tmp_path: Path, where: str) ->
 
 def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
     assert "No such file" in message_of(tmp_path / "missing.svg")
-    assert "directory" in message_of(tmp_path).lower()
+    assert "is a folder" in message_of(tmp_path).lower()
     assert "cannot be read" in message_of("null\0character.svg")
 
 

@@ -22,12 +22,11 @@ function nested(text, [x, y, width, height]) {
   if (root.namespaceURI !== SVG || root.localName !== 'svg' || parsed.querySelector('parsererror')) {
     throw new Error('the browser cannot read this SVG');
   }
-  const framed = root.hasAttribute('viewBox') || (root.hasAttribute('width') && root.hasAttribute('height'));
   Object.entries({ x, y, width, height }).forEach(([name, value]) => root.setAttribute(name, String(value)));
   const { style } = /** @type {SVGSVGElement} */ (/** @type {unknown} */ (root));
   style.setProperty('width', `${width}px`, 'important');
   style.setProperty('height', `${height}px`, 'important');
-  style.setProperty('overflow', framed ? 'hidden' : 'visible', 'important'); // without a size nothing is clipped
+  style.setProperty('overflow', 'hidden', 'important');
   return new XMLSerializer().serializeToString(root);
 }
 

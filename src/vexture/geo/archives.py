@@ -12,7 +12,7 @@ from io import BytesIO
 from pathlib import Path, PurePosixPath
 from typing import Final
 
-from vexture.content import LARGEST_FILE, SHAPEFILE, ZIP, is_geodatabase, read_bytes, start_of
+from vexture.content import LARGEST_FILE, SHAPEFILE, ZIP, is_geodatabase, is_stream, read_bytes, start_of
 from vexture.errors import LimitError, SourceError, printable, reason_of
 from vexture.geo.damage import refuse_cut
 from vexture.geo.named import refuse_files_of_system
@@ -130,6 +130,8 @@ def whole_shapefile(path: Path) -> bytes:
 
 def whole(path: Path) -> bytes | None:
     """A shapefile or FileGDB of several files as one zip; None of anything else."""
+    if is_stream(path):
+        return None
     if is_geodatabase(path):
         return whole_geodatabase(path)
     return whole_shapefile(path) if start_of(path).startswith(SHAPEFILE) else None

@@ -22,7 +22,8 @@ from vexture.svg.viewport import CENTRED, THINNEST, Fit, Rectangle, parse_fit, v
 
 __all__ = ["Pattern", "Tiling", "read_pattern"]
 
-LENGTHS: Final = ("x", "y", "width", "height")
+SIZES: Final = ("width", "height")
+LENGTHS: Final = ("x", "y", *SIZES)
 Value = TypeVar("Value")
 
 
@@ -134,7 +135,7 @@ def read_pattern(chain: list[etree._Element], styles: list[Style], report: Repor
         chain[0],
         chain[holder],
         styles[holder],
-        tuple(said(name, length_text, "0") for name in LENGTHS),
+        tuple(said(name, size_text if name in SIZES else length_text, "0") for name in LENGTHS),
         styles[0].font_size,
         said("patternUnits", lambda text: BOXED.get(text.strip()), True),
         said("patternContentUnits", lambda text: BOXED.get(text.strip()), False),
@@ -148,3 +149,8 @@ def read_pattern(chain: list[etree._Element], styles: list[Style], report: Repor
 def length_text(text: str) -> str | None:
     """A length as it is; None if it is none."""
     return None if WHOLE.length(text, 1.0, 1.0) is None else text
+
+
+def size_text(text: str) -> str | None:
+    """A length as it is; None if it is none, or below 0."""
+    return text if (WHOLE.length(text, 1.0, 1.0) or 0.0) >= 0.0 and length_text(text) else None
