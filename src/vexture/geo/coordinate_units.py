@@ -16,7 +16,8 @@ __all__ = ["refuse_other_units", "refuse_tiny"]
 RADIANS: Final = frozenset({"rad", "radian", "radians"})
 """Units, in lower case, that no reference system here is in."""
 
-WORLD: Final = "EPSG:4326"
+DEGREES: Final = "EPSG:4326"
+"""The system that messages name for degrees."""
 
 TINY: Final = 10.0
 """Units of a projected system. Fewer degrees than this are the extent of most floods."""
@@ -46,7 +47,7 @@ def refuse_other_units(chosen: str, found: str | None, unit: str, box: Bounds, *
         return
     own = _degrees(found) if is_given else None
     if ("degree" in unit.lower() or own) and like_degrees(box):
-        remedy = f"{'leave it out or ' if own or is_given else ''}give `crs` {shown_system(own or WORLD)}"
+        remedy = f"{'leave it out or ' if own or is_given else ''}give `crs` {shown_system(own or DEGREES)}"
         raise (ParameterError if is_given else SourceError)(
             f"{_named(chosen, is_given)} is not in degrees, and the coordinates {shown} are; {remedy}"
         )
@@ -67,7 +68,7 @@ def refuse_tiny(chosen: str, box: Bounds, *, is_given: bool) -> None:
         return
     raise (ParameterError if is_given else SourceError)(
         f"the coordinates {_shown(box)} look like degrees, and {_named(chosen, is_given)} is not in degrees: "
-        f"{east - west:g} x {north - south:g} of its units are no flood; give `crs` {WORLD}"
+        f"{east - west:g} x {north - south:g} of its units are no flood; give `crs` {DEGREES}"
         + (", or leave it out if the file names its own" if is_given else "")
     )
 
@@ -87,7 +88,7 @@ def _area(crs: str) -> Bounds | None:
     if area is None:
         code = system(crs).to_epsg(min_confidence=LIKELY)
         area = None if code is None else system(f"EPSG:{code}").area_of_use
-    return None if area is None else transformed_bounds(area.bounds, WORLD, crs)
+    return None if area is None else transformed_bounds(area.bounds, DEGREES, crs)
 
 
 def _degrees(found: str | None) -> str | None:

@@ -60,6 +60,7 @@ class _Shape:
     parts: list["_Shape"] = field(default_factory=list)
 
     def each(self) -> Iterator["_Shape"]:
+        """The geometry and all that it consists of."""
         yield self
         for part in self.parts:
             yield from part.each()
