@@ -22,6 +22,7 @@ __all__ = [
     "DELIMITERS",
     "ESRI_GRID",
     "FLATGEOBUF",
+    "GRIB",
     "LARGEST_FILE",
     "NETCDF",
     "PARQUET",
@@ -74,6 +75,9 @@ TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
 """First bytes of TIFF and BigTIFF, and of NetCDF of all kinds."""
 
+GRIB: Final = b"GRIB"
+"""First bytes of GRIB of all editions."""
+
 ESRI_GRID: Final = (b"ncols", b"nrows", b"xll", b"yll", b"cellsize")
 """First bytes of Esri's ASCII grid, in lower case; those of its .flt are numbers."""
 
@@ -91,7 +95,7 @@ VECTOR_FILES: Final = (
 
 READABLE: Final = (
     "give an SVG, GeoJSON, a picture (PNG, JPEG, WebP, GIF, BMP) or geographic data (GeoPackage, FlatGeobuf, zipped "
-    "shapefile or FileGDB, KML, GPX, GML, GeoParquet, Feather, CSV, GeoTIFF, NetCDF, Esri grid)"
+    "shapefile or FileGDB, KML, GPX, GML, GeoParquet, Feather, CSV, GeoTIFF, NetCDF, GRIB, Esri grid)"
 )
 """Remedy for a file of no kind that can be read."""
 
@@ -132,7 +136,7 @@ SUFFIXES: Final[dict[FileKind, tuple[str, ...]]] = {
     FileKind.TEXTURE: (".ktx2",),
     FileKind.GEOJSON: (".geojson", ".json", ".geojsons", ".geojsonl", ".ndjson"),
     FileKind.AREAS: (".gpkg", ".fgb", ".shp", ".gdb", ".kml", ".kmz", ".gpx", ".gml", ".csv", ".tsv", ".sqlite"),
-    FileKind.DEPTHS: (".tif", ".tiff", ".nc", ".nc4", ".cdf", ".asc", ".flt"),
+    FileKind.DEPTHS: (".tif", ".tiff", ".nc", ".nc4", ".cdf", ".asc", ".flt", ".grib", ".grib2", ".grb", ".grb2"),
 }
 """Suffixes for files of unknown content: the reader that they name reports best what is wrong with them."""
 
@@ -158,7 +162,7 @@ def kind_of(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
         return FileKind.PICTURE
     if start.startswith((FLATGEOBUF, SHAPEFILE, SQLITE, ZIP, PARQUET, ARROW)) or markup_of(start):
         return FileKind.AREAS
-    if start.startswith((*TIFF, *NETCDF)) or start.lstrip().lower().startswith(ESRI_GRID):
+    if start.startswith((*TIFF, *NETCDF, GRIB)) or start.lstrip().lower().startswith(ESRI_GRID):
         return FileKind.DEPTHS
     first = start.removeprefix(BYTE_ORDER_MARK).lstrip()[:1]
     if first in (b"{", RECORD):

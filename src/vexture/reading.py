@@ -67,8 +67,8 @@ def read(
     - GeoJSON (`vexture.read_geojson`).
     - PNG, JPEG, WebP, GIF or BMP, traced (`vexture.read_image`; needs ``vexture[trace]``).
     - Wet areas of a GeoPackage, SpatiaLite, FlatGeobuf, zipped shapefile or FileGDB, KML, KMZ, GPX, GML, GeoTIFF,
-      Esri grid or NetCDF, of a series at its first time (`vexture.read_extent`; needs ``vexture[gis]``), GeoParquet,
-      Feather or CSV (``vexture[map]``).
+      Esri grid, NetCDF or GRIB, of a series at its first time (`vexture.read_extent`; needs ``vexture[gis]``),
+      GeoParquet, Feather or CSV (``vexture[map]``).
 
     Parameters
     ----------
@@ -276,7 +276,7 @@ def read_extent(
     Parameters
     ----------
     source : path, bytes, Dataset or DataArray
-        Polygons (in any format that `vexture.read` takes) or depths (GeoTIFF, Esri's .asc and .flt, NetCDF: on
+        Polygons (in any format that `vexture.read` takes) or depths (GeoTIFF, Esri's .asc and .flt, GRIB, NetCDF: on
         rows and columns, a curvilinear grid or a mesh); or depths as xarray holds them, read one step at a time.
     file_name : str, optional
         Name of the file and of the drawings; by default the path.

@@ -41,7 +41,7 @@ def test_a_grid_of_floats_needs_its_header(tmp_path):
     path.with_suffix(".hdr").unlink()
     with pytest.raises(SourceError, match=r"a \.hdr of its name, must be beside it"):
         read_depths(path, "a.flt", crs="EPSG:28992")
-    with pytest.raises(SourceError, match="none of GeoTIFF, NetCDF and grids of Esri"):
+    with pytest.raises(SourceError, match="none of GeoTIFF, NetCDF, GRIB and grids of Esri"):
         read_depths(path.read_bytes(), "a.flt", crs="EPSG:28992")
 
 

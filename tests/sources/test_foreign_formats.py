@@ -21,7 +21,6 @@ STARTS = [
     ("run.dfsu", MIKE, r"a \.dfsu of MIKE, which is not read; bring it onto a grid"),
     ("run.dat", (3000).to_bytes(4, "little") + bytes(60), "a dataset of SMS, as TUFLOW writes, which is not read"),
     ("run.2dm", b"MESH2D\nE3T 1 1 2 3 1\n", "as TUFLOW writes, which is not read"),
-    ("run.grib2", b"GRIB\0\0\0\x02" + bytes(60), "GRIB, which is not read; write it as NetCDF: cdo"),
 ]
 
 
@@ -60,7 +59,7 @@ def test_results_of_anuga_and_3di_are_known(tmp_path):
 
 
 def test_unknown_data_are_told_all_that_is_read():
-    with pytest.raises(SourceError, match=r"none of GeoJSON, .*, GeoTIFF, NetCDF and Esri's \.asc and \.flt"):
+    with pytest.raises(SourceError, match=r"none of GeoJSON, .*, GeoTIFF, NetCDF, GRIB and Esri's \.asc and \.flt"):
         extent_of(b"\x81\x82\x83", "run.bin")
 
 

@@ -133,7 +133,7 @@ def test_a_lonely_shapefile_says_what_it_needs(tmp_path: Path) -> None:
 
 def test_what_is_nothing_is_named_by_its_source(tmp_path: Path) -> None:
     for name, why in (
-        ("a.nc", "none of GeoTIFF, NetCDF and grids of Esri"),
+        ("a.nc", "none of GeoTIFF, NetCDF, GRIB and grids of Esri"),
         ("a.geojson", "not JSON"),
         ("a.txt", "holds nothing that can be read"),
     ):

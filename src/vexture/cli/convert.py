@@ -164,7 +164,7 @@ def convert(
     """Convert drawings into textures.
 
     A source is an SVG, GeoJSON, a picture to trace (PNG, JPEG, WebP, GIF, BMP), geographic data (polygons in any
-    format that vexture map reads; depths in GeoTIFF, a grid of Esri or NetCDF, at the first time), a folder, for the
+    format that vexture map reads; depths in GeoTIFF, Esri grid, NetCDF or GRIB, at the first time), a folder, for the
     SVGs in it, or - for standard input.
     """
     with one_line():

@@ -98,7 +98,7 @@ def flood(
     """Show a flood as a living sea, on one page or on a server.
 
     The extent is wet places in any format that vexture map reads (but TopoJSON), or depths: GeoTIFF, a grid of Esri
-    (.asc, .flt), or NetCDF on rows and columns, a curvilinear grid, or a mesh (UGRID: D-Flow FM, ADCIRC, SCHISM).
+    (.asc, .flt), GRIB, or NetCDF on rows and columns, a curvilinear grid, or a mesh (UGRID: D-Flow FM, ADCIRC, SCHISM).
     """
     from vexture.geo.crs import gis_packages
 

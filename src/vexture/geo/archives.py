@@ -32,7 +32,7 @@ SINGLE: Final = (
 )
 """Suffixes of formats that are one file."""
 
-DEPTHS: Final = (".tif", ".tiff", ".nc", ".nc4", ".asc", ".flt")
+DEPTHS: Final = (".tif", ".tiff", ".nc", ".nc4", ".asc", ".flt", ".grib", ".grib2", ".grb", ".grb2")
 """Suffixes of rasters and meshes of depths."""
 
 KML: Final = ".kml"

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.content import NETCDF, TIFF, start_of, unpacked
+from vexture.content import GRIB, NETCDF, TIFF, start_of, unpacked
 from vexture.drawing import Drawing
 from vexture.errors import ParameterError, SourceError
 from vexture.geo.coordinate_units import refuse_other_units
@@ -43,7 +43,7 @@ def read_depths(
     depths: Sequence[float] = (),
     workers: Workers | None = None,
 ) -> Extent:
-    """Read where water is from a GeoTIFF, or from NetCDF or xarray: on rows and columns, straight or not, or on a mesh.
+    """Read where water is from a GeoTIFF, GRIB, NetCDF or xarray: on rows and columns, straight or not, or on a mesh.
 
     A file named as a partition of D-Flow FM, ``run_0000_map.nc``, is read with all others of its run beside it.
     Parameters and errors as in `vexture.read_extent`.
@@ -188,10 +188,16 @@ def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Note
             return
         with opened(source, time_dim) as dataset:
             yield _series_of(dataset, time_dim, variable, notes)
+    elif start.startswith(GRIB):
+        from vexture.geo.grib import opened_fields
+        from vexture.geo.netcdf import opened
+
+        with opened_fields(source, variable, notes) as fields, opened(fields, time_dim) as dataset:
+            yield _series_of(dataset, time_dim, variable, notes)
     elif not start:
         raise SourceError("it cannot be opened or is empty; choose another file")
     else:
-        raise SourceError("it is none of GeoTIFF, NetCDF and grids of Esri (.asc, .flt); write it as one of them")
+        raise SourceError("it is none of GeoTIFF, NetCDF, GRIB and grids of Esri (.asc, .flt); write it as one of them")
 
 
 def _is_esri_grid(start: bytes, source: Any) -> bool:

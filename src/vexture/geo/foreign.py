@@ -16,7 +16,6 @@ QGIS: Final = (
     'add it to QGIS as a mesh layer, and write the depth as GeoTIFF by the tool "Rasterize mesh dataset" of Processing'
 )
 RAS_MAPPER: Final = "write the depth as GeoTIFF: a stored map of RAS Mapper, with the parameter Depth"
-CDO: Final = "write it as NetCDF: cdo -f nc copy IN OUT"
 MIKEIO: Final[dict[str, str]] = {
     ".dfs0": "it is of points, and has no area; give the .dfs2 or .dfsu of the run",
     ".dfsu": "bring it onto a grid by mikeio (interp_like, with its get_overset_grid), and write that by to_xarray()"
@@ -43,13 +42,11 @@ def refuse_foreign(start: bytes, file_name: str) -> None:
 
     Examples
     --------
-    >>> refuse_foreign(b"GRIB", "a.grib")
+    >>> refuse_foreign(b"DHI_DFS_", "a.dfs2")  # doctest: +ELLIPSIS
     Traceback (most recent call last):
-    vexture.errors.SourceError: it is GRIB, which is not read; write it as NetCDF: cdo -f nc copy IN OUT
+    vexture.errors.SourceError: it is a .dfs2 of MIKE, which is not read; write it as NetCDF by mikeio: ...
     """
     suffix = Path(file_name).suffix.lower()
-    if start.startswith(b"GRIB"):
-        raise _foreign("GRIB", CDO)
     if start.startswith(b"DHI_DFS_"):
         raise _foreign(f"a {suffix if suffix.startswith('.dfs') else '.dfs'} of MIKE", MIKEIO.get(suffix, DFS2))
     if start.startswith(RECORD) and start[TITLE].strip() in (b"SERAFIN", b"SERAFIND", b"SELAFIN"):

@@ -20,13 +20,14 @@ from vexture.geo.named import refuse_files_of_system
 if TYPE_CHECKING:
     from rasterio import DatasetReader
 
-__all__ = ["opened_raster", "plain_place", "vector_formats"]
+__all__ = ["opened_grib", "opened_raster", "plain_place", "vector_formats"]
 
 CACHE: Final = 128 * 2**20
 """Bytes of blocks that GDAL keeps, which by default takes a twentieth of the memory. A row of blocks of a raster of
 50,000 columns has 100 MB."""
 
 GEOTIFF: Final = "GTiff"
+GRIB_DRIVER: Final = "GRIB"
 NETCDF_DRIVER: Final = "netCDF"
 OTHERS: Final[Mapping[str, tuple[bytes, ...]]] = {
     "AAIGrid": ESRI_GRID,
@@ -122,6 +123,24 @@ def opened_raster(source: str | os.PathLike[str] | bytes, *, others: bool = Fals
                 file = stack.enter_context(memory.open(driver=driver))
             else:
                 file = stack.enter_context(rasterio.open(path, driver=driver))
+        refuse_links_in(file)
+        yield file
+
+
+@contextmanager
+def opened_grib(content: bytes) -> Iterator["DatasetReader"]:
+    """Open the content of a file of GRIB, with units as they are written, and without an index of its messages.
+
+    Raises what rasterio raises if it cannot be opened.
+    """
+    from rasterio.io import MemoryFile
+
+    with ExitStack() as stack:
+        stack.enter_context(gdal(GRIB_NORMALIZE_UNITS="NO"))
+        memory = stack.enter_context(MemoryFile(content))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about a missing place, which who reads it tells
+            file = stack.enter_context(memory.open(driver=GRIB_DRIVER, USE_IDX="NO"))
         refuse_links_in(file)
         yield file
 

@@ -96,7 +96,7 @@ def _areas(
     if not is_table(source):
         if not is_geodatabase(source) and kind_of(start_of(source), file_name) is FileKind.SVG:  # by no other sign
             raise SourceError(
-                f"it is none of GeoJSON, {VECTOR_FILES}, GeoTIFF, NetCDF and Esri's .asc and .flt; "
+                f"it is none of GeoJSON, {VECTOR_FILES}, GeoTIFF, NetCDF, GRIB and Esri's .asc and .flt; "
                 "convert it to one of them"
             )
         return read_areas(source, file_name, layer, notes)

@@ -41,7 +41,7 @@ OPTIONS: Final[dict[FileKind, tuple[str, ...]]] = {
 }
 """Parameters of the reader by kind of data; data of other kinds are not georeferenced."""
 
-KINDS: Final = f"GeoJSON, {VECTOR_FILES} (a shapefile or FileGDB zipped), GeoTIFF, NetCDF or a packed texture"
+KINDS: Final = f"GeoJSON, {VECTOR_FILES} (a shapefile or FileGDB zipped), GeoTIFF, NetCDF, GRIB or a packed texture"
 
 
 @dataclass(frozen=True, slots=True)
