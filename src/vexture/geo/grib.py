@@ -14,9 +14,10 @@ import numpy as np
 
 from vexture.content import LARGEST_FILE, read_bytes
 from vexture.deadline import check_time
-from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.geo.gdal import opened_grib
 from vexture.geo.grib_messages import checked_fields
+from vexture.geo.unheard import unheard
 from vexture.geo.variables import listed
 from vexture.notes import Notes
 
@@ -68,8 +69,8 @@ def opened_fields(source: bytes | str | os.PathLike[str], variable: str | None, 
     with ExitStack() as stack:
         try:
             file = stack.enter_context(opened_grib(content))
-        except (RasterioError, OSError) as error:
-            raise SourceError(f"it cannot be read as GRIB ({reason_of(error)}); write it again") from None
+        except (RasterioError, OSError):
+            raise SourceError("GDAL cannot read its grid; write it as NetCDF: cdo -f nc copy IN OUT") from None
         if file.count < held:
             notes.remark(f"of its {held:,} fields, {file.count:,} can be read; write the others again")
         yield _dataset(file, variable)
@@ -179,10 +180,9 @@ def _values(file: "DatasetReader", bands: Sequence[int]) -> Any:
         def _read(self, key: Any) -> Any:
             step, rows, columns = key
             wanted = np.asarray(bands)[step]
-            read = [
-                file.read(int(band), masked=True).astype(np.float64).filled(np.nan)[rows, columns]
-                for band in np.atleast_1d(wanted)
-            ]
+            with unheard():
+                decoded = [file.read(int(band), masked=True) for band in np.atleast_1d(wanted)]
+            read = [values.astype(np.float64).filled(np.nan)[rows, columns] for values in decoded]
             return np.stack(read) if wanted.ndim else read[0]
 
     return LazilyIndexedArray(Values())
