@@ -143,4 +143,4 @@ def _band(file: "DatasetReader", band: int, rows: slice, columns: slice, metres:
         values: Values = read.filled(0).astype(np.float64) * scale + offset
     values[np.ma.getmaskarray(read)] = np.nan
     codes = () if file.nodatavals[band - 1] is not None else codes_of_integers(file.dtypes[band - 1], scale, offset)
-    return without_undeclared(values, codes, metres, f"band {band}", notes)
+    return without_undeclared(values, codes, metres, f"band {band}", notes, are_depths=True)

@@ -110,7 +110,7 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None, notes: 
             )
     if has_flags(dataset[chosen]):
         return _classes(dataset, chosen, is_level, read_bed)
-    read = reader_of(dataset[chosen], notes=notes)
+    read = reader_of(dataset[chosen], notes=notes, are_depths=not is_level)
     if is_level and read_bed is not None:
         return Depths(chosen, lambda places, order: read(places, order) - read_bed(places, order), read_bed, METRES)
     return Depths(chosen, read, read_bed, _meaning(dataset[chosen]))
@@ -206,7 +206,14 @@ def _longest(dataset: Any, names: list[str]) -> list[str]:
     return [name for name in found if not name.lower().endswith("max")] or found
 
 
-def reader_of(variable: Any, sign: float = 1.0, notes: Notes | None = None, unit: float | None = None) -> Reader:
+def reader_of(
+    variable: Any,
+    sign: float = 1.0,
+    notes: Notes | None = None,
+    unit: float | None = None,
+    *,
+    are_depths: bool = False,
+) -> Reader:
     """Function that reads a variable in metres, times a sign, and keeps what it read last: a bed without times stays.
 
     `unit` is what the numbers are multiplied by in place of the metres in their unit; `notes` take what is unknown
@@ -218,7 +225,7 @@ def reader_of(variable: Any, sign: float = 1.0, notes: Notes | None = None, unit
     def again(places: dict[Any, Any], order: tuple[str, ...]) -> Values:
         key = ({dim: place for dim, place in places.items() if dim in variable.dims}, order)
         if not last or last[0][0] != key:
-            last[:] = [(key, sign * metres * _read(variable, places, order, metres, notes))]
+            last[:] = [(key, sign * metres * _read(variable, places, order, metres, notes, are_depths))]
         return last[0][1]
 
     return again
@@ -316,7 +323,14 @@ def loaded(variable: Any) -> Any:
         raise SourceError(f"variable {variable.name!r} cannot be read ({why}); write the file again") from None
 
 
-def _read(variable: Any, places: dict[Any, Any], order: tuple[str, ...], metres: float, notes: Notes | None) -> Values:
+def _read(
+    variable: Any,
+    places: dict[Any, Any],
+    order: tuple[str, ...],
+    metres: float,
+    notes: Notes | None,
+    are_depths: bool,
+) -> Values:
     """Values of a variable in its unit, at the given places along its dimensions, with the dimensions in an order."""
     taken = variable.isel({dim: place for dim, place in places.items() if dim in variable.dims})
     extra = [dim for dim in taken.dims if dim not in order]
@@ -330,7 +344,8 @@ def _read(variable: Any, places: dict[Any, Any], order: tuple[str, ...], metres:
         values: Values = loaded(taken.transpose(*order)).astype(np.float64)
     if has_flags(variable):
         return values
-    return without_undeclared(values, codes_of(variable), metres, repr(str(variable.name)), notes)
+    name = repr(str(variable.name))
+    return without_undeclared(values, codes_of(variable), metres, name, notes, are_depths=are_depths)
 
 
 def unit_of(variable: Any) -> str:
