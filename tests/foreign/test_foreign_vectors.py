@@ -8,7 +8,7 @@ from click.testing import CliRunner
 from links import made
 from outside import one_line, told
 from server import serving
-from vector_links import IGNORED, NOTED, REFUSED, gml, kml, zipped
+from vector_links import IGNORED, NOTED, REFUSED, geodatabase, gml, kml, zipped
 
 import vexture
 from vexture.cli.main import main
@@ -16,6 +16,7 @@ from vexture.errors import SourceError
 from vexture.geo.crs import MissingReferenceError
 from vexture.geo.features import feature_batches, read_features
 from vexture.notes import Notes
+from vexture.reading import content_of
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="inotify, which sees files that are opened, is Linux's")
 
@@ -57,6 +58,30 @@ def test_servers_and_the_command_line_are_led_nowhere(folder, outside):
             server.put(f"a{number}", source.read_bytes())
         assert outside.touched() == []
         assert server.ask("GET", "/openapi.json")[0] == 200
+
+
+@pytest.mark.parametrize("part", ["a00000009.gdbtable", "a00000009.gdbtablx", "a00000001.gdbtable", "gdb"])
+def test_a_geodatabase_leads_nowhere(part, folder, outside):
+    base = geodatabase(folder)
+    assert len(read_features(base, notes=Notes())) == 1
+    secret = outside.folder / f"secret.{part}"
+    (base / part).rename(secret)
+    (base / part).symlink_to(secret)
+    outside.touched()
+    for work in (lambda path: read_features(path, notes=Notes()), vexture.read, vexture.read_extent, content_of):
+        said = one_line(told(work, base))
+        assert f"its {part} is a link to another place, and no other file is read" in said
+    outcome = CliRunner().invoke(main, ["map", str(base), "-o", str(folder / "a.ktx2")])
+    assert "is a link to another place" in one_line(outcome.output.strip())
+    assert outside.touched() == []
+
+
+def test_links_within_a_geodatabase_and_to_one_are_followed(folder):
+    base = geodatabase(folder)
+    (base / "gdb").rename(base / "own")
+    (base / "gdb").symlink_to("own")
+    (folder / "b.gdb").symlink_to(base)
+    assert len(read_features(folder / "b.gdb", notes=Notes())) == 1
 
 
 def test_what_is_beside_a_file_of_features_is_not_read(folder):

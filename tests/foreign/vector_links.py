@@ -79,6 +79,16 @@ def spatialite(folder, *statements):
     return path
 
 
+def geodatabase(folder):
+    path = folder / "a.gdb"
+    with warnings.catch_warnings(action="ignore"):
+        pyogrio.raw.write(
+            path, shapely.to_wkb(np.array([BOX], object)), [np.array(["a"], object)], ["name"], driver="OpenFileGDB",
+            geometry_type="Polygon", crs="EPSG:4326", layer="one",
+        )  # fmt: skip
+    return path
+
+
 def made_of(folder, using):
     sql = f"create virtual table vt using {using}"
     insert = "insert into sqlite_master (type, name, tbl_name, rootpage, sql) values ('table', 'vt', 'vt', 0, ?)"

@@ -17,7 +17,17 @@ from vexture.errors import LimitError, SourceError, printable, reason_of
 from vexture.geo.damage import refuse_cut
 from vexture.geo.named import refuse_files_of_system
 
-__all__ = ["FOLDER", "KML", "MAIN", "packed_files", "unzipped", "whole", "whole_geodatabase", "whole_shapefile"]
+__all__ = [
+    "FOLDER",
+    "KML",
+    "MAIN",
+    "packed_files",
+    "refuse_links_of_folder",
+    "unzipped",
+    "whole",
+    "whole_geodatabase",
+    "whole_shapefile",
+]
 
 PARTS: Final = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 """Files of one shapefile, of which the first two are required."""
@@ -139,6 +149,7 @@ def whole(path: Path) -> bytes | None:
 
 def whole_geodatabase(path: Path) -> bytes:
     """Content of the folder of a FileGDB, in one zip; equal files give equal bytes."""
+    refuse_links_of_folder(path)
     files = {}
     for each in sorted(path.iterdir()):
         if each.is_file():
@@ -146,6 +157,17 @@ def whole_geodatabase(path: Path) -> bytes:
             if sum(map(len, files.values())) > LARGEST_FILE:
                 raise SourceError(f"its files are larger than {LARGEST_FILE:,} bytes; split it")
     return _geodatabase(files)
+
+
+def refuse_links_of_folder(path: Path) -> None:
+    """Raise a `SourceError` if a file of the folder of a FileGDB is a symbolic link to one elsewhere."""
+    place = os.path.realpath(path)
+    for each in sorted(path.iterdir()):
+        if each.is_symlink() and os.path.dirname(os.path.realpath(each)) != place:
+            raise SourceError(
+                f"its {printable(each.name)} is a link to another place, and no other file is read; copy the whole "
+                "folder, with what links lead to (cp -rL)"
+            )
 
 
 def packed_files(content: bytes) -> tuple[str, dict[str, bytes]]:

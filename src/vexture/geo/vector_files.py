@@ -28,7 +28,7 @@ from vexture.content import (
     start_of,
 )
 from vexture.errors import SourceError
-from vexture.geo.archives import FOLDER, KML, MAIN, packed_files, unzipped, whole_shapefile
+from vexture.geo.archives import FOLDER, KML, MAIN, packed_files, refuse_links_of_folder, unzipped, whole_shapefile
 from vexture.geo.damage import HEADER, refuse_cut
 from vexture.geo.databases import as_geopackage, refuse_links_of_database
 from vexture.geo.gdal import plain_place
@@ -79,6 +79,7 @@ def opened_vectors(source: str | os.PathLike[str] | bytes) -> Iterator[VectorFil
         place = plain_place(source)
         if not place.lower().endswith(".gdb"):
             raise SourceError("is the folder of a FileGDB, but its name does not end in .gdb; rename it")
+        refuse_links_of_folder(Path(place))
         yield VectorFile(place, GEODATABASE)
         return
     placed = None if isinstance(source, bytes) else _on_disk(Path(source))
