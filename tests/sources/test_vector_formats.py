@@ -250,6 +250,27 @@ def test_codes_in_csv_keep_their_zeros():
     assert found.points.points[:, 0].tolist() == [4.5, 5.0, 6.0]
 
 
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_decimal_commas_of_csv_are_read(separator):
+    lines = ["lon;lat;depth;code;people;word", "4,5;52,25;-0,5;01,5;1,234;1,5 m", ";;;;;", "5;52;12;2;3;2"]
+    found = read_features("\n".join(lines).replace(";", separator).encode(), notes=Notes())
+    assert found.points.points.tolist() == [[4.5, 52.25], [5.0, 52.0]]
+    columns = {name: found.table[name].to_pylist() for name in ("depth", "code", "people", "word")}
+    assert columns["depth"] == [-0.5, None, 12.0]
+    assert columns["people"] == [1.234, None, 3.0]
+    assert columns["code"] == ["01,5", None, "2"]
+    assert columns["word"] == ["1,5 m", None, "2"]
+
+
+def test_commas_that_are_no_decimal_ones_stay():
+    content = b"lon;lat;people;share;all\n4.5;52;1,234;0,5;1,234,567\n5;52;12,345;12,345;1\n"
+    table = read_features(content, notes=Notes()).table
+    assert table["people"].to_pylist() == ["1,234", "12,345"]  # beside decimal points, commas may be of thousands
+    assert table["share"].to_pylist() == [0.5, 12.345]
+    assert table["all"].to_pylist() == ["1,234,567", "1"]
+    assert read_features(b'lon,lat,a\n4,52,"1,5"\n', notes=Notes()).table["a"].to_pylist() == ["1,5"]
+
+
 def test_a_long_first_line_of_csv_is_read_as_a_whole():
     names = [f"column_{number:04}" for number in range(500)]
     content = f"lon,lat,{','.join(names)}\n4,52,{','.join('1' for _ in names)}\n"

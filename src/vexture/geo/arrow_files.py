@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from vexture.content import ARROW, PARQUET, Header, header_of, read_bytes, start_of
 from vexture.errors import SourceError, shortened
 from vexture.geo.curves import BROKEN
+from vexture.geo.decimal_commas import with_decimal_commas
 from vexture.geo.geojson import WORLD
 from vexture.geo.wkt import wkb_of_texts
 
@@ -113,7 +114,7 @@ def _csv(content: bytes) -> "pyarrow.Table":
         shown = ", ".join(header.names[:MOST_NAMED]) + (", ..." if len(header.names) > MOST_NAMED else "")
         raise SourceError(f"its first line names no columns of places (wkt, or lon and lat, or x and y): {shown}")
     _refuse_repeated(header.names)
-    table = _columns(content, header)
+    table = with_decimal_commas(_columns(content, header), header)
     if header.text is not None:
         shapes = _from_texts(table.column(header.text), header.text)
         table = table.drop_columns([header.text])
