@@ -2,14 +2,18 @@
 
 import json
 
+import geopandas
 import numpy as np
 import pytest
 import rasterio
+import shapely
 import xarray
 from rasterio.transform import Affine
 
 from vexture.errors import ParameterError, SourceError
 from vexture.geo.depths import read_depths
+from vexture.geo.features import feature_batches, read_features
+from vexture.notes import Notes
 from vexture.reading import extent_of
 
 DEGREES = {"x": {"units": "degrees_east"}, "y": {"units": "degrees_north"}}
@@ -87,6 +91,32 @@ def test_degrees_are_refused_also_where_a_system_is_used_around_its_origin(tmp_p
     path = grid(tmp_path / "a.asc", 4.0, 52.0, 0.01)
     with pytest.raises(ParameterError, match="look like degrees"):
         extent_of(path, "a.asc", crs=crs)
+
+
+@pytest.mark.parametrize("box", [(-6.0, 42.0, 12.0, 53.0), (-125.0, 25.0, -67.0, 49.0)])
+def test_degrees_of_a_country_are_refused_far_from_where_a_system_is_used(tmp_path, box):
+    path = shape(tmp_path / "a.geojson", *box)
+    table = f'WKT\n"{shapely.box(*box).wkt}"\n'.encode()
+    said = r"look like degrees, and `crs` EPSG:28992 is not in degrees: it is used far from there; give `crs` EPSG:4326"
+    with pytest.raises(ParameterError, match=said):
+        extent_of(path, "a.geojson", crs="EPSG:28992")
+    for read in (read_features, lambda *given, **options: [*feature_batches(*given, **options)]):
+        with pytest.raises(ParameterError, match=said):
+            read(table, crs="EPSG:28992", notes=Notes())
+
+
+def test_a_map_of_degrees_in_a_system_of_metres_is_refused(tmp_path):
+    frame = geopandas.read_file(shape(tmp_path / "a.geojson", 4.0, 52.0, 7.0, 53.0)).set_crs(28992, allow_override=True)
+    for geometry in (frame.geometry, frame.representative_point(), frame.boundary):
+        with pytest.raises(SourceError, match="look like degrees, and its system EPSG:28992 is not in degrees"):
+            read_features(frame.set_geometry(geometry), notes=Notes())
+    assert len(read_features(frame.set_crs(4326, allow_override=True), notes=Notes())) == 1
+
+
+@pytest.mark.parametrize("box", [(5.0, 5.0, 105.0, 45.0), (-50.0, -20.0, 50.0, 20.0)])
+def test_a_plane_that_begins_near_the_origin_is_read(tmp_path, box):
+    path = shape(tmp_path / "a.geojson", *box)
+    assert extent_of(path, "a.geojson", crs="EPSG:28992").frame.bounds == box
 
 
 def test_a_flume_of_metres_around_the_origin_is_read(tmp_path):

@@ -11,7 +11,7 @@ from vexture.geo.crs import UNPLACED, chosen_crs, like_degrees, shown_system, sy
 from vexture.geo.extent import Bounds
 from vexture.geo.lengths import NO_UNIT, metres_in
 
-__all__ = ["refuse_other_units", "refuse_tiny"]
+__all__ = ["refuse_degrees", "refuse_other_units"]
 
 RADIANS: Final = frozenset({"rad", "radian", "radians"})
 """Units, in lower case, that no reference system here is in."""
@@ -19,11 +19,14 @@ RADIANS: Final = frozenset({"rad", "radian", "radians"})
 DEGREES: Final = "EPSG:4326"
 """The system that messages name for degrees."""
 
-TINY: Final = 10.0
-"""Units of a projected system. Fewer degrees than this are the extent of most floods."""
+FAR: Final = 10.0
+"""Sizes of what there is, from it to where its system is used: none of metres lies there."""
+
+ORIGIN: Final = 0.1
+"""Share of its size by which a plane of its own may begin beside the origin."""
 
 LEAST: Final = 1.0
-"""Units of a projected system. No flood of the world has so few, wherever it is."""
+"""Units of a projected system. No flood or map of the world has so few, wherever it is."""
 
 LIKELY: Final = 25
 """Percent. How sure it is that a system without an area is one that is known."""
@@ -51,34 +54,49 @@ def refuse_other_units(chosen: str, found: str | None, unit: str, box: Bounds, *
         raise (ParameterError if is_given else SourceError)(
             f"{_named(chosen, is_given)} is not in degrees, and the coordinates {shown} are; {remedy}"
         )
-    refuse_tiny(chosen, box, is_given=is_given)
+    refuse_degrees(chosen, box, is_given=is_given)
 
 
-def refuse_tiny(chosen: str, box: Bounds, *, is_given: bool) -> None:
-    """Refuse a projected system for coordinates that are as small as degrees, and as near to one another.
+def refuse_degrees(chosen: str, box: Bounds, *, is_given: bool, near: float = 0.0) -> None:
+    """Refuse a projected system for coordinates that are as small as degrees.
 
-    They must lie where the system is not used, or be nearer than any flood is. Those around the origin are a plane of
-    its own, such as the flume of a laboratory.
+    They must lie far from where the system is used, or be nearer to one another than those of any flood or map. Those
+    around the origin, or that begin at most `near` units from it, are a plane of its own, such as the flume of a
+    laboratory or a drawing.
     """
     west, south, east, north = box
     size = max(east - west, north - south)
-    if chosen == UNPLACED or not system(chosen).is_projected or not like_degrees(box) or size > TINY:
+    if (
+        chosen == UNPLACED
+        or not system(chosen).is_projected
+        or not like_degrees(box)
+        or _begins_within(box, max(near, ORIGIN * size))
+    ):
         return
-    if (west <= 0.0 <= east and south <= 0.0 <= north) or (size > LEAST and not _beyond(box, chosen)):
+    if _is_beyond(box, chosen, FAR * size):
+        why = "it is used far from there"
+    elif size <= LEAST:
+        why = f"{east - west:g} x {north - south:g} of its units are no flood and no map"
+    else:
         return
     raise (ParameterError if is_given else SourceError)(
-        f"the coordinates {_shown(box)} look like degrees, and {_named(chosen, is_given)} is not in degrees: "
-        f"{east - west:g} x {north - south:g} of its units are no flood; give `crs` {DEGREES}"
-        + (", or leave it out if the file names its own" if is_given else "")
+        f"the coordinates {_shown(box)} look like degrees, and {_named(chosen, is_given)} is not in degrees: {why}; "
+        f"give `crs` {DEGREES}" + (", or leave it out if the file names its own" if is_given else "")
     )
 
 
-def _beyond(box: Bounds, chosen: str) -> bool:
-    """Whether a box lies where a projected system is not used, as far as that is known."""
+def _begins_within(box: Bounds, gap: float) -> bool:
+    """Whether a box holds the origin, or begins so near to it."""
+    west, south, east, north = box
+    return west <= gap and south <= gap and east >= -gap and north >= -gap
+
+
+def _is_beyond(box: Bounds, chosen: str, gap: float) -> bool:
+    """Whether a box lies farther than `gap` from where a projected system is used, as far as that is known."""
     area = _area(chosen)
     if area is None:
         return False
-    return box[2] < area[0] or box[0] > area[2] or box[3] < area[1] or box[1] > area[3]
+    return max(area[0] - box[2], box[0] - area[2], area[1] - box[3], box[1] - area[3]) > gap
 
 
 @lru_cache(maxsize=64)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import ParameterError
+from vexture.geo.coordinate_units import refuse_degrees
 from vexture.geo.crs import MissingReferenceError, chosen_crs, gis_packages, period, same_system, shown_system
 from vexture.geo.extent import Bounds
 from vexture.geo.feature_ids import names_beside_id
@@ -27,6 +28,9 @@ __all__ = ["BATCH", "ID", "Features", "Lines", "Points", "feature_batches", "rea
 
 ID: Final = "id"
 """Column of a table that has the ids of features."""
+
+NEAR: Final = 10.0
+"""Units from the origin at which drawings that are no maps begin, and a map of degrees seldom."""
 
 BATCH: Final = 65_536
 """Features that are in memory at once when they are streamed."""
@@ -209,6 +213,9 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     spots = (kinds == shapely.GeometryType.POINT) & ~shapely.is_empty(parts)
     is_nowhere = not len(whole) and not len(damaged) and not (crs or chunk.crs(rings.points))
     system = WORLD if is_nowhere else _system(chunk, rings, crs, notes)
+    if not shapely.is_empty(parts).all():
+        box = tuple(shapely.total_bounds(parts).tolist())
+        refuse_degrees(system, box, is_given=crs is not None and not chunk.is_told, near=NEAR)
     rings = _valid(rings, period(system), ids, notes)
     points = Points(shapely.get_coordinates(parts[spots]), feature[spots])
     numbered = chunk.id_column is None and chunk.labels is None
