@@ -112,6 +112,15 @@ def test_names_in_a_zip_are_no_places(folder, tmp_path):
     assert not [*folder.parent.glob("*.gdb")]
 
 
+def test_a_file_without_a_name_in_a_zip_is_passed_over(folder):
+    archive = zipped(folder, a_kml=kml(folder, "").read_text(), b_kml="")
+    content = archive.read_bytes()
+    at = content.rindex(b"PK\x01\x02")
+    assert content[at + 28 : at + 30] == b"\5\0"
+    nameless = content[: at + 28] + b"\0\0\0\0\5\0" + content[at + 34 :]  # its name is a comment now
+    assert len(read_features(nameless, notes=Notes())) == 1
+
+
 def test_a_zip_that_says_too_much_is_refused(folder):
     archive = zipped(folder, a_kml="<kml/>")
     content = bytearray(archive.read_bytes())

@@ -16,6 +16,7 @@ import numpy as np
 from comparison import MOST, Case, SlowError, case_of
 from javascript import loader
 from lxml import etree
+from map_files import SEEDS, read_floats, read_map
 from mutate import png_repaired, zip_repaired
 from pictures import described, finding_of, smallest
 
@@ -95,11 +96,11 @@ class Target:
     in_a_second: int = 200  # runs, about: the ordinary tests do a second's
 
     def seeds(self, name: str) -> list[bytes]:
-        """Contents of its corpus, in the order of the files' names."""
-        files = sorted((CORPUS / name.removesuffix("-js")).iterdir()) + sorted(
-            ROOT.glob(self.other_seeds) if self.other_seeds else ()
-        )
-        return [file.read_bytes() for file in files if "bomb" not in file.name]
+        """Contents of its corpus, in the order of the files' names, and files that are made."""
+        folder = CORPUS / name.removesuffix("-js")
+        files = sorted(folder.iterdir()) if folder.is_dir() else []
+        files += sorted(ROOT.glob(self.other_seeds) if self.other_seeds else ())
+        return [file.read_bytes() for file in files if "bomb" not in file.name] + SEEDS.get(name, list)()
 
 
 def drawing(suffix: str) -> Callable[[bytes], str]:
@@ -343,6 +344,10 @@ KTX = words('"name" "quad" "transform" "paint" "crs" [ ] { } , : null -1 1e999 1
 GLTF = JSON + words(
     '"uri" "buffer" "bufferView" "byteLength" "byteOffset" "extensions" "data:;base64," "../a" 4294967295'
 )
+FEATURES = MARKUP + words("nan 1e999 -0 4,52 180 -181 91 <Point> <coordinates> <gml:pos> srsName= <trkseg> <Data ]]>")
+TABLE = words(
+    'POLYGON EMPTY Z M ZM (( )) ( ) , ; " 1e999 nan CIRCULARSTRING COMPOUNDCURVE CURVEPOLYGON TIN POINT 0106 lon wkt'
+)
 BINARY = (b"\0\0\0\0", b"\xff\xff\xff\xff", b"\0\0\x80\x7f", b"\0\0\xc0\x7f", b"\x7f\xf0\0\0\0\0\0\0", b"\x80")
 
 TARGETS = {
@@ -371,5 +376,16 @@ TARGETS = {
     "geopackage": Target(drawing(".gpkg"), BINARY),
     "flatgeobuf": Target(drawing(".fgb"), BINARY),
     "shapefile": Target(drawing(".zip"), BINARY, repair=zip_repaired),
+    "kml": Target(read_map, FEATURES, text=True, in_a_second=50),
+    "kmz": Target(read_map, FEATURES, repair=zip_repaired, in_a_second=50),
+    "gpx": Target(read_map, FEATURES, text=True, in_a_second=50),
+    "gml": Target(read_map, FEATURES, text=True, in_a_second=50),
+    "csv": Target(read_map, TABLE, text=True, in_a_second=50),
+    "curves": Target(read_map, TABLE, text=True, in_a_second=100),
+    "feather": Target(read_map, BINARY),
+    "parquet": Target(read_map, BINARY),
+    "asc": Target(drawing(".asc"), text=True, in_a_second=50),
+    "flt": Target(read_floats, BINARY, in_a_second=50),
+    "grib": Target(drawing(".grib2"), (*BINARY, b"GRIB", b"7777"), in_a_second=50),
 }
-"""By name, which is the name of a folder of the corpus; those of JavaScript read the folder of their Python target."""
+"""By name, which is that of a folder of the corpus, or of `SEEDS`; those of JavaScript read that of their Python target."""

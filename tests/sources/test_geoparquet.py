@@ -150,6 +150,14 @@ def test_metadata_that_the_arrow_schema_lacks_are_found(tmp_path):
     assert read_features(place, notes=Notes()).crs == "OGC:CRS84"
 
 
+def test_texts_that_are_not_in_utf_8_are_damaged_geometries(tmp_path):
+    texts = pa.array([SQUARE.wkt.encode(), b"POLYGON\xff((0 0", None]).view(pa.string())
+    notes = Notes()
+    found = read_features(saved(tmp_path / "a.parquet", texts, name="WKT"), crs="EPSG:28992", notes=notes)
+    assert found.feature.tolist() == [0]
+    assert any("damaged" in str(note) for note in notes.listed)
+
+
 def test_texts_of_geometries_are_read_and_said(tmp_path):
     texts = [SQUARE.wkt, f"SRID=28992;{NOTCHED.wkt}", None, "POLYGON((0 0", shapely.to_wkb(SQUARE, hex=True), "01zz"]
     place = saved(tmp_path / "a.parquet", pa.array(texts), name="WKT")

@@ -240,6 +240,20 @@ def test_damaged_curves_in_csv_are_named(text):
         read_features(f'n,wkt\n1,POINT (1 2)\n2,"{text}"\n'.encode(), crs="EPSG:28992", notes=Notes())
 
 
+@pytest.mark.parametrize("text", ["POLYGON ((0 0, 1e999 0, 9 9, 0 0))", "CURVEPOLYGON ((0 0, 1e999 0, 9 9, 0 0))"])
+def test_numbers_of_wkt_that_are_too_large_are_told_without_a_warning(text):
+    with pytest.raises(SourceError, match=r"feature 0.*inf|row 1 has no WKT"):
+        read_features(f'n,wkt\n1,"{text}"\n'.encode(), crs="EPSG:28992", notes=Notes())
+    with pytest.raises(SourceError, match="row 1 has no WKT in the column 'wkt', but 'POLYGON"):
+        read_features(b"n\twkt\n1\tPOLYGON(1e999\n", crs="EPSG:28992", notes=Notes())
+
+
+@pytest.mark.parametrize("text", ["CIRCULARSTRING (0 0, inf 1, 2 0)", "CIRCULARSTRING (0 0, 1e200 1e200, 2 0)"])
+def test_arcs_through_places_that_are_too_far_give_no_warning(text):
+    found = read_features(f'n,wkt\n1,"{text}"\n2,"LINESTRING (0 0, 9 9)"\n'.encode(), crs="EPSG:28992", notes=Notes())
+    assert found.lines.points[-2:].tolist() == [[0.0, 0.0], [9.0, 9.0]]
+
+
 def test_codes_in_csv_keep_their_zeros():
     content = b'code,quoted,number,depth,lon,lat\n10,"07",10,0.5,004.5,52\n01,8,0,-0.25,5,52\n,,,,6,52\n'
     found = read_features(content, notes=Notes())

@@ -64,7 +64,8 @@ def unzipped(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] |
         return source
     try:
         with zipfile.ZipFile(BytesIO(read_bytes(source))) as archive:
-            infos = [info for info in archive.infolist() if not info.is_dir() and _is_own(info.filename)]
+            named = [info for info in archive.infolist() if info.filename]  # a name that is empty is no place, either
+            infos = [info for info in named if not info.is_dir() and _is_own(info.filename)]
             return _held(archive, infos)
     except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError, OSError, ValueError) as error:
         raise SourceError(f"the zip is damaged or encrypted ({reason_of(error)}); zip its files again") from None

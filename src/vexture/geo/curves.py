@@ -227,10 +227,10 @@ def _circles(arcs: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
     An arc that ends where it starts is a circle, of which the second point is opposite.
     """
     start, through, end = arcs.transpose(1, 0, 2)
-    one, other = through - start, end - start
-    cross = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
-    size = np.ptp(arcs, axis=1).max(axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(all="ignore"):  # who reads the chords refuses what is not finite
+        one, other = through - start, end - start
+        cross = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
+        size = np.ptp(arcs, axis=1).max(axis=1)
         squares = (one**2).sum(axis=1), (other**2).sum(axis=1)
         to_middle = np.stack(
             [other[:, 1] * squares[0] - one[:, 1] * squares[1], one[:, 0] * squares[1] - other[:, 0] * squares[0]],

@@ -166,8 +166,18 @@ def objects_of(column: "pyarrow.ChunkedArray") -> NDArray[Any]:
         return np.asarray(column.to_numpy(zero_copy_only=False), object)
     except pa.ArrowException as error:
         if WRAPPING in str(error)[: 2 * len(WRAPPING)]:  # the rest of this message is the geometry
+            if not pa.types.is_binary(column.type) and not pa.types.is_large_binary(column.type):
+                return _objects_of_texts(column)
             raise MemoryError from None
         raise
+
+
+def _objects_of_texts(column: "pyarrow.ChunkedArray") -> NDArray[Any]:
+    """Texts that need not be in UTF-8: the others hold what no WKT has."""
+    import pyarrow as pa
+
+    held = column.cast(pa.large_binary()).to_pylist()
+    return np.array([None if text is None else text.decode(errors="replace") for text in held] + [None], object)[:-1]
 
 
 def _of_arrow(array: Any, encoding: str) -> NDArray[Any]:

@@ -43,7 +43,7 @@ def wkb_of_texts(texts: NDArray[Any]) -> NDArray[Any]:
             found[place] = _bytes_of(text)
         else:
             (others if CURVE.search(text) or SURFACE.search(text) else straight).append(place)
-    with np.errstate(invalid="ignore"):
+    with np.errstate(all="ignore"):  # who reads the geometries refuses what is not finite
         shapes = shapely.from_wkt([plain[place] for place in straight], on_invalid="ignore")
         for place, shape, content in zip(straight, shapes, shapely.to_wkb(shapes), strict=True):
             found[place] = BROKEN if shape is None else content
