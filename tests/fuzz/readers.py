@@ -388,4 +388,4 @@ TARGETS = {
     "flt": Target(read_floats, BINARY, in_a_second=50),
     "grib": Target(drawing(".grib2"), (*BINARY, b"GRIB", b"7777"), in_a_second=50),
 }
-"""By name, which is that of a folder of the corpus, or of `SEEDS`; those of JavaScript read that of their Python target."""
+"""By name, which is that of a folder of the corpus, or of `SEEDS`; those of JavaScript read their Python target's."""
