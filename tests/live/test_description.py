@@ -26,6 +26,9 @@ ASKING = [
 ]
 """The stream of events never ends, and no schema says which contents can be converted."""
 
+SLOW = [pytest.mark.slow, pytest.mark.timeout(3600)]
+"""Of thousands of requests, some of them conversions: on two busy cores they take more than ten minutes."""
+
 PINNED = """
 [[operations]]
 include-path = "/files/{{name}}"
@@ -73,7 +76,7 @@ def test_the_description_has_the_limits_of_names():
     [
         ("serve", "examples,coverage", 10),
         *(
-            pytest.param(command, "examples,coverage,fuzzing,stateful", 300, marks=pytest.mark.slow)
+            pytest.param(command, "examples,coverage,fuzzing,stateful", 300, marks=SLOW)
             for command in ("serve", "view", "flood")
         ),
     ],
