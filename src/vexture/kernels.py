@@ -29,8 +29,8 @@ __all__ = ["Kernel", "kernel", "text_digest"]
 F = TypeVar("F", bound=Callable[..., Any])
 
 ABOVE = {
-    *("cartography", "cli", "flood", "fold", "geo", "gltf", "live", "notebook", "svg", "tiles", "tracing", "wgsl"),
-    "apart.py",
+    *("cartography", "cli", "flood", "fold", "fonts", "geo", "gltf", "live", "notebook", "svg", "tiles", "tracing"),
+    *("wgsl", "apart.py"),
 }
 """Parts of the package without kernels or constants of kernels: a change there compiles nothing again."""
 

@@ -112,6 +112,19 @@ def test_characters_of_a_font_become_an_atlas(font, tmp_path):
     assert [*json.loads(target.with_suffix(".json").read_text(encoding="utf-8"))["glyphs"]] == ["A", "V", "é"]
 
 
+def test_the_file_that_stands_in_for_the_regular_weight_is_named(tmp_path):
+    for weight, style in ((300, "Light"), (700, "Bold")):
+        content = made_font({"A": "left"}, weight=weight, style=style)
+        (tmp_path / f"{style}.ttf").write_bytes(content)
+    result = run("font", tmp_path, "--chars", "A", "-o", tmp_path / "a.ktx2", "--strict")
+    assert result.exit_code == 0, result.output
+    assert result.stderr == (
+        f"vexture: warning: {tmp_path}: no face has weight 400, normal, so that Light.ttf is used "
+        "(Made, weight 300, normal); choose another by --weight and --style, or give its file\n"
+    )
+    assert not run("font", tmp_path / "Bold.ttf", "--chars", "A", "-o", tmp_path / "a.ktx2").stderr
+
+
 @pytest.mark.parametrize(
     ("arguments", "lost"),
     [

@@ -7,6 +7,7 @@ from made import BLUE, RED, composite, filled, made_font, solid, stacked
 import vexture
 from vexture.errors import ParameterError, SourceError
 from vexture.fonts.text import TextOptions, text_drawing
+from vexture.notes import Notes
 from vexture.paint import Gradient, Paint, Stop
 
 ADVANCE = 0.9
@@ -87,6 +88,54 @@ def test_what_stands_in_for_a_font_or_character_is_named(folder):
         "font 'Nowhere' drawn in Made",
         "italic style, which Made lacks, drawn upright",
     ]
+
+
+@pytest.fixture(scope="module")
+def weights(tmp_path_factory):
+    """Folders of faces by weight: a family in three styles without a regular one, one with it, and a single face."""
+    root = tmp_path_factory.mktemp("weights")
+    for place, weight, style, info in (
+        ("heavy", 700, "Bold", {}),
+        ("heavy", 900, "Black", {}),
+        ("heavy", 700, "Bold Italic", {"fsSelection": 1}),
+        ("sloped", 400, "Italic", {"fsSelection": 1}),
+        ("sloped", 700, "Bold Italic", {"fsSelection": 1}),
+        ("narrow", 400, "Condensed", {"usWidthClass": 3}),
+        ("narrow", 700, "Condensed Bold", {"usWidthClass": 3}),
+        ("regular", 400, "Regular", {}),
+        ("regular", 700, "Bold", {}),
+        ("single", 700, "Bold", {}),
+    ):
+        (root / place).mkdir(exist_ok=True)
+        content = made_font({"A": "left"}, weight=weight, style=style, **info)
+        (root / place / f"made-{style.lower().replace(' ', '-')}.ttf").write_bytes(content)
+    return root
+
+
+CHOOSE = "choose another by `weight` and `style`, or give its file"
+
+
+@pytest.mark.parametrize(
+    ("place", "options", "said"),
+    [
+        ("heavy", {}, "weight 400, normal, so that made-bold.ttf is used (Made, weight 700, normal)"),
+        ("heavy", {"weight": 300}, "weight 300, normal, so that made-bold.ttf is used (Made, weight 700, normal)"),
+        ("heavy", {"weight": 700, "style": "italic"}, None),
+        ("heavy/made-black.ttf", {}, None),
+        ("sloped", {}, "weight 400, normal, so that made-italic.ttf is used (Made, weight 400, italic)"),
+        ("narrow", {}, "weight 400, normal, so that made-condensed.ttf is used (Made, weight 400, normal, stretch 75)"),
+        ("regular", {}, None),
+        ("regular", {"weight": 600}, "weight 600, normal, so that made-bold.ttf is used (Made, weight 700, normal)"),
+        ("single", {}, None),
+        ("single", {"weight": 400.2}, None),
+        ("single", {"weight": 200}, "weight 200, normal, so that made-bold.ttf is used (Made, weight 700, normal)"),
+    ],
+)
+def test_the_file_that_stands_in_for_a_weight_is_named_where_there_is_a_choice(weights, place, options, said):
+    notes = Notes()
+    TextOptions(weights / place, **options).choice(notes, "A")
+    found = [str(note) for note in notes.listed if note.kind == "remark"]
+    assert found == ([] if said is None else [f"no face has {said}; {CHOOSE}"])
 
 
 def test_joiners_and_variation_selectors_stay_with_their_character(folder):

@@ -13,7 +13,7 @@ from vexture.content import about
 from vexture.errors import SourceError
 from vexture.fonts.face import Face, faces_in, faces_of
 from vexture.fonts.files import SUFFIXES
-from vexture.fonts.matching import Traits, preference
+from vexture.fonts.matching import NORMAL_STRETCH, REGULAR, Traits, preference
 from vexture.fonts.system import default_files, font_files, generic_family, system_files
 
 __all__ = ["GENERIC", "EmbeddedFont", "Fonts"]
@@ -55,6 +55,7 @@ class Listed:
     traits: Traits
     face: Face
     place: int = 0  # of the given files and folders, that which it is from
+    file: Path | None = None  # None of a font of the drawing
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,11 +127,39 @@ class Fonts:
         all of a face come one after another, that with most of the `characters` first.
         """
         shown: set[int] = set()
-        wanted = Wanted(weight, style, stretch, frozenset(map(ord, characters)))
-        for listed in chain(self._named(families, wanted), self._others(wanted)):
+        for listed in self._ordered(families, Wanted(weight, style, stretch, frozenset(map(ord, characters)))):
             if id(listed) not in shown:
                 shown.add(id(listed))
                 yield listed.face.varied(weight, stretch, style)
+
+    def substitute(
+        self, families: Sequence[str], weight: int = 400, style: str = "normal", stretch: float = 100.0
+    ) -> Path | None:
+        """File of the first of `faces`, if it lacks the weight, the width or the upright style that is asked for.
+
+        None, too, if there is nothing to choose: only one face is there, and it is not asked for another weight or
+        width than the normal one. A slope that is asked for and lacking is not looked at.
+        """
+        wanted = Wanted(weight, style, stretch)
+        first = next(self._ordered(families, wanted), None)
+        if first is None or first.traits.offers(weight, style if style == "normal" else None, stretch):
+            return None
+        is_one = len({one.traits for one in self._beside(first)}) == 1
+        return None if is_one and (weight, stretch) == (REGULAR, NORMAL_STRETCH) else first.file
+
+    def _beside(self, listed: Listed) -> Iterator[Listed]:
+        """The faces among which one was chosen: of the same given file or folder, or else of the same family."""
+        for source in self._sources():
+            if listed in source:
+                if source is self._given:
+                    yield from (one for one in source if one.place == listed.place)
+                else:
+                    yield from (one for one in source if one.names & listed.names)
+                return
+
+    def _ordered(self, families: Sequence[str], wanted: Wanted) -> Iterator[Listed]:
+        """What may be used, the best first; some of it several times."""
+        return chain(self._named(families, wanted), self._others(wanted))
 
     def count_named(
         self, families: Sequence[str], weight: int = 400, style: str = "normal", stretch: float = 100.0
@@ -217,7 +246,7 @@ class Fonts:
                 found += (replace(listed, place=place) for listed in in_it)
                 continue
             with about(os.fspath(path)):
-                found += (replace(listed_of(face), place=place) for face in faces_of(path))
+                found += (replace(listed_of(face, path), place=place) for face in faces_of(path))
         return tuple(found)
 
     @cached_property
@@ -242,14 +271,14 @@ def of_files(paths: tuple[Path, ...]) -> tuple[Listed, ...]:
     found: list[Listed] = []
     for path in paths:
         try:
-            found += map(listed_of, faces_of(path))
+            found += (listed_of(face, path) for face in faces_of(path))
         except SourceError:
             continue
     return tuple(found)
 
 
-def listed_of(face: Face) -> Listed:
-    """A face with its names and what it offers."""
+def listed_of(face: Face, file: Path | None = None) -> Listed:
+    """A face with its names, what it offers, and its file."""
     axes = face.axes
     slopes = [style for style, axis in (("italic", "ital"), ("oblique", "slnt")) if axis in axes]
     traits = Traits(
@@ -257,4 +286,4 @@ def listed_of(face: Face) -> Listed:
         axes.get("wdth", (face.stretch, face.stretch)),
         (face.style, *slopes),
     )
-    return Listed(frozenset(name.casefold() for name in face.names), traits, face)
+    return Listed(frozenset(name.casefold() for name in face.names), traits, face, file=file)

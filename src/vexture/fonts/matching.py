@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import Final
 
-__all__ = ["Traits", "preference"]
+__all__ = ["NORMAL_STRETCH", "REGULAR", "Traits", "preference"]
 
 STYLES: Final = {
     "normal": ("normal", "oblique", "italic"),
@@ -26,6 +26,11 @@ class Traits:
     weights: tuple[float, float]
     stretches: tuple[float, float]
     styles: tuple[str, ...]
+
+    def offers(self, weight: float, style: str | None, stretch: float) -> bool:
+        """Whether it has a weight, a style (or None: whichever) and a stretch."""
+        (light, heavy), (narrow, wide) = self.weights, self.stretches
+        return light <= weight <= heavy and narrow <= stretch <= wide and (style is None or style in self.styles)
 
 
 def preference(traits: Traits, weight: float, style: str, stretch: float) -> tuple[float, ...]:

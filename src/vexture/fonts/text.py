@@ -15,6 +15,7 @@ from vexture.errors import LimitError, ParameterError, SourceError, shortened
 from vexture.fonts.layers import Layers
 from vexture.fonts.library import GENERIC, Fonts
 from vexture.fonts.lines import Choice, Placed, Typesetting, is_seen, line_of_glyphs
+from vexture.fonts.matching import NORMAL_STRETCH
 from vexture.fonts.places import font_places
 from vexture.group import Group
 from vexture.notes import Note, Notes, warn_of
@@ -93,15 +94,31 @@ class TextOptions:
     def choice(self, notes: Notes, characters: Iterable[str]) -> Choice:
         """Faces of the fonts, with notes of what the first of them is not."""
         given = [self.font] if isinstance(self.font, str | os.PathLike) else [*self.font]
-        faces = Fonts(given).faces(self.families, round(self.weight), self.style, self.stretch, characters)
-        choice = Choice(faces, notes, is_asked=bool(given or self.families))
+        fonts, wanted = Fonts(given), (self.families, round(self.weight), self.style, self.stretch)
+        choice = Choice(fonts.faces(*wanted, characters), notes, is_asked=bool(given or self.families))
         face = choice.first
         first = next(iter(self.families), face.family)
         if first.lower() not in GENERIC and first.casefold() not in {name.casefold() for name in face.names}:
             notes.simplified(f"font {first!r} drawn in {face.family}")
         if self.style != "normal" and face.style == "normal":
             notes.simplified(f"{self.style} style, which {face.family} lacks, drawn upright")
+        if file := fonts.substitute(*wanted):
+            asked = style_of(round(self.weight), self.style, self.stretch)
+            taken = f"{face.family}, {style_of(face.weight, face.style, face.stretch)}"
+            choose = "choose another by `weight` and `style`, or give its file"
+            notes.remark(f"no face has {asked}, so that {file.name} is used ({taken}); {choose}")
         return choice
+
+
+def style_of(weight: int, style: str, stretch: float) -> str:
+    """A weight, a style and a width as a message names them; the normal width is not named.
+
+    Examples
+    --------
+    >>> style_of(400, "normal", 100.0), style_of(700, "italic", 75.0)
+    ('weight 400, normal', 'weight 700, italic, stretch 75')
+    """
+    return f"weight {weight}, {style}" + ("" if stretch == NORMAL_STRETCH else f", stretch {stretch:g}")
 
 
 def shown(value: object) -> str:
