@@ -78,8 +78,12 @@ export class BaseLoader extends Loader {
    * Absolute address of a file, by the loader's path and its manager's rules.
    *
    * @param {string} url
+   * @throws {VextureError} if it is none
    */
   addressOf(url) {
+    if (typeof url !== 'string' || !url.trim()) { // '' would be the page itself
+      throw new VextureError(`the address is ${line(url)}; give that of a file, a text such as 'logo.ktx2'`, 'url');
+    }
     return this.manager.resolveURL(ABSOLUTE.test(url) ? url : this.path + url);
   }
 
@@ -117,14 +121,12 @@ export class BaseLoader extends Loader {
    * @param {Request} request
    */
   async fetchAll(urls, most, { signal, onProgress }) {
-    for (const url of urls) {
-      if (typeof url !== 'string') throw new VextureError(`the address is ${line(url)}; it must be a text`, 'url');
-    }
+    const addresses = urls.map((url) => this.addressOf(url)); // before any is asked for
     const loaded = urls.map(() => 0);
     const totals = urls.map(() => 0);
     return Promise.all(
-      urls.map((url, place) =>
-        this.#fetchOne(url, signal, most, (bytes, total) => {
+      addresses.map((address, place) =>
+        this.#fetchOne(address, signal, most, (bytes, total) => {
           loaded[place] = bytes;
           totals[place] = total;
           onProgress?.(progressEvent(sum(loaded), totals.every(Boolean) ? sum(totals) : 0));
@@ -134,21 +136,20 @@ export class BaseLoader extends Loader {
   }
 
   /**
-   * @param {string} url
+   * @param {string} address
    * @param {AbortSignal} signal
    * @param {number} most
    * @param {import('./fetching.js').OnBytes} onBytes
    */
-  async #fetchOne(url, signal, most, onBytes) {
-    const resolved = this.addressOf(url);
-    this.manager.itemStart(resolved);
+  async #fetchOne(address, signal, most, onBytes) {
+    this.manager.itemStart(address);
     try {
-      return await fetchBytes(resolved, { signal, ...this.requestOptions() }, most, onBytes);
+      return await fetchBytes(address, { signal, ...this.requestOptions() }, most, onBytes);
     } catch (error) {
-      this.manager.itemError(resolved);
+      this.manager.itemError(address);
       throw error;
     } finally {
-      this.manager.itemEnd(resolved);
+      this.manager.itemEnd(address);
     }
   }
 }

@@ -18,9 +18,13 @@ import { fold as glsl } from '../generated/fold-shader.js';
 import { ROW_BITS, TEXT_ENCODING, TEXT_VERSION } from '../generated/layout.js';
 import { VextureError, line } from './errors.js';
 import { readKtx2 } from './ktx2.js';
+import { checkContents } from './mistaken.js';
 import { wordTexture } from './upload.js';
 
 const REMEDY = 'make the fold again';
+
+/** @type {import('./mistaken.js').Expected} */
+const FOLD = { what: 'fold', form: 'a fold is a KTX 2.0 file', make: 'make one of it: vexture fold FILE', remedy: REMEDY };
 
 /** The largest time, in ticks. */
 const MOST_TICKS = FOLD_MOST_SECONDS * FOLD_TICKS;
@@ -67,13 +71,11 @@ export class FoldTexture {
    */
   static async parse(buffer, name = 'fold') {
     try {
-      if (!(buffer?.byteLength >= 0)) {
-        throw new VextureError(`contents are ${line(buffer)}; give a file's bytes`, 'contents');
-      }
+      checkContents(buffer);
       if (buffer.byteLength > FOLD_FILE_LIMIT) {
         throw new VextureError(`longer than ${FOLD_FILE_LIMIT} bytes, so not a fold; ${REMEDY}`, 'byteLength');
       }
-      const { texels, texts } = await readKtx2(buffer);
+      const { texels, texts } = await readKtx2(buffer, FOLD);
       for (const [key, known] of [
         [TEXT_ENCODING, ENCODING_FOLD],
         [TEXT_VERSION, FOLD_VERSION],

@@ -3,21 +3,17 @@
 import { MOST_ROWS, MOST_TEXT_BYTES, ROW_BITS } from '../generated/layout.js';
 import { REMEDY, VextureError, line } from './errors.js';
 import { inflate } from './inflate.js';
+import { mistaken } from './mistaken.js';
 
 /** The file identifier of KTX 2.0. */
 export const MAGIC = Object.freeze([0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 0x0d, 0x0a, 0x1a, 0x0a]);
 
-const CONVERT = 'convert it first: vexture convert FILE';
-
-/** What is taken for a texture, by its first bytes as characters of these numbers, and the remedy. */
-const OTHERS = /** @type {const} */ ([
-  [/^\s*<(!doctype html|html)\b/i, 'a web page', 'check the address'],
-  [/<svg\b/i, 'an SVG', `${CONVERT}, or import FILE?vexture with vexture/vite`],
-  [/^(\x89PNG|\xff\xd8\xff|GIF8|RIFF)/, 'a picture', CONVERT],
-]);
-
-/** Bytes in which an SVG begins: comments may precede it. */
-const START_BYTES = 4096;
+/** @type {import('./mistaken.js').Expected} */
+const TEXTURE = {
+  what: 'texture',
+  form: 'a packed texture is a KTX 2.0 file',
+  make: 'convert it first: vexture convert FILE, or import FILE?vexture with vexture/vite',
+};
 
 const HEADER_BYTES = 80;
 const LEVEL_BYTES = 24;
@@ -64,12 +60,13 @@ export function isKtx2(file) {
  * Texels and texts of a file. The header bounds the memory used, and the format's limits bound the header.
  *
  * @param {ArrayBuffer | Uint8Array} file
+ * @param {import('./mistaken.js').Expected} [expected] what it should be
  * @returns {Promise<Ktx2Image>}
  */
-export async function readKtx2(file) {
+export async function readKtx2(file, expected = TEXTURE) {
   const bytes = asBytes(file);
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const { width, height } = readHeader(bytes, view);
+  const { width, height } = readHeader(bytes, view, expected);
   const dfd = part(bytes, view.getUint32(48, true), view.getUint32(52, true), 'dfdByteOffset');
   if (dfd.length && (dfd.length % 4 || view.getUint32(dfd.byteOffset - bytes.byteOffset, true) !== dfd.length)) {
     throw new VextureError(`the data format descriptor is not as long as it says; ${REMEDY}`, 'dfdTotalSize');
@@ -96,13 +93,11 @@ function asBytes(file) {
 /**
  * @param {Uint8Array} bytes
  * @param {DataView} view of them
+ * @param {import('./mistaken.js').Expected} expected
  */
-function readHeader(bytes, view) {
+function readHeader(bytes, view, expected) {
   if (!isKtx2(bytes)) {
-    const start = String.fromCharCode(...bytes.subarray(0, START_BYTES));
-    const [, kind, remedy] = OTHERS.find(([pattern]) => pattern.test(start)) ?? [];
-    const found = kind ? `is ${kind}, not a texture` : `begins with ${line(start.slice(0, MAGIC.length))}; a packed texture is a KTX 2.0 file`;
-    throw new VextureError(`${found}; ${remedy ?? REMEDY}`, 'identifier');
+    throw mistaken(bytes, 'identifier', expected);
   }
   if (bytes.length < HEADER_BYTES + LEVEL_BYTES) {
     throw new VextureError(

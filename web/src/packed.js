@@ -13,6 +13,7 @@ import {
 import { checkForest } from './check-texels.js';
 import { REMEDY, VextureError, line } from './errors.js';
 import { readKtx2 } from './ktx2.js';
+import { checkContents } from './mistaken.js';
 import { mapParts } from './maps.js';
 import { readRoots } from './read-roots.js';
 
@@ -26,7 +27,7 @@ import { readRoots } from './read-roots.js';
  */
 export async function readPacked(file, name = 'texture') {
   try {
-    if (!(file?.byteLength >= 0)) throw new VextureError(`contents are ${line(file)}; give a file's bytes`, 'contents');
+    checkContents(file);
     if (file.byteLength > PACKED_FILE_LIMIT) {
       throw new VextureError(`longer than ${PACKED_FILE_LIMIT} bytes, so not a texture; ${REMEDY}`, 'byteLength');
     }

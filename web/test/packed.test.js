@@ -71,7 +71,7 @@ describe('the container', () => {
   );
 
   test('other files', async () => {
-    await expectRefusal(readPacked(new Uint8Array()), 'identifier', /a packed texture is a KTX 2.0 file/);
+    await expectRefusal(readPacked(new Uint8Array(12)), 'identifier', /a packed texture is a KTX 2.0 file/);
     const svg = Buffer.from('<svg xmlns="http://www.w3.org/2000/svg">\n\n</svg>');
     await expectRefusal(readPacked(svg), 'identifier', 'is an SVG, not a texture; convert it first: vexture convert FILE');
   });

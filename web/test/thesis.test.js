@@ -129,7 +129,7 @@ describe('the files', () => {
   });
 
   test('other files', async () => {
-    await expectRefusal(readThesis(Buffer.from('<!doctype html>'), sixteen[1]), 'signature', /it must be a PNG/);
+    await expectRefusal(readThesis(Buffer.from('no picture'), sixteen[1]), 'signature', /a thesis texture is a pair of PNGs/);
     await expectRefusal(readThesis(sixteen[0], new Uint8Array(3_200_000)), 'byteLength', /curves: longer than/);
     await expectRefusal(readThesis(sixteen[1], sixteen[0]), 'width');
   });

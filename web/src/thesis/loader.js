@@ -1,5 +1,6 @@
 import { CURVES_SUFFIX, FILE_LIMIT, QUADS_SUFFIX } from '../../generated/thesis-layout.js';
 import { BaseLoader, divided, nameOf } from '../base-loader.js';
+import { VextureError, line } from '../errors.js';
 import { readThesis } from './read.js';
 import { ThesisTexture } from './texture.js';
 
@@ -18,7 +19,7 @@ const SUFFIXES = [QUADS_SUFFIX, CURVES_SUFFIX];
  * @returns {string[]}
  */
 function pairOf(url) {
-  if (typeof url !== 'string') return Array.isArray(url) ? url : [url];
+  if (typeof url !== 'string' || !url.trim()) return Array.isArray(url) ? url : [url]; // fetchAll says what is wrong
   const { path, rest } = divided(url);
   const suffix = SUFFIXES.find((one) => path.endsWith(one)) ?? '';
   const stem = path.slice(0, path.length - suffix.length);
@@ -67,7 +68,11 @@ export class ThesisLoader extends BaseLoader {
    * @param {string} [name] name for messages, and of the texture
    * @returns {Promise<ThesisTexture>}
    */
-  async parse([quads, curves], name) {
+  async parse(contents, name) {
+    if (!Array.isArray(contents)) {
+      throw new VextureError(`contents are ${line(contents)}; give the bytes of both files, [quads, curves]`, 'contents');
+    }
+    const [quads, curves] = contents;
     return new ThesisTexture(await readThesis(quads, curves, name));
   }
 }

@@ -3,8 +3,17 @@ import { decode } from 'fast-png';
 import { FILE_LIMIT, LIST_LIMIT } from '../../generated/thesis-layout.js';
 import { REMEDY, VextureError, line } from '../errors.js';
 import { inflate } from '../inflate.js';
+import { mistaken } from '../mistaken.js';
 
 const SIGNATURE = Object.freeze([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
+
+/** @type {import('../mistaken.js').Expected} */
+const THESIS = {
+  what: 'thesis texture',
+  form: 'a thesis texture is a pair of PNGs',
+  make: 'convert it first: vexture convert --encoding thesis FILE',
+};
+
 const RGB = 2; // colour type
 const FRAME_BYTES = 12; // length, tag and checksum of a chunk
 
@@ -87,7 +96,7 @@ function joined(parts) {
  */
 function readChunks(file) {
   if (!isPng(file)) {
-    throw new VextureError(`begins with ${line(String.fromCharCode(...file.subarray(0, 8)))}; it must be a PNG; ${REMEDY}`, 'signature');
+    throw mistaken(file, 'signature', THESIS);
   }
   const view = new DataView(file.buffer, file.byteOffset, file.byteLength);
   const chunks = [];

@@ -10,6 +10,7 @@ import {
   TEXT_TRANSFORM,
 } from '../../generated/thesis-layout.js';
 import { REMEDY, VextureError, line } from '../errors.js';
+import { checkContents } from '../mistaken.js';
 import { readPng } from './png.js';
 import { thesisCell } from './walk.js';
 
@@ -86,6 +87,7 @@ export async function readThesis(quadsPng, curvesPng, name = 'texture') {
  */
 async function readList(file, width, what) {
   try {
+    checkContents(file);
     return await readPng(file instanceof Uint8Array ? file : new Uint8Array(file), width);
   } catch (error) {
     throw error instanceof VextureError ? error.in(what) : error;

@@ -11,7 +11,7 @@ const LEAST = { budget: 0, most: 1, retries: 0, pause: 0 };
  */
 export function checkOptions(options) {
   const { source } = options ?? {};
-  const isSource = typeof source === 'string' ? source !== '' : source instanceof URL || isArchive(source) || (typeof source?.load === 'function' && isGrid(source));
+  const isSource = typeof source === 'string' ? source.trim() !== '' : source instanceof URL || isArchive(source) || (typeof source?.load === 'function' && isGrid(source));
   if (!isSource) {
     throw new VextureError(`the source is ${line(source)}; give ${GIVEN}, or { zooms, margin, load }`, 'source');
   }

@@ -1,8 +1,9 @@
 // Where the tiles of a pyramid come from: a PMTiles archive, there or in memory, or a folder with a TileJSON.
-import { FileSource, PMTiles } from 'pmtiles';
+import { FetchSource, FileSource, PMTiles } from 'pmtiles';
 import { PACKED_FILE_LIMIT } from '../../generated/layout.js';
 import { VextureError, line } from '../errors.js';
 import { fetchBytes } from '../fetching.js';
+import { START_BYTES, kindOf, mistakenFor } from '../mistaken.js';
 
 /**
  * @typedef {object} TileSource A pyramid of tiles.
@@ -21,8 +22,8 @@ import { fetchBytes } from '../fetching.js';
 /** A tile in which nothing is may have no file. */
 const NOTHING = ['status 404', 'status 204', 'status 410'];
 
-/** And many servers send a page instead, which begins with `<`. */
-const HTML = 60;
+/** And many servers send a page or nothing instead. @type {readonly unknown[]} */
+const ABSENT = ['a web page', 'XML', 'nothing'];
 
 /** Longest TileJSON, in bytes. */
 const LONGEST = 2 ** 22;
@@ -32,6 +33,8 @@ const HELD = 'the archive';
 
 /** What can be opened. */
 export const GIVEN = 'the address of a .pmtiles or a TileJSON, or the bytes of a .pmtiles';
+
+const PYRAMID = { what: 'pyramid of tiles', make: `give ${GIVEN}` };
 
 /** @param {unknown} given @returns {given is TileArchive} */
 export const isArchive = (given) => given instanceof ArrayBuffer || given instanceof Uint8Array || given instanceof Blob;
@@ -52,7 +55,8 @@ export async function openTiles(given, signal = new AbortController().signal) {
   }
   let path;
   try {
-    path = new URL(given, globalThis.location?.href).href;
+    const isBlank = typeof given === 'string' && !given.trim(); // it would be the address of the page itself
+    path = new URL(given, isBlank ? undefined : globalThis.location?.href).href;
   } catch (error) {
     throw new VextureError(`the source is ${line(given)}; give ${GIVEN}`, 'source', { cause: error });
   }
@@ -66,12 +70,14 @@ export async function openTiles(given, signal = new AbortController().signal) {
  * @returns {Promise<TileSource>}
  */
 async function archive(given, url, remedy) {
-  const tiles = new PMTiles(given);
+  const source = new Watched(typeof given === 'string' ? new FetchSource(given) : given);
+  const tiles = new PMTiles(source);
   let metadata;
   try {
     metadata = await tiles.getMetadata();
   } catch (error) {
-    throw new VextureError(`${url}: cannot be read (${line(error)}); ${remedy}`, 'url', { cause: error });
+    const other = source.start && mistakenFor(source.start, PYRAMID);
+    throw new VextureError(`${url}: ${other ?? `cannot be read (${line(error)}); ${remedy}`}`, 'url', { cause: error });
   }
   const load = async (/** @type {import('./grid.js').TileId} */ { z, x, y }, /** @type {AbortSignal} */ signal) => {
     const found = await tiles.getZxy(z, x, y, signal);
@@ -80,18 +86,43 @@ async function archive(given, url, remedy) {
   return { ...described(metadata, url), load };
 }
 
+/** A source that keeps its first bytes, which tell what it is if it is no archive. */
+class Watched {
+  /** @type {Uint8Array | null} */
+  start = null;
+  #source;
+
+  /** @param {FetchSource | FileSource} source */
+  constructor(source) {
+    this.#source = source;
+  }
+
+  getKey() {
+    return this.#source.getKey();
+  }
+
+  /** @type {import('pmtiles').Source['getBytes']} */
+  async getBytes(offset, length, signal, etag) {
+    const found = await /** @type {import('pmtiles').Source} */ (this.#source).getBytes(offset, length, signal, etag);
+    if (offset === 0) this.start ??= new Uint8Array(found.data.slice(0, START_BYTES));
+    return found;
+  }
+}
+
 /**
  * @param {string} url of a TileJSON
  * @param {AbortSignal} signal
  * @returns {Promise<TileSource>}
  */
 async function folder(url, signal) {
-  const text = new TextDecoder().decode(await fetchBytes(url, { signal }, LONGEST));
+  const bytes = await fetchBytes(url, { signal }, LONGEST);
   let metadata;
   try {
-    metadata = JSON.parse(text);
+    metadata = JSON.parse(new TextDecoder().decode(bytes));
   } catch (error) {
-    throw new VextureError(`${url}: is no TileJSON (${line(error)}); give its address, or that of a .pmtiles`, 'tiles');
+    const other = mistakenFor(bytes, PYRAMID);
+    const said = other ?? `is no TileJSON (${line(error)}); give its address, or that of a .pmtiles`;
+    throw new VextureError(`${url}: ${said}`, 'tiles');
   }
   const described_ = described(metadata, url);
   const template = metadata.tiles?.[0];
@@ -102,7 +133,7 @@ async function folder(url, signal) {
     const place = template.replace('{z}', String(z)).replace('{x}', String(x)).replace('{y}', String(y));
     try {
       const file = await fetchBytes(new URL(place, url).href, { signal: given }, PACKED_FILE_LIMIT);
-      return file.length && file[0] !== HTML ? file : null;
+      return ABSENT.includes(kindOf(file)) ? null : file;
     } catch (error) {
       if (error instanceof VextureError && NOTHING.includes(error.field)) return null;
       throw error;
