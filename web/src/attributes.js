@@ -1,6 +1,6 @@
 import { InstancedBufferAttribute, IntType } from 'three';
 import { MOST_ROWS } from '../generated/layout.js';
-import { VextureError, line } from './errors.js';
+import { VextureError, line, unfit } from './errors.js';
 
 /** Name of the attribute that holds each instance's root. */
 export const ROOT_ATTRIBUTE = 'vextureRoot';
@@ -16,6 +16,7 @@ export const UV_ATTRIBUTES = Object.freeze(/** @type {const} */ (['uv', 'uv1']))
  * @returns {InstancedBufferAttribute}
  */
 export function rootAttribute(texture, roots) {
+  if (!texture?.isVectorTexture) throw unfit('texture', texture, 'load one by VectorTextureLoader');
   if (typeof roots?.map !== 'function') throw new VextureError(`roots is ${line(roots)}; give an array of names`, 'roots');
   const places = roots.map((root) => texture.index(root));
   const most = places.findIndex((place) => place >= MOST_ROWS);

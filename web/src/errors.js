@@ -53,6 +53,33 @@ export function line(value) {
   return shortened(value instanceof Error ? value.message : typeof value === 'number' ? String(value) : json(value));
 }
 
+/**
+ * The error about a value of a wrong kind, such as undefined where a texture is needed.
+ *
+ * @param {string} name of the parameter
+ * @param {unknown} value
+ * @param {string} remedy
+ */
+export function unfit(name, value, remedy) {
+  const kind = typeof value === 'object' && value !== null ? `of the class ${line(value.constructor?.name)}` : line(value);
+  return new VextureError(`the ${name} is ${kind}; ${remedy}`, name);
+}
+
+/**
+ * Options that were given, or none; null stands for none, too.
+ *
+ * @template {object} T
+ * @param {T | null | undefined} options
+ * @param {string} [name]
+ * @returns {T}
+ * @throws {VextureError} if they are no object
+ */
+export function givenOptions(options, name = 'options') {
+  const given = options ?? /** @type {T} */ ({});
+  if (typeof given === 'object' && !Array.isArray(given)) return given;
+  throw new VextureError(`the ${name} are ${line(given)}; give an object, such as { ... } or none`, name);
+}
+
 /** @param {unknown} value */
 function json(value) {
   try {

@@ -1,5 +1,5 @@
 import { Matrix3 } from 'three';
-import { VextureError, line } from './errors.js';
+import { VextureError, line, givenOptions } from './errors.js';
 
 /**
  * @typedef {object} GLTFTransform As in KHR_texture_transform.
@@ -17,7 +17,8 @@ import { VextureError, line } from './errors.js';
  * @returns {Matrix3} from the mesh's uv to the unit square
  * @throws {VextureError} if its parts are no numbers
  */
-export function gltfTransform({ offset = [0, 0], rotation = 0, scale = [1, 1] } = {}) {
+export function gltfTransform(transform) {
+  const { offset = [0, 0], rotation = 0, scale = [1, 1] } = givenOptions(transform, 'parts of the transform');
   const [c, s] = [Math.cos(rotation), Math.sin(rotation)];
   const matrix = new Matrix3().set(
     c * scale[0], s * scale[1], offset[0],

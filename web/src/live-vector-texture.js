@@ -1,3 +1,4 @@
+import { givenOptions } from './errors.js';
 import { isTransport } from './fetching.js';
 import { Source } from './live-source.js';
 import { backOff, sleep } from './patience.js';
@@ -42,7 +43,8 @@ export class LiveVectorTexture extends VectorTexture {
    * @returns {Promise<LiveVectorTexture>}
    * @throws {VextureError} if the server cannot be reached, or has no such shape
    */
-  static async connect(manifestUrl, { loader = new VectorTextureLoader(), events = true, interval = INTERVAL } = {}) {
+  static async connect(manifestUrl, options) {
+    const { loader = new VectorTextureLoader(), events = true, interval = INTERVAL } = givenOptions(options);
     const source = new Source(manifestUrl, loader);
     const signal = new AbortController().signal;
     await source.look(signal);

@@ -1,7 +1,7 @@
 // The options of a mask, their defaults and their validation.
 import { Matrix3 } from 'three';
 import { WRAPS } from '../generated/wraps.js';
-import { VextureError, line } from './errors.js';
+import { VextureError, line, unfit } from './errors.js';
 
 /**
  * @typedef {object} MaskOptions How a mask shows its shape. Of a `VectorMaterial` `mode` is never `mix`, and `background` is
@@ -196,9 +196,7 @@ export function checkOptions(options, type) {
  * @throws {VextureError} if it is no texture, or one without what the options ask for
  */
 export function checkTexture(texture, { wrap, instanced, fold }) {
-  if (!texture?.isVectorTexture) {
-    throw new VextureError(`the texture is ${line(texture?.constructor?.name)}; load one by VectorTextureLoader`, 'texture');
-  }
+  if (!texture?.isVectorTexture) throw unfit('texture', texture, 'load one by VectorTextureLoader');
   if (texture.encoding !== 'packed' && (wrap !== 'none' || instanced || fold)) {
     throw new VextureError(
       `${texture.name}: a ${texture.encoding} texture has one root, no wrap and no fold; convert the drawing to KTX2`,

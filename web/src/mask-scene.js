@@ -1,5 +1,5 @@
 // One texture as the mask of the materials of a whole model.
-import { VextureError, line } from './errors.js';
+import { VextureError, line, givenOptions, unfit } from './errors.js';
 import { applyVectorMask, vectorMaskOf } from './vector-mask.js';
 
 /** @import { Material, Object3D } from 'three' */
@@ -96,11 +96,13 @@ export class SceneMask {
  *
  * @param {Object3D} scene such as the `scene` of a model of glTF, for which `transform: gltfTransform()` is right
  * @param {VectorTexture} texture
- * @param {SceneMaskOptions} [options] those of `applyVectorMask`, which all masks share, and `materials`
+ * @param {SceneMaskOptions} [given] those of `applyVectorMask`, which all masks share, and `materials`
  * @returns {SceneMask}
  * @throws {VextureError} if no material has a name, none is chosen, or one cannot be masked; then nothing is changed
  */
-export function applyVectorMaskToScene(scene, texture, { materials, ...options } = {}) {
+export function applyVectorMaskToScene(scene, texture, given) {
+  if (!scene?.isObject3D) throw unfit('scene', scene, 'give a scene, a group or a mesh, such as gltf.scene');
+  const { materials, ...options } = givenOptions(given);
   const meshes = meshesIn(scene);
   const chosen = choose(meshes, materials);
   /** @type {VectorMask[]} */
@@ -122,6 +124,9 @@ export function applyVectorMaskToScene(scene, texture, { materials, ...options }
  */
 function choose(meshes, wanted) {
   const names = typeof wanted === 'string' ? [wanted] : wanted;
+  if (names && typeof names !== 'function' && !Array.isArray(names)) {
+    throw new VextureError(`materials is ${line(wanted)}; give a name, a list of names, or a function`, 'materials');
+  }
   const isWanted = typeof names === 'function' ? names : (/** @type {Material} */ { name }) => names?.includes(name) ?? true;
   /** @type {Set<Material>} */
   const all = new Set();

@@ -1,6 +1,6 @@
 // What the unlit materials of all renderers have in common: options that are properties, and a mask once there is a texture.
 import { Color } from 'three';
-import { VextureError, line } from './errors.js';
+import { VextureError, line, givenOptions, unfit } from './errors.js';
 import { NAMES, checkOptions, complete, withOptions } from './mask-options.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
@@ -100,6 +100,7 @@ export function shapeMaterial(base, MaskOf, name) {
     /** @param {VectorMaterialParameters} [values] */
     setValues(values) {
       if (values === undefined) return; // three.js's constructor calls it, before there are fields
+      givenOptions(values, 'values');
       if (this.#isCopying) return;
       const own = /** @type {Record<string, unknown>} */ ({});
       const basic = /** @type {Record<string, unknown>} */ ({});
@@ -110,6 +111,7 @@ export function shapeMaterial(base, MaskOf, name) {
           throw new VextureError(`${name} has no option ${line(key)}; correct its name`, key);
         }
       }
+      checkMap(values.map);
       if (values.color !== undefined && (own.mode ?? this.options.mode) === null) own.mode = 'alpha';
       const { texture = 'texture' in values ? undefined : this.texture } = values;
       if (texture === undefined) {
@@ -148,4 +150,12 @@ export function shapeMaterial(base, MaskOf, name) {
     }
   }
   return /** @type {any} */ (ShapeMaterial);
+}
+
+/**
+ * @param {any} map a texture of ours says what to do when three.js reads it
+ * @throws {VextureError} if it is none of three.js
+ */
+function checkMap(map) {
+  if (map && !map.isTexture && !map.isVectorTexture) throw unfit('map', map, 'give a Texture of three.js or null, and the shape as texture');
 }

@@ -1,6 +1,6 @@
 // What a mask shows: a shape or a drawing of a texture, and what of it lies at a point.
 import { elementAt } from './element-at.js';
-import { VextureError } from './errors.js';
+import { VextureError, givenOptions, unfit } from './errors.js';
 import { lookedUp } from './mask-lookup.js';
 import { checkOptions, checkTexture, complete, isTranslucent } from './mask-options.js';
 import { ROOT_ATTRIBUTE } from './attributes.js';
@@ -54,7 +54,7 @@ export class ShownShape {
    */
   constructor(texture, options, type) {
     this.texture = texture;
-    this.given = complete(options, type);
+    this.given = complete(givenOptions(options), type);
     this.type = type;
     checkOptions(this.given, type);
     checkTexture(texture, this.given);
@@ -83,9 +83,10 @@ export class ShownShape {
   /**
    * The same with other options.
    *
-   * @param {MaskOptions & { texture?: VectorTexture }} changes
+   * @param {MaskOptions & { texture?: VectorTexture }} given
    */
-  with({ texture = this.texture, ...changes }) {
+  with(given) {
+    const { texture = this.texture, ...changes } = givenOptions(given, 'changes');
     return new ShownShape(texture, { ...this.given, ...changes }, this.type);
   }
 
@@ -151,6 +152,7 @@ export const isOn = (mesh, material) => [mesh.material].flat().includes(material
  * @throws {VextureError} if a mesh cannot be attached to the mask of a material
  */
 export function checkMesh(mesh, material, { instanced }) {
+  if (!mesh?.isObject3D) throw unfit('mesh', mesh, 'give the mesh that has this material');
   if (!isOn(mesh, material)) {
     throw new VextureError(`${mesh.name || mesh.type} has another material; give it this one first`, 'mesh');
   }

@@ -1,6 +1,6 @@
 import { Color } from 'three';
 import { UV_ATTRIBUTES, warnOfMissing } from './attributes.js';
-import { VextureError, line } from './errors.js';
+import { VextureError, givenOptions, unfit } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
 import { NAMES, isTranslucent, withOptions } from './mask-options.js';
@@ -60,9 +60,7 @@ export class VectorMask extends WithOptions {
    */
   constructor(material, texture, options = {}) {
     super();
-    if (!material?.isMaterial) {
-      throw new VextureError(`the material is ${line(material?.constructor?.name)}; give one, such as mesh.material`, 'material');
-    }
+    if (!material?.isMaterial) throw unfit('material', material, 'give one, such as mesh.material');
     if ('isNodeMaterial' in material) {
       throw new VextureError(
         `${material.type} is a material of WebGPURenderer; take applyVectorMask of 'vexture/webgpu'`,
@@ -156,7 +154,7 @@ export class VectorMask extends WithOptions {
    */
   set(changes) {
     const before = /** @type {Record<string, unknown>} */ ({ ...this.#shown.given, texture: this.texture });
-    const changed = Object.entries(changes).filter(([name, value]) => value !== before[name]);
+    const changed = Object.entries(givenOptions(changes, 'changes')).filter(([name, value]) => value !== before[name]);
     if (changed.every(([name, value]) => name === 'time' && Number.isFinite(value))) {
       for (const [, time] of changed) this.#setTime(/** @type {number} */ (time));
       return;
@@ -231,10 +229,11 @@ export class VectorMask extends WithOptions {
    * mesh are attached, too, as long as they have this material.
    *
    * @param {import('./ray-mesh.js').Masked} mesh that has this material
-   * @param {{ shadow?: boolean }} [options] without `shadow` light does not pass: several materials share one shadow
+   * @param {{ shadow?: boolean }} [options] by default with `shadow: true`; without `shadow` light does not pass: several materials share one shadow
    * @returns {this}
    */
-  attach(mesh, { shadow = true } = {}) {
+  attach(mesh, options) {
+    const { shadow = true } = givenOptions(options);
     if (this.#meshes.has(mesh)) return this;
     checkMesh(mesh, this.#material, this.#shown.options);
     /** @type {import('./mask-mesh.js').Cut} */

@@ -5,7 +5,7 @@ import { layersOf, layersTexture } from './layers.js';
 import { mapParts } from './maps.js';
 import { shapeIndex } from './select-root.js';
 import { wordTexture } from './upload.js';
-import { colorAt, contains } from './walk.js';
+import { checkData, colorAt, contains } from './walk.js';
 
 /** @import { DataTexture } from 'three' */
 /** @typedef {import('./data.js').TextureData} TextureData */
@@ -52,11 +52,12 @@ export class VectorTexture extends EventDispatcher {
 
   /**
    * @param {Data} data as returned by `readPacked`
+   * @throws {VextureError} if it is something else
    */
   constructor(data) {
     super();
+    this.#textures = this.upload(checkData(data));
     this.#data = data;
-    this.#textures = this.upload(data);
   }
 
   /** True: it is a vector texture. */
@@ -194,7 +195,7 @@ export class VectorTexture extends EventDispatcher {
    */
   replace(data) {
     const before = this.#textures;
-    this.#textures = this.upload(data);
+    this.#textures = this.upload(checkData(data));
     this.#data = data;
     try {
       this.dispatchEvent({ type: 'change' });

@@ -1,7 +1,7 @@
 // Descends the trees of a validated packed texture on the CPU: the cell at a point, containment, bounds, counts.
 // Plain data, without three.js.
 import { COUNT_SHIFT, COVERAGE_ONE, LATTICE, MOST_DEPTH, QUAD_FLAG, WINDING_OFFSET } from '../generated/layout.js';
-import { VextureError } from './errors.js';
+import { VextureError, unfit } from './errors.js';
 import { curvesOf, leafOf } from './leaf.js';
 import { mapParts } from './maps.js';
 import { WHOLE, filledBox, winding } from './winding.js';
@@ -44,6 +44,17 @@ export const BLACK = Object.freeze({ color: Object.freeze([0, 0, 0]), opacity: 1
 const MAPS = new WeakMap();
 
 /**
+ * @template {import('./data.js').TextureData} T
+ * @param {T} data
+ * @returns {T}
+ * @throws {VextureError} if it is no data of a texture
+ */
+export function checkData(data) {
+  if (Array.isArray(data?.roots)) return data;
+  throw unfit('data', data, 'give what readPacked returns, or load a texture by VectorTextureLoader');
+}
+
+/**
  * Whether a shape is a planar map.
  *
  * @param {PackedData} data
@@ -52,7 +63,7 @@ const MAPS = new WeakMap();
 export function isMap(data, quad) {
   let maps = MAPS.get(data);
   if (!maps) {
-    maps = new Set(data.roots.filter((root) => root.isMap).map((root) => root.quad));
+    maps = new Set(checkData(data).roots.filter((root) => root.isMap).map((root) => root.quad));
     MAPS.set(data, maps);
   }
   return maps.has(quad);
@@ -78,9 +89,9 @@ function cornerOf(byte) {
  * @returns {Cell | null} null beyond 0 <= u < 1, 0 <= v < 1
  */
 export function cellAt(data, quad, u, v, mostDepth = MOST_DEPTH) {
+  const ofMap = isMap(data, quad);
   if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return null;
   const { texels } = data;
-  const ofMap = isMap(data, quad);
   if (mostDepth < 1) return top(data, quad, ofMap);
   const root = quad;
   let [x, y, size, depth] = [0, 0, 1, 0];
@@ -164,6 +175,7 @@ export function contains(data, quad, u, v) {
  * @returns {import('./walk-map.js').Painted}
  */
 export function paintAt(data, quad, u, v) {
+  checkData(data);
   return mapParts().paintAt(data, quad, u, v);
 }
 
@@ -199,8 +211,8 @@ export function colorAt(data, layers, u, v) {
  * @returns {[number, number, number, number]} x0 y0 x1 y1
  */
 export function bounds(data, quad) {
-  const { texels } = data;
   const ofMap = isMap(data, quad);
+  const { texels } = data;
   const boxOf = ofMap ? mapParts().paintedBox : coveredBox;
   /** @type {[number, number, number, number]} */
   const box = [1, 1, 0, 0];
@@ -250,8 +262,8 @@ function coveredBox({ texels }, _root, quad, cell) {
  * @returns {{ quads: number, curves: number, depth: number }}
  */
 export function counts(data, quad) {
-  const { texels } = data;
   const ofMap = isMap(data, quad);
+  const { texels } = data;
   const found = { quads: 0, curves: 0, depth: -1 };
   for (let level = [quad]; level.length; ) {
     found.depth++;

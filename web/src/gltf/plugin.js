@@ -1,6 +1,6 @@
 // Plugin of three.js's GLTFLoader for the extension VEXTURE_vector_texture.
 import { Color, LinearSRGBColorSpace, LoaderUtils } from 'three';
-import { VextureError } from '../errors.js';
+import { VextureError, unfit } from '../errors.js';
 import { gltfTransform } from '../gltf-transform.js';
 import { attachAll, meshesIn } from '../mask-scene.js';
 import { applyVectorMask } from '../vector-mask.js';
@@ -33,8 +33,12 @@ export class VectorTexturePlugin {
   /** @type {Map<number, Promise<VectorTexture>>} */
   #textures = new Map();
 
-  /** @param {GLTFParser} parser as `GLTFLoader.register` hands it on */
+  /**
+   * @param {GLTFParser} parser as `GLTFLoader.register` hands it on
+   * @throws {VextureError} if it is none
+   */
   constructor(parser) {
+    if (!parser?.json) throw unfit('parser', parser, 'hand it on: register((parser) => new VectorTexturePlugin(parser))');
     this.#parser = parser;
   }
 

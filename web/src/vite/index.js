@@ -7,6 +7,7 @@ import { createHash } from 'node:crypto';
 import { access, mkdir, readFile, rename, rm, writeFile } from 'node:fs/promises';
 import { availableParallelism } from 'node:os';
 import path from 'node:path';
+import { givenOptions } from '../errors.js';
 import { findConverter, run } from './converter.js';
 import { optionsOf, parametersOf } from './options.js';
 
@@ -46,7 +47,8 @@ const slashed = (file) => file.replaceAll('\\', '/');
  * @param {VextureOptions} [options]
  * @returns {import('vite').Plugin}
  */
-export default function vexture({ converter, ...common } = {}) {
+export default function vexture(options) {
+  const { converter, ...common } = givenOptions(options);
   parametersOf(common); // a wrong name is said when Vite starts
   let root = process.cwd();
   const converting = new Conversions(() => findConverter(root, converter));

@@ -1,7 +1,7 @@
 import { Color } from 'three';
 import { bool, float, materialColor, materialOpacity, mix, texture as textureNode, uniform, uv, vec3, vec4 } from 'three/tsl';
 import { UV_ATTRIBUTES, warnOfMissing } from '../attributes.js';
-import { VextureError } from '../errors.js';
+import { VextureError, givenOptions, unfit } from '../errors.js';
 import { NAMES, isTranslucent, withOptions } from '../mask-options.js';
 import { takePartIn, warnOfJSON } from '../methods.js';
 import { MaskedMeshes, RayMesh } from '../ray-mesh.js';
@@ -59,9 +59,10 @@ export class VectorNodeMask extends WithOptions {
    */
   constructor(material, texture, options = {}) {
     super();
-    if (material?.isNodeMaterial !== true) {
+    if (!material?.isMaterial) throw unfit('material', material, 'give one, such as mesh.material');
+    if (material.isNodeMaterial !== true) {
       throw new VextureError(
-        `${material?.type} is no node material; use one, as MeshStandardNodeMaterial, or applyVectorMask of 'vexture'`,
+        `${material.type} is no node material; use one, as MeshStandardNodeMaterial, or applyVectorMask of 'vexture'`,
         'material',
       );
     }
@@ -193,7 +194,7 @@ export class VectorNodeMask extends WithOptions {
    *   ambiguous
    */
   set(changes) {
-    const { time, ...others } = changes;
+    const { time, ...others } = givenOptions(changes, 'changes');
     if (Number.isFinite(time) && Object.keys(others).length === 0) { // cheap, as each frame of a fold has its time
       this.#shown.setTime(/** @type {number} */ (time));
       return;

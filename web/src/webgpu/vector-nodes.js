@@ -1,6 +1,6 @@
 import { attribute, uv as meshUv, varying } from 'three/tsl';
 import { ROOT_ATTRIBUTE } from '../attributes.js';
-import { VextureError } from '../errors.js';
+import { givenOptions, unfit } from '../errors.js';
 import { checkNodeOptions } from '../mask-options.js';
 import { shapeIndex } from '../select-root.js';
 import { livingShapeNode } from './shape-inputs.js';
@@ -33,14 +33,13 @@ export const instancedRoot = () => varying(/** @type {any} */ (attribute(ROOT_AT
 /**
  * @param {'coverage' | 'colour'} what
  * @param {VectorTexture} texture
- * @param {ColorOptions} given
+ * @param {ColorOptions} [options]
  */
-function nodeOf(what, texture, given) {
+function nodeOf(what, texture, options) {
+  const given = givenOptions(options);
   checkNodeOptions(given, OPTIONS);
-  const { root = null, uv = meshUv(), time = () => 0, ...options } = given;
-  if (!texture?.isVectorTexture || texture.encoding !== 'packed') {
-    throw new VextureError('the texture must be a VectorTexture; load one by VectorTextureLoader', 'texture');
-  }
+  const { root = null, uv = meshUv(), time = () => 0, ...others } = given;
+  if (!texture?.isVectorTexture || texture.encoding !== 'packed') throw unfit('texture', texture, 'load one by VectorTextureLoader');
   const isNode = /** @type {any} */ (root)?.isNode === true;
   const chosen = /** @type {string | number | null} */ (root);
   const find = () => {
@@ -58,7 +57,7 @@ function nodeOf(what, texture, given) {
     made.follow();
   };
   const instance = isNode ? /** @type {import('three/webgpu').Node} */ (root) : null;
-  const made = livingShapeNode(what, texture, { dx: null, dy: null, ...options, uv, time, instance, range: () => range });
+  const made = livingShapeNode(what, texture, { dx: null, dy: null, ...others, uv, time, instance, range: () => range });
   texture.addEventListener('change', follow);
   return made.node;
 }
@@ -72,7 +71,7 @@ function nodeOf(what, texture, given) {
  * @returns {any} a node, of whose methods three.js's types know few
  * @throws {VextureError} if an option is out of range, or the root is unknown or ambiguous
  */
-export function vectorCoverage(texture, options = {}) {
+export function vectorCoverage(texture, options) {
   return nodeOf('coverage', texture, options);
 }
 
@@ -84,6 +83,6 @@ export function vectorCoverage(texture, options = {}) {
  * @returns {any} a node, of whose methods three.js's types know few
  * @throws {VextureError} if an option is out of range, or the root is unknown or ambiguous
  */
-export function vectorColor(texture, options = {}) {
+export function vectorColor(texture, options) {
   return nodeOf('colour', texture, options);
 }
