@@ -29,6 +29,7 @@ BACKENDS = ("webgpu", "webgl")
 SIZE = (100, 100)
 CLOSE = 0.1 / 255  # the aim of each shader against the mirror
 INK = 0xC03020
+RED = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8"><path d="M1 1H7L4 6z" fill="#f00"/></svg>"""
 ELEMENTS = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8"><path id="one" d="M0 0H4V8H0z" fill="#00bc00"/>
 <path id="two" d="M5 1H8V7H5z" fill="#0000ff"/></svg>"""
 
@@ -37,6 +38,8 @@ ELEMENTS = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8"><path id
 def texture(name: str) -> Texture:
     if name == "atlas":
         return vexture.atlas([SHAPES / f"{one}.svg" for one in ATLAS])
+    if name == "red":
+        return vexture.convert(vexture.read(RED.encode()))
     if name == "blended":
         return vexture.convert(FIXTURES / "gradients" / "blended.svg")
     if name == "ring":
@@ -58,7 +61,7 @@ def fold() -> Fold:
 @pytest.fixture(scope="module")
 def address(chromium: Any, made_once: Callable[..., Path]) -> Iterator[str]:
     def fill(folder: Path) -> None:
-        for name in ("duck", "atlas", "blended", "ring", "cake"):
+        for name in ("duck", "atlas", "blended", "ring", "cake", "red"):
             texture(name).save(folder / f"{name}.ktx2")
         bundle(PAGE, folder / "nodes.js")
         (folder / "wild.fold.ktx2").write_bytes(fold().to_ktx2())
@@ -166,6 +169,23 @@ def test_a_material_shows_a_shape_and_its_options_are_live(page: Any, backend: s
     assert np.ptp(expected) > 0.5
     # SwiftShader's corners are at 16ths of a pixel, so that its plane lies up to a 32nd beside
     assert np.abs(tilted - expected).max() < (10 / 255 if backend == "webgpu" else CLOSE)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_a_colour_that_is_set_after_a_frame_is_shown_in_the_next_one(page: Any, backend: str) -> None:
+    def recolored(name: str, **options: Any) -> Picture:
+        options = {"backend": backend, "texture": name, "type": "VectorNodeMaterial", "recolor": INK, **options}
+        return drawn(page, "material", **options)[..., :3]
+
+    expected = over_white(mirror("red"), INK)
+    assert 0.0 < mirror("red").mean() < 1.0
+    for given in ({}, {"color": 0x0000FF}, {"mode": "alpha"}):
+        assert np.abs(recolored("red", parameters=given) - expected).max() < CLOSE, given
+    assert np.abs(recolored("red", clone=True) - expected).max() < CLOSE
+    own = recolored("red", parameters={"mode": "paint"})
+    assert np.abs(own - over_white(mirror("red"), 0xFF0000)).max() < CLOSE
+    opacity = render_cpu_colours(texture("blended"), SIZE)[..., 3].astype(float)
+    assert np.abs(recolored("blended") - over_white(opacity, INK)).max() < CLOSE
 
 
 @pytest.mark.parametrize("backend", BACKENDS)

@@ -46,7 +46,7 @@ const OPTIONS = Object.freeze(NAMES.filter((name) => name !== 'color' && name !=
 const OWN_DEFAULTS = Object.freeze({ background: 'none', mode: null });
 
 /** Colour of a basic material to which none is given. */
-const WHITE = new Color(0xffffff);
+export const WHITE = new Color(0xffffff);
 
 /**
  * A basic material with a mask of a renderer.

@@ -85,7 +85,7 @@ function tiltedCamera() {
 
 // A material over the whole picture, on white; its mask is changed after a first frame, if there are changes.
 async function material(scenery) {
-  const { backend, texture, type, parameters = {}, mask, changes, clone, roots, fold, paints, camera = 'flat', size } = scenery;
+  const { backend, texture, type, parameters = {}, mask, changes, recolor, clone, roots, fold, paints, camera = 'flat', size } = scenery;
   const renderer = await rendererOf(backend);
   const shape = texture && (await textureOf(texture));
   if (fold) {
@@ -114,6 +114,10 @@ async function material(scenery) {
     shape.setPaints(paints);
     pixels = await pixelsOf(renderer, scene, eye, size);
     shape.setPaints(Object.fromEntries(Object.keys(paints).map((name) => [name, 'own'])));
+  }
+  if (recolor !== undefined) {
+    made.color.set(recolor);
+    pixels = await pixelsOf(renderer, scene, eye, size);
   }
   if (changes) {
     const target = vexture.vectorMaskOf(made) ?? made;

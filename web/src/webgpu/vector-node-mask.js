@@ -5,6 +5,7 @@ import { VextureError, givenOptions, unfit } from '../errors.js';
 import { NAMES, isTranslucent, withOptions } from '../mask-options.js';
 import { takePartIn, warnOfJSON } from '../methods.js';
 import { MaskedMeshes, RayMesh } from '../ray-mesh.js';
+import { WHITE } from '../shape-material.js';
 import { ShownShape, checkMesh, isOn } from '../shown-shape.js';
 import { nodeVariant, shapeNode } from './shape-inputs.js';
 import { instancedRoot } from './vector-nodes.js';
@@ -83,10 +84,12 @@ export class VectorNodeMask extends WithOptions {
       transform: /** @type {any} */ (uniform(this.#transform)),
       inside: /** @type {any} */ (uniform(this.#inside)),
       threshold: /** @type {any} */ (uniform(0)),
+      colored: /** @type {any} */ (uniform(0)),
     };
     this.#uniforms.transform.onRenderUpdate(() => this.#transform.copy(this.#shown.options.transform));
     this.#uniforms.inside.onRenderUpdate(() => this.#inside.set(this.#shown.options.color));
     this.#uniforms.threshold.onRenderUpdate(() => this.#shown.options.threshold);
+    this.#uniforms.colored.onRenderUpdate(() => Number(!material.color.equals(WHITE)));
     this.#takeBack = [
       takePartIn(material, 'onBeforeRender', (_own, renderer) => refuseWebGL(renderer)),
       takePartIn(material, 'clone', (clone) => this.#masked(clone())),
@@ -125,6 +128,11 @@ export class VectorNodeMask extends WithOptions {
     for (const name of SET) copy[name] = this.#before[name];
   }
 
+  /** Whether the shape is shown in the material's colour as soon as it has one: WebGPURenderer does not tell a material of a frame. */
+  get #takesColor() {
+    return this.#material.isVectorMaterial === true && this.#shown.given.mode === null;
+  }
+
   /** Make the nodes again where they would be others. */
   #refresh() {
     this.#shown.follow();
@@ -132,7 +140,7 @@ export class VectorNodeMask extends WithOptions {
     const { mode, invert, background, map, channel, fold } = options;
     const instance = /** @type {any} */ (options.instanced ? true : null);
     const { variant, isSheets } = nodeVariant(/** @type {any} */ (texture), { ...options, instance }, range);
-    const key = JSON.stringify([variant, isSheets, mode, invert, background, channel, options.instanced]);
+    const key = JSON.stringify([variant, isSheets, mode, invert, background, channel, options.instanced, this.#takesColor]);
     const read = [texture, fold, map];
     this.#material.transparent = isTranslucent(options) || this.#before.transparent;
     if (key === this.#drawn && read.every((one, place) => one === this.#read[place])) return;
@@ -180,7 +188,7 @@ export class VectorNodeMask extends WithOptions {
     }
     if (paint && background === 'own') material.colorNode = vec4(mix(color.rgb, paint.rgb, paint.a), color.a);
     if (paint && background === 'none') {
-      material.colorNode = vec4(paint.rgb, 1);
+      material.colorNode = vec4(this.#takesColor ? mix(paint.rgb, color.rgb, this.#uniforms.colored) : paint.rgb, 1);
       material.opacityNode = opacity.mul(paint.a);
     }
     material.transparent = isTranslucent(this.#shown.options) || before.transparent;
