@@ -23,6 +23,9 @@ LOGO = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">
   <path d="M20 70 L50 15 L80 70 Z" fill="white"/>
   <circle id="sun" cx="30" cy="32" r="12" fill="#ffcc00" fill-opacity="0.8"/>
 </svg>"""
+RED = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><path fill="red" d="M1 1h8v3h-5v6h-3z"/></svg>'
+"""Of one colour: its texture is no map, if nobody asks for one."""
+
 ANGLE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><path d="M1 1h8v3h-5v6h-3z"/></svg>'
 """Neither turned nor mirrored are they like themselves."""
 
@@ -55,6 +58,13 @@ def prepare(folder: Path) -> None:
     painted = ("--material", "Sign", "--drawing", folder / "logo.svg", "--background", "none")
     for target in ("painted.glb", "painted.gltf"):
         arguments = ["gltf", folder / "room.glb", *painted, "-o", folder / target]
+        outcome = CliRunner().invoke(main, list(map(str, arguments)))
+        assert outcome.exit_code == 0, outcome.output
+    (folder / "red.svg").write_text(RED, encoding="utf-8")
+    vexture.convert(folder / "red.svg").save(folder / "red.ktx2")
+    for suffix in ("svg", "ktx2"):
+        source, target = folder / f"red.{suffix}", folder / f"of-{suffix}.glb"
+        arguments = ["gltf", folder / "room.glb", "--material", "Sign", "--drawing", source, *painted[4:], "-o", target]
         outcome = CliRunner().invoke(main, list(map(str, arguments)))
         assert outcome.exit_code == 0, outcome.output
     second = vexture.read_model(unlit(POSITION=0, NORMAL=1, TEXCOORD_1=2))
@@ -99,6 +109,16 @@ def test_a_model_of_the_command_shows_the_drawing(page: Any, folder: Path, scree
         assert distance(draw(page, file), expected) <= HALF_STEP
     assert distance(draw(page, "painted.glb", clone=True), expected) <= HALF_STEP
     screenshot(page.locator("canvas"))
+
+
+def test_a_drawing_of_one_colour_keeps_it_on_a_model(page: Any, folder: Path) -> None:
+    texture = vexture.convert(folder / "red.svg")
+    (root,) = texture.roots
+    assert (root.is_map, root.paint and root.paint.hex) == (False, "#ff0000")
+    coverage = texture.coverage(512)
+    expected = 1.0 - coverage[..., None] * [0.0, 1.0, 1.0]
+    for file in ("of-svg.glb", "of-ktx2.glb"):
+        assert distance(draw(page, file), expected) <= HALF_STEP
 
 
 def test_texture_coordinates_are_those_of_the_second_set_and_transformed(

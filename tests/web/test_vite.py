@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
@@ -13,7 +14,7 @@ from typing import Any
 
 import httpx
 import pytest
-from browser import ROOT, WEB
+from browser import ROOT, WEB, served
 
 import vexture
 from guides import free_port
@@ -148,6 +149,43 @@ def test_the_server_shows_the_texture_and_every_save_of_the_drawing(project: Pro
         flag = until(lambda: found if (found := digest(client)) != badge else None)
         assert flag != badge
         assert project.conversions() == 2
+
+
+DRAWN = """
+import * as THREE from 'three';
+import { VectorMaterial, VectorTextureLoader } from 'vexture';
+import logo from './red.svg?vexture';
+
+const renderer = new THREE.WebGLRenderer({ preserveDrawingBuffer: true });
+renderer.setSize(16, 16);
+const scene = new THREE.Scene();
+scene.background = new THREE.Color(0xffffff);
+const texture = await new VectorTextureLoader().loadAsync(logo);
+scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), new VectorMaterial({ texture })));
+renderer.render(scene, new THREE.OrthographicCamera(-1, 1, 1, -1, -1, 1));
+const gl = renderer.getContext();
+window.colors = [[8, 8], [1, 1]].map(([x, y]) => {
+  const pixel = new Uint8Array(4);
+  gl.readPixels(x, y, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+  return [...pixel];
+});
+"""
+RED = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8"><path fill="red" d="M2 2h4v4h-4z"/></svg>"""
+
+
+def test_a_drawing_of_one_colour_is_drawn_in_it(project: Project, open_page: Callable[..., Any]) -> None:
+    (project.folder / "node_modules" / "three").symlink_to(WEB / "node_modules" / "three")
+    (project.folder / "red.svg").write_text(RED, encoding="utf-8")
+    (project.folder / "main.js").write_text(DRAWN, encoding="utf-8")
+    page = '<!doctype html><link rel="icon" href="data:,"><body><script type="module" src="/main.js"></script>'
+    (project.folder / "index.html").write_text(page, encoding="utf-8")
+    (texture,) = project.built()
+    (root,) = vexture.load(texture).roots
+    assert (root.is_map, root.paint and root.paint.hex) == (False, "#ff0000")
+    with served(project.folder / "dist") as address:
+        shown = open_page(address)
+        shown.wait_for_function("window.colors")
+        assert shown.evaluate("colors") == [[255, 0, 0, 255], [255, 255, 255, 255]]
 
 
 def test_each_build_tells_what_a_drawing_loses(project: Project) -> None:
