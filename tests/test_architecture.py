@@ -15,6 +15,7 @@ import pytest
 
 import vexture
 from vexture import layout
+from vexture.cli.main import COMMANDS, LINES, main
 from vexture.thesis import layout as thesis_layout
 
 ROOT = Path(__file__).parents[1]
@@ -325,3 +326,25 @@ def test_start_brings_in_nothing_heavy(statement):
     modules = json.loads(outcome.stdout.splitlines()[-1])
     assert "vexture" in modules
     assert {module.split(".")[0] for module in modules} & (HEAVY | OF_SERVERS) == set()
+
+
+LIST = """
+import contextlib, vexture.cli.main
+with contextlib.suppress(SystemExit):
+    vexture.cli.main.main(["--help"])
+"""
+
+OF_LIST = {"vexture", "vexture.errors"} | {f"vexture.cli{name}" for name in ("", ".interrupt", ".main", ".messages")}
+"""What the list of the commands takes, beside click and what adds commands: it is asked for most often."""
+
+
+def test_the_list_of_the_commands_brings_in_none_of_them():
+    code = f"{LIST}\nimport json, sys\nprint(json.dumps([*sys.modules]))"
+    outcome = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    modules = json.loads(outcome.stdout.splitlines()[-1])
+    assert {module for module in modules if module.split(".")[0] == "vexture"} == OF_LIST
+
+
+def test_the_list_of_the_commands_is_what_they_say_themselves():
+    commands = {name: main.get_command(None, name) for name in COMMANDS}
+    assert {name: command.get_short_help_str(1000) for name, command in commands.items()} == LINES

@@ -84,7 +84,7 @@ class Presser:
             signal.raise_signal(signal.SIGINT)
 
 sys.meta_path.insert(0, Presser())
-pressed, sys.argv[1:] = sys.argv[1], ["--help"]
+pressed, sys.argv[1:] = sys.argv[1], ["map", "--help"]
 """
 """Ctrl-C while the modules of the command line are imported."""
 

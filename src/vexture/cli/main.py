@@ -18,16 +18,29 @@ from vexture.errors import printable
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
-__all__ = ["COMMANDS", "main"]
+__all__ = ["COMMANDS", "LINES", "main"]
 
-COMMANDS: Final = {
-    name: f"vexture.cli.{name}"
-    for name in (
-        *("convert", "text", "font", "render", "info", "restyle", "view", "export", "serve", "push", "flood", "fold"),
-        *("gltf", "map", "tiles"),
-    )
+LINES: Final = {
+    "convert": "Convert drawings into textures.",
+    "text": "Convert a word or lines of text into a texture.",
+    "font": "Convert the characters of a font into one texture, a shape for each, with its metrics as JSON beside it.",
+    "render": "Draw a drawing, a picture as it is traced, or a texture as a PNG, in its colours.",
+    "info": "Describe a texture, or a pyramid of tiles: a file (PMTiles), or a folder.",
+    "restyle": "Give elements of a planar map other colours.",
+    "view": "Show drawings or packed textures in the browser, until Ctrl-C.",
+    "export": "Write one page that shows drawings, with everything in it.",
+    "serve": "Serve a folder of shapes, and take new ones by a token.",
+    "push": "Publish a drawing, geographic data or a packed texture on a server.",
+    "flood": "Show a flood as a living sea, on one page or on a server.",
+    "fold": "Make the outline of a drawing slide to and fro, as water on a beach.",
+    "gltf": "Put drawings on materials of a model (glTF 2.0, .glb or .gltf).",
+    "map": "Make a map of geographic data: one texture, and a table of the attributes beside it.",
+    "tiles": "Make a pyramid of tiles of a map's polygons: one file (PMTiles), or a folder with a TileJSON.",
 }
-"""Module of each command; it is imported when the command is used or listed."""
+"""The commands in the order of their list, and the first sentence of each: the list imports no command."""
+
+COMMANDS: Final = {name: f"vexture.cli.{name}" for name in LINES}
+"""Module of each command; it is imported when the command is used."""
 
 PLUGINS: Final = "vexture.commands"
 """Entry points of other distributions that add commands."""
@@ -51,6 +64,12 @@ class _Commands(click.Group):
             ctx.fail(f"No such command {cmd_name!r}; {ELSEWHERE[cmd_name]}")
         return None if added is None else added.load()
 
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands without their modules, which take longer to import than all else of the help."""
+        listed = {name: click.Command(name, help=line) for name, line in LINES.items()}
+        added = {name: point.load() for name, point in _added(ctx).items()}
+        _Listed(commands=listed | added).format_commands(ctx, formatter)
+
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         with _printable_errors():
             return super().parse_args(ctx, args)
@@ -70,6 +89,13 @@ class _Commands(click.Group):
         finally:
             if ours:
                 signal.signal(signal.SIGINT, before)
+
+
+class _Listed(click.Group):
+    """Commands that are listed in the order in which they are given."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return [*self.commands]
 
 
 def _added(ctx: click.Context) -> "dict[str, EntryPoint]":

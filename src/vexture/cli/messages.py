@@ -6,12 +6,14 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from vexture.errors import EXPECTED, printable, reason_of
-from vexture.notes import Note, line_of
+
+if TYPE_CHECKING:
+    from vexture.notes import Note
 
 __all__ = ["as_options", "echo", "note_facts", "one_line", "say", "say_notes"]
 
@@ -37,13 +39,15 @@ def as_options(message: str) -> str:
     return PARAMETER.sub(lambda found: "--" + NAMED_OTHERWISE.get(found[1], found[1]).replace("_", "-"), message)
 
 
-def note_facts(notes: Sequence[Note]) -> list[dict[str, Any]]:
+def note_facts(notes: Sequence["Note"]) -> list[dict[str, Any]]:
     """Notes ready for JSON, with the options of the command line."""
     return [note.facts() | {"message": as_options(note.message)} for note in notes]
 
 
-def say_notes(source: object, notes: Sequence[Note]) -> None:
+def say_notes(source: object, notes: Sequence["Note"]) -> None:
     """Print the notes about a source in one line, if there are any."""
+    from vexture.notes import line_of  # the list of the commands does not wait for it
+
     if line := line_of(str(source), notes):
         say(f"warning: {line}")
 
