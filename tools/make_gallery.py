@@ -8,12 +8,15 @@ and one state of the map, `--only NAME` some of the examples.
 import argparse
 import base64
 import contextlib
+import functools
+import hashlib
 import io
 import json
 import os
 import shutil
 import subprocess
 import sys
+from importlib.metadata import distributions
 from pathlib import Path
 from typing import Any, Final
 
@@ -49,6 +52,12 @@ LICENSED: Final = (
 
 HOLDS_OTHERS: Final = ("maplibre-gl",)
 """Those that hold what they depend on."""
+
+MADE: Final = "made.txt"
+"""In an example's folder: the digest of what its files were made of."""
+
+MADE_OF: Final = ("src/vexture", "gallery/drawings", "examples", "tools", "evidence/benchmarks")
+"""Folders of the converter and of the sources, any change in which makes all files again."""
 
 THUMBNAIL: Final = (640, 400)
 LUCIDE_OF_GLYPH: Final = (1_594, 3 * 2**20, 998_000)
@@ -101,10 +110,51 @@ def run(line: str, folder: Path) -> None:
             sys.exit(f"{line}: {error}")
 
 
+def digest_of(example: Example, *, quick: bool) -> str:
+    """Digest of all that the files of an example are made of: its entry, the converter and the sources."""
+    entry = (example.sources, example.commands, example.files, quick, digest_of_tools())
+    return hashlib.sha256(repr(entry).encode()).hexdigest()
+
+
+@functools.cache
+def digest_of_tools() -> str:
+    """Digest of what makes the files of all examples."""
+    installed = sorted(f"{one.name} {one.version}" for one in distributions())
+    digest = hashlib.sha256(repr((sys.version, installed)).encode())
+    for file in sorted(file for place in MADE_OF for file in (ROOT / place).rglob("*")):
+        if file.is_file() and not {"__pycache__", "node_modules"} & set(file.parts):
+            digest.update(repr((str(file.relative_to(ROOT)), file.stat().st_size)).encode() + file.read_bytes())
+    return digest.hexdigest()
+
+
+def drop_old(folder: Path, shown: list[Example], *, quick: bool) -> None:
+    """Empty the site's folder, but for the files of examples that would be made again as they are."""
+    for path in folder.iterdir() if folder.is_dir() else ():
+        example = next((one for one in shown if one.name == path.name), None)
+        if example and is_made(path, digest_of(example, quick=quick)):
+            continue
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
+def is_made(own: Path, digest: str) -> bool:
+    """Whether an example's folder holds all files that were made of what has a digest."""
+    return (own / MADE).is_file() and (own / MADE).read_text() == digest
+
+
 def make_files(folder: Path, example: Example, *, quick: bool) -> None:
-    """Make what an example loads, and the script that gives it to pages from the disk."""
+    """Make what an example loads, and the script that gives it to pages from the disk, unless they are there."""
     own = folder / example.name
-    own.mkdir()
+    digest = digest_of(example, quick=quick)
+    if is_made(own, digest):
+        say(f"{example.name}: its files are as they were")
+    else:
+        own.mkdir()
+        _make_files(own, example, quick=quick)
+        (own / MADE).write_text(digest)
+    shutil.copyfile(example.path, own / f"example{example.path.suffix}")
+
+
+def _make_files(own: Path, example: Example, *, quick: bool) -> None:
     made = set(own.iterdir())
     for name in example.sources:
         say(f"{example.name}: making {name}")
@@ -119,8 +169,6 @@ def make_files(folder: Path, example: Example, *, quick: bool) -> None:
         contents = [(name, base64.b64encode((own / name).read_bytes()).decode()) for name in example.files]
         lines = [f'"{name}": "data:application/octet-stream;base64,{text}"' for name, text in contents]
         (own / "files.js").write_text(f"globalThis.galleryFiles = {{{', '.join(lines)}}};\n", encoding="utf-8")
-    suffix = example.path.suffix
-    shutil.copyfile(example.path, own / f"example{suffix}")
 
 
 def measured(folder: Path, example: Example) -> str:
@@ -215,11 +263,11 @@ def write_licences(folder: Path, shown: list[Example]) -> None:
 
 
 def build(folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), pictures: bool = True) -> None:
-    """Write the site into a folder, which is emptied first."""
+    """Write the site into a folder, which is emptied first; files that nothing has changed for stay."""
     if not (WEB / "node_modules" / "three").is_dir():
         sys.exit("the packages of web/ are not installed; type: npm ci --prefix web")
     shown = [one for one in examples() if not only or one.name in only]
-    shutil.rmtree(folder, ignore_errors=True)
+    drop_old(folder, shown, quick=quick)
     (folder / "lib").mkdir(parents=True)
     for name in sorted({name for one in shown for name in one.libraries}):
         say(f"bundling lib/{name}.js")

@@ -107,6 +107,31 @@ def test_building_says_each_step(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert capsys.readouterr().out.splitlines() == ["logo: making logo.svg ...", "logo: vexture info --help ..."]
 
 
+def test_files_that_nothing_has_changed_for_are_not_made_again(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    tool = runpy.run_path(str(ROOT / "tools" / "make_gallery.py"))
+    example = replace(EXAMPLES["logo"], commands=("vexture info --help",), files=("logo.svg",))
+
+    def said(one: Any, *, quick: bool = True) -> list[str]:
+        tool["drop_old"](tmp_path, [one], quick=quick)
+        tool["make_files"](tmp_path, one, quick=quick)
+        return capsys.readouterr().out.splitlines()
+
+    (tmp_path / "other").mkdir()
+    made = said(example)
+    assert made[0] == "logo: making logo.svg ..."
+    assert [path.name for path in tmp_path.iterdir()] == ["logo"]
+    before = {path.name: path.read_bytes() for path in (tmp_path / "logo").iterdir()}
+    assert said(example) == ["logo: its files are as they were ..."]
+    assert {path.name: path.read_bytes() for path in (tmp_path / "logo").iterdir()} == before
+    for other in (replace(example, commands=("vexture --help",)), replace(example, files=())):
+        assert said(other) == [made[0], f"logo: {other.commands[0]} ..."]
+    assert said(example, quick=False) == made
+    (tmp_path / "logo" / "made.txt").write_text("of an older converter")
+    assert said(example, quick=False) == made
+
+
 def test_there_are_enough() -> None:
     assert len(EXAMPLES) >= 12
 
