@@ -56,6 +56,9 @@ HOLDS_OTHERS: Final = ("maplibre-gl",)
 MADE: Final = "made.txt"
 """In an example's folder: the digest of what its files were made of."""
 
+PICTURED: Final = "pictured.txt"
+"""In an example's folder: the digest of the page that its picture shows."""
+
 MADE_OF: Final = ("src/vexture", "gallery/drawings", "examples", "tools", "evidence/benchmarks")
 """Folders of the converter and of the sources, any change in which makes all files again."""
 
@@ -200,8 +203,31 @@ def drawn_thumbnail(folder: Path, example: Example) -> None:
     picture.save(folder / example.name / "thumbnail.jpg", quality=82)
 
 
+def digest_of_page(folder: Path, example: Example) -> str:
+    """Digest of the page of an example, with all that it loads and its picture."""
+    files = [path for path in (folder / example.name).rglob("*") if path.is_file() and path.name != PICTURED]
+    files += [folder / "lib" / f"{name}.js" for name in example.libraries]
+    files += [path for path in folder.iterdir() if path.suffix in (".css", ".js")]
+    digest = hashlib.sha256()
+    for path in sorted(files):
+        digest.update(repr((str(path.relative_to(folder)), path.stat().st_size)).encode() + path.read_bytes())
+    return digest.hexdigest()
+
+
+def is_pictured(folder: Path, example: Example) -> bool:
+    """Whether the picture of an example is a screenshot of its page as it is now."""
+    said = folder / example.name / PICTURED
+    return said.is_file() and said.read_text() == digest_of_page(folder, example)
+
+
+def save_picture(folder: Path, example: Example, picture: Image.Image) -> None:
+    """Save a screenshot of the page of an example as its picture, and write down of which page it is."""
+    picture.save(folder / example.name / "thumbnail.jpg", quality=82)
+    (folder / example.name / PICTURED).write_text(digest_of_page(folder, example))
+
+
 def photographed(folder: Path, shown: list[Example]) -> bool:
-    """Take the thumbnails by Chromium; returns whether there is one."""
+    """Take the thumbnails of pages that have changed by Chromium; returns whether there is one."""
     try:
         from chromium import CHROMIUM, chromium
     except ImportError:
@@ -210,7 +236,7 @@ def photographed(folder: Path, shown: list[Example]) -> bool:
         return False
     try:
         with chromium("--enable-unsafe-webgpu") as browser:
-            for example in shown:
+            for example in (one for one in shown if not is_pictured(folder, one)):
                 say(f"{example.name}: taking its picture in Chromium")
                 page = browser.new_page(viewport={"width": 1280, "height": 800}, device_scale_factor=1)
                 page.goto((folder / example.name / "index.html").as_uri())
@@ -221,7 +247,7 @@ def photographed(folder: Path, shown: list[Example]) -> bool:
                 page.wait_for_timeout(6_000 if example.page else 2_500)
                 content = page.locator("#stage").screenshot(timeout=120_000)
                 picture = Image.open(io.BytesIO(content)).convert("RGB").resize(THUMBNAIL, Image.Resampling.LANCZOS)
-                picture.save(folder / example.name / "thumbnail.jpg", quality=82)
+                save_picture(folder, example, picture)
                 page.close()
     except ImportError:
         return False

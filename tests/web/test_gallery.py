@@ -132,6 +132,25 @@ def test_files_that_nothing_has_changed_for_are_not_made_again(
     assert said(example, quick=False) == made
 
 
+def test_a_page_is_pictured_again_when_something_of_it_has_changed(tmp_path: Path) -> None:
+    tool = runpy.run_path(str(ROOT / "tools" / "make_gallery.py"))
+    example = replace(EXAMPLES["logo"], libraries=("three",))
+    own, library, style = tmp_path / "logo", tmp_path / "lib" / "three.js", tmp_path / "gallery.css"
+    for path in (own / "index.html", own / "logo.ktx2", library, style):
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("as it was")
+
+    def is_pictured() -> bool:
+        return bool(tool["is_pictured"](tmp_path, example))
+
+    assert not is_pictured()
+    for path in (own / "index.html", own / "logo.ktx2", library, style, own / "thumbnail.jpg"):
+        tool["save_picture"](tmp_path, example, Image.new("RGB", (4, 4)))
+        assert is_pictured()
+        path.write_text("another")
+        assert not is_pictured(), path
+
+
 def test_there_are_enough() -> None:
     assert len(EXAMPLES) >= 12
 
