@@ -12,7 +12,10 @@ FIXTURES = Path(__file__).parent / "fixtures" / "errors"
 GREEN, RED, BLACK = "#008000", "#ff0000", "#000000"
 LARGE = "the number 1e300 is too large; the limit is 1e+12"
 FAR = "it has a coordinate of {}; the limit is 1e+12; correct it"
-UNSIZED = "it has no viewBox and no size, and is 300 x 150, as in browsers"
+UNSIZED = (
+    "it has no viewBox and no size, and is 300 x 150, as in browsers, of which it fills a small part "
+    '(with viewBox="0 0 5 5" it fills all of it)'
+)
 FLAT = ["its width or height is zero, at which nothing is shown", "nothing in it is painted"]
 
 SHOWN = {

@@ -6,7 +6,9 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from vexture.bezier.bounds import bounds
-from vexture.svg.compositing import masking
+from vexture.drawing import Path
+from vexture.errors import SourceError
+from vexture.group import Group
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
 from vexture.svg.spatial import TRANSFORMS
@@ -17,6 +19,15 @@ from vexture.svg.viewport import ANONYMOUS, THINNEST, Rectangle
 __all__ = ["EMPTY", "Frame", "frame", "painted_frame"]
 
 Size: TypeAlias = tuple[float, float]
+
+Bounds: TypeAlias = tuple[float, float, float, float]
+"""Least x, least y, largest x and largest y."""
+
+LITTLE: Final = 0.5
+"""A drawing that is less wide and less high than this part of its frame fills a small part of it."""
+
+ROUNDING: Final = 1e-9
+"""Part of a frame's longer side by which rounding may move what touches the frame's sides."""
 
 Frame: TypeAlias = tuple[Size, Viewport, Transform]
 """Size of a drawing in pixels, the root's viewport, and the map from user units to pixels."""
@@ -59,7 +70,8 @@ def painted_frame(scene: Scene) -> Frame:
     if box is None:
         return EMPTY
     x, y, width, height = rounded(box)
-    scene.report.remark(f"it has no viewBox and no size; its frame is what it paints, {written((x, y, width, height))}")
+    told = "it has no viewBox and no size; its frame is what it paints"
+    scene.report.remark(f'{told}, viewBox="{written((x, y, width, height))}"')
     return (width, height), viewport, Identity.translate(-x, -y)
 
 
@@ -69,23 +81,45 @@ def viewport_of(scene: Scene, sides: Size, size: Size | None = None) -> Viewport
 
 
 def painted_box(
-    scene: Scene, viewport: Viewport, size: Size | None = None, *, is_whole: bool = False
+    scene: Scene, viewport: Viewport, matrix: Transform = Identity, size: Size | None = None, *, is_whole: bool = False
 ) -> Rectangle | None:
-    """Bounding box of what is painted in a viewport, before the frame cuts it; None if nothing is.
+    """Bounding box of what is seen in a viewport, before the frame cuts it; None if that is nothing.
 
-    `size` is that of the frame, about the middle of which the outermost element may turn. `is_whole` asks for the box
-    of the whole document, of which a part may be chosen.
+    `matrix` and `size` are as in `Scene.paint`. `is_whole` asks for the box of the whole document, of which a part may
+    be chosen.
     """
     fonts, page = scene.typesetter.files, scene.cascade.page
     chosen = None if is_whole else scene.chosen
     silent = Scene(scene.root, Report(), scene.images, chosen, fonts=fonts, page=page)  # notes come later
-    painted, groups = silent.paint(viewport, Identity, None, size)
-    masks = masking(groups)
-    contours = [each for path in painted if path.group < 0 or not masks[path.group] for each in path.contours]
-    if not contours:
+    painted, groups = silent.paint(viewport, matrix, None, size)
+    return box_seen(painted, groups)
+
+
+def box_seen(paths: list[Path], groups: tuple[Group, ...]) -> Rectangle | None:
+    """Bounding box of paths, each inside those that mask the groups around it; None if it is empty."""
+    shown: list[list[Bounds | None]] = [[] for _ in range(len(groups) + 1)]  # in each group; the last is in none
+    masks: list[list[Bounds | None]] = [[] for _ in range(len(groups) + 1)]
+    for path in paths:
+        if path.contours:
+            shown[path.group].append(bounds(np.concatenate(path.contours)))
+    for place in reversed(range(len(groups))):  # from the innermost one
+        group = groups[place]
+        (masks if group.mask else shown)[group.outer].append(seen_through(shown[place], masks[place]))
+    box = seen_through(shown[-1], [])
+    return None if box is None else (box[0], box[1], box[2] - box[0], box[3] - box[1])
+
+
+def seen_through(shown: list[Bounds | None], masks: list[Bounds | None]) -> Bounds | None:
+    """Box around some boxes, as far as it is in each of those of masks; None is an empty one."""
+    boxes = [box for box in shown if box is not None]
+    if not boxes or None in masks:
         return None
-    left, top, right, bottom = bounds(np.concatenate(contours))
-    return left, top, right - left, bottom - top
+    left, low = np.min(boxes, axis=0)[:2]
+    right, high = np.max(boxes, axis=0)[2:]
+    for mask in masks:
+        assert mask is not None
+        left, low, right, high = max(left, mask[0]), max(low, mask[1]), min(right, mask[2]), min(high, mask[3])
+    return (float(left), float(low), float(right), float(high)) if left <= right and low <= high else None
 
 
 def rounded(box: Rectangle) -> Rectangle:
@@ -106,21 +140,53 @@ def rounded(box: Rectangle) -> Rectangle:
 
 
 def written(box: Rectangle) -> str:
-    """A box as the attribute that sets it."""
-    return f'viewBox="{" ".join(f"{value:.10g}" for value in box)}"'
+    """A box as `viewBox` has it."""
+    return " ".join(f"{value:.10g}" for value in box)
 
 
 def unsized(scene: Scene, size: Size, lacking: str) -> str:
-    """What a note says of a drawing that lacks a size and a `viewBox`: what to write to see all of it, if it is cut."""
+    """What a note says of a drawing that lacks a size and a `viewBox`, and the `viewBox` that would fit it."""
     told = f"it has no viewBox and no {lacking}, and is {size[0]:g} x {size[1]:g}, as in browsers"
-    box = painted_box(scene, viewport_of(scene, size), size, is_whole=True)
-    if box is None:
+    box = painted_box(scene, viewport_of(scene, size), Identity, size, is_whole=True)
+    if box is None or fits(box, size):
         return told
+    if is_cut(box, size):
+        wrong, gain = "which cuts it", "shows all"
+    else:
+        wrong, gain = "of which it fills a small part", "fills all of it"
+    fitting = written(rounded(box))
+    remedy = f' (with viewBox="{fitting}" it {gain})' if fits_with(scene, fitting) else ""
+    return f"{told}, {wrong}{remedy}"
+
+
+def is_cut(box: Rectangle, size: Size) -> bool:
+    """Whether a box reaches beyond a frame."""
     left, top, right, bottom = box[0], box[1], box[0] + box[2], box[1] + box[3]
-    if left >= 0.0 and top >= 0.0 and right <= size[0] and bottom <= size[1]:
-        return told
-    if not scene.style.own.keys().isdisjoint(TRANSFORMS):  # it would be about another middle with a viewBox
-        return f"{told}, which cuts it"
-    x, y = floor(min(left, 0.0)), floor(min(top, 0.0))
-    wide, high = ceil(max(right, size[0])) - x, ceil(max(bottom, size[1])) - y
-    return f'{told}, which cuts it (with viewBox="{x} {y} {wide} {high}" it shows all)'
+    spare = max(size) * ROUNDING
+    return min(left, top) < -spare or right > size[0] + spare or bottom > size[1] + spare
+
+
+def fits(box: Rectangle, size: Size) -> bool:
+    """Whether a frame shows all of a box, which fills more than a small part of it."""
+    return not is_cut(box, size) and (box[2] >= LITTLE * size[0] or box[3] >= LITTLE * size[1])
+
+
+def fits_with(scene: Scene, box: str) -> bool:
+    """Whether a drawing is known to fit the frame of a `viewBox`, to which percentages and media refer, too."""
+    root = scene.root
+    if not scene.style.own.keys().isdisjoint(TRANSFORMS):  # they move the frame itself, which cuts before that
+        return False
+    before = root.get("viewBox")
+    root.set("viewBox", box)
+    try:
+        silent = Scene(root, Report(), scene.images, fonts=scene.typesetter.files, page=scene.cascade.page)
+        size, viewport, matrix = frame(silent)
+        found = painted_box(silent, viewport, matrix, size, is_whole=True)
+        return found is not None and fits(found, size)
+    except SourceError:  # it is too much there
+        return False
+    finally:
+        if before is None:
+            del root.attrib["viewBox"]
+        else:
+            root.set("viewBox", before)
