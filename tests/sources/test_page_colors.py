@@ -1,22 +1,31 @@
 """Colours that its page would give an SVG: of `currentColor`, custom properties, and context paints."""
 
+import json
 import warnings
 from base64 import b64encode
 from pathlib import Path
 
+import click
 import pytest
 from click.testing import CliRunner
 from PIL import ImageColor
 
 import vexture
+from vexture.cli.export import export
 from vexture.cli.main import main
+from vexture.cli.messages import as_options
 from vexture.cli.options import viewer_parameters
+from vexture.cli.view import view
 from vexture.errors import ParameterError, SourceError
 from vexture.live.documents import shape_of
 from vexture.notes import check_losses
 from vexture.parameters import Parameters
+from vexture.svg.sprite import symbol_drawings
 
 SQUARE = "M0 0h4v4h-4z"
+USED = (("a", "var(--first)"), ("b", "var(--second)"))
+WRITTEN = {"convert": ".ktx2", "render": ".png", "gltf": "-new.gltf"}
+MODEL = b'{"asset": {"version": "2.0"}, "materials": [{"name": "Door"}]}'
 
 
 def svg(content: str, attributes: str = "") -> bytes:
@@ -152,7 +161,9 @@ def test_page_gives_no_colour_to_a_drawing_in_an_image() -> None:
         {"currentColor": "teal", "--primary": "teal"},
     )
     assert colors(drawing) == ["#000000", "#000000", "#ff0000"]
-    assert notes(drawing) == [("invalid", "var(--primary), which has no value")]
+    unused = "currentColor, --primary, which the drawing does not have; it leaves no colour to the page"
+    said = [("invalid", "var(--primary), which has no value"), ("remark", f"`page_colors` names {unused}")]
+    assert notes(drawing) == said
 
 
 def test_strict_accepts_a_page_that_gives_what_is_missing() -> None:
@@ -209,7 +220,7 @@ def test_commands_take_page_colours(tmp_path: Path) -> None:
     assert (result.exit_code, "warning" in result.output) == (0, False)
     assert [root.paint.color for root in vexture.load(out).roots if root.paint] == [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
     result = CliRunner().invoke(main, ["convert", str(file), "--strict", "-o", str(out)])
-    assert "var(--primary), which has no value (--page-color gives it one)" in result.output
+    assert "var(--primary), which has no value (--color gives it one)" in result.output
 
 
 @pytest.mark.parametrize("command", ["convert", "render", "export", "view", "gltf"])
@@ -222,5 +233,86 @@ def test_texture_has_its_colours_already(tmp_path: Path) -> None:
     vexture.convert(vexture.Drawing.polygon([(0, 0), (1, 0), (0, 1)])).save(tmp_path / "a.ktx2")
     given = ["--page-color", "--primary=teal"]
     result = CliRunner().invoke(main, ["render", str(tmp_path / "a.ktx2"), "-o", str(tmp_path / "a.png"), *given])
-    assert "`page" not in result.output
-    assert "is for a drawing; give it to vexture convert" in result.output
+    said = "a.ktx2: --color --primary=teal is for a drawing; give it to vexture convert\n"
+    assert (result.exit_code, result.output.endswith(said)) == (1, True)
+
+
+def test_other_encodings_have_no_colours(tmp_path: Path) -> None:
+    (tmp_path / "a.svg").write_bytes(svg(squares("red")))
+    given = ["--encoding", "thesis", "--color", "--primary=teal"]
+    result = CliRunner().invoke(main, ["convert", str(tmp_path / "a.svg"), *given])
+    assert "--color --primary=teal means nothing to the encoding thesis" in result.output
+
+
+@pytest.mark.parametrize(
+    ("command", "option"),
+    [("convert", "--color"), ("render", "--color"), ("gltf", "--page-color")],
+)
+def test_messages_name_the_option_of_the_command(tmp_path: Path, command: str, option: str) -> None:
+    file, out = str(tmp_path / "a.svg"), str(tmp_path / ("a" + WRITTEN[command]))
+    Path(file).write_bytes(svg(squares("var(--primary)", "red")))
+    given = [file, "-o", out]
+    if command == "gltf":
+        (tmp_path / "model.gltf").write_bytes(MODEL)
+        given = [str(tmp_path / "model.gltf"), "--material", "0", "--drawing", *given]
+    result = CliRunner().invoke(main, [command, *given])
+    assert (result.exit_code, f"which has no value ({option} gives it one)" in result.output) == (0, True)
+
+
+def test_facts_name_the_option(tmp_path: Path) -> None:
+    (tmp_path / "a.svg").write_bytes(svg(squares("var(--primary)", "red")))
+    given = ["--json", "-o", str(tmp_path / "a.ktx2")]
+    result = CliRunner().invoke(main, ["convert", str(tmp_path / "a.svg"), *given])
+    (facts,) = json.loads(result.stdout)
+    said = "var(--primary), which has no value (--color gives it one)"
+    assert (said in facts["warning"], facts["notes"][0]["message"]) == (True, said)
+
+
+@pytest.mark.parametrize(
+    ("content", "given", "said"),
+    [
+        (
+            squares("var(--primary)", "currentColor"),
+            {"--primry": "teal", "currentColor": "teal"},
+            "--primry, which the drawing does not have; it has --primary, currentColor",
+        ),
+        (
+            squares(*(f"var(--a{k}, red)" for k in range(6)), "context-fill"),
+            {"CURRENTCOLOR": "teal", "context-stroke": "teal"},
+            "currentColor, context-stroke, which the drawing does not have; it has --a0, --a1, --a2, --a3, --a4, ...",
+        ),
+        (
+            "<style>svg { --own: red } path { fill: var(--own) }</style>" + squares("blue"),
+            {"--Own": "teal"},
+            "--Own, which the drawing does not have; it leaves no colour to the page",
+        ),
+    ],
+)
+def test_names_that_a_drawing_does_not_have_are_noted(content: str, given: dict[str, str], said: str) -> None:
+    found = notes(read(svg(content), given))
+    assert [text for kind, text in found if kind == "remark"] == [f"`page_colors` names {said}"]
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        f"<style>path {{ --deep: var( --primary, blue) }}</style><path d='{SQUARE}' style='fill: var(--deep)'/>",
+        f'<path d="{SQUARE}"><animate attributeName="fill" from="red" to="var(--primary)" dur="1s"/></path>',
+        squares("color-mix(in srgb, var(--primary), red)"),
+    ],
+)
+def test_names_in_style_sheets_and_animations_are_not_noted(content: str) -> None:
+    assert not any("which the drawing" in text for _, text in notes(read(svg(content), {"--primary": "teal"})))
+
+
+def test_sprite_has_one_note_of_a_name_that_it_does_not_have() -> None:
+    symbols = [f'<symbol id="{name}" viewBox="0 0 9 9">{squares(fill)}</symbol>' for name, fill in USED]
+    parts = [*symbol_drawings(svg("".join(symbols)), "a.svg", page_colors={"--primry": "teal", "--second": "teal"})]
+    said = "`page_colors` names --primry, which the drawing does not have; it has --first, --second"
+    assert [[text for _, text in notes(part) if "does not have" in text] for part in parts] == [[said], []]
+
+
+@pytest.mark.parametrize("command", [view, export], ids=lambda command: command.name)
+def test_commands_of_pages_name_their_option(command: click.Command) -> None:
+    with click.Context(command):
+        assert as_options("`page_colors` gives it one") == "--color gives it one"

@@ -18,6 +18,7 @@ from vexture.cli.options import (
     SILHOUETTE_HELP,
     STANDARD,
     Sectioned,
+    as_given,
     check_output,
     font_option,
     page_color_option,
@@ -199,7 +200,7 @@ def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
     for name, owner in BELONGS_TO.items():
         if name in parameters and owner != encoding:
             value = parameters[name]
-            given = f"`no_{name}`" if value is False else f"`{name}` {value}"
+            given = f"`no_{name}`" if value is False else f"`{name}`{as_given(name, value)}"
             raise ParameterError(
                 f"{given} means nothing to the encoding {encoding}; leave it out or use `encoding` {owner}"
             )

@@ -20,7 +20,7 @@ __all__ = ["as_options", "echo", "note_facts", "one_line", "say", "say_notes"]
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter in a message of the library."""
 
-NAMED_OTHERWISE = {"fonts": "font", "page_colors": "page-color", "characters": "chars"}
+NAMED_OTHERWISE = {"fonts": "font", "page_colors": "color", "characters": "chars"}
 """Parameters whose options have other names: lists, whose options are given once for each entry, and long ones."""
 
 
@@ -36,7 +36,16 @@ def echo(line: str, *, err: bool = False) -> None:
 
 def as_options(message: str) -> str:
     """Return a message of the library with options in place of the parameters that it names in backticks."""
-    return PARAMETER.sub(lambda found: "--" + NAMED_OTHERWISE.get(found[1], found[1]).replace("_", "-"), message)
+    return PARAMETER.sub(lambda found: option_of(found[1]), message)
+
+
+def option_of(parameter: str) -> str:
+    """The option for a parameter of the library: that of the command that runs, or else the usual one."""
+    context = click.get_current_context(silent=True)
+    for option in () if context is None else context.command.params:
+        if option.name == parameter and parameter in NAMED_OTHERWISE:
+            return next(flag for flag in option.opts if flag.startswith("--"))
+    return "--" + NAMED_OTHERWISE.get(parameter, parameter).replace("_", "-")
 
 
 def note_facts(notes: Sequence["Note"]) -> list[dict[str, Any]]:

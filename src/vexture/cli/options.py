@@ -19,6 +19,7 @@ __all__ = [
     "Rectangle",
     "Sectioned",
     "Tolerance",
+    "as_given",
     "check_output",
     "colour_options",
     "columns_of",
@@ -255,6 +256,23 @@ page_color_option = click.option(
     help="A colour that the page around an SVG would give it: of currentColor, context-fill, context-stroke, or a "
     "custom property such as --primary; may be given several times.",
 )
+
+
+def as_given(name: str, value: Any) -> str:
+    """A value of an option after its name in a message, as one types it: of several the first one.
+
+    Examples
+    --------
+    >>> as_given("page_colors", {"--primary": "teal", "currentColor": "red"}), as_given("trace_images", True)
+    (' --primary=teal', '')
+    """
+    if value is True:
+        return ""
+    if name == "page_colors":
+        value = "=".join(next(iter(value.items())))
+    elif name == "fonts":
+        value = value[0]
+    return f" {value}"
 
 
 SILHOUETTE_HELP: Final = "the covered area of a drawing, without colours."

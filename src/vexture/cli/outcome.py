@@ -124,4 +124,4 @@ def facts_of(outcome: Outcome) -> dict[str, Any]:
     facts: dict[str, Any] = {"source": str(outcome.source)}
     if outcome.error:
         return facts | {"error": as_options(outcome.error)}
-    return facts | outcome.facts | ({"warning": outcome.warning} if outcome.warning else {})
+    return facts | outcome.facts | ({"warning": as_options(outcome.warning)} if outcome.warning else {})

@@ -13,6 +13,7 @@ from vexture.cli.options import (
     STANDARD,
     Colour,
     Rectangle,
+    as_given,
     check_output,
     drawing_kind,
     font_option,
@@ -203,8 +204,8 @@ def _shown(path: Path, reading: dict[str, Any], *, strict: bool) -> "Shown":
         say_notes(name, drawing.notes)
         return drawing
     for option, value in reading.items():
-        shown = "" if value is True else f" {value[0] if option == 'fonts' else value}"
-        raise ParameterError(f"{name}: `{option}`{shown} is for a drawing; give it to vexture convert")
+        typed = as_given(option, value)
+        raise ParameterError(f"{name}: `{option}`{typed} is for a drawing; give it to vexture convert")
     return load_any(path) if data is None else texture_from(data, name)
 
 

@@ -1,13 +1,18 @@
 """Colours that the page around a drawing gives it: `currentColor`, custom properties and context paints."""
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
-from vexture.errors import ParameterError, shortened
-from vexture.svg.colors import CONTEXT, CURRENT, Color, parse_color
+from lxml import etree
 
-__all__ = ["CURRENT_IS_BLACK", "ENCLOSED", "Page"]
+from vexture.errors import ParameterError, shortened
+from vexture.notes import Note
+from vexture.svg.colors import CONTEXT, CURRENT, Color, parse_color
+from vexture.svg.document import local_name
+
+__all__ = ["CURRENT_IS_BLACK", "ENCLOSED", "Page", "unused_colors"]
 
 NAMED: Final = "currentColor, context-fill, context-stroke or a custom property, such as --primary"
 CURRENT_IS_BLACK: Final = "currentColor has no value in it, and is black as in browsers (`page_colors` gives it one)"
@@ -15,6 +20,15 @@ CURRENT_IS_BLACK: Final = "currentColor has no value in it, and is black as in b
 
 LONGEST: Final = 40
 """Letters of a name in a note."""
+
+MOST_NAMED: Final = 5
+"""Names in a list of a note."""
+
+REFERENCE: Final = re.compile(r"var\(\s*(--[^\s,()]+)|(?<![\w-])(currentcolor|context-(?:fill|stroke))", re.IGNORECASE)
+"""A name to which a value refers."""
+
+DECLARATION: Final = re.compile(r"(?<![\w-])(--[^\s:;,(){}]+)\s*:")
+"""A custom property that a style sheet or an attribute `style` declares."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,3 +89,40 @@ def checked_color(name: object, color: object) -> str:
     if not isinstance(color, str) or not isinstance(parse_color(color), Color):
         raise ParameterError(f"`page_colors` gives {name} {color!r:.80}; give a CSS colour, such as teal or #c00")
     return color.strip()
+
+
+def unused_colors(page: Page, root: etree._Element) -> tuple[Note, ...]:
+    """The note about colours of a page to whose names nothing in a document refers, if there are any.
+
+    Examples
+    --------
+    >>> root = etree.fromstring('<svg><path fill="var(--primary)" stroke="currentColor"/></svg>')
+    >>> print(*unused_colors(Page.of({"--primry": "teal"}), root))
+    `page_colors` names --primry, which the drawing does not have; it has --primary, currentColor
+    """
+    if not page.colors:
+        return ()
+    texts = [*texts_of(root)]
+    matches = [match for text in texts for match in REFERENCE.finditer(text)]
+    used = dict.fromkeys(match[1] or match[2].lower() for match in matches)
+    unused = [name for name in page.colors if name not in used]
+    if not unused:
+        return ()
+    own = {name for text in texts for name in DECLARATION.findall(text)}
+    open_names = [name for name in used if name not in own]
+    rest = f"it has {listed(open_names)}" if open_names else "it leaves no colour to the page"
+    return (Note("remark", f"`page_colors` names {listed(unused)}, which the drawing does not have; {rest}"),)
+
+
+def texts_of(root: etree._Element) -> Iterator[str]:
+    """Texts of a document in which values are: attributes and style sheets."""
+    for element in root.iter("*"):
+        yield from map(str, element.attrib.values())
+        if local_name(element) == "style":
+            yield "".join(map(str, element.itertext()))
+
+
+def listed(names: list[str]) -> str:
+    """The first of some names of colours, as a note lists them."""
+    shown = ["currentColor" if name == CURRENT else shortened(name, LONGEST) for name in names[:MOST_NAMED]]
+    return ", ".join((*shown, "...") if len(names) > MOST_NAMED else shown)

@@ -20,7 +20,7 @@ from vexture.svg.compositing import has_colors, occupied
 from vexture.svg.document import parse_svg
 from vexture.svg.frames import EMPTY, Frame, frame, painted_frame
 from vexture.svg.images import Images
-from vexture.svg.page import CURRENT_IS_BLACK, Page
+from vexture.svg.page import CURRENT_IS_BLACK, Page, unused_colors
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
 from vexture.svg.select import UNPAINTED, Part, chosen, nothing_painted, unpainted, with_symbols_used
@@ -158,7 +158,8 @@ def framed_drawing(
         found = found_in(Request(document, Path(source).stem, part, named, fonts, images or Images(), page))
         if select is not None and not found.drawing.paths and found.chosen:
             raise nothing_painted(select, found.chosen)
-    return found.drawing, found.frame
+        unused = unused_colors(page, document()) if page.colors else ()
+    return replace(found.drawing, notes=(*found.drawing.notes, *unused)), found.frame
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ from vexture.notes import Note, Notes
 from vexture.svg.document import local_name, parse_svg
 from vexture.svg.images import Images
 from vexture.svg.links import Links, reference
-from vexture.svg.page import Page
+from vexture.svg.page import Page, unused_colors
 from vexture.svg.read import Request, found_in
 from vexture.svg.select import Part, symbol_alone, symbols_of
 
@@ -50,7 +50,7 @@ def symbol_drawings(
     named, page = "id" if names is None else names, Page.of(page_colors)
     with about(source):
         root = parse_svg(decompressed(content))
-    unread = unread_symbols(root)  # of the file: the first drawing has them
+    of_file = (*unread_symbols(root), *unused_colors(page, root))  # the first drawing has them
     sprite = Sprite(root)
     for name in sprite.symbols:
         check_time(source)
@@ -59,8 +59,8 @@ def symbol_drawings(
             part = partial(sprite.document, name)
             request = Request(part, name, alone, named, fonts, images or Images(), page)
             drawing = found_in(request).drawing
-        yield replace(drawing, notes=(*drawing.notes, *unread))
-        unread = ()
+        yield replace(drawing, notes=(*drawing.notes, *of_file))
+        of_file = ()
 
 
 def unread_symbols(root: etree._Element) -> tuple[Note, ...]:
