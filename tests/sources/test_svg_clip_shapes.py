@@ -76,3 +76,11 @@ def test_a_shape_around_nothing_is_no_loss() -> None:
             b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><g clip-path="circle()"></g></svg>'
         )
     assert [str(note) for note in drawing.notes] == ["nothing in it is painted"]
+
+
+@pytest.mark.parametrize("value", ["url(#a)", "url('#a')", "URL(#a)", "shape(from 0 0)", "circle (1px)"])
+def test_what_is_no_shape_measures_nothing(value: str) -> None:
+    """The box of a group costs as much as all that it shows, at each level of nested clips again."""
+    asked = list[str]()
+    assert clip_element(value, asked.append, 16.0, 16.0) is None
+    assert asked == []

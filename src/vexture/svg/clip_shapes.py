@@ -83,8 +83,8 @@ def clip_element(
     name = head.lower().split()[-1] if opened and head and not head[-1].isspace() else ""
     names = f"{head[: len(head) - len(name)]} {tail}".lower().split()
     make = MAKERS.get(name if closed else "", unknown) if opened else whole
-    if len(names) > 1 or not {*names} <= BOXES.keys() or not (names or opened):
-        return None
+    if make is unknown or len(names) > 1 or not {*names} <= BOXES.keys() or not (names or opened):
+        return None  # before all that the element shows is measured for its box
     left, top, width, height = box_of(BOXES[names[0]] if names else STROKED) or (0.0, 0.0, 0.0, 0.0)
     box = Box(left, top, Viewport(width, height, root_font_size), font_size)
     found = make(arguments, box)
