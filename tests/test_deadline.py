@@ -1,6 +1,7 @@
 """No conversion runs without end: what takes too long ends in an error that names the limit."""
 
 import math
+from collections.abc import Callable
 from dataclasses import astuple, replace
 from pathlib import Path
 
@@ -11,6 +12,8 @@ from click.testing import CliRunner
 import vexture
 from vexture import Drawing, LimitError, ParameterError
 from vexture.cli.main import main
+from vexture.deadline import within
+from vexture.images import _conversion
 from vexture.tree.bounds import Bounds
 from vexture.tree.build import SLICE, grow, grow_on
 from vexture.tree.cubics import gather
@@ -69,6 +72,32 @@ def test_every_entry_has_the_limit(file: Path) -> None:
     assert outcome.exit_code == 1
     assert outcome.stderr == f"vexture: {file}: converting {TOO_LONG}--max-seconds\n"
     assert list(file.parent.iterdir()) == [file]
+
+
+@pytest.mark.parametrize("render", [vexture.render, vexture.coverage])
+def test_the_exact_renderer_looks_at_the_clock(render: Callable[..., object]) -> None:
+    drawing = replace(scribble(5), name="scribble")
+    said = (
+        r"^scribble: the exact renderer takes longer than 1e-09 s; use another `renderer`, .* or raise `max_seconds`$"
+    )
+    with within(1e-9), pytest.raises(LimitError, match=said):
+        render(drawing, 8, renderer="exact")
+
+
+def test_a_picture_has_the_time_of_the_work_around() -> None:
+    with within(900.0):
+        assert _conversion(None)["max_seconds"] == 900.0
+    with within(1e-9), pytest.raises(LimitError, match=TOO_LONG):
+        vexture.render(scribble(5), 8)
+
+
+@pytest.mark.parametrize("renderer", ["cpu", "exact"])
+def test_render_has_the_limit(file: Path, renderer: str) -> None:
+    given = ["render", str(file), "-o", str(file.with_suffix(".png")), "--renderer", renderer, "--size", "8"]
+    outcome = CliRunner().invoke(main, [*given, "--max-seconds", "1e-9"])
+    assert (outcome.exit_code, outcome.stderr.endswith(" raise --max-seconds\n")) == (1, True)
+    assert list(file.parent.iterdir()) == [file]
+    assert CliRunner().invoke(main, [*given, "--max-seconds", "inf"]).exit_code == 0
 
 
 def test_the_limit_holds_for_its_own_conversion_only(file: Path) -> None:

@@ -12,7 +12,7 @@ from contextvars import ContextVar
 
 from vexture.errors import LimitError, ParameterError
 
-__all__ = ["CLOCK", "DEFAULT_SECONDS", "check_seconds", "check_time", "too_long", "within"]
+__all__ = ["CLOCK", "DEFAULT_SECONDS", "allowed_seconds", "check_seconds", "check_time", "too_long", "within"]
 
 DEFAULT_SECONDS = 300.0
 """Seconds for one source."""
@@ -86,7 +86,20 @@ def check_seconds(seconds: float) -> None:
         )
 
 
-def check_time(name: str = "") -> None:
+def allowed_seconds() -> float:
+    """Seconds that the work around may take, or else `DEFAULT_SECONDS`: the limit for a part of it.
+
+    Examples
+    --------
+    >>> with within(900.0):
+    ...     allowed_seconds()
+    900.0
+    """
+    limit = _LIMIT.get()
+    return DEFAULT_SECONDS if limit is None else limit[0]
+
+
+def check_time(name: str = "", work: str = "converting", remedy: str = "simplify the drawing") -> None:
     """Raise a `LimitError` about the drawing of a name if the work has taken too long.
 
     Examples
@@ -98,10 +111,10 @@ def check_time(name: str = "") -> None:
     """
     limit = _LIMIT.get()
     if limit is not None and CLOCK.seconds() > limit[1]:
-        raise too_long(name, limit[0])
+        raise too_long(name, limit[0], work, remedy)
 
 
-def too_long(name: str, seconds: float) -> LimitError:
+def too_long(name: str, seconds: float, work: str = "converting", remedy: str = "simplify the drawing") -> LimitError:
     """Error about the drawing of a name that takes longer than it may."""
     about = f"{name}: " if name else ""
-    return LimitError(f"{about}converting takes longer than {seconds:g} s; simplify the drawing or raise `max_seconds`")
+    return LimitError(f"{about}{work} takes longer than {seconds:g} s; {remedy} or raise `max_seconds`")

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, cast
 
 from vexture.close_up import close_up
+from vexture.deadline import allowed_seconds
 from vexture.encodings import EncodedTexture
 from vexture.errors import ParameterError
 from vexture.pipeline import convert
@@ -82,7 +83,7 @@ def coverage(
     if not isinstance(thing, Drawing):
         return thing.coverage(size, view, renderer=renderer, root=root)
     shown, view, precision = close_up(thing, size, view)
-    texture: EncodedTexture = convert(shown, split=None, **_accuracy(precision))
+    texture: EncodedTexture = convert(shown, split=None, **_conversion(precision))
     return texture.coverage(size, view, renderer=renderer)
 
 
@@ -136,16 +137,17 @@ def render(
         thing, view, precision = close_up(thing, size, view)
     empty = isinstance(thing, Drawing) and not thing.paths
     if renderer != "exact" and not empty:
-        texture = convert(thing, split="faces", **_accuracy(precision)) if isinstance(thing, Drawing) else thing
+        texture = convert(thing, split="faces", **_conversion(precision)) if isinstance(thing, Drawing) else thing
         return texture.render(size, view, renderer=renderer, root=root)
     from vexture.renderers.exact import render_exact_colours
 
     return render_exact_colours(cast("Drawing", thing), size, view)
 
 
-def _accuracy(precision: float | None) -> dict[str, Any]:
-    """Parameters of a conversion whose distances are those of a close-up."""
-    return {} if precision is None else {"precision": precision, "tolerance": precision}
+def _conversion(precision: float | None) -> dict[str, Any]:
+    """Parameters of a conversion whose distances are those of a close-up, in the time that is left to it."""
+    accuracy = {} if precision is None else {"precision": precision, "tolerance": precision}
+    return {"max_seconds": allowed_seconds(), **accuracy}
 
 
 def _check(thing: Shown, renderer: Renderer, root: str | int | None) -> None:

@@ -102,4 +102,5 @@ def check_reading(
     if trace_images:
         raise ParameterError("`trace_images` is for the images in an SVG; leave it out")
     if page_colors:
-        raise ParameterError(f"`page_colors` {page_colors!r:.80} is for the colours of an SVG; leave it out")
+        name, color = next(iter(page_colors.items()))
+        raise ParameterError(f"`page_colors` {name}={color} is for the colours of an SVG; leave it out")

@@ -194,7 +194,7 @@ def test_other_names_and_values_are_refused(given: object, message: str) -> None
 
 
 def test_page_colours_are_for_an_svg() -> None:
-    with pytest.raises(ParameterError, match=r"`page_colors` \{'--a': 'red'\} is for the colours of an SVG"):
+    with pytest.raises(ParameterError, match="`page_colors` --a=red is for the colours of an SVG"):
         vexture.read(b'{"type": "Point", "coordinates": [0, 0]}', page_colors={"--a": "red"})
 
 

@@ -24,6 +24,7 @@ from vexture.cli.options import (
     trace_images_option,
     write_output,
 )
+from vexture.deadline import DEFAULT_SECONDS, within
 from vexture.errors import DeviceError, ParameterError
 
 if TYPE_CHECKING:
@@ -71,6 +72,13 @@ Examples:
 @trace_images_option
 @strict_option
 @click.option(
+    "--max-seconds",
+    metavar="S",
+    type=float,
+    default=DEFAULT_SECONDS,
+    help=f"Most seconds for reading a drawing, and for drawing it.  [default: {DEFAULT_SECONDS:g}]",
+)
+@click.option(
     "--renderer",
     type=click.Choice(["cpu", "gpu", "exact"]),
     default="cpu",
@@ -93,6 +101,7 @@ def render(
     trace_images: bool | None,
     page_colors: dict[str, str] | None,
     strict: bool,
+    max_seconds: float,
     **options: Any,
 ) -> None:
     """Draw a drawing, a picture as it is traced, or a texture as a PNG, in its colours.
@@ -108,10 +117,12 @@ def render(
         _check_sides(size, width, height)
         seen = None if view is None else window(*view, rotate)  # refused before anything is read
         given = {"select": select, "fonts": fonts, "trace_images": trace_images, "page_colors": page_colors}
-        shown = _shown(source, {name: value for name, value in given.items() if value is not None}, strict=strict)
+        reading = {name: value for name, value in given.items() if value is not None}
+        shown = _shown(source, reading, strict=strict, max_seconds=max_seconds)
         view = view or _box_of(shown)
         pixels = _pixels(size, width, height, view)
-        picture = _picture(shown, pixels, seen or window(*view, rotate), root=_root_of(shown, root), **options)
+        with within(max_seconds):
+            picture = _picture(shown, pixels, seen or window(*view, rotate), root=_root_of(shown, root), **options)
         _write_png(_over(picture, background), output)
 
 
@@ -187,7 +198,7 @@ def _root_of(shown: "Shown", root: str | None) -> str | int | None:
     return int(root) if root not in names and root.isdecimal() else root
 
 
-def _shown(path: Path, reading: dict[str, Any], *, strict: bool) -> "Shown":
+def _shown(path: Path, reading: dict[str, Any], *, strict: bool, max_seconds: float) -> "Shown":
     """Read a drawing with parameters, or load a texture by one of its files or what their names have in common."""
     from vexture.apart import apart
     from vexture.content import FileKind, kind_of, start_of
@@ -199,7 +210,7 @@ def _shown(path: Path, reading: dict[str, Any], *, strict: bool) -> "Shown":
     kind = drawing_kind(path) if data is None else kind_of(start_of(data))
     if kind not in (None, FileKind.TEXTURE):
         given = path if data is None else data
-        drawing = apart(partial(read_drawing, name=name, **reading), given, name=name)
+        drawing = apart(partial(read_drawing, name=name, **reading), given, name=name, seconds=max_seconds)
         check_losses(name, drawing.notes, is_empty=not drawing.paths, strict=strict)
         say_notes(name, drawing.notes)
         return drawing

@@ -7,9 +7,13 @@ colour changes (`vexture.renderers.faces`). The exact trapezoids of these are ad
 integrals over faces with gradients (`vexture.renderers.regions`).
 """
 
+from collections.abc import Iterator
+from typing import Final
+
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.deadline import check_time
 from vexture.drawing import Drawing, FillRule
 from vexture.errors import ParameterError
 from vexture.kernels import kernel
@@ -21,6 +25,9 @@ from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 from vexture.tolerance import FLATNESS, SCANLINE
 
 __all__ = ["render_exact", "render_exact_colours"]
+
+BAND: Final = 4
+"""Rows between two looks at the clock: a row of thousands of outlines may take a second."""
 
 
 def render_exact(
@@ -38,7 +45,9 @@ def render_exact(
     chords = chords_of(drawing, (width, height), view, flatness)
     if len(chords.lines):
         evenodd = np.array([path.fill_rule == FillRule.EVENODD for path in drawing.paths])
-        cover_rows(Sweep.over(chords), chords.owners, evenodd, image)
+        sweep = Sweep.over(chords)
+        for rows in bands(height, drawing.name):
+            cover_rows(sweep, chords.owners, evenodd, rows, image)
     return image
 
 
@@ -63,7 +72,9 @@ def render_exact_colours(
     if len(chords.lines):
         stack = Stack.of(drawing, view_matrix(view, (width, height)))
         regions = Regions.between(chords.lines if stack.ramps.stops.size else chords.lines[:0], width)
-        colour_rows(Sweep.over(chords), chords.owners, stack, Faces.of(stack), regions, image)
+        sweep, faces = Sweep.over(chords), Faces.of(stack)
+        for rows in bands(height, drawing.name):
+            colour_rows(sweep, chords.owners, stack, faces, regions, rows, image)
     return image
 
 
@@ -75,14 +86,27 @@ def chords_of(drawing: Drawing, size: tuple[int, int], view: ViewLike, flatness:
     return find_chords(drawing, size, matrix, flatness) if drawing.segments else Chords.room_for(0)
 
 
+def bands(height: int, name: str) -> Iterator[tuple[int, int]]:
+    """Yield the first row of each band of an image, and the one behind it, while there is time."""
+    for first in range(0, height, BAND):
+        check_time(name, "the exact renderer", "use another `renderer`, simplify the drawing")
+        yield first, min(first + BAND, height)
+
+
 @kernel
-def cover_rows(sweep: Sweep, owners: NDArray[np.int32], evenodd: NDArray[np.bool_], image: NDArray[np.float32]) -> None:
-    """Accumulate the coverage of each row, slab by slab."""
-    height, width = image.shape
+def cover_rows(
+    sweep: Sweep,
+    owners: NDArray[np.int32],
+    evenodd: NDArray[np.bool_],
+    rows: tuple[int, int],
+    image: NDArray[np.float32],
+) -> None:
+    """Accumulate the coverage of each row of a band, slab by slab, below the rows that the sweep has reached."""
+    width = image.shape[1]
     winding = np.zeros(len(evenodd), np.int64)
     change = np.empty((width + 2, 1))  # of coverage from one pixel to the next; x = width adds to the last two
-    y = 0.0
-    for row in range(height):
+    y = float(rows[0])
+    for row in range(rows[0], rows[1]):
         change[:] = 0.0
         while y < row + 1.0:
             low = next_slab(sweep, y, row + 1.0)
@@ -119,13 +143,19 @@ def cover_slab(
 
 @kernel
 def colour_rows(
-    sweep: Sweep, owners: NDArray[np.int32], stack: Stack, faces: Faces, regions: Regions, image: NDArray[np.float32]
+    sweep: Sweep,
+    owners: NDArray[np.int32],
+    stack: Stack,
+    faces: Faces,
+    regions: Regions,
+    rows: tuple[int, int],
+    image: NDArray[np.float32],
 ) -> None:
-    """Accumulate the colours of each row, slab by slab."""
-    height, width = image.shape[:2]
+    """Accumulate the colours of each row of a band, as `cover_rows` does."""
+    width = image.shape[1]
     change = np.empty((width + 2, 4))  # of each component, as in `cover_rows`
-    y = 0.0
-    for row in range(height):
+    y = float(rows[0])
+    for row in range(rows[0], rows[1]):
         change[:] = 0.0
         forget(faces)
         while y < row + 1.0:
