@@ -70,17 +70,24 @@ def _stretch(curve: NDArray[np.float64], low: float, high: float) -> Stretch:
 
 
 @kernel(allocates=False)
-def _single_crossing(a: NDArray[np.float64], b: NDArray[np.float64], low: float, high: float) -> float:
-    """Integer y nearest to the only crossing of two pieces whose order differs at `low` and `high`."""
-    sign_low = x_at(a, low) > x_at(b, low)
+def _single_crossing(a: NDArray[np.float64], b: NDArray[np.float64], low: float, high: float, is_only: bool) -> float:
+    """Integer y nearest to a crossing of two pieces whose order differs at `low` and `high`.
+
+    If it is the only one, two steps of three interpolate: they find what bisection finds, after fewer steps.
+    """
+    gap_low, gap_high, steps = x_at(a, low) - x_at(b, low), x_at(a, high) - x_at(b, high), 0
+    falling = gap_low > 0.0
     while high - low > 1.0:
-        middle = np.floor(0.5 * (low + high))
-        if (x_at(a, middle) > x_at(b, middle)) == sign_low:
-            low = middle
+        middle, steps = np.floor(0.5 * (low + high)), steps + 1
+        if is_only and steps % 3 != 0:
+            middle = np.floor(low + (high - low) * (gap_low / (gap_low - gap_high)))
+            middle = min(max(middle, low + 1.0), high - 1.0)
+        gap = x_at(a, middle) - x_at(b, middle)
+        if (gap > 0.0) == falling:
+            low, gap_low = middle, gap
         else:
-            high = middle
-    gap_low, gap_high = abs(x_at(a, low) - x_at(b, low)), abs(x_at(a, high) - x_at(b, high))
-    return low if gap_low < gap_high else high
+            high, gap_high = middle, gap
+    return low if abs(gap_low) < abs(gap_high) else high
 
 
 @kernel
@@ -114,7 +121,7 @@ def _pair_crossings(
         monotone = p.least_slope > q.greatest_slope or q.least_slope > p.greatest_slope
         if monotone or high - low <= 1.0 or steps > MAX_STEPS:
             if apart:
-                out[count] = _single_crossing(a, b, low, high)
+                out[count] = _single_crossing(a, b, low, high, monotone)
                 count += 1
             continue
         middle = np.floor(0.5 * (low + high))
