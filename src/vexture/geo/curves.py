@@ -14,6 +14,9 @@ from vexture.tolerance import ROUND
 
 __all__ = ["BROKEN", "straightened"]
 
+HEAD: Final = 5
+"""Bytes of a geometry that say of what kind it is."""
+
 BROKEN: Final = b"\x01"
 """What no reader of WKB takes for a geometry."""
 
@@ -112,8 +115,13 @@ def straightened(shapes: NDArray[Any]) -> NDArray[Any]:
     Raises a `LimitError` if they are too many.
     """
     found = dict[int, _Shape | None]()
+    kinds = dict[bytes, int]()  # geometries of a file begin alike, and there may be millions
     for place, content in enumerate(shapes):
-        if isinstance(content, bytes) and (kind := _kind_at(content)) in (COLLECTION, *STRAIGHT):
+        if not isinstance(content, bytes):
+            continue
+        head = content[:HEAD]
+        kind = kinds[head] if head in kinds else kinds.setdefault(head, _kind_at(head))
+        if kind in (COLLECTION, *STRAIGHT):
             check_time()
             try:
                 shape = _Reader(content).shape()
