@@ -23,6 +23,7 @@ import llvmlite.binding as llvm
 import numpy as np
 
 from vexture import Drawing, convert, read_svg
+from vexture.bezier.cover import DIRECTIONS, cover_cells, cut_outlines, find_reach
 from vexture.bezier.reduce import reduced
 from vexture.kernels import Kernel, text_digest
 from vexture.layout import MAP_HEAD
@@ -36,8 +37,9 @@ from vexture.tree.bounds import Bounds
 from vexture.tree.build import SLICE, grow, grow_on
 from vexture.tree.cubics import gather
 from vexture.tree.growth import WAITING, Growth, tree_of, with_needed_room
-from vexture.tree.planar.build import build_map, grow_map, plant_map, planted, row_cubics, with_room
-from vexture.tree.planar.faces import new_faces, operations_of, refill
+from vexture.tree.planar.build import build_map, grow_map, plant_map, row_cubics
+from vexture.tree.planar.faces import add_faces, new_faces, operations_of, refill, trimmed
+from vexture.tree.planar.growth import planted, with_room
 from vexture.tree.planar.layers import layers_of, rows_of
 from vexture.tree.tree import MOST_QUADS
 
@@ -152,9 +154,15 @@ def map_calls(drawing: Drawing) -> Iterator[tuple[Any, tuple[Any, ...]]]:
         growth.tree.needed[:] = ROOM
         yield (
             grow_map,
-            (with_room(growth), layers, faces, Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS), SLICE),
+            (with_room(growth), layers, faces, Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS), SLICE, 0),
         )
     yield refill, (new_faces(),)
+    yield add_faces, (new_faces(), trimmed(new_faces()), 1, 1, np.zeros(1, np.int64))
+    circles, top = np.zeros((1, 3)), np.zeros((1, 1), np.int32)
+    reach, outlines = np.zeros((1, DIRECTIONS)), np.zeros((1, 1, 4, 2))
+    yield cover_cells, (circles, top)
+    yield find_reach, (circles, top, reach, np.zeros(1, np.bool_))
+    yield cut_outlines, (outlines, circles, reach, np.zeros(1, np.int64))
     yield operations_of, (layers, np.arange(len(rows.paths), dtype=np.int32))
     planar = build_map(drawing)
     assert planar is not None

@@ -58,6 +58,8 @@ class Path:
     element : str
         Name of the element of the source that it draws, for picking and restyling; several paths may share one. Empty
         if the element has none.
+    hides : bool
+        Whether it hides something that the drawing does not have: in a map to be restyled it then stays opaque.
 
     Raises
     ------
@@ -70,6 +72,7 @@ class Path:
     paint: Paint = BLACK
     group: int = -1
     element: str = ""
+    hides: bool = False
 
     def __post_init__(self) -> None:
         check_contours(self.contours)
@@ -82,17 +85,22 @@ class Path:
         paint: Paint,
         group: int = -1,
         element: str = "",
+        hides: bool = False,
     ) -> "Path":
         """Path of contours that are known to be finite and closed, without a check, which costs more than the rest."""
-        path = object.__new__(cls)
-        for name, value in zip(cls.__slots__, (contours, fill_rule, paint, group, element), strict=True):
-            object.__setattr__(path, name, value)
+        path, assign = object.__new__(cls), object.__setattr__  # a loop over the names takes three times as long
+        assign(path, "contours", contours)
+        assign(path, "fill_rule", fill_rule)
+        assign(path, "paint", paint)
+        assign(path, "group", group)
+        assign(path, "element", element)
+        assign(path, "hides", hides)
         return path
 
     @classmethod
     def _sound(cls, contours: tuple[NDArray[np.float64], ...], like: "Path", to_source: Affine) -> "Path":
         """Sound path whose rest is another's, moved."""
-        return cls.sound(contours, like.fill_rule, like.paint.after(to_source), like.group, like.element)
+        return cls.sound(contours, like.fill_rule, like.paint.after(to_source), like.group, like.element, like.hides)
 
     @property
     def box(self) -> NDArray[np.float64]:

@@ -8,11 +8,12 @@ same however many threads there were.
 import multiprocessing
 import os
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import closing
 from contextvars import copy_context
 from threading import Event
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +33,7 @@ from vexture.tree.growth import (
     roomy,
 )
 
-__all__ = ["LARGE", "PART", "grow_parts", "usual_threads"]
+__all__ = ["LARGE", "PART", "grow_in_threads", "grow_parts", "joined_cells", "new_part", "set_aside", "usual_threads"]
 
 LARGE = 1 << 17
 """Cubics. Smaller drawings take no longer than threads need to be worth it."""
@@ -42,6 +43,8 @@ PART = 2048
 
 AHEAD = 2
 """Parts for each thread: one grows while the next is set aside."""
+
+A, P = TypeVar("A"), TypeVar("P")
 
 Step = Callable[[Growth, int], Growth]
 """Grows a tree for a while, down to cells whose lists are at most so long; raises an error at a limit."""
@@ -65,7 +68,7 @@ def usual_threads() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _new_part(tree: Growth) -> Growth:
+def new_part(tree: Growth) -> Growth:
     """Arrays for a part; they serve one part after another, because new pages of memory take time."""
     fresh = {name: roomy(getattr(tree.pool, name)[:0], PART) for name in ("points", "path", "numbers", "child", "part")}
     return Growth(
@@ -82,7 +85,7 @@ def _new_part(tree: Growth) -> Growth:
     )
 
 
-def _set_aside(tree: Growth, part: Growth) -> int:
+def set_aside(tree: Growth, part: Growth) -> int:
     """Move the cell on top of a tree's stack to a part; return the number of its quad."""
     tree.counts[WAITING] -= 1
     top = int(tree.counts[WAITING])
@@ -120,46 +123,66 @@ def _grown(part: Growth, quad: int, step: Step, stopped: Event) -> tuple[Part, G
     ), part
 
 
+def grow_in_threads(
+    fresh: Callable[[], A], find: Callable[[A], int], grow: Callable[[A, int, Event], tuple[P, A]], threads: int
+) -> Generator[P, None, None]:
+    """Parts that have grown in threads, in the order in which they were set aside.
+
+    `find` sets a part aside in arrays that `fresh` has made, and returns the number of its quad, or -1 if there is none
+    left; `grow` returns the part and its arrays, for another one. The caller must go through all parts.
+    """
+    growing: deque[Future[tuple[P, A]]] = deque()
+    free = [fresh() for _ in range(AHEAD * threads)]
+    stopped = Event()
+    executor = ThreadPoolExecutor(threads)
+    try:
+        while True:
+            if not free:
+                part, arrays = growing.popleft().result()
+                free.append(arrays)
+                yield part
+            arrays = free.pop()
+            quad = find(arrays)
+            if quad < 0:
+                break
+            growing.append(executor.submit(copy_context().run, grow, arrays, quad, stopped))
+        while growing:
+            yield growing.popleft().result()[0]
+    finally:
+        stopped.set()
+        executor.shutdown(cancel_futures=True)
+
+
 def grow_parts(tree: Growth, step: Step, threads: int, check: Callable[[int], None]) -> Growth:
     """The tree when it has grown, part by part; its curves are whole numbers then.
 
     `check` is called with the number of quads so far, and may raise an error.
     """
-    parts: list[Part] = []
-    growing: deque[Future[tuple[Part, Growth]]] = deque()
-    free = [_new_part(tree) for _ in range(AHEAD * threads)]
-    stopped, quads = Event(), 0
-    executor = ThreadPoolExecutor(threads)
 
-    def take() -> None:
-        nonlocal quads
-        part, arrays = growing.popleft().result()
-        parts.append(part)
-        free.append(arrays)
-        quads += len(part.cells)
-        check(quads)
-
-    try:
+    def find(part: Growth) -> int:
+        nonlocal tree
         while tree.counts[WAITING] > 0:
             top = tree.stack[tree.counts[WAITING] - 1]
-            if top[LAST] - top[FIRST] > PART:
-                tree = step(tree, PART)
-                continue
-            if not free:
-                take()
-            part = free.pop()
-            quad = _set_aside(tree, part)
-            growing.append(executor.submit(copy_context().run, _grown, part, quad, step, stopped))
-        while growing:
-            take()
-    finally:
-        stopped.set()
-        executor.shutdown(cancel_futures=True)
-    tree, curves = _joined(tree, parts)
+            if top[LAST] - top[FIRST] <= PART:
+                return set_aside(tree, part)
+            tree = step(tree, PART)
+        return -1
+
+    def grow(part: Growth, quad: int, stopped: Event) -> tuple[Part, Growth]:
+        return _grown(part, quad, step, stopped)
+
+    parts, quads = list[Part](), 0
+    growing: Generator[Part, None, None] = grow_in_threads(lambda: new_part(tree), find, grow, threads)
+    with closing(growing):
+        for part in growing:
+            parts.append(part)
+            quads += len(part.cells)
+            check(quads)
+    tree, curves = joined_cells(tree, parts)
     return step(tree, 0)._replace(curves=curves)  # a step without a cell: it takes means above the parts
 
 
-def _joined(tree: Growth, parts: list[Part]) -> tuple[Growth, NDArray[np.int32]]:
+def joined_cells(tree: Growth, parts: Sequence[Part]) -> tuple[Growth, NDArray[np.int32]]:
     """The cells at the top and those of the parts, and all curves. A part's first quad has its place in the top."""
     quads, curves = int(tree.counts[QUADS]), int(tree.counts[CURVES])
     cells: list[NDArray[Any]] = [tree.cells[:quads].copy()]

@@ -5,7 +5,7 @@ opaque hides all below it, pieces included. One that covers the cell below all t
 cell's *ground*, the face from which it starts. So hundreds of layers are short lists in small cells.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,6 @@ from vexture.tree.cubics import owned
 from vexture.tree.divide import PARTS, divide
 from vexture.tree.growth import (
     COUNT,
-    COVERAGE,
     CURVES,
     DEPTH,
     FIRST,
@@ -37,45 +36,24 @@ from vexture.tree.growth import (
     UNRESOLVED,
     WAITING,
     WHOLE,
-    WINDING,
-    Growth,
     first_of,
     has_room,
-    roomy,
-    with_needed_room,
 )
 from vexture.tree.leaf import DIVIDE
+from vexture.tree.parts import LARGE, usual_threads
 from vexture.tree.planar.borders import Cell, key_of
 from vexture.tree.planar.faces import Faces, face_of, new_faces, roomier_faces
+from vexture.tree.planar.growth import BASE, IS_MEAN, PlanarGrowth, State, planted, with_room
 from vexture.tree.planar.layers import Layers, Rows, layers_of, looks_of, rows_of
 from vexture.tree.planar.leaf import PlanarLeaf, Workspace, new_workspace, planar_leaf
 from vexture.tree.planar.map import PlanarMap, texels_of
 from vexture.tree.planar.means import add_programs, set_flat_mean
+from vexture.tree.planar.parts import grow_map_parts
 from vexture.tree.planar.programs import programs_of
 from vexture.tree.tree import MOST_QUADS, levels, runs
 from vexture.tree.winding import child_windings, inside
 
-__all__ = [
-    "DEFAULT_MAP_CAPACITY",
-    "build_map",
-    "grow_map",
-    "plant_map",
-    "planted",
-    "row_cubics",
-    "with_room",
-]
-
-BASE, IS_MEAN = WINDING, COVERAGE
-"""Columns of the cells that mean something else here."""
-
-
-class PlanarGrowth(NamedTuple):
-    """The map while it grows. Columns of its cells: whether a quad, count, base paint, whether only the mean counts."""
-
-    tree: Growth
-    ground: NDArray[np.int64]  # (stack,): ground of each cell to divide
-    mean: NDArray[np.float64]  # (quads, 4, 4)
-    sides: NDArray[np.int64]  # (curves, 2)
+__all__ = ["DEFAULT_MAP_CAPACITY", "build_map", "grow_map", "plant_map", "row_cubics"]
 
 
 class Work(NamedTuple):
@@ -260,9 +238,12 @@ def _means(growth: PlanarGrowth) -> None:
                 below += 1
 
 
-@kernel(ahead=True)
-def grow_map(growth: PlanarGrowth, layers: Layers, faces: Faces, bounds: Bounds, most_work: int) -> None:
-    """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done."""
+@kernel(ahead=True, shares=True)
+def grow_map(growth: PlanarGrowth, layers: Layers, faces: Faces, bounds: Bounds, most_work: int, aside: int) -> None:
+    """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done.
+
+    It also ends before a cell whose list is no longer than `aside`, unless that is 0.
+    """
     tree = growth.tree
     stack, counts, paths, in_cell = tree.stack, tree.counts, len(layers.rules), 0
     for k in range(counts[WAITING]):
@@ -272,7 +253,10 @@ def grow_map(growth: PlanarGrowth, layers: Layers, faces: Faces, bounds: Bounds,
     work = Work(np.empty(len(counts), np.int64), row, child_at, windings, new_workspace(paths, in_cell))
     while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
         top = counts[WAITING] - 1
-        most_work -= CELL + stack[top, LAST] - stack[top, FIRST]
+        listed = stack[top, LAST] - stack[top, FIRST]
+        if aside > 0 and listed <= aside:
+            return
+        most_work -= CELL + listed
         _grow_quad(growth, layers, faces, bounds, work)
         if faces.counts[1] != 0:
             break
@@ -298,17 +282,6 @@ def row_cubics(rows: Rows) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     return owned([path.contours for path in rows.paths])
 
 
-def planted(tree: tuple[Any, ...], *others: Any) -> PlanarGrowth:
-    """The growth that `plant_map` returns as plain tuples."""
-    return PlanarGrowth(Growth(*tree), *others)
-
-
-def with_room(growth: PlanarGrowth) -> PlanarGrowth:
-    """The map, with at least twice the room where the next cell has none."""
-    tree = with_needed_room(growth.tree)
-    return PlanarGrowth(tree, growth.ground, roomy(growth.mean, len(tree.cells)), roomy(growth.sides, len(tree.curves)))
-
-
 def build_map(
     drawing: Drawing,
     *,
@@ -319,10 +292,12 @@ def build_map(
     most_quads: int = MOST_QUADS,
     most_texels: int | None = None,
     restyle: bool = False,
+    threads: int | None = None,
 ) -> PlanarMap | None:
     """Planar map of a drawing in its colours; None if it needs more than `most_texels`.
 
-    With `restyle` faces of different elements keep a border where they have one colour.
+    With `restyle` faces of different elements keep a border where they have one colour. Large maps to be restyled are
+    shared by so many `threads`, by default one for each processor; the map is the same with any number.
 
     The other parameters and errors are those of `build_tree`.
 
@@ -338,27 +313,38 @@ def build_map(
     """
     bounds = bounds_of(tolerance, max_depth, capacity, precision, most_quads, DEFAULT_MAP_CAPACITY)
     rows = rows_of(drawing, restyle)
-    layers, faces = layers_of(rows, drawing.groups, looks_of(drawing) if restyle else None), new_faces()
+    layers = layers_of(rows, drawing.groups, looks_of(drawing) if restyle else None)
     check_time(drawing.name)
     root, outside = plant_map(*row_cubics(rows), max_depth)
     if not outside <= CLOSED:  # NaN counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
-    growth = planted(*root)
-    while growth.tree.counts[WAITING] > 0:
+
+    def step(state: State, aside: int) -> State:
+        growth, layers, faces = state
         check_growth(int(growth.tree.counts[QUADS]), most_quads, drawing.name)
-        growth = with_room(growth)
-        if faces.counts[1]:
-            faces = roomier_faces(faces)
-        grow_map(growth, layers, faces, bounds, SLICE if most_texels is None else SHORT_SLICE)
-        if most_texels is not None and texels_of(*growth.tree.counts[[QUADS, CURVES]].tolist()) > most_texels:
+        growth, faces = with_room(growth), roomier_faces(faces) if faces.counts[1] else faces
+        grow_map(growth, layers, faces, bounds, SLICE if most_texels is None else SHORT_SLICE, aside)
+        return State(growth, layers, faces)
+
+    def check(quads: int, curves: int) -> bool:
+        check_growth(quads, most_quads, drawing.name)
+        return most_texels is None or texels_of(quads, curves) <= most_texels
+
+    state = State(planted(*root), layers, new_faces())
+    threads = usual_threads() if threads is None else threads
+    if restyle and threads > 1 and state.growth.tree.stack[0, LAST] > LARGE:
+        grown = grow_map_parts(state, step, threads, check)
+        return None if grown is None else _map_of(drawing.name, rows.gradients, grown)
+    while state.growth.tree.counts[WAITING] > 0:
+        state = step(state, 0)
+        if most_texels is not None and not check(*state.growth.tree.counts[[QUADS, CURVES]].tolist()):
             return None
-    return _map_of(drawing.name, rows.gradients, growth, layers, faces)
+    return _map_of(drawing.name, rows.gradients, state)
 
 
-def _map_of(
-    name: str, gradients: tuple[Gradient, ...], growth: PlanarGrowth, layers: Layers, faces: Faces
-) -> PlanarMap:
+def _map_of(name: str, gradients: tuple[Gradient, ...], state: State) -> PlanarMap:
     """The map that has grown, numbered as a `Tree`, in its final types; paints are numbered as they were met."""
+    growth, layers, faces = state
     tree, quads = growth.tree, growth.tree.counts[QUADS]
     order = np.concatenate([*levels(tree.cells[:quads, :, IS_QUAD] == 1.0, tree.first[:, 0])])
     cells = tree.cells[order]

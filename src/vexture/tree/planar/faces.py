@@ -17,13 +17,16 @@ from vexture.tree.winding import inside
 
 __all__ = [
     "Faces",
+    "add_faces",
     "composite_stacks",
     "face_of",
+    "faces_with",
     "new_faces",
     "operations_of",
     "refill",
     "roomier_faces",
     "stack_of",
+    "trimmed",
 ]
 
 FIRST_ROOM = 1024
@@ -45,9 +48,43 @@ class Faces(NamedTuple):
     counts: NDArray[np.int64]  # (2,): faces; 1 if there was no room for another
 
 
-def new_faces() -> Faces:
-    """A table that holds face 0."""
-    return _faces(FIRST_ROOM, FIRST_ROOM)
+def new_faces(room: int = FIRST_ROOM, paths: int = FIRST_ROOM) -> Faces:
+    """A table that holds face 0; its room is a power of two."""
+    return _faces(room, paths)
+
+
+def faces_with(faces: Faces, face: int) -> Faces:
+    """A table that holds face 0 and one of others, which is face 1, unless it is face 0."""
+    start, end = faces.starts[face : face + 2]
+    out = new_faces(paths=max(FIRST_ROOM, int(end - start)))
+    if face:
+        for rows, given in zip(out[2:6], faces[2:6], strict=True):
+            rows[1] = given[face]
+        out.paint[1] = 0 if faces.paint[face] == 0 else 1
+        out.starts[2] = end - start
+        out.paths[: end - start] = faces.paths[start:end]
+        out.counts[0] = 2
+        refill(out)
+    return out
+
+
+def trimmed(faces: Faces) -> Faces:
+    """A table without its room and slots, in which nothing can be found or added."""
+    count = int(faces.counts[0])
+    none = np.zeros(0, np.int64)
+    starts = faces.starts[: count + 1].copy()
+    return Faces(
+        none,
+        none,
+        faces.keys[:count].copy(),
+        faces.rgba[:count].copy(),
+        faces.program[:count].copy(),
+        faces.look[:count].copy(),
+        faces.paint[:count].copy(),
+        starts,
+        faces.paths[: starts[-1]].copy(),
+        faces.counts.copy(),
+    )
 
 
 def _faces(room: int, paths: int) -> Faces:
@@ -87,6 +124,27 @@ def refill(faces: Faces) -> None:
         faces.slots[_free_slot(faces.slots, faces.keys[face])] = face + 1
         if faces.paint[face] == face:
             faces.paint_slots[_free_slot(faces.paint_slots, _paint_key(faces, face))] = face + 1
+
+
+@kernel(allocates=False, ahead=True)
+def add_faces(faces: Faces, more: Faces, first: int, last: int, number: NDArray[np.int64]) -> None:
+    """Add faces first..last-1 of another table to one that has room; write the number that each has there."""
+    for k in range(first, last):
+        slot = _slot_of(faces, more.keys[k]) if more.keys[k] != 0 else 0
+        if more.keys[k] == 0 or faces.slots[slot] != 0:
+            number[k] = faces.slots[slot] - 1 if more.keys[k] != 0 else 0
+            continue
+        face = faces.counts[0]
+        faces.counts[0], faces.slots[slot], number[k] = face + 1, face + 1, face
+        faces.keys[face], faces.program[face], faces.look[face] = more.keys[k], more.program[k], more.look[k]
+        for c in range(4):
+            faces.rgba[face, c] = more.rgba[k, c]
+        at = faces.starts[face]
+        for place in range(more.starts[k], more.starts[k + 1]):
+            faces.paths[at] = more.paths[place]
+            at += 1
+        faces.starts[face + 1] = at
+        _set_paint(faces, face)
 
 
 @kernel(allocates=False)
@@ -233,14 +291,20 @@ def _new_face(
     faces.program[face] = key_of_operations(ops, count)
     for c in range(4):
         faces.rgba[face, c] = ops.rgba[0, c] if faces.program[face] == 0 and count > 0 else 0.0
+    _set_paint(faces, face)
+    return face
+
+
+@kernel(allocates=False)
+def _set_paint(faces: Faces, face: int) -> None:
+    """Find the first face of the same paint as a new one, which may be the first."""
     mask = len(faces.slots) - 1
     slot = _paint_key(faces, face) & mask
     while faces.paint_slots[slot] != 0:
         other = faces.paint_slots[slot] - 1
         if _same_paint(faces, other, face):
             faces.paint[face] = other
-            return face
+            return
         slot = (slot + 1) & mask
     faces.paint_slots[slot] = face + 1
     faces.paint[face] = face
-    return face

@@ -92,6 +92,7 @@ def layers_of(rows: Rows, groups: tuple[Group, ...], looks: NDArray[np.int64] | 
         rules=np.array([int(path.fill_rule) for path in rows.paths], np.int64),
         opaque=opaque,
         covers=opaque & (group < 0),
+        hides=np.array([path.hides for path in rows.paths], np.bool_),
         shade=rows.shade,
         cut=rows.cut,
         look=np.zeros(len(paints), np.int64) if looks is None else looks,

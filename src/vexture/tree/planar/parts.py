@@ -1,0 +1,153 @@
+"""Large maps grow in parts, in several threads, as large trees do: each part has a table of its own of the faces in it.
+
+The tables become one in the order in which one thread would have met the faces, so that the map is the same, bit for
+bit. That holds where faces of one paint have exactly one colour, as in maps to be restyled.
+"""
+
+from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
+from threading import Event
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.tree.growth import CURVES, FIRST, FIRST_PATH, LAST, LAST_PATH, QUADS, UNRESOLVED, WAITING, roomy
+from vexture.tree.parts import PART, Part, grow_in_threads, joined_cells, new_part, set_aside
+from vexture.tree.planar.faces import Faces, add_faces, faces_with, new_faces, trimmed
+from vexture.tree.planar.growth import BASE, PlanarGrowth, State
+
+__all__ = ["grow_map_parts"]
+
+Step = Callable[[State, int], State]
+"""Grows a map for a while, down to cells whose lists are at most so long; raises an error at a limit."""
+
+
+class _Arrays:
+    """Arrays that serve one part after another, and how many faces were met before the part."""
+
+    def __init__(self, whole: State) -> None:
+        tree = new_part(whole.growth.tree)
+        rows = np.zeros((len(tree.cells), 4, 4)), np.zeros((len(tree.curves), 2), np.int64)
+        growth = PlanarGrowth(tree, np.zeros_like(whole.growth.ground), *rows)
+        layers = whole.layers._replace(hides=whole.layers.hides.copy())  # which several threads must not write
+        self.state, self.met = State(growth, layers, whole.faces), 0
+
+    def set_aside(self, whole: State) -> int:
+        """Move the cell on top of the stack of a map to here; return the number of its quad."""
+        growth, layers, _ = self.state
+        tree = whole.growth.tree
+        top = tree.stack[tree.counts[WAITING] - 1]
+        paths = int(top[LAST_PATH] - top[FIRST_PATH])
+        growth = growth._replace(tree=growth.tree._replace(present=roomy(growth.tree.present, paths)))
+        ground = int(whole.growth.ground[tree.counts[WAITING] - 1])
+        growth.ground[0], self.met = 1 if ground else 0, int(whole.faces.counts[0])
+        self.state = State(growth, layers, faces_with(whole.faces, ground))
+        return set_aside(tree, growth.tree)
+
+
+class _MapPart(NamedTuple):
+    """A part that has grown; its paints are the numbers of its own faces."""
+
+    cells: Part
+    mean: NDArray[np.float64]
+    sides: NDArray[np.int64]
+    faces: Faces
+    met: int  # faces that the map above had met before it
+
+
+def _grown(arrays: _Arrays, quad: int, step: Step, stopped: Event) -> tuple[_MapPart, _Arrays]:
+    """Grow a part; also returns its arrays, for another one."""
+    while arrays.state.growth.tree.counts[WAITING] > 0 and not stopped.is_set():
+        arrays.state = step(arrays.state, 0)
+    growth, _, faces = arrays.state
+    tree, quads, curves = growth.tree, growth.tree.counts[QUADS], growth.tree.counts[CURVES]
+    cells = Part(
+        quad,
+        tree.cells[:quads].copy(),
+        tree.first[:quads].copy(),
+        tree.curves[:curves].astype(np.int32),
+        float(tree.deviation[0]),
+        int(tree.counts[UNRESOLVED]),
+    )
+    return _MapPart(cells, growth.mean[:quads].copy(), growth.sides[:curves].copy(), trimmed(faces), arrays.met), arrays
+
+
+def grow_map_parts(state: State, step: Step, threads: int, check: Callable[[int, int], bool]) -> State | None:
+    """The map when it has grown, part by part; its curves are whole numbers then.
+
+    `check` is called with the numbers of quads and curves so far, and may raise an error; None if it returns False.
+    """
+    every: list[_Arrays] = []
+
+    def fresh() -> _Arrays:
+        every.append(_Arrays(state))
+        return every[-1]
+
+    def find(arrays: _Arrays) -> int:
+        nonlocal state
+        tree = state.growth.tree
+        while tree.counts[WAITING] > 0:
+            top = tree.stack[tree.counts[WAITING] - 1]
+            if top[LAST] - top[FIRST] <= PART:
+                return arrays.set_aside(state)
+            state = step(state, PART)
+            tree = state.growth.tree
+        return -1
+
+    def grow(arrays: _Arrays, quad: int, stopped: Event) -> tuple[_MapPart, _Arrays]:
+        return _grown(arrays, quad, step, stopped)
+
+    parts, quads, curves = list[_MapPart](), 0, 0
+    growing: Generator[_MapPart, None, None] = grow_in_threads(fresh, find, grow, threads)
+    with closing(growing):
+        for part in growing:
+            parts.append(part)
+            quads, curves = quads + len(part.mean), curves + len(part.sides)
+            if not check(quads, curves):
+                return None
+    for arrays in every:
+        state.layers.hides[:] |= arrays.state.layers.hides
+    return _joined(state, parts, step)
+
+
+def _joined(state: State, parts: Sequence[_MapPart], step: Step) -> State:
+    """The cells at the top and those of the parts, and all curves, by the numbers of faces of one table."""
+    (tree, ground, mean, sides), layers, _ = state
+    quads, curves = int(tree.counts[QUADS]), int(tree.counts[CURVES])
+    tree.cells[[part.cells.quad for part in parts]] = 0.0
+    faces, paints, of_parts = _one_table(state.faces, parts)
+    _renumber(tree.cells[:quads], paints)
+    means: list[NDArray[Any]] = [mean[:quads].copy()]
+    beside: list[NDArray[Any]] = [paints[sides[:curves]]]
+    for part, own in zip(parts, of_parts, strict=True):
+        _renumber(part.cells.cells, own)
+        means[0][part.cells.quad] = part.mean[0]
+        means.append(part.mean[1:])
+        beside.append(own[part.sides])
+    tree, outlines = joined_cells(tree, [part.cells for part in parts])
+    growth = PlanarGrowth(tree, ground, np.concatenate(means), np.concatenate(beside))
+    growth, _, _ = step(State(growth, layers, faces), 0)  # a step without a cell: it takes means above the parts
+    return State(growth._replace(tree=growth.tree._replace(curves=outlines)), layers, faces)
+
+
+def _renumber(cells: NDArray[np.float64], paints: NDArray[np.int64]) -> None:
+    """Give cells other numbers of their base paints."""
+    cells[:, :, BASE] = paints[cells[:, :, BASE].astype(np.int64)]
+
+
+def _one_table(top: Faces, parts: Sequence[_MapPart]) -> tuple[Faces, NDArray[np.int64], list[NDArray[np.int64]]]:
+    """A table of all faces in the order in which they were met, and the paints there of the faces of each table."""
+    tables = [top, *(part.faces for part in parts)]
+    counts = [int(table.counts[0]) for table in tables]
+    paths = sum(int(table.starts[count]) for table, count in zip(tables, counts, strict=True))
+    faces = new_faces(1 << sum(counts).bit_length(), paths + 1)
+    numbers = [np.zeros(count, np.int64) for count in counts]
+    done = 1
+    for part, count, number in zip(parts, counts[1:], numbers[1:], strict=True):
+        add_faces(faces, top, done, part.met, numbers[0])
+        add_faces(faces, part.faces, 1, count, number)
+        done = part.met
+    add_faces(faces, top, done, counts[0], numbers[0])
+    first, *others = (faces.paint[number] for number in numbers)
+    return faces, first, others
