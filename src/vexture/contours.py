@@ -16,6 +16,9 @@ BLOCK = 1 << 18
 """Cubics of short contours that are checked together, 17 MB."""
 
 
+MANY, SHORT = 1 << 12, 16
+"""So many contours of fewer cubics than this, on average, are copied sooner than found to be parts of one array."""
+
 LINES: Final = 1 << 13
 """Lines that are made together: they stay in the processor's cache, 0.5 MB."""
 
@@ -82,6 +85,8 @@ def joined(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
         return contours.whole
     if not contours:
         return np.empty((0, 4, 2))
+    if len(contours) > MANY and sum(map(len, contours)) < SHORT * len(contours):
+        return _copied(contours)
     base: Any = contours[0] if len(contours) == 1 else contours[0].base  # of another process's array, bytes
     if not isinstance(base, np.ndarray) or base.dtype != np.float64:
         return _copied(contours)

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from vexture.cartography.paths import Fit, fitted, symbol_paths
+from vexture.cartography.paths import Fit
+from vexture.cartography.symbols import Symbols
 from vexture.drawing import Path
 from vexture.errors import SourceError
 from vexture.paint import Paint
@@ -17,17 +18,19 @@ SIZES = np.array([1.0, 2.0, 0.3])
 
 
 def test_symbols_that_are_placed_together_are_those_placed_alone():
-    own = [None, Paint((0.0, 1.0, 0.0)), None]
-    placed = [*symbol_paths(SYMBOL, POINTS, SIZES, ["a", "b", "c"], own)]
+    symbols = Symbols(SYMBOL, POINTS, SIZES, ["a", "b", "c"], [None, Paint((0.0, 1.0, 0.0)), None])
+    fit = Fit((0.0, 0.0, 50.0, 50.0))
+    placed = [*symbols.paths(fit)]
     assert [path.element for path in placed] == [name for name in "abc" for _ in SYMBOL.paths]
     expected = [(path, point, size) for point, size in zip(POINTS, SIZES, strict=True) for path in SYMBOL.paths]
-    fit = Fit((0.0, 0.0, 50.0, 50.0))
-    for path, inner, (symbol, point, size) in zip(placed, fitted(placed, fit), expected, strict=True):
+    starts = []
+    for path, (symbol, point, size) in zip(placed, expected, strict=True):
         Path(path.contours)  # which checks that they are closed
-        Path(inner.contours)
-        for contour, within, start in zip(path.contours, inner.contours, symbol.contours, strict=True):
-            np.testing.assert_array_equal(contour, (start - 0.5) * size + point)
-            np.testing.assert_array_equal(within, fit.inward(contour))
+        for contour, start in zip(path.contours, symbol.contours, strict=True):
+            np.testing.assert_array_equal(contour, fit.inward((start - 0.5) * size + point))
+            starts.append((start[:, 0] - 0.5) * size + point)
+    every = np.concatenate(starts)
+    np.testing.assert_array_equal(symbols.corners, [every.min(axis=0), every.max(axis=0)])
     assert placed[0].contours[0].base is placed[-len(SYMBOL.paths)].contours[0].base  # not one operation for each
     assert placed[len(SYMBOL.paths)].paint.color == (0.0, 1.0, 0.0)
     assert placed[0].paint.color == SYMBOL.paths[0].paint.color
@@ -35,4 +38,4 @@ def test_symbols_that_are_placed_together_are_those_placed_alone():
 
 def test_a_point_without_a_place_is_refused():
     with pytest.raises(SourceError, match="a point has no place on the map"):
-        [*symbol_paths(SYMBOL, POINTS * np.inf, SIZES, ["a", "b", "c"], [None] * 3)]
+        Symbols(SYMBOL, POINTS * np.inf, SIZES, ["a", "b", "c"], [None] * 3)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 import numpy as np
 
 from vexture.cartography.coverage import covering, ranks
-from vexture.cartography.paths import area_paths, fitted
+from vexture.cartography.paths import area_paths
 from vexture.cartography.place import MERCATOR, unit_of
 from vexture.cartography.prepare import FILL, INK, MapLayer, Prepared, in_memory, prepared
 from vexture.content import about
@@ -132,7 +132,7 @@ def _drawing(ready: Prepared, snap: float | None) -> Drawing:
         border = one.outline
         paths += area_paths(border.rings, np.array([border.name], object), border.rgba, np.zeros(1, np.int64), fit)
         paths += area_paths(one.lines, one.names, one.colours(INK), np.arange(len(one.features)), fit)
-        paths += fitted(one.symbols, fit)
+        paths += one.symbols.seen_paths(fit) if one.symbols is not None else ()
     if not paths:
         raise SourceError("its features enclose no area; correct them")
     return Drawing(tuple(paths), fit.to_source, ready.name, ready.crs, sides=fit.sides)

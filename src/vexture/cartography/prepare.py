@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from vexture.cartography.colours import Scale, colours_of, rgba_of
 from vexture.cartography.edges import together
 from vexture.cartography.marks import outlines, strokes, width_of, widths_at
-from vexture.cartography.paths import Fit, symbol_paths
+from vexture.cartography.paths import Fit
 from vexture.cartography.place import MERCATOR, placed
+from vexture.cartography.symbols import Symbols
 from vexture.cartography.times import Steps, Times, coloured_steps, with_steps
 from vexture.content import about, renaming
 from vexture.deadline import within
-from vexture.drawing import Drawing, Path
+from vexture.drawing import Drawing
 from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.geo.crs import UNPLACED, chosen_crs, gis_packages, same_system
 from vexture.geo.features import ID, Features, read_features
@@ -136,8 +137,7 @@ class Painted:
     steps: Steps | None
     outline: Outline
     lines: Rings
-    symbols: tuple[Path, ...]
-    """In the units of the map."""
+    symbols: Symbols | None
 
     def colours(self, default: str) -> NDArray[np.float64]:
         """Colour and opacity of each feature, (f, 4): by its attribute, or else of all; `default` is a CSS colour."""
@@ -276,7 +276,7 @@ def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list
                 rgba, legend = colours_of(features.table, layer.color, notes)
         if legend is not None:
             legends.append({"layer": label, **legend})
-        painted.append(Painted(layer, label, features, names, rgba, steps, NO_OUTLINE, NO_LINES, ()))
+        painted.append(Painted(layer, label, features, names, rgba, steps, NO_OUTLINE, NO_LINES, None))
     return painted, legends
 
 
@@ -317,9 +317,8 @@ def _marked(painted: list[Painted], crs: str, size: int | Box, notes: Notes) -> 
         outline = _outline(one, len(painted) > 1, taken, crs, pixel, notes)
         taken.add(outline.name)
         lines = strokes(one.features.lines, width_of(one.layer.stroke, "stroke"), crs, pixel)
-        symbols = tuple(_symbols(one, crs, pixel))
-        corners = [contour[:, 0] for path in symbols for contour in path.contours]
-        own = [lines.points, outline.rings.points, np.concatenate(corners) if corners else NO_LINES.points]
+        symbols = _symbols(one, crs, pixel)
+        own = [lines.points, outline.rings.points, symbols.corners if symbols is not None else NO_LINES.points]
         reach += [corner for points in own if len(points) for corner in (points.min(axis=0), points.max(axis=0))]
         marked.append(replace(one, outline=outline, lines=lines, symbols=symbols))
     low, high = np.min(reach, axis=0), np.max(reach, axis=0)
@@ -341,18 +340,18 @@ def _outline(one: Painted, is_named: bool, taken: set[str], crs: str, pixel: flo
     return Outline(outlines(rings, width, crs, pixel), name, rgba_of(layer.outline, "outline")[None])
 
 
-def _symbols(one: Painted, crs: str, pixel: float) -> Iterator[Path]:
-    """Paths of the symbols of a layer's points, in the units of the map."""
+def _symbols(one: Painted, crs: str, pixel: float) -> Symbols | None:
+    """The symbols of a layer's points, if it has any."""
     points, layer = one.features.points, one.layer
     if not len(points.points):
-        return
+        return None
     sizes = widths_at(points.points, width_of(layer.symbol_size, "symbol_size"), crs, pixel)
     names = [str(one.names[feature]) for feature in points.feature.tolist()]
     own_colours = layer.symbol is not None and one.rgba is None and layer.fill is None
     colours = one.colours(DOT)[points.feature].tolist()
     known = {rgba: None if own_colours else Paint(rgba[:3], rgba[3]) for rgba in set(map(tuple, colours))}
     paints = [known[tuple(rgba)] for rgba in colours]
-    yield from symbol_paths(layer.symbol or _dot(), points.points, sizes, names, paints)
+    return Symbols(layer.symbol or _dot(), points.points, sizes, names, paints)
 
 
 def _dot() -> Drawing:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from vexture.cartography.colours import rgba_of
 from vexture.cartography.paths import Fit
 from vexture.cartography.prepare import DOT, FILL, INK, Painted, Prepared
+from vexture.cartography.symbols import Symbols
 from vexture.geo.rings import Rings, oriented
 from vexture.renderers.accumulate import Sides, accumulated
 from vexture.renderers.view import Size, ViewLike
@@ -66,8 +67,8 @@ def map_picture(ready: Prepared) -> MapPicture:
             borders += 1
         parts.append((one.lines, one.colours(INK), rows))
         sheets += [_Sheet(_ring_sides(rings, ready.fit), rgba, of) for rings, rgba, of in parts if len(rings.ends)]
-        if one.symbols:
-            sheets.append(_symbols(one, ready.fit, rows))
+        if one.symbols is not None:
+            sheets.append(_symbols(one, one.symbols, ready.fit, rows))
     return MapPicture(tuple(sheets))
 
 
@@ -90,12 +91,13 @@ def _ring_sides(rings: Rings, fit: Fit) -> Sides:
     return Sides(points, points[rings.following], owner.astype(np.int64))
 
 
-def _symbols(one: Painted, fit: Fit, rows: NDArray[np.intp]) -> _Sheet:
+def _symbols(one: Painted, symbols: Symbols, fit: Fit, rows: NDArray[np.intp]) -> _Sheet:
     """Chords of the symbols of points; each path of a symbol has its own colour."""
     number = dict(zip(one.names.tolist(), rows.tolist(), strict=True))
-    cubics = fit.inward(np.concatenate([contour for path in one.symbols for contour in path.contours]))
-    counts = [sum(map(len, path.contours)) for path in one.symbols]
-    owner = np.repeat(np.arange(len(one.symbols)), CHORDS * np.array(counts))
+    paths = [*symbols.paths(fit)]
+    cubics = np.concatenate([contour for path in paths for contour in path.contours])
+    counts = [sum(map(len, path.contours)) for path in paths]
+    owner = np.repeat(np.arange(len(paths)), CHORDS * np.array(counts))
     t = np.linspace(0.0, 1.0, CHORDS + 1)[:, None]
     weights = np.concatenate([(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3], axis=1)
     places = np.einsum("tk,nkx->ntx", weights, cubics)
@@ -103,5 +105,5 @@ def _symbols(one: Painted, fit: Fit, rows: NDArray[np.intp]) -> _Sheet:
     areas = np.bincount(owner, start[:, 0] * end[:, 1] - end[:, 0] * start[:, 1])
     turned = (areas < 0.0)[owner, None]  # outlines of drawings go either way
     sides = Sides(np.where(turned, end, start), np.where(turned, start, end), owner.astype(np.int64))
-    rgba = np.array([(*path.paint.color, path.paint.opacity) for path in one.symbols])
-    return _Sheet(sides, rgba, np.array([number[path.element] for path in one.symbols], np.intp))
+    rgba = np.array([(*path.paint.color, path.paint.opacity) for path in paths])
+    return _Sheet(sides, rgba, np.array([number[path.element] for path in paths], np.intp))

@@ -105,14 +105,20 @@ def restylable(drawing: Drawing) -> Drawing:
 
 def elements_of(drawing: Drawing) -> tuple[list[Path], NDArray[np.int64]]:
     """The first path of each element of a drawing, in order, and the number of each path's element."""
-    places: dict[tuple[str, Paint, int], int] = {}
+    paints: dict[Paint, int] = {}
+    known: dict[int, int] = {}  # by identity: most paths share their paints, whose hashes take longer than the rest
+    places: dict[tuple[str, int, int], int] = {}
     first: list[Path] = []
-    numbers = np.empty(len(drawing.paths), np.int64)
-    for k, path in enumerate(drawing.paths):
-        numbers[k] = place = places.setdefault((path.element, path.paint, path.group), len(places))
+    numbers: list[int] = []
+    for path in drawing.paths:
+        paint = known.get(id(path.paint))
+        if paint is None:
+            paint = known[id(path.paint)] = paints.setdefault(path.paint, len(paints))
+        place = places.setdefault((path.element, paint, path.group), len(places))
         if place == len(first):
             first.append(path)
-    return first, numbers
+        numbers.append(place)
+    return first, np.array(numbers, np.int64)
 
 
 def style_of(drawing: Drawing, planar: Any) -> Style:
