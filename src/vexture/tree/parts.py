@@ -44,7 +44,8 @@ PART = 2048
 AHEAD = 2
 """Parts for each thread: one grows while the next is set aside."""
 
-A, P = TypeVar("A"), TypeVar("P")
+A = TypeVar("A")
+P = TypeVar("P")
 
 Step = Callable[[Growth, int], Growth]
 """Grows a tree for a while, down to cells whose lists are at most so long; raises an error at a limit."""

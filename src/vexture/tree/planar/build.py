@@ -296,8 +296,8 @@ def build_map(
 ) -> PlanarMap | None:
     """Planar map of a drawing in its colours; None if it needs more than `most_texels`.
 
-    With `restyle` faces of different elements keep a border where they have one colour. Large maps to be restyled are
-    shared by so many `threads`, by default one for each processor; the map is the same with any number.
+    With `restyle` faces of different elements keep a border where they have one colour. Large maps of crowded symbols
+    are then shared by so many `threads`, by default one for each processor; the map is the same with any number.
 
     The other parameters and errors are those of `build_tree`.
 
@@ -331,9 +331,9 @@ def build_map(
         return most_texels is None or texels_of(quads, curves) <= most_texels
 
     state = State(planted(*root), layers, new_faces())
-    threads = usual_threads() if threads is None else threads
-    if restyle and threads > 1 and state.growth.tree.stack[0, LAST] > LARGE:
-        grown = grow_map_parts(state, step, threads, check)
+    # only drawings that lack what is hidden: parts number paints in an order of their own, and others keep their bytes
+    if restyle and layers.hides.any() and state.growth.tree.stack[0, LAST] > LARGE:
+        grown = grow_map_parts(state, step, usual_threads() if threads is None else threads, check)
         return None if grown is None else _map_of(drawing.name, rows.gradients, grown)
     while state.growth.tree.counts[WAITING] > 0:
         state = step(state, 0)

@@ -1,7 +1,8 @@
 """Large maps grow in parts, in several threads, as large trees do: each part has a table of its own of the faces in it.
 
-The tables become one in the order in which one thread would have met the faces, so that the map is the same, bit for
-bit. That holds where faces of one paint have exactly one colour, as in maps to be restyled.
+The tables become one in the order of the parts, so that the map is the same, bit for bit, with any number of threads.
+That holds where faces of one paint have exactly one colour, as in maps to be restyled. Paints may be numbered in
+another order than in a map that grows in one piece: which faces are met first depends on when their table is full.
 """
 
 from collections.abc import Callable, Generator, Sequence
@@ -137,7 +138,7 @@ def _renumber(cells: NDArray[np.float64], paints: NDArray[np.int64]) -> None:
 
 
 def _one_table(top: Faces, parts: Sequence[_MapPart]) -> tuple[Faces, NDArray[np.int64], list[NDArray[np.int64]]]:
-    """A table of all faces in the order in which they were met, and the paints there of the faces of each table."""
+    """A table of all faces in the order of the parts, and the paints there of the faces of each table."""
     tables = [top, *(part.faces for part in parts)]
     counts = [int(table.counts[0]) for table in tables]
     paths = sum(int(table.starts[count]) for table, count in zip(tables, counts, strict=True))
