@@ -276,6 +276,13 @@ def test_decimal_commas_of_csv_are_read(separator):
     assert columns["word"] == ["1,5 m", None, "2"]
 
 
+def test_points_between_thousands_are_no_part_of_numbers_with_decimal_commas():
+    content = b"lon;lat;value;doubtful\n4,5;52;1.234,5;1.234\n5;52;-12,5;1,5\n6;52;3;2\n"
+    table = read_features(content, notes=Notes()).table
+    assert table["value"].to_pylist() == [1234.5, -12.5, 3.0]
+    assert table["doubtful"].to_pylist() == ["1.234", "1,5", "2"]
+
+
 def test_commas_that_are_no_decimal_ones_stay():
     content = b"lon;lat;people;share;all\n4.5;52;1,234;0,5;1,234,567\n5;52;12,345;12,345;1\n"
     table = read_features(content, notes=Notes()).table

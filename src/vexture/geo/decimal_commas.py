@@ -13,6 +13,10 @@ SEPARATORS: Final = ";\t"
 """Separators of columns beside which a comma may be that of decimals."""
 
 NUMBER: Final = r"^-?\d+(,\d+)?$"
+GROUPED: Final = r"^-?(\d+|[1-9]\d{0,2}(\.\d{3})+)(,\d+)?$"
+BOTH: Final = r"\.\d{3},\d"
+"""A number that may have points between its thousands, and what only one with both has."""
+
 CODE: Final = r"^-?0\d"
 """A number with a zero before other digits, which a code has."""
 
@@ -39,6 +43,8 @@ def with_decimal_commas(table: "pyarrow.Table", header: Header) -> "pyarrow.Tabl
         is_doubtful = _any(texts, CODE) or (has_points and _all(texts, THOUSANDS))
         if is_doubtful and field.name not in (header.across, header.up):
             continue
+        if _any(texts, BOTH) and _all(texts, GROUPED):
+            texts = compute.replace_substring(texts, ".", "")
         if _all(texts, NUMBER) and compute.any(compute.match_substring(texts, ",")).as_py():
             numbers = compute.cast(compute.replace_substring(texts, ",", "."), pa.float64())
             table = table.set_column(at, field.name, numbers)

@@ -21,7 +21,7 @@ from vexture.geo.unheard import unheard
 if TYPE_CHECKING:
     from rasterio import DatasetReader
 
-__all__ = ["opened_grib", "opened_raster", "plain_place", "vector_formats"]
+__all__ = ["opened_grib", "opened_raster", "plain_place", "raster_errors", "vector_formats"]
 
 CACHE: Final = 128 * 2**20
 """Bytes of blocks that GDAL keeps, which by default takes a twentieth of the memory. A row of blocks of a raster of
@@ -172,10 +172,17 @@ def refuse_links_beside(path: Path) -> None:
                 raise SourceError(f"{printable(beside.name)} beside it {why}; remove that file, or make it again")
 
 
+def raster_errors() -> tuple[type[Exception], ...]:
+    """What rasterio raises for a damaged file: errors of GDAL come as they are where it asks for a tag."""
+    from rasterio._err import CPLE_BaseError
+    from rasterio.errors import RasterioError
+
+    return RasterioError, CPLE_BaseError, OSError
+
+
 def _why_not(path: Path) -> str:
     """Why a file beside a raster is not read; empty if it leads nowhere."""
     import rasterio
-    from rasterio.errors import RasterioError
 
     start, end = start_of(path), path.suffix.lower()
     if end in DATASETS:
@@ -184,7 +191,7 @@ def _why_not(path: Path) -> str:
         try:
             with gdal(GDAL_DISABLE_READDIR_ON_OPEN="EMPTY_DIR"), rasterio.open(path, driver=GEOTIFF) as file:
                 refuse_links_in(file)
-        except (RasterioError, OSError):
+        except raster_errors():
             return "is damaged"
         except SourceError as error:
             return f"is not to be trusted ({error})".partition("; ")[0].removesuffix(")") + ")"

@@ -12,7 +12,7 @@ import numpy as np
 from vexture.content import TIFF, start_of
 from vexture.errors import ParameterError, SourceError, reason_of
 from vexture.geo.esri_grids import refuse_other_count, refuse_other_size
-from vexture.geo.gdal import opened_raster
+from vexture.geo.gdal import opened_raster, raster_errors
 from vexture.geo.lengths import NO_UNIT, metres_in
 from vexture.geo.moments import rising_moments
 from vexture.geo.series import Lattice, Meaning, Reading, Series, Values
@@ -39,15 +39,13 @@ def open_geotiff(
 
     `variable` chooses a band by its number, counted from 1, or by its description; `ParameterError` if there is none.
     """
-    from rasterio.errors import RasterioError
-
     is_floats = not isinstance(source, bytes) and Path(source).suffix.lower() == FLOATS
     if is_floats and not start_of(source).startswith(TIFF):
         refuse_other_size(Path(os.fspath(source)))  # type: ignore[arg-type]
     with ExitStack() as stack:
         try:
             file = stack.enter_context(opened_raster(source, others=True))
-        except (RasterioError, OSError) as error:
+        except raster_errors() as error:
             what = "GeoTIFF" if start_of(source).startswith(TIFF) else "a grid of Esri"
             if is_floats:
                 raise SourceError(
@@ -55,7 +53,11 @@ def open_geotiff(
                 ) from None
             raise SourceError(f"it cannot be read as {what} ({reason_of(error)}); write it again") from None
         refuse_other_count(source, file)
-        yield _series(file, time_dim, variable, notes)
+        try:
+            series = _series(file, time_dim, variable, notes)
+        except raster_errors() as error:
+            raise SourceError(f"its tags cannot be read ({reason_of(error)}); write the file again") from None
+        yield series
 
 
 def _series(file: "DatasetReader", time_dim: str | None, variable: str | None, notes: Notes) -> Series:
@@ -127,7 +129,6 @@ def _metres(file: "DatasetReader", bands: Sequence[int]) -> float:
 
 def _band(file: "DatasetReader", band: int, rows: slice, columns: slice, metres: float, notes: Notes) -> Values:
     """Values of a band, in its unit of so many metres."""
-    from rasterio.errors import RasterioError
     from rasterio.windows import Window
 
     stride = rows.step
@@ -136,9 +137,9 @@ def _band(file: "DatasetReader", band: int, rows: slice, columns: slice, metres:
     window = Window(*corner, shape[1] * stride, shape[0] * stride)  # type: ignore[no-untyped-call,unused-ignore]
     try:
         read: Any = file.read(band, window=window, out_shape=shape, masked=True)
-    except (RasterioError, OSError) as error:
+        scale, offset = file.scales[band - 1], file.offsets[band - 1]
+    except raster_errors() as error:
         raise SourceError(f"band {band} cannot be read ({reason_of(error)}); write the file again") from None
-    scale, offset = file.scales[band - 1], file.offsets[band - 1]
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
         values: Values = read.filled(0).astype(np.float64) * scale + offset
     values[np.ma.getmaskarray(read)] = np.nan

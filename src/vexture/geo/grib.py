@@ -15,7 +15,7 @@ import numpy as np
 from vexture.content import LARGEST_FILE, read_bytes
 from vexture.deadline import check_time
 from vexture.errors import LimitError, ParameterError, SourceError
-from vexture.geo.gdal import opened_grib
+from vexture.geo.gdal import opened_grib, raster_errors
 from vexture.geo.grib_messages import checked_fields
 from vexture.geo.unheard import unheard
 from vexture.geo.variables import listed
@@ -62,14 +62,12 @@ def opened_fields(source: bytes | str | os.PathLike[str], variable: str | None, 
 
     A field is decoded when its values are asked for.
     """
-    from rasterio.errors import RasterioError
-
     content = _content(source)
     held = checked_fields(content)
     with ExitStack() as stack:
         try:
             file = stack.enter_context(opened_grib(content))
-        except (RasterioError, OSError):
+        except raster_errors():
             raise SourceError("GDAL cannot read its grid; write it as NetCDF: cdo -f nc copy IN OUT") from None
         if file.count < held:
             notes.remark(f"of its {held:,} fields, {file.count:,} can be read; write the others again")
