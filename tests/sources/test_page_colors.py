@@ -87,11 +87,6 @@ def test_page_gives_a_stop_its_colour() -> None:
     assert [stop.color for stop in gradient.stops] == [(0.0, 0.0, 1.0), (0.0, 1.0, 0.0)]
 
 
-def test_page_gives_an_animation_the_colour_that_it_begins_at() -> None:
-    content = f'<path d="{SQUARE}" fill="currentColor"><animate attributeName="fill" by="#0f0" dur="1s"/></path>'
-    assert colors(read(svg(content), {"currentColor": "#f00"})) == ["#ff0000"]
-
-
 @pytest.mark.parametrize(
     "attributes",
     ['color="red" style="--primary: red"', 'style="color: red; --primary: red"'],

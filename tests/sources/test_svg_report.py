@@ -89,7 +89,7 @@ ABOUT = {
     "variable-missing": [
         ("invalid", SAID["variable-missing"][21:], [("a", (0, 0.91, 0.09, 1))]),
     ],
-    "animation-in-gradient": [("left out", "animation", [("<stop> in line 2", None), ("sun", (0.2, 0.91, 0.29, 1))])],
+    "animation-in-gradient": [("left out", "animation", [("<stop> in line 2", None), ("sun", (0, 0.91, 0.09, 1))])],
     "filter-steps": [
         ("left out", SAID["filter-steps"][10:-4], [("card", (0, 0.91, 0.09, 1)), ("badge", (0.2, 0.91, 0.29, 1))])
     ],

@@ -10,7 +10,6 @@ import tinycss2
 __all__ = [
     "ANGLE",
     "LENGTH",
-    "MATH",
     "NUMBER",
     "PERCENT",
     "Quantity",

@@ -9,8 +9,6 @@ import tinycss2
 from vexture.errors import SourceError
 from vexture.svg.colors import parse_color
 from vexture.svg.font_values import FONT_LONGHANDS, font_longhands
-from vexture.svg.keyframes import LONGHANDS as ANIMATION_LONGHANDS
-from vexture.svg.keyframes import animation_longhands
 from vexture.svg.mask_values import mask_longhands
 from vexture.svg.properties import KEYWORDS, PROPERTIES
 from vexture.svg.values import words
@@ -50,7 +48,7 @@ PAINTED: Final = "("
 
 SHORTHANDS: Final[dict[str, tuple[str, ...]]] = {
     "all": tuple(name for name in PROPERTIES if name not in UNRESET),
-    "animation": ANIMATION_LONGHANDS,
+    "animation": ("animation-name",),  # with all else that it says: names are found in it
     "background": ("background-color", "background-image"),
     "font": FONT_LONGHANDS,
     "marker": MARKERS,
@@ -136,8 +134,6 @@ def expanded(name: str, value: str) -> Iterator[tuple[str, str]]:
         yield "background-image", value if PAINTED in value.lower() else "none"
     elif SIDED.fullmatch(name) and value:
         yield longhands(name)[0], value
-    elif name == "animation":
-        yield from animation_longhands(value)
     elif name == "font":
         yield from font_longhands(value)
     elif name in SHORTHANDS and value and (name != "all" or value.lower() in KEYWORDS):

@@ -11,7 +11,6 @@ __all__ = [
     "FONT_LONGHANDS",
     "SPACINGS",
     "SYSTEM_FONTS",
-    "TEXT_SIZES",
     "font_longhands",
     "font_weight",
     "in_pixels",

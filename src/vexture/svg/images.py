@@ -17,11 +17,9 @@ from lxml import etree
 from vexture.content import BEFORE_MARKUP, FileKind, kind_of, picture_size, read_bytes, start_of, unpacked
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError, shortened
-from vexture.svg.animation import show_moment
 from vexture.svg.document import parse_svg
 from vexture.svg.gradients import rows
 from vexture.svg.links import reference
-from vexture.svg.page import ENCLOSED
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report
 from vexture.svg.space import Place, Window
@@ -97,9 +95,7 @@ class Images:
             raise SourceError("it is empty" if not start else "it is no SVG, PNG, JPEG, WebP, GIF or BMP")
         if self.depth >= DEEPEST:
             raise LimitError(f"drawings in it are nested more than {DEEPEST} deep")
-        root = parse_svg(read_bytes(content))
-        show_moment(root, ENCLOSED)
-        return root
+        return parse_svg(read_bytes(content))
 
     def beside(self, link: str) -> Path:
         """A file in the folder or below it."""

@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 from lxml import etree
@@ -15,7 +16,6 @@ from vexture.drawing import Drawing
 from vexture.errors import ParameterError, SourceError
 from vexture.fonts.places import font_places
 from vexture.notes import Note, warn_of
-from vexture.svg.animation import Moment, show_moment
 from vexture.svg.compositing import has_colors, occupied
 from vexture.svg.document import parse_svg
 from vexture.svg.frames import EMPTY, Frame, frame, painted_frame
@@ -24,13 +24,15 @@ from vexture.svg.page import CURRENT_IS_BLACK, Page, unused_colors
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
 from vexture.svg.select import UNPAINTED, Part, chosen, nothing_painted, unpainted, with_symbols_used
-from vexture.svg.style import UNCLEAR
 from vexture.svg.subjects import subject_of
 from vexture.svg.transform import Transform
 from vexture.svg.unseen import ANIMATION
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["Found", "Request", "found_in", "framed_drawing", "read_svg", "svg_drawing"]
+__all__ = ["Found", "Request", "framed_drawing", "read_document", "read_svg", "svg_drawing"]
+
+REVEALED: Final = "what only an animation shows is drawn as that shows it"
+EMPTY_TOO: Final = "its animations show nothing more"
 
 
 def read_svg(
@@ -144,21 +146,18 @@ def framed_drawing(
     images: Images | None = None,
     page_colors: Mapping[str, str] | None = None,
 ) -> tuple[Drawing, Frame | None]:
-    """Read as `svg_drawing` does, and return the frame of the whole drawing too.
-
-    Where the first frame of an animated drawing shows nothing, it is drawn without its animation, or else as that ends.
-    """
+    """Read as `svg_drawing` does, and return the frame of the whole drawing too."""
     named, page = "id" if names is None else names, Page.of(page_colors)
     with about(source):
         for name, value in (("select", select), ("names", names)):
             if value is not None and not isinstance(value, str):
                 raise ParameterError(f"`{name}` is {value!r:.80}; it must be text")
-        document = partial(parse_svg, decompressed(content))
+        root = parse_svg(decompressed(content))
+        unused = unused_colors(page, root) if page.colors else ()
         part = None if select is None else partial(selected, select=select)
-        found = found_in(Request(document, Path(source).stem, part, named, fonts, images or Images(), page))
+        found = read_document(Request(root, Path(source).stem, part, named, fonts, images or Images(), page))
         if select is not None and not found.drawing.paths and found.chosen:
             raise nothing_painted(select, found.chosen)
-        unused = unused_colors(page, document()) if page.colors else ()
     return replace(found.drawing, notes=(*found.drawing.notes, *unused)), found.frame
 
 
@@ -166,7 +165,7 @@ def framed_drawing(
 class Request:
     """What is to be read of a document."""
 
-    document: Callable[[], etree._Element]  # makes the document, which is changed, anew
+    root: etree._Element  # which reading changes
     name: str
     part: Callable[[etree._Element], Part] | None  # finds what is chosen
     names: str
@@ -180,35 +179,11 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """What is read of a document at a moment of its animation."""
+    """What is read of a document."""
 
     drawing: Drawing
     frame: Frame | None
     chosen: int  # elements that were chosen
-
-    @property
-    def is_animated(self) -> bool:
-        """Whether anything of it would move."""
-        return any(note.message == ANIMATION for note in self.drawing.notes)
-
-    @property
-    def unseen(self) -> Drawing:
-        """The drawing, whose animation shows nothing in other moments either: then it loses nothing by that."""
-        notes = tuple(note for note in self.drawing.notes if note.message != ANIMATION)
-        told = Note("remark", "its animation shows nothing at its start and at its end")
-        return replace(self.drawing, notes=(*notes, told)) if self.is_animated else self.drawing
-
-
-def found_in(request: Request) -> Found:
-    """Read a document at its start, or if it shows nothing then, at another moment of its animation."""
-    try:
-        first = found = at_moment(request, Moment.START)
-        for moment in (Moment.REST, Moment.END):
-            if not found.drawing.paths and first.is_animated:
-                found = at_moment(request, moment)
-    except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
-        raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
-    return found if found.drawing.paths else replace(found, drawing=first.unseen)
 
 
 def selected(root: etree._Element, select: str) -> Part:
@@ -216,24 +191,31 @@ def selected(root: etree._Element, select: str) -> Part:
     return with_symbols_used(root, chosen(root, select))
 
 
-def at_moment(request: Request, moment: Moment) -> Found:
-    """Read a document at a moment of its animation."""
-    report = Report()
-    root = request.document()
-    for element in show_moment(root, request.page, moment):
-        report.simplified(UNCLEAR, element.getparent())
-    part = None if request.part is None else request.part(root)
-    elements = None if part is None else part.elements
-    scene = Scene(root, report, request.images, elements, request.names, request.fonts, request.page)
-    framed = painted_frame(scene) if part is not None and part.is_unframed else frame(scene)
-    drawing, to_pixels = drawing_of(scene, framed, request.name)
-    empty = () if drawing.paths else (unpainted(root) if part is None else Note("remark", UNPAINTED),)
-    if drawing.paths and moment.remark:
-        report.remark(moment.remark)
+def read_document(request: Request) -> Found:
+    """Read a document, or a part of it."""
+    report, root = Report(), request.root
+    try:
+        part = None if request.part is None else request.part(root)
+        elements = None if part is None else part.elements
+        scene = Scene(root, report, request.images, elements, request.names, request.fonts, request.page)
+        framed = painted_frame(scene) if part is not None and part.is_unframed else frame(scene)
+        drawing, to_pixels = drawing_of(scene, framed, request.name)
+    except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
+        raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
+    if scene.servers.cascade.reveals:
+        report.remark(REVEALED)
     if scene.servers.lacks_color and has_colors(drawing):  # of one colour, it is a shape for any
         report.remark(CURRENT_IS_BLACK)
     notes = report.about(lambda element: subject_of(element, scene.names, scene.boxes, to_pixels))
-    return Found(replace(drawing, notes=(*notes, *empty)), None if framed is EMPTY else framed, len(elements or ()))
+    if not drawing.paths:
+        notes = *without_animation(notes), unpainted(root) if part is None else Note("remark", UNPAINTED)
+    return Found(replace(drawing, notes=notes), None if framed is EMPTY else framed, len(elements or ()))
+
+
+def without_animation(notes: tuple[Note, ...]) -> tuple[Note, ...]:
+    """Notes of a drawing that is empty with its animations, too, and so loses nothing by them."""
+    kept = tuple(note for note in notes if note.message != ANIMATION)
+    return kept if len(kept) == len(notes) else (*kept, Note("remark", EMPTY_TOO))
 
 
 def drawing_of(scene: Scene, framed: Frame, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:

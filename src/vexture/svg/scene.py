@@ -19,7 +19,7 @@ from vexture.drawing import FillRule, Path
 from vexture.errors import SourceError
 from vexture.group import Group
 from vexture.svg.angular import angular_fill, paint_angular
-from vexture.svg.animation import ANIMATIONS
+from vexture.svg.animations import ANIMATIONS
 from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.css_gradients import background_of
 from vexture.svg.document import HTML, applies, local_name

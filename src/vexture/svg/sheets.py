@@ -9,6 +9,7 @@ import tinycss2
 from lxml import etree
 
 from vexture.errors import shortened
+from vexture.svg.animations import KEYFRAMES, Values, read_keyframes
 from vexture.svg.calculation import separated
 from vexture.svg.css_names import is_other_property
 from vexture.svg.declarations import (
@@ -20,7 +21,6 @@ from vexture.svg.declarations import (
     read_descriptors,
     tokens,
 )
-from vexture.svg.keyframes import KEYFRAMES, Keyframes, read_keyframes
 from vexture.svg.media import Answer, Medium, condition, shown, word
 from vexture.svg.properties import PROPERTIES
 from vexture.svg.report import Report
@@ -74,7 +74,7 @@ class Sheets:
         self.medium = medium
         self.matcher: Any = None
         self.font_faces: list[FontFace] = []
-        self.keyframes: dict[str, Keyframes] = {}
+        self.keyframes: dict[str, Values] = {}
         self.wrappers: dict[etree._Element, Any] = {}
         self.layers: dict[Layer, int] = {(): 0}  # in order of appearance
         self.prefixes = dict[str, str]()  # of namespaces
@@ -170,8 +170,8 @@ class Sheets:
             descriptors = {each.name.lower(): each.value for each in read_descriptors(rule.content or [])}
             self.font_faces.append(FontFace(descriptors, self.element))
         elif name in KEYFRAMES:
-            called, frames = read_keyframes(rule, declarations)
-            self.keyframes[called] = frames
+            called, values = read_keyframes(rule, declarations)
+            self.keyframes[called] = values
         elif name == "layer":
             self.add_layers(rule, layer, around)
         elif name == "media" and rule.content is not None:

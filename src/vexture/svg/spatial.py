@@ -12,7 +12,7 @@ from vexture.svg.calculation import parsed
 from vexture.svg.transform import Identity, Length, Transform, angle, parse_transform, single_transform
 from vexture.svg.values import number, words
 
-__all__ = ["TRANSFORMS", "Attribute", "Spatial", "css_transform", "element_transform", "seen"]
+__all__ = ["TRANSFORMS", "Attribute", "css_transform", "element_transform", "seen"]
 
 TRANSFORMS: Final = ("translate", "rotate", "scale", "transform")
 """Properties that move an element, in the order in which they do (CSS Transforms 2, 6)."""

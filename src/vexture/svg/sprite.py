@@ -19,7 +19,7 @@ from vexture.svg.document import local_name, parse_svg
 from vexture.svg.images import Images
 from vexture.svg.links import Links, reference
 from vexture.svg.page import Page, unused_colors
-from vexture.svg.read import Request, found_in
+from vexture.svg.read import Request, read_document
 from vexture.svg.select import Part, symbol_alone, symbols_of
 
 __all__ = ["symbol_drawings"]
@@ -56,9 +56,8 @@ def symbol_drawings(
         check_time(source)
         alone = partial(alone_in, name=name)
         with about(f"{source}#{name}"):
-            part = partial(sprite.document, name)
-            request = Request(part, name, alone, named, fonts, images or Images(), page)
-            drawing = found_in(request).drawing
+            request = Request(sprite.document(name), name, alone, named, fonts, images or Images(), page)
+            drawing = read_document(request).drawing
         yield replace(drawing, notes=(*drawing.notes, *of_file))
         of_file = ()
 

@@ -2,19 +2,17 @@
 
 import re
 from collections.abc import Mapping
-from copy import copy
 from dataclasses import dataclass, replace
 from math import inf
 from operator import attrgetter, itemgetter
 
 from lxml import etree
 
+from vexture.svg.animations import names_in, values_by_element, visible_value
 from vexture.svg.colors import BLACK, Color, parse_color, parse_paint
 from vexture.svg.declarations import Declaration, expanded, longhands, read_style
 from vexture.svg.document import XML, local_name
-from vexture.svg.first_frame import Around, animated_variables, first_frame
 from vexture.svg.font_values import SPACINGS, SYSTEM_FONTS, font_weight, in_pixels, text_size
-from vexture.svg.keyframes import names_of
 from vexture.svg.media import Medium
 from vexture.svg.page import Page
 from vexture.svg.properties import CSS_ONLY, KEYWORDS, PROPERTIES, UNSET
@@ -25,10 +23,7 @@ from vexture.svg.values import INITIAL_SIZE, Viewport, fraction
 from vexture.svg.variables import computed, refers, substituted, unknown
 from vexture.svg.viewport import own_size
 
-__all__ = ["INITIAL", "LISTING", "UNCLEAR", "Cascade", "Style"]
-
-UNCLEAR = "animation whose first frame is not known, drawn without it"
-"""What a note says of an animation of which something is not known."""
+__all__ = ["INITIAL", "Cascade", "Style"]
 
 NOT_SUPPORTED = re.compile(
     r"(?<![\w-])(?:alpha|attr|calc-size|contrast-color|device-cmyk|env|if|progress|random|sibling-(?:count|index))\(",
@@ -43,9 +38,6 @@ SPACE_MODES = {"default": "normal", "preserve": "pre"}
 
 STRIPPED = frozenset({"g", "svg", "tspan", "use"})
 """Elements that show their content as if they were not there, by `display: contents`, which hides others."""
-
-LISTING = frozenset({"text", "tspan", "textPath", "tref"})
-"""Elements whose `x` and `y` are lists, and no properties (SVG 2, 11.2)."""
 
 BOXES, CIRCLES = frozenset({"foreignObject", "image", "rect", "svg", "symbol", "use"}), frozenset({"circle", "ellipse"})
 GEOMETRY = {
@@ -114,10 +106,8 @@ class Cascade:
         size = own_size(root)
         self.view = Viewport(*size)  # to which fonts refer
         self.sheets = Sheets(root, report, Medium(*size))
-        self.varied = any(
-            name.startswith("--") for frames in self.sheets.keyframes.values() for _, frame in frames for name in frame
-        )
-        self.unclear = set[etree._Element]()  # which are named
+        self.animated = values_by_element(root)
+        self.reveals = False  # whether anything is drawn as only an animation shows it
 
     def style(self, element: etree._Element, parent: Style) -> Style:
         """Style of an element; `parent` is the style of its parent, or of the `use` that shows it."""
@@ -125,8 +115,6 @@ class Cascade:
         variables = {one.name: one.value for one in declared if one.name.startswith("--")}
         inherited = computed(variables, parent.inherited) if variables else parent.inherited
         self.broken.update((name, value) for name, value in variables.items() if name not in inherited)
-        if self.sheets.keyframes:
-            inherited = self.with_animated(element, declared, inherited, parent)
         own = dict[str, str]()
         for name, value in self.specified(element, declared, inherited, parent).items():
             keyword = value.lower()
@@ -163,38 +151,28 @@ class Cascade:
     def specified(
         self, element: etree._Element, declared: list[Declaration], variables: Mapping[str, str], parent: Style
     ) -> dict[str, str]:
-        """Winning declaration of each property: what the element says, and over it what animations do."""
+        """Winning declaration of each property; that of an animation where the own one hides the element."""
         found = self.said(element, declared, variables)
-        if self.is_animated(found):
-            lasting = {one.name for one in declared if one.important}
-            frame = first_frame(Around(found, variables, parent.computed), self.sheets.keyframes)
-            for name, value in frame.invalid:
-                self.refuse(name, value, element)
-            if frame.is_unclear and element not in self.unclear:
-                self.unclear.add(element)
-                self.report.simplified(UNCLEAR, element)
-            for name, value in frame.values.items():
-                if name not in lasting:
-                    self.declare(found, name, value, element, variables)
+        animations = [self.animated.get(element, {})]
+        animations += [self.sheets.keyframes[name] for name in self.running(found)]
+        lasting = {one.name for one in declared if one.important} if any(animations) else set[str]()
+        for values in animations:
+            for name in values.keys() & PROPERTIES.keys() - lasting:
+                base = self.value_without(name, found, parent)
+                dashes = self.value_without("stroke-dasharray", found, parent)
+                texts = [substituted(text, variables.get) or "" for text in values[name]]
+                shown = visible_value(name, base, filter(PROPERTIES[name].allows, texts), dashes)
+                if shown is not None:
+                    found[name] = shown
+                    self.reveals = True
         return found
 
-    def with_animated(
-        self, element: etree._Element, declared: list[Declaration], variables: dict[str, str], parent: Style
-    ) -> dict[str, str]:
-        """Custom properties with those that animations declare."""
-        if not self.varied:
-            return variables
-        quiet = copy(self)
-        quiet.report = Report()
-        found = quiet.said(element, declared, variables)
-        if not self.is_animated(found):
-            return variables
-        lasting = {one.name for one in declared if one.important}
-        animated = animated_variables(Around(found, variables, parent.computed), self.sheets.keyframes)
-        plain = {name: value for name, value in animated.items() if name not in lasting}
-        return computed(
-            {**{one.name: one.value for one in declared if one.name.startswith("--")}, **plain}, parent.inherited
-        )
+    def value_without(self, name: str, found: Mapping[str, str], parent: Style) -> str:
+        """Value that a property has without animations, where its declarations are `found`."""
+        text = found.get(name, "unset").lower()
+        if text == "inherit" or (text in UNSET and PROPERTIES[name].inherited):
+            return parent.computed(name)
+        return PROPERTIES[name].initial if text in KEYWORDS else found[name]
 
     def said(
         self, element: etree._Element, declared: list[Declaration], variables: Mapping[str, str]
@@ -221,9 +199,9 @@ class Cascade:
                 self.declare(found, name, value, element, variables)
         return found
 
-    def is_animated(self, found: Mapping[str, str]) -> bool:
-        """Whether an element with such values is animated by a style sheet."""
-        return "animation-name" in found and not self.sheets.keyframes.keys().isdisjoint(names_of(found))
+    def running(self, found: Mapping[str, str]) -> list[str]:
+        """Names of the animations of style sheets that an element with such declarations has."""
+        return names_in(found["animation-name"], self.sheets.keyframes) if "animation-name" in found else []
 
     def declare(
         self, found: dict[str, str], name: str, value: str, element: etree._Element, variables: Mapping[str, str]

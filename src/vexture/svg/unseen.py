@@ -1,7 +1,4 @@
-"""What an SVG holds beside shapes, wherever it stands: animation, scripts, views and cursors, each named once.
-
-Of animations the first frame is drawn (`animation.py`).
-"""
+"""What an SVG holds beside shapes, wherever it stands: animation, scripts, views and cursors, each named once."""
 
 import re
 from collections.abc import Callable
@@ -11,7 +8,7 @@ from typing import Final
 from lxml import etree
 
 from vexture.errors import shortened
-from vexture.svg.animation import ANIMATIONS
+from vexture.svg.animations import ANIMATIONS
 from vexture.svg.css_gradients import own_background
 from vexture.svg.document import local_name
 from vexture.svg.links import reference
@@ -86,8 +83,8 @@ def name_unseen(
 def animated(servers: PaintServers) -> Callable[[etree._Element], bool]:
     """Return the function that tells whether an element is animated by a style sheet, and notes nothing."""
     cascade = copy(servers.cascade)
-    cascade.report, cascade.unclear = Report(), set()
+    cascade.report = Report()
     if not cascade.sheets.keyframes:
         return lambda element: False
     quiet = PaintServers(servers.root, cascade, cascade.report)
-    return lambda element: cascade.is_animated(quiet.style_of(element).own)
+    return lambda element: bool(cascade.running(quiet.style_of(element).own))

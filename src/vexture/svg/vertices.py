@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vexture.svg.path_data import Pen, Point
 from vexture.svg.shapes import Shape, check, path_data, shape_outlines
 
-__all__ = ["Vertices", "vertices"]
+__all__ = ["vertices"]
 
 RIGHT = (1.0, 0.0)
 """Direction where nothing has a length."""

@@ -22,7 +22,7 @@ from vexture.svg.transform import mapped
 from vexture.svg.values import number
 from vexture.tolerance import ROUND
 
-__all__ = ["MOST_CUBICS", "Point", "Track", "read_track", "track_of"]
+__all__ = ["Point", "Track", "read_track"]
 
 STEPS: Final = 64
 """Chords for each cubic: they are shorter than their arc by less than 1 / (24 STEPS^2) of it times its turn squared."""

@@ -10,7 +10,7 @@ from lxml import etree
 from vexture.deadline import check_time
 from vexture.errors import SourceError
 from vexture.group import Blend
-from vexture.svg.animation import ANIMATIONS
+from vexture.svg.animations import ANIMATIONS
 from vexture.svg.compositing import Veil
 from vexture.svg.document import applies, language, local_name
 from vexture.svg.links import reference
