@@ -1,8 +1,11 @@
 """What small inputs and messages become."""
 
+import click
 import numpy as np
 import pytest
 
+from vexture.cli.convert import convert
+from vexture.cli.flood import flood
 from vexture.cli.messages import as_options
 from vexture.content import about, known_kind
 from vexture.errors import SourceError
@@ -34,3 +37,9 @@ def test_types_of_arguments_are_described() -> None:
 def test_parameters_in_messages_become_options() -> None:
     message = as_options("2 quads; the limit is 1; use a smaller `max_depth`")
     assert message == "2 quads; the limit is 1; use a smaller --max-depth"
+
+
+@pytest.mark.parametrize(("command", "option"), [(convert, "--variable of vexture flood"), (flood, "--variable")])
+def test_messages_name_the_command_that_has_the_option(command: click.Command, option: str) -> None:
+    with click.Context(command):
+        assert as_options("choose one by `variable`") == f"choose one by {option}"

@@ -24,6 +24,10 @@ NAMED_OTHERWISE = {"fonts": "font", "page_colors": "color", "characters": "chars
 """Parameters whose options have other names: lists, whose options are given once for each entry, and long ones."""
 
 
+OF_FLOODS = frozenset({"layer", "time_dim", "variable"})
+"""Parameters of depths and areas that other commands read, too, but choose nothing of."""
+
+
 def say(message: str) -> None:
     """Print a line to standard error."""
     echo(f"vexture: {as_options(message)}", err=True)
@@ -42,10 +46,11 @@ def as_options(message: str) -> str:
 def option_of(parameter: str) -> str:
     """The option for a parameter of the library: that of the command that runs, or else the usual one."""
     context = click.get_current_context(silent=True)
-    for option in () if context is None else context.command.params:
-        if option.name == parameter and parameter in NAMED_OTHERWISE:
-            return next(flag for flag in option.opts if flag.startswith("--"))
-    return "--" + NAMED_OTHERWISE.get(parameter, parameter).replace("_", "-")
+    options = {} if context is None else {option.name: option for option in context.command.params}
+    if parameter in options and parameter in NAMED_OTHERWISE:
+        return next(flag for flag in options[parameter].opts if flag.startswith("--"))
+    usual = "--" + NAMED_OTHERWISE.get(parameter, parameter).replace("_", "-")
+    return f"{usual} of vexture flood" if options and parameter in OF_FLOODS - options.keys() else usual
 
 
 def note_facts(notes: Sequence["Note"]) -> list[dict[str, Any]]:
