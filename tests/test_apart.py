@@ -19,6 +19,7 @@ from typed import typed
 from vexture.apart import apart, each_apart
 from vexture.deadline import CLOCK, check_time, within
 from vexture.errors import LimitError, ParameterError, SourceError
+from vexture.tree.parts import usual_threads
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
 
@@ -231,3 +232,9 @@ def test_limits_within_limits_are_the_earlier_one() -> None:
         check_time()
     with pytest.raises(LimitError, match="longer than 1e-09 s"), within(1000.0), within(1e-9):
         check_time()
+
+
+@pytest.mark.parametrize("processes", [1, 2])
+def test_a_process_beside_which_no_other_works_uses_all_processors(processes):
+    found = [*each_apart(usual_threads, [(), ()], ["a", "b"], 60.0, processes)]
+    assert found == [usual_threads() if processes == 1 else 1] * 2

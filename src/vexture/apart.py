@@ -19,7 +19,7 @@ from contextlib import suppress
 from multiprocessing.connection import Connection, wait
 from typing import Any, Final, NamedTuple, TypeVar
 
-from vexture.deadline import CLOCK, check_seconds, too_long
+from vexture.deadline import ALONE, CLOCK, check_seconds, too_long
 from vexture.errors import EXPECTED, ParameterError, SourceError, VextureError
 
 __all__ = ["GRACE", "apart", "each_apart"]
@@ -81,7 +81,8 @@ def each_apart(
     check_seconds(seconds)
     waiting = deque(range(len(items)))
     done: dict[int, Any] = {}
-    workers = [_Worker(work) for _ in range(min(processes, len(items)))]
+    count = min(processes, len(items))
+    workers = [_Worker(work, None if count > 1 else ALONE) for _ in range(count)]
     try:
         for place in range(len(items)):
             while place not in done:
@@ -119,8 +120,8 @@ class _ClockChange(NamedTuple):
 class _Worker:
     """A process that is started when there is work, and again after its end."""
 
-    def __init__(self, work: Callable[..., Any]) -> None:
-        self._work = work
+    def __init__(self, work: Callable[..., Any], name: str | None) -> None:
+        self._work, self._name = work, name
         self.process: Any = None
         self.place: int | None = None  # of what it works at
         self.until = math.inf
@@ -134,7 +135,7 @@ class _Worker:
             # a fork costs nothing and holds what is imported already; elsewhere it is not safe
             context: Any = multiprocessing.get_context("fork" if IS_LINUX else "spawn")
             self.pipe, theirs = context.Pipe()
-            self.process = context.Process(target=_serve, args=(self._work, theirs))
+            self.process = context.Process(target=_serve, args=(self._work, theirs), name=self._name)
             self.process.start()
             theirs.close()
         self.place, self.until = place, time.monotonic() + seconds + GRACE

@@ -12,7 +12,10 @@ from contextvars import ContextVar
 
 from vexture.errors import LimitError, ParameterError
 
-__all__ = ["CLOCK", "DEFAULT_SECONDS", "allowed_seconds", "check_seconds", "check_time", "too_long", "within"]
+__all__ = ["ALONE", "CLOCK", "DEFAULT_SECONDS", "allowed_seconds", "check_seconds", "check_time", "too_long", "within"]
+
+ALONE = "vexture-alone"
+"""Name of a process beside which no other one works, so that its threads may use all processors."""
 
 DEFAULT_SECONDS = 300.0
 """Seconds for one source."""

@@ -18,6 +18,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.deadline import ALONE
 from vexture.tree.growth import (
     CURVES,
     FIRST,
@@ -64,7 +65,7 @@ class Part(NamedTuple):
 
 def usual_threads() -> int:
     """Threads if nobody asks for a number: one for each processor, but one in a process that others work beside."""
-    if multiprocessing.parent_process() is not None:
+    if multiprocessing.parent_process() is not None and multiprocessing.current_process().name != ALONE:
         return 1
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
