@@ -15,7 +15,7 @@ import pytest
 
 import vexture
 from vexture import layout
-from vexture.cli.main import COMMANDS, LINES, main
+from vexture.cli.main import COMMANDS, SUMMARIES, main
 from vexture.thesis import layout as thesis_layout
 
 ROOT = Path(__file__).parents[1]
@@ -347,4 +347,4 @@ def test_the_list_of_the_commands_brings_in_none_of_them():
 
 def test_the_list_of_the_commands_is_what_they_say_themselves():
     commands = {name: main.get_command(None, name) for name in COMMANDS}
-    assert {name: command.get_short_help_str(1000) for name, command in commands.items()} == LINES
+    assert {name: command.get_short_help_str(1000) for name, command in commands.items()} == SUMMARIES

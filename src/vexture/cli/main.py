@@ -18,9 +18,9 @@ from vexture.errors import printable
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
-__all__ = ["COMMANDS", "LINES", "main"]
+__all__ = ["COMMANDS", "SUMMARIES", "main"]
 
-LINES: Final = {
+SUMMARIES: Final = {
     "convert": "Convert drawings into textures.",
     "text": "Convert a word or lines of text into a texture.",
     "font": "Convert the characters of a font into one texture, a shape for each, with its metrics as JSON beside it.",
@@ -39,7 +39,7 @@ LINES: Final = {
 }
 """The commands in the order of their list, and the first sentence of each: the list imports no command."""
 
-COMMANDS: Final = {name: f"vexture.cli.{name}" for name in LINES}
+COMMANDS: Final = {name: f"vexture.cli.{name}" for name in SUMMARIES}
 """Module of each command; it is imported when the command is used."""
 
 PLUGINS: Final = "vexture.commands"
@@ -66,7 +66,7 @@ class _Commands(click.Group):
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List the commands without their modules, which take longer to import than all else of the help."""
-        listed = {name: click.Command(name, help=line) for name, line in LINES.items()}
+        listed = {name: click.Command(name, help=line) for name, line in SUMMARIES.items()}
         added = {name: point.load() for name, point in _added(ctx).items()}
         _Listed(commands=listed | added).format_commands(ctx, formatter)
 

@@ -16,7 +16,7 @@ from vexture.errors import DeviceError, SourceError, printable, reason_of, short
 from vexture.geo.damage import damaged_netcdf
 from vexture.geo.hdf5 import refuse_links_of_netcdf
 from vexture.geo.named import refuse_files_of_system
-from vexture.geo.unheard import unheard
+from vexture.geo.quiet_output import quiet_output
 
 if TYPE_CHECKING:
     from rasterio import DatasetReader
@@ -139,7 +139,7 @@ def opened_grib(content: bytes) -> Iterator["DatasetReader"]:
     with ExitStack() as stack:
         stack.enter_context(gdal(GRIB_NORMALIZE_UNITS="NO"))
         memory = stack.enter_context(MemoryFile(content))
-        with unheard(), warnings.catch_warnings():
+        with quiet_output(), warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about a missing place, which who reads it tells
             file = stack.enter_context(memory.open(driver=GRIB_DRIVER, USE_IDX="NO"))
         refuse_links_in(file)

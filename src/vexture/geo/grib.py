@@ -17,7 +17,7 @@ from vexture.deadline import check_time
 from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.geo.gdal import opened_grib, raster_errors
 from vexture.geo.grib_messages import checked_fields
-from vexture.geo.unheard import unheard
+from vexture.geo.quiet_output import quiet_output
 from vexture.geo.variables import listed
 from vexture.notes import Notes
 
@@ -178,7 +178,7 @@ def _values(file: "DatasetReader", bands: Sequence[int]) -> Any:
         def _read(self, key: Any) -> Any:
             step, rows, columns = key
             wanted = np.asarray(bands)[step]
-            with unheard():
+            with quiet_output():
                 decoded = [file.read(int(band), masked=True) for band in np.atleast_1d(wanted)]
             read = [values.astype(np.float64).filled(np.nan)[rows, columns] for values in decoded]
             return np.stack(read) if wanted.ndim else read[0]

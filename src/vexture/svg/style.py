@@ -154,7 +154,7 @@ class Cascade:
         """Winning declaration of each property; that of an animation where the own one hides the element."""
         found = self.said(element, declared, variables)
         animations = [self.animated.get(element, {})]
-        animations += [self.sheets.keyframes[name] for name in self.running(found)]
+        animations += [self.sheets.keyframes[name] for name in self.animation_names(found)]
         lasting = {one.name for one in declared if one.important} if any(animations) else set[str]()
         for values in animations:
             for name in values.keys() & PROPERTIES.keys() - lasting:
@@ -199,7 +199,7 @@ class Cascade:
                 self.declare(found, name, value, element, variables)
         return found
 
-    def running(self, found: Mapping[str, str]) -> list[str]:
+    def animation_names(self, found: Mapping[str, str]) -> list[str]:
         """Names of the animations of style sheets that an element with such declarations has."""
         return names_in(found["animation-name"], self.sheets.keyframes) if "animation-name" in found else []
 

@@ -87,4 +87,4 @@ def animated(servers: PaintServers) -> Callable[[etree._Element], bool]:
     if not cascade.sheets.keyframes:
         return lambda element: False
     quiet = PaintServers(servers.root, cascade, cascade.report)
-    return lambda element: bool(cascade.running(quiet.style_of(element).own))
+    return lambda element: bool(cascade.animation_names(quiet.style_of(element).own))

@@ -1,4 +1,4 @@
-"""What a C library prints, which is for no one: GDAL's decoder of GRIB prints its doubts to the standard output."""
+"""Hide what a C library prints: GDAL's decoder of GRIB prints its doubts to the standard output."""
 
 import ctypes
 import os
@@ -7,7 +7,7 @@ from contextlib import contextmanager, suppress
 from threading import Lock
 from typing import Final
 
-__all__ = ["unheard"]
+__all__ = ["quiet_output"]
 
 OUT: Final = 1
 """The descriptor of the standard output."""
@@ -17,8 +17,8 @@ TURN: Final = Lock()
 
 
 @contextmanager
-def unheard() -> Iterator[None]:
-    """Let nothing that is printed within this context come to the standard output; keep it short."""
+def quiet_output() -> Iterator[None]:
+    """Hide what is printed to the standard output within this context, which should be short."""
     with TURN:
         try:
             kept = os.dup(OUT)
