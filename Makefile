@@ -16,12 +16,17 @@ SHAPES := examples/shapes
 COLOURS := tests/sources/fixtures/groups/nested.svg
 BENCHMARKS := packed_fidelity colours wgsl speed gpu_cost packed_conversion size fidelity conversion icons live load
 WEB_BENCHMARKS := page_fidelity web_speed editing flood flood_water
-VIEWER := src/vexture/live/built/viewer.js
+CORE := packages/vexture
+GEO := packages/vexture-geo
+EVIDENCE := packages/vexture-evidence
+PROJECTS := $(CORE)/pyproject.toml $(GEO)/pyproject.toml $(EVIDENCE)/pyproject.toml
+VIEWER := $(CORE)/src/vexture/pages/built/viewer.js
+FLOOD_PAGE := $(GEO)/src/vexture_geo/flood/built
 WEB_SOURCES := $(shell find web/src web/viewer web/flood web/notebook web/generated -name '*.js' -o -name '*.css')
 QUICK ?=
 MINUTES ?= 5
 SEED ?= 1
-RELEASED := . evidence web
+RELEASED := $(CORE) $(GEO) $(EVIDENCE) web
 REPOSITORY ?=
 
 # hundreds of processes would compile what they import, each for itself
@@ -42,7 +47,7 @@ help:
 	@echo 'make report  measure the tables and figures of the thesis again; the page is demo/report/index.html'
 	@echo 'make conformance  compare 1,400 files with what resvg and librsvg draw; a page of all pictures, a table in docs/'
 	@echo 'make fuzz    read damaged files for some minutes; what breaks a reader comes into fuzz-findings/'
-	@echo 'make bench   measure fidelity, speed and size; the figures come into evidence/benchmarks/results/'
+	@echo 'make bench   measure fidelity, speed and size; the figures come into packages/vexture-evidence/benchmarks/results/'
 	@echo 'make dist    build the wheels, the sdist and the npm tarball into dist/; make dist-check tries them'
 	@echo 'make clean   remove all of that again'
 
@@ -52,29 +57,29 @@ help:
 	@$(PYTHON) tools/prepare.py venv
 	@touch $@
 
-.venv/for-demo: pyproject.toml | .venv/made
+.venv/for-demo: $(PROJECTS) | .venv/made
 	@echo 'installing vexture and its libraries into .venv (a minute or less) ...'
-	@$(INSTALL) --editable '.[gis,gpu,text,trace]'
+	@$(INSTALL) --editable '$(CORE)[gpu,server,text,trace]' --editable '$(GEO)[gis]'
 	@touch $@
 
-.venv/for-test: pyproject.toml evidence/pyproject.toml | .venv/made
+.venv/for-test: $(PROJECTS) | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
-	@$(INSTALL) --editable '.[docs,gis,gpu,scale,trace,test]' --editable ./evidence
+	@$(INSTALL) --editable $(CORE) --editable $(GEO) --editable '$(EVIDENCE)[docs,test]'
 	@touch .venv/for-demo .venv/for-docs .venv/for-report $@
 
-.venv/for-report: pyproject.toml evidence/pyproject.toml | .venv/made
+.venv/for-report: $(PROJECTS) | .venv/made
 	@echo 'installing vexture and what its report draws and compares with into .venv (a minute or less) ...'
-	@$(INSTALL) --editable . --editable ./evidence
+	@$(INSTALL) --editable $(CORE) --editable $(GEO) --editable $(EVIDENCE)
 	@touch $@
 
-.venv/for-dist: pyproject.toml | .venv/made
+.venv/for-dist: $(PROJECTS) | .venv/made
 	@echo 'installing what builds a release into .venv (a minute or less) ...'
-	@$(INSTALL) --editable '.[dist]'
+	@$(INSTALL) --editable $(CORE) --editable $(GEO) --editable '$(EVIDENCE)[dist]'
 	@touch $@
 
-.venv/for-docs: pyproject.toml evidence/pyproject.toml | .venv/made
+.venv/for-docs: $(PROJECTS) | .venv/made
 	@echo 'installing vexture and MkDocs into .venv (a minute or less) ...'
-	@$(INSTALL) --editable '.[docs]' --editable ./evidence
+	@$(INSTALL) --editable $(CORE) --editable $(GEO) --editable '$(EVIDENCE)[docs]'
 	@touch $@
 
 web/node_modules/made: web/package.json web/package-lock.json
@@ -85,7 +90,7 @@ web/node_modules/made: web/package.json web/package-lock.json
 
 $(VIEWER): web/node_modules/made tools/notices.py $(WEB_SOURCES)
 	@for page in viewer flood notebook; do npm run --silent $$page --prefix web || exit 1; done
-	@$(PYTHON) tools/notices.py $(@D)
+	@$(PYTHON) tools/notices.py $(@D) $(FLOOD_PAGE)
 
 viewer: $(VIEWER)
 
@@ -157,7 +162,7 @@ test: .venv/made
 sweep: .venv/for-test $(VIEWER)
 	@$(BIN)/python tools/prepare.py system
 	$(PYTEST) -m slow
-	$(BIN)/python evidence/benchmarks/sweep.py $(QUICK)
+	$(BIN)/python $(EVIDENCE)/benchmarks/sweep.py $(QUICK)
 
 checks: .venv/for-test
 	@$(BIN)/python tools/prepare.py system
@@ -200,17 +205,17 @@ test-web: viewer
 
 # the tests come from apt, on Debian
 conformance: .venv/for-test
-	$(BIN)/python evidence/benchmarks/conformance.py
+	$(BIN)/python $(EVIDENCE)/benchmarks/conformance.py
 
 bench: .venv/for-test
 	@$(BIN)/python tools/prepare.py system
 	@names='$(BENCHMARKS)'; \
 	if $(MAKE) --no-print-directory viewer; then names="$$names $(WEB_BENCHMARKS)"; \
 	else echo 'so the web is not measured: $(WEB_BENCHMARKS)'; fi; \
-	for name in $$names; do echo && $(BIN)/python "evidence/benchmarks/$$name.py" $(QUICK) || exit 1; done
+	for name in $$names; do echo && $(BIN)/python "$(EVIDENCE)/benchmarks/$$name.py" $(QUICK) || exit 1; done
 
 fuzz: .venv/for-test
-	@PYTHONPATH=tests:evidence/benchmarks $(BIN)/python tests/fuzz/campaign.py $(MINUTES) $(SEED)
+	@PYTHONPATH=tests:$(EVIDENCE)/benchmarks $(BIN)/python tests/fuzz/campaign.py $(MINUTES) $(SEED)
 
 # of RELEASED, the folders of projects; with REPOSITORY=https://..., a registry's pages can link to the sources.
 # pip takes the wheel of the platform where it can: its kernels are compiled, for Linux with any C library of the last
@@ -220,7 +225,7 @@ dist: $(VIEWER) .venv/for-dist
 	@rm -rf dist
 	$(BIN)/python tools/compile_kernels.py
 	@$(BIN)/python tools/dist.py --output dist --repository '$(REPOSITORY)' $(RELEASED)
-	@rm -rf src/vexture/compiled
+	@rm -rf $(CORE)/src/vexture/compiled
 	@$(BIN)/python -m twine check --strict dist/*.whl dist/*.tar.gz
 
 # installed as anyone would: with all packages from the registry, and kernels compiled for the first time
@@ -228,6 +233,6 @@ dist-check: dist .venv/for-test
 	VEXTURE_DIST=dist $(BIN)/python -m pytest --quiet tests/release
 
 clean:
-	rm -rf .venv demo build dist src/vexture/compiled src/*.egg-info evidence/src/*.egg-info evidence/benchmarks/results \
+	rm -rf .venv demo build dist $(CORE)/src/vexture/compiled packages/*/src/*.egg-info $(EVIDENCE)/benchmarks/results \
 		.cache .hypothesis .mypy_cache .pytest_cache .ruff_cache fuzz-findings \
-		web/node_modules examples/counties/node_modules web/types src/vexture/live/built tests/web/screenshots site gallery/built
+		web/node_modules examples/counties/node_modules web/types $(CORE)/src/vexture/pages/built $(FLOOD_PAGE) tests/web/screenshots site gallery/built

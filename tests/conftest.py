@@ -1,23 +1,12 @@
-"""Shared by all tests; its presence puts this folder on the import path, so that `strategies` can be imported."""
+"""Shared by all tests; the folders from which they import are in pyproject.toml (`pythonpath`)."""
 
 import fcntl
 import os
 import shutil
-import sys
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
-
-TESTS = Path(__file__).parent
-
-# the benchmarks are scripts beside the package; they find each other in their own folder; so do helpers of tests
-sys.path[:0] = [
-    str(TESTS.parent / "evidence" / "benchmarks"),
-    str(TESTS / "live"),
-    str(TESTS / "flood"),
-    str(TESTS / "tiles"),
-]
 
 WEB = Path(__file__).parent / "web"
 
@@ -45,7 +34,7 @@ def pytest_collection_modifyitems(items):
 def loaded_kernels():
     """Load the kernels once where many tests run: commands convert in forks of a process, which have what it has."""
     if "PYTEST_XDIST_WORKER" in os.environ:
-        from vexture.live.documents import load_kernels
+        from vexture.server.publish_file import load_kernels
 
         load_kernels()
 
@@ -85,10 +74,11 @@ def site(made_once):
 @pytest.fixture(scope="session")
 def page_is_built():
     """Skip where the page of floods is not built."""
-    from vexture.errors import DeviceError
-    from vexture.live.page import FLOOD, built
+    from vexture.base.errors import DeviceError
+    from vexture.pages.page import built
+    from vexture_geo.flood.bundle import FLOOD
 
     try:
-        built(FLOOD.script)
+        built(FLOOD.script, FLOOD.package)
     except DeviceError as error:
         pytest.skip(str(error))

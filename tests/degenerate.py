@@ -7,7 +7,7 @@ T-junctions, many paths through one point. Everything is drawn from a seeded gen
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Drawing, FillRule, Path
+from vexture.drawing.drawing import Drawing, FillRule, Path
 
 QUARTER = 0.5522847498307936  # control length of a quarter circle
 

@@ -14,12 +14,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from vexture.renderers.conditionals import chosen
 from vexture.renderers.device import context, draw, upload
 from vexture.renderers.shader import VERSIONS, vertex_source
-from vexture.wgsl import chosen, to_wgsl, with_parameters
-from vexture.wgsl.facts import Facts, facts_of
-from vexture.wgsl.kinds import TEXTURES, array_of, size_of, wgsl_type
-from vexture.wgsl.parser import parsed
+from wgsl_generator import to_wgsl, with_parameters
+from wgsl_generator.facts import Facts, facts_of
+from wgsl_generator.kinds import TEXTURES, array_of, size_of, wgsl_type
+from wgsl_generator.parser import parsed
 
 Picture = NDArray[np.float32]
 Given = Mapping[str, Any]

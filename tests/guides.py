@@ -108,7 +108,7 @@ class Reader:
         self.environment = {
             **os.environ,
             "PATH": f"{programs}:{os.environ['PATH']}",
-            "PYTHONPATH": str(ROOT / "src"),
+            "PYTHONPATH": os.pathsep.join(str(ROOT / "packages" / name / "src") for name in ("vexture", "vexture-geo")),
             "PIP_DISABLE_PIP_VERSION_CHECK": "1",
             "PIP_NO_DEPS": "1",
             "npm_config_audit": "false",

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.layout import LATTICE
+from vexture.base.layout import LATTICE
 from vexture.tree.tree import Tree
 
 

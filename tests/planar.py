@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 import degenerate
 from degenerate import path_windings
-from vexture.drawing import Drawing, FillRule, Path
-from vexture.group import Blend, Group, Mask
-from vexture.layout import LATTICE, MOST_HALF_PAINTS
-from vexture.paint import Gradient, Paint, Spread
+from vexture.base.layout import LATTICE, MOST_HALF_PAINTS
+from vexture.drawing.drawing import Drawing, FillRule, Path
+from vexture.drawing.group import Blend, Group, Mask
+from vexture.drawing.paint import Gradient, Paint, Spread
 from vexture.texture.encode import encode
 from vexture.texture.planar import decode_map
 from vexture.texture.texture import Texture

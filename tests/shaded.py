@@ -3,9 +3,9 @@
 import numpy as np
 
 from degenerate import circle, polygon
-from vexture.drawing import Drawing, Path
-from vexture.group import Blend, Group, Mask
-from vexture.paint import Gradient, Paint, Spread, Stop
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.group import Blend, Group, Mask
+from vexture.drawing.paint import Gradient, Paint, Spread, Stop
 
 SQUARE = polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
 WARM = (Stop(0, (1, 1, 1)), Stop(0.4, (0.9, 0.2, 0.1)), Stop(1, (0.2, 0, 0.3)))

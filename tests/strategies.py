@@ -4,8 +4,8 @@ import numpy as np
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from vexture.base.layout import LATTICE, MOST_CURVES
 from vexture.bezier.area import leaf_area
-from vexture.layout import LATTICE, MOST_CURVES
 from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
 from vexture.thesis.tree import CellKind, CellTree
 from vexture.tree.tree import Tree

@@ -14,11 +14,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import vexture.apart as apart_module
+import vexture.base.apart as apart_module
 from typed import typed
-from vexture.apart import apart, each_apart
-from vexture.deadline import CLOCK, check_time, within
-from vexture.errors import LimitError, ParameterError, SourceError
+from vexture.base.apart import apart, each_apart
+from vexture.base.deadline import CLOCK, check_time, within
+from vexture.base.errors import LimitError, ParameterError, SourceError
 from vexture.tree.parts import usual_threads
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
@@ -165,7 +165,7 @@ def alive(process: int) -> bool:
 
 PARENT = """
 import os, time
-from vexture.apart import apart
+from vexture.base.apart import apart
 def tell_and_stop():
     print(os.getpid(), flush=True)
     time.sleep(1000)

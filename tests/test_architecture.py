@@ -12,16 +12,20 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
+from click import Context
 
 import vexture
-from vexture import layout
-from vexture.cli.main import COMMANDS, SUMMARIES, main
+from vexture.base import layout
+from vexture.cli.main import ADDED_SUMMARIES, COMMANDS, SUMMARIES, main
 from vexture.thesis import layout as thesis_layout
 
 ROOT = Path(__file__).parents[1]
-PACKAGE = ROOT / "src" / "vexture"
-MODULES = sorted(PACKAGE.rglob("*.py"))
-SCRIPTS = sorted(path for folder in ("evidence", "tests", "tools") for path in (ROOT / folder).rglob("*.py"))
+PACKAGE = ROOT / "packages" / "vexture" / "src" / "vexture"
+GEO_PACKAGE = ROOT / "packages" / "vexture-geo" / "src" / "vexture_geo"
+MODULES = sorted([*PACKAGE.rglob("*.py"), *GEO_PACKAGE.rglob("*.py")])
+SCRIPTS = sorted(
+    path for folder in ("packages/vexture-evidence", "tests", "tools") for path in (ROOT / folder).rglob("*.py")
+)
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 SHADERS = sorted(PACKAGE.rglob("*.glsl"))
 FOLDERS = sorted(
@@ -33,60 +37,57 @@ LONGEST_FUNCTION = 60  # without its docstring
 LONGEST_EXAMPLE = 40
 DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "utils"}
 
-BASE = {"deadline", "errors", "kernels", "machine_code", "tolerance"}
-SOURCES = BASE | {"bezier", "content", "contours", "drawing", "group", "notes", "paint", "unit_square"}
-MAY_IMPORT: dict[str, set[str]] = {
-    "deadline": {"errors"},
-    "errors": set(),
-    "kernels": {"deadline", "machine_code"},
-    "machine_code": set(),
-    "layout": set(),
-    "tolerance": set(),
-    "content": {"errors"},
-    "workers": {"errors"},
-    "apart": {"deadline", "errors"},
-    "notes": {"errors"},
-    "group": {"errors"},
-    "paint": {"errors"},
-    "bezier": {"kernels", "tolerance"},
-    "unit_square": {"bezier", "errors", "tolerance"},
-    "contours": {"bezier", "errors"},
-    "drawing": BASE | {"bezier", "contours", "group", "notes", "paint", "unit_square"},
-    "fonts": {"bezier", "content", "deadline", "drawing", "errors", "group", "notes", "paint"},
-    "svg": SOURCES | {"fonts"},
-    "geo": SOURCES | {"workers"},
-    "tracing": SOURCES | {"svg"},
-    "reading": SOURCES | {"fonts", "geo", "parameters", "svg", "tracing", "workers"},
-    "tree": BASE | {"bezier", "contours", "drawing", "group", "layout", "notes", "paint", "unit_square"},
-    "wgsl": {"errors"},
-    "renderers": BASE | {"drawing", "group", "layout", "paint", "wgsl"},
-    "encodings": {"drawing", "errors", "renderers"},
-    "texture": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "svg", "tree"},
-    "parameters": {"content", "deadline", "drawing", "errors"},
-    "sprites": SOURCES | {"reading", "svg"},
-    "pipeline": BASE | {"drawing", "encodings", "notes", "parameters", "reading", "sprites", "texture", "tree"},
-    "glyph_atlas": {"deadline", "drawing", "errors", "fonts", "notes", "paint", "pipeline", "texture"},
-    "close_up": {"drawing", "paint", "renderers", "tolerance"},
-    "images": BASE | {"close_up", "drawing", "encodings", "group", "paint", "pipeline", "renderers"},
-    "thesis": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "texture", "tree"},
-    "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
-    "gltf": BASE | {"content", "drawing", "layout", "parameters", "pipeline", "svg", "texture"},
-    "cartography": SOURCES | {"geo", "layout", "pipeline", "reading", "svg"},
-    "flood": BASE | {"content", "drawing", "geo", "notes", "paint", "renderers", "workers"},
-    "tiles": SOURCES | {"cartography", "geo", "layout", "texture", "tree", "workers"},
-    "live": SOURCES
-    | {"apart", "encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading"}
-    | {"svg", "texture", "tree", "workers"},
-    "notebook": SOURCES | {"cartography", "geo", "live", "pipeline", "reading", "renderers", "svg", "texture", "tree"},
+CORE_READING = {"base", "bezier", "drawing"}
+"""What readers of drawings stand on."""
+
+CORE: dict[str, set[str]] = {
+    "base": set(),
+    "bezier": {"base"},
+    "drawing": {"base", "bezier"},
+    "fonts": CORE_READING,
+    "svg": CORE_READING | {"fonts"},
+    "tracing": CORE_READING | {"svg"},
+    "tree": CORE_READING,
+    "renderers": {"base", "drawing"},
+    "texture": CORE_READING | {"renderers", "tree"},
+    "conversion": CORE_READING | {"fonts", "renderers", "svg", "texture", "tracing", "tree"},
+    "thesis": CORE_READING | {"renderers", "texture", "tree"},
+    "fold": {"base", "drawing", "renderers", "texture"},
+    "gltf": {"base", "conversion", "drawing", "texture"},
+    "server": {"base", "conversion", "drawing", "svg", "texture"},
+    "pages": {"base", "conversion", "server", "texture"},
+    "notebook": {"base", "conversion", "drawing", "pages", "renderers", "server", "texture", "tree"},
 }
-"""What each part may import besides itself, wherever in a module; `cli` and the public face stand above all."""
+"""What each folder of vexture may import besides itself, wherever in a module; `cli` stands above all."""
 
-ABOVE_ALL = {"__init__", "__main__", "cli"}
+GEO_READING = {"vexture_geo.base", "base", "bezier", "drawing"}
 
-TRUTH_MODULES = ("blend", "exact", "faces", "flatten", "ramps", "regions", "slabs", "varying", "view")
+GEO: dict[str, set[str]] = {
+    "base": {"base", "drawing"},
+    "vector": GEO_READING,
+    "depth": GEO_READING,
+    "readers": GEO_READING | {"vexture_geo.depth", "vexture_geo.vector"},
+    "maps": GEO_READING | {"vexture_geo.vector", "conversion", "notebook", "renderers", "texture", "tree"},
+    "tiles": GEO_READING | {"vexture_geo.maps", "vexture_geo.vector", "texture", "tree"},
+    "flood": GEO_READING
+    | {"vexture_geo.depth", "vexture_geo.readers"}
+    | {"conversion", "fold", "pages", "renderers", "server", "texture"},
+}
+"""The same of vexture-geo; its `cli` and `extension`, which vexture calls, stand above all."""
+
+MAY_IMPORT = CORE | {f"vexture_geo.{part}": reached for part, reached in GEO.items()}
+
+ABOVE_ALL = {"__init__", "__main__", "cli", "vexture_geo", "vexture_geo.cli", "vexture_geo.extension"}
+
+GEO_TYPES = {"__init__", "notebook/show.py"}
+"""Modules of vexture that name types of vexture-geo, for checkers only or by the name of a module."""
+
+TRUTH_MODULES = ("blend", "exact", "faces", "flatten", "gradient_integral", "ramps", "regions", "slabs", "view")
 THE_TRUTH = {f"renderers/{name}.py" for name in TRUTH_MODULES}
 TRUTH_MAY_IMPORT = (
-    BASE | {"drawing", "group", "paint"} | {module.removesuffix(".py").replace("/", ".") for module in THE_TRUTH}
+    {f"base.{name}" for name in ("deadline", "errors", "kernels", "machine_code", "tolerance")}
+    | {f"drawing.{name}" for name in ("drawing", "group", "paint")}
+    | {module.removesuffix(".py").replace("/", ".") for module in THE_TRUTH}
 )
 """The exact renderer judges the tree, so it shares nothing with it."""
 
@@ -136,13 +137,13 @@ HEAVY = {
 
 
 def name_of(path):
-    return path.relative_to(PACKAGE).as_posix()
+    """Place of a module in vexture, or with the name of its package before it."""
+    home = PACKAGE if path.is_relative_to(PACKAGE) else GEO_PACKAGE.parent
+    return path.relative_to(home).as_posix()
 
 
-WITH_SHADER_TEXT = {"renderers/shader.py", "thesis/shader.py"} | {
-    name_of(path) for path in (PACKAGE / "wgsl").glob("*.py")
-}
-"""Modules that put programs together, and those that know both languages."""
+WITH_SHADER_TEXT = {"renderers/shader.py", "thesis/shader_text.py"}
+"""Modules that put programs together."""
 
 
 @cache
@@ -160,11 +161,12 @@ def imported(path):
             assert node.level == 0, f"{name_of(path)} imports by a relative name"
             names = {f"{node.module}.{alias.name}" for alias in node.names}
             found |= {name if exists(name) else node.module for name in names}
-    return {name.removeprefix("vexture.") for name in found if name.split(".")[0] == "vexture"}
+    return {name.removeprefix("vexture.") for name in found if name.split(".")[0] in ("vexture", "vexture_geo")}
 
 
 def exists(module):
-    path = PACKAGE.parent / module.replace(".", "/")
+    home = GEO_PACKAGE if module.split(".")[0] == "vexture_geo" else PACKAGE
+    path = home.parent / module.replace(".", "/")
     return path.is_dir() or path.with_suffix(".py").is_file()
 
 
@@ -174,7 +176,13 @@ def module_name(path):
 
 
 def part_of(path):
-    return name_of(path).removesuffix(".py").split("/")[0]
+    """Folder of a module, or the module where it is in none: ``svg``, ``vexture_geo.maps``."""
+    return part_of_name(module_name(path) if path.stem != "__init__" or path.parent != PACKAGE else "__init__")
+
+
+def part_of_name(name):
+    """Folder of a module by the module's name: ``svg`` of ``svg.read``."""
+    return ".".join(name.split(".")[: 2 if name.startswith("vexture_geo") else 1])
 
 
 def public_names(path):
@@ -210,15 +218,25 @@ def texts(path):
 @pytest.mark.parametrize("path", MODULES, ids=name_of)
 def test_imports_point_one_way(path):
     part = part_of(path)
-    reached = {name.split(".")[0] for name in imported(path)}
-    if part not in ABOVE_ALL:
+    reached = {part_of_name(name) for name in imported(path)}
+    if (
+        path.is_relative_to(PACKAGE)
+        and name_of(path).removesuffix(".py") not in GEO_TYPES
+        and name_of(path) not in GEO_TYPES
+    ):
+        assert not {name for name in reached if name.startswith("vexture_geo")}, "vexture stands without vexture-geo"
+    if part not in ABOVE_ALL and name_of(path) not in GEO_TYPES:
         assert reached <= MAY_IMPORT[part] | {part}
     assert "thesis" not in reached or part == "thesis", "the thesis's encoding is registered by name"
     assert "vexture_evidence" not in path.read_text(encoding="utf-8"), "evidence stands on the library"
 
 
+def full_name(name):
+    return name if name.startswith("vexture_geo") else f"vexture.{name}"
+
+
 def test_no_imports_run_in_a_circle():
-    arrows = {module_name(path): {name for name in imported(path) if exists(f"vexture.{name}")} for path in MODULES}
+    arrows = {module_name(path): {name for name in imported(path) if exists(full_name(name))} for path in MODULES}
     sorter = TopologicalSorter({name: reached - {name} for name, reached in arrows.items()})
     sorter.prepare()  # raises CycleError, which names the circle
 
@@ -247,7 +265,7 @@ def test_module_says_what_it_is_and_what_it_offers(path):
 
 
 def test_no_module_is_a_dumping_ground():
-    names = {part for path in MODULES for part in path.relative_to(PACKAGE).with_suffix("").parts}
+    names = {part for path in MODULES for part in Path(name_of(path)).with_suffix("").parts}
     assert not names & DUMPING_GROUNDS
 
 
@@ -271,7 +289,7 @@ def test_example_is_short(path):
 @pytest.mark.parametrize("number", sorted(LAYOUT_NUMBERS))
 def test_layout_number_is_typed_once(number):
     homes = [name_of(path) for path in MODULES if number in numbers(path)]
-    assert homes in (["layout.py"], ["thesis/layout.py"])
+    assert homes in (["base/layout.py"], ["thesis/layout.py"])
 
 
 @pytest.mark.parametrize("path", SHADERS, ids=lambda path: path.name)
@@ -288,7 +306,7 @@ def test_shader_file_lists_its_exports_and_leaves_the_rest_to_shaders_py(path):
 
 
 @pytest.mark.parametrize("path", [path for path in MODULES if name_of(path) not in WITH_SHADER_TEXT], ids=name_of)
-def test_no_shader_text_outside_glsl(path):
+def test_no_shader_text_outside_shaders(path):
     assert not [text for text in texts(path) if SHADER_WORDS.search(text)]
 
 
@@ -334,7 +352,9 @@ with contextlib.suppress(SystemExit):
     vexture.cli.main.main(["--help"])
 """
 
-OF_LIST = {"vexture", "vexture.errors"} | {f"vexture.cli{name}" for name in ("", ".interrupt", ".main", ".messages")}
+OF_LIST = {"vexture", "vexture.base", "vexture.base.errors"} | {
+    f"vexture.cli{name}" for name in ("", ".interrupt", ".main", ".messages")
+}
 """What the list of the commands takes, beside click and what adds commands: it is asked for most often."""
 
 
@@ -346,5 +366,7 @@ def test_the_list_of_the_commands_brings_in_none_of_them():
 
 
 def test_the_list_of_the_commands_is_what_they_say_themselves():
-    commands = {name: main.get_command(None, name) for name in COMMANDS}
-    assert {name: command.get_short_help_str(1000) for name, command in commands.items()} == SUMMARIES
+    context = Context(main)
+    commands = {name: main.get_command(context, name) for name in (*COMMANDS, *ADDED_SUMMARIES)}
+    said = {name: command.get_short_help_str(1000) for name, command in commands.items()}
+    assert said == SUMMARIES | ADDED_SUMMARIES

@@ -10,7 +10,7 @@ from PIL import Image
 
 import vexture
 from test_cli import SQUARE, SVG, run
-from vexture.layout import MAP_HEAD
+from vexture.base.layout import MAP_HEAD
 
 LOGO = SVG.format(
     '<rect width="10" height="10" fill="#00f"/><path id="word" d="M2 2h6v4h-6z" fill="white"/>'

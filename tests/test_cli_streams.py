@@ -14,9 +14,9 @@ from click.testing import CliRunner
 from PIL import Image
 
 import vexture
+from vexture.base.kernels import kernel_cache
 from vexture.cli.main import main
-from vexture.kernels import kernel_cache
-from vexture.reading import read_drawing
+from vexture.conversion.reading import read_drawing
 from vexture.texture.load import texture_from
 from warm import command
 

@@ -6,9 +6,9 @@ from PIL import Image
 
 import vexture
 from test_cli import run
-from vexture.close_up import close_up
-from vexture.drawing import Drawing
-from vexture.group import Group, Mask
+from vexture.conversion.close_up import close_up
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.group import Group, Mask
 
 SVG = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100">
 <defs><linearGradient id="g" gradientTransform="rotate(20)"><stop stop-color="red"/><stop offset="1" stop-color="blue"/>
@@ -63,7 +63,7 @@ def test_nothing_is_seen_beside_the_square_and_below_an_empty_mask(drawing):
     assert not vexture.coverage(drawing.unmasked(), 9, vexture.window(1.5, 0.5, 1e-4, 1e-4)).any()
     square = Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.9, 0.9), (0.1, 0.9)]).paths[0]
     mask = Drawing.polygon([(0.1, 0.1), (0.2, 0.1), (0.2, 0.2), (0.1, 0.2)]).paths[0]
-    paths = tuple(vexture.drawing.Path(path.contours, group=group) for group, path in enumerate((square, mask)))
+    paths = tuple(vexture.drawing.drawing.Path(path.contours, group=group) for group, path in enumerate((square, mask)))
     masked = Drawing(paths, groups=(Group(), Group(0, mask=Mask.OPACITY)))
     assert vexture.render(masked, 9, vexture.window(0.15, 0.15, 1e-4, 1e-4)).all(axis=(0, 1))[3]
     assert not vexture.render(masked, 9, vexture.window(0.5, 0.5, 1e-4, 1e-4)).any()

@@ -11,9 +11,9 @@ from click.testing import CliRunner
 
 import vexture
 from vexture import Drawing, LimitError, ParameterError
+from vexture.base.deadline import within
 from vexture.cli.main import main
-from vexture.deadline import within
-from vexture.images import _conversion
+from vexture.conversion.images import _conversion
 from vexture.tree.bounds import Bounds
 from vexture.tree.build import SLICE, grow, grow_on
 from vexture.tree.cubics import gather

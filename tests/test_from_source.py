@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from vexture.base.errors import SourceError
 from vexture.bezier.convert import ellipse_cubics, line_cubics, straight
-from vexture.drawing import Drawing, FillRule, Path
-from vexture.errors import SourceError
-from vexture.paint import Paint
+from vexture.drawing.drawing import Drawing, FillRule, Path
+from vexture.drawing.paint import Paint
 
 
 def polygon(*corners: tuple[float, float]) -> np.ndarray:

@@ -2,10 +2,10 @@
 
 import pytest
 
-from vexture.drawing import Drawing, Path
-from vexture.errors import SourceError
-from vexture.group import Blend, Group, Mask
-from vexture.paint import Paint
+from vexture.base.errors import SourceError
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.group import Blend, Group, Mask
+from vexture.drawing.paint import Paint
 
 SQUARE = Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]).paths[0].contours
 

@@ -89,7 +89,7 @@ pressed, sys.argv[1:] = sys.argv[1], ["map", "--help"]
 """Ctrl-C while the modules of the command line are imported."""
 
 
-@pytest.mark.parametrize("module", ["vexture.cli.main", "click", "vexture.cli.map"])
+@pytest.mark.parametrize("module", ["vexture.cli.main", "click", "vexture_geo.cli.map"])
 def test_it_ends_while_its_modules_are_imported(module: str) -> None:
     program = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text())["project"]["scripts"]["vexture"]
     home, function = program.split(":")

@@ -15,12 +15,12 @@ import decoded
 import degenerate
 from either import decode, encode
 from vexture import read_svg
+from vexture.base.errors import LimitError, SourceError, VextureError
+from vexture.base.layout import LATTICE
 from vexture.bezier.convert import line_cubics
-from vexture.drawing import Drawing, FillRule
-from vexture.drawing import Path as Outline
-from vexture.errors import LimitError, SourceError, VextureError
-from vexture.layout import LATTICE
-from vexture.pipeline import run
+from vexture.conversion.pipeline import run
+from vexture.drawing.drawing import Drawing, FillRule
+from vexture.drawing.drawing import Path as Outline
 from vexture.renderers.exact import render_exact
 from vexture.thesis.accuracy import accuracy_of, cell_tolerance
 from vexture.thesis.build import DEFAULT_DEPTH
@@ -32,7 +32,7 @@ ROOT = Path(__file__).parents[1]
 SHAPES = sorted((ROOT / "examples" / "shapes").glob("*.svg"))
 LETTERS = "agR&8@%ß"
 ICONS = range(6)
-corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "evidence" / "benchmarks" / "corpora.py")))
+corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "packages" / "vexture-evidence" / "benchmarks" / "corpora.py")))
 
 SAGITTA = 1e-4  # of the brute force's chords, unit-square units
 CHORDS = 128

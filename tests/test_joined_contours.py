@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vexture import contours
+from vexture.base.errors import SourceError
 from vexture.bezier.convert import line_cubics
-from vexture.contours import check_contours, joined, ring_contours
-from vexture.errors import SourceError
+from vexture.drawing.contours import check_contours, joined, ring_contours
+from vexture.drawing.drawing import contours
 
 
 @given(st.lists(st.integers(1, 5), min_size=1, max_size=8), st.integers(0, 3), st.randoms())

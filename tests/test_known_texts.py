@@ -4,14 +4,14 @@ import click
 import numpy as np
 import pytest
 
+from vexture.base.content import about, known_kind
+from vexture.base.errors import SourceError
+from vexture.base.machine_code import described
+from vexture.base.notes import Note, Subject
 from vexture.cli.convert import convert
-from vexture.cli.flood import flood
 from vexture.cli.messages import as_options
-from vexture.content import about, known_kind
-from vexture.errors import SourceError
-from vexture.machine_code import described
-from vexture.notes import Note, Subject
-from vexture.reading import read_drawing
+from vexture.conversion.reading import read_drawing
+from vexture_geo.cli.flood import flood
 
 
 def test_an_empty_file_is_refused() -> None:

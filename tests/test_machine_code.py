@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from vexture import Drawing, convert, machine_code
-from vexture.kernels import Kernel
+from vexture import Drawing, convert
+from vexture.base import machine_code
+from vexture.base.kernels import Kernel
 from vexture.texture.load import texture_from
 
 ROOT = Path(__file__).parent.parent
@@ -140,7 +141,7 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 import numpy as np
-from vexture.machine_code import described, load
+from vexture.base.machine_code import described, load
 arguments = np.array([0.5, 1.25, -7.75]), 3.0, 2
 kernel = SimpleNamespace(__module__={kernel.__module__!r}, __name__={kernel.__name__!r}, shares=False)
 code = load(kernel, {TEXT!r}, described(arguments), Path({str(folder)!r}))

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 
 import vexture
-from vexture.drawing import Drawing, Path
-from vexture.errors import LimitError, ParameterError, SourceError
-from vexture.group import Group
-from vexture.paint import Paint
-from vexture.pipeline import run
+from vexture.base.errors import LimitError, ParameterError, SourceError
+from vexture.base.tolerance import UNSEEN
+from vexture.conversion.pipeline import run
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.group import Group
+from vexture.drawing.paint import Paint
 from vexture.texture.encode import encode
 from vexture.texture.load import texture_from
 from vexture.texture.texture import Root, Texture
 from vexture.thesis.texture import ThesisTexture
-from vexture.tolerance import UNSEEN
 from vexture.tree.build import build_tree
 
 RED, GLASS = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.0, 1.0), 0.5)

@@ -10,10 +10,11 @@ import pytest
 from floods import flood, series
 
 from clusters import cluster_of, scheduler_alone, workers_of
-from vexture import DeviceError, workers
-from vexture.flood.options import FloodOptions
-from vexture.live.flood import make
-from vexture.workers import Cluster, Here, Processes
+from vexture import DeviceError
+from vexture.base import workers
+from vexture.base.workers import Cluster, Here, Processes
+from vexture_geo.flood.options import FloodOptions
+from vexture_geo.flood.server import make
 from work import dies, is_forgotten, slow, waits
 
 

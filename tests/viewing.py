@@ -58,8 +58,8 @@ def told(lines):
 @contextmanager
 def viewing(folder, *arguments):
     """Run `vexture view` until the end of the block; `folder` is for what it says."""
-    from vexture.errors import DeviceError
-    from vexture.live.page import SCRIPT, built
+    from vexture.base.errors import DeviceError
+    from vexture.pages.page import SCRIPT, built
 
     try:
         built(SCRIPT)

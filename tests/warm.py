@@ -54,7 +54,7 @@ _started: list["subprocess.Popen[str]"] = []
 def serve(address: str) -> None:
     """Import what commands need, and be forked by whoever asks."""
     from vexture.cli.main import main
-    from vexture.live.documents import load_kernels
+    from vexture.server.publish_file import load_kernels
 
     load_kernels()  # here, since commands convert in processes of their own
     for library in LIBRARIES:

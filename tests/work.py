@@ -4,7 +4,7 @@ import os
 import signal
 import time
 
-from vexture.workers import WORTH
+from vexture.base.workers import WORTH
 
 
 def slow(shared, item):

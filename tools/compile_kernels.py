@@ -1,9 +1,9 @@
 """Compile ahead of time what a plain `vexture convert` and the renderer on the CPU call, for the wheel of a platform.
 
-`make dist` runs it; by hand: python tools/compile_kernels.py. What comes into src/vexture/compiled/ runs on every
-processor of this machine's kind that is not very old, and without Numba (`vexture.machine_code`). Each kernel is
-compared with what Numba makes of it, bit by bit, on the example drawings: a Numba with another calling convention is
-noticed here and not by users. With --platform it only says for which platform the wheel is.
+`make dist` runs it; by hand: python tools/compile_kernels.py. What comes into the package's folder compiled/ runs on
+every processor of this machine's kind that is not very old, and without Numba (`vexture.base.machine_code`). Each
+kernel is compared with what Numba makes of it, bit by bit, on the example drawings: a Numba with another calling
+convention is noticed here and not by users. With --platform it only says for which platform the wheel is.
 """
 
 import os
@@ -23,16 +23,16 @@ import llvmlite.binding as llvm
 import numpy as np
 
 from vexture import Drawing, convert, read_svg
+from vexture.base.kernels import Kernel, text_digest
+from vexture.base.layout import MAP_HEAD
+from vexture.base.machine_code import RELEASE, SHIPPED, Code, described, host, load
+from vexture.base.tolerance import ROUND
 from vexture.bezier.cover import DIRECTIONS, cover_cells, cut_outlines, find_reach
 from vexture.bezier.reduce import reduced
-from vexture.kernels import Kernel, text_digest
-from vexture.layout import MAP_HEAD
-from vexture.machine_code import RELEASE, SHIPPED, Code, described, host, load
 from vexture.renderers.colour import draw_colours
 from vexture.renderers.cpu import draw
 from vexture.texture.encode import texel_rows
 from vexture.texture.planar import map_texels
-from vexture.tolerance import ROUND
 from vexture.tree.bounds import Bounds
 from vexture.tree.build import SLICE, grow, grow_on
 from vexture.tree.cubics import gather

@@ -1,4 +1,4 @@
-"""Build a release: `dist.py --output dist . evidence web` writes wheels, sdists and npm tarball of these folders.
+"""Build a release: `dist.py --output dist packages/vexture web` writes wheels, sdists and npm tarball of these folders.
 
 A folder with a pyproject.toml becomes a wheel and an sdist, one with a package.json a tarball. Where kernels were
 compiled (`compile_kernels.py`), a second wheel holds them, for this platform. All are built in a copy of what belongs
@@ -183,7 +183,9 @@ def _run(command: list[str], folder: Path, **environment: str) -> None:
 def main() -> None:
     """Build what the arguments name, and say what came of it."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER", help="project folder: . or evidence or web")
+    parser.add_argument(
+        "folders", nargs="+", type=Path, metavar="FOLDER", help="project folder, such as packages/vexture or web"
+    )
     parser.add_argument("--output", type=Path, required=True, metavar="DIR", help="folder for the artefacts")
     parser.add_argument("--repository", metavar="URL", help="where the sources are, for links and metadata")
     arguments = parser.parse_args()

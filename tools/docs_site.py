@@ -33,7 +33,7 @@ HOMES: Final = {
     "CONTRIBUTING.md": "project/contributing.md",
     "FORMAT.md": "reference/format.md",
     "SECURITY.md": "project/security.md",
-    "evidence/benchmarks/README.md": "project/benchmarks.md",
+    "packages/vexture-evidence/benchmarks/README.md": "project/benchmarks.md",
     "examples/counties/README.md": "project/counties.md",
     "examples/shapes/README.md": "project/example-drawings.md",
     "web/README.md": "reference/javascript.md",
@@ -60,11 +60,15 @@ TO_ENTRY_BESIDE: Final = re.compile(r"(\]\([\w-]+\.md)#[\w.]+(?=\))")
 
 LOG: Final = logging.getLogger("mkdocs.hooks.javascript")
 
-GALLERY: Final = ROOT / "evidence" / "benchmarks" / "results" / "conformance.html"
+GALLERY: Final = ROOT / "packages" / "vexture-evidence" / "benchmarks" / "results" / "conformance.html"
 """Page of all pictures, if `make conformance` has made it."""
 
-EVIDENCE: Final = ROOT / "evidence" / "src" / "vexture_evidence"
-PACKAGES: Final = (ROOT / "src" / "vexture", EVIDENCE)
+EVIDENCE: Final = ROOT / "packages" / "vexture-evidence" / "src" / "vexture_evidence"
+PACKAGES: Final = (
+    ROOT / "packages" / "vexture" / "src" / "vexture",
+    ROOT / "packages" / "vexture-geo" / "src" / "vexture_geo",
+    EVIDENCE,
+)
 """Packages whose modules are listed."""
 
 LINK: Final = re.compile(r"(?<=\]\()(?!\w+:|#)([^)#\s]+)")

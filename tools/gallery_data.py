@@ -12,7 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 ROOT: Final = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "evidence" / "benchmarks"), str(ROOT / "examples")]
+sys.path[:0] = [str(ROOT / "packages" / "vexture-evidence" / "benchmarks"), str(ROOT / "examples")]
 
 import corpora  # noqa: E402
 

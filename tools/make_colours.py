@@ -15,15 +15,15 @@ import numpy as np
 from PIL import Image
 
 ROOT: Final = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "evidence" / "benchmarks"), str(ROOT / "tools")]
+sys.path[:0] = [str(ROOT / "packages" / "vexture-evidence" / "benchmarks"), str(ROOT / "tools")]
 
 import corpora  # noqa: E402
 import vexture  # noqa: E402
 from chromium import chromium  # noqa: E402 - the browser of the tests
 from colours import choropleth  # noqa: E402
 from make_pictures import PANEL, sheet  # noqa: E402
-from vexture.drawing import Drawing  # noqa: E402
-from vexture.paint import Paint  # noqa: E402
+from vexture.drawing.drawing import Drawing  # noqa: E402
+from vexture.drawing.paint import Paint  # noqa: E402
 from vexture.renderers.view import window  # noqa: E402
 
 __all__ = ["main"]

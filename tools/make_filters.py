@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Final
 
 ROOT: Final = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "evidence" / "benchmarks"), str(ROOT / "tools")]
+sys.path[:0] = [str(ROOT / "packages" / "vexture-evidence" / "benchmarks"), str(ROOT / "tools")]
 
 import corpora  # noqa: E402
 from chromium import chromium  # noqa: E402 - the browser of the tests

@@ -59,7 +59,14 @@ MADE: Final = "made.txt"
 PICTURED: Final = "pictured.txt"
 """In an example's folder: the digest of the page that its picture shows."""
 
-MADE_OF: Final = ("src/vexture", "gallery/drawings", "examples", "tools", "evidence/benchmarks")
+MADE_OF: Final = (
+    "packages/vexture/src",
+    "packages/vexture-geo/src",
+    "gallery/drawings",
+    "examples",
+    "tools",
+    "packages/vexture-evidence/benchmarks",
+)
 """Folders of the converter and of the sources, any change in which makes all files again."""
 
 THUMBNAIL: Final = (640, 400)

@@ -14,14 +14,14 @@ import shapely
 from PIL import Image
 
 ROOT: Final = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "evidence" / "benchmarks"), str(ROOT / "tools")]
+sys.path[:0] = [str(ROOT / "packages" / "vexture-evidence" / "benchmarks"), str(ROOT / "tools")]
 
 from gallery_data import COUNTIES, WORLD  # noqa: E402
-from vexture.cartography import MapLayer, Scale, convert_map  # noqa: E402
-from vexture.cartography.place import placed  # noqa: E402
-from vexture.geo.features import read_features  # noqa: E402
-from vexture.notes import Notes  # noqa: E402
+from vexture.base.notes import Notes  # noqa: E402
 from vexture.renderers.view import window  # noqa: E402
+from vexture_geo.maps import MapLayer, Scale, convert_map  # noqa: E402
+from vexture_geo.maps.place import placed  # noqa: E402
+from vexture_geo.vector.features import read_features  # noqa: E402
 
 __all__ = ["main"]
 

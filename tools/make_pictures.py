@@ -157,7 +157,7 @@ def panels() -> list[list[Panel]]:
 
 def packed_panels() -> list[list[Panel]]:
     """What the packed encoding adds: planes seen from the side, maps, deep zoom."""
-    sys.path.insert(0, str(ROOT / "evidence" / "benchmarks"))
+    sys.path.insert(0, str(ROOT / "packages" / "vexture-evidence" / "benchmarks"))
     import corpora
 
     lettering = vexture.convert(LETTERING)
@@ -183,7 +183,7 @@ def packed_panels() -> list[list[Panel]]:
 
 def icons() -> Image.Image:
     """Icons of those that benchmarks/icons.py measures, each drawn from its texture."""
-    sys.path.insert(0, str(ROOT / "evidence" / "benchmarks"))
+    sys.path.insert(0, str(ROOT / "packages" / "vexture-evidence" / "benchmarks"))
     import corpora
 
     columns, rows = ICON_GRID

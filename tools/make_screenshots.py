@@ -14,7 +14,7 @@ from typing import Any, Final
 from PIL import Image
 
 ROOT: Final = Path(__file__).resolve().parents[1]
-NEEDED: Final = ("evidence/benchmarks", "examples", "tests", "tests/web")
+NEEDED: Final = ("packages/vexture-evidence/benchmarks", "examples", "tests", "tests/web")
 sys.path[:0] = [str(ROOT / folder) for folder in NEEDED]
 
 from four_floods.make_floods import SCENES, write  # noqa: E402
@@ -23,10 +23,10 @@ from santa_cruz.make_flood import make_flood  # noqa: E402
 
 from chromium import chromium  # noqa: E402 - the browser of the tests
 from guides import blocks_of  # noqa: E402 - as the tests read them
-from vexture.flood.options import FloodOptions  # noqa: E402
-from vexture.live.documents import VIEWER_PARAMETERS  # noqa: E402
-from vexture.live.flood import export as export_flood  # noqa: E402
-from vexture.live.view import export  # noqa: E402
+from vexture.pages.view import export  # noqa: E402
+from vexture.server.publish_file import VIEWER_PARAMETERS  # noqa: E402
+from vexture_geo.flood.options import FloodOptions  # noqa: E402
+from vexture_geo.flood.server import export as export_flood  # noqa: E402
 
 __all__ = ["main"]
 

@@ -1,6 +1,6 @@
-"""Write web/generated/: the shaders' text and the textures' layout, as JavaScript modules.
+"""Write web/generated/, the shaders' text and the textures' layout as JavaScript, and the shader's parts in WGSL.
 
-Their owners are the folders glsl/ and the modules layout.py in src/vexture/; nothing in web/ types any of it again.
+Their owners are the folders shaders/ and the modules layout.py of vexture; nothing in web/ types any of it again.
 `make_web.py --check` writes nothing and fails when a file is not what it would write.
 """
 
@@ -12,17 +12,19 @@ from types import ModuleType
 from typing import Final
 
 from both_languages import both
-from vexture import layout
+from vexture.base import layout
 from vexture.fold import layout as fold_layout
-from vexture.renderers.shader import WRAPS, included, shader_text
+from vexture.renderers.shader import PARTS, WRAPS, included, shader_text
 from vexture.thesis import layout as thesis_layout
 from vexture.thesis import method as thesis_method
-from vexture.thesis.shader import FOLD_HEIGHT, PACKAGE, constants
-from vexture.wgsl import to_wgsl, with_parameters
+from vexture.thesis.shader_text import FOLD_HEIGHT, PACKAGE, constants
+from wgsl_generator import to_wgsl, with_parameters
 
 __all__ = ["main"]
 
-FOLDER: Final = Path(__file__).resolve().parents[1] / "web" / "generated"
+ROOT: Final = Path(__file__).resolve().parents[1]
+FOLDER: Final = ROOT / "web" / "generated"
+WGSL: Final = ROOT / "packages" / "vexture" / "src" / "vexture" / "shaders" / "wgsl"
 HEADER: Final = "// Made by tools/make_web.py; change {owner} and run it again.\n"
 
 PACKED: Final = "layers.glsl"
@@ -111,7 +113,7 @@ def packed_text(file: str) -> str:
 
 def shaders() -> str:
     """Text of the module with the shaders, but for those of planar maps."""
-    parts = [HEADER.format(owner="src/vexture/glsl/")]
+    parts = [HEADER.format(owner="packages/vexture/src/vexture/shaders/")]
     packed = packed_text(PACKED)
     parts.append(module_text("packed", packed, NUMBERED.format(PACKED)))
     alone = packed_text(OVERLAY).removeprefix(packed)
@@ -126,7 +128,9 @@ def planar_module() -> str:
     packed, planar = packed_text(PACKED), packed_text(PLANAR)
     assert planar.startswith(packed), f"{PLANAR} must include {PACKED} first: a bundle has its text once"
     comment = f"{PLANAR}, to stand after {PACKED}; the numbers that it asks for by #ifndef may be defined before both."
-    return HEADER.format(owner="src/vexture/glsl/") + module_text("planar", planar.removeprefix(packed), comment)
+    return HEADER.format(owner="packages/vexture/src/vexture/shaders/") + module_text(
+        "planar", planar.removeprefix(packed), comment
+    )
 
 
 def thesis_module() -> str:
@@ -138,7 +142,7 @@ def thesis_module() -> str:
         " * stand before it."
     )
     return (
-        HEADER.format(owner="src/vexture/thesis/glsl/")
+        HEADER.format(owner="packages/vexture/src/vexture/thesis/shaders/")
         + module_text("thesis", text, comment)
         + (
             "/** Rows of a texture on the GPU: a longer list goes on in the columns to its right. */\n"
@@ -149,7 +153,7 @@ def thesis_module() -> str:
 
 def water_module() -> str:
     """Text of the module with the water's shaders: apart, since most pages have no use for them."""
-    parts = [HEADER.format(owner="src/vexture/glsl/")]
+    parts = [HEADER.format(owner="packages/vexture/src/vexture/shaders/")]
     for name in ("water", "shore", "depths"):
         comment = f"{name}.glsl; VEXTURE_WRAP and VEXTURE_FLAT may be defined before it."
         parts.append(module_text(name, bare(inlined(shader_text(f"{name}.glsl"))), comment))
@@ -160,7 +164,7 @@ def fold_module() -> str:
     """Text of the module with the shader of folds: apart, since a page without one has no use for it."""
     text = bare(inlined(shader_text("fold.glsl", fold_layout)))
     comment = "fold.glsl; VEXTURE_WRAP may be defined before it."
-    return HEADER.format(owner="src/vexture/glsl/fold.glsl") + module_text("fold", text, comment)
+    return HEADER.format(owner="packages/vexture/src/vexture/shaders/fold.glsl") + module_text("fold", text, comment)
 
 
 def nodes_module(name: str, comment: str, text: str, before: str = "") -> str:
@@ -169,18 +173,20 @@ def nodes_module(name: str, comment: str, text: str, before: str = "") -> str:
         translated(text).removeprefix(translated(before)) if before else translated(text)
         for translated in (with_parameters, to_wgsl)
     )
-    return HEADER.format(owner="src/vexture/glsl/") + module_text(name, both(glsl, wgsl, bare), comment)
+    return HEADER.format(owner="packages/vexture/src/vexture/shaders/") + module_text(
+        name, both(glsl, wgsl, bare), comment
+    )
 
 
 def wraps_module() -> str:
     """Text of the module with the values of ``VEXTURE_WRAP``: apart, since not all that choose one bring the shader."""
     text = f"/** Values of VEXTURE_WRAP. */\nexport const WRAPS = Object.freeze({json.dumps(WRAPS)});\n"
-    return HEADER.format(owner="src/vexture/renderers/method.py") + text
+    return HEADER.format(owner="packages/vexture/src/vexture/renderers/method.py") + text
 
 
 def layout_module(owner: ModuleType, file: str) -> str:
     """Text of the module with a layout."""
-    parts = [HEADER.format(owner=f"src/vexture/{file}")]
+    parts = [HEADER.format(owner=f"packages/vexture/src/vexture/{file}")]
     for name in owner.__all__:
         value = getattr(owner, name)
         text = json.dumps(value)
@@ -201,7 +207,7 @@ def main() -> int:
             "colour", f"sheets.glsl, to stand after these{BOTH}", steps + sheets, steps + layers
         ),
         "fold-nodes.js": nodes_module("fold", f"fold.glsl{BOTH}", folded),
-        "layout.js": layout_module(layout, "layout.py"),
+        "layout.js": layout_module(layout, "base/layout.py"),
         "thesis-layout.js": layout_module(thesis_layout, "thesis/layout.py"),
         "fold-layout.js": layout_module(fold_layout, "fold/layout.py"),
         "shaders.js": shaders(),
@@ -211,12 +217,13 @@ def main() -> int:
         "wraps.js": wraps_module(),
         "water-shader.js": water_module(),
     }
-    for name, text in modules.items():
-        path = FOLDER / name
+    files = {FOLDER / name: text for name, text in modules.items()}
+    files |= {WGSL / f"{part}.wgsl": to_wgsl(shader_text(file)) for part, file in PARTS.items()}
+    for path, text in files.items():
         if path.is_file() and path.read_text(encoding="utf-8") == text:
             continue
         if sys.argv[1:] == ["--check"]:
-            stale.append(str(path.relative_to(FOLDER.parents[1])))
+            stale.append(str(path.relative_to(ROOT)))
         else:
             path.parent.mkdir(exist_ok=True)
             path.write_text(text, encoding="utf-8")

@@ -1,6 +1,7 @@
 """Write the licences of what is bundled into the built pages beside them: LICENSES.txt.
 
-`notices.py FOLDER` takes them from web/node_modules: of the packages that the npm package depends on, and of three.js.
+`notices.py FOLDER...` takes them from web/node_modules: of the packages that the npm package depends on, and of
+three.js.
 """
 
 import json
@@ -40,4 +41,5 @@ def notices() -> str:
 
 
 if __name__ == "__main__":
-    (Path(sys.argv[1]) / "LICENSES.txt").write_text(notices(), encoding="utf-8")
+    for folder in sys.argv[1:]:
+        (Path(folder) / "LICENSES.txt").write_text(notices(), encoding="utf-8")

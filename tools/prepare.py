@@ -43,7 +43,7 @@ class Need:
 
     def complaint(self) -> str | None:
         """Return why it cannot be used, in one line; None if it can."""
-        environment = {**os.environ, "PYTHONPATH": str(ROOT / "evidence" / "benchmarks")}
+        environment = {**os.environ, "PYTHONPATH": str(ROOT / "packages" / "vexture-evidence" / "benchmarks")}
         command = [sys.executable, "-c", self.use]
         outcome = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
         if outcome.returncode == 0:

@@ -8,25 +8,28 @@ import argparse
 import json
 import re
 import tomllib
+from itertools import chain
 from pathlib import Path
 from typing import Final
 
 __all__ = ["disagreements", "notes", "versions"]
 
 ROOT: Final = Path(__file__).resolve().parents[1]
-OWNER: Final = "pyproject.toml"
+PROJECT: Final = "pyproject.toml"
+OWNER: Final = f"packages/vexture/{PROJECT}"
 """Where the version is said; other places say it again."""
 
 
 def versions(root: Path) -> dict[str, str]:
     """Versions by the places that name them, the owner first."""
     found = {}
-    for path in (root / OWNER, *sorted(root.glob(f"*/{OWNER}"))):
+    for path in (root / OWNER, *sorted({*root.glob(f"packages/*/{PROJECT}")} - {root / OWNER})):
         project = tomllib.loads(path.read_text(encoding="utf-8"))["project"]
         place = path.relative_to(root).as_posix()
         found[place] = project["version"]
-        for requirement in project["dependencies"]:
-            if pinned := re.fullmatch(r"vexture(?:\[.*\])? *== *(\S+)", requirement):
+        extras = project.get("optional-dependencies", {})
+        for requirement in chain(project["dependencies"], *extras.values()):
+            if pinned := re.fullmatch(r"vexture[\w-]*(?:\[.*\])? *== *(\S+)", requirement):
                 found[f"{place}: {requirement}"] = pinned[1]
     found["web/package.json"] = json.loads((root / "web" / "package.json").read_text(encoding="utf-8"))["version"]
     locked = json.loads((root / "web" / "package-lock.json").read_text(encoding="utf-8"))

@@ -9,10 +9,10 @@ import pytest
 from fontTools.svgLib.path import parse_path
 from lxml import etree
 
-from vexture.errors import LimitError, SourceError, VextureError
+from vexture.base.errors import LimitError, SourceError, VextureError
 
 ROOT = Path(__file__).parents[2]
-corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "evidence" / "benchmarks" / "corpora.py")))
+corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "packages" / "vexture-evidence" / "benchmarks" / "corpora.py")))
 
 
 @pytest.fixture

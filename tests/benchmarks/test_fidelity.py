@@ -8,8 +8,8 @@ import pytest
 
 import fidelity
 import report
-from vexture.drawing import Drawing
-from vexture.pipeline import run
+from vexture.conversion.pipeline import run
+from vexture.drawing.drawing import Drawing
 from vexture.renderers.view import fit
 
 SQUARE = Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)])

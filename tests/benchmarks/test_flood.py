@@ -7,7 +7,7 @@ import pytest
 
 import flood_edges
 from flood_reading import CRS, KINDS, VERTICES, island
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture.fold.fold import Fold, Kind
 
 SIZE = (60, 40)

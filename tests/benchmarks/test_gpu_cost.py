@@ -8,7 +8,7 @@ import pytest
 
 import corpora
 import gpu_cost
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture.renderers import cpu
 from vexture_evidence.measures import gpu_compiler, gpu_turns, programs
 from vexture_evidence.measures.bands import BANDS, band_texture

@@ -14,8 +14,8 @@ import size
 import speed
 import targets
 import views
-from vexture.drawing import Drawing, FillRule
-from vexture.errors import DeviceError
+from vexture.base.errors import DeviceError
+from vexture.drawing.drawing import Drawing, FillRule
 from vexture.renderers.exact import render_exact
 from vexture.tree.build import build_tree
 from vexture_evidence.measures import programs

@@ -9,7 +9,7 @@ from judge import Case, Child, stages
 from sweep import OUTCOMES, faults, known_issues, outcome_of
 from sweep_corpora import CORPORA, coast_case, ring_of
 
-pytestmark = pytest.mark.filterwarnings("ignore::vexture.errors.SourceWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::vexture.base.errors.SourceWarning")
 
 ROOT = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10">{}</svg>'
 SQUARE = ROOT.format('<path d="M2 2h6v6h-6z"/>').encode()

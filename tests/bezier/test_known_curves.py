@@ -16,7 +16,7 @@ from vexture.bezier.points import points_along
 from vexture.bezier.roots import solve_monotone, turning_points
 from vexture.bezier.smooth import smooth_chain
 from vexture.bezier.split import split, subcubic
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 
 LINE = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]])
 

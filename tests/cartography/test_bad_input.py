@@ -11,12 +11,12 @@ import pyarrow as pa
 import pytest
 import shapely
 
-from vexture.cartography import MapLayer, Scale, convert_map
-from vexture.cartography.colours import colours_of
-from vexture.cartography.prepare import in_memory
-from vexture.errors import LimitError, ParameterError, SourceError
-from vexture.geo.vectors import check_memory
-from vexture.notes import Notes
+from vexture.base.errors import LimitError, ParameterError, SourceError
+from vexture.base.notes import Notes
+from vexture_geo.maps import MapLayer, Scale, convert_map
+from vexture_geo.maps.colours import colours_of
+from vexture_geo.maps.prepare import in_memory
+from vexture_geo.vector.vectors import check_memory
 
 METRES = "EPSG:28992"
 BOXES = [shapely.box(k, 0, k + 1, 1) for k in range(4)]

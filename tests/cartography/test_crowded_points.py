@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 from vexture import convert, render
-from vexture.cartography import MapLayer, convert_map
-from vexture.cartography.paths import Fit
-from vexture.cartography.symbols import CROWD, Symbols
-from vexture.drawing import Drawing
-from vexture.errors import ParameterError
-from vexture.paint import Paint
-from vexture.reading import read_drawing
+from vexture.base.errors import ParameterError
+from vexture.conversion.reading import read_drawing
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import Paint
 from vexture.tree.planar.build import build_map
+from vexture_geo.maps import MapLayer, convert_map
+from vexture_geo.maps.paths import Fit
+from vexture_geo.maps.symbols import CROWD, Symbols
 
 DOT = read_drawing(b'<svg viewBox="0 0 2 2"><circle cx="1" cy="1" r="1"/></svg>')
 COUNT = CROWD + 176

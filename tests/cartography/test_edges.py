@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 import shapely
 
-from vexture.cartography import MapLayer, convert_map
-from vexture.cartography.marks import outlines, width_of
-from vexture.cartography.place import RADIUS, placed
-from vexture.geo.crs import transformed
-from vexture.geo.features import read_features
-from vexture.notes import Notes
+from vexture.base.notes import Notes
+from vexture_geo.base.crs import transformed
+from vexture_geo.maps import MapLayer, convert_map
+from vexture_geo.maps.marks import outlines, width_of
+from vexture_geo.maps.place import RADIUS, placed
+from vexture_geo.vector.features import read_features
 
 WORLD = "EPSG:4326"
 FIJI = shapely.MultiPolygon([shapely.box(177, -19, 180, -17), shapely.box(-180, -19, -178, -17)])

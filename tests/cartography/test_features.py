@@ -8,9 +8,9 @@ import pyarrow.parquet as pq
 import pytest
 import shapely
 
-from vexture.errors import ParameterError, SourceError
-from vexture.geo.features import feature_batches, read_features
-from vexture.notes import Notes
+from vexture.base.errors import ParameterError, SourceError
+from vexture.base.notes import Notes
+from vexture_geo.vector.features import feature_batches, read_features
 
 NAMES = ["a", "b", "c", "d"]
 

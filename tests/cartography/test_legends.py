@@ -7,10 +7,10 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from vexture.cartography import Scale
-from vexture.cartography.colours import check_scale, colours_of
-from vexture.errors import ParameterError
-from vexture.notes import Notes
+from vexture.base.errors import ParameterError
+from vexture.base.notes import Notes
+from vexture_geo.maps import Scale
+from vexture_geo.maps.colours import check_scale, colours_of
 
 DAYS = [dt.date(2020, 1, 1) + dt.timedelta(days=10 * day) for day in range(20)]
 TIMES = [dt.datetime(2020, 3, 28, 12, 30) + dt.timedelta(hours=7 * hour) for hour in range(20)]

@@ -10,13 +10,13 @@ import pytest
 import shapely
 from click.testing import CliRunner
 
-from vexture.cartography import MapLayer, Scale, Times, convert_map
-from vexture.cartography.colours import FURTHER, QUALITATIVE, colours_of, rgba_of
-from vexture.cartography.coverage import ranks
+from vexture.base.errors import ParameterError, SourceError
+from vexture.base.notes import Notes
 from vexture.cli.main import main
-from vexture.errors import ParameterError, SourceError
-from vexture.geo.features import feature_batches, read_features
-from vexture.notes import Notes
+from vexture_geo.maps import MapLayer, Scale, Times, convert_map
+from vexture_geo.maps.colours import FURTHER, QUALITATIVE, colours_of, rgba_of
+from vexture_geo.maps.coverage import ranks
+from vexture_geo.vector.features import feature_batches, read_features
 
 METRES = "EPSG:28992"
 

@@ -12,14 +12,14 @@ from click.testing import CliRunner
 from PIL import Image, ImageDraw
 
 import vexture
-from vexture.cartography import MapLayer, Scale, Times, convert_map
-from vexture.cartography.colours import colours_of
-from vexture.cartography.place import MOST_LATITUDE, RADIUS
-from vexture.cartography.times import with_steps
+from vexture.base.errors import LimitError, ParameterError, SourceError
+from vexture.base.notes import Notes
 from vexture.cli.main import main
-from vexture.errors import LimitError, ParameterError, SourceError
-from vexture.geo.features import read_features
-from vexture.notes import Notes
+from vexture_geo.maps import MapLayer, Scale, Times, convert_map
+from vexture_geo.maps.colours import colours_of
+from vexture_geo.maps.place import MOST_LATITUDE, RADIUS
+from vexture_geo.maps.times import with_steps
+from vexture_geo.vector.features import read_features
 
 METRES = "EPSG:28992"
 
@@ -200,7 +200,7 @@ def test_wrong_choices_say_what_to_do(options, error, words):
 def test_sources_that_hold_nothing_or_too_much_say_so(monkeypatch):
     with pytest.raises(SourceError, match="none of its features has a geometry"):
         mapped(frame([shapely.Polygon(), None], METRES))
-    monkeypatch.setattr("vexture.cartography.convert.MOST_PAINTS", 5)
+    monkeypatch.setattr("vexture_geo.maps.convert.MOST_PAINTS", 5)
     with pytest.raises(LimitError, match=r"`restyle` off.*vexture tiles"):
         mapped(cells(5))
     assert len(mapped(cells(5), restyle=False).table) == 5
@@ -224,7 +224,7 @@ def test_the_command_writes_texture_and_table(tmp_path):
 
 
 def test_borders_that_are_equal_are_not_touched_and_others_are(monkeypatch):
-    from vexture.cartography import coverage
+    from vexture_geo.maps import coverage
 
     source, snapped = cells(60), []
     real = coverage.shared

@@ -9,13 +9,13 @@ import pytest
 import shapely
 from click.testing import CliRunner
 
-from vexture.cartography import MapLayer, convert_map
-from vexture.cartography.place import placed
+from vexture.base.errors import ParameterError, SourceError
+from vexture.base.notes import Notes
 from vexture.cli.main import main
-from vexture.errors import ParameterError, SourceError
-from vexture.geo.feature_tables import Choice, chunks_of
-from vexture.geo.features import read_features
-from vexture.notes import Notes
+from vexture_geo.maps import MapLayer, convert_map
+from vexture_geo.maps.place import placed
+from vexture_geo.vector.feature_tables import Choice, chunks_of
+from vexture_geo.vector.features import read_features
 
 METRES = "EPSG:28992"
 
@@ -47,7 +47,7 @@ def test_a_shapefile_that_is_cut_off_is_damaged(part, most, tmp_path, monkeypatc
     content = place.read_bytes()
     assert len(read_features(tmp_path / "land.shp", notes=Notes())) == 3
     place.write_bytes(content[:-8])
-    monkeypatch.setattr("vexture.geo.vector_files.LARGEST_FILE", most)
+    monkeypatch.setattr("vexture_geo.vector.vector_files.LARGEST_FILE", most)
     with pytest.raises(SourceError, match=rf"land\.{part} is damaged: it has \d+ of the {len(content)} bytes"):
         read_features(tmp_path / "land.shp", notes=Notes())
 

@@ -5,14 +5,14 @@ import numpy as np
 import pytest
 import shapely
 
-from vexture.cartography import MapLayer, convert_map
-from vexture.cartography.domain import domain_of
-from vexture.cartography.lines import there_and_back, way_there
-from vexture.cartography.place import placed
-from vexture.errors import SourceError
-from vexture.geo.crs import transformed
-from vexture.geo.features import Lines, read_features
-from vexture.notes import Notes
+from vexture.base.errors import SourceError
+from vexture.base.notes import Notes
+from vexture_geo.base.crs import transformed
+from vexture_geo.maps import MapLayer, convert_map
+from vexture_geo.maps.domain import domain_of
+from vexture_geo.maps.lines import there_and_back, way_there
+from vexture_geo.maps.place import placed
+from vexture_geo.vector.features import Lines, read_features
 
 WORLD = "EPSG:4326"
 EQUAL_EARTH, ROBINSON, SOUTH, NORTH = "EPSG:8857", "ESRI:54030", "EPSG:3031", "EPSG:3995"

@@ -4,10 +4,10 @@ import geopandas
 import pytest
 import shapely
 
-from vexture.cartography.convert import convert_map
-from vexture.cartography.prepare import MapLayer
-from vexture.geo.longitudes import CLEAR_JUMP
-from vexture.reading import read_extent
+from vexture_geo.base.longitudes import CLEAR_JUMP
+from vexture_geo.maps.convert import convert_map
+from vexture_geo.maps.prepare import MapLayer
+from vexture_geo.readers import read_extent
 
 WIDE = shapely.box(-100, 0, 100, 20)
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from vexture.cartography.paths import Fit
-from vexture.cartography.symbols import Symbols
-from vexture.drawing import Path
-from vexture.errors import SourceError
-from vexture.paint import Paint
-from vexture.reading import read_drawing
+from vexture.base.errors import SourceError
+from vexture.conversion.reading import read_drawing
+from vexture.drawing.drawing import Path
+from vexture.drawing.paint import Paint
+from vexture_geo.maps.paths import Fit
+from vexture_geo.maps.symbols import Symbols
 
 SYMBOL = read_drawing(
     b'<svg viewBox="0 0 4 4"><path d="M0 0h4v4h-4zM1 1v2h2v-2z"/><circle cx="2" cy="2" r="1" fill="red"/></svg>'

@@ -7,11 +7,11 @@ import pyarrow as pa
 import pytest
 import shapely
 
-from vexture.cartography import Times
-from vexture.cartography.times import with_steps
-from vexture.errors import ParameterError, SourceError
-from vexture.geo.features import read_features
-from vexture.notes import Notes
+from vexture.base.errors import ParameterError, SourceError
+from vexture.base.notes import Notes
+from vexture_geo.maps import Times
+from vexture_geo.maps.times import with_steps
+from vexture_geo.vector.features import read_features
 
 SHAPES = [shapely.box(k, 0, k + 1, 1) for k in range(4)]
 

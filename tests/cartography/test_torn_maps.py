@@ -6,9 +6,9 @@ import pyproj
 import pytest
 import shapely
 
-from vexture.cartography.place import placed
-from vexture.geo.features import read_features
-from vexture.notes import Notes
+from vexture.base.notes import Notes
+from vexture_geo.maps.place import placed
+from vexture_geo.vector.features import read_features
 
 BOXES = [(165.0, -20.0, 190.0, 15.0), (-40.0, 30.0, -20.0, 50.0), (-190.0, 50.0, -160.0, 70.0), (0.0, 0.0, 5.0, 5.0)]
 CAP = shapely.Polygon([(longitude, -70.0) for longitude in range(175, -180, -10)])

@@ -88,7 +88,9 @@ def test_the_guide_for_notebooks_does_what_it_says(tmp_path: Path) -> None:
     assert (folder / "harbour.html").read_bytes().startswith(b"<!doctype html>")
 
 
-@pytest.mark.filterwarnings("ignore:.*lies below others:vexture.errors.SourceWarning")  # the lake, as the guide says
+@pytest.mark.filterwarnings(
+    "ignore:.*lies below others:vexture.base.errors.SourceWarning"
+)  # the lake, as the guide says
 @pytest.mark.usefixtures("page_is_built")
 def test_the_guide_for_maps_does_what_it_says(tmp_path: Path) -> None:
     folder = tmp_path / "run"

@@ -86,7 +86,7 @@ def test_what_a_command_says_of_itself_is_text(site: Path) -> None:
 
 
 def test_figures_have_a_page_once_there_are_some(site: Path) -> None:
-    folder = ROOT / "evidence" / "src" / "vexture_evidence" / "figures"
+    folder = ROOT / "packages" / "vexture-evidence" / "src" / "vexture_evidence" / "figures"
     defined = [path for path in folder.glob("*.py") if re.search(r'\) -> "?Figure"?:$', path.read_text(), re.M)]
     page = site / "reference" / "figures.html"
     assert page.is_file() == bool(defined)
@@ -100,7 +100,8 @@ def test_every_module_is_listed_with_what_it_is(site: Path) -> None:
     listed = Counter(name for name, said in rows if said.strip())
     there = [
         path
-        for package in (ROOT / "src" / "vexture", ROOT / "evidence" / "src" / "vexture_evidence")
+        for package in (ROOT / "packages").glob("*/src/vexture*")
+        if package.suffix != ".egg-info"
         for path in package.rglob("*")
         if path.suffix in (".py", ".glsl") and path.name != "__init__.py"
     ]
@@ -129,7 +130,12 @@ BREAKS = {
     "reference": ("docs/reference/drawings.md", "[`vexture.convert`][]", "[x][vexture.konvert]", "vexture.konvert"),
     "object": ("docs/reference/converting.md", "::: vexture.atlas", "::: vexture.atlasses", "atlasses"),
     "home": ("ARCHITECTURE.md", "[FORMAT.md](FORMAT.md)", "[FORMAT.md](FORM.md)", "FORM.md"),
-    "docstring": ("src/vexture/pipeline.py", "    capacity : int, opt", "    capacities : int, opt", "capacities"),
+    "docstring": (
+        "packages/vexture/src/vexture/conversion/pipeline.py",
+        "    capacity : int, opt",
+        "    capacities : int, opt",
+        "capacities",
+    ),
 }
 FATAL = ("object", "home")  # of which the build does not even come to its end
 
@@ -138,7 +144,7 @@ def built_broken(folder: Path, *cases: str) -> list[str]:
     """Warnings and errors of the build of a copy in which something is broken; it fails."""
     copied = folder / "copied"
     pages = ("web/README.md", "web/package.json", "examples/shapes", "examples/counties/README.md")
-    for name in ("src", "docs", "tools", "evidence", *pages, "mkdocs.yml"):
+    for name in ("packages", "docs", "tools", *pages, "mkdocs.yml"):
         target = copied / name
         target.parent.mkdir(parents=True, exist_ok=True)
         (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, target)

@@ -39,7 +39,7 @@ def test_the_readme_passes_a_strict_checker(told: str) -> None:
 def test_types_depend_on_the_encoding(told: str) -> None:
     assert re.findall(r'Revealed type is "([\w.]+)"', told) == [
         "vexture.texture.texture.Texture",
-        "vexture.encodings.EncodedTexture",
+        "vexture.texture.registry.EncodedTexture",
         "vexture.texture.texture.Texture",
     ]
 

@@ -13,8 +13,8 @@ from server import COMMAND, TOKEN, Server, serving, square
 from small_disk import Disk
 
 import vexture
-from vexture.live.folder import STATE, Folder
-from vexture.live.limits import Limits
+from vexture.server.folder import STATE, Folder
+from vexture.server.limits import Limits
 
 FULL = "No space left on device"
 
@@ -84,7 +84,7 @@ def test_kernels_run_where_nothing_can_be_written(tmp_path):
     disk.ready += "".join(f" && mount --bind {d} {d} && mount -o remount,bind,ro {d}" for d in ("/tmp", "/var/tmp"))
     disk.ready += ' && cd "$DISK"'
     disk.environment |= {"VEXTURE_CACHE": str(disk.path), "TMPDIR": str(disk.path)}
-    program = "from vexture.kernels import kernel_cache; from vexture.bezier.roots import cubic_at; "
+    program = "from vexture.base.kernels import kernel_cache; from vexture.bezier.roots import cubic_at; "
     outcome = disk.run(sys.executable, "-c", program + "print(kernel_cache(), cubic_at(0.0, 0.0, 1.0, 1.0, 0.5))")
     assert outcome.stdout == "None 0.5\n", outcome.stderr
 

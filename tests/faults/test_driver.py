@@ -6,12 +6,12 @@ import sys
 
 import pytest
 
-from vexture.errors import DeviceError
+from vexture.base.errors import DeviceError
 from vexture.renderers.device import context
 
 DRAWING = """
 import numpy as np
-from vexture.errors import DeviceError
+from vexture.base.errors import DeviceError
 from vexture.texture.root import Root
 from vexture.texture.texture import Texture
 try:

@@ -10,10 +10,10 @@ from loops import run
 from server import TOKEN, square
 from starlette.applications import Starlette
 
-from vexture.live.converter import Converter
-from vexture.live.folder import STATE, Folder
-from vexture.live.limits import Limits
-from vexture.live.publishing import publishing_routes
+from vexture.server.converter import Converter
+from vexture.server.folder import STATE, Folder
+from vexture.server.limits import Limits
+from vexture.server.uploads import publishing_routes
 
 FLUSHED, RENAMED, MADE, ANSWERED = "flushed", "renamed", "made", "answered"
 

@@ -6,7 +6,7 @@ from fitting import assert_legible
 from matplotlib.collections import PolyCollection
 
 import vexture
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture_evidence.figures.cells import curve_lines, subdivision
 from vexture_evidence.measures.leaves import leaves
 from vexture_evidence.measures.shape import example

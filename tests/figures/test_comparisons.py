@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from fitting import assert_legible
 
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture.renderers.exact import render_exact
 from vexture_evidence.figures.comparisons import CORNER, FLOOR, SHOWN, equal_bytes, error_over_bytes
 from vexture_evidence.measures.metrics import Errors

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from fitting import assert_legible
 
-from vexture.drawing import Drawing, FillRule
-from vexture.pipeline import run
+from vexture.conversion.pipeline import run
+from vexture.drawing.drawing import Drawing, FillRule
 from vexture_evidence.figures.discussion import (
     before_after,
     density,

@@ -6,7 +6,7 @@ from fitting import assert_legible, written
 from matplotlib.collections import PolyCollection
 
 import vexture
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture_evidence.figures.lists import counts, hierarchy, lists
 from vexture_evidence.measures.leaves import leaves, quads
 from vexture_evidence.measures.shape import example

@@ -9,8 +9,8 @@ from fitting import assert_legible
 from PIL import Image
 
 import vexture
-from vexture.drawing import Drawing, FillRule
-from vexture.errors import ParameterError
+from vexture.base.errors import ParameterError
+from vexture.drawing.drawing import Drawing, FillRule
 from vexture.renderers.exact import render_exact
 from vexture.texture.texture import Texture
 from vexture_evidence.figures.overview import overview, picture_error, summary

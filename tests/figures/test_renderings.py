@@ -5,7 +5,7 @@ import pytest
 from fitting import assert_legible
 from matplotlib.colors import to_rgb
 
-from vexture.errors import DeviceError
+from vexture.base.errors import DeviceError
 from vexture.renderers.device import context
 from vexture_evidence.figures.edges import edges
 from vexture_evidence.figures.plane import plane

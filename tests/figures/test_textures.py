@@ -5,7 +5,7 @@ import pytest
 from fitting import assert_legible
 
 import vexture
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture_evidence.figures.textures import texture_images, textures
 from vexture_evidence.measures.shape import example
 

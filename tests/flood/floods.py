@@ -39,7 +39,7 @@ def depths(east=0.5, rows=20, columns=40, deep=2.0):
 def geotiff(path, values, crs=CRS, bounds=BOUNDS, **profile):
     import rasterio
 
-    from vexture.flood.grids import pixels_to
+    from vexture_geo.flood.grids import pixels_to
 
     values = np.asarray(values)
     bands = values if values.ndim == 3 else values[None]

@@ -4,7 +4,7 @@ import netCDF4
 import pytest
 from floods import flood, geotiff, scene_of, sea, series
 
-from vexture.flood.credits import Credits, credits_of
+from vexture_geo.flood.credits import Credits, credits_of
 
 SAID = {
     "title": "Surge of 1953", "source": "SFINCS 2.1", "institution": "TU Delft",

@@ -7,9 +7,9 @@ import pytest
 from floods import depths, flood, geotiff, scene_of
 
 import vexture
-from vexture.flood.depth_classes import class_drawing, colors_of
-from vexture.geo.extent import Step
 from vexture.renderers.exact import render_exact
+from vexture_geo.base.extent import Step
+from vexture_geo.flood.depth_classes import class_drawing, colors_of
 
 CONTOURS = (0.5, 1.5)
 

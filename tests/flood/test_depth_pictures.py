@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from vexture.flood.depth_pictures import CODE, deepest, depth_png, ranges_as_json, ranks_png
-from vexture.geo.depth_ranges import DepthRange
-from vexture.geo.extent import DepthClasses
+from vexture_geo.base.depth_ranges import DepthRange
+from vexture_geo.base.extent import DepthClasses
+from vexture_geo.flood.depth_pictures import CODE, deepest, depth_png, ranges_as_json, ranks_png
 
 
 def seen(png):

@@ -10,9 +10,9 @@ import pytest
 from floods import BOUNDS, CRS, depths, flood, geotiff, scene_of, sea, series
 from PIL import Image
 
-from vexture.errors import ParameterError
-from vexture.flood.options import FloodOptions, bounds_of
+from vexture.base.errors import ParameterError
 from vexture.texture.load import texture_from
+from vexture_geo.flood.options import FloodOptions, bounds_of
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
 

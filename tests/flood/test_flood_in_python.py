@@ -10,8 +10,8 @@ from xarray.backends import BackendArray
 from xarray.core import indexing
 
 import vexture
-from vexture.errors import ParameterError, SourceError
-from vexture.reading import extent_of
+from vexture.base.errors import ParameterError, SourceError
+from vexture_geo.readers import extent_of
 
 EDGES = (0.3, 0.5, 0.7)
 

@@ -12,7 +12,7 @@ from described import check_description
 from floods import BOUNDS, CRS, TOKEN, depths, flooding, geotiff, scene_of, sea, series
 from server import COMMAND, Stream
 
-from vexture.live.limits import Limits
+from vexture.server.limits import Limits
 from vexture.texture.load import texture_from
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
@@ -172,7 +172,7 @@ def unfit(folder):
     """Content that is not shown, and what the one line says."""
     far = (600000.0, 5000000.0, 604000.0, 5002000.0)
     from vexture import convert
-    from vexture.drawing import Drawing
+    from vexture.drawing.drawing import Drawing
 
     return {
         "svg": (b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "has no place in the world"),

@@ -5,7 +5,7 @@ import pytest
 import xarray
 from floods import depths, flood, geotiff, scene_of, series
 
-from vexture.flood.depth_classes import colors_of
+from vexture_geo.flood.depth_classes import colors_of
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
 

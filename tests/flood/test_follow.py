@@ -9,10 +9,10 @@ from floods import depths, flood, flooding, geotiff, scene_of, sea, series
 from runs import following, writing
 from server import Stream
 
-from vexture.errors import SourceError
-from vexture.geo.growing import growing, whole_run
-from vexture.live.folder import STATE
-from vexture.live.names import manifest_name
+from vexture.base.errors import SourceError
+from vexture.server.folder import STATE
+from vexture.server.names import manifest_name
+from vexture_geo.depth.appended_steps import growing, whole_run
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
 

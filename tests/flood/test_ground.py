@@ -9,15 +9,15 @@ import pytest
 import rasterio
 from floods import BOUNDS, CRS, geotiff
 from PIL import Image
-
-from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError
-from vexture.flood.drawn_ground import DRAWN, drawn_ground
-from vexture.flood.grids import shore_distance
-from vexture.flood.ground import LARGEST_GROUND, encoded, ground_of
-from vexture.flood.relief import relief_of
 from vexture.flood.views import viewpoint
-from vexture.geo.extent import Extent, Frame, Step
+
+from vexture.base.errors import LimitError, SourceError
+from vexture.drawing.drawing import Drawing
+from vexture_geo.base.extent import Extent, Frame, Step
+from vexture_geo.flood.drawn_ground import DRAWN, drawn_ground
+from vexture_geo.flood.grids import shore_distance
+from vexture_geo.flood.ground import LARGEST_GROUND, encoded, ground_of
+from vexture_geo.flood.relief import relief_of
 
 FRAME = Frame(BOUNDS, CRS, (4000.0, 2000.0))
 GREEN = Image.new("RGB", (64, 32), (0, 200, 0))

@@ -9,8 +9,8 @@ import xarray
 from floods import depths, flood, scene_of, series
 from PIL import Image
 
-from vexture.flood.hazard import HAZARDS, UNIT, hazard_png, rating
-from vexture.geo.depths import read_depths
+from vexture_geo.depth.depths import read_depths
+from vexture_geo.flood.hazard import HAZARDS, UNIT, hazard_png, rating
 
 EDGES = (0.4, 0.8)
 DIMS = ("time", "y", "x")

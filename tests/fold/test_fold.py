@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vexture.errors import FormatError, ParameterError
+from vexture.base.errors import FormatError, ParameterError
 from vexture.fold.fold import Fold, Kind, fold_from
 from vexture.fold.layout import FOLD_FILE_LIMIT, FOLD_MOST_SIDE, TEXT_FOLD
 from vexture.texture.ktx2 import read_ktx2, write_ktx2

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from PIL import Image
 
 import vexture
+from vexture.base.errors import ParameterError, SourceWarning
 from vexture.cli.main import main
-from vexture.drawing import Drawing
-from vexture.errors import ParameterError, SourceWarning
+from vexture.drawing.drawing import Drawing
 from vexture.fold.fold import Fold, Kind, fold_from
 from vexture.fold.picture import fold_picture
 from vexture.fold.shore import STEEPEST, shore_fold

@@ -11,8 +11,8 @@ from fontTools.pens.areaPen import AreaPen
 from fontTools.ttLib import TTCollection, TTFont
 from made import disc, made_font, packed
 
+from vexture.base.errors import DeviceError, SourceError
 from vexture.bezier.area import integral_x_dy
-from vexture.errors import DeviceError, SourceError
 from vexture.fonts.face import faces_in, faces_of
 from vexture.fonts.files import LARGEST_FONT
 

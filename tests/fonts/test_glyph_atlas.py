@@ -7,11 +7,11 @@ import pytest
 from made import BLUE, RED, box, filled, made_font, packed, solid, stacked
 
 import vexture
+from vexture.base.notes import Notes
+from vexture.conversion.glyph_atlas import faces_of_characters
 from vexture.fonts.library import of_files
 from vexture.fonts.system import font_files
 from vexture.fonts.text import TextOptions, text_drawing
-from vexture.glyph_atlas import faces_of_characters
-from vexture.notes import Notes
 
 
 @pytest.fixture(scope="module")
@@ -99,14 +99,15 @@ def test_both_files_are_written(font, tmp_path):
     ],
 )
 def test_characters_that_are_none_are_refused(characters, message):
-    with pytest.raises(vexture.errors.ParameterError) as caught:
+    with pytest.raises(vexture.base.errors.ParameterError) as caught:
         vexture.font_atlas(characters=characters)
     assert str(caught.value) == message
 
 
 def test_characters_that_a_font_lacks_are_named_by_the_parameter():
     with pytest.raises(
-        vexture.errors.SourceError, match=r"has none of what is asked for .1 character.; give others as `characters`$"
+        vexture.base.errors.SourceError,
+        match=r"has none of what is asked for .1 character.; give others as `characters`$",
     ):
         vexture.font_atlas(characters="\ue000")
 

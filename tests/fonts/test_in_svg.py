@@ -6,7 +6,7 @@ import pytest
 from made import OWN, RED, composed, filled, made_font, recomposed, solid, stacked
 
 import vexture
-from vexture.errors import SourceError, SourceWarning
+from vexture.base.errors import SourceError, SourceWarning
 from vexture.svg.read import svg_drawing
 
 ROOT = 'xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"'

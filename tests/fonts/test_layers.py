@@ -29,8 +29,8 @@ from made import (
 )
 
 import vexture
-from vexture.drawing import Drawing, Path
-from vexture.errors import LimitError, SourceError
+from vexture.base.errors import LimitError, SourceError
+from vexture.drawing.drawing import Drawing, Path
 from vexture.fonts import layers as module
 from vexture.fonts import text as texts
 from vexture.fonts.face import faces_in

@@ -6,7 +6,7 @@ import sys
 import pytest
 from made import made_font
 
-from vexture.errors import DeviceError, SourceError
+from vexture.base.errors import DeviceError, SourceError
 from vexture.fonts import engine, library, system
 from vexture.fonts.library import EmbeddedFont, Fonts
 from vexture.fonts.matching import Traits, preference

@@ -3,7 +3,7 @@
 import pytest
 from made import made_font
 
-from vexture.errors import ParameterError
+from vexture.base.errors import ParameterError
 from vexture.fonts.face import faces_in
 from vexture.fonts.shaping import shape
 

@@ -5,10 +5,10 @@ import pytest
 from made import BLUE, RED, composite, filled, made_font, solid, stacked
 
 import vexture
-from vexture.errors import ParameterError, SourceError
+from vexture.base.errors import ParameterError, SourceError
+from vexture.base.notes import Notes
+from vexture.drawing.paint import Gradient, Paint, Stop
 from vexture.fonts.text import TextOptions, text_drawing
-from vexture.notes import Notes
-from vexture.paint import Gradient, Paint, Stop
 
 ADVANCE = 0.9
 """Of all letters of the made fonts, in ems; their squares begin at 0.1 and end at 0.8."""

@@ -16,7 +16,7 @@ import rasterio
 import shapely
 from PIL import Image
 
-from vexture.errors import EXPECTED
+from vexture.base.errors import EXPECTED
 
 IN_OPEN = 0x20
 EVENT = struct.Struct("iIII")

@@ -16,13 +16,13 @@ from outside import one_line, raster, told
 from server import serving
 
 import vexture
+from vexture.base.notes import Notes
 from vexture.cli.main import main
-from vexture.flood.ground import _warped
-from vexture.flood.relief import _heights_of
-from vexture.geo.extent import Frame
-from vexture.geo.features import feature_batches, read_features
 from vexture.gltf.model import read_model
-from vexture.notes import Notes
+from vexture_geo.base.extent import Frame
+from vexture_geo.flood.ground import _warped
+from vexture_geo.flood.relief import _heights_of
+from vexture_geo.vector.features import feature_batches, read_features
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="inotify, which sees files that are opened, is Linux's")
 

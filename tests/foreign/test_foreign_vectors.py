@@ -11,12 +11,12 @@ from server import serving
 from vector_links import IGNORED, NOTED, REFUSED, geodatabase, gml, kml, zipped
 
 import vexture
+from vexture.base.errors import SourceError
+from vexture.base.notes import Notes
 from vexture.cli.main import main
-from vexture.errors import SourceError
-from vexture.geo.crs import MissingReferenceError
-from vexture.geo.features import feature_batches, read_features
-from vexture.notes import Notes
-from vexture.reading import content_of
+from vexture.conversion.reading import content_of
+from vexture_geo.base.crs import MissingReferenceError
+from vexture_geo.vector.features import feature_batches, read_features
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="inotify, which sees files that are opened, is Linux's")
 

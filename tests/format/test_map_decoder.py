@@ -12,9 +12,9 @@ import vexture
 from degenerate import drawing, points_near
 from planar import coloured
 from shaded import DRAWINGS, blended
-from vexture.drawing import Drawing
-from vexture.group import Blend
-from vexture.pipeline import atlas, run
+from vexture.conversion.pipeline import atlas, run
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.group import Blend
 from vexture.renderers.exact import render_exact_colours
 from vexture.texture.load import texture_from
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from readers import FindingError, Target, check_line
 
-from vexture.errors import EXPECTED, SourceWarning
+from vexture.base.errors import EXPECTED, SourceWarning
 
 __all__ = ["attempt", "kind_of_finding", "shrunk"]
 

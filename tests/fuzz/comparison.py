@@ -20,11 +20,11 @@ from sights import Sight, sight_of
 
 import vexture
 from same_fonts import FONTS
-from vexture.close_up import close_up
-from vexture.drawing import Drawing
-from vexture.reading import read_drawing
+from vexture.base.tolerance import UNSEEN
+from vexture.conversion.close_up import close_up
+from vexture.conversion.reading import read_drawing
+from vexture.drawing.drawing import Drawing
 from vexture.renderers.exact import render_exact_colours
-from vexture.tolerance import UNSEEN
 
 __all__ = ["MOST", "Case", "Compared", "SlowError", "case_of", "compare", "drawn"]
 

@@ -14,10 +14,10 @@ import shapely
 from rasterio import Affine
 from rasterio.io import MemoryFile
 
-from vexture.geo.crs import MissingReferenceError
-from vexture.geo.features import read_features
-from vexture.notes import Notes
-from vexture.reading import extent_of
+from vexture.base.notes import Notes
+from vexture_geo.base.crs import MissingReferenceError
+from vexture_geo.readers import extent_of
+from vexture_geo.vector.features import read_features
 
 __all__ = ["SEEDS", "read_floats", "read_map"]
 

@@ -1,7 +1,8 @@
 """Random drawings in random views: the texture's picture against the exact renderer's (`comparison`).
 
-    PYTHONPATH=tests:evidence/benchmarks .venv/bin/python tests/fuzz/pictures.py --views 500 --seed 1 --gradients both
-    PYTHONPATH=tests:evidence/benchmarks .venv/bin/python tests/fuzz/pictures.py fuzz-findings/pictures/NAME.svg
+    export PYTHONPATH=tests:packages/vexture-evidence/benchmarks
+    .venv/bin/python tests/fuzz/pictures.py --views 500 --seed 1 --gradients both
+    .venv/bin/python tests/fuzz/pictures.py fuzz-findings/pictures/NAME.svg
 
 The first prints a line for each view with a pixel beyond 2/255, writes it minimised to fuzz-findings/pictures/ and ends
 with the figures; it exits with 1 if there is a finding. The second compares such files again.
@@ -23,7 +24,7 @@ from comparison import MOST, SHARE, Case, SlowError, case_of, compare
 from crew import answers
 from minimise import minimised
 
-from vexture.errors import EXPECTED
+from vexture.base.errors import EXPECTED
 
 __all__ = ["Figures", "described", "examined", "finding_of", "smallest"]
 

@@ -21,17 +21,17 @@ from mutate import png_repaired, zip_repaired
 from pictures import described, finding_of, smallest
 
 from degenerate import OUTLINES, heap
-from vexture.drawing import Drawing, FillRule
-from vexture.errors import EXPECTED, SourceWarning
+from vexture.base.errors import EXPECTED, SourceWarning
+from vexture.conversion.pipeline import convert
+from vexture.conversion.reading import read_drawing
+from vexture.drawing.colors import parse_color, parse_paint
+from vexture.drawing.drawing import Drawing, FillRule
 from vexture.fold.fold import fold_from
 from vexture.fonts.face import faces_in
 from vexture.fonts.shaping import shape
 from vexture.gltf.model import read_model
-from vexture.pipeline import convert
-from vexture.reading import read_drawing
 from vexture.renderers.exact import render_exact
 from vexture.svg.clip_shapes import clip_element
-from vexture.svg.colors import parse_color, parse_paint
 from vexture.svg.path_data import path_outlines
 from vexture.svg.select import chosen
 from vexture.svg.transform import parse_origin, parse_transform

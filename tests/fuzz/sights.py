@@ -8,8 +8,8 @@ from random import Random
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Drawing
-from vexture.paint import Gradient, Spread
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import Gradient, Spread
 
 __all__ = ["SIZES", "Sight", "sight_of"]
 

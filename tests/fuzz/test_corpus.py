@@ -6,8 +6,8 @@ from javascript import NODE
 from map_files import SEEDS
 from readers import CORPUS, TARGETS
 
-from vexture.errors import SourceError
-from vexture.reading import read_drawing
+from vexture.base.errors import SourceError
+from vexture.conversion.reading import read_drawing
 
 FILES = [
     (name, file)

@@ -6,7 +6,7 @@ from importlib.resources import files
 
 import httpx
 
-WHOLE = json.loads(files("vexture.live").joinpath("openapi.json").read_bytes())
+WHOLE = json.loads(files("vexture.server").joinpath("openapi.json").read_bytes())
 
 
 def requests_of(told, command=None):

@@ -10,11 +10,11 @@ from described import WHOLE
 from floods import BOUNDS, flooding, sea
 from server import TOKEN, serving, square
 
-from vexture.live.description import description
-from vexture.live.limits import Limits
-from vexture.live.names import MOST_BYTES
-from vexture.live.page_routes import MOST_NAME_LENGTH
-from vexture.live.routes import fixed
+from vexture.pages.page_routes import MOST_NAME_LENGTH
+from vexture.server.description import description
+from vexture.server.limits import Limits
+from vexture.server.names import MOST_BYTES
+from vexture.server.routes import fixed
 from viewing import viewing
 
 PROGRAM = [sys.executable, "-c", "from schemathesis.cli import schemathesis; schemathesis()", "--no-color"]

@@ -9,8 +9,8 @@ import re
 import pytest
 
 from typed import typed
-from vexture.errors import DeviceError
-from vexture.live.page import SCRIPT, STYLE, built, served_page
+from vexture.base.errors import DeviceError
+from vexture.pages.page import SCRIPT, STYLE, built, served_page
 from vexture.texture.load import texture_from
 from vexture.thesis.png import read_png
 from viewing import SHAPES

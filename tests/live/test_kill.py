@@ -10,11 +10,11 @@ import pytest
 from loops import run
 from server import serving, square
 
-from vexture.errors import DeviceError
-from vexture.live.folder import STATE, Folder
-from vexture.live.limits import Limits
-from vexture.live.names import manifest_name
-from vexture.live.shelf import TEXTURE_TYPE, File, Shape
+from vexture.base.errors import DeviceError
+from vexture.server.folder import STATE, Folder
+from vexture.server.limits import Limits
+from vexture.server.names import manifest_name
+from vexture.server.published import TEXTURE_TYPE, File, Shape
 from vexture.texture.load import texture_from
 
 LOST = (OSError, http.client.HTTPException, ValueError)

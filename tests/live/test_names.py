@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from loops import run
 
-from vexture.errors import LimitError, ParameterError
-from vexture.live.limits import Limits, Pace
-from vexture.live.names import checked_name, manifest_name
-from vexture.live.shelf import TEXTURE_TYPE, File, Listener, Shape, Shelf
+from vexture.base.errors import LimitError, ParameterError
+from vexture.server.limits import Limits, Pace
+from vexture.server.names import checked_name, manifest_name
+from vexture.server.published import TEXTURE_TYPE, File, Listener, Shape, Shelf
 
 HOSTILE = ["", ".", "..", "../x", "a//b", "/a", "a/", "a/../b", "a/.b", "a/ b", "a\\b", ".hidden", "a\0", "a\n", " a",
            "a ", "a" * 101, "é" * 51, "a\u202eb", "a\u2044b", "\uff0e\uff0e\uff0fx", "a\ud800", "a:b", "a%2fb", "a*",

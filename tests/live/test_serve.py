@@ -14,7 +14,7 @@ from described import check_description
 from PIL import Image
 from server import COMMAND, TOKEN, Server, Stream, serving, square
 
-from vexture.live.limits import Limits
+from vexture.server.limits import Limits
 from vexture.texture.load import texture_from
 
 

@@ -17,22 +17,22 @@ from floods import BOUNDS, FloodServer, geotiff, sea
 from loops import run
 from server import SECONDS, TOKEN, Server, Stream, serving, square
 
-from vexture.errors import DeviceError
-from vexture.live import page_routes
-from vexture.live import shelf as shelves
-from vexture.live.converter import Converter
-from vexture.live.limits import Limits
-from vexture.live.listen import bind, listen
-from vexture.live.routes import application
-from vexture.parameters import Parameters
+from vexture.base.errors import DeviceError
+from vexture.conversion.parameters import Parameters
+from vexture.pages import page_routes
+from vexture.server import published as shelves
+from vexture.server.converter import Converter
+from vexture.server.limits import Limits
+from vexture.server.listen import bind, listen
+from vexture.server.routes import application
 
 PROGRAM = """
 import json, resource, sys
 from starlette.routing import Route
-from vexture.live.limits import Limits
-from vexture.live.listen import bind, listen, serve_until_stopped
-from vexture.live.routes import application, routes
-from vexture.live.shelf import TEXTURE_TYPE, File, Shape, Shelf
+from vexture.server.limits import Limits
+from vexture.server.listen import bind, listen, serve_until_stopped
+from vexture.server.routes import application, routes
+from vexture.server.published import TEXTURE_TYPE, File, Shape, Shelf
 
 given = json.loads(sys.argv[1])
 files, shapes, size = (given.pop(key) for key in ("files", "shapes", "size"))
@@ -51,8 +51,8 @@ serve_until_stopped(app, taken, shelf.close, limits)
 FLOOD_PROGRAM = """
 import json, resource, sys
 from vexture.cli.main import main
-from vexture.live import flood
-from vexture.live.limits import Limits
+from vexture.server import flood
+from vexture.server.limits import Limits
 
 limits = json.loads(sys.argv.pop(1))
 files = limits.pop("files")

@@ -6,8 +6,8 @@ from pathlib import Path
 from server import TOKEN, serving, square
 
 import vexture
-from vexture.live.limits import MOST_KNOWN
-from vexture.live.tokens import WrongTokens
+from vexture.server.limits import MOST_KNOWN
+from vexture.server.tokens import WrongTokens
 
 
 def test_wrong_tokens_are_slowed_down_and_the_right_one_is_not(tmp_path):

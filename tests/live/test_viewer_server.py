@@ -15,7 +15,7 @@ import httpx
 import pytest
 from described import check_description
 
-from vexture.live.page_routes import DROPPED
+from vexture.pages.page_routes import DROPPED
 from vexture.texture.load import texture_from
 from vexture.thesis.png import read_png
 from viewing import PATIENCE, SHAPES, VEXTURE, until, viewing
@@ -266,7 +266,7 @@ def test_picture_of_the_browser_is_placed(tmp_path):
 
 
 def test_data_addresses_hold_what_was_served():
-    from vexture.live.page import data_address
-    from vexture.live.shelf import File
+    from vexture.pages.page import data_address
+    from vexture.server.published import File
 
     assert base64.b64decode(data_address(File(DUCK, "image/svg+xml", ".svg")).partition(",")[2]) == DUCK

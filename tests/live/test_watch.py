@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from loops import run
 
-from vexture.live import watch as watching
-from vexture.live.documents import VIEWER_PARAMETERS, shape_of
-from vexture.live.shelf import Shelf
+from vexture.server import watch as watching
+from vexture.server.publish_file import VIEWER_PARAMETERS, shape_of
+from vexture.server.published import Shelf
 from viewing import SHAPES, until, viewing
 
 DUCK, CAKE = ((SHAPES / f"{name}.svg").read_bytes() for name in ("duck", "cake"))

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 from loops import run
 
-from vexture.errors import LimitError
-from vexture.live import converter as converting
-from vexture.live.converter import Converter
-from vexture.live.limits import Limits
-from vexture.live.worker import Worker
+from vexture.base.errors import LimitError
+from vexture.server import converter as converting
+from vexture.server.converter import Converter
+from vexture.server.limits import Limits
+from vexture.server.worker import Worker
 
 MEGABYTE = 2**20
 
@@ -119,7 +119,7 @@ def test_a_conversion_has_its_time_without_the_start_of_its_process():
 
 SERVER = """
 import asyncio, signal, sys, time
-from vexture.live.worker import Worker
+from vexture.server.worker import Worker
 sys.path.insert(0, sys.argv[1])
 from test_worker import hold
 async def main():

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 import corpora
 import views
-from vexture.drawing import Drawing, FillRule, Path
-from vexture.errors import DeviceError, LimitError, SourceError
+from vexture.base.errors import DeviceError, LimitError, SourceError
+from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.renderers.exact import render_exact
 from vexture_evidence.measures import bands, programs
 from vexture_evidence.measures.metrics import errors

@@ -3,9 +3,9 @@
 import numpy as np
 
 from vexture import window
-from vexture.drawing import Drawing, Path
-from vexture.paint import Gradient, Paint, Stop
-from vexture.pipeline import run
+from vexture.conversion.pipeline import run
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.paint import Gradient, Paint, Stop
 from vexture.renderers.view import ViewLike
 from vexture_evidence.measures.colour_fetches import Sheets, layer_boxes, pixel_fetches, spread_pixels
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from vexture.base.errors import LimitError
 from vexture.bezier.convert import line_cubics
-from vexture.drawing import Drawing, FillRule, Path
-from vexture.errors import LimitError
+from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.renderers.exact import render_exact
 from vexture.svg.read import read_svg
 from vexture_evidence.measures.closeups import closeup

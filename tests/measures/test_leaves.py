@@ -6,9 +6,9 @@ import pytest
 import decoded
 import packed_walk
 import vexture
-from vexture.drawing import Drawing
-from vexture.errors import ParameterError
-from vexture.pipeline import run
+from vexture.base.errors import ParameterError
+from vexture.conversion.pipeline import run
+from vexture.drawing.drawing import Drawing
 from vexture_evidence.measures.leaves import leaves, quads, tree_of
 from vexture_evidence.measures.shape import example
 

@@ -6,7 +6,7 @@ import pytest
 
 import vexture
 from either import decode
-from vexture.errors import LimitError
+from vexture.base.errors import LimitError
 from vexture_evidence.measures.conversions import measured
 from vexture_evidence.measures.shape import WAYS, Shape, example
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vexture.drawing import Drawing, FillRule
+from vexture.drawing.drawing import Drawing, FillRule
 from vexture.renderers.exact import render_exact
 from vexture.svg.read import read_svg
 from vexture_evidence.measures.metrics import errors

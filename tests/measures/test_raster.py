@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from vexture.drawing import Drawing
-from vexture.errors import DeviceError, ParameterError
+from vexture.base.errors import DeviceError, ParameterError
+from vexture.drawing.drawing import Drawing
 from vexture.renderers.exact import render_exact
 from vexture.renderers.view import fit
 from vexture_evidence.measures.raster import RasterTexture, bilinear, footprint, mip_sides, raster_from

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from vexture.errors import LimitError
+from vexture.base.errors import LimitError
+from vexture.base.tolerance import UNSEEN
 from vexture.renderers.exact import render_exact
-from vexture.tolerance import UNSEEN
 from vexture_evidence.measures.rendered import LOOSE, PACKED, at_edge, at_sizes, cut_off_at, with_tolerances
 from vexture_evidence.measures.shape import Shape, example
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from vexture.drawing import Drawing, FillRule
-from vexture.errors import LimitError
+from vexture.base.errors import LimitError
+from vexture.drawing.drawing import Drawing, FillRule
 from vexture.renderers.exact import render_exact
 from vexture_evidence.measures.bands import BANDS, COASTLINE_BANDS
 from vexture_evidence.measures.closeups import closeup, outline_places, sharpest_corner

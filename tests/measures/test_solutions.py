@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from vexture.errors import DeviceError
+from vexture.base.errors import DeviceError
 from vexture.renderers.device import context
 from vexture.thesis.cubic import solution_path
 from vexture.thesis.method import QUADRATIC

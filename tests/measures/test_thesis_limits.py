@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from either import decode
-from vexture.drawing import Drawing, Path
-from vexture.pipeline import run
+from vexture.conversion.pipeline import run
+from vexture.drawing.drawing import Drawing, Path
 from vexture.renderers.exact import render_exact
 from vexture.thesis.tree import CellKind
 from vexture_evidence.measures.leaves import leaves

@@ -3,8 +3,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from vexture.drawing import Drawing
-from vexture.pipeline import convert
+from vexture.conversion.pipeline import convert
+from vexture.drawing.drawing import Drawing
 from vexture.renderers.view import window
 from vexture.thesis.cpu import render_thesis_cpu
 from vexture_evidence.measures.shape import Shape, example

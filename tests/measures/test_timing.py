@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from vexture.errors import DeviceError
+from vexture.base.errors import DeviceError
 from vexture_evidence.measures.shape import Shape, example
 from vexture_evidence.measures.timing import frames_per_second, median_seconds
 

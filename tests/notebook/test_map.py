@@ -15,7 +15,7 @@ from closing import no_loop_of_a_browser, none_is_left  # noqa: F401  # of all t
 from PIL import Image
 
 import vexture
-from vexture.errors import LimitError, ParameterError, SourceWarning
+from vexture.base.errors import LimitError, ParameterError, SourceWarning
 
 pytest.importorskip("anywidget", reason="anywidget is not installed (pip install 'vexture[notebook]')")
 pytest.importorskip("cmap", reason="cmap is not installed (pip install 'vexture[map]')")
@@ -41,7 +41,7 @@ def shown(frame=None, column="value", **options):
 @pytest.fixture
 def held(monkeypatch):
     """Conversions that wait for an event."""
-    import vexture.notebook.map_widget as module
+    import vexture_geo.maps.notebook.map_widget as module
 
     go, real = threading.Event(), module._sent
     monkeypatch.setattr(module, "_sent", lambda made: go.wait(30) and real(made))
@@ -125,7 +125,7 @@ def test_the_texture_comes_between_the_messages_of_a_kernel(held):
 
 
 def test_a_conversion_that_fails_says_so_in_the_page_and_in_python(monkeypatch):
-    import vexture.notebook.map_widget as module
+    import vexture_geo.maps.notebook.map_widget as module
 
     chart = shown(tolerance=0.0, max_seconds=5.0)
     assert chart.texture is not None
@@ -182,7 +182,7 @@ def test_too_long_is_said():
 
 
 def test_a_map_that_is_converted_before_the_call_is_over_arrives(monkeypatch):
-    import vexture.notebook.map_widget as module
+    import vexture_geo.maps.notebook.map_widget as module
 
     class Late(module.Pending):
         """Its name is given to it when its thread has long been done."""

@@ -5,7 +5,7 @@ import pytest
 from closing import no_loop_of_a_browser, none_is_left  # noqa: F401  # of all tests
 
 import vexture
-from vexture.errors import ParameterError
+from vexture.base.errors import ParameterError
 
 pytest.importorskip("anywidget", reason="anywidget is not installed (pip install 'vexture[notebook]')")
 pytest.importorskip("cmap", reason="cmap is not installed (pip install 'vexture[map]')")

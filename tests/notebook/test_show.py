@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 import vexture
-from vexture.errors import DeviceError, ParameterError
+from vexture.base.errors import DeviceError, ParameterError
 
 pytest.importorskip("anywidget", reason="anywidget is not installed (pip install 'vexture[notebook]')")
 traitlets = pytest.importorskip("traitlets")
@@ -203,9 +203,9 @@ except vexture.DeviceError as error: print(error)"""
 
 
 def test_an_engine_that_is_not_built_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    import vexture.live.page
+    import vexture.pages.page
 
-    monkeypatch.setattr(vexture.live.page, "files", lambda package: tmp_path)
+    monkeypatch.setattr(vexture.pages.page, "files", lambda package: tmp_path)
     with pytest.raises(DeviceError, match="the pages are not built; run `make viewer`"):
         vexture.show(TWO[0])
 

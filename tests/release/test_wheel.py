@@ -27,8 +27,9 @@ from PIL import Image
 
 from compile_kernels import tag
 from dist import COMPILED, build
-from vexture.errors import DeviceError
-from vexture.live.page import FLOOD, VIEWER, built
+from vexture.base.errors import DeviceError
+from vexture.pages.page import VIEWER, built
+from vexture_geo.flood.bundle import FLOOD
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "src"
@@ -295,7 +296,9 @@ def test_it_shows_a_drawing(vexture: Installed) -> None:
 def test_it_shows_a_flood(vexture: Installed) -> None:
     outcome = vexture.run("flood", "--extent", "lake.geojson", "-o", "lake.html")
     assert outcome.returncode == 0, outcome.stderr
-    assert built(FLOOD.script).decode()[:1000] in (vexture.work / "lake.html").read_text(encoding="utf-8")
+    assert built(FLOOD.script, FLOOD.package).decode()[:1000] in (vexture.work / "lake.html").read_text(
+        encoding="utf-8"
+    )
 
 
 def picture() -> bytes:

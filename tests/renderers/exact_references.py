@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import FillRule
-from vexture.group import Blend, Mask
+from vexture.drawing.drawing import FillRule
+from vexture.drawing.group import Blend, Mask
 
 SCANLINES = 1 << 14
 LUM = np.array([0.3, 0.59, 0.11])

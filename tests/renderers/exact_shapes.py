@@ -3,7 +3,7 @@
 import numpy as np
 from hypothesis import strategies as st
 
-from vexture.drawing import Drawing, FillRule, Path
+from vexture.drawing.drawing import Drawing, FillRule, Path
 
 KAPPA = 4 / 3 * (np.sqrt(2) - 1)
 

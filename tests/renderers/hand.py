@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from vexture.errors import DeviceError
+from vexture.base.errors import DeviceError
 from vexture.renderers.device import context
 from vexture.thesis.texture import ThesisTexture
 

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture.renderers.view import fit, window
 from vexture.texture.encode import encode
 from vexture.texture.texture import Root, Texture

@@ -5,8 +5,8 @@ import pytest
 import shapely
 
 from vexture import window
-from vexture.geo.rings import oriented, rings_of
 from vexture.renderers.accumulate import Sides, accumulated
+from vexture_geo.base.rings import oriented, rings_of
 
 SIZE = (7, 5)
 ROUNDING = 1e-6

@@ -13,9 +13,9 @@ from packed_views import ENTRIES, TILTED, View, nudged, turned, zoomed
 import degenerate
 import planar
 import shaded
-from vexture.drawing import Drawing, Path
-from vexture.layout import MAP_HEAD
-from vexture.paint import Paint, Spread
+from vexture.base.layout import MAP_HEAD
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.paint import Paint, Spread
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.device import context
 from vexture.renderers.exact import render_exact_colours

@@ -21,8 +21,8 @@ from hand import (
     view_of,
 )
 
-from vexture.errors import ParameterError
-from vexture.images import coverage
+from vexture.base.errors import ParameterError
+from vexture.conversion.images import coverage
 from vexture.renderers.view import fit
 from vexture.thesis import method
 from vexture.thesis.cpu import render_thesis_cpu

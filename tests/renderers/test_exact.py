@@ -19,12 +19,12 @@ from exact_shapes import (
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from vexture.drawing import Drawing, FillRule, Path
-from vexture.errors import LimitError, ParameterError
+from vexture.base.errors import LimitError, ParameterError
+from vexture.base.tolerance import FLATNESS, SCANLINE
+from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.renderers.exact import render_exact
 from vexture.renderers.flatten import CHORD_LIMIT
 from vexture.renderers.view import SIZE_LIMIT, fit, window
-from vexture.tolerance import FLATNESS, SCANLINE
 from vexture_evidence.measures.peers import skia_path
 
 PROMISE = 0.03 / 255

@@ -14,14 +14,14 @@ from hypothesis import strategies as st
 from PIL import Image
 
 import vexture
-from vexture.drawing import Drawing, FillRule, Path
-from vexture.errors import ParameterError
-from vexture.group import Blend, Group, Mask
-from vexture.paint import Paint
+from vexture.base.errors import ParameterError
+from vexture.base.tolerance import FLATNESS
+from vexture.drawing.drawing import Drawing, FillRule, Path
+from vexture.drawing.group import Blend, Group, Mask
+from vexture.drawing.paint import Paint
 from vexture.renderers.exact import render_exact, render_exact_colours
 from vexture.renderers.faces import KEPT
 from vexture.renderers.view import fit, window
-from vexture.tolerance import FLATNESS
 
 LEVEL = 1 / 255
 PROMISE = 0.03 * LEVEL

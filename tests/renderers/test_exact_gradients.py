@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from exact_shapes import circle
 
-from vexture.drawing import Drawing, Path
-from vexture.group import Blend, Group
-from vexture.paint import Gradient, Paint, Spread, Stop
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.group import Blend, Group
+from vexture.drawing.paint import Gradient, Paint, Spread, Stop
 from vexture.renderers.exact import render_exact_colours
 from vexture.renderers.view import view_matrix, window
 

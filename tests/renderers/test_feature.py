@@ -8,8 +8,8 @@ from hand import need_gpu
 
 import degenerate
 import planar
-from vexture.drawing import Drawing
-from vexture.pipeline import run
+from vexture.conversion.pipeline import run
+from vexture.drawing.drawing import Drawing
 from vexture.renderers.device import ONE_AT_A_TIME, compiled, context, draw, upload
 from vexture.renderers.feature import feature
 from vexture.renderers.shader import VERSIONS, shader_text, vertex_source

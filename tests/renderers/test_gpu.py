@@ -8,13 +8,13 @@ import pytest
 from hand import CHORDS, EMPTY, FULL, NEAR, TREE, Floats, distance, need_gpu, speckles, texture_of, view_of
 from numpy.typing import NDArray
 
-from vexture.errors import FormatError, LimitError, ParameterError
-from vexture.images import coverage
+from vexture.base.errors import FormatError, LimitError, ParameterError
+from vexture.conversion.images import coverage
 from vexture.renderers.device import context
 from vexture.renderers.shader import vertex_source
 from vexture.thesis.cpu import render_thesis_cpu
 from vexture.thesis.gpu import fold, program, render_thesis_gpu
-from vexture.thesis.shader import compose
+from vexture.thesis.shader_text import compose
 from vexture.thesis.texture import ThesisTexture
 
 SHIFT = 0.00123  # so that no point falls on the edge of a cell
@@ -113,8 +113,8 @@ def test_a_texture_without_end_is_refused() -> None:
 ONE_LINE = """
 import numpy as np
 from vexture.thesis.texture import ThesisTexture
-from vexture.errors import DeviceError
-from vexture.images import coverage
+from vexture.base.errors import DeviceError
+from vexture.conversion.images import coverage
 try:
     coverage(ThesisTexture(np.zeros((1, 4, 3), np.uint8), np.zeros((2, 2, 3), np.uint8)), (1, 1), renderer="gpu")
 except DeviceError as error:

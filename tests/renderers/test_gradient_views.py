@@ -5,7 +5,7 @@ import pytest
 from hand import need_gpu
 
 import vexture
-from vexture.reading import read_drawing
+from vexture.conversion.reading import read_drawing
 from vexture.renderers.exact import render_exact_colours
 
 MOST = 2 / 255

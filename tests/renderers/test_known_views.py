@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from vexture.drawing import Drawing
-from vexture.paint import Paint
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import Paint
 from vexture.renderers.cpu import render_cpu
 from vexture.renderers.exact import render_exact
 from vexture.renderers.flatten import find_chords

@@ -11,7 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from packed_views import TILTED, View, turned
 
-from vexture.layout import MOST_CURVES, MOST_DEPTH, MOST_PROGRAM, MOST_STOPS
+from vexture.base.layout import MOST_CURVES, MOST_DEPTH, MOST_PROGRAM, MOST_STOPS
 from vexture.renderers import cells, gpu
 from vexture.renderers.cells import texel
 from vexture.renderers.colour import render_cpu_colours

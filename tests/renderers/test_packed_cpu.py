@@ -13,9 +13,9 @@ from packed_views import ENTRIES, View, texture_of, turned, views, zoomed
 
 import corpora
 import degenerate
-from vexture.drawing import Drawing
-from vexture.drawing import Path as Outline
-from vexture.errors import ParameterError, VextureError
+from vexture.base.errors import ParameterError, VextureError
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.drawing import Path as Outline
 from vexture.renderers.cells import Place, finest_bit, first_square, next_square
 from vexture.renderers.cpu import render_cpu
 from vexture.renderers.exact import render_exact

@@ -7,8 +7,8 @@ from hand import need_gpu
 from numpy.typing import NDArray
 from packed_views import ENTRIES, texture_of, turned
 
-from vexture.drawing import Drawing, Path
-from vexture.errors import ParameterError
+from vexture.base.errors import ParameterError
+from vexture.drawing.drawing import Drawing, Path
 from vexture.renderers.cpu import render_cpu
 from vexture.renderers.device import context
 from vexture.renderers.exact import render_exact

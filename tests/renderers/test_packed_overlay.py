@@ -10,8 +10,8 @@ from hand import need_gpu
 from numpy.typing import NDArray
 
 from cells import Cells, finest_level
-from vexture.layout import COVERAGE_ONE, MOST_DEPTH
-from vexture.pipeline import convert
+from vexture.base.layout import COVERAGE_ONE, MOST_DEPTH
+from vexture.conversion.pipeline import convert
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, shader_text, vertex_source
 from vexture.renderers.view import view_base, window

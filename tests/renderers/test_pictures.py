@@ -7,11 +7,11 @@ import pytest
 from hand import need_gpu
 
 import vexture
-from vexture.drawing import Drawing, Path
-from vexture.errors import ParameterError
-from vexture.images import coverage, render
-from vexture.paint import Paint
-from vexture.texture.choose import layers_of, place_of
+from vexture.base.errors import ParameterError
+from vexture.conversion.images import coverage, render
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.paint import Paint
+from vexture.texture.select_root import layers_of, place_of
 
 RED, GLASS = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.5, 1.0), 0.5)
 SIZE = (40, 30)

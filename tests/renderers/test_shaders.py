@@ -6,18 +6,18 @@ from types import SimpleNamespace
 import pytest
 from hand import EMPTY, FULL, TREE, need_gpu, texture_of
 
-from vexture.errors import FormatError
+from vexture.base.errors import FormatError
 from vexture.fold import blend as folding
 from vexture.renderers import blend, cells, colour, cpu, feature, flat, gradient, leaf, moment, paints, piece
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, included, vertex_source
 from vexture.thesis import cpu as thesis_cpu
 from vexture.thesis import cubic, layout, method
-from vexture.thesis.shader import PACKAGE, TextureSizes, constants, view_source
+from vexture.thesis.shader_text import PACKAGE, TextureSizes, constants, view_source
 
 
 def _files(package):
-    return {file.name: file.read_text() for file in (resources.files(package) / "glsl").iterdir()}
+    return {file.name: file.read_text() for file in (resources.files(package) / "shaders").glob("*.glsl")}
 
 
 FILES = {

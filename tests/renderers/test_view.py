@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from vexture.errors import ParameterError
+from vexture.base.errors import ParameterError
 from vexture.renderers.view import CONDITION_LIMIT, SIZE_LIMIT, fit, size_of, view_matrix, window
 
 

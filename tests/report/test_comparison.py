@@ -2,7 +2,7 @@
 
 import pytest
 
-from vexture.errors import LimitError
+from vexture.base.errors import LimitError
 from vexture_evidence.measures.shape import Shape, example
 from vexture_evidence.report import comparison
 from vexture_evidence.report.comparison import compare, pictures_part, section, shapes_part

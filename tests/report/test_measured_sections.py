@@ -3,7 +3,7 @@
 import pytest
 from lxml import html
 
-from vexture.pipeline import convert
+from vexture.conversion.pipeline import convert
 from vexture_evidence.measures.printed import TABLE_5_1
 from vexture_evidence.measures.shape import WAYS, Shape, example, file_bytes
 from vexture_evidence.report import conversion, shapes, structure
@@ -88,7 +88,7 @@ def test_table_5_1_has_the_thesis_beside_all_our_ways(examples):
 
 
 def test_what_an_encoding_cannot_hold_is_a_dash_and_a_reason(examples, monkeypatch):
-    from vexture.errors import LimitError
+    from vexture.base.errors import LimitError
     from vexture_evidence.measures.shape import Shape
 
     way = Shape.way

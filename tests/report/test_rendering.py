@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from vexture.errors import LimitError
+from vexture.base.errors import LimitError
 from vexture_evidence.measures.rendered import at_sizes
 from vexture_evidence.measures.shape import Shape, example
 from vexture_evidence.report.page import json_text, pictures_of

@@ -13,7 +13,7 @@ import skia
 from PIL import Image
 
 from same_fonts import FONTS
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture_evidence.measures.peers import paint_with_skia
 
 __all__ = ["difference", "different_part", "render_drawing", "render_file"]

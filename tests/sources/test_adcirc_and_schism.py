@@ -6,9 +6,9 @@ import netCDF4
 import numpy as np
 import pytest
 
-from vexture.errors import SourceError
-from vexture.geo.depths import read_depths
+from vexture.base.errors import SourceError
 from vexture.renderers.exact import render_exact
+from vexture_geo.depth.depths import read_depths
 
 SIDE = 9
 FILL = -99999.0

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import xarray
 
-from vexture.geo.conforming import conforming
-from vexture.geo.depths import read_depths
-from vexture.geo.patch import after_each, border_of
+from vexture_geo.depth.conforming import conforming
+from vexture_geo.depth.depths import read_depths
+from vexture_geo.depth.mesh_topology import after_each, border_of
 
 TURN = np.array([[0.8, 0.6], [-0.6, 0.8]])
 CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])

@@ -6,8 +6,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vexture.geo.contours import shored, wet_drawing
 from vexture.renderers.exact import render_exact
+from vexture_geo.depth.contours import shored, wet_drawing
 
 HMIN = 0.05  # typed again: the oracle
 T = np.linspace(0.0, 1.0, 24, endpoint=False)[:, None]

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vexture.errors import ParameterError, SourceError
-from vexture.geo.crs import (
+from vexture.base.errors import ParameterError, SourceError
+from vexture_geo.base.crs import (
     UNPLACED,
     MissingReferenceError,
     chosen_crs,

@@ -7,13 +7,13 @@ import pyogrio
 import pytest
 import shapely
 
-from vexture.errors import LimitError
-from vexture.geo import curves
-from vexture.geo.curves import BROKEN, straightened
-from vexture.geo.features import read_features
-from vexture.geo.vectors import read_areas
-from vexture.notes import Notes
-from vexture.tolerance import ROUND
+from vexture.base.errors import LimitError
+from vexture.base.notes import Notes
+from vexture.base.tolerance import ROUND
+from vexture_geo.vector import curves
+from vexture_geo.vector.curves import BROKEN, straightened
+from vexture_geo.vector.features import read_features
+from vexture_geo.vector.vectors import read_areas
 
 LINE, ARCS = 2, 8
 

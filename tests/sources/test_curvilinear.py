@@ -5,14 +5,14 @@ import pytest
 import shapely
 import xarray
 
-from vexture.errors import SourceError
-from vexture.geo.crs import transformed
-from vexture.geo.curvilinear import grid_series, places_of_grid
-from vexture.geo.depths import read_depths
-from vexture.geo.netcdf import opened
-from vexture.geo.quads import corners_of
-from vexture.notes import Notes
+from vexture.base.errors import SourceError
+from vexture.base.notes import Notes
 from vexture.renderers.exact import render_exact
+from vexture_geo.base.crs import transformed
+from vexture_geo.depth.curvilinear import grid_series, places_of_grid
+from vexture_geo.depth.depths import read_depths
+from vexture_geo.depth.netcdf import opened
+from vexture_geo.depth.quads import corners_of
 
 MIDDLE, RADIUS, SLOPE = np.array([500_400.0, 4_090_300.0]), 200.0, 0.02
 CELL, COUNT = 10.0, 56

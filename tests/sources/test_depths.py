@@ -10,13 +10,13 @@ import rasterio
 import xarray
 from rasterio.transform import Affine
 
-from vexture.errors import LimitError, ParameterError, SourceError, SourceWarning
-from vexture.geo.crs import frame_around
-from vexture.geo.depths import read_depths
-from vexture.notes import line_of
-from vexture.reading import read as read_any
-from vexture.reading import read_extent
+from vexture.base.errors import LimitError, ParameterError, SourceError, SourceWarning
+from vexture.base.notes import line_of
+from vexture.conversion.reading import read as read_any
 from vexture.renderers.exact import render_exact
+from vexture_geo.base.crs import frame_around
+from vexture_geo.depth.depths import read_depths
+from vexture_geo.readers import read_extent
 
 CRS = "EPSG:32610"
 X, Y = 500_000.0 + 10.0 * np.arange(80), 4_090_000.0 + 10.0 * np.arange(60)
@@ -176,7 +176,7 @@ def test_another_system_than_the_frames(tmp_path):
     plain = read(tmp_path / "a.nc")
     frame = frame_around((-122.9999, 36.9557, -122.9911, 36.9611), "EPSG:4326")
     turned = read(tmp_path / "a.nc", frame=frame)
-    from vexture.geo.crs import transformed
+    from vexture_geo.base.crs import transformed
 
     back = transformed(shore(turned.steps[0].drawing), "EPSG:4326", CRS)
     away = np.abs(np.hypot(*(back - MIDDLE).T) - RADIUS + 2.5) / 10.0
@@ -237,7 +237,7 @@ def test_water_ends_where_the_raster_ends_inside_of_the_frame(tmp_path):
 
 
 def test_only_what_the_bounds_need_is_read(tmp_path, monkeypatch):
-    from vexture.geo import raster
+    from vexture_geo.depth import raster
 
     monkeypatch.setattr(raster, "MOST_CELLS", 3000)
     path = geotiff(tmp_path / "a.tif", lake_rows(), NORTH_UP)
@@ -368,7 +368,7 @@ def test_damaged_files_are_one_line_and_nothing_on_stderr(tmp_path):
         (tmp_path / names[-1]).write_bytes(noise)
     (tmp_path / "text.nc").write_text("not a file of depths")
     script = (
-        "import sys\nfrom vexture.errors import VextureError\nfrom vexture.geo.depths import read_depths\n"
+        "import sys\nfrom vexture.base.errors import VextureError\nfrom vexture_geo.depth.depths import read_depths\n"
         "for path in sys.argv[1:]:\n"
         "    for source in (path, open(path, 'rb').read()):\n"
         "        try:\n            read_depths(source, 'a')\n            print('read')\n"

@@ -7,8 +7,8 @@ import pytest
 from PIL import Image
 
 import vexture
-from vexture.errors import ParameterError, SourceError
-from vexture.geo.geojson import read_geojson
+from vexture.base.errors import ParameterError, SourceError
+from vexture_geo.vector.geojson import read_geojson
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"'
 BOX = '<rect width="5" height="5"/>'

@@ -13,13 +13,13 @@ import pytest
 from kinds import one_of_each
 from server import COMMAND, serving
 
+from vexture.base.errors import DeviceError
+from vexture.base.notes import line_of
 from vexture.cli.export import export
 from vexture.cli.messages import as_options
-from vexture.drawing import Drawing
-from vexture.errors import DeviceError
-from vexture.live.page import SCRIPT, built
-from vexture.notes import line_of
-from vexture.reading import content_of, read_drawing
+from vexture.conversion.reading import content_of, read_drawing
+from vexture.drawing.drawing import Drawing
+from vexture.pages.page import SCRIPT, built
 
 
 @pytest.fixture(scope="module")

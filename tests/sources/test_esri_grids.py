@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from vexture.errors import SourceError
-from vexture.geo.depths import read_depths
-from vexture.reading import extent_of
+from vexture.base.errors import SourceError
+from vexture_geo.depth.depths import read_depths
+from vexture_geo.readers import extent_of
 
 HEADER = "ncols 4\nnrows 3\nxllcorner 100000\nyllcorner 400000\ncellsize 50\nNODATA_value -9999\n"
 DEPTHS = np.array([[1.0, 1.0, 1.5, -9999.0]] * 3, "<f4")

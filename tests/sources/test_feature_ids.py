@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from vexture.errors import SourceError
-from vexture.geo.features import Features, feature_batches, read_features
-from vexture.notes import Notes
+from vexture.base.errors import SourceError
+from vexture.base.notes import Notes
+from vexture_geo.vector.features import Features, feature_batches, read_features
 
 NONE = object()
 

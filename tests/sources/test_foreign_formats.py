@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 import xarray
 
-from vexture.errors import SourceError
-from vexture.geo.depths import read_depths
-from vexture.reading import extent_of, read_drawing
+from vexture.base.errors import SourceError
+from vexture.conversion.reading import read_drawing
+from vexture_geo.depth.depths import read_depths
+from vexture_geo.readers import extent_of
 
 SELAFIN = b"\0\0\0\x50" + b"Breach of a dam".ljust(72) + b"SERAFIN " + b"\0\0\0\x50"
 MIKE = b"DHI_DFS_ MIKE Zero - this file contains binary data, do not edit\x1a"

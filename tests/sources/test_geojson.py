@@ -11,11 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import vexture
+from vexture.base.errors import ParameterError, SourceError, SourceWarning
 from vexture.cli.main import main
-from vexture.drawing import FillRule
-from vexture.errors import ParameterError, SourceError, SourceWarning
-from vexture.geo.geojson import MOST_NESTED, read_geojson
-from vexture.paint import Paint
+from vexture.drawing.drawing import FillRule
+from vexture.drawing.paint import Paint
+from vexture_geo.vector.geojson import MOST_NESTED, read_geojson
 
 OUTER = [[0, 0], [10, 0], [10, 5], [0, 5], [0, 0]]
 HOLE = [[2, 1], [4, 1], [4, 3], [2, 3], [2, 1]]

@@ -8,10 +8,10 @@ import pyarrow.parquet as pq
 import pytest
 import shapely
 
-from vexture.errors import SourceError
-from vexture.geo.feature_tables import Choice, chunks_of
-from vexture.geo.features import read_features
-from vexture.notes import Notes
+from vexture.base.errors import SourceError
+from vexture.base.notes import Notes
+from vexture_geo.vector.feature_tables import Choice, chunks_of
+from vexture_geo.vector.features import read_features
 
 SQUARE, NOTCHED = (
     shapely.box(0, 0, 1, 1),

@@ -6,7 +6,7 @@ import pytest
 from PIL import Image
 
 import vexture
-from vexture.errors import VextureError
+from vexture.base.errors import VextureError
 
 
 def gif(size, *frames):

@@ -10,11 +10,11 @@ import shapely
 import xarray
 from rasterio.transform import Affine
 
-from vexture.errors import ParameterError, SourceError
-from vexture.geo.depths import read_depths
-from vexture.geo.features import feature_batches, read_features
-from vexture.notes import Notes
-from vexture.reading import extent_of
+from vexture.base.errors import ParameterError, SourceError
+from vexture.base.notes import Notes
+from vexture_geo.depth.depths import read_depths
+from vexture_geo.readers import extent_of
+from vexture_geo.vector.features import feature_batches, read_features
 
 DEGREES = {"x": {"units": "degrees_east"}, "y": {"units": "degrees_north"}}
 METRES = {"x": {"units": "m"}, "y": {"units": "m"}}

@@ -12,9 +12,9 @@ import rasterio
 from gribs import DEPTH, FIELD, GEOGRAPHIC, ICE, LEVEL, SOUNDING, TEMPERATURE, first_edition, second_edition
 
 import vexture
-from vexture.errors import LimitError, ParameterError, SourceError
-from vexture.geo.grib_messages import MOST_POINTS
-from vexture.reading import extent_of
+from vexture.base.errors import LimitError, ParameterError, SourceError
+from vexture_geo.depth.grib_messages import MOST_POINTS
+from vexture_geo.readers import extent_of
 
 CELLS = [25, 75, 130, 190]
 """Columns of the frame's grid, one in each of the field."""

@@ -9,9 +9,9 @@ import rasterio
 from floods import BOUNDS, series
 from rasterio.windows import Window
 
-from vexture.content import LARGEST_FILE
-from vexture.geo.contours import shored
-from vexture.geo.depths import read_depths
+from vexture.base.content import LARGEST_FILE
+from vexture_geo.depth.contours import shored
+from vexture_geo.depth.depths import read_depths
 
 SIDE, CELL, WET = 20_000, 2.0, 4_000
 AT_MOST = 500.0
@@ -20,7 +20,7 @@ AT_MOST = 500.0
 MEASURED = """
 import resource, sys
 import contourpy, pyproj, rasterio, shapely
-from vexture.geo.depths import read_depths
+from vexture_geo.depth.depths import read_depths
 peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 before = peak()
 extent = read_depths(sys.argv[1], sys.argv[1])

@@ -6,8 +6,8 @@ import rasterio
 import xarray
 
 import vexture
-from vexture.errors import SourceError
-from vexture.geo.lengths import metres_in
+from vexture.base.errors import SourceError
+from vexture_geo.base.lengths import metres_in
 
 UNSAID = ["", "1", "-", "n/a", "unknown"]
 METRES = [

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import xarray
 
-from vexture.errors import ParameterError, SourceError
-from vexture.geo.depths import read_depths
+from vexture.base.errors import ParameterError, SourceError
 from vexture.renderers.exact import render_exact
+from vexture_geo.depth.depths import read_depths
 
 MIDDLE, RADIUS, SLOPE = (500_400.0, 4_090_300.0), 200.0, 0.02
 

@@ -5,11 +5,11 @@ import pytest
 import xarray
 
 import model_runs
-from vexture.errors import SourceError
-from vexture.geo.depths import read_depths
-from vexture.geo.patch import border_of
-from vexture.geo.triangles import located, outlines_above
+from vexture.base.errors import SourceError
 from vexture.renderers.exact import render_exact
+from vexture_geo.depth.depths import read_depths
+from vexture_geo.depth.mesh_topology import border_of
+from vexture_geo.depth.triangles import located, outlines_above
 
 FACES, STEPS = 900, 3
 

@@ -11,15 +11,15 @@ from click.testing import CliRunner
 from PIL import ImageColor
 
 import vexture
+from vexture.base.errors import ParameterError, SourceError
+from vexture.base.notes import check_losses
 from vexture.cli.export import export
 from vexture.cli.main import main
 from vexture.cli.messages import as_options
 from vexture.cli.options import viewer_parameters
 from vexture.cli.view import view
-from vexture.errors import ParameterError, SourceError
-from vexture.live.documents import shape_of
-from vexture.notes import check_losses
-from vexture.parameters import Parameters
+from vexture.conversion.parameters import Parameters
+from vexture.server.publish_file import shape_of
 from vexture.svg.sprite import symbol_drawings
 
 SQUARE = "M0 0h4v4h-4z"

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 import vexture
-from vexture.errors import SourceWarning
+from vexture.base.errors import SourceWarning
 from vexture.svg.read import svg_drawing
 from vexture.tracing.squares import squares
 from vexture.tracing.trace import embedded_image

@@ -10,11 +10,12 @@ from click.testing import CliRunner
 from geographic import FORMATS, LAKE, POND, UTM, file, geopackage_of, land, only, same, written
 
 import vexture
+from vexture.base.content import FileKind, kind_of, start_of
+from vexture.base.errors import DeviceError, LimitError, ParameterError, SourceError, SourceWarning
 from vexture.bezier.convert import straight
 from vexture.cli.main import main
-from vexture.content import FileKind, kind_of, start_of
-from vexture.errors import DeviceError, LimitError, ParameterError, SourceError, SourceWarning
-from vexture.reading import read_drawing, read_extent
+from vexture.conversion.reading import read_drawing
+from vexture_geo.readers import read_extent
 
 
 @pytest.mark.parametrize("as_bytes", [False, True])

@@ -8,9 +8,9 @@ import pytest
 import shapely
 from geographic import FORMATS, LAKE, POND, UTM, file, geopackage_of, only, same
 
-from vexture.deadline import within
-from vexture.errors import LimitError, SourceError, SourceWarning
-from vexture.reading import read_extent
+from vexture.base.deadline import within
+from vexture.base.errors import LimitError, SourceError, SourceWarning
+from vexture_geo.readers import read_extent
 
 
 @pytest.mark.parametrize("name", ["a.gpkg", "a.fgb", "a.geojson"])

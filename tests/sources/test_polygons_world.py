@@ -12,12 +12,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vexture
-from vexture.errors import SourceError, SourceWarning
-from vexture.geo.crs import frame_around, transformed
-from vexture.geo.extent import Frame
-from vexture.geo.longitudes import closed_over_poles, jumping, unwrapped
-from vexture.geo.rings import rings_of
-from vexture.reading import read_extent
+from vexture.base.errors import SourceError, SourceWarning
+from vexture_geo.base.crs import frame_around, transformed
+from vexture_geo.base.extent import Frame
+from vexture_geo.base.longitudes import closed_over_poles, jumping, unwrapped
+from vexture_geo.base.rings import rings_of
+from vexture_geo.readers import read_extent
 
 
 def test_a_frame_decides_and_the_data_is_transformed_into_it(tmp_path):

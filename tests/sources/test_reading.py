@@ -13,14 +13,14 @@ from click.testing import CliRunner
 from kinds import SVG, one_of_each
 
 import vexture
+from vexture.base.content import SHAPEFILE
+from vexture.base.errors import ParameterError, SourceError, SourceWarning
+from vexture.base.notes import Note, Subject, line_of
 from vexture.cli.convert import convert
 from vexture.cli.main import main
 from vexture.cli.messages import as_options
-from vexture.content import SHAPEFILE
-from vexture.drawing import Drawing
-from vexture.errors import ParameterError, SourceError, SourceWarning
-from vexture.notes import Note, Subject, line_of
-from vexture.reading import content_of, read_drawing
+from vexture.conversion.reading import content_of, read_drawing
+from vexture.drawing.drawing import Drawing
 
 NOTED = {
     "packed.svgz": (Note("left out", "<foreignObject>", 1, (Subject("<foreignObject> in line 1", None),)),),

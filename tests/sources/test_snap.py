@@ -9,11 +9,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import vexture
-from vexture.errors import ParameterError
-from vexture.geo.snap import DEFAULT_SNAP, MOST_SNAP, snapped
-from vexture.notes import Notes
-from vexture.reading import read_drawing
+from vexture.base.errors import ParameterError
+from vexture.base.notes import Notes
+from vexture.conversion.reading import read_drawing
 from vexture.tree.planar.build import build_map
+from vexture_geo.base.snap import DEFAULT_SNAP, MOST_SNAP, snapped
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
@@ -127,7 +127,7 @@ def test_far_too_many_corners_stay_as_they_are():
 def test_borders_of_wet_areas_are_snapped_too():
     left, right = SQUARE, [(1.000001, 0), (2, 0), (2, 1), (1.000001, 1)]
     content = geojson([left, right], colours=False)
-    with pytest.warns(vexture.errors.SourceWarning, match="2 corners snapped"):
+    with pytest.warns(vexture.base.errors.SourceWarning, match="2 corners snapped"):
         extent = vexture.read_extent(content, "lake.geojson")
     ends = np.concatenate([contour[:, 0] for contour in extent.steps[0].drawing.paths[0].contours])
     assert len(np.unique(ends, axis=0)) == 6

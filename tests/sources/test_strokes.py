@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from vexture.base.errors import SourceError
+from vexture.base.tolerance import ROUND
 from vexture.bezier.convert import ellipse_cubics
-from vexture.errors import SourceError
 from vexture.svg.outline import Outline
 from vexture.svg.strokes import Stroke, arc_length, stroke_contours
-from vexture.tolerance import ROUND
 
 T = np.linspace(0, 1, 41)[:, None]
 

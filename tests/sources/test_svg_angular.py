@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from svg_reference import render_drawing
 
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture.svg.read import svg_drawing
 
 SIDE = 120

@@ -3,7 +3,7 @@
 import pytest
 
 from vexture import Drawing
-from vexture.notes import check_losses
+from vexture.base.notes import check_losses
 from vexture.svg.read import svg_drawing
 
 SQUARE = '<path d="M0 0h9v9z"{}>{}</path>'

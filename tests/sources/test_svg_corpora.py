@@ -9,7 +9,7 @@ from lxml import etree
 from svg_reference import difference
 
 from corpora import flags, mdi, simple_icons
-from vexture.errors import SourceWarning, VextureError
+from vexture.base.errors import SourceWarning, VextureError
 from vexture.svg.read import read_svg
 
 Corpus = Callable[[int, int], list[Path]]

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import vexture
-from vexture.errors import SourceError, SourceWarning
+from vexture.base.errors import SourceError, SourceWarning
 
 FIXTURES = Path(__file__).parent / "fixtures" / "errors"
 GREEN, RED, BLACK = "#008000", "#ff0000", "#000000"

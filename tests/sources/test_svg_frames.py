@@ -3,7 +3,7 @@
 import pytest
 
 from vexture.bezier.bounds import bounds
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture.svg.read import svg_drawing
 
 ICON = '<path d="M2 2h20v20h-20z"/>'

@@ -8,9 +8,9 @@ import pytest
 from svg_reference import render_drawing, render_file
 
 import vexture
-from vexture.drawing import Drawing
-from vexture.errors import SourceWarning
-from vexture.paint import Paint
+from vexture.base.errors import SourceWarning
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import Paint
 from vexture.renderers.exact import render_exact_colours
 from vexture.svg.read import read_svg
 

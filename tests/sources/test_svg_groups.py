@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from svg_reference import render_file
 
 from vexture import read
-from vexture.drawing import Drawing
-from vexture.errors import SourceWarning
-from vexture.group import Blend, Group
+from vexture.base.errors import SourceWarning
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.group import Blend, Group
 
 SIDE = 8
 ROOT = f'<svg xmlns="http://www.w3.org/2000/svg" width="{SIDE}" height="{SIDE}" viewBox="0 0 {SIDE} {SIDE}"'

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from vexture.deadline import within
-from vexture.errors import LimitError, SourceError, SourceWarning, printable
+from vexture.base.deadline import within
+from vexture.base.errors import LimitError, SourceError, SourceWarning, printable
 from vexture.svg.read import read_svg, svg_drawing
 from vexture.svg.select import Node
 

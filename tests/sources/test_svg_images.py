@@ -15,9 +15,9 @@ from PIL import Image, ImageDraw
 from svg_reference import difference
 
 import vexture
+from vexture.base.errors import ParameterError, SourceWarning
 from vexture.cli.main import main
-from vexture.drawing import Drawing
-from vexture.errors import ParameterError, SourceWarning
+from vexture.drawing.drawing import Drawing
 from vexture.svg.images import DEEPEST, MOST_IMAGES
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'

@@ -10,10 +10,10 @@ from plainer import plainer
 from svg_reference import render_drawing, render_file
 
 from corpora import flags
-from vexture.drawing import Drawing, FillRule
-from vexture.drawing import Path as Filled
-from vexture.errors import SourceError, SourceWarning, VextureError
-from vexture.paint import Paint
+from vexture.base.errors import SourceError, SourceWarning, VextureError
+from vexture.drawing.drawing import Drawing, FillRule
+from vexture.drawing.drawing import Path as Filled
+from vexture.drawing.paint import Paint
 from vexture.renderers.exact import render_exact
 from vexture.svg.read import read_svg
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import vexture
-from vexture.drawing import Drawing
-from vexture.errors import SourceError, SourceWarning
+from vexture.base.errors import SourceError, SourceWarning
+from vexture.drawing.drawing import Drawing
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">'
 DOT = '<marker id="m" viewBox="0 0 1 1"><rect width="1" height="1" fill="red"/></marker>'

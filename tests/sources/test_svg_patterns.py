@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import vexture
-from vexture.drawing import Drawing
-from vexture.errors import SourceError, SourceWarning
-from vexture.group import Group, Mask
+from vexture.base.errors import SourceError, SourceWarning
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.group import Group, Mask
 from vexture.renderers.exact import render_exact, render_exact_colours
-from vexture.svg.tiles import MOST
+from vexture.svg.pattern_tiles import MOST
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">'
 PATTERN = '<pattern id="p" patternUnits="userSpaceOnUse" {}>{}</pattern>'

@@ -10,8 +10,8 @@ import pytest
 from plainer import PLAINER, plainer
 from svg_reference import difference
 
-from vexture.drawing import Drawing
-from vexture.errors import SourceWarning
+from vexture.base.errors import SourceWarning
+from vexture.drawing.drawing import Drawing
 from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from vexture import atlas, convert, coverage, read, render
-from vexture.drawing import Drawing
-from vexture.errors import SourceWarning
-from vexture.notes import MOST_SUBJECTS
+from vexture.base.errors import SourceWarning
+from vexture.base.notes import MOST_SUBJECTS
+from vexture.drawing.drawing import Drawing
 from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vexture.drawing import Drawing
-from vexture.errors import LimitError, ParameterError, SourceWarning
+from vexture.base.errors import LimitError, ParameterError, SourceWarning
+from vexture.drawing.drawing import Drawing
 from vexture.svg.read import read_svg, svg_drawing
 
 ROOT = 'xmlns="http://www.w3.org/2000/svg" xmlns:map="urn:map" viewBox="0 0 100 100"'

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from vexture.drawing import Drawing
-from vexture.errors import SourceWarning
+from vexture.base.errors import SourceWarning
+from vexture.drawing.drawing import Drawing
 from vexture.svg.read import read_svg
 
 SQUARE = '<path id="p" d="M0 0h9v9z"/>'

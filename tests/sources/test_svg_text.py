@@ -13,9 +13,9 @@ from svg_reference import different_part
 
 import vexture
 from same_fonts import FONTS
-from vexture.deadline import within
-from vexture.drawing import Drawing
-from vexture.errors import LimitError, ParameterError, SourceError, SourceWarning
+from vexture.base.deadline import within
+from vexture.base.errors import LimitError, ParameterError, SourceError, SourceWarning
+from vexture.drawing.drawing import Drawing
 from vexture.svg.read import read_svg
 
 FOLDER = Path(__file__).parent / "fixtures" / "text"

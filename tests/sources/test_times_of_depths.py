@@ -8,8 +8,8 @@ import rasterio
 import xarray
 from rasterio.transform import Affine
 
-from vexture.errors import SourceError
-from vexture.geo.depths import read_depths
+from vexture.base.errors import SourceError
+from vexture_geo.depth.depths import read_depths
 
 NOON = [datetime(2026, 2, day, 12, tzinfo=UTC) for day in (27, 28)]
 

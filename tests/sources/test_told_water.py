@@ -7,10 +7,10 @@ import rasterio
 from rasterio.enums import ColorInterp
 from rasterio.transform import Affine
 
-from vexture.errors import ParameterError, SourceError
-from vexture.geo.depth_ranges import DepthRange
-from vexture.geo.depths import read_depths
-from vexture.notes import line_of
+from vexture.base.errors import ParameterError, SourceError
+from vexture.base.notes import line_of
+from vexture_geo.base.depth_ranges import DepthRange
+from vexture_geo.depth.depths import read_depths
 
 CRS = "EPSG:32610"
 CELL, ROWS, COLUMNS = 10.0, 8, 12

@@ -13,10 +13,10 @@ from click.testing import CliRunner
 from PIL import Image, ImageFilter
 
 import vexture
+from vexture.base.errors import LimitError, SourceError, SourceWarning, VextureError
 from vexture.cli.main import main
-from vexture.errors import LimitError, SourceError, SourceWarning, VextureError
-from vexture.live.documents import VIEWER_PARAMETERS, shape_of
 from vexture.renderers.exact import render_exact
+from vexture.server.publish_file import VIEWER_PARAMETERS, shape_of
 from vexture.svg.read import svg_drawing
 from vexture.texture.load import texture_from
 from vexture.tracing.document import MOST_CURVES

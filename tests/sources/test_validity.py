@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import shapely
 
-from vexture.geo import validity
-from vexture.geo.rings import repaired, rings_of
-from vexture.notes import Notes
+from vexture.base.notes import Notes
+from vexture_geo.base import validity
+from vexture_geo.base.rings import repaired, rings_of
 
 
 @pytest.fixture

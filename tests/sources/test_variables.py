@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import xarray
 
-from vexture.errors import ParameterError
-from vexture.geo.depths import read_depths
+from vexture.base.errors import ParameterError
+from vexture_geo.depth.depths import read_depths
 
 
 def test_longitudes_that_cross_the_antimeridian_are_joined(tmp_path):

@@ -14,12 +14,12 @@ import pytest
 import shapely
 
 import vexture
-from vexture.content import FileKind, kind_of, start_of
-from vexture.errors import LimitError, ParameterError, SourceError
-from vexture.geo.crs import MissingReferenceError
-from vexture.geo.features import read_features
-from vexture.notes import Notes
-from vexture.reading import content_of, read_drawing
+from vexture.base.content import FileKind, kind_of, start_of
+from vexture.base.errors import LimitError, ParameterError, SourceError
+from vexture.base.notes import Notes
+from vexture.conversion.reading import content_of, read_drawing
+from vexture_geo.base.crs import MissingReferenceError
+from vexture_geo.vector.features import read_features
 
 HOLE = shapely.box(4.4, 52.2, 4.6, 52.4).exterior.coords
 SHAPES = [shapely.Polygon(shapely.box(4, 52, 5, 53).exterior.coords, [HOLE]), shapely.box(5, 52, 6, 53)]

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from vexture.errors import DeviceError
+from vexture.base.errors import DeviceError
 from vexture.texture.files import file_name
 from vexture.texture.load import load_any as load
 from vexture.thesis.texture import ThesisTexture, pair_of

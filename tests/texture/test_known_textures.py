@@ -6,15 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vexture.errors import DeviceError, ParameterError
-from vexture.paint import Paint
-from vexture.texture.choose import layers_of, place_of
+from vexture.base.errors import DeviceError, ParameterError
+from vexture.drawing.paint import Paint
 from vexture.texture.decode import decode
 from vexture.texture.files import file_name, target_of, writable
 from vexture.texture.ktx2 import read_ktx2, write_ktx2
 from vexture.texture.outlines import outlines
 from vexture.texture.plot import cells_of
 from vexture.texture.root import Root, read_roots, roots_text
+from vexture.texture.select_root import layers_of, place_of
 from vexture.texture.svg_text import svg_document
 from vexture.texture.texture import Texture
 

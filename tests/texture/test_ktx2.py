@@ -16,7 +16,7 @@ from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
 
 import corpora
-from vexture.errors import FormatError, VextureError
+from vexture.base.errors import FormatError, VextureError
 from vexture.texture.ktx2 import read_ktx2, write_ktx2
 
 SHAPES = st.integers(0, 6).map(lambda power: (1, 1 << power, 4)) | st.integers(1, 3).map(lambda rows: (rows, 2048, 4))

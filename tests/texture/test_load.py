@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from either import decode, encode
 from strategies import cell_trees
-from vexture.errors import FormatError
+from vexture.base.errors import FormatError
 from vexture.texture.load import load_any as load
 from vexture.thesis.png import write_png
 from vexture.thesis.texture import ThesisTexture

@@ -7,12 +7,12 @@ import vexture
 from degenerate import circle, drawing, polygon
 from planar import coloured, colours_at, widened
 from shaded import DRAWINGS, shaded
-from vexture import layout
-from vexture.drawing import Drawing, Path
-from vexture.errors import FormatError, ParameterError
-from vexture.group import Blend, Group
-from vexture.paint import Paint
-from vexture.pipeline import atlas, run
+from vexture.base import layout
+from vexture.base.errors import FormatError, ParameterError
+from vexture.conversion.pipeline import atlas, run
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.group import Blend, Group
+from vexture.drawing.paint import Paint
 from vexture.renderers.exact import render_exact_colours
 from vexture.texture.encode import encode
 from vexture.texture.load import texture_from

@@ -13,11 +13,11 @@ import degenerate
 from either import encode
 from strategies import packed_trees
 from vexture import read_svg
+from vexture.base.errors import ParameterError, VextureError
 from vexture.bezier.convert import line_cubics
-from vexture.drawing import Drawing
-from vexture.drawing import Path as Outline
-from vexture.errors import ParameterError, VextureError
-from vexture.paint import Paint
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.drawing import Path as Outline
+from vexture.drawing.paint import Paint
 from vexture.renderers.exact import render_exact
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.outlines import outlines

@@ -11,9 +11,9 @@ from test_ktx2 import by_ktx_parse
 
 from either import decode, encode, info
 from strategies import packed_trees
-from vexture import layout
-from vexture.errors import FormatError, LimitError, ParameterError
-from vexture.paint import Paint
+from vexture.base import layout
+from vexture.base.errors import FormatError, LimitError, ParameterError
+from vexture.drawing.paint import Paint
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.texture import Root, Texture
 from vexture.tree.tree import Tree

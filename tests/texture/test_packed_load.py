@@ -17,9 +17,9 @@ from hypothesis import strategies as st
 from test_packed import TRANSFORM, chain
 
 from strategies import packed_trees
+from vexture.base.errors import DeviceError, FormatError, ParameterError
 from vexture.cli.main import main
-from vexture.errors import DeviceError, FormatError, ParameterError
-from vexture.paint import Paint
+from vexture.drawing.paint import Paint
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.ktx2 import write_ktx2
 from vexture.texture.load import load_any as load

@@ -13,7 +13,7 @@ import pytest
 
 import degenerate
 from either import encode
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.texture import Root
 from vexture.tree.build import build_tree

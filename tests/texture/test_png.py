@@ -13,7 +13,7 @@ from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
 from PIL import Image
 
-from vexture.errors import FormatError
+from vexture.base.errors import FormatError
 from vexture.thesis.layout import FILE_LIMIT, LIST_LIMIT
 from vexture.thesis.png import _filtered, read_png, write_png
 

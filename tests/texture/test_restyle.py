@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 import vexture
 from degenerate import circle, drawing, heap, path_windings, points_near, polygon
 from planar import coloured
-from vexture.drawing import Drawing, FillRule, Path
-from vexture.errors import FormatError, ParameterError
-from vexture.group import Blend, Group
-from vexture.layout import COVERAGE_ONE, MOST_STYLE_BYTES, TEXT_ROOTS, TEXT_STYLES
-from vexture.paint import Gradient, Paint, Stop
-from vexture.pipeline import atlas, run
+from vexture.base.errors import FormatError, ParameterError
+from vexture.base.layout import COVERAGE_ONE, MOST_STYLE_BYTES, TEXT_ROOTS, TEXT_STYLES
+from vexture.conversion.pipeline import atlas, run
+from vexture.drawing.drawing import Drawing, FillRule, Path
+from vexture.drawing.group import Blend, Group
+from vexture.drawing.paint import Gradient, Paint, Stop
 from vexture.renderers.exact import render_exact_colours
 from vexture.texture.ktx2 import read_value, write_ktx2
 from vexture.texture.load import texture_from
@@ -201,7 +201,7 @@ def test_sheets_of_one_drawing_are_restyled_together(monkeypatch) -> None:
 def test_a_gradient_becomes_its_mean_and_a_note_says_so() -> None:
     shade = Paint.of(Gradient(((1, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1)))))
     of = Drawing((Path((SQUARE,), paint=shade, element="a"), Path((circle((0.5, 0.5), 0.2),), element="b")))
-    with pytest.warns(vexture.errors.SourceWarning, match="gradient, of its mean colour"):
+    with pytest.warns(vexture.base.errors.SourceWarning, match="gradient, of its mean colour"):
         texture = vexture.convert(of, split="faces", restyle=True)
     np.testing.assert_allclose(texture.render(8)[0, 0], [0.5, 0, 0.5, 1], atol=1e-4)
 
@@ -249,7 +249,7 @@ def test_only_maps_to_be_restyled_have_elements() -> None:
     with pytest.raises(ParameterError, match="`split` is 'paint', but `restyle` is for a whole drawing in its colours"):
         vexture.convert(of, split="paint", restyle=True)
     with pytest.warns(
-        vexture.errors.SourceWarning, match="plain: no element has a name, so none can get another colour"
+        vexture.base.errors.SourceWarning, match="plain: no element has a name, so none can get another colour"
     ):
         assert vexture.convert(of, restyle=True).roots[0].style is not None
     with pytest.raises(ParameterError, match=r"`points` has the shape \(2,\)"):

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from vexture import layout
-from vexture.drawing import Drawing, Path
-from vexture.errors import FormatError
-from vexture.paint import Paint
-from vexture.pipeline import run
+from vexture.base import layout
+from vexture.base.errors import FormatError
+from vexture.conversion.pipeline import run
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.paint import Paint
 from vexture.texture.curves import LeafCurves, are_straight, curve_texels, leaf_points, leaf_texels, read_leaf_curve
 from vexture.texture.planar import decode_map, map_texels
 from vexture.texture.texture import Texture

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from either import decode, encode, info
 from strategies import cell_trees
+from vexture.base.errors import LimitError, ParameterError
 from vexture.bezier.area import leaf_area
-from vexture.errors import LimitError, ParameterError
 from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN, LIST_LIMIT
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellKind, CellTree

@@ -13,15 +13,15 @@ from pmtiles.tile import tileid_to_zxy
 from tile_sources import batches_of, cells, write_source
 
 from vexture import ParameterError, SourceError
-from vexture.geo import validity
-from vexture.geo.crs import transformed
-from vexture.geo.rings import cut, rings_of
-from vexture.tiles import generalise
-from vexture.tiles.build import make_tiles
-from vexture.tiles.generalise import dissolved, generalised
-from vexture.tiles.grid import CRS, HALF, MARGIN, Tile, last_zoom, pixel, span, zooms_of
-from vexture.tiles.options import TileOptions
-from vexture.tiles.pieces import Pieces
+from vexture_geo.base import validity
+from vexture_geo.base.crs import transformed
+from vexture_geo.base.rings import cut, rings_of
+from vexture_geo.tiles import generalise
+from vexture_geo.tiles.build import make_tiles
+from vexture_geo.tiles.generalise import dissolved, generalised
+from vexture_geo.tiles.grid import CRS, HALF, MARGIN, Tile, last_zoom, pixel, span, zooms_of
+from vexture_geo.tiles.options import TileOptions
+from vexture_geo.tiles.pieces import Pieces
 
 BOX = (4.0, 51.0, 6.0, 53.0)
 ZOOM = 8

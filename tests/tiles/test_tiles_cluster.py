@@ -17,9 +17,9 @@ from tile_sources import write_many
 
 from clusters import HERE, cluster_of, line_of, started
 from guides import GUIDES, ROOT, free_port
-from vexture.tiles.build import make_tiles
-from vexture.tiles.options import TileOptions
-from vexture.tiles.store import SUFFIX
+from vexture_geo.tiles.build import make_tiles
+from vexture_geo.tiles.options import TileOptions
+from vexture_geo.tiles.store import SUFFIX
 
 ZOOM = 8
 

@@ -15,11 +15,11 @@ from pmtiles.tile import Compression, TileType, deserialize_header, serialize_he
 from pmtiles.writer import Writer
 from tile_sources import cells, write_source
 
-from vexture.cartography.colours import Scale
 from vexture.cli.main import main
-from vexture.tiles.attributes import Look
-from vexture.tiles.build import make_tiles
-from vexture.tiles.options import TileOptions
+from vexture_geo.maps.colours import Scale
+from vexture_geo.tiles.attributes import Look
+from vexture_geo.tiles.build import make_tiles
+from vexture_geo.tiles.options import TileOptions
 
 BOX = (4.0, 51.0, 6.0, 53.0)
 COUNT = 300

@@ -18,16 +18,16 @@ from pmtiles.reader import MmapSource, Reader, all_tiles
 from tile_sources import cells
 
 from vexture import ParameterError, SourceError
-from vexture.cartography.colours import Scale, colours_of
+from vexture.base.errors import DeviceError, LimitError
+from vexture.base.notes import Notes
 from vexture.cli.main import main
-from vexture.errors import DeviceError, LimitError
-from vexture.geo.crs import transformed
-from vexture.notes import Notes
 from vexture.texture.load import texture_from
-from vexture.tiles.attributes import Look
-from vexture.tiles.build import make_tiles
-from vexture.tiles.grid import CRS
-from vexture.tiles.options import TileOptions
+from vexture_geo.base.crs import transformed
+from vexture_geo.maps.colours import Scale, colours_of
+from vexture_geo.tiles.attributes import Look
+from vexture_geo.tiles.build import make_tiles
+from vexture_geo.tiles.grid import CRS
+from vexture_geo.tiles.options import TileOptions
 
 COUNT = 12
 VALUES = [None, *range(1, COUNT)]

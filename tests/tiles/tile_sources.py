@@ -8,12 +8,12 @@ from typing import Any, ClassVar
 import numpy as np
 import shapely
 
-from vexture.geo.rings import rings_of
+from vexture_geo.base.rings import rings_of
 
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """As much of `vexture.geo.features.Features` as tiles need."""
+    """As much of `vexture_geo.vector.features.Features` as tiles need."""
 
     rings: Any
     ids: Any

@@ -5,8 +5,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import degenerate
+from vexture.base.layout import LATTICE
 from vexture.bezier.monotone import monotone_pieces
-from vexture.layout import LATTICE
 from vexture.thesis.build import root_level
 from vexture.thesis.subdivide import children
 from vexture.tree.boundary import crowded_area, quantise, resolve

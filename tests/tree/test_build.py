@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import degenerate
-from vexture.drawing import Drawing, FillRule, Path
-from vexture.errors import LimitError, ParameterError, SourceError
+from vexture.base.errors import LimitError, ParameterError, SourceError
+from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.renderers.exact import render_exact
 from vexture.thesis.build import build
 from vexture.thesis.tree import CellKind

@@ -13,17 +13,17 @@ from hypothesis import strategies as st
 import degenerate
 import packed_walk
 from vexture import read_svg
-from vexture.drawing import Drawing
-from vexture.drawing import Path as Outline
-from vexture.errors import LimitError, ParameterError, SourceError
-from vexture.layout import LATTICE, MOST_CURVES, MOST_DEPTH
+from vexture.base.errors import LimitError, ParameterError, SourceError
+from vexture.base.layout import LATTICE, MOST_CURVES, MOST_DEPTH
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.drawing import Path as Outline
 from vexture.renderers.exact import render_exact
 from vexture.tree.bounds import DEFAULT_CAPACITY
 from vexture.tree.build import build_tree
 
 ROOT = Path(__file__).parents[2]
 SHAPES = sorted((ROOT / "examples" / "shapes").glob("*.svg"))
-corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "evidence" / "benchmarks" / "corpora.py")))
+corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "packages" / "vexture-evidence" / "benchmarks" / "corpora.py")))
 
 CHORDS = 512
 SAGITTA = 8e-6  # of the brute force's chords, unit-square units

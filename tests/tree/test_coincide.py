@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 import degenerate
 import vexture
 from degenerate import OUTLINES, heap, moved, rolled
-from vexture.drawing import Drawing, FillRule
-from vexture.drawing import Path as Outline
+from vexture.drawing.drawing import Drawing, FillRule
+from vexture.drawing.drawing import Path as Outline
 from vexture.renderers.exact import render_exact
 from vexture.tree.build import build_tree
 

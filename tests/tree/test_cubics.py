@@ -5,7 +5,7 @@ import tracemalloc
 import numpy as np
 
 from vexture.bezier.convert import line_cubics
-from vexture.drawing import Drawing, FillRule, Path
+from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.tree.cubics import gather
 
 

@@ -5,8 +5,8 @@ from collections import defaultdict
 import numpy as np
 
 from degenerate import circle
-from vexture.drawing import Drawing, Path
-from vexture.layout import LATTICE
+from vexture.base.layout import LATTICE
+from vexture.drawing.drawing import Drawing, Path
 from vexture.tree.build import build_tree
 from vexture.tree.tree import Tree
 

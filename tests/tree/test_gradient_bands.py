@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from vexture.drawing import Drawing, Path
-from vexture.paint import Gradient, Paint, Spread, Stop
-from vexture.pipeline import run
+from vexture.conversion.pipeline import run
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.paint import Gradient, Paint, Spread, Stop
 from vexture.tree.planar.bands import MOST_BANDS, STEEP, bands_of
 from vexture.tree.planar.shades import shade_at, shades_of
 

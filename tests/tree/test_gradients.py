@@ -8,10 +8,10 @@ import pytest
 from degenerate import circle, polygon
 from planar import coloured, colours_at, gradient_colours, paints_at, sampled
 from shaded import BANDS, DRAWINGS, FADING, LENS, SQUARE, UPWARDS, WARM, blended, linear, radial, shaded
-from vexture.drawing import Drawing, Path
-from vexture.group import Blend, Group, Mask
-from vexture.paint import Gradient, Paint, Spread, Stop
-from vexture.pipeline import run
+from vexture.conversion.pipeline import run
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.group import Blend, Group, Mask
+from vexture.drawing.paint import Gradient, Paint, Spread, Stop
 from vexture.tree.planar.build import build_map
 from vexture.tree.planar.compose import Operations, colour_at
 from vexture.tree.planar.faces import operations_of

@@ -6,11 +6,11 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from vexture.deadline import within
-from vexture.drawing import Drawing, Path
-from vexture.errors import LimitError
-from vexture.paint import Paint
-from vexture.reading import read_drawing
+from vexture.base.deadline import within
+from vexture.base.errors import LimitError
+from vexture.conversion.reading import read_drawing
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.paint import Paint
 from vexture.tree.planar import build, parts
 from vexture.tree.planar.build import build_map
 

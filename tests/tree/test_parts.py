@@ -11,11 +11,11 @@ from multiprocessing import get_context
 import numpy as np
 import pytest
 
-from vexture import deadline
-from vexture.contours import ring_contours
-from vexture.deadline import within
-from vexture.drawing import Drawing, FillRule, Path
-from vexture.errors import LimitError
+from vexture.base import deadline
+from vexture.base.deadline import within
+from vexture.base.errors import LimitError
+from vexture.drawing.contours import ring_contours
+from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.tree import bounds, parts
 from vexture.tree.bounds import DEFAULT_DEPTH, bounds_of
 from vexture.tree.build import SLICE, build_tree, grow_on, new_growth

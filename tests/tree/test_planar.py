@@ -5,11 +5,11 @@ import pytest
 
 from degenerate import circle, drawing, heap, path_windings, points_near, polygon
 from planar import cell_at, coloured, colours_at, paints_at
-from vexture.drawing import Drawing, FillRule, Path
-from vexture.errors import LimitError, SourceError
-from vexture.group import Blend, Group
-from vexture.layout import PAINT_ONE
-from vexture.paint import Paint
+from vexture.base.errors import LimitError, SourceError
+from vexture.base.layout import PAINT_ONE
+from vexture.drawing.drawing import Drawing, FillRule, Path
+from vexture.drawing.group import Blend, Group
+from vexture.drawing.paint import Paint
 from vexture.renderers.exact import render_exact_colours
 from vexture.tree.planar.build import build_map
 from vexture.tree.planar.map import PlanarMap

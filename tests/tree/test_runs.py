@@ -5,8 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from vexture.contours import ring_contours
-from vexture.drawing import Drawing, FillRule, Path
+from vexture.drawing.contours import ring_contours
+from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.tree.bounds import DEFAULT_DEPTH, bounds_of
 from vexture.tree.build import SLICE, grow_on, new_growth
 from vexture.tree.cubics import gather

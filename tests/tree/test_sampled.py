@@ -3,7 +3,7 @@
 import numpy as np
 
 import degenerate
-from vexture.drawing import Drawing, FillRule, Path
+from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.renderers.exact import render_exact
 from vexture.thesis.build import build
 from vexture.thesis.tree import CellKind

@@ -4,7 +4,7 @@ from collections import namedtuple
 
 import pytest
 
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture.tree.planar.sheets import Sheet, _greedy
 
 Grown = namedtuple("Grown", "texels")

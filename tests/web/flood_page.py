@@ -20,15 +20,15 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from vexture import convert
-from vexture.drawing import Drawing
-from vexture.flood.credits import Credits
-from vexture.flood.depth_pictures import CODE, depth_png
-from vexture.flood.hazard import HAZARDS, UNIT
-from vexture.flood.open_water import open_water, openness_png
-from vexture.flood.surface import WaterSurface
-from vexture.geo.extent import Frame
-from vexture.live.page import EXPORTED_POLICY
-from vexture.paint import Paint
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import Paint
+from vexture.pages.page import EXPORTED_POLICY
+from vexture_geo.base.extent import Frame
+from vexture_geo.flood.credits import Credits
+from vexture_geo.flood.depth_pictures import CODE, depth_png
+from vexture_geo.flood.hazard import HAZARDS, UNIT
+from vexture_geo.flood.open_water import open_water, openness_png
+from vexture_geo.flood.surface import WaterSurface
 
 FRAME = Frame((600_000.0, 4_080_000.0, 608_000.0, 4_086_000.0), "EPSG:32610", (8000.0, 6000.0))
 

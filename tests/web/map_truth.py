@@ -9,8 +9,8 @@ import shapely
 import tile_pyramid
 from numpy.typing import NDArray
 
-from vexture.drawing import Drawing
-from vexture.paint import Paint
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import Paint
 from vexture.renderers.exact import render_exact_colours
 
 RIM: Final = 6.0

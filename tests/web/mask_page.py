@@ -12,8 +12,8 @@ from browser import ROOT, bundle
 from numpy.typing import ArrayLike, NDArray
 
 import vexture
-from vexture.drawing import Drawing
-from vexture.paint import Paint
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import Paint
 from vexture.texture.encode import encode
 from vexture.texture.texture import Root, Texture
 from vexture.tree.build import build_tree

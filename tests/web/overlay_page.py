@@ -15,7 +15,7 @@ from viewer_page import manifest, thesis_view, view_matrix, write_page
 
 import vexture
 from cells import Cells, finest_level
-from vexture.notes import Note, Subject
+from vexture.base.notes import Note, Subject
 from vexture.texture.texture import Texture
 
 SHAPES = ROOT / "examples" / "shapes"

@@ -17,13 +17,13 @@ import pytest
 from browser import ROOT, WEB, served
 from PIL import Image
 
-from vexture.errors import VextureError
+from vexture.base.errors import VextureError
 
 EXAMPLE = ROOT / "examples" / "counties"
 PAINTED = (255, 255, 255), (255, 92, 76)  # pointed at, picked
 SIZE = (640, 480)
 
-corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "evidence" / "benchmarks" / "corpora.py")))
+corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "packages" / "vexture-evidence" / "benchmarks" / "corpora.py")))
 
 
 def four_counties() -> dict[str, Any]:

@@ -11,7 +11,7 @@ from PIL import Image
 from playwright.sync_api import Page, expect
 from waiting import drawn
 
-from vexture.flood.hazard import HAZARDS
+from vexture_geo.flood.hazard import HAZARDS
 
 
 def test_depths_as_colours_with_a_legend(opened_flood: Callable[..., Page], screenshot: Callable[..., Path]) -> None:

@@ -11,7 +11,7 @@ from floods import flood, sea, series
 from PIL import Image
 from server import COMMAND
 
-from vexture.flood.depth_classes import colors_of
+from vexture_geo.flood.depth_classes import colors_of
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import vexture
-from vexture.errors import VextureError
+from vexture.base.errors import VextureError
 
 sys.path.append(str(ROOT / "tools"))
 

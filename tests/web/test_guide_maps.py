@@ -16,7 +16,7 @@ from browser import ROOT, WEB
 from PIL import Image
 
 from guides import Block, Reader, blocks_of, free_port
-from vexture.errors import VextureError
+from vexture.base.errors import VextureError
 
 PORTS = ("5174", "5175")
 SIZE = (480, 720)
@@ -39,7 +39,7 @@ def _linked(folder: Path, names: list[str]) -> None:
     """What the guide installs, from the packages of web/ and those of the benchmarks."""
     if not (WEB / "node_modules" / "maplibre-gl").is_dir():
         pytest.skip("the packages of web/ are not installed (npm ci --prefix web)")
-    corpora = runpy.run_path(str(ROOT / "evidence" / "benchmarks" / "corpora.py"))
+    corpora = runpy.run_path(str(ROOT / "packages" / "vexture-evidence" / "benchmarks" / "corpora.py"))
     modules = folder / "node_modules"
     (modules / ".bin").mkdir(parents=True)
     (modules / ".bin" / "esbuild").symlink_to(WEB / "node_modules" / ".bin" / "esbuild")

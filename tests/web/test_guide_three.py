@@ -31,7 +31,7 @@ PAPER, DUCK, BLUE, RED, SUN = (0xF4F1E8, 0xE8B100, 0x0066CC, 0xB71C1C, 0xFFD633)
 def _checkout(folder: Path) -> Path:
     """The repository without what is built in it."""
     folder.mkdir()
-    for name in ("src", "web", "tools", "examples/shapes"):
+    for name in ("packages", "web", "tools", "examples/shapes"):
         shutil.copytree(ROOT / name, folder / name, ignore=BUILT)
     for name in ("Makefile", "pyproject.toml", "README.md", "LICENSE"):
         shutil.copy(ROOT / name, folder)

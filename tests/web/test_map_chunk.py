@@ -8,7 +8,7 @@ import pytest
 from browser import bundle, served
 
 import vexture
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 
 PAGE = Path(__file__).parent / "pages" / "map_chunk.js"
 CHUNK = "**/map-parts-*.js"

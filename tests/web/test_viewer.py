@@ -11,9 +11,9 @@ from viewer_page import FIT, view_matrix, write_page
 from waiting import drawn, quiet
 
 import vexture
-from vexture.live.documents import VIEWER_PARAMETERS, shape_of
-from vexture.live.page import data_address, exported_page
-from vexture.live.shelf import manifest as told
+from vexture.pages.page import data_address, exported_page
+from vexture.server.publish_file import VIEWER_PARAMETERS, shape_of
+from vexture.server.published import manifest as told
 
 
 @pytest.mark.parametrize("zoom", [1, 100, 1000, 10000])

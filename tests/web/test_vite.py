@@ -233,6 +233,8 @@ def test_a_converter_is_found_in_python(project: Project, tmp_path: Path) -> Non
     (project.folder / "vexture").mkdir()  # a module of this name in the project is not the converter
     project.program(tmp_path / "bin" / "python3", "")
     project.imports("logo.svg?vexture")
-    outcome = project.build(PATH=f"{tmp_path / 'bin'}:/usr/bin:/bin", PYTHONPATH=str(ROOT / "src"))
+    outcome = project.build(
+        PATH=f"{tmp_path / 'bin'}:/usr/bin:/bin", PYTHONPATH=str(ROOT / "packages" / "vexture" / "src")
+    )
     assert "logo.svg: holds nothing that can be read" in outcome.stderr
     assert project.calls.read_text().splitlines()[0] == "-P -m vexture --version"

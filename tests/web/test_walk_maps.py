@@ -14,8 +14,8 @@ from walk_node import by_node, found_at, points
 import vexture
 from degenerate import drawing
 from planar import coloured, widened
-from vexture.drawing import Drawing
-from vexture.errors import FormatError
+from vexture.base.errors import FormatError
+from vexture.drawing.drawing import Drawing
 from vexture.texture.texture import Texture
 
 sys.path.append(str(ROOT / "tests" / "format"))

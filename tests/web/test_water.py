@@ -13,7 +13,7 @@ from mask_page import NEWEST, THREES, decode, distance
 
 import vexture
 from folded import errors
-from vexture.drawing import Drawing
+from vexture.drawing.drawing import Drawing
 from vexture.fold.fold import Fold
 from vexture.fold.shore import shore_fold
 

@@ -18,8 +18,8 @@ import shapely
 from numpy.typing import NDArray
 
 import vexture
-from vexture.drawing import Drawing
-from vexture.paint import Paint
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import Paint
 
 MARGIN: Final = 1 / 32
 ZOOMS: Final = (0, 1, 3)

@@ -12,9 +12,9 @@ from PIL import Image
 from viewer_page import data_url, manifest, thesis_view, write_page
 
 import vexture
-from vexture.live.documents import VIEWER_PARAMETERS, shape_of
 from vexture.renderers.exact import render_exact, render_exact_colours
 from vexture.renderers.picture import painted, stacked
+from vexture.server.publish_file import VIEWER_PARAMETERS, shape_of
 
 SIZE = (512, 512)
 PRECISION = 1e-7  # for views at 10,000x

@@ -11,13 +11,15 @@ from hypothesis import strategies as st
 
 import vexture
 from either_language import by_glsl, by_wgsl, device
-from vexture.errors import DeviceError, ParameterError
+from vexture.base.errors import DeviceError, ParameterError
 from vexture.fold import layout as fold_layout
+from vexture.renderers.conditionals import chosen
 from vexture.renderers.device import context
 from vexture.renderers.shader import PARTS, WRAPS, shader_text
-from vexture.wgsl import ShaderError, chosen, to_wgsl, with_parameters
+from vexture.renderers.shader_error import ShaderError
+from wgsl_generator import to_wgsl, with_parameters
 
-GLSL = Path(vexture.__file__).parent / "glsl"
+GLSL = Path(vexture.__file__).parent / "shaders"
 NO_PICTURE = {"view", "view_color", "view_coverage"}  # mains of Python's renderers; those of tests
 
 REFUSED = {

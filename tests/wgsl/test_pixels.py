@@ -10,11 +10,11 @@ import pytest
 from either_language import Given, Numbers, by_glsl, by_parameters, by_wgsl, device
 from planar import widened
 from vexture import atlas, convert
-from vexture.drawing import Drawing
-from vexture.errors import DeviceError
+from vexture.base.errors import DeviceError
+from vexture.base.layout import MOST_DEPTH
+from vexture.drawing.drawing import Drawing
 from vexture.fold import layout as fold_layout
 from vexture.fold.fold import Fold
-from vexture.layout import MOST_DEPTH
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.cpu import render_cpu
 from vexture.renderers.device import context

@@ -1,4 +1,4 @@
-// Made by tools/make_web.py; change src/vexture/glsl/ and run it again.
+// Made by tools/make_web.py; change packages/vexture/src/vexture/shaders/ and run it again.
 /**
  * sheets.glsl, to stand after these, in GLSL and WGSL: of @GLSL$WGSL` one side is to be picked.
  *

@@ -1,4 +1,4 @@
-// Made by tools/make_web.py; change src/vexture/fold/layout.py and run it again.
+// Made by tools/make_web.py; change packages/vexture/src/vexture/fold/layout.py and run it again.
 export const ENCODING_FOLD = "fold";
 export const FOLD_FILE_LIMIT = 4194304;
 export const FOLD_KIND_SHIFT = 29;

@@ -1,4 +1,4 @@
-// Made by tools/make_web.py; change src/vexture/glsl/fold.glsl and run it again.
+// Made by tools/make_web.py; change packages/vexture/src/vexture/shaders/fold.glsl and run it again.
 /**
  * fold.glsl; VEXTURE_WRAP may be defined before it.
  *

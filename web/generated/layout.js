@@ -1,4 +1,4 @@
-// Made by tools/make_web.py; change src/vexture/layout.py and run it again.
+// Made by tools/make_web.py; change packages/vexture/src/vexture/base/layout.py and run it again.
 export const CELL_BITS = 8;
 export const CONTROL_OFFSET = 16384;
 export const COORDINATE_BITS = 16;

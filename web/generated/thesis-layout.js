@@ -1,4 +1,4 @@
-// Made by tools/make_web.py; change src/vexture/thesis/layout.py and run it again.
+// Made by tools/make_web.py; change packages/vexture/src/vexture/thesis/layout.py and run it again.
 export const CELL_ORDER = Object.freeze([2, 3, 0, 1]);
 export const CONSTANT_ROWS = 2;
 export const CONTROL_MAX = 2.25;

@@ -1,4 +1,4 @@
-// Made by tools/make_web.py; change src/vexture/thesis/glsl/ and run it again.
+// Made by tools/make_web.py; change packages/vexture/src/vexture/thesis/shaders/ and run it again.
 /**
  * coverage.glsl; its names begin with thesis_, and const int thesis_LEVELS and thesis_FOLD_HEIGHT must
  * stand before it.

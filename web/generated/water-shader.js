@@ -1,4 +1,4 @@
-// Made by tools/make_web.py; change src/vexture/glsl/ and run it again.
+// Made by tools/make_web.py; change packages/vexture/src/vexture/shaders/ and run it again.
 /**
  * water.glsl; VEXTURE_WRAP and VEXTURE_FLAT may be defined before it.
  *

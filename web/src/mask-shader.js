@@ -1,4 +1,4 @@
-// Text that a mask inserts into a material's shader: declarations, and calls of the functions of src/vexture/glsl.
+// Text that a mask inserts into a material's shader: declarations, and calls of the functions of packages/vexture/src/vexture/shaders.
 import { packed, steps } from '../generated/shaders.js';
 import { WRAPS } from '../generated/wraps.js';
 import { ROOT_ATTRIBUTE } from './attributes.js';

@@ -1,4 +1,4 @@
-// Text that water inserts into a shader: declarations, and calls of the functions of src/vexture/glsl/water.glsl.
+// Text that water inserts into a shader: declarations, and calls of the functions of packages/vexture/src/vexture/shaders/water.glsl.
 import { fold } from '../../generated/fold-shader.js';
 import { steps } from '../../generated/shaders.js';
 import { WRAPS } from '../../generated/wraps.js';

@@ -1,0 +1,93 @@
+"""A real browser with WebGL 2 on Mesa's llvmpipe, pages that are served to it, and bundles of JavaScript for them."""
+
+import functools
+import http.server
+import os
+import shutil
+import subprocess
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Final
+
+__all__ = ["CHROMIUM", "FLAGS", "ROOT", "WEB", "bundle", "chromium", "served"]
+
+ROOT: Final = Path(__file__).parents[3]
+WEB: Final = ROOT / "web"
+
+CHROMIUM: Final = shutil.which("chromium") or "/usr/bin/chromium"
+FLAGS: Final = [
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-dev-shm-usage",
+    "--use-gl=angle",
+    "--use-angle=gl-egl",
+    "--ignore-gpu-blocklist",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--force-color-profile=srgb",
+    "--hide-scrollbars",
+]
+
+ENTRIES: Final = ("globe", "gltf", "maplibre", "react", "thesis", "water", "webgpu")
+"""Entries of the npm package beside the main one."""
+
+
+@contextmanager
+def chromium(*flags: str) -> Iterator[Any]:
+    """The browser, while it runs, with more flags."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, *flags])
+        try:
+            yield browser
+        finally:
+            browser.close()
+
+
+class _Quiet(http.server.SimpleHTTPRequestHandler):
+    extensions_map = {**http.server.SimpleHTTPRequestHandler.extensions_map, ".js": "text/javascript"}  # noqa: RUF012
+
+    def log_message(self, *arguments: object) -> None:
+        """Say nothing."""
+
+
+@contextmanager
+def served(folder: Path) -> Iterator[str]:
+    """Address of a folder, without a slash at its end, while it is served."""
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(_Quiet, directory=str(folder)))
+    thread = threading.Thread(target=server.serve_forever, daemon=True)
+    thread.start()
+    try:
+        yield f"http://127.0.0.1:{server.server_port}"
+    finally:
+        server.shutdown()
+        server.server_close()
+
+
+def bundle(entry: Path, output: Path, three: str = "three", *, is_split: bool = False) -> None:
+    """Bundle a module with all that it imports; `three` is the package that stands for three.js.
+
+    What it imports later is part of the one file or, if split, in files of their own beside it.
+
+    The entry's ``import ... from "vexture"`` is the package in web/, and so are its other entries. What web/ has
+    installed is found from anywhere.
+    """
+    esbuild = WEB / "node_modules" / ".bin" / "esbuild"
+    command = [str(esbuild), str(entry), "--bundle", "--format=esm"]
+    if is_split:
+        command += ["--splitting", f"--outdir={output.parent}", f"--entry-names={output.stem}"]
+    else:
+        command += [f"--outfile={output}"]
+    command += [f"--alias:vexture={WEB / 'src' / 'index.js'}"]
+    command += [f"--alias:vexture/{name}={WEB / 'src' / name / 'index.js'}" for name in ENTRIES]
+    command += [f"--alias:three={WEB / 'node_modules' / three}"]
+    build = WEB / "node_modules" / three / "build"
+    command += [f"--alias:three/{name}={build / f'three.{name}.js'}" for name in ("webgpu", "tsl")]
+    command += [f"--alias:three/addons={WEB / 'node_modules' / three / 'examples' / 'jsm'}", "--jsx=automatic"]
+    found = os.environ | {"NODE_PATH": str(WEB / "node_modules")}
+    outcome = subprocess.run(command, cwd=WEB, env=found, capture_output=True, text=True, check=False)
+    assert outcome.returncode == 0, outcome.stderr

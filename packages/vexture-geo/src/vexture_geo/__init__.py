@@ -1,0 +1,1 @@
+"""Geographic data for vexture: maps, tiles and floods."""

@@ -1,0 +1,83 @@
+"""Damage that GDAL passes over in silence: of shapefiles and TopoJSON; and that netCDF has wrong words for."""
+
+import json
+from errno import E2BIG, EINVAL
+from typing import Any, Final
+
+from vexture.base.content import SHAPEFILE
+from vexture.base.errors import SourceError, reason_of
+
+__all__ = ["HEADER", "damaged_netcdf", "missing_arcs", "refuse_cut"]
+
+HEADER: Final = 100
+"""Bytes at the start of a .shp and of a .shx, which say how long it is."""
+
+LENGTH: Final = slice(24, 28)
+WORD: Final = 2
+"""Bytes in the words in which that length is counted."""
+
+
+def refuse_cut(name: str, start: bytes, size: int) -> None:
+    """Raise a `SourceError` if a .shp or .shx has fewer bytes than it says at its start.
+
+    Examples
+    --------
+    >>> refuse_cut("a.shp", SHAPEFILE + bytes(20) + (100).to_bytes(4) + bytes(72), 150)
+    Traceback (most recent call last):
+    vexture.base.errors.SourceError: a.shp is damaged: it has 150 of the 200 bytes that it says; copy it again
+    """
+    if not start.startswith(SHAPEFILE):
+        return  # GDAL says what is wrong
+    said = WORD * int.from_bytes(start[LENGTH], "big", signed=True)
+    if size < said:
+        raise SourceError(f"{name} is damaged: it has {size:,} of the {said:,} bytes that it says; copy it again")
+
+
+def missing_arcs(content: bytes) -> int:
+    """Geometries of a TopoJSON that refer to arcs that it does not have.
+
+    Examples
+    --------
+    >>> missing_arcs(b'{"arcs": [[]], "objects": {"a": {"geometries": [{"arcs": [[0, -1]]}, {"arcs": [[1]]}]}}}')
+    1
+    """
+    try:
+        topology = json.loads(content.decode("utf-8-sig"))
+        count = len(topology["arcs"])
+        objects = list(topology["objects"].values())
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return 0
+    found = 0
+    while objects:
+        one = objects.pop()
+        if isinstance(one, dict):
+            objects += one.get("geometries") or []
+            found += any(not -count <= arc < count for arc in _numbers(one.get("arcs")))
+    return found
+
+
+def _numbers(arcs: Any) -> list[int]:
+    """Numbers in lists of lists."""
+    found, left = list[int](), [arcs]
+    while left:
+        one = left.pop()
+        if isinstance(one, list):
+            left += one
+        elif isinstance(one, int):
+            found.append(one)
+    return found
+
+
+def damaged_netcdf(error: Exception, place: str) -> SourceError:
+    """What to raise for what netCDF4, h5py or xarray raise about a file that they cannot read.
+
+    The netCDF library uses errors of the system for sizes and types in a header that cannot be.
+
+    Examples
+    --------
+    >>> print(damaged_netcdf(OSError(7, "Argument list too long"), "a.nc"))
+    the NetCDF file is damaged (its header says what cannot be); write it again
+    """
+    if isinstance(error, OSError) and error.errno in (E2BIG, EINVAL):
+        return SourceError("the NetCDF file is damaged (its header says what cannot be); write it again")
+    return SourceError(f"it cannot be read as NetCDF ({reason_of(error, hidden=place)}); write it again")

@@ -1,0 +1,178 @@
+"""Classes of depth in place of depths: their ranges, as the flags of a NetCDF variable say them."""
+
+import re
+from collections.abc import Sequence
+from itertools import pairwise
+from math import inf
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from vexture.base.errors import SourceError, shortened
+from vexture_geo.base.lengths import metres_in
+
+__all__ = ["MOST_RANGES", "DepthRange", "has_flags", "ranges_of_flags", "shown_range", "wet_ranges"]
+
+BOUNDS: Final = ("flag_bounds", "class_bounds")
+"""Attributes that name the variable of the bounds of the classes."""
+
+ENDLESS: Final = 1e30
+"""What is written as the upper bound of a class without one is larger: the fill value of the format."""
+
+DRY: Final = frozenset({"dry", "dry land", "land", "no water", "not flooded", "none"})
+WET: Final = frozenset({"wet", "water", "flooded", "inundated"})
+"""Meanings of flags without a depth."""
+
+NUMBER: Final = r"(-?\d*\.?\d+(?:e[+-]?\d+)?)[ _]*((?!to[ _])[a-z]*)"
+BETWEEN: Final = re.compile(rf"{NUMBER}[ _]*(?:to|-|–|<|,|_)[ _]*{NUMBER}", re.IGNORECASE)
+BELOW: Final = re.compile(rf"(?:below|under|less[ _]than|up[ _]to|lt|le|<=?)[ _]*{NUMBER}", re.IGNORECASE)
+ABOVE: Final = re.compile(
+    rf"(?:above|over|more[ _]than|greater[ _]than|at[ _]least|gt|ge|>=?)[ _]*{NUMBER}", re.IGNORECASE
+)
+
+TYPED: Final = re.compile(r"(?<=[\d.])(u?b|u?s|u?l{1,2}|[ufd])$", re.IGNORECASE)
+"""What CDL writes behind a number for its type."""
+
+HOW: Final = "write each as 0.5-1m, below_0.5m or above_2m, or their bounds in a variable that flag_bounds names"
+
+LONGEST: Final = 80
+"""Characters of a meaning that says a range, and of meanings in a message."""
+
+
+TOUCHING: Final = 1e-6
+"""Metres by which two ranges may overlap, by rounding."""
+
+
+MOST_RANGES: Final = 254
+"""A grid of them has 8 bits."""
+
+
+class DepthRange(NamedTuple):
+    """Metres from which a class begins, and at which it ends: infinite if it has no end."""
+
+    low: float
+    high: float
+
+
+def has_flags(variable: Any) -> bool:
+    """Whether the numbers of a variable are those of classes or states, by its attributes."""
+    return any(key in variable.attrs for key in ("flag_values", "flag_masks", "flag_meanings"))
+
+
+def ranges_of_flags(dataset: Any, name: str, metres: float) -> dict[float, DepthRange]:
+    """Range of depth that each value of a variable with flags stands for; `metres` are those in its unit.
+
+    A state without water is a range that ends at 0, and water of no known depth one from 0 without an end.
+    Raises a `SourceError` if the flags are of anything else.
+    """
+    about = dataset[name].attrs
+    values = _numbers(about.get("flag_values"))
+    meanings = _texts(about.get("flag_meanings", ""))
+    bounds = next((str(about[key]) for key in BOUNDS if str(about.get(key)) in dataset.variables), None)
+    if bounds is not None and dataset[bounds].shape == (len(values), 2):
+        lows, highs = np.asarray(dataset[bounds].values, np.float64).T
+        ranges: list[DepthRange | None] = [
+            DepthRange(
+                float(low) * metres if abs(low) < ENDLESS else -inf,
+                float(high) * metres if abs(high) < ENDLESS else inf,
+            )
+            for low, high in zip(lows, highs, strict=True)
+        ]
+    else:
+        ranges = [_range_of(text, metres) for text in meanings]
+    if len(ranges) > MOST_RANGES:
+        raise SourceError(f"{name!r} has {len(ranges):,} classes; the limit is {MOST_RANGES}; write depths in metres")
+    wrong = _wrong(values, ranges, meanings)
+    if wrong:
+        said = shortened(" ".join(meanings), LONGEST)
+        raise SourceError(
+            f"{name!r} holds flags ({said or 'without meanings'}) that are no ranges of depth: {wrong}; {HOW}, or name "
+            "another `variable`"
+        )
+    known = [one for one in ranges if one is not None]
+    return dict(zip(values, known, strict=True))
+
+
+def _wrong(values: list[float], ranges: list[DepthRange | None], meanings: list[str]) -> str:
+    """What is wrong with values of flags and their ranges; empty if nothing is."""
+    if not values:
+        return "flag_values are missing, or no numbers"
+    if len(ranges) != len(values):
+        return f"there are {len(values)} flag_values, and {len(ranges)} ranges for them"
+    for at, one in enumerate(ranges):
+        said = shortened(meanings[at], LONGEST) if at < len(meanings) else str(at + 1)
+        if one is None:
+            return f"{said!r} is none"
+        if not one.low < one.high:
+            return f"{said!r} ends where it begins, or below"
+    known = sorted(one for one in ranges if one is not None)
+    for one, other in pairwise(known):
+        if one.high > other.low + TOUCHING:
+            return f"{shown_range(one)} and {shown_range(other)} overlap"
+    return ""
+
+
+def wet_ranges(ranges: Sequence[DepthRange], hmin: float) -> tuple[DepthRange, ...]:
+    """Those of water, the shallowest first: the others hold dry ground too, or end at the least depth of water.
+
+    Examples
+    --------
+    >>> wet_ranges([DepthRange(0.0, 0.5), DepthRange(2.0, inf), DepthRange(0.5, 2.0)], 0.05)
+    (DepthRange(low=0.5, high=2.0), DepthRange(low=2.0, high=inf))
+    """
+    return tuple(sorted(one for one in ranges if (one.low > 0.0 and one.high > hmin) or one.high == inf))
+
+
+def shown_range(one: DepthRange) -> str:
+    """A range in a message.
+
+    Examples
+    --------
+    >>> shown_range(DepthRange(0.5, 2.0)), shown_range(DepthRange(4.0, inf)), shown_range(DepthRange(-inf, 0.02))
+    ('0.5 to 2 m', 'over 4 m', 'below 0.02 m')
+    """
+    if one.high == inf:
+        return f"over {one.low:g} m"
+    return f"below {one.high:g} m" if one.low == -inf else f"{one.low:g} to {one.high:g} m"
+
+
+def _range_of(text: str, metres: float) -> DepthRange | None:
+    """Range that a meaning says; None if it says none."""
+    plain = text.strip().lower().replace("_", " ")
+    if len(text) > LONGEST:
+        return None
+    if plain in DRY:
+        return DepthRange(-inf, 0.0)
+    if plain in WET:
+        return DepthRange(0.0, inf)
+    if found := BETWEEN.fullmatch(text):
+        low, high = _metres(found[1], found[2] or found[4], metres), _metres(found[3], found[4] or found[2], metres)
+        return None if low is None or high is None else DepthRange(low, high)
+    if found := BELOW.fullmatch(text):
+        high = _metres(found[1], found[2], metres)
+        return None if high is None else DepthRange(-inf, high)
+    if found := ABOVE.fullmatch(text):
+        low = _metres(found[1], found[2], metres)
+        return None if low is None else DepthRange(low, inf)
+    return None
+
+
+def _metres(number: str, unit: str, metres: float) -> float | None:
+    """Metres of a number in its own unit or, without one, in that of the variable."""
+    in_unit = metres_in(unit) if unit else metres
+    return None if in_unit is None else round(float(number) * in_unit, 9)
+
+
+def _numbers(values: Any) -> list[float]:
+    """Values of flags: numbers or, where they were written as a text, the numbers in it."""
+    try:
+        if isinstance(values, str):
+            return [float(TYPED.sub("", part)) for part in values.replace(",", " ").split()]
+        return [] if values is None else [float(value) for value in np.atleast_1d(values)]
+    except (TypeError, ValueError):
+        return []
+
+
+def _texts(meanings: Any) -> list[str]:
+    """Meanings of flags: words of one text, or a list of texts."""
+    return meanings.split() if isinstance(meanings, str) else [str(one) for one in np.atleast_1d(meanings)]

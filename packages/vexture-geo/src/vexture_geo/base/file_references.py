@@ -1,0 +1,121 @@
+"""Files and addresses that the text of a reference system names: grids of shifts, lists of systems, definitions."""
+
+import json
+import re
+from collections.abc import Iterator
+from typing import Any, Final, NoReturn
+
+from vexture.base.errors import SourceError, printable, shortened
+
+__all__ = ["LINK_TYPES", "refuse_files_of_json", "refuse_files_of_system", "refuse_link"]
+
+PLACE: Final = re.compile(r"[/\\~]|^\.")
+"""In the name of a file or an address, but not in that of a grid that PROJ itself has."""
+
+VALUES: Final = (
+    re.compile(r"\b(?:init|file|model|\w*grids)\s*=(.*?)(?=\s\+|\"\s*[\])]|$)", re.IGNORECASE | re.DOTALL),
+    re.compile(r"\bPARAMETERFILE\s*[\[(]\s*\"(?:[^\"]|\"\")*\"\s*,\s*\"((?:[^\"]|\"\")*)\"", re.IGNORECASE),
+    re.compile(r"\bPROJ4_GRIDS\"\s*,\s*\"((?:[^\"]|\"\")*)\"", re.IGNORECASE),
+    re.compile(
+        r"^\s*(?!https?://(?:www\.)?opengis\.net/(?:def/crs|gml/srs)\b)((?:https?|ftp|file):.*)", re.I | re.DOTALL
+    ),
+)
+"""What names files in a text for PROJ, in WKT 1 and 2, and as all of it, but for names that look like addresses."""
+
+KEY: Final = re.compile(
+    rb"""["'](?:c|\\u00[46]3)(?:r|\\u00[57]2)(?:s|\\u00[57]3)["']\s*:?\s*(?=[^\s:])""", re.IGNORECASE
+)
+"""The key `crs` of JSON in any spelling, up to its value."""
+
+SCALAR: Final = re.compile(rb"""["\d.+-]|null|true|false|\[|[,\]}]""")
+"""Start of a value that names no system, or what follows a text that is no key."""
+
+LINK_TYPES: Final = ("link", "url")
+"""Types of a `crs` in GeoJSON that is described somewhere else, in lower case."""
+
+MOST: Final = 65_536
+"""Bytes of the reference system in a GeoJSON."""
+
+SHOWN: Final = 80
+"""Characters of a link in a message."""
+
+
+def refuse_files_of_system(text: str) -> None:
+    """Raise a `SourceError` if a reference system, as a source describes it, names a file or an address.
+
+    Examples
+    --------
+    >>> refuse_files_of_system("+proj=merc +nadgrids=@null +no_defs")
+    >>> refuse_files_of_system('PROJCRS["Amersfoort / RD New"]')
+    """
+    if text.lstrip().startswith("{"):
+        try:
+            texts = [*_texts(json.loads(text))]
+        except (ValueError, RecursionError):
+            return  # which is no reference system
+    else:
+        texts = [found[1] for pattern in VALUES for found in pattern.finditer(text)]
+    for named in texts:
+        if PLACE.search(named.strip(" \"'@")):
+            raise SourceError(
+                f"its reference system names {_shown(named)!r}, and no other file is read; write the file with a "
+                "system that has a code, EPSG:..."
+            )
+
+
+def _texts(value: Any) -> Iterator[str]:
+    """Texts in PROJJSON that may name files: values of parameters, and what names of methods say."""
+    left = [value]
+    while left:
+        one = left.pop()
+        if isinstance(one, list):
+            left += one
+        elif isinstance(one, dict):
+            left += one.values()
+            if isinstance(one.get("value"), str):
+                yield one["value"]
+            if isinstance(one.get("name"), str):
+                yield from (found[1] for pattern in VALUES for found in pattern.finditer(one["name"]))
+
+
+def refuse_files_of_json(content: bytes) -> None:
+    """Raise a `SourceError` if a reference system in GeoJSON is to be fetched or read from somewhere else.
+
+    It is looked for in the text, as a large file is not worth reading twice: wherever GDAL could find one.
+    """
+    for found in KEY.finditer(content):
+        start = found.end()
+        if SCALAR.match(content, start):
+            continue
+        text = content[start : start + MOST].decode(errors="replace")
+        try:
+            value, _ = json.JSONDecoder(strict=False).raw_decode(text)
+        except (ValueError, RecursionError):
+            raise SourceError(f"its crs, at byte {start:,}, is no reference system; leave it out") from None
+        texts = [*_all_texts(value)]
+        if any(text.lower() in LINK_TYPES for text in texts):
+            refuse_link(max(texts, key=len))
+        for each in texts:
+            refuse_files_of_system(each)
+
+
+def refuse_link(link: str) -> NoReturn:
+    """Raise a `SourceError` about GeoJSON whose reference system is somewhere else."""
+    raise SourceError(
+        f"its crs is a link to {_shown(link)!r}, and nothing is fetched; name the system: "
+        '{"type": "name", "properties": {"name": "EPSG:..."}}'
+    )
+
+
+def _all_texts(value: Any) -> Iterator[str]:
+    left = [value]
+    while left:
+        one = left.pop()
+        if isinstance(one, str):
+            yield one
+        elif isinstance(one, list | dict):
+            left += one.values() if isinstance(one, dict) else one
+
+
+def _shown(text: str) -> str:
+    return printable(shortened(" ".join(text.split()).strip(" \"'@"), SHOWN))

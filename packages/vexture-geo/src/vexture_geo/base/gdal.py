@@ -1,0 +1,283 @@
+"""How GDAL reads here: formats by name, no file or address but those that are asked for, little memory, no messages.
+
+What a raster says of other files is refused, and so is a file beside it that GDAL would open and that leads elsewhere.
+"""
+
+import os
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from threading import RLock
+from typing import TYPE_CHECKING, Final
+
+from vexture.base.content import ESRI_GRID, NETCDF, TIFF, start_of
+from vexture.base.errors import DeviceError, SourceError, printable, reason_of, shortened
+from vexture_geo.base.damage import damaged_netcdf
+from vexture_geo.base.file_references import refuse_files_of_system
+from vexture_geo.base.hdf5 import refuse_links_of_netcdf
+from vexture_geo.base.quiet_output import quiet_output
+
+if TYPE_CHECKING:
+    from rasterio import DatasetReader
+
+__all__ = ["opened_grib", "opened_raster", "plain_place", "raster_errors", "vector_formats"]
+
+CACHE: Final = 128 * 2**20
+"""Bytes of blocks that GDAL keeps, which by default takes a twentieth of the memory. A row of blocks of a raster of
+50,000 columns has 100 MB."""
+
+GEOTIFF: Final = "GTiff"
+GRIB_DRIVER: Final = "GRIB"
+NETCDF_DRIVER: Final = "netCDF"
+OTHERS: Final[Mapping[str, tuple[bytes, ...]]] = {
+    "AAIGrid": ESRI_GRID,
+    NETCDF_DRIVER: NETCDF,
+}
+"""Formats of rasters, none of which is a list of other files, and their first bytes in lower case."""
+
+FLOATS: Final = ("EHdr", ".flt")
+"""The format whose file has nothing but numbers, and its suffix; the .hdr beside it leads nowhere."""
+
+VECTORS: Final = (
+    *("ESRI Shapefile", "FlatGeobuf", "GML", "GPKG", "GPX", "GeoJSON", "KML", "LIBKML", "OpenFileGDB", "SQLite"),
+    "TopoJSON",
+)
+"""Formats of features, of which GDAL knows only those at once that a file may have. It knows 60 more by words anywhere
+at the start of a file: some are lists of other files, addresses or commands."""
+
+OFFLINE: Final[Mapping[str, str]] = {
+    "CPL_LOG": os.devnull,
+    "CPL_VSIL_CURL_ALLOWED_EXTENSIONS": ".none",
+    "GDAL_HTTP_PROXY": "127.0.0.1:9",  # where nothing answers
+    "GML_SKIP_RESOLVE_ELEMS": "ALL",
+    "LIBKML_EXTERNAL_STYLE": "NO",
+    "OGR_ARC_STEPSIZE": "0.5",  # degrees; chords are nearer than 1e-5 of the radius to the arc
+    "OGR_SQLITE_ALLOW_EXTERNAL_ACCESS": "NO",
+    "OGR_SQLITE_LOAD_EXTENSIONS": "NO",
+    "OSR_SET_FROM_USER_INPUT_ALLOW_FILE_ACCESS": "NO",
+    "OSR_SET_FROM_USER_INPUT_ALLOW_NETWORK_ACCESS": "NO",
+}
+"""Options by which GDAL says nothing of its own, fetches nothing, should a link ever reach it, and follows arcs."""
+
+DATASETS: Final = (".ovr", ".msk")
+"""Endings of files beside a raster that GDAL opens as rasters of any format."""
+
+IMAGINE: Final = b"EHFA_HEADER_TAG"
+"""First bytes of an .aux that GDAL opens, and the files that it names."""
+
+LARGEST_NOTE: Final = 16 * 2**20
+"""Bytes of an .aux.xml or .prj; what GDAL writes there has some thousands."""
+
+LINKS: Final = ("OVERVIEW_FILE", "X_DATASET", "Y_DATASET")
+"""Metadata that name other files: of smaller copies, and of the places of the pixels."""
+
+IN_ADDRESSES: Final = "!;?#"
+"""Characters at which pyogrio splits names of files."""
+
+SYSTEMS: Final = ("crs", "srs", "spatial_ref", "proj", "wkt", "pe_string")
+"""In the names of attributes of NetCDF that describe a reference system."""
+
+CHANGING: Final = RLock()
+"""Held while GDAL knows fewer formats for features than it does otherwise."""
+
+SHOWN: Final = 80
+"""Characters of a link in a message."""
+
+
+@contextmanager
+def gdal(**options: str) -> Iterator[None]:
+    """Read rasters within this context."""
+    import rasterio
+
+    with rasterio.Env(GDAL_CACHEMAX=CACHE, **OFFLINE, **options):
+        yield
+
+
+@contextmanager
+def opened_raster(source: str | os.PathLike[str] | bytes, *, others: bool = False) -> Iterator["DatasetReader"]:
+    """Open a GeoTIFF or, with `others`, a grid of Esri (.asc, .flt) or of NetCDF, which leads to no other file.
+
+    Raises a `SourceError` that names the link if it does, and what rasterio raises if it cannot be opened.
+    """
+    import rasterio
+    from rasterio.io import MemoryFile
+
+    start = start_of(source).lstrip().lower()
+    known = (name for name, starts in OTHERS.items() if others and start.startswith(tuple(map(bytes.lower, starts))))
+    driver = next(known, GEOTIFF)
+    if others and driver == GEOTIFF and not start.startswith(tuple(map(bytes.lower, TIFF))):
+        named = "" if isinstance(source, bytes) else Path(source).suffix.lower()
+        driver = FLOATS[0] if named == FLOATS[1] else driver
+    if not isinstance(source, bytes):
+        path = Path(source).absolute()  # which is no address, whatever its name
+        refuse_links_beside(path)
+        refuse_links_of_netcdf(path)
+        if driver == NETCDF_DRIVER:
+            _refuse_systems_of_netcdf(path)
+    with ExitStack() as stack:
+        stack.enter_context(gdal())
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about a missing place or reference system: who reads it says so
+            if isinstance(source, bytes):
+                memory = stack.enter_context(MemoryFile(source))
+                file = stack.enter_context(memory.open(driver=driver))
+            else:
+                file = stack.enter_context(rasterio.open(path, driver=driver))
+        refuse_links_in(file)
+        yield file
+
+
+@contextmanager
+def opened_grib(content: bytes) -> Iterator["DatasetReader"]:
+    """Open the content of a file of GRIB, with units as they are written, and without an index of its messages.
+
+    Raises what rasterio raises if it cannot be opened.
+    """
+    from rasterio.io import MemoryFile
+
+    with ExitStack() as stack:
+        stack.enter_context(gdal(GRIB_NORMALIZE_UNITS="NO"))
+        memory = stack.enter_context(MemoryFile(content))
+        with quiet_output(), warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about a missing place, which who reads it tells
+            file = stack.enter_context(memory.open(driver=GRIB_DRIVER, USE_IDX="NO"))
+        refuse_links_in(file)
+        yield file
+
+
+def refuse_links_in(file: "DatasetReader") -> None:
+    """Refuse an open raster of which the metadata name another file; it has opened none yet."""
+    for domain in file.tag_namespaces():
+        for name, value in file.tags(ns=domain).items():
+            if name.upper() in LINKS:
+                raise SourceError(f"{_link(name, value)}; write it again without: gdal_translate keeps none")
+    if file.crs:
+        refuse_files_of_system(file.crs.to_wkt())
+
+
+def refuse_links_beside(path: Path) -> None:
+    """Refuse a raster beside which is a file that GDAL would open with it, and that can lead elsewhere."""
+    try:
+        around = sorted(path.parent.iterdir()) if path.parent.is_dir() else []
+    except OSError as error:
+        raise SourceError(
+            f"its folder cannot be read ({error.strerror}); what is beside it can lead elsewhere"
+        ) from None
+    for beside in around:
+        is_own = beside.name.lower().startswith(f"{path.stem.lower()}.") and beside.name != path.name
+        if is_own and beside.is_file():
+            why = _why_not(beside)
+            if why:
+                raise SourceError(f"{printable(beside.name)} beside it {why}; remove that file, or make it again")
+
+
+def raster_errors() -> tuple[type[Exception], ...]:
+    """What rasterio raises for a damaged file: errors of GDAL come as they are where it asks for a tag."""
+    from rasterio._err import CPLE_BaseError
+    from rasterio.errors import RasterioError
+
+    return RasterioError, CPLE_BaseError, OSError
+
+
+def _why_not(path: Path) -> str:
+    """Why a file beside a raster is not read; empty if it leads nowhere."""
+    import rasterio
+
+    start, end = start_of(path), path.suffix.lower()
+    if end in DATASETS:
+        if not start.startswith(TIFF):
+            return "is no TIFF, and can lead to other files"
+        try:
+            with gdal(GDAL_DISABLE_READDIR_ON_OPEN="EMPTY_DIR"), rasterio.open(path, driver=GEOTIFF) as file:
+                refuse_links_in(file)
+        except raster_errors():
+            return "is damaged"
+        except SourceError as error:
+            return f"is not to be trusted ({error})".partition("; ")[0].removesuffix(")") + ")"
+    elif end == ".aux" and start.startswith(IMAGINE):
+        return "is of a format that names other files"
+    elif path.name.lower().endswith((".aux.xml", ".prj")):
+        with path.open("rb") as opened:
+            content = opened.read(LARGEST_NOTE + 1)
+        if len(content) > LARGEST_NOTE:
+            return f"has more than {LARGEST_NOTE:,} bytes"
+        try:
+            if end == ".prj":
+                refuse_files_of_system(content.decode(errors="replace"))
+            else:
+                _refuse_metadata(content)
+        except SourceError as error:
+            return f"is not to be trusted ({error})".partition("; ")[0].removesuffix(")") + ")"
+    return ""
+
+
+def _refuse_metadata(content: bytes) -> None:
+    """Refuse an .aux.xml that names another file."""
+    from lxml import etree
+
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
+    try:
+        root = etree.fromstring(content, parser)
+    except etree.XMLSyntaxError as error:
+        raise SourceError(f"it is no XML ({reason_of(error)})") from None
+    for item in root.iter("{*}*"):
+        key, text = str(item.get("key", "")), "".join(map(str, item.itertext()))
+        if key.upper() in LINKS:
+            raise SourceError(_link(key, text))
+        if etree.QName(item).localname.upper() == "SRS":
+            refuse_files_of_system(text)
+
+
+def plain_place(source: str | os.PathLike[str] | bytes) -> str:
+    """Absolute path of a file of features, which pyogrio does not take for parts of an address."""
+    place = os.path.abspath(os.fsdecode(source))
+    found = next((character for character in IN_ADDRESSES if character in place), None)
+    if found:
+        raise SourceError(f"the name of its place, {printable(place)!r}, has a {found}, as addresses have; rename it")
+    return place
+
+
+def _refuse_systems_of_netcdf(path: Path) -> None:
+    """Refuse NetCDF of which an attribute is a reference system that names a file: GDAL reads all of them."""
+    import netCDF4
+
+    try:
+        with netCDF4.Dataset(path) as file:
+            left = [file]
+            while left:
+                one = left.pop()
+                left += [*getattr(one, "groups", {}).values(), *getattr(one, "variables", {}).values()]
+                for name in one.ncattrs():
+                    if any(word in name.lower() for word in SYSTEMS):
+                        refuse_files_of_system(str(one.getncattr(name)))
+    except (OSError, RuntimeError, ValueError, AttributeError) as error:  # netCDF4 raises all of them
+        raise damaged_netcdf(error, str(path)) from None
+
+
+def _link(name: str, value: str) -> str:
+    shown = printable(shortened(" ".join(value.split()), SHOWN))
+    return f"its metadata name another file, {shown!r} ({name}), and no other file is read"
+
+
+@contextmanager
+def vector_formats(formats: Sequence[str]) -> Iterator[None]:
+    """Read features within this context, in which GDAL knows some of `VECTORS` only.
+
+    The list is that of pyogrio's GDAL, and is as before afterwards: others who use pyogrio may need more.
+    """
+    import pyogrio
+    from pyogrio._ogr import _register_drivers  # no other way to say which formats GDAL may take a file for
+
+    with CHANGING:
+        before = {name: pyogrio.get_gdal_config_option(name) for name in ("GDAL_SKIP", *OFFLINE)}
+        others = [name for name in pyogrio.list_drivers() if name not in formats or name not in VECTORS]
+        try:
+            pyogrio.set_gdal_config_options({"GDAL_SKIP": ",".join([*others, before["GDAL_SKIP"] or ""]), **OFFLINE})
+            _register_drivers()
+            if not set(pyogrio.list_drivers()) <= {*formats}:
+                raise DeviceError("this pyogrio does not keep to some formats; install another: pip install -U pyogrio")
+            yield
+        finally:
+            pyogrio.set_gdal_config_options(before)
+            _register_drivers()

@@ -1,0 +1,160 @@
+"""Links in HDF5 files, which NetCDF-4 files are: to other files, which libraries follow without a word.
+
+A dataset can have its values elsewhere (external storage, virtual datasets), and a name in a group can be that of an
+object elsewhere (external links). NetCDF follows all of them, and writes none.
+"""
+
+import os
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from vexture.base.content import NETCDF, start_of
+from vexture.base.deadline import check_time
+from vexture.base.errors import LimitError, SourceError, printable, shortened
+from vexture_geo.base.damage import damaged_netcdf
+
+if TYPE_CHECKING:
+    from h5py.h5d import DatasetID
+    from h5py.h5g import GroupID
+    from h5py.h5t import TypeID
+
+__all__ = ["refuse_links_of_netcdf"]
+
+HDF5: Final = NETCDF[-1]
+
+SHOWN: Final = 80
+"""Characters of a link in a message."""
+
+ROOT: Final = b"/"
+
+SAME: Final = "."
+"""Name of the file itself among those that a virtual dataset is made of."""
+
+
+def refuse_links_of_netcdf(path: str | os.PathLike[str]) -> None:
+    """Raise a `SourceError` that names the link, if a file of HDF5 leads to another; NetCDF of other kinds cannot.
+
+    All objects are looked at, also those that no reader asks for: NetCDF looks at them all when it opens a file.
+    """
+    if not start_of(path).startswith(HDF5):
+        return
+    from h5py import h5f, h5g
+
+    try:
+        file = h5f.open(os.fsencode(Path(path).absolute()), h5f.ACC_RDONLY)
+        try:
+            _look_at_all(h5g.open(file, ROOT))
+        finally:
+            file.close()
+    except (SourceError, LimitError):
+        raise
+    except Exception as error:  # h5py raises any type of exception for a damaged file
+        raise damaged_netcdf(error, str(path)) from None
+
+
+def _look_at_all(root: "GroupID") -> None:
+    """Look at a group and at all that is in it or referred to, each once."""
+    from h5py import h5d, h5g, h5o
+
+    seen, left = set[int](), list[tuple[Any, str]]([(root, "")])
+    while left:
+        check_time()
+        one, name = left.pop()
+        address = int(h5o.get_info(one).addr)
+        if address in seen:
+            continue
+        seen.add(address)
+        left += [(each, f"{name} (referred to)") for each in _referred(one, name)]
+        if isinstance(one, h5d.DatasetID):
+            _refuse_elsewhere(one, name)
+        elif isinstance(one, h5g.GroupID):
+            left += _members(one, name)
+
+
+def _members(group: "GroupID", of: str) -> list[tuple[Any, str]]:
+    """The objects of a group, of which none is opened through a link that leads out."""
+    from h5py import h5l, h5o
+
+    names: list[bytes] = []
+    group.links.iterate(names.append)
+    found = []
+    for raw in names:
+        name = f"{of}/{raw.decode(errors='replace')}".removeprefix("/")
+        kind = group.links.get_info(raw).type
+        if kind == h5l.TYPE_HARD:
+            found.append((h5o.open(group, raw), name))
+        elif kind == h5l.TYPE_EXTERNAL:
+            _refuse(name, "is", group.links.get_val(raw)[0])
+        elif kind != h5l.TYPE_SOFT:  # which is another name in this file
+            raise SourceError(f"{_shown(name)!r} is a link of an unknown kind, {kind}; write the file without it")
+    return found
+
+
+def _refuse_elsewhere(dataset: "DatasetID", name: str) -> None:
+    """Refuse a dataset that has its values in other files."""
+    from h5py import h5d
+
+    how = dataset.get_create_plist()
+    if how.get_external_count():
+        _refuse(name, "has its values", how.get_external(0)[0])
+    if how.get_layout() == h5d.VIRTUAL:
+        for number in range(how.get_virtual_count()):
+            if how.get_virtual_filename(number) != SAME:
+                _refuse(name, "has its values", how.get_virtual_filename(number))
+    _refuse_references(dataset.get_type(), name)
+
+
+def _referred(one: Any, name: str) -> Iterator[Any]:
+    """Objects that the attributes of an object refer to, as those of a variable do to its dimensions."""
+    import h5py
+    from h5py import h5a, h5r
+
+    for number in range(h5a.get_num_attrs(one)):
+        attribute = h5a.open(one, index=number)
+        kind = attribute.get_type()
+        _refuse_references(kind, name)
+        inner = kind.get_super() if kind.get_class() == h5py.h5t.VLEN else kind
+        if inner.get_class() != h5py.h5t.REFERENCE or not inner.equal(h5py.h5t.STD_REF_OBJ):
+            continue
+        values = h5py.Dataset(one).attrs if isinstance(one, h5py.h5d.DatasetID) else h5py.Group(one).attrs
+        found = values[attribute.name]
+        for value in [] if isinstance(found, h5py.Empty) else np.atleast_1d(np.asarray(found, object)).ravel():
+            for reference in [value] if isinstance(value, h5py.Reference) else np.atleast_1d(value):
+                if reference:
+                    with suppress(ValueError, KeyError, RuntimeError):  # it is not there any more, for nobody
+                        yield h5r.dereference(reference, one)
+
+
+def _refuse_references(kind: "TypeID", name: str) -> None:
+    """Refuse references other than those into the file itself: newer ones can hold the name of another file."""
+    from h5py import h5t
+
+    inside = (h5t.STD_REF_OBJ, h5t.STD_REF_DSETREG)
+    left = [kind]
+    while left:
+        kind = left.pop()
+        what = kind.get_class()
+        if what == h5t.COMPOUND:
+            left += [kind.get_member_type(number) for number in range(kind.get_nmembers())]
+        elif what in (h5t.VLEN, h5t.ARRAY):
+            left.append(kind.get_super())
+        elif what == h5t.REFERENCE and not any(kind.equal(each) for each in inside):
+            raise SourceError(
+                f"{_shown(name)!r} has references that can lead to other files, and no other file is read; "
+                "write the file without them"
+            )
+
+
+def _refuse(name: str, how: str, link: str | bytes) -> None:
+    raise SourceError(
+        f"{_shown(name)!r} {how} in another file, {_shown(os.fsdecode(link))!r}, and no other file is read; write the "
+        "values into this one, for instance by xarray's load() and to_netcdf()"
+    )
+
+
+def _shown(text: str) -> str:
+    return printable(shortened(text, SHOWN))

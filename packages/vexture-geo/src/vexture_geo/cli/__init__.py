@@ -1,0 +1,1 @@
+"""The commands `map`, `tiles` and `flood`."""

@@ -1,0 +1,1 @@
+"""Depths of water: rasters and meshes, at one time or several."""

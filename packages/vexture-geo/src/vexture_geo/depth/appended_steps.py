@@ -1,0 +1,171 @@
+"""Depths of a file that a model is writing: the steps that are new in it, and those that have changed."""
+
+import hashlib
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from datetime import datetime
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.content import NETCDF, known_kind, start_of
+from vexture.base.errors import ParameterError, SourceError
+from vexture_geo.base.crs import gis_packages
+from vexture_geo.base.extent import Bounds, Extent, Frame, Step
+from vexture_geo.depth.depths import DepthsInFrame, depths_in_frame
+from vexture_geo.depth.partitions import partitions_beside
+from vexture_geo.depth.series import Reading
+
+__all__ = ["Change", "Known", "Run", "files_of", "growing", "share_files", "whole_run"]
+
+
+class Known(NamedTuple):
+    """What is remembered of a step: its time, and a digest of its values."""
+
+    time: datetime | None
+    digest: str
+
+
+class Change(NamedTuple):
+    """A step that is new or has changed; `bed` is the bed at its time over the frame, if the file has it."""
+
+    number: int  # from 0
+    known: Known
+    step: Step
+    bed: NDArray[np.float32] | None
+
+
+class Run:
+    """An open file that grows.
+
+    `known` are the steps that are there still: all that were known, or none if the run has started over, with fewer
+    steps or other times.
+    """
+
+    def __init__(self, placed: DepthsInFrame, known: Sequence[Known], rewritten: bool) -> None:
+        self._placed, self._rewritten = placed, rewritten
+        times = tuple(step.time for step in known)
+        if any(times) and not any(placed.times):
+            raise SourceError("its times cannot be read")  # a model writes the number of steps before their times
+        self.started_over = placed.times[: len(times)] != times
+        self.known = () if self.started_over else tuple(known)
+        self.times = placed.times
+
+    def changes(self) -> Iterator[Change]:
+        """Steps that have changed and those that are new, in order.
+
+        The last steps count only when they hold a number: a model first writes the time of a step, then its values.
+        """
+        for number in self._suspects():
+            change = self._change(number)
+            if change is not None:
+                yield change
+        empty: list[int] = []
+        for number in range(len(self.known), len(self.times)):
+            reading = self._placed.values(number)
+            if not np.isfinite(reading.depth).any():
+                empty.append(number)
+                continue
+            for before in empty:
+                yield self._made(before, self._placed.values(before))
+            empty.clear()
+            yield self._made(number, reading)
+
+    def _suspects(self) -> range:
+        """Known steps that may have changed.
+
+        A file that has only grown has changed in its last step at most, which may have been half written.
+        """
+        old = len(self.known)
+        has_grown = len(self.times) > old and not self._rewritten
+        if old and has_grown and _digest(self._placed.values(old - 1)) == self.known[-1].digest:
+            return range(0)
+        return range(old)
+
+    def _change(self, number: int) -> Change | None:
+        """A known step, if its values are others."""
+        reading = self._placed.values(number)
+        if _digest(reading) == self.known[number].digest:
+            return None
+        if not np.isfinite(reading.depth).any():
+            raise SourceError(f"step {number + 1} holds no number any more")  # for the moment: it is written again
+        return self._made(number, reading)
+
+    def _made(self, number: int, reading: Reading) -> Change:
+        known = Known(self.times[number], _digest(reading))
+        ground = None if reading.bed is None else self._placed.heights(reading.bed)
+        return Change(number, known, self._placed.step(number, reading), ground)
+
+
+def share_files() -> None:
+    """Let NetCDF files be read while a model has them open: HDF5 locks them otherwise. Call it before any is read.
+
+    What is read while it is written may be wrong, and is read again when the file changes.
+    """
+    os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
+
+
+def files_of(path: Path) -> list[Path]:
+    """Files that a run is written to: its partitions, if it is one of them."""
+    return partitions_beside(path) or [path]
+
+
+@contextmanager
+def growing(
+    path: Path, *, frame: Frame | None, known: Sequence[Known] = (), rewritten: bool = False, **options: Any
+) -> Iterator[Run]:
+    """Open a NetCDF file that grows; `options` and errors as those of `depths.depths_in_frame`.
+
+    `rewritten` says that the file may be another one than that of the `known` steps.
+    """
+    with _opened(path, frame, options) as placed:
+        yield Run(placed, known, rewritten)
+
+
+@gis_packages()
+def whole_run(path: Path, *, bounds: Bounds | None, **options: Any) -> tuple[Extent, tuple[Known, ...]]:
+    """All steps that a file holds now, in a frame of its own, and what to remember of them.
+
+    Raises
+    ------
+    SourceError
+        If there is no such file, or no step of it can be read yet.
+    ParameterError
+        If it is of another kind, or the options do not fit it.
+    """
+    with _opened(path, None, {"bounds": bounds, **options}) as placed:
+        changes = list(Run(placed, (), False).changes())
+        if not changes:
+            raise placed.without_numbers()
+        bed = next((change.bed for change in changes if change.bed is not None), None)
+        extent = Extent(placed.frame, tuple(change.step for change in changes), bed, placed.notes)
+        return extent, tuple(change.known for change in changes)
+
+
+@contextmanager
+def _opened(path: Path, frame: Frame | None, options: dict[str, Any]) -> Iterator[DepthsInFrame]:
+    if path.exists() and not path.is_file():
+        raise ParameterError("is no file; name the NetCDF file that the model writes")
+    start = start_of(path)
+    if not start:
+        raise SourceError("it is empty" if path.exists() else "there is no such file")
+    if not start.startswith(NETCDF):
+        kind = known_kind(start)  # a `SourceError` if it is none: the first bytes may be written last
+        raise ParameterError(
+            f"holds {kind}, and only NetCDF is followed; show it with `extent`, and push what is newer"
+        )
+    given = {"bounds": None, "crs": None, "time_dim": None, "variable": None, **options}
+    with depths_in_frame(path, path.name, frame=frame, **given) as placed:
+        yield placed
+
+
+def _digest(reading: Reading) -> str:
+    """Digest of the values of a step."""
+    digest = hashlib.blake2b(digest_size=16)
+    for values in reading:
+        if values is not None:
+            digest.update(values.tobytes())
+    return digest.hexdigest()

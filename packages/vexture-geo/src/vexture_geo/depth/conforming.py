@@ -1,0 +1,171 @@
+"""Meshes whose faces meet in nodes that they share: nodes at one place become one, and so do sides at hanging nodes.
+
+Quadtrees of SFINCS, and what discontinuous Galerkin methods write, give each face nodes of its own. Beside smaller
+faces, a side of a quadtree ends in a node that hangs amid it. Both look like borders, where water ends.
+"""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.deadline import check_time
+from vexture_geo.depth.mesh_topology import Faces, after_each, border_of
+
+__all__ = ["MOST_CORNERS", "Conforming", "conforming"]
+
+MOST_CORNERS: Final = 64
+"""Nodes of a face, for memory: tables of nodes have as many columns as the largest face has nodes."""
+
+SAME: Final = 1e-3
+"""Short sides. Nodes nearer than this are at one place: files round coordinates."""
+
+SHORT: Final = 0.01
+"""Share of the sides that are shorter than a short one; the shortest of all may be an error."""
+
+DEEPEST: Final = 4
+"""Times that a side is halved: quadtrees are balanced, so that once is usual."""
+
+FINEST: Final = 2.0**-40
+"""Share of the extent within which places are one, however short the sides are: what 64 bits tell apart."""
+
+Places = NDArray[np.float64]
+
+
+class Conforming(NamedTuple):
+    """Nodes, (n, 2), faces as in `vexture_geo.depth.mesh.MeshSeries`, and the new number of each old node.
+
+    `numbers` is None if they are as they were, and -1 for a node that no face has.
+    """
+
+    nodes: Places
+    faces: Faces
+    numbers: NDArray[np.int64] | None
+
+    def values(self, old: Places) -> Places:
+        """Values at nodes: the mean of the known ones at each place."""
+        if self.numbers is None:
+            return old
+        known = np.isfinite(old) & (self.numbers >= 0)
+        count = len(self.nodes)
+        with np.errstate(invalid="ignore"):
+            sums = np.bincount(self.numbers[known], old[known], count)
+            return np.asarray(sums / np.bincount(self.numbers[known], minlength=count))
+
+
+@np.errstate(all="ignore")  # places so far apart that they are refused later
+def conforming(nodes: Places, faces: Faces) -> Conforming:
+    """Mesh of the same faces, which share nodes at one place, and have those amid their sides as corners.
+
+    Examples
+    --------
+    >>> unit = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    >>> whole, lower, upper = 2.0 * unit, unit + (2.0, 0.0), unit + (2.0, 1.0)
+    >>> nodes = np.concatenate([whole, lower, upper])
+    >>> mesh = conforming(nodes, np.arange(12, dtype=np.int32).reshape(3, 4))
+    >>> len(mesh.nodes), mesh.faces[0]
+    (8, array([0, 1, 6, 2, 3], dtype=int32))
+    """
+    whole = _without_repeats(faces)
+    start, end = _border_sides(whole, len(nodes))
+    lengths = np.hypot(*(nodes[end] - nodes[start]).T)
+    lengths = lengths[lengths > 0.0]
+    first = np.arange(len(nodes))
+    if len(lengths):
+        near = _nearness(nodes, float(np.quantile(lengths, SHORT)))
+        some = np.unique(np.concatenate([start, end]))
+        first[some] = some[_alike(nodes[some], near)]
+        if (first[some] < some).any():
+            whole = _without_repeats(np.where(whole >= 0, first[whole], -1).astype(np.int32))
+        whole = _divided(nodes, whole, near)
+    if whole is faces:
+        return Conforming(nodes, faces, None)
+    used = np.unique(whole[whole >= 0])
+    numbers = np.full(len(nodes) + 1, -1)
+    numbers[used] = np.arange(len(used))
+    return Conforming(nodes[used], numbers[whole].astype(np.int32), numbers[first])
+
+
+def _nearness(nodes: Places, side: float) -> float:
+    """How near nodes at one place may be, with short sides of a length.
+
+    Models that calculate with 32 bits write such numbers as 64: half a metre apart, where y is 5,000 km.
+    """
+    with np.errstate(over="ignore"):
+        is_single = bool((nodes.astype(np.float32) == nodes).all())
+    rounded = float(np.finfo(np.float32).eps * np.abs(nodes).max()) if is_single else 0.0
+    return max(SAME * side, min(rounded, side / 4.0), FINEST * float(np.ptp(nodes, axis=0).max()))
+
+
+def _border_sides(faces: Faces, count: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Nodes where the sides begin and end that one face has."""
+    border = border_of(faces, count)
+    return faces[border], after_each(faces)[border]
+
+
+def _alike(points: Places, near: float) -> NDArray[np.intp]:
+    """The same one of the points at a place for each of them.
+
+    Points are put into square cells, twice as wide as points of one place are near. In one of four grids of them, half
+    a cell apart, such points are in one cell. Other points are much farther away.
+    """
+    _, one, place = np.unique(points[:, 0] + 1j * points[:, 1], return_index=True, return_inverse=True)
+    kept, rank = np.sort(one), np.argsort(np.argsort(one))  # equal points first, which are the most
+    first = np.arange(len(kept))
+    cells = (points[kept] - points.min(axis=0)) / (2.0 * near)
+    for x in (0.0, 0.5):
+        for y in (0.0, 0.5):
+            check_time()
+            at = np.floor(cells + np.array([x, y]))
+            _, leader, cell = np.unique(at[:, 0] + 1j * at[:, 1], return_index=True, return_inverse=True)
+            first = first[leader][cell]
+    return np.asarray(kept[first][rank[place]])
+
+
+def _divided(nodes: Places, faces: Faces, near: float) -> Faces:
+    """Faces with the nodes amid their sides, and amid the halves of these, as corners."""
+    for _ in range(DEEPEST):
+        check_time()
+        halved = _halved(nodes, faces, near)
+        if halved is faces:
+            break
+        faces = halved
+    return faces
+
+
+def _halved(nodes: Places, faces: Faces, near: float) -> Faces:
+    """Faces with the nodes amid their sides as corners; the same if there are none, or too many for a face."""
+    border = border_of(faces, len(nodes))
+    if not border.any():  # faces that lie on one another
+        return faces
+    start, end = faces[border], after_each(faces)[border]
+    ends = np.unique(start)
+    same = _alike(np.concatenate([nodes[ends], (nodes[start] + nodes[end]) / 2.0]), near)[len(ends) :]
+    amid = np.full(faces.shape, -1, np.int32)
+    found = ends[np.minimum(same, len(ends) - 1)]
+    amid[border] = np.where((same < len(ends)) & (found != start) & (found != end), found, -1)
+    rows = np.flatnonzero((amid >= 0).any(axis=1))
+    if not len(rows):
+        return faces
+    wider = _packed(np.stack([faces[rows], amid[rows]], axis=2).reshape(len(rows), -1))
+    columns = max(faces.shape[1], wider.shape[1])
+    if columns > MOST_CORNERS:
+        return faces
+    whole = np.full((len(faces), columns), -1, np.int32)
+    whole[:, : faces.shape[1]] = faces
+    whole[rows, : wider.shape[1]] = wider
+    return whole
+
+
+def _without_repeats(faces: Faces) -> Faces:
+    """Faces without corners that are the same node as the next; the same if there are none."""
+    again = (faces >= 0) & (faces == after_each(faces))
+    again[~((faces >= 0) & ~again).any(axis=1), 0] = False  # all of its corners are one node
+    return _packed(np.where(again, -1, faces)) if again.any() else faces
+
+
+def _packed(faces: Faces) -> Faces:
+    """Faces with their nodes at the start of each row, and as many columns as the largest has nodes."""
+    order = np.argsort(faces < 0, axis=1, kind="stable")
+    most = int((faces >= 0).sum(axis=1).max())
+    return np.take_along_axis(faces, order, axis=1)[:, :most]

@@ -1,0 +1,231 @@
+"""Depths on rows and columns whose samples have two coordinates each: turned and curvilinear grids of models.
+
+SFINCS, Delft3D-FLOW and ROMS write such files. Rows and columns that are straight and even, turned or not, are a
+lattice, as those of a GeoTIFF are. All others become a mesh: each sample is a face, with corners amid its neighbours.
+"""
+
+import re
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.errors import LimitError, SourceError
+from vexture.base.notes import Notes
+from vexture_geo.base.longitudes import narrower
+from vexture_geo.depth.conforming import conforming
+from vexture_geo.depth.mesh import MeshSeries
+from vexture_geo.depth.mesh_topology import Faces, counter_clockwise
+from vexture_geo.depth.netcdf import axes_of, crs_of, points_east, points_north, times_of
+from vexture_geo.depth.quads import corners_of, without_fill
+from vexture_geo.depth.series import Lattice, Reading, Series, Values
+from vexture_geo.depth.speeds import speed_of
+from vexture_geo.depth.ugrid import MOST_FACES
+from vexture_geo.depth.variables import depths_of, has_depths, loaded, reader_of, refuse_layers, time_axis, unit_of
+
+__all__ = ["grid_series", "places_of_grid"]
+
+ENDING: Final = r"(_?(rho|r|t|c|z|centers?|centres?))?"
+EAST: Final = re.compile(rf"(x|lon|longitude|nav_lon|xlong|glamt|easting){ENDING}", re.IGNORECASE)
+NORTH: Final = re.compile(rf"(y|lat|latitude|nav_lat|xlat|gphit|northing){ENDING}", re.IGNORECASE)
+"""Names of coordinates without attributes that say what they are."""
+
+MASKS: Final = {"msk", "mask_rho", "wetdry_mask_rho", "kcs"}
+"""Variables, in lower case, that are 0 where a model has no cell, or no water: SFINCS, ROMS, Delft3D-FLOW."""
+
+OFF_LATTICE: Final = 0.02
+"""Cells by which the places of a lattice may differ from even ones, besides the rounding of those of 32 bits."""
+
+TURN: Final = 360.0
+
+
+class GridPlaces(NamedTuple):
+    """Dimensions of rows and columns, and the names of their coordinates, east and north."""
+
+    rows: str
+    columns: str
+    x: str
+    y: str
+
+
+def places_of_grid(dataset: Any, time_dim: str | None) -> dict[str, GridPlaces]:
+    """Variables of an open dataset that may hold depths at places of two coordinates each, and these places.
+
+    None, if depths are on rows and columns with coordinates of their own.
+    """
+    found, straight = {}, []
+    for name in map(str, dataset.data_vars):
+        places = _places(dataset, name, time_dim)
+        if dataset[name].dtype.kind not in "iuf":
+            continue
+        axes = axes_of(dataset, name, time_dim)
+        if axes is not None and all(_has_units(dataset, dim) for dim in axes[1:]):
+            straight.append(name)
+        elif places is not None and name not in (places.x, places.y):
+            found[name] = places
+    return {} if has_depths(dataset, straight) else found
+
+
+def grid_series(
+    dataset: Any, grids: dict[str, GridPlaces], time_dim: str | None, variable: str | None, notes: Notes
+) -> Series | MeshSeries:
+    """Depths of an open dataset at the places that `places_of_grid` found; errors as of `netcdf.series_of`."""
+    among = {one: places for one, places in grids.items() if one.lower() not in MASKS}
+    name = depths_of(dataset, _with_depths(dataset, among) if variable is None else list(among), variable, notes).name
+    places = grids[name]
+    here = [one for one in among if among[one][:2] == places[:2]]
+    name, depth, bed, meaning = depths_of(dataset, here, name, notes)  # the bed must be where the depths are
+    order = places[:2]
+    time = time_axis(dataset, dataset[name].dims, time_dim)
+    refuse_layers(dataset, name, (time, *order))
+    masks = [reader_of(dataset[mask]) for mask in grids if mask.lower() in MASKS and grids[mask][:2] == order]
+    times = times_of(dataset, time, notes)
+    x, y, stride = _coordinates(dataset, places)
+    known = np.isfinite(x) & np.isfinite(y)
+    if not known.any():
+        raise SourceError(f"coordinates {places.x!r} and {places.y!r} hold no place; write them into the file")
+
+    speed = speed_of(dataset, name, order, time)
+
+    def read(step: int, rows: slice, columns: slice) -> Reading:
+        where = {time: step, places.rows: rows, places.columns: columns}
+        values = depth(where, order)
+        for mask in masks:
+            values = np.where(mask(where, order) == 0.0, np.nan, values)
+        if stride == 1:
+            values = np.where(known[rows, columns], values, np.nan)
+        return Reading(values, *(one(where, order) if one else None for one in (bed, speed)))
+
+    crs = crs_of(dataset, name, [dataset[places.x], dataset[places.y]])
+    rounding = float(np.finfo(np.float32).eps) if dataset[places.x].dtype == np.float32 else 0.0
+    lattice = _lattice(x, y, known, stride, tuple(int(dataset.sizes[dim]) for dim in order), rounding)
+    if lattice is not None:
+        return Series(lattice, crs, name, times, read, meaning, unit_of(dataset[places.x]))
+    if stride > 1:
+        raise LimitError(
+            f"{known.size * stride**2:,} cells with coordinates of their own each are too many; "
+            f"the limit is {MOST_FACES:,}; cut out a part of it"
+        )
+    nodes, faces = _mesh(dataset, places, np.stack([x, y], axis=-1), known)
+
+    def read_faces(step: int) -> Reading:
+        return read(step, slice(None), slice(None)).at(known)
+
+    whole = counter_clockwise(nodes, faces)
+    return MeshSeries(nodes, whole, True, crs, name, times, read_faces, meaning, unit_of(dataset[places.x]))
+
+
+def _with_depths(dataset: Any, grids: dict[str, GridPlaces]) -> list[str]:
+    """Variables on the only rows and columns that hold depths by the names of their variables, else all."""
+    by_place: dict[tuple[str, ...], list[str]] = {}
+    for name, places in grids.items():
+        by_place.setdefault(places[:2], []).append(name)
+    found = [names for names in by_place.values() if has_depths(dataset, names)]
+    return found[0] if len(found) == 1 else list(grids)
+
+
+def _places(dataset: Any, name: str, time_dim: str | None) -> GridPlaces | None:
+    """Places of a variable: coordinates that it names, else those on its dimensions, longitude and latitude first."""
+    variable = dataset[name]
+    time = time_axis(dataset, variable.dims, time_dim)
+    dims = [str(dim) for dim in variable.dims if dim != time]
+    told = f"{variable.attrs.get('coordinates', '')} {variable.encoding.get('coordinates', '')}".split()
+    on = [
+        str(key)
+        for key in dataset.variables
+        if dataset[key].ndim == 2 and set(map(str, dataset[key].dims)) <= set(dims) and dataset[key].dtype.kind in "iuf"
+    ]
+    on.sort(key=lambda key: (key not in told, "degree" not in str(dataset[key].attrs.get("units", ""))))
+    east = next((key for key in on if points_east(dataset[key]) or EAST.fullmatch(key)), None)
+    north = next((key for key in on if points_north(dataset[key]) or NORTH.fullmatch(key)), None)
+    if east is None or north is None or set(dataset[east].dims) != set(dataset[north].dims):
+        return None
+    rows, columns = (dim for dim in dims if dim in dataset[east].dims)
+    return GridPlaces(rows, columns, east, north)
+
+
+def _has_units(dataset: Any, dim: str) -> bool:
+    """Whether a dimension has coordinates that are more than numbers of rows: those of a reference system."""
+    if dim not in dataset.variables:
+        return False
+    about = dataset[dim].attrs
+    return _of_the_world(about) or str(about.get("units", "1")).strip() not in ("", "1")
+
+
+def _of_the_world(about: Any) -> bool:
+    """Whether attributes name a coordinate of a reference system."""
+    standard = str(about.get("standard_name", ""))
+    return standard in ("longitude", "latitude") or standard.startswith(("projection_", "grid_l"))
+
+
+def _coordinates(dataset: Any, places: GridPlaces) -> tuple[Values, Values, int]:
+    """Coordinates east and north, NaN where there is no cell, of every sample or, of very many, of one in stride."""
+    rows, columns = (int(dataset.sizes[dim]) for dim in places[:2])
+    stride = int(np.ceil(np.sqrt(rows * columns / MOST_FACES)))
+    x, y = (
+        loaded(dataset[key].transpose(*places[:2])[::stride, ::stride]).astype(np.float64)
+        for key in (places.x, places.y)
+    )
+    x, y = without_fill(x, y)
+    if "degree" in str(dataset[places.x].attrs.get("units", "")):
+        x = narrower(x, TURN)
+    return x, y, stride
+
+
+def _lattice(
+    x: Values, y: Values, known: NDArray[np.bool_], stride: int, shape: tuple[int, ...], rounding: float
+) -> Lattice | None:
+    """Lattice of `shape` whose samples, one in `stride`, are at places; None if they are not straight or not even.
+
+    `rounding` is the share of a coordinate by which it may be rounded.
+    """
+    if min(x.shape) < 2 or known.sum() < 3:
+        return None
+    rows, columns = np.nonzero(known)
+    cells = np.column_stack([columns, rows]) * float(stride)
+    places = np.column_stack([x[known], y[known]])
+    middle, origin = cells.mean(axis=0), places.mean(axis=0)
+    moved = cells - middle
+    if np.linalg.matrix_rank(moved.T @ moved) < 2:
+        return None
+    turn = np.linalg.solve(moved.T @ moved, moved.T @ (places - origin)).T
+    side = float(np.hypot(*turn).min())
+    off = np.abs(moved @ turn.T + origin - places).max()
+    if off > OFF_LATTICE * side + rounding * float(np.abs(places).max()):
+        return _rectilinear(x, y) if stride == 1 else None
+    if abs(np.linalg.det(turn)) < OFF_LATTICE * side**2:
+        return None
+    affine = np.column_stack([turn, origin - turn @ middle])
+    return Lattice(np.arange(float(shape[1])), np.arange(float(shape[0])), affine)
+
+
+def _rectilinear(x: Values, y: Values) -> Lattice | None:
+    """Lattice of columns that each have one x and rows that each have one y, at any spacing; None if they have not."""
+    if not (np.isfinite(x).any(axis=0).all() and np.isfinite(y).any(axis=1).all()):
+        return None
+    across, up = np.nanmean(x, axis=0), np.nanmean(y, axis=1)
+    for axis, off in ((across, np.abs(x - across)), (up, np.abs(y - up[:, None]))):
+        step = np.diff(axis)
+        if not ((step > 0.0).all() or (step < 0.0).all()) or np.nanmax(off) > OFF_LATTICE * np.abs(step).min():
+            return None
+    return Lattice(across, up, np.eye(2, 3))
+
+
+def _mesh(
+    dataset: Any, places: GridPlaces, centres: Values, known: NDArray[np.bool_]
+) -> tuple[NDArray[np.float64], Faces]:
+    """Nodes, (n, 2), and a face for each known cell, with its bounds in the file as corners, else those amid cells."""
+    bounds = [str(dataset[key].attrs.get("bounds", "")) for key in (places.x, places.y)]
+    if all(key in dataset.variables and dataset[key].shape == (*known.shape, 4) for key in bounds):
+        corners = np.stack([loaded(dataset[key])[known] for key in bounds], axis=-1).astype(np.float64)
+        if np.isfinite(corners).all():
+            own = np.arange(4 * len(corners), dtype=np.int32).reshape(-1, 4)
+            nodes, faces, _ = conforming(corners.reshape(-1, 2), own)
+            return nodes, faces
+    nodes = corners_of(centres, known).reshape(-1, 2)
+    row, column = np.nonzero(known)
+    wide = known.shape[1] + 1
+    first = row * wide + column
+    faces = np.column_stack([first, first + 1, first + wide + 1, first + wide])
+    used, numbers = np.unique(faces, return_inverse=True)
+    return nodes[used], numbers.reshape(faces.shape).astype(np.int32)

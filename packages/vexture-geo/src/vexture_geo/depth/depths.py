@@ -1,0 +1,255 @@
+"""Rasters and meshes of water depths as `Extent`."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.content import GRIB, NETCDF, TIFF, start_of, unpacked
+from vexture.base.errors import ParameterError, SourceError
+from vexture.base.notes import Note, Notes
+from vexture.base.tolerance import HMIN
+from vexture.base.workers import Here, Workers
+from vexture.drawing.drawing import Drawing
+from vexture_geo.base.coordinate_units import refuse_other_units
+from vexture_geo.base.crs import chosen_crs, frame_of, gis_packages, period
+from vexture_geo.base.datasets import is_dataset
+from vexture_geo.base.extent import Bounds, DepthClasses, Extent, Frame, Step
+from vexture_geo.base.foreign import refuse_foreign_dataset
+from vexture_geo.depth.esri_grids import is_esri_text, refuse_marked
+from vexture_geo.depth.mesh import MeshInFrame, MeshSeries
+from vexture_geo.depth.raster import RasterInFrame
+from vexture_geo.depth.series import Reading, Series, Values
+from vexture_geo.depth.water_masks import ToldWater, told_water
+
+__all__ = ["DepthsInFrame", "depths_in_frame", "read_depths"]
+
+
+@gis_packages()
+def read_depths(
+    source: Any,
+    file_name: str,
+    *,
+    frame: Frame | None = None,
+    bounds: Bounds | None = None,
+    crs: str | None = None,
+    time_dim: str | None = None,
+    hmin: float = HMIN,
+    variable: str | None = None,
+    depths: Sequence[float] = (),
+    workers: Workers | None = None,
+) -> Extent:
+    """Read where water is from a GeoTIFF, GRIB, NetCDF or xarray: on rows and columns, straight or not, or on a mesh.
+
+    A file named as a partition of D-Flow FM, ``run_0000_map.nc``, is read with all others of its run beside it.
+    Parameters and errors as in `vexture.read_extent`.
+    """
+    with depths_in_frame(
+        source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
+        depths=depths,
+    ) as placed:  # fmt: skip
+        return _extent(placed, workers or Here())
+
+
+class DepthsInFrame:
+    """An open file of depths in a frame: the values at each of its times, and the steps that they make."""
+
+    def __init__(
+        self,
+        series: Series | MeshSeries,
+        name: str,
+        system: str,
+        frame: Frame,
+        hmin: float,
+        depths: tuple[float, ...],
+        notes: Notes,
+    ) -> None:
+        self._placed: MeshInFrame | RasterInFrame
+        if isinstance(series, MeshSeries):
+            self._placed = MeshInFrame(series, system, frame)
+        else:
+            self._placed = RasterInFrame(series, system, frame, notes)
+        self.frame, self.times, self.variable = frame, series.times, series.variable
+        self._name, self._hmin, self._depths, self._notes = name, hmin, depths, notes
+        readings = (self._placed.read(number).plausible.depth for number in range(len(self.times)))
+        self._told: ToldWater | None = told_water(series.meaning, readings, hmin, depths, notes)
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """What was left out, simplified or chosen until now."""
+        return self._notes.listed
+
+    def values(self, number: int) -> Reading:
+        """What the file says of a time, near the frame."""
+        return self._placed.read(number).plausible
+
+    def step(self, number: int, reading: Reading) -> Step:
+        """The step of these values."""
+        depth, bed, speed = reading
+        if self._told is not None:
+            return self._told_step(number, depth, self._told)
+        drawing, *deeper = self._framed(self._placed.drawings(depth, bed, self._hmin, self._depths))
+        over = self.grid(np.where(depth < 0.0, 0.0, depth))
+        if bed is not None:  # the depth upon the heights that the page has, below the same level
+            over = np.where(over > 0.0, np.maximum(over + self.grid(bed) - self.heights(bed), 0.0), over)
+        return Step(drawing, self.times[number], over, tuple(deeper), None if speed is None else self.grid(speed))
+
+    def _told_step(self, number: int, values: Values, told: ToldWater) -> Step:
+        """The step of numbers that say where water is, and in which class, but no depth."""
+        areas: list[Drawing] = []
+        ranks = told.ranks(values)
+        wet = [ranks >= least for least in told.leasts]
+        for at, marked in enumerate(wet):
+            same = at > 0 and np.array_equal(marked, wet[at - 1])
+            areas.append(areas[-1] if same else self._placed.drawings(np.where(marked, 1.0, 0.0), None, 0.5, ())[0])
+        drawing, *deeper = self._framed(areas)
+        classes = None
+        if told.ranges:
+            over = [self.grid(np.where(ranks >= rank, 1.0, 0.0)) >= 0.5 for rank in range(1, len(told.ranges) + 1)]
+            classes = DepthClasses(told.ranges, np.sum(over, axis=0, dtype=np.uint8), told.contours)
+        return Step(drawing, self.times[number], deeper=tuple(deeper), classes=classes)
+
+    def _framed(self, areas: list[Drawing]) -> list[Drawing]:
+        return [
+            replace(area, to_source=self.frame.to_source, name=self._name, crs=self.frame.crs, notes=self.notes)
+            for area in areas
+        ]
+
+    def grid(self, values: Values) -> NDArray[np.float32]:
+        """Values over the frame, the northernmost row first."""
+        return self._placed.grid(values)
+
+    def heights(self, bed: Values) -> NDArray[np.float32]:
+        """Heights over the frame, as `grid`, and smooth where cells are wide."""
+        return self._placed.heights(bed)
+
+    def without_numbers(self) -> SourceError:
+        """The error of a file that holds no number at any time."""
+        when = "" if len(self.times) == 1 else f" at any of {len(self.times)} steps"
+        return SourceError(
+            f"variable {self.variable!r} holds no number within the bounds{when}; write depths, 0 where it is dry"
+        )
+
+
+@contextmanager
+def depths_in_frame(
+    source: Any,
+    file_name: str,
+    *,
+    frame: Frame | None,
+    bounds: Bounds | None,
+    crs: str | None,
+    time_dim: str | None,
+    hmin: float,
+    variable: str | None,
+    depths: Sequence[float] = (),
+) -> Iterator[DepthsInFrame]:
+    """Open a file of depths in a frame, by default a new one around `bounds`; see `read_depths`."""
+    if not hmin > 0.0 or not np.isfinite(hmin):
+        raise ParameterError(f"`hmin` is {hmin:g} m; it must be above 0")
+    for depth in depths:
+        if not depth > hmin or not np.isfinite(depth):
+            raise ParameterError(f"`depths` holds {depth:g} m; all must be above `hmin`, {hmin:g} m")
+    notes = Notes()
+    with _opened(source if is_dataset(source) else unpacked(source), time_dim, variable, notes) as series:
+        system = chosen_crs(crs, series.crs)
+        refuse_other_units(system, series.crs, series.unit, series.box, is_given=crs is not None)
+        if frame is None:
+            frame = frame_of(bounds, _whole(series.box, system), system)
+        yield DepthsInFrame(series, Path(file_name).stem or "flood", system, frame, hmin, tuple(depths), notes)
+
+
+@contextmanager
+def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Iterator[Series | MeshSeries]:
+    """Open a file of the format that its first bytes show, or a dataset of xarray."""
+    start = b"" if is_dataset(source) else start_of(source)
+    if is_dataset(source):
+        from vexture_geo.depth.netcdf import opened
+
+        with opened(source, time_dim) as dataset:
+            yield _series_of(dataset, time_dim, variable, notes)
+    elif start.startswith(TIFF) or _is_esri_grid(start, source):
+        from vexture_geo.depth.geotiff import open_geotiff
+
+        with open_geotiff(source, time_dim, variable, notes) as series:
+            yield series
+    elif start.startswith(NETCDF):
+        from vexture_geo.depth.netcdf import opened
+        from vexture_geo.depth.partitions import merged_partitions, partitions_beside
+
+        partitions = [] if isinstance(source, bytes) else partitions_beside(Path(source))
+        if partitions:
+            with merged_partitions(partitions, time_dim, variable, notes) as run:
+                yield run
+            return
+        with opened(source, time_dim) as dataset:
+            yield _series_of(dataset, time_dim, variable, notes)
+    elif start.startswith(GRIB):
+        from vexture_geo.depth.grib import opened_fields
+        from vexture_geo.depth.netcdf import opened
+
+        with opened_fields(source, variable, notes) as fields, opened(fields, time_dim) as dataset:
+            yield _series_of(dataset, time_dim, variable, notes)
+    elif not start:
+        raise SourceError("it cannot be opened or is empty; choose another file")
+    else:
+        raise SourceError("it is none of GeoTIFF, NetCDF, GRIB and grids of Esri (.asc, .flt); write it as one of them")
+
+
+def _is_esri_grid(start: bytes, source: Any) -> bool:
+    """Whether a file is a grid of Esri: text, or numbers that only its name tells from those of other files."""
+    refuse_marked(start)
+    if is_esri_text(start):
+        return True
+    named = "" if isinstance(source, bytes) else Path(source).suffix.lower()
+    return bool(start) and named == ".flt" and not start.startswith(NETCDF)
+
+
+def _series_of(dataset: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Series | MeshSeries:
+    """Depths of an open dataset, on whatever it has them."""
+    from vexture_geo.depth.curvilinear import grid_series, places_of_grid
+    from vexture_geo.depth.netcdf import series_of
+    from vexture_geo.depth.ugrid import holds_mesh, mesh_series
+
+    if holds_mesh(dataset):
+        return mesh_series(dataset, time_dim, variable, notes)
+    refuse_foreign_dataset(dataset)
+    grids = places_of_grid(dataset, time_dim)
+    if grids:
+        return grid_series(dataset, grids, time_dim, variable, notes)
+    return series_of(dataset, time_dim, variable, notes)
+
+
+def _extent(placed: DepthsInFrame, workers: Workers) -> Extent:
+    """All steps of a file, which is read here; workers make steps of the values."""
+    bed, seen = None, False
+
+    def values() -> Iterator[tuple[int, Reading]]:
+        nonlocal bed, seen
+        for number in range(len(placed.times)):
+            reading = placed.values(number)
+            if bed is None and reading.bed is not None:
+                bed = placed.heights(reading.bed)
+            seen = seen or bool(np.isfinite(reading.depth).any())
+            yield number, reading
+
+    steps = tuple(workers.map(_step, placed, values(), len(placed.times)))
+    if not seen:
+        raise placed.without_numbers()
+    return Extent(placed.frame, steps, bed, placed.notes)
+
+
+def _step(placed: DepthsInFrame, values: tuple[int, Reading]) -> Step:
+    return placed.step(*values)
+
+
+def _whole(box: Bounds, system: str) -> Bounds:
+    """Box of a raster, with longitudes of up to half a turn if it does not cross the antimeridian."""
+    turn = period(system)
+    if turn and turn / 2 <= box[0] <= turn:  # more are no degrees, which is told with the numbers of the file
+        return (box[0] - turn, box[1], box[2] - turn, box[3])
+    return box

@@ -1,0 +1,146 @@
+"""Depths on a mesh of a NetCDF file by the UGRID conventions: of D-Flow FM, ADCIRC, SCHISM, quadtrees of SFINCS."""
+
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.errors import LimitError, SourceError, reason_of
+from vexture.base.notes import Notes
+from vexture_geo.depth.conforming import MOST_CORNERS, conforming
+from vexture_geo.depth.mesh import MeshSeries
+from vexture_geo.depth.mesh_topology import Faces, counter_clockwise
+from vexture_geo.depth.netcdf import crs_of, points_east, times_of
+from vexture_geo.depth.series import Reading
+from vexture_geo.depth.sound_faces import faces_once, faces_unwrapped
+from vexture_geo.depth.speeds import speed_of
+from vexture_geo.depth.variables import (
+    depths_of,
+    has_depths,
+    listed,
+    loaded,
+    reader_of,
+    refuse_layers,
+    time_axis,
+    unit_of,
+)
+
+__all__ = ["MOST_FACES", "holds_mesh", "mesh_series", "name_of_mesh"]
+
+MOST_FACES: Final = 10_000_000
+"""For a mesh of a million faces, reading needs about 0.3 GB."""
+
+DRY: Final = {"dryflagnode", "dryflagelement", "wetdry_node", "wetdry_elem"}
+"""Variables of SCHISM, in lower case, that are 1 where it has no water, whatever its level there."""
+
+
+def holds_mesh(dataset: Any) -> bool:
+    """Whether an open dataset has a mesh by the UGRID conventions."""
+    return any(_is_mesh(dataset[name]) for name in dataset.variables)
+
+
+def _is_mesh(variable: Any) -> bool:
+    return "mesh_topology" in (variable.attrs.get("cf_role"), variable.attrs.get("standard_name"))
+
+
+def name_of_mesh(dataset: Any) -> str:
+    """Name of the only mesh of faces."""
+    names = [
+        str(name)
+        for name in dataset.variables
+        if _is_mesh(dataset[name]) and dataset[name].attrs.get("topology_dimension", 2) == 2
+    ]
+    if len(names) != 1:
+        raise SourceError(f"it has {len(names)} meshes of faces ({listed(names)}); write a file with one")
+    return names[0]
+
+
+def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes: Notes) -> MeshSeries:
+    """Depths on the mesh of an open dataset; errors as of `netcdf.series_of`."""
+    mesh = name_of_mesh(dataset)
+    try:
+        axes, connections, places = _parts(dataset, mesh)
+        nodes = np.column_stack([loaded(axis) for axis in axes]).astype(np.float64)
+        faces = _faces(connections, len(nodes))
+    except (SourceError, LimitError):
+        raise
+    except Exception as error:  # an invalid mesh can be anything
+        raise SourceError(f"its mesh {mesh!r} cannot be read ({reason_of(error)}); write it again") from None
+    if not len(faces) or not np.isfinite(nodes).all() or faces[:, 0].min() < 0 or faces.max() >= len(nodes):
+        raise SourceError("its mesh has no faces, or names nodes that do not exist; write it again")
+    units = unit_of(axes[0])
+    nodes, kept = faces_unwrapped(nodes, faces, are_degrees="degree" in units.lower(), notes=notes)
+    kept = _taken(kept, faces_once(faces if kept is None else faces[kept], notes))
+    whole = conforming(nodes, faces if kept is None else faces[kept])
+    candidates = [
+        str(name)
+        for name in dataset.data_vars
+        if dataset[name].dtype.kind in "iuf"
+        and any(place in dataset[name].dims for place in places)
+        and not str(name).endswith(("_x", "_y", "_nodes", "_faces", "_links", "_domain", "_globalnr"))
+        and "start_index" not in dataset[name].attrs
+    ]
+    # the bed must be where the depths are
+    here = {place: [name for name in candidates if place in dataset[name].dims] for place in places}
+    on = [place for place in places if has_depths(dataset, here[place])]
+    name = depths_of(dataset, here[on[0]] if len(on) == 1 and variable is None else candidates, variable, notes).name
+    place = places[0] if places[0] in dataset[name].dims else places[1]
+    _, depth, bed, meaning = depths_of(dataset, here[place], name, notes)
+    time = time_axis(dataset, dataset[name].dims, time_dim)
+    on_faces = place == places[0]
+    refuse_layers(dataset, name, (time, place))
+    times = times_of(dataset, time, notes)
+
+    speed = speed_of(dataset, name, (place,), time)
+    dry = [reader_of(dataset[one]) for one in here[place] if one.lower() in DRY]
+
+    def read(step: int) -> Reading:
+        where, order = {time: step}, (place,)
+        values = depth(where, order)
+        for flag in dry:
+            values = np.where(flag(where, order) == 1.0, np.minimum(values, 0.0), values)
+        found = Reading(values, *(one(where, order) if one else None for one in (bed, speed)))
+        if on_faces:
+            return found if kept is None else found.at(kept)
+        return found.each(whole.values)
+
+    crs = crs_of(dataset, name, axes)
+    turned = counter_clockwise(whole.nodes, whole.faces)
+    return MeshSeries(whole.nodes, turned, on_faces, crs, name, times, read, meaning, units)
+
+
+def _taken(some: NDArray[np.intp] | None, of: NDArray[np.intp] | None) -> NDArray[np.intp] | None:
+    """Numbers of some of the faces that were kept; None where all of them are."""
+    return some if of is None else (of if some is None else some[of])
+
+
+def _parts(dataset: Any, mesh: str) -> tuple[list[Any], Any, tuple[str, str]]:
+    """Coordinates of the nodes, east and north; the table of nodes of faces; the dimensions of faces and of nodes."""
+    about = dataset[mesh].attrs
+    axes = [dataset[key] for key in str(about["node_coordinates"]).split()][:2]
+    if points_east(axes[1]) and not points_east(axes[0]):
+        axes.reverse()
+    connections = dataset[about["face_node_connectivity"]]
+    if about.get("face_dimension") == connections.dims[1]:
+        connections = connections.transpose()
+    size, corners = connections.shape
+    if size > MOST_FACES or corners > MOST_CORNERS:
+        raise LimitError(
+            f"its mesh {mesh!r} has {size:,} faces of up to {corners} nodes; "
+            f"the limit is {MOST_FACES:,} of {MOST_CORNERS}; cut out a part of it"
+        )
+    return axes, connections, (str(connections.dims[0]), str(axes[0].dims[0]))
+
+
+def _faces(connections: Any, count: int) -> Faces:
+    """Numbers of the nodes of faces, from 0, and -1 where a face has fewer."""
+    numbers: NDArray[Any] = loaded(connections)
+    with np.errstate(invalid="ignore"):
+        known = np.isfinite(numbers) & (numbers >= 0)
+    used = numbers[known]
+    # without `start_index` numbers are from 0; those of a file that names the number of nodes, but not 0, are from 1
+    start = connections.attrs.get("start_index", int(used.size > 0 and used.min() == 1 and used.max() == count))
+    faces = np.where(known, numbers, start - 1).astype(np.int64) - int(start)
+    if (faces[:, :-1] < 0).any() and ((faces[:, :-1] < 0) & (faces[:, 1:] >= 0)).any():
+        faces = np.take_along_axis(faces, np.argsort(faces < 0, axis=1, kind="stable"), axis=1)
+    return np.clip(faces, -1, count).astype(np.int32)

@@ -1,0 +1,123 @@
+"""Numbers that say where water is, but not how deep: classes of depth, and masks."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import isclose
+from typing import Final
+
+import numpy as np
+
+from vexture.base.errors import SourceError
+from vexture.base.notes import Notes
+from vexture_geo.base.depth_ranges import DepthRange, shown_range, wet_ranges
+from vexture_geo.depth.series import Meaning, Values
+
+__all__ = ["ToldWater", "told_water"]
+
+MARKS: Final = (0.0, 1.0, 255.0)
+"""Numbers of masks: 0 is dry, 1 is wet; 255 is wet where there is no 1, and else unknown."""
+
+MOST_CLASSES: Final = 8
+"""Classes that a map shows as they are; of more of them some are joined."""
+
+SAME: Final = 1e-6
+"""Metres by which two limits of classes may differ."""
+
+
+@dataclass(frozen=True, slots=True)
+class ToldWater:
+    """How numbers become ranks: 0 where it is dry or unknown, 1 for the first of the `ranges`, or for a mask's water.
+
+    `wet` is the first number of water, and `mark` the only one of a mask. `leasts` are the ranks from which areas
+    begin: that of all water, and those of the `contours`.
+    """
+
+    wet: float
+    mark: float | None = None
+    ranges: tuple[DepthRange, ...] = ()
+    contours: tuple[float, ...] = ()
+    leasts: tuple[int, ...] = (1,)
+
+    def ranks(self, values: Values) -> Values:
+        """Ranks of the numbers of a step."""
+        if self.mark is not None:
+            return np.where(values == self.mark, 1.0, 0.0)
+        return np.where(np.isfinite(values), np.maximum(values - self.wet + 1.0, 0.0), 0.0)
+
+
+def told_water(
+    meaning: Meaning, steps: Iterable[Values], hmin: float, depths: Sequence[float], notes: Notes
+) -> ToldWater | None:
+    """What the numbers of a file say where they are no depths; None if they are.
+
+    `steps` are those of all times, read as far as they are looked at. Notes take what was chosen. Raises a
+    `SourceError` if they say nothing of water.
+    """
+    if meaning.ranges:
+        return _of_classes(meaning.ranges, hmin, depths, notes)
+    if meaning.has_unit and not meaning.are_colors:
+        return None
+    marks = _marks(steps)
+    if marks:
+        mark = 1.0 if 1.0 in marks else 255.0
+        notes.remark(
+            f"its numbers are only {_listed(sorted({0.0, *marks}))}: {mark:g} is read as water of no known depth; "
+            "if they are depths, write their unit into the file, such as m"
+        )
+        return ToldWater(mark, mark=mark)
+    if meaning.are_colors:
+        raise SourceError(
+            "its numbers are those of colours, and no depths; give depths in metres, or a mask of 0 and 1; a picture "
+            "is shown under the water by `ground`"
+        )
+    if meaning.are_whole:
+        notes.remark(
+            "it holds whole numbers without a unit, taken as metres; if they are centimetres or classes, write their "
+            "unit, or flag_values and flag_meanings, into the file"
+        )
+    return None
+
+
+def _marks(steps: Iterable[Values]) -> set[float]:
+    """Numbers other than 0 of a mask; none if it is no mask."""
+    found: set[float] = set()
+    for values in steps:
+        known = values[np.isfinite(values)]
+        if not np.isin(known, MARKS).all():
+            return set()
+        found |= {mark for mark in MARKS[1:] if (known == mark).any()}
+    return found
+
+
+def _of_classes(ranges: tuple[DepthRange, ...], hmin: float, depths: Sequence[float], notes: Notes) -> ToldWater:
+    """Ranks of classes of water."""
+    wet = wet_ranges(ranges, hmin)
+    if not wet:
+        told = ", ".join(map(shown_range, ranges))
+        raise SourceError(f"its classes ({told}) are all below `hmin`, {hmin:g} m; choose a smaller one")
+    dry = len(ranges) - len(wet)
+    wet_from = float(dry + 1)
+    if len(wet) == 1 and wet[0].low <= 0.0:
+        notes.remark("it says where it is wet, and no depths")
+        return ToldWater(wet_from)
+    notes.remark(f"it holds classes of depth, from {shown_range(wet[0])} to {shown_range(wet[-1])}: depths are ranges")
+    if dry and ranges[dry - 1].high > hmin:
+        notes.remark(f"its class {shown_range(ranges[dry - 1])} holds dry ground too, and counts as dry")
+    if wet[0].low < hmin:
+        notes.remark(f"its class {shown_range(wet[0])} counts as water, with `hmin` {hmin:g} m in it")
+    lows = [one.low for one in wet]
+    inner = lows[1:]
+    contours = [low for low in inner if any(isclose(low, depth, abs_tol=SAME) for depth in depths)]
+    if len(contours) < len(depths):
+        if len(wet) <= MOST_CLASSES:
+            contours = inner
+        elif not contours:
+            contours = [inner[len(inner) * k // MOST_CLASSES] for k in range(1, MOST_CLASSES)]
+        notes.remark(f"maps of its classes have borders at {_listed(contours)} m, where the file has them")
+    return ToldWater(wet_from, None, wet, tuple(contours), (1, *(1 + lows.index(contour) for contour in contours)))
+
+
+def _listed(numbers: Sequence[float]) -> str:
+    """Numbers in a sentence."""
+    told = [f"{number:g}" for number in numbers]
+    return told[0] if len(told) == 1 else f"{', '.join(told[:-1])} and {told[-1]}"

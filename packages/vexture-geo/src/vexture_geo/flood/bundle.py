@@ -1,0 +1,9 @@
+"""The files of a flood's page, which `make viewer` builds."""
+
+from typing import Final
+
+from vexture.pages.page import Bundle
+
+__all__ = ["FLOOD"]
+
+FLOOD: Final = Bundle("flood.js", "flood.css", __package__)

@@ -1,0 +1,101 @@
+"""What a file says of itself: its title, where it is from, and on which terms it may be shown."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any, Final
+
+from vexture.base.content import NETCDF, TIFF
+from vexture_geo.base.gdal import opened_raster
+from vexture_geo.base.hdf5 import refuse_links_of_netcdf
+
+__all__ = ["Credits", "credits_among", "credits_of"]
+
+MOST_LETTERS: Final = 600
+"""Letters of one of them that are kept: attributes can hold the history of a run."""
+
+NAMES: Final = {
+    "title": ("title", "TIFFTAG_DOCUMENTNAME"),
+    "source": ("source", "TIFFTAG_SOFTWARE"),
+    "institution": ("institution", "TIFFTAG_ARTIST"),
+    "references": ("references",),
+    "licence": ("license", "licence", "rights", "TIFFTAG_COPYRIGHT"),
+    "comment": ("comment", "TIFFTAG_IMAGEDESCRIPTION"),
+}
+"""Names of the attributes: those of the CF conventions and of ACDD, and the tags of TIFF."""
+
+SYNTHETIC: Final = re.compile(r"\b(synthetic|invented|fictitious|fictional|made[- ]up)\b", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Credits:
+    """What a page says of its data; empty where nothing is known.
+
+    Examples
+    --------
+    >>> Credits(comment="A synthetic surge.").is_synthetic, Credits(source="SFINCS 2.1").is_synthetic
+    (True, False)
+    """
+
+    title: str = ""
+    source: str = ""
+    institution: str = ""
+    references: str = ""
+    licence: str = ""
+    comment: str = ""
+
+    @property
+    def is_synthetic(self) -> bool:
+        """Whether one of them says that the data are of no real event."""
+        return any(SYNTHETIC.search(text) for text in asdict(self).values())
+
+    def with_given(self, **given: str | None) -> "Credits":
+        """These, but for those that are given."""
+        return replace(self, **{name: text for name, text in given.items() if text is not None})
+
+    def as_json(self) -> dict[str, Any]:
+        """What the page takes."""
+        return {**asdict(self), "synthetic": self.is_synthetic}
+
+
+def credits_of(path: Path) -> Credits:
+    """Credits in the global attributes of a NetCDF file or the tags of a GeoTIFF; of other files none are known."""
+    with path.open("rb") as file:
+        start = file.read(8)
+    if start.startswith(NETCDF):
+        return credits_among(_attributes(path))
+    if start.startswith(TIFF):
+        return credits_among(_tags(path))
+    return Credits()
+
+
+def _attributes(path: Path) -> Mapping[str, Any]:
+    import netCDF4
+
+    refuse_links_of_netcdf(path)
+    with netCDF4.Dataset(path.absolute()) as file:
+        return {name: file.getncattr(name) for name in file.ncattrs()}
+
+
+def _tags(path: Path) -> Mapping[str, Any]:
+    with opened_raster(path) as raster:
+        tags: Mapping[str, Any] = raster.tags()
+        return tags
+
+
+def credits_among(attributes: Mapping[Any, Any]) -> Credits:
+    """Those of attributes that are known, whatever the case of their names."""
+    texts = {str(name).lower(): _text(value) for name, value in attributes.items() if isinstance(value, str)}
+    return Credits(
+        **{
+            name: next((texts[one.lower()] for one in names if texts.get(one.lower())), "")
+            for name, names in NAMES.items()
+        }
+    )
+
+
+def _text(value: str) -> str:
+    """In one line, and not too long."""
+    line = " ".join(value.split())
+    return line if len(line) <= MOST_LETTERS else line[: MOST_LETTERS - 1] + "…"

@@ -1,0 +1,75 @@
+"""Classes of depth: their colours, and a drawing of the areas of all of them."""
+
+from dataclasses import replace
+from typing import Final
+
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import Paint
+from vexture_geo.base.extent import Step
+from vexture_geo.flood.options import contours_of
+
+__all__ = ["class_drawing", "classes_shown", "colors_of"]
+
+SEQUENCE: Final = ("#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58")
+"""ColorBrewer's YlGnBu (C. Brewer, 2002): in order for those who are blind to some colours, too, and in gray.
+
+Its palest colour is left out, since it would not be seen on sand.
+"""
+
+
+def colors_of(count: int) -> list[str]:
+    """So many colours from pale to dark, as hexadecimal sRGB.
+
+    Examples
+    --------
+    >>> colors_of(2), colors_of(1)
+    (['#edf8b1', '#081d58'], ['#2fa4c2'])
+    """
+    last = len(SEQUENCE) - 1
+    places = [last / 2] if count == 1 else [last * k / (count - 1) for k in range(count)]
+    return [_between(*SEQUENCE[int(place) : int(place) + 2], share=place % 1.0) for place in places]
+
+
+def _parts(color: str) -> list[int]:
+    return [int(color[k : k + 2], 16) for k in (1, 3, 5)]
+
+
+def _painted(color: str) -> Paint:
+    red, green, blue = (part / 255.0 for part in _parts(color))
+    return Paint((red, green, blue))
+
+
+def _between(one: str, other: str | None = None, *, share: float) -> str:
+    """A colour between two."""
+    parts = zip(_parts(one), _parts(other or one), strict=True)
+    return "#" + "".join(f"{round(a + (b - a) * share):02x}" for a, b in parts)
+
+
+def classes_shown(step: Step, depths: tuple[float, ...]) -> tuple[float, ...]:
+    """Metres from which the classes begin that a map of a step shows: `depths`, or those of a file of classes."""
+    return depths if step.classes is None else (step.classes.ranges[0].low, *step.classes.contours)
+
+
+def _is_of(step: Step, depths: tuple[float, ...], hmin: float) -> bool:
+    """Whether the areas of a step are those of the classes that begin at `depths`."""
+    if step.classes is not None:
+        return classes_shown(step, depths) == depths
+    return len(step.deeper) == len(contours_of(depths, hmin)) and step.depth is not None
+
+
+def class_drawing(step: Step, depths: tuple[float, ...], hmin: float, name: str) -> Drawing | None:
+    """Areas of the classes of a step, each over the shallower ones, in their colours.
+
+    None if all is dry, or the contours between the classes are unknown: of polygons, and of an extent that was read
+    with others, or holds other classes.
+    """
+    if not step.drawing.paths or not _is_of(step, depths, hmin):
+        return None
+    areas = (step.drawing, *step.deeper)
+    colors = colors_of(len(depths))[-len(areas) :]
+    paths = (
+        replace(path, paint=_painted(color), element=color)
+        for area, color in zip(areas, colors, strict=True)
+        for path in area.paths
+    )
+    return replace(step.drawing, paths=tuple(paths), name=name)

@@ -1,0 +1,189 @@
+"""The picture of the ground under the water: the user's, fitted to the frame, over the drawn one."""
+
+import warnings
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from vexture.base.content import TIFF, about
+from vexture.base.errors import LimitError, SourceError, reason_of
+from vexture_geo.base.extent import Frame
+from vexture_geo.base.gdal import opened_raster
+from vexture_geo.flood.grids import pixels_to, size_for
+from vexture_geo.flood.scene import PageNote
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+__all__ = ["GROUND_TYPE", "LARGEST_GROUND", "encoded", "ground_of"]
+
+GROUND_TYPE: Final = "image/webp"
+
+LONGEST: Final = 2048
+"""Most pixels on the longer side: every phone supports textures of that size."""
+
+LARGEST_GROUND: Final = 1_000_000
+"""Most bytes of the encoded picture."""
+
+QUALITIES: Final = (82, 72, 60, 45)
+"""Qualities of WebP, tried in turn until the file is small enough; after them the picture is scaled down."""
+
+MOST_PIXELS: Final = 170_000_000
+"""Most pixels of a PNG, JPEG or WebP: a file of a few kilobytes can declare a huge size."""
+
+SHOWN_PERCENTILES: Final = (2.0, 98.0)
+"""Percentiles of bands of more than 8 bits that become black and white."""
+
+
+def ground_of(
+    path: Path, frame: Frame, drawn: "Image.Image", *, bounds_given: bool
+) -> tuple["Image.Image", list[PageNote]]:
+    """A user's picture of the ground, fitted to the frame, and notes about it.
+
+    A GeoTIFF with a reference system is warped to the frame; a PNG, JPEG or WebP must show exactly the frame, and
+    `bounds_given`: the user has chosen its bounds. `drawn` shows where the picture is transparent or does
+    not reach.
+    """
+    try:
+        with path.open("rb") as file:
+            start = file.read(4)
+    except OSError as error:
+        raise SourceError(f"`ground` {path}: cannot be read ({error.strerror}); name another picture") from None
+    if start in TIFF:
+        return _warped(path, frame, drawn)
+    picture = _opened(path)
+    notes, remedy = [], "`bounds` says which box it shows."
+    if not bounds_given:
+        notes.append(PageNote(f"{path.name} is assumed to show exactly the box of the extent.", remedy))
+    width, height = frame.metres
+    if not 0.9 < (picture.width / picture.height) / (width / height) < 1.1:
+        pixels = f"{picture.width} x {picture.height} pixels"
+        notes.append(PageNote(f"{path.name}, {pixels}, is stretched to {width:.0f} x {height:.0f} m.", remedy))
+    return _over(drawn, _resized(picture, *_size(frame, max(picture.size)))), notes
+
+
+def encoded(picture: "Image.Image") -> bytes:
+    """WebP of a picture within `LARGEST_GROUND` bytes."""
+    while True:
+        for quality in QUALITIES:
+            out = BytesIO()
+            picture.save(out, format="WEBP", quality=quality, method=4)
+            if out.tell() <= LARGEST_GROUND:
+                return out.getvalue()
+        picture = _resized(picture, max(1, 3 * picture.width // 4), max(1, 3 * picture.height // 4))
+
+
+def _opened(path: Path) -> "Image.Image":
+    """A picture in RGBA; one that is too large is refused before it is decoded."""
+    from PIL import Image, ImageOps, UnidentifiedImageError
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about sizes, which are checked here
+            with Image.open(path, formats=("PNG", "JPEG", "WEBP")) as picture:
+                if picture.width * picture.height > MOST_PIXELS:
+                    raise LimitError(
+                        f"`ground` {path}: {picture.width} x {picture.height} pixels; the limit is {MOST_PIXELS:,}; "
+                        "scale it down"
+                    )
+                picture.draft("RGB", (LONGEST, LONGEST))
+                return ImageOps.exif_transpose(picture).convert("RGBA")
+    except Image.DecompressionBombError:
+        raise LimitError(f"`ground` {path}: has more than {MOST_PIXELS:,} pixels; scale it down") from None
+    except (UnidentifiedImageError, OSError, SyntaxError, ValueError) as error:
+        reason = "no picture" if isinstance(error, UnidentifiedImageError) else "a damaged picture"
+        raise SourceError(f"`ground` {path}: is {reason}; give a PNG, JPEG, WebP or GeoTIFF") from None
+
+
+def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[PageNote]]:
+    """A GeoTIFF warped to the frame, over the drawn ground."""
+    from PIL import Image
+    from rasterio.errors import CRSError, RasterioError, RasterioIOError
+
+    try:
+        with warnings.catch_warnings(action="ignore"), about(f"`ground` {path}"), opened_raster(path) as raster:
+            if raster.crs is None:
+                raise SourceError(
+                    "says no reference system; write it into the file (gdal_edit.py -a_srs EPSG:...), or save it as a "
+                    "PNG of exactly `bounds`"
+                )
+            bands, alpha = _bands_over(raster, frame)
+    except RasterioIOError:
+        raise SourceError(f"`ground` {path}: is a damaged GeoTIFF; save it again") from None
+    except (CRSError, RasterioError) as error:
+        raise SourceError(f"`ground` {path}: {reason_of(error, 200)}; save it again") from None
+    if not alpha.any():
+        raise SourceError(f"`ground` {path}: shows nothing of the frame; give one that covers it, or other `bounds`")
+    notes: list[PageNote] = []
+    if (alpha == 0).mean() > 0.005:
+        share = 100.0 * (alpha > 0).mean()
+        notes.append(PageNote(f"{path.name} shows {share:.0f}% of the frame; the rest of the ground is drawn.", ""))
+    if bands.dtype != np.uint8:
+        bands = _stretched(bands, alpha > 0)
+        notes.append(PageNote(f"{path.name} has more than 8 bits a channel; its brightness is stretched.", ""))
+    colours = bands[:3] if len(bands) >= 3 else np.repeat(bands[:1], 3, axis=0)
+    picture = np.concatenate([colours, alpha[None]]).transpose(1, 2, 0)
+    return _over(drawn, Image.fromarray(np.ascontiguousarray(picture))), notes
+
+
+def _bands_over(raster: Any, frame: Frame) -> tuple[Any, Any]:
+    """Bands of a raster warped to the frame, and their opacity, 0 to 255."""
+    from rasterio.enums import ColorInterp, Resampling
+    from rasterio.vrt import WarpedVRT
+    from rasterio.warp import transform_bounds
+
+    west, south, east, north = transform_bounds(raster.crs, frame.crs, *raster.bounds)
+    finest = min(abs(east - west) / raster.width, abs(north - south) / raster.height)
+    wanted = (frame.bounds[2] - frame.bounds[0]) / max(finest, 1e-300)
+    size = _size(frame, int(min(wanted * max(frame.metres) / frame.metres[0], LONGEST)))
+    colours = [n for n, what in enumerate(raster.colorinterp, 1) if what != ColorInterp.alpha][:3]
+    options: dict[str, Any] = {
+        "crs": frame.crs,
+        "transform": pixels_to(frame.bounds, size),
+        "width": size[0],
+        "height": size[1],
+        "resampling": Resampling.nearest if raster.colorinterp[0] == ColorInterp.palette else Resampling.bilinear,
+    }
+    has_alpha = ColorInterp.alpha in raster.colorinterp
+    if np.issubdtype(np.dtype(raster.dtypes[0]), np.floating):  # an added alpha band would be floating-point too
+        options["nodata"] = np.nan
+    elif not has_alpha:
+        options["add_alpha"] = True
+    with WarpedVRT(raster, **options) as onto:
+        bands = onto.read(colours)
+        alpha = np.where(np.isfinite(bands).all(axis=0), onto.dataset_mask(), 0).astype(np.uint8)
+    if raster.colorinterp[0] == ColorInterp.palette:
+        table = np.zeros((256, 4), np.uint8)
+        for value, colour in raster.colormap(1).items():
+            table[value] = colour
+        bands = table[bands[0]].transpose(2, 0, 1)[:3]
+    return bands, alpha
+
+
+def _stretched(bands: Any, known: Any) -> Any:
+    values = bands[:, known].astype(np.float64)
+    values = values[np.isfinite(values)]
+    low, high = np.percentile(values, SHOWN_PERCENTILES) if len(values) else (0.0, 1.0)
+    shares = (np.nan_to_num(bands.astype(np.float64)) - low) / max(high - low, 1e-300)
+    return np.rint(255.0 * np.clip(shares, 0.0, 1.0)).astype(np.uint8)
+
+
+def _over(drawn: "Image.Image", picture: "Image.Image") -> "Image.Image":
+    """A picture in RGBA over the drawn ground, in RGB."""
+    from PIL import Image
+
+    below = drawn.resize(picture.size, Image.Resampling.BICUBIC).convert("RGBA")
+    return Image.alpha_composite(below, picture).convert("RGB")
+
+
+def _size(frame: Frame, longest: int) -> tuple[int, int]:
+    """Width and height in pixels of a picture of the frame."""
+    return size_for(frame, max(16, min(longest, LONGEST)), least=1)
+
+
+def _resized(picture: "Image.Image", width: int, height: int) -> "Image.Image":
+    from PIL import Image
+
+    return picture.resize((width, height), Image.Resampling.LANCZOS)

@@ -1,0 +1,156 @@
+"""Where waves meet a shore of open water: not in rivers, harbours and flooded streets, nor in acute corners."""
+
+import base64
+from io import BytesIO
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.drawing.drawing import Drawing
+from vexture_geo.base.extent import Frame
+from vexture_geo.flood.grids import coverage_over, distance_to, size_for
+
+__all__ = ["calmed", "cells_of", "open_water", "openness_at", "openness_png"]
+
+SAMPLES: Final = 256
+"""Most samples on the longer side."""
+
+RADIUS: Final = 250.0
+"""Metres. Water is open as far as a disc of this radius fits into it: twice that is the fetch of the smallest surf."""
+
+WIDE: Final = 1000.0
+"""Metres. And only of water into which a disc of this radius fits somewhere: neither of a pond nor of a wide river."""
+
+LEAST_CELLS: Final = 2.0
+"""Least of these radii in cells, where these are larger."""
+
+MOST_CELLS: Final = 32.0
+"""Most of these radii in cells, whatever is finer."""
+
+FADE: Final = (0.004, 0.02)
+"""Distance from open water at which waves begin to fade, and at which they have ended; shares of the longer side."""
+
+
+CALM: Final = (0.016, 0.03)
+"""Distance from where the source ends in the sea at which waves have ended, and at which they begin to; the same."""
+
+
+def open_water(
+    drawing: Drawing, frame: Frame, most: Drawing | None = None, beyond: NDArray[np.bool_] | None = None
+) -> NDArray[np.float64]:
+    """Openness of the water at rest, 1 in open water and 0 far from it, on a grid over the frame.
+
+    The northernmost row comes first. Water is open where a disc fits into it (a morphological opening), if it is wide
+    somewhere; it goes on beyond the frame as at its border. With `most`, the water when there is most of it, waves do
+    not get over land that stays dry: behind a dike the water is calm. The sea goes on where it is `beyond` the source
+    (`vexture_geo.flood.relief.beyond_of`).
+    """
+    longest = max(frame.metres)
+    size = size_for(frame, min(SAMPLES, int(np.ceil(longest * MOST_CELLS / RADIUS))))
+    cell = (frame.metres[0] / size[0], frame.metres[1] / size[1])
+    wet = (coverage_over(drawing, frame.box, size) >= 0.5) | cells_of(beyond, size)
+    radius, margin, core = _middles(_within(wet, cell), cell, RADIUS)
+    core = _joined(np.pad(_wide(wet, cell), margin, mode="edge") & core, core)
+    if not core.any():
+        return np.zeros(wet.shape)
+    away = (distance_to(core, cell) - radius)[margin:-margin, margin:-margin] / longest
+    if most is not None:
+        away = np.where(_before_land(away, wet | (coverage_over(most, frame.box, size) >= 0.5)), away, np.inf)
+    share = np.clip((FADE[1] - away) / (FADE[1] - FADE[0]), 0.0, 1.0)
+    return np.asarray(share * share * (3.0 - 2.0 * share))
+
+
+def _middles(wet: NDArray[np.bool_], cell: tuple[float, float], radius: float) -> tuple[float, int, NDArray[np.bool_]]:
+    """Where discs in the water may have their middles, with a margin around the grid; their radius and the margin."""
+    radius = max(radius, LEAST_CELLS * max(cell))
+    margin = int(np.ceil(2.0 * radius / min(cell)))
+    return radius, margin, distance_to(~np.pad(wet, margin, mode="edge"), cell) >= radius
+
+
+def _within(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.bool_]:
+    """Water without what is narrow within the frame: a street along its border goes on beyond it as no sea.
+
+    Half of the wide water may be beyond the border.
+    """
+    radius = max(RADIUS / 2.0, LEAST_CELLS / 2.0 * max(cell))
+    middles = distance_to(~np.pad(wet, 1), cell) >= radius
+    return np.asarray(wet & (distance_to(middles, cell) <= radius + max(cell))[1:-1, 1:-1])
+
+
+def _wide(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.bool_]:
+    """Where the widest disc fits into the water."""
+    every = max(1, int(WIDE / (MOST_CELLS * max(cell))))
+    coarse = (every * cell[0], every * cell[1])
+    radius, margin, middles = _middles(wet[::every, ::every], coarse, WIDE)
+    inside = (distance_to(middles, coarse) <= radius)[margin:-margin, margin:-margin]
+    return np.asarray(inside.repeat(every, axis=0).repeat(every, axis=1)[: wet.shape[0], : wet.shape[1]])
+
+
+def calmed(openness: NDArray[np.float64], frame: Frame, beyond: NDArray[np.bool_] | None) -> NDArray[np.float64]:
+    """Openness without waves where the source ends in the sea: its end is no shore."""
+    if beyond is None:
+        return openness
+    rows, columns = openness.shape
+    cell = (frame.metres[0] / columns, frame.metres[1] / rows)
+    away = distance_to(cells_of(beyond, (columns, rows)), cell) / max(frame.metres)
+    share = np.clip((away - CALM[0]) / (CALM[1] - CALM[0]), 0.0, 1.0)
+    return np.asarray(openness * share * share * (3.0 - 2.0 * share))
+
+
+def cells_of(samples: NDArray[np.bool_] | None, size: tuple[int, int]) -> NDArray[np.bool_]:
+    """Samples from corner to corner as cells: each has the value of the sample that is nearest to its middle."""
+    if samples is None:
+        return np.zeros(size[::-1], bool)
+    at = (
+        np.rint((np.arange(n) + 0.5) / n * (m - 1)).astype(int) for n, m in zip(size[::-1], samples.shape, strict=True)
+    )
+    return np.asarray(samples[np.ix_(*at)])
+
+
+def _before_land(away: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Where waves get to from open water, and the first cell of the land behind: the shore runs between.
+
+    They get no farther on their way around land than where they fade without it.
+    """
+    reached = (away <= 0.0) & wet
+    for _ in range(int(np.ceil(FADE[1] * max(wet.shape)))):
+        reached = _around(reached) & wet
+    return _around(reached)
+
+
+def _around(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Cells, and all that touch one."""
+    rows, columns = cells.shape
+    padded = np.pad(cells, 1)
+    return np.asarray(np.any([padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)], axis=0))
+
+
+def _joined(seeds: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Cells that seeds reach without leaving `inside` (morphological reconstruction, Vincent 1993)."""
+    while True:
+        grown = seeds.copy()
+        for way in (grown, grown[::-1], grown.T, grown.T[::-1]):
+            way[1:] |= way[:-1]
+            grown &= inside
+        if (grown == seeds).all():
+            return seeds
+        seeds = grown
+
+
+def openness_at(openness: NDArray[np.float64], frame: Frame, places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Openness at places of the unit square, (..., 2); beyond the frame as at its border."""
+    x0, y0, x1, y1 = frame.box
+    rows, columns = openness.shape
+    column = np.clip((places[..., 0] - x0) / (x1 - x0) * columns, 0, columns - 1).astype(int)
+    row = np.clip((y1 - places[..., 1]) / (y1 - y0) * rows, 0, rows - 1).astype(int)
+    return np.asarray(openness[row, column])
+
+
+def openness_png(openness: NDArray[np.float64]) -> str:
+    """Data URL of an 8-bit gray PNG."""
+    from PIL import Image
+
+    out = BytesIO()
+    Image.fromarray(np.rint(255.0 * openness).astype(np.uint8)).save(out, format="PNG", optimize=True)
+    return f"data:image/png;base64,{base64.b64encode(out.getvalue()).decode()}"

@@ -1,0 +1,179 @@
+"""The page of a flood in a notebook or a program: `flood_page` makes what `vexture flood -o` writes."""
+
+import html
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from vexture.base.errors import ParameterError
+from vexture_geo.flood.bundle import FLOOD
+from vexture_geo.flood.options import DEPTHS, FloodOptions, classes_of
+
+if TYPE_CHECKING:
+    from xarray import DataArray, Dataset
+
+    from vexture_geo.base.extent import Extent
+    from vexture_geo.flood.credits import Credits
+
+__all__ = ["FloodPage", "flood_page"]
+
+HEIGHT: Final = 600
+"""Pixels of the page in a notebook."""
+
+UNNAMED: Final = "flood"
+"""Title of a flood that no file and no option names."""
+
+READING: Final = ("bounds", "time_dim", "variable", "layer")
+"""Parameters of the reader: an extent has been read."""
+
+KNOWN: Final = frozenset(one.name for one in fields(FloodOptions)) - {"extent"}
+"""Parameters of a flood."""
+
+FRAME: Final = (
+    '<iframe srcdoc="{page}" title="{title}" allow="fullscreen; clipboard-write" '
+    'style="width: 100%; height: {height}px; border: 0"></iframe>'
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FloodPage:
+    """A page that shows a flood and contains all that it needs; a notebook shows it as the value of a cell.
+
+    Parameters
+    ----------
+    html : str
+        The page.
+    title : str
+        Its title.
+    described : str
+        What it holds, in one line.
+    height : int
+        Its height in a notebook, in pixels.
+    """
+
+    html: str = field(repr=False)
+    title: str
+    described: str
+    height: int = HEIGHT
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the page as one HTML file that opens in any browser.
+
+        Raises
+        ------
+        ParameterError
+            If the name does not end in .html.
+        DeviceError
+            If the file cannot be written.
+        """
+        from vexture.pages.page import check_output
+        from vexture.texture.files import write_together
+
+        check_output(Path(path), FLOOD)
+        write_together({Path(path): self.html.encode()})
+
+    def _repr_html_(self) -> str:
+        """The page within another: notebooks ask for it by this name."""
+        page, title = (html.escape(text, quote=True) for text in (self.html, self.title))
+        return FRAME.format(page=page, title=title, height=self.height)
+
+
+def flood_page(
+    source: "str | os.PathLike[str] | Dataset | DataArray | Extent",
+    /,
+    *,
+    height: int = HEIGHT,
+    ground: str | os.PathLike[str] | None = None,
+    relief: str | os.PathLike[str] | None = None,
+    depths: Sequence[float] = DEPTHS,
+    **options: Any,
+) -> FloodPage:
+    """Show a flood as a living sea: the page of `vexture flood`, in a notebook or as a file.
+
+    Needs ``vexture[gis]`` for anything but GeoJSON.
+
+    Parameters
+    ----------
+    source : path, Dataset, DataArray or Extent
+        Where water is: a file as of `vexture.read_extent`; depths as xarray holds them, of which one step at a time is
+        read; or an extent that has been read.
+    height : int
+        Height in a notebook, in pixels.
+    ground : path, optional
+        Picture of the ground: a GeoTIFF, or a PNG, JPEG or WebP that shows exactly `bounds`.
+    relief : path, optional
+        Heights of the ground in metres, as GeoTIFF.
+    depths : sequence of float
+        Depths in metres at which the classes of the map begin.
+    **options
+        As of the command: `bounds`, `crs`, `time_dim`, `hmin`, `variable` and `layer` of `vexture.read_extent`; the
+        waves' `amplitude` in metres and `period` in seconds; `title`, `source` and `licence`, texts that go before what
+        the data say of themselves.
+
+    Returns
+    -------
+    FloodPage
+        A notebook shows it; `save` writes it.
+
+    Raises
+    ------
+    SourceError
+        If the data cannot be read.
+    LimitError
+        If they exceed a limit, or have several layers or variables and none is chosen.
+    ParameterError
+        If an option is out of range, or does not fit the data.
+    DeviceError
+        If a package is missing, or the pages are not built.
+    TypeError
+        If there is no such option.
+
+    Warns
+    -----
+    SourceWarning
+        Once, of what was left out or chosen while the data were read.
+
+    Examples
+    --------
+    >>> lake = Path(getfixture("tmp_path"), "lake.geojson")
+    >>> _ = lake.write_text('{"type": "Polygon", "coordinates": [[[4, 52], [4.01, 52], [4.01, 52.01], [4, 52.01]]]}')
+    >>> flood_page(lake, title="A lake").title
+    'A lake'
+    """
+    from vexture.pages.page import built
+    from vexture_geo.base.datasets import is_dataset
+    from vexture_geo.base.extent import Extent
+    from vexture_geo.flood.credits import Credits
+    from vexture_geo.flood.server import make, page_of
+
+    if not height > 0:
+        raise ParameterError(f"`height` is {height}; it is a number of pixels above 0")
+    for name, value in options.items():
+        if name not in KNOWN:
+            raise TypeError(f"`{name}` is {value!r:.80}, but a flood has no such parameter; leave it out")
+    named = Path(UNNAMED) if isinstance(source, Extent) or is_dataset(source) else Path(source)
+    picture, heights = (None if path is None else Path(path) for path in (ground, relief))
+    asked = FloodOptions(extent=named, ground=picture, relief=heights, depths=classes_of(depths), **options)
+    built(FLOOD.script, FLOOD.package)
+    if isinstance(source, Extent):
+        for name in READING:
+            if options.get(name) is not None:
+                raise ParameterError(
+                    f"`{name}` is {options[name]!r}, but the extent has been read; give it to vexture.read_extent"
+                )
+        given = source, Credits()
+    else:
+        given = _read(source, asked)
+    made = make(asked, lambda _: None, given=given)  # the notes are on the page
+    return FloodPage(page_of(made).decode(), made.flood.title, made.described, height)
+
+
+def _read(source: Any, asked: FloodOptions) -> "tuple[Extent, Credits]":
+    """A source as an extent, and what it says of itself."""
+    from vexture_geo.flood.credits import credits_among, credits_of
+    from vexture_geo.readers import read_extent
+
+    extent = read_extent(source, bounds=asked.bounds, crs=asked.crs, hmin=asked.hmin, **asked.reading)
+    return extent, credits_among(source.attrs) if hasattr(source, "attrs") else credits_of(asked.extent)

@@ -1,0 +1,388 @@
+"""`vexture flood`: the user's files as one page, or on a server that accepts newer ones."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, closing, suppress
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import inf
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.content import about
+from vexture.base.errors import ParameterError, SourceError, counted
+from vexture.base.notes import HEADINGS, Note, line_of
+from vexture.base.workers import Workers
+from vexture.drawing.drawing import Drawing
+from vexture.pages.page import built, check_output, data_address, served_page, whole_page
+from vexture.server.limited_shapes import LimitedShelf
+from vexture.server.limits import Limits
+from vexture.server.published import TEXTURE_TYPE, File, Shape, manifest
+from vexture_geo.base.extent import Extent, Frame
+from vexture_geo.flood.bundle import FLOOD
+from vexture_geo.flood.conversion import FloodConversion
+from vexture_geo.flood.credits import Credits
+from vexture_geo.flood.options import FloodOptions
+from vexture_geo.flood.scene import PREFIX, Flood, PageNote, labels, scene, step_names
+
+if TYPE_CHECKING:  # at run time only what a flood needs is imported
+    from socket import socket
+
+    from vexture_geo.flood.follow import Start
+    from vexture_geo.flood.relief import Relief
+    from vexture_geo.flood.store import KeptWater
+    from vexture_geo.flood.surface import WaterSurface
+    from vexture_geo.flood.video import Track
+    from vexture_geo.flood.video_options import VideoOptions
+
+__all__ = ["Made", "Serving", "Written", "export", "make", "page_of", "serve"]
+
+GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
+
+INVENTED: Final = PageNote("The relief is invented.", "--relief takes a file of heights.")
+DRAWN: Final = PageNote("The ground is drawn, not photographed.", "--ground takes a picture.")
+DRY: Final = PageNote("Nothing is under water.", "")
+SHELTERED: Final = PageNote("No shore is open to waves, so none run up it.", "")
+
+LESS: Final = 0.95
+"""Share of the given amplitude: users are told if waves reach less."""
+
+WHOLE: Final = 0.995
+"""Share of the ground whose height is known: users are told if it is less."""
+
+Say = Callable[[str], None]
+"""Takes a line for the user."""
+
+
+class Made(NamedTuple):
+    """A flood that is ready to be shown."""
+
+    flood: Flood
+    conversion: FloodConversion
+    shapes: Sequence[Shape]
+
+    @property
+    def texture_bytes(self) -> int:
+        """Bytes of all textures: what goes over the wire."""
+        return sum(len(shape.texture.data) for shape in self.shapes)
+
+    @property
+    def described(self) -> str:
+        """One line about it."""
+        count = len(self.shapes)
+        dry = sum(bool(shape.facts["dry"]) for shape in self.shapes)
+        told = f"{counted(count, 'step')}, {self.texture_bytes} bytes of textures"
+        return told + (f", {'nothing' if dry == count else f'in {dry} nothing'} under water" if dry else "")
+
+
+class Written(NamedTuple):
+    """A flood that was written into files, and their sizes in bytes."""
+
+    made: Made
+    sizes: dict[Path, int]
+
+
+def make(
+    asked: FloodOptions,
+    say: Say,
+    start: "Start | None" = None,
+    kept: "KeptWater | None" = None,
+    given: tuple[Extent, Credits] | None = None,
+) -> Made:
+    """Read all files of a flood and convert them; `say` gets warnings and notes for the user.
+
+    Of a followed run, `start` are its first steps. What of them is `kept` already is not converted again. What is
+    `given`, an extent and its credits, is not read.
+    """
+    from vexture_geo.flood.credits import credits_of
+    from vexture_geo.flood.depth_classes import classes_shown
+    from vexture_geo.flood.drawn_ground import drawn_ground
+    from vexture_geo.flood.ground import encoded, ground_of
+    from vexture_geo.flood.open_water import calmed
+    from vexture_geo.flood.relief import beyond_of, relief_of
+    from vexture_geo.flood.surface import highest_of, surface_of
+    from vexture_geo.flood.views import views_of
+
+    if start is not None:
+        given = start.extent, start.credits
+    extent, credits = given or (_read(asked), credits_of(asked.extent))
+    if line := line_of(str(asked.extent), extent.notes):
+        say(f"warning: {line}")
+    frame = extent.frame
+    amplitude = asked.amplitude_in(max(frame.metres))
+
+    def heights() -> "Relief":
+        return relief_of(extent, asked.relief, asked.crs)
+
+    relief = heights() if kept is None else kept.relief(asked, extent, heights)
+    first = extent.steps[0]
+    depths = classes_shown(first, asked.depths)
+    conversion = FloodConversion(frame, asked.hmin, asked.reading, relief, depths, extent.bed)
+    picture, told = drawn_ground(extent, relief), [DRAWN]
+    if asked.ground is not None:
+        picture, told = ground_of(asked.ground, frame, picture, bounds_given=asked.bounds is not None)
+    notes = [*([INVENTED] if relief.invented else []), *told]
+    surfaces = [surface_of(step, frame, relief, extent.bed, asked.hmin) for step in extent.steps]
+    shapes = _shapes(conversion, extent, surfaces, start, kept, asked.who())
+    beyond = beyond_of(extent, relief)
+    fold, openness, told = _shore(asked, extent, amplitude, beyond)
+    notes += told if start is None else [note for note in told if note is not DRY]  # water may come
+    if relief.known < WHOLE:
+        notes.append(PageNote(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
+    credits = credits.with_given(title=asked.title, source=asked.source, licence=asked.licence)
+    flood = Flood(
+        title=credits.title or asked.extent.name.partition(".")[0] or PREFIX,
+        credits=credits,
+        depths=depths,
+        end=first.classes.ranges[-1].high if first.classes else inf,
+        frame=frame,
+        ground=encoded(picture),
+        relief=relief,
+        fold=fold,
+        openness=None if openness is None else calmed(openness, frame, beyond),
+        views=views_of(extent, openness, highest_of(surfaces), beyond),
+        notes=(*_on_page(asked.extent.name, extent.notes), *notes),
+    )
+    for note in notes:
+        say(" ".join(("note:", *filter(None, note))))
+    return Made(flood, conversion, shapes)
+
+
+def _on_page(name: str, notes: Sequence[Note]) -> Iterator[PageNote]:
+    """What was left out or chosen of a file, for those who look at its page: without what its author can do."""
+    for note in notes:
+        text, _, remedy = str(note).partition("; ")
+        heading = HEADINGS[note.kind]
+        yield PageNote(f"{name}: {heading}{text}.", remedy)
+
+
+def _shapes(
+    conversion: FloodConversion,
+    extent: Extent,
+    surfaces: "Sequence[WaterSurface]",
+    start: "Start | None",
+    kept: "KeptWater | None",
+    workers: Workers,
+) -> list[Shape]:
+    """Shapes of the steps; of a followed run those are not converted that are kept and have not changed."""
+    from vexture_geo.flood.follow import NAMES, is_made_of, marked
+
+    steps, told = extent.steps, labels([step.time for step in extent.steps])
+    if start is None:
+        named = zip(steps, surfaces, step_names(len(steps)), told, strict=True)
+        return list(workers.map(FloodConversion.converted, conversion, named, len(steps)))
+    shapes = []
+    for step, surface, name, label, known in zip(steps, surfaces, NAMES, told, start.known, strict=False):
+        before = None if kept is None else kept.shape(name)
+        if before is None or not is_made_of(before, known):
+            before = marked(conversion.step(step, surface, name, label), known)
+        shapes.append(before)
+    return shapes
+
+
+def _shore(
+    asked: FloodOptions, extent: Extent, amplitude: float, beyond: NDArray[np.bool_] | None
+) -> tuple[bytes | None, NDArray[np.float64] | None, list[PageNote]]:
+    """File that moves the shore, where there are waves, and remarks about both."""
+    from vexture_geo.flood.open_water import calmed, open_water
+    from vexture_geo.flood.relief import first_wet, widest
+
+    first, most = first_wet(extent), widest(extent)
+    if first is None or most is None:
+        return None, None, [DRY]
+    openness = open_water(first.drawing, extent.frame, most.drawing, beyond)
+    if amplitude and openness.any():
+        fold, reached = _fold(
+            first.drawing, calmed(openness, extent.frame, beyond), amplitude, asked.period, extent.frame
+        )
+        if asked.amplitude is None or reached >= LESS * amplitude:
+            return fold, openness, []
+        told = f"Waves run up {reached:.3g} m: {amplitude:.3g} m would turn the shore over."
+        return fold, openness, [PageNote(told, "")]
+    return None, openness, [SHELTERED] if asked.amplitude else []
+
+
+def _read(asked: FloodOptions) -> Extent:
+    from vexture_geo.readers import extent_of
+
+    if asked.extent.is_dir():
+        raise SourceError(f"`extent` {asked.extent}: is a folder; name a file in it that says where water is")
+    if not asked.extent.is_file():
+        raise SourceError(f"`extent` {asked.extent}: there is no such file; name one that says where water is")
+    named = str(asked.extent)
+    with about(named):
+        return extent_of(
+            asked.extent,
+            named,
+            bounds=asked.bounds,
+            crs=asked.crs,
+            hmin=asked.hmin,
+            workers=asked.who(),
+            **asked.reading,
+        )
+
+
+def _fold(
+    drawing: Drawing, openness: NDArray[np.float64], amplitude: float, period: float, frame: Frame
+) -> tuple[bytes, float]:
+    """File that moves the shore of open water up and down the beach, and its largest shift in metres."""
+    from vexture.fold.shore import fold_of_shore
+    from vexture_geo.base.extent import MARGIN
+    from vexture_geo.flood.open_water import openness_at
+
+    share = (1.0 - 2.0 * MARGIN) / max(frame.metres)
+    fold = fold_of_shore(drawing, amplitude=amplitude * share, period=period)
+    rows, columns, _ = fold.displacement.shape
+    x, y = np.meshgrid((np.arange(columns) + 0.5) / columns, 1.0 - (np.arange(rows) + 0.5) / rows)
+    moved = openness_at(openness, frame, np.stack([x, y], axis=-1))
+    fold = replace(fold, displacement=(fold.displacement * moved[..., None]).astype(np.float32))
+    return fold.to_ktx2(), float(np.hypot(fold.displacement[..., 0], fold.displacement[..., 1]).max()) / share
+
+
+def export(asked: FloodOptions, output: Path | None, video: "VideoOptions | None", say: Say, track: "Track") -> Written:
+    """Write one page that needs nothing else, a video of it, or both.
+
+    `track` goes through the frames of the video, and may show how far it is.
+    """
+    from vexture.texture.files import writable, write_together
+
+    built(FLOOD.script, FLOOD.package)
+    if output is not None:
+        check_output(output, FLOOD)
+    if video is not None:
+        from vexture_geo.flood.video import film
+
+        writable(video.path.parent)
+    made = make(asked, say)
+    page = page_of(made)
+    files = {} if output is None else {output: page}
+    if video is not None:
+        files[video.path] = film(page, video, made.flood.title, track)
+    write_together(files)
+    return Written(made, {path: len(data) for path, data in files.items()})
+
+
+def page_of(made: Made) -> bytes:
+    """One page that needs nothing else."""
+    from vexture_geo.flood.ground import GROUND_TYPE
+
+    flood = made.flood
+    told = scene(
+        flood,
+        [manifest(shape, None, {}, address=data_address) for shape in made.shapes],
+        data_address(File(flood.ground, GROUND_TYPE, "")),
+        None if flood.fold is None else data_address(File(flood.fold, TEXTURE_TYPE, "")),
+    )
+    return whole_page(FLOOD, {"flood": told}, flood.title)
+
+
+@dataclass(frozen=True, slots=True)
+class Serving:
+    """How a flood is served.
+
+    Without a token nothing can be pushed, and only requests to the server's own address are answered. With `follows`
+    the extent is a file that a model writes. In the folder `keep` are pushed and followed steps, for the next start.
+    """
+
+    host: str
+    port: int
+    token_file: Path | None = None
+    follows: bool = False
+    keep: Path | None = None
+
+    def __post_init__(self) -> None:
+        if self.keep is not None and self.token_file is None and not self.follows:
+            raise ParameterError(
+                f"`keep` {self.keep}: no water comes that could be kept; give `token_file` or `follow`"
+            )
+
+
+def serve(asked: FloodOptions, how: Serving, *, say: Say, show: Callable[[str, Made], None]) -> None:
+    """Serve a flood until Ctrl-C or SIGTERM.
+
+    `say` takes warnings and notes for the user, `show` the address and what is shown there.
+    """
+    from vexture.server.listen import bind
+    from vexture.server.tokens import read_token
+    from vexture_geo.flood.store import KeptWater
+
+    built(FLOOD.script, FLOOD.package)
+    token = None if how.token_file is None else read_token(how.token_file)
+    limits = Limits()
+    with closing(bind(how.host, how.port)) as taken, ExitStack() as stack:
+        kept = None
+        if how.keep is not None:
+            kept = KeptWater(how.keep, limits, say)
+            stack.callback(kept.release)
+        _serve(asked, how, token, taken, LimitedShelf(limits) if kept is None else kept, kept, say, show)
+
+
+def _put(shapes: Sequence[Shape], shelf: LimitedShelf, *, over: bool) -> list[Shape]:
+    """Put shapes on a shelf, over what is there or beside it: what was pushed is newer; those that were not there."""
+    fresh = [shape for shape in shapes if shelf.shape(shape.name) is not shape]
+    for shape in fresh:
+        if over or shelf.shape(shape.name) is None:
+            shelf.put(shape)
+    return fresh
+
+
+def _serve(
+    asked: FloodOptions,
+    how: Serving,
+    token: str | None,
+    taken: "socket",
+    shelf: LimitedShelf,
+    kept: "KeptWater | None",
+    say: Say,
+    show: Callable[[str, Made], None],
+) -> None:
+    from vexture.pages.page_routes import page_routes
+    from vexture.server.converter import BusyError, Converter
+    from vexture.server.listen import background, listen, serve_until_stopped
+    from vexture.server.routes import NO_SNIFFING, application, fixed, routes
+    from vexture.server.uploads import publishing_routes
+    from vexture_geo.flood.follow import FollowedRun, first_steps, follow
+    from vexture_geo.flood.ground import GROUND_TYPE
+
+    run = FollowedRun(asked.extent, {"crs": asked.crs, "hmin": asked.hmin, **asked.reading})
+    start = first_steps(run, asked.bounds, say) if how.follows else None
+    made = make(asked, say, start, kept)
+    if shelf.names:
+        say(f"{how.keep}: {counted(len(shelf.names), 'step')} from before")
+    fresh = _put(made.shapes, shelf, over=start is not None)
+    flood, limits = made.flood, Limits()
+    converter = Converter(limits, made.conversion)
+
+    async def work() -> None:
+        if token:
+            with suppress(BusyError):
+                await converter.warm()
+        if start is not None:
+            await follow(run, start, fresh, made.conversion, shelf, say)
+
+    def stop() -> None:
+        shelf.close()
+        converter.close()
+
+    @lru_cache(1)
+    def page(names: tuple[str, ...]) -> bytes:
+        told = scene(flood, names, GROUND_NAME, FOLD_NAME if flood.fold else None)
+        return served_page(FLOOD, {"server": "./", "flood": told}, flood.title)
+
+    plain = {"Cache-Control": "no-cache", **NO_SNIFFING}
+    app = application(
+        [
+            *page_routes(FLOOD, lambda: page(tuple(shelf.names))),
+            fixed(f"/{GROUND_NAME}", flood.ground, GROUND_TYPE, plain),
+            *([fixed(f"/{FOLD_NAME}", flood.fold, TEXTURE_TYPE, plain)] if flood.fold else []),
+            *routes(shelf),
+            *publishing_routes(shelf, converter, limits, token),
+        ],
+        limits,
+        only_at=None if token else how.host,
+        lifespan=background(work) if token or start else None,
+    )
+    show(listen(taken), made)
+    serve_until_stopped(app, taken, stop, limits)

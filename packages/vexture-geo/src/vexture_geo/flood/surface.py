@@ -1,0 +1,148 @@
+"""The water's surface at one time: its own level at every place, on sloping rivers and in ponds at several heights."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture_geo.base.extent import DepthClasses, Frame, Step
+from vexture_geo.flood.grids import coarser, mean_of, sampled
+from vexture_geo.flood.relief import Relief, wet_samples
+
+__all__ = ["WaterSurface", "highest_of", "surface_of"]
+
+FINEST_UNIT: Final = 0.005
+"""Metres. The smallest unit of levels on the page: finer ones would not be seen, and would not compress."""
+
+BESIDE: Final = 1 << 15
+"""In a picture of levels, what is added where there is no water, but beside it; 0 says that there is none near."""
+
+BEYOND: Final = 3
+"""Samples around the water that have its level too: there the surface runs into the ground, and is cut at the shore."""
+
+SMOOTH: Final = 4
+"""Passes that smooth levels which are ground and depth of different sources, and so rough."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WaterSurface:
+    """Levels of the water in metres above the still water, NaN where there is none near.
+
+    The northernmost row comes first, on the grid of the heights of the ground. `wet` says where there is water: the
+    levels go on a little beside it.
+    """
+
+    levels: NDArray[np.float64]
+    wet: NDArray[np.bool_]
+
+    def encoded(self) -> tuple[bytes, dict[str, float]]:
+        """16-bit gray PNG, and the facts to read it.
+
+        1 is `lowest`, each further step is `unit`. Beside the water the same numbers are raised by `BESIDE`; 0 is no
+        water near.
+        """
+        from PIL import Image
+
+        known = self.levels[np.isfinite(self.levels)]
+        lowest, range_of = (float(known.min()), float(np.ptp(known))) if known.size else (0.0, 0.0)
+        unit = max(FINEST_UNIT, range_of / (BESIDE - 2))
+        numbers = np.rint((self.levels - lowest) / unit) + np.where(self.wet, 1.0, 1.0 + BESIDE)
+        numbers = np.nan_to_num(numbers, nan=0.0)
+        out = BytesIO()
+        Image.fromarray(numbers.astype(np.uint16)).save(out, format="PNG", optimize=True)
+        return out.getvalue(), {"lowest": lowest, "unit": unit}
+
+
+def surface_of(step: Step, frame: Frame, relief: Relief, bed: NDArray[np.float32] | None, hmin: float) -> WaterSurface:
+    """Surface of the water of a step.
+
+    It is the bed and the depth upon it where the source has both, else the heights and the depth. Where depths are not
+    known, the water is as high as the ground along its shore, and in between as the shores around.
+    """
+    rows, columns = relief.heights.shape
+    size = columns, rows
+    wet = wet_samples(step, frame, size)
+    known = step.depth if step.classes is None else _about(step.classes)
+    depth = None if known is None else np.where(known >= hmin, known, np.nan)
+    if depth is not None and bed is not None and step.classes is None and not relief.invented:
+        levels = sampled(coarser(bed + depth, size), size) - relief.still
+    elif depth is not None and not relief.invented:
+        levels = relief.heights + sampled(coarser(depth, size), size)
+        levels = _smoothed(np.where(wet, levels, np.nan), SMOOTH)
+    else:
+        levels = _from_shores(relief.heights, wet)
+    levels = np.where(wet | np.isfinite(levels), _filled_at(levels, wet), np.nan)
+    return WaterSurface(_widened(levels, BEYOND), wet)
+
+
+def _about(classes: DepthClasses) -> NDArray[np.float32]:
+    """Depths amid classes, to draw a surface of which no number is shown; NaN where it is dry."""
+    amid = [low if np.isinf(high) else (low + high) / 2.0 for low, high in classes.ranges]
+    return np.array([np.nan, *amid], np.float32)[classes.ranks]
+
+
+def highest_of(surfaces: Sequence[WaterSurface]) -> NDArray[np.float64] | None:
+    """Highest level of all at each sample, NaN where there is never water; None if there is none at all."""
+    if not any(np.isfinite(surface.levels).any() for surface in surfaces):
+        return None
+    highest = surfaces[0].levels
+    for surface in surfaces[1:]:
+        highest = np.fmax(highest, surface.levels)
+    return highest
+
+
+def _around(levels: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Mean of each sample and its eight neighbours, without NaN."""
+    rows, columns = levels.shape
+    padded = np.pad(levels, 1, constant_values=np.nan)
+    shifted = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
+    return mean_of(np.stack(shifted), 0)
+
+
+def _widened(levels: NDArray[np.float64], samples: int) -> NDArray[np.float64]:
+    for _ in range(samples):
+        levels = np.where(np.isfinite(levels), levels, _around(levels))
+    return levels
+
+
+def _smoothed(levels: NDArray[np.float64], passes: int) -> NDArray[np.float64]:
+    for _ in range(passes):
+        levels = np.where(np.isfinite(levels), _around(levels), np.nan)
+    return levels
+
+
+def _filled_at(levels: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Levels, and where it is wet without one, those around it."""
+    return _filled(levels) if (wet & ~np.isfinite(levels)).any() else levels
+
+
+def _filled(levels: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Levels, and where there are none, means of those around, over larger and larger blocks (a push-pull pyramid)."""
+    rows, columns = levels.shape
+    if np.isfinite(levels).all() or rows * columns == 1:
+        return levels
+    even = np.pad(levels, [(0, rows % 2), (0, columns % 2)], constant_values=np.nan)
+    blocks = even.reshape(even.shape[0] // 2, 2, even.shape[1] // 2, 2)
+    coarse = _filled(mean_of(blocks, (1, 3)))
+    return np.where(
+        np.isfinite(levels), levels, _around(np.kron(coarse, np.ones((2, 2))).astype(np.float64))[:rows, :columns]
+    )
+
+
+def _from_shores(heights: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Heights of the ground along the border of the water, halfway to its dry neighbours; NaN elsewhere."""
+    total, count = np.zeros(heights.shape), np.zeros(heights.shape)
+    for axis in (0, 1):
+        ground, water = np.moveaxis(heights, axis, 0), np.moveaxis(wet, axis, 0)
+        sums, counts = np.moveaxis(total, axis, 0), np.moveaxis(count, axis, 0)
+        crossed = water[:-1] != water[1:]
+        middle = np.where(crossed, (ground[:-1] + ground[1:]) / 2.0, 0.0)
+        for part in (slice(None, -1), slice(1, None)):
+            sums[part] += middle
+            counts[part] += crossed
+    with np.errstate(invalid="ignore", divide="ignore"):
+        found = np.where(wet & (count > 0.0), total / count, np.nan)
+    return found if np.isfinite(found).any() else np.where(wet, 0.0, np.nan)

@@ -1,0 +1,148 @@
+"""Conversion of geographic data into the texture of a map, and the table of its attributes."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Final, Literal
+
+import numpy as np
+
+from vexture.base.content import about
+from vexture.base.deadline import DEFAULT_SECONDS, within
+from vexture.base.errors import LimitError, ParameterError, SourceError
+from vexture.base.layout import MOST_PAINTS
+from vexture.conversion.pipeline import Conversion, run
+from vexture.drawing.drawing import Drawing, Path
+from vexture_geo.maps.coverage import covering, ranks
+from vexture_geo.maps.paths import area_paths
+from vexture_geo.maps.place import MERCATOR, unit_of
+from vexture_geo.maps.prepare import FILL, INK, MapLayer, Prepared, in_memory, prepared
+
+if TYPE_CHECKING:
+    import pyarrow
+
+__all__ = ["DEFAULT_SIZE", "Map", "convert_map", "converted"]
+
+DEFAULT_SIZE: Final = 1024
+"""Pixels of the map's larger side, to which widths in pixels refer."""
+
+
+@dataclass(frozen=True, eq=False)
+class Map:
+    """A map.
+
+    Parameters
+    ----------
+    conversion : Conversion
+        With the texture.
+    table : pyarrow.Table
+        The attributes.
+    legends : tuple of dict
+        Of each coloured layer.
+    times : dict, optional
+        Of a map that changes with time, ready for JSON: ``times``, the names of the steps; ``ids`` of the features;
+        ``colors`` of each step, those of all these; ``legend``.
+    """
+
+    conversion: Conversion[Any]
+    table: "pyarrow.Table"
+    legends: tuple[dict[str, Any], ...]
+    times: dict[str, Any] | None = None
+
+
+def convert_map(
+    layers: Sequence[MapLayer],
+    *,
+    crs: str = MERCATOR,
+    snap: float | None = None,
+    size: int = DEFAULT_SIZE,
+    restyle: bool = True,
+    tolerance: float | Literal["auto"] = "auto",
+    name: str | None = None,
+    max_seconds: float = DEFAULT_SECONDS,
+) -> Map:
+    """Convert layers, drawn in this order, into one texture whose elements are features.
+
+    Parameters
+    ----------
+    layers : sequence of MapLayer
+    crs : str
+        Reference system of the map; Web Mercator by default.
+    snap : float, optional
+        Borders and gaps no wider than this become one border, in parts of the map's larger side; 3e-6 by default.
+    size : int
+        Pixels of the larger side of the map, for widths in pixels.
+    restyle : bool
+        Colours can be changed and features picked by their ids.
+    tolerance, max_seconds
+        As in `vexture.convert`.
+    name : str, optional
+        Names the map; by default after the first layer.
+
+    Raises
+    ------
+    SourceError, ParameterError, LimitError
+        Each in a line that says what to do.
+    """
+    ready = prepared(layers, crs=crs, size=size, name=name, max_seconds=max_seconds)
+    return converted(ready, snap=snap, restyle=restyle, tolerance=tolerance, max_seconds=max_seconds)
+
+
+def converted(
+    ready: Prepared,
+    *,
+    snap: float | None = None,
+    restyle: bool = True,
+    tolerance: float | Literal["auto"] = "auto",
+    max_seconds: float = DEFAULT_SECONDS,
+    capacity: int | None = None,
+) -> Map:
+    """Convert layers that are read; parameters and errors are those of `convert_map` and `vexture.convert`."""
+    given: dict[str, Any] = {"restyle": restyle, "tolerance": tolerance, "capacity": capacity}
+    if ready.steps is not None and not restyle:
+        raise ParameterError("colours change with `times` only where features can be recoloured; leave `restyle` on")
+    with in_memory():
+        with within(max_seconds):
+            drawing = _drawing(ready, snap)
+            _check_count(drawing, restyle)
+        done = run(replace(drawing, notes=ready.notes.listed), split="faces", max_seconds=max_seconds, **given)
+    return Map(done, ready.table, ready.legends, _times(ready, done.texture.roots))
+
+
+def _times(ready: Prepared, roots: Sequence[Any]) -> dict[str, Any] | None:
+    """The colours of features at each step; without those that lie wholly below others."""
+    if ready.steps is None:
+        return None
+    one, steps = ready.steps
+    drawn = {name for root in roots for name in (root.style.names if root.style else ())}
+    rows = [row for row, name in enumerate(one.names.tolist()) if name in drawn]
+    legend = next(legend for legend in ready.legends if "times" in legend)
+    return replace(steps, rgba=steps.rgba[:, rows]).as_json(one.names[rows].tolist(), legend)
+
+
+def _drawing(ready: Prepared, snap: float | None) -> Drawing:
+    """All layers in the unit square."""
+    fit, paths = ready.fit, list[Path]()
+    for one in ready.layers:
+        with about(one.layer.name):
+            rank = ranks(one.features, one.layer.order)
+        ordered = one.layer.order is not None
+        known: dict[str, Any] = {"names": one.names, "unit": unit_of(ready.crs), "is_ordered": ordered}
+        rings = covering(one.features.rings, rank, fit.scale, snap, ready.notes, **known)
+        paths += area_paths(rings, one.names, one.colours(FILL), rank, fit)
+        border = one.outline
+        paths += area_paths(border.rings, np.array([border.name], object), border.rgba, np.zeros(1, np.int64), fit)
+        paths += area_paths(one.lines, one.names, one.colours(INK), np.arange(len(one.features)), fit)
+        paths += one.symbols.seen_paths(fit) if one.symbols is not None else ()
+    if not paths:
+        raise SourceError("its features enclose no area; correct them")
+    return Drawing(tuple(paths), fit.to_source, ready.name, ready.crs, sides=fit.sides)
+
+
+def _check_count(drawing: Drawing, restyle: bool) -> None:
+    """Refuse more features than a map that is restyled has colours for."""
+    count = len({path.element for path in drawing.paths})
+    if restyle and count >= MOST_PAINTS:
+        raise LimitError(
+            f"it has {count:,} features, and one map that can be restyled holds {MOST_PAINTS - 1:,}; draw colours of "
+            "classes only (`restyle` off), fewer features by `where`, or make a pyramid by vexture tiles"
+        )

@@ -1,0 +1,164 @@
+"""Polygons that should cover an area each place once: borders snapped, gaps closed, overlaps in an order."""
+
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.errors import ParameterError
+from vexture.base.notes import Notes
+from vexture_geo.base.rings import Rings, rings_of, shared
+from vexture_geo.base.snap import DEFAULT_SNAP, MOST_SNAP
+from vexture_geo.base.validity import made_valid
+from vexture_geo.vector.features import Features
+
+__all__ = ["covering", "ranks", "ranks_by_area"]
+
+NOISE: Final = 1e-9
+"""Parts of the map's larger side: overlaps of less area than this times that side squared are not counted."""
+
+
+def covering(
+    rings: Rings,
+    rank: NDArray[np.int64],
+    size: float,
+    snap: float | None,
+    notes: Notes,
+    *,
+    names: NDArray[Any],
+    unit: str,
+    is_ordered: bool = False,
+) -> Rings:
+    """Polygons with shared borders; gaps no wider than `snap` are closed, overlaps go to the feature of higher rank.
+
+    Parameters
+    ----------
+    rings : Rings
+        Of features.
+    rank : (f,) array
+        The order of the features; where they overlap, the higher one is seen.
+    size : float
+        The larger side of the map; `snap` is in parts of it.
+    snap : float or None
+        0 leaves all as it is.
+    notes : Notes
+        Gets what was snapped and closed, and which polygons overlap. What the default of `snap` moves is not told.
+    names : (f,) array
+        The names of the features.
+    unit : str
+        Of the coordinates, for the notes.
+    is_ordered : bool
+        Whether the order was asked for: then it is no news that polygons lie below others.
+    """
+    width = (DEFAULT_SNAP if snap is None else snap) * size
+    if rings.feature is None or len(np.unique(rings.feature)) < 2:
+        return rings  # one feature has no neighbours
+    if 0.0 < width <= MOST_SNAP * size and _is_clean(rings, width):
+        return rings
+    rings = shared(rings, size, snap, notes, unit=unit, told=DEFAULT_SNAP * (1.0 + 1e-9))
+    if snap == 0.0 or len(rings.outer) < 2:
+        return rings
+    return _cleaned(rings, rank, size, width, notes, names, is_ordered)
+
+
+def _is_clean(rings: Rings, width: float) -> bool:
+    """Whether borders are equal already, bit for bit and corner for corner, without overlaps and narrow gaps.
+
+    Then there is nothing to snap, and to know it costs much less than to try.
+    """
+    import shapely
+
+    try:
+        return len(rings.outer) > 1 and bool(shapely.coverage_is_valid(rings.shapes, gap_width=width))
+    except (shapely.errors.GEOSException, ValueError):
+        return False
+
+
+def _cleaned(
+    rings: Rings,
+    rank: NDArray[np.int64],
+    size: float,
+    width: float,
+    notes: Notes,
+    names: NDArray[Any],
+    is_ordered: bool,
+) -> Rings:
+    """Polygons without gaps, and without overlaps."""
+    import shapely
+
+    assert rings.feature is not None
+    shapes = rings.shapes
+    wrong = ~shapely.is_valid(shapes)
+    shapes[wrong] = made_valid(shapes[wrong])
+    try:
+        found = shapely.coverage_invalid_edges(shapes, gap_width=width)
+        amiss = ~shapely.is_empty(found)
+        if not amiss.any():
+            return rings
+        order = np.argsort(-rank[rings.feature], kind="stable")  # the first of an overlap keeps it
+        clean = np.empty(len(shapes), object)
+        clean[order] = shapely.coverage_clean(shapes[order], gap_width=width, merge_strategy="min_index")
+    except (shapely.errors.GEOSException, ValueError):
+        notes.remark("gaps between its polygons are as they were: they could not be closed")
+        return rings
+    change = shapely.area(clean) - shapely.area(shapes)
+    _say(change / size**2, names[rings.feature], notes, is_ordered)
+    parts, owner = shapely.get_parts(clean, return_index=True)
+    keep = (shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)
+    origin = owner[keep]
+    return rings_of(parts[keep], lambda index: rings.place(int(origin[index])), rings.feature[origin])
+
+
+def _say(change: NDArray[np.float64], names: NDArray[Any], notes: Notes, is_ordered: bool) -> None:
+    """Note which polygons lost or won an area, in parts of the square around the map."""
+    if not is_ordered:
+        below = "a polygon lies below others that overlap it: `order` says which is above"
+        notes.features("remark", below, names[change < -NOISE])
+    notes.features("remark", "a polygon has grown into narrow gaps beside it", names[change > NOISE])
+
+
+def ranks(features: Features, order: str | None) -> NDArray[np.int64]:
+    """Order in which features are painted: by a column, else the smaller above the larger, and then as in the source.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such column, or it cannot be sorted.
+    """
+    import pyarrow as pa
+    import pyarrow.compute as pc
+    import shapely
+
+    if order is None:
+        weights = shapely.area(features.rings.shapes)
+        area: NDArray[np.float64] = np.bincount(features.feature, weights, len(features)).astype(np.float64)
+        return ranks_by_area(area)
+    if order not in features.table.column_names:
+        known = ", ".join(features.table.column_names)
+        raise ParameterError(f"it has no column {order!r} for `order`; there are: {known}")
+    try:
+        found = pc.sort_indices(features.table.column(order))
+    except (pa.ArrowInvalid, pa.ArrowNotImplementedError, pa.ArrowTypeError):
+        raise ParameterError(f"`order` {order!r} cannot be sorted; name a column of numbers or text") from None
+    sequence = np.asarray(found, np.int64)
+    nulls = np.asarray(features.table.column(order).is_null(nan_is_null=True))[sequence]
+    sequence = np.append(sequence[nulls], sequence[~nulls])  # what has no value is below
+    return _places(sequence)
+
+
+def ranks_by_area(area: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Order in which features of these areas are painted: the smaller above the larger, and then as in the source.
+
+    Examples
+    --------
+    >>> ranks_by_area(np.array([1.0, 4.0, 1.0])).tolist()
+    [1, 0, 2]
+    """
+    return _places(np.argsort(-area, kind="stable"))
+
+
+def _places(sequence: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The place of each feature in a sequence of all."""
+    rank = np.empty(len(sequence), np.int64)
+    rank[sequence] = np.arange(len(sequence))
+    return rank

@@ -1,0 +1,105 @@
+"""The edge of the world on a map: features on one side of it, and borders that are none, as a map is cut there."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import pi
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture_geo.base.crs import period, same_system, transformed
+from vexture_geo.maps.domain import POLE, TURN, WORLD, domain_of, is_wide, within_turn
+from vexture_geo.maps.place import MERCATOR, RADIUS
+from vexture_geo.vector.features import Features, Lines, Points
+
+__all__ = ["along_edge", "together"]
+
+NEAR: Final = 1e-4
+"""Degrees: what is nearer to the edge lies on it. Maps end a little before the meridian where they are torn."""
+
+AT_RIM: Final = 0.02
+"""Degrees: what is nearer to the rim of one side of the globe lies on it."""
+
+ROUNDED: Final = 1e-9
+"""Parts of the world by which rounding moves its edge."""
+
+
+def together(layers: list[Features], crs: str) -> list[Features]:
+    """Features of a map on one side of the antimeridian, if they all lie near it: on that where most corners are."""
+    turn = _turn(crs)
+    if turn is None:
+        return layers
+    reach = np.concatenate([_reach(features) for features in layers])
+    shift = _shift(reach, turn)
+    if len(reach) and turn / 2 < np.ptp(reach) > np.ptp(reach + shift[:, None]) < turn / 2:
+        layers = [_shifted(features, lambda own: _shift(own, turn)) for features in layers]
+    x = np.concatenate([part[:, 0] for f in layers for part in (f.rings.points, f.lines.points, f.points.points)])
+    away = turn * np.rint(np.median(x) / turn) if len(x) else 0.0
+    return [_shifted(features, lambda own: np.full(len(own), -away)) for features in layers] if away else layers
+
+
+def _turn(crs: str) -> float | None:
+    """Width of the world on a map whose longitudes begin again there."""
+    return 2.0 * pi * RADIUS if same_system(crs, MERCATOR) else period(crs)
+
+
+def _shift(reach: NDArray[np.float64], turn: float) -> NDArray[np.float64]:
+    """How far to the east things go of which the middle is in the west."""
+    return np.where(reach.mean(axis=1) < 0.0, turn, 0.0)
+
+
+def _reach(features: Features) -> NDArray[np.float64]:
+    """West and east of every polygon, line and point, (n, 2)."""
+    spots = features.points.points[:, :1]
+    parts = [features.rings.boxes[:, :, 0], _of_lines(features.lines), np.concatenate([spots, spots], axis=1)]
+    return np.concatenate(parts)
+
+
+def _of_lines(lines: Lines) -> NDArray[np.float64]:
+    if not len(lines.ends):
+        return np.empty((0, 2))
+    starts, x = np.append(0, lines.ends[:-1]), lines.points[:, 0]
+    return np.stack([np.minimum.reduceat(x, starts), np.maximum.reduceat(x, starts)], axis=1)
+
+
+def _shifted(features: Features, shift: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Features:
+    """Features moved along x, each part as `shift` tells of its west and east."""
+    rings, lines, points = features.rings, features.lines, features.points
+    if len(rings.ends):
+        rings = rings.shifted(shift(rings.boxes[:, :, 0])[rings.polygon])
+    if len(lines.ends):
+        own = np.repeat(shift(_of_lines(lines)), np.diff(lines.ends, prepend=0))
+        lines = Lines(lines.points + np.stack([own, np.zeros(len(own))], axis=1), lines.ends, lines.feature)
+    own = shift(points.points[:, :1])
+    points = Points(points.points + np.stack([own, np.zeros(len(own))], axis=1), points.feature)
+    return replace(features, rings=rings, lines=lines, points=points)
+
+
+def along_edge(sides: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
+    """Sides, (n, 2, 2), that follow the edge of a map of the world, a pole, or the equator around a hemisphere."""
+    turn, points = _turn(crs), sides.reshape(-1, 2)
+    if turn is not None:
+        high, widest, places = turn / 2 if same_system(crs, MERCATOR) else turn / 4, turn / 2, points
+        on = np.abs(np.abs(points) - (turn / 2, high)) <= ROUNDED * turn
+    elif is_wide(crs) and (domain := domain_of(crs)) is not None:
+        middle, degrees = (domain.box[0] + domain.box[2]) / 2, transformed(points, crs, WORLD)
+        # what the map shows, and no place has by rounding, is at its edge
+        degrees[~np.isfinite(degrees).all(axis=1)] = (middle + TURN / 2, 0.0)
+        longitude = within_turn(degrees - (middle, 0.0))[:, 0]
+        latitude, places = np.abs(degrees[:, 1]), degrees
+        high, widest = POLE, np.inf  # at the edge either side may have been found
+        torn = np.abs(longitude) >= (TURN / 2 - NEAR if domain.pole == 0.0 else np.inf)
+        cut_at = POLE if domain.pole == 0.0 else 0.0
+        for west, south, east, north in domain.slits:
+            beside = np.abs(within_turn(degrees - ((west + east) / 2, 0.0))[:, 0]) <= NEAR
+            torn |= beside & (south - NEAR <= degrees[:, 1]) & (degrees[:, 1] <= north + NEAR)
+        on = np.stack([torn, np.abs(latitude - cut_at) <= NEAR], axis=1)
+        if domain.cap is not None:
+            on = np.stack([domain.cap.distance(degrees) >= domain.cap.radius - AT_RIM, np.zeros_like(torn)], axis=1)
+    else:
+        return np.zeros(len(sides), np.bool_)
+    both: NDArray[np.bool_] = np.all(on.reshape(-1, 2, 2), axis=1)
+    step = np.abs(np.diff(places.reshape(-1, 2, 2), axis=1))[:, 0]
+    both &= step < np.array([widest, high])  # from one edge to the other is across the map
+    return both[:, 0] | both[:, 1]

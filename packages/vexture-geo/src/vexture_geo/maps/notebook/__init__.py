@@ -1,0 +1,1 @@
+"""`vexture.map`: the widget of a map in a notebook."""

@@ -1,0 +1,135 @@
+"""`vexture.map`: features in the colours of an attribute, in a notebook, with a legend, hovering and picking."""
+
+import os
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final
+
+from vexture.base.content import renaming
+from vexture.base.errors import DeviceError
+from vexture.base.notes import place_of_caller, warn_at
+
+if TYPE_CHECKING:
+    from vexture_geo.maps.notebook.map_widget import MapWidget
+
+__all__ = ["map"]
+
+CAPACITY: Final = 15
+"""Pieces in a leaf: more than by default, as the bytes are sent to the page at once."""
+
+SCALE_NAMES: Final = {"scale": "kind"}
+"""Options that layers and scales have another name for."""
+
+STROKE: Final = "3px"
+"""Width of lines, which are seen in a widget at once, as those of GeoPandas' ``explore``."""
+
+
+def map(
+    source: Any,
+    column: str | Sequence[str] | None = None,
+    *,
+    times: Any = None,
+    tooltip: bool | Sequence[str] | None = True,
+    legend: bool = True,
+    width: int | None = None,
+    height: int | None = None,
+    background: str | None = None,
+    view: tuple[float, float, float, float] | None = None,
+    **options: Any,
+) -> "MapWidget":
+    """Show features in a notebook: drag, zoom, hover and click, as with GeoPandas' ``explore``, sharp at every zoom.
+
+    Parameters
+    ----------
+    source : GeoDataFrame or path
+        A file that ``vexture map`` reads.
+    column : str or sequence of str, optional
+        Attribute that colours show; several, or a pattern such as ``y*``, are those of the steps of time.
+    times : sequence of str, table, DataFrame or path, optional
+        Names of the steps; or a table of ``id``, ``time`` and a value, in place of `column`. With steps a slider is
+        shown, and the trait `time` is the step.
+    tooltip : bool or sequence of str, optional
+        Attributes that are told of the feature under the pointer; by default the one that is shown and some others,
+        False or None for none.
+    legend : bool
+    width, height, background, view
+        As of `vexture.show`.
+    **options
+        Of the colours (`vexture_geo.maps.Scale`): ``scale``, ``palette``, ``classes``, ``no_data``. Of what is drawn
+        (`MapLayer`): ``layer``, ``where``, ``id``, ``columns``, ``fill``, ``order``, ``stroke``, ``outline``,
+        ``outline_width``, ``symbol``, ``symbol_size``, ``source_crs``. Of the map (`convert_map`): ``crs``, ``snap``,
+        ``size``, ``tolerance``. By default ``id`` is the index of a GeoDataFrame that has one of its own; lines are
+        3px wide and dots 8px. These px are pixels of the widget that shows the whole map (640 wide, if it is as wide as
+        its cell), and grow with the map when it is zoomed; with ``size`` they are those of a map of that size.
+
+    Returns
+    -------
+    MapWidget
+        Its traits `column`, `time`, `selected`, `hovered`, `picked` and `view` change the picture, and tell what users
+        do.
+
+    Raises
+    ------
+    DeviceError
+        If the packages of ``vexture[notebook,map]`` are missing.
+    ParameterError
+        If there is no such column or option. For other errors see `convert_map`.
+
+    Examples
+    --------
+    >>> import geopandas, shapely
+    >>> fields = geopandas.GeoDataFrame(
+    ...     {"id": ["a", "b"], "yield": [4.0, 9.0]},
+    ...     geometry=[shapely.box(0, 0, 1, 1), shapely.box(1, 0, 2, 1)],
+    ...     crs="EPSG:28992",
+    ... )
+    >>> shown = map(fields, "yield", id="id", crs="EPSG:28992", classes=2)
+    >>> shown.selected = "b"
+    >>> [entry["label"] for entry in shown.legend["entries"]]
+    ['4 – 6', '7 – 9']
+    """
+    try:
+        from vexture_geo.maps.notebook.map_widget import MapWidget
+    except ModuleNotFoundError as error:
+        raise DeviceError(f"map needs the package {error.name}: pip install 'vexture[notebook,map]'") from None
+    from vexture.base.deadline import DEFAULT_SECONDS
+    from vexture_geo.maps import MapLayer, Scale
+    from vexture_geo.maps.colours import check_scale
+    from vexture_geo.maps.convert import converted
+    from vexture_geo.maps.notebook.map_arguments import (
+        OF_LAYER,
+        OF_SCALE,
+        OF_STEPS,
+        check_source,
+        checked,
+        column_of,
+        size_of,
+        times_of,
+    )
+    from vexture_geo.maps.place import MERCATOR
+    from vexture_geo.maps.prepare import prepared
+
+    column = column_of(source, column)
+    changing = times_of(source, column, times)
+    given = checked(options, column, legend, has_colours=column is not None or changing is not None)
+    check_source(source)
+    shown = column if isinstance(column, str) and changing is None else None
+    scale = Scale(
+        shown or "",
+        **{SCALE_NAMES.get(each, each): given.pop(each) for each in OF_SCALE if each in given},
+    )
+    if shown is None and changing is None:
+        check_scale(scale)
+    of_layer = {"stroke": STROKE, **{each: given.pop(each) for each in OF_LAYER if each in given}}
+    layer = MapLayer(source, color=None if shown is None and changing is None else scale, times=changing, **of_layer)
+    title = None if isinstance(source, str | os.PathLike) else "map"
+    size = size_of(given.pop("size", None), width, height)
+    seconds = given.get("max_seconds", DEFAULT_SECONDS)
+    with renaming({"color": "column"} if changing is None or changing.is_table else OF_STEPS):
+        ready = prepared([layer], name=title, crs=given.pop("crs", MERCATOR), size=size, max_seconds=seconds)
+    asked_at = place_of_caller(1)
+    warn_at(asked_at, ready.name, ready.notes.listed)
+    asked = {"width": width, "height": height, "background": background, "view": view}
+    traits = {name: value for name, value in asked.items() if value is not None}
+    conversion = partial(converted, ready, **given, capacity=CAPACITY)
+    return MapWidget(ready, scale, conversion, asked_at=asked_at, tooltip=tooltip, has_legend=legend, **traits)

@@ -1,0 +1,142 @@
+"""Arguments of `vexture.map`, as it takes them; wrong ones are refused in a line, before anything is read."""
+
+import os
+from collections.abc import Iterable
+from typing import Any, Final
+
+from vexture.base.content import renaming
+from vexture.base.errors import ParameterError
+from vexture.notebook.picture import MARGIN
+from vexture.notebook.traits import pixels, told
+from vexture.notebook.widget import HEIGHT, PICTURE_WIDTH
+from vexture_geo.base.snap import MOST_SNAP
+from vexture_geo.maps import Times
+
+__all__ = [
+    "OF_LAYER",
+    "OF_MAP",
+    "OF_SCALE",
+    "OF_STEPS",
+    "check_source",
+    "checked",
+    "column_of",
+    "size_of",
+    "times_of",
+]
+
+OF_SCALE: Final = ("scale", "palette", "classes", "no_data")
+OF_LAYER: Final = (
+    *("layer", "where", "source_crs", "id", "columns", "fill", "order", "stroke"),
+    *("outline", "outline_width", "symbol", "symbol_size"),
+)
+OF_MAP: Final = ("crs", "snap", "size", "tolerance", "max_seconds")
+
+OF_STEPS: Final = {"times": "column", "labels": "times"}
+"""Where `column` names those of steps, what it and their names are called by layers."""
+
+THEIRS: Final = {
+    "palette": ("cmap",),
+    "scale": ("scheme", "categorical", "vmin", "vmax", "classification_kwds"),
+    "classes": ("k",),
+    "no_data": ("missing_kwds",),
+    "tooltip": ("popup", "tooltip_kwds"),
+    "fill": ("color", "facecolor"),
+    "stroke": ("style_kwds", "linewidth"),
+    "outline": ("edgecolor",),
+    "symbol_size": ("marker_kwds", "markersize"),
+    "view": ("location", "zoom_start"),
+}
+OWN: Final = {their: own for own, every in THEIRS.items() for their in every}
+"""Options of GeoPandas' maps, and what does the same here."""
+
+
+def checked(options: dict[str, Any], column: Any, legend: Any, *, has_colours: bool) -> dict[str, Any]:
+    """The options that are given: None is the default of each. Refuses what there is not, or what no map can have."""
+    known = (*OF_SCALE, *OF_LAYER, *OF_MAP)
+    for name in options:
+        if name not in known:
+            other = f"give `{OWN[name]}`" if name in OWN else f"there are {', '.join(known)}"
+            raise ParameterError(f"map has no option {name!r}; {other}")
+    given = {name: value for name, value in options.items() if value is not None}
+    if not isinstance(legend, bool):
+        raise ParameterError(f"`legend` is {told(legend)}; give True or False")
+    if not isinstance(where := given.get("where", ""), str):
+        remedy = "give a condition in SQL, such as 'people > 1000', or choose rows of the frame"
+        raise ParameterError(f"`where` is a {type(where).__name__}; {remedy}")
+    if "fill" in given and has_colours:
+        shows = "`times` give" if column is None else f"`column` {told(column)} gives"
+        raise ParameterError(f"`fill` is {told(given['fill'])}, and {shows} colours; leave one out")
+    snap, tolerance = given.get("snap", 0.0), given.get("tolerance", "auto")
+    if not (_is_number(snap) and 0.0 <= snap <= MOST_SNAP):
+        raise ParameterError(f"`snap` is {told(snap)}; it must be in 0..{MOST_SNAP}, in parts of the map's larger side")
+    if tolerance != "auto" and not (_is_number(tolerance) and 0.0 <= tolerance < 1.0):
+        raise ParameterError(f"`tolerance` is {told(tolerance)}; give 'auto' or a number from 0 to below 1")
+    return given
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def check_source(source: Any) -> None:
+    """Refuse a table without geometries."""
+    if not hasattr(source, "columns") or hasattr(source, "geometry"):
+        return
+    kind = type(source).__name__
+    remedy = "choose it by set_geometry" if kind == "GeoDataFrame" else "keep that of the GeoDataFrame, or set_geometry"
+    raise ParameterError(f"`source` is a {kind} without a column of geometries; {remedy}")
+
+
+def size_of(size: Any, width: Any, height: Any) -> int | tuple[float, float]:
+    """Pixels of the map's larger side; without them, of the box that a widget has for it at first."""
+    if size is not None:
+        return pixels("size", size)
+    box = (
+        PICTURE_WIDTH if width is None else pixels("width", width),
+        HEIGHT if height is None else pixels("height", height),
+    )
+    return (box[0] / (1.0 + 2 * MARGIN), box[1] / (1.0 + 2 * MARGIN))
+
+
+def column_of(source: Any, column: Any) -> "str | list[str] | None":
+    """The name of a column, or those of several."""
+    if column is None or isinstance(column, str):
+        return column
+    if not isinstance(column, Iterable):
+        return str(column)  # of a GeoDataFrame it may be a number
+    parts = list(column)
+    if not parts:
+        raise ParameterError("`column` is an empty list; name a column, or leave it out")
+    there = {str(name) for name in getattr(source, "columns", ())}
+    names = [str(part) for part in parts]
+    is_values = hasattr(column, "dtype") or not all(isinstance(part, str | int) for part in parts)
+    if not there.issuperset(names) and (is_values or (there and not isinstance(parts[0], str))):
+        remedy = "add them as a column of the frame, and give its name"
+        raise ParameterError(f"`column` is a {type(column).__name__} of values, not of names of columns; {remedy}")
+    return names
+
+
+def times_of(source: Any, column: str | list[str] | None, times: Any) -> Times | None:
+    """What changes with time, of the columns and the names of steps, or of a table."""
+    names = {str(name) for name in getattr(source, "columns", ())}
+    is_column = isinstance(column, str) and column in names  # whatever signs its name has
+    several = column is not None and not is_column and (not isinstance(column, str) or Times(column).is_pattern)
+    if times is not None and not isinstance(times, os.PathLike | Iterable):
+        raise ParameterError(
+            f"`times` is {told(times)}; give the names of the steps, or a table of id, time and a value"
+        )
+    if several:
+        if times is not None and Times(times).is_table:
+            raise ParameterError("`times` is a table, and `column` names columns of steps; give one of them")
+        steps: Any = times.split(",") if isinstance(times, str) else times
+        with renaming(OF_STEPS):
+            return Times(column, None if steps is None else tuple(steps))
+    if times is None:
+        return None
+    if not Times(times).is_table:
+        raise ParameterError("`times` names steps; give the `column` of each, or a table of id, time and a value")
+    if column is not None:
+        raise ParameterError(
+            f"`times` has the values, so `column` {told(column)} is not shown; leave it out, and set it later"
+        )
+    return Times(times)

@@ -1,0 +1,62 @@
+"""Steps of time of a map's widget: the colours of each, as a page gets them once, and what is told of a feature."""
+
+import zlib
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.tree.planar.style import rounded
+from vexture_geo.maps.prepare import Prepared
+from vexture_geo.maps.times import STEP_COLUMNS
+
+if TYPE_CHECKING:
+    import pyarrow
+
+__all__ = ["COLOUR_ONE", "MapSteps", "coded", "steps_of"]
+
+COLOUR_ONE: Final = 10_000
+"""What 1 of a colour is, as it is sent: colours of elements have four digits."""
+
+
+def coded(rgba: NDArray[np.float64]) -> dict[str, bytes]:
+    """Colours, (..., 4), as they are sent: each one once, and the place of each among them."""
+    whole = np.uint16(np.rint(COLOUR_ONE * rgba))
+    unique, places = np.unique(whole.view(np.uint64).ravel(), return_inverse=True)
+    kind = np.uint8 if len(unique) <= 1 << 8 else np.uint16 if len(unique) <= 1 << 16 else np.uint32
+    return {"colors": unique.tobytes(), "places": places.astype(kind).tobytes()}
+
+
+class MapSteps:
+    """The steps of the layer that changes with time; the other layers keep their colours."""
+
+    def __init__(self, ready: Prepared, still: NDArray[np.float64]) -> None:
+        assert ready.steps is not None
+        layer, self._steps = ready.steps
+        counts = [len(one.features) for one in ready.layers]
+        first = int(np.cumsum([0, *counts])[ready.layers.index(layer)])
+        self._rows, self._still = slice(first, first + len(layer.features)), still
+        self.labels, self.columns = self._steps.labels, self._steps.columns
+        self.legend = next(legend for legend in ready.legends if STEP_COLUMNS in legend)
+
+    def at(self, time: float) -> NDArray[np.float64]:
+        """Colours of the rows of the map's table at a time in steps."""
+        rgba = self._still.copy()
+        rgba[self._rows] = self._steps.at(time)
+        return rounded(rgba)
+
+    def sent(self, rows: NDArray[np.intp]) -> dict[str, Any]:
+        """Colours of some rows of the table at all steps, one step after another; the places are deflated."""
+        every = np.stack([self.at(step)[rows] for step in range(len(self.labels))])
+        parts = coded(every)
+        return {"colors": parts["colors"], "places": zlib.compress(parts["places"])}
+
+    def value(self, table: "pyarrow.Table", row: int, time: float) -> tuple[str, Any]:
+        """Name of the nearest step, and a feature's value there."""
+        step = min(max(round(time), 0), len(self.columns) - 1)
+        return self.labels[step], table.column(self.columns[step])[row].as_py()
+
+
+def steps_of(ready: Prepared, still: NDArray[np.float64]) -> MapSteps | None:
+    """The steps of a map that changes with time."""
+    return None if ready.steps is None else MapSteps(ready, still)

@@ -1,0 +1,96 @@
+"""What a tip tells of a feature: names and values of its attributes, as texts."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Final
+
+from vexture.base.errors import ParameterError
+from vexture.notebook.traits import told
+
+if TYPE_CHECKING:
+    import pyarrow
+
+    from vexture_geo.maps.notebook.map_steps import MapSteps
+
+__all__ = ["Tips", "shown"]
+
+MOST_TOLD: Final = 12
+"""Attributes in a tip."""
+
+LONGEST: Final = 80
+"""Letters of a value there."""
+
+MOST_SAVED: Final = 5_000
+"""Features of which a saved page tells: it has the texts of all of them."""
+
+
+class Tips:
+    """The tips of a map's features.
+
+    Parameters
+    ----------
+    table : pyarrow.Table
+    tooltip : bool or names of columns
+    steps : MapSteps, optional
+        Of a map that changes with time.
+    """
+
+    def __init__(self, table: "pyarrow.Table", tooltip: Any, steps: "MapSteps | None") -> None:
+        self._table, self._steps = table, steps
+        self._chosen = _chosen(table.column_names, tooltip)
+
+    def _names(self, column: str | None) -> list[str]:
+        """Attributes that are told: what is shown first, and those of steps only if they are named."""
+        if self._chosen is not None:
+            return self._chosen
+        steps = self._steps.columns if self._steps else ()
+        every = [name for name in self._table.column_names if name not in steps and name != column]
+        return [*([] if column is None else [column]), *every][:MOST_TOLD]
+
+    def of(self, row: int, column: str | None, time: float | None) -> list[list[str]]:
+        """Names and values of a row, where a column is shown, or a time in steps."""
+        values = self._table.slice(row, 1).to_pylist()[0]
+        tip = [[name, shown(values[name])] for name in self._names(column)]
+        if time is None or self._steps is None or self._chosen == []:
+            return tip
+        name, value = self._steps.value(self._table, row, time)
+        return [[name, shown(value)], *tip]
+
+    def saved(self, column: str | None, is_timed: bool) -> dict[str, Any] | None:
+        """Tips of all features for a page without a kernel: by their names the values, and those of steps."""
+        if len(self._table) > MOST_SAVED or self._chosen == []:
+            return None
+        names = self._names(column)
+        steps = list(self._steps.columns) if is_timed and self._steps else []
+        columns = [[shown(value) for value in self._table.column(name).to_pylist()] for name in ("id", *names, *steps)]
+        ids = self._table.column("id").to_pylist()
+        return {"names": names, "values": dict(zip(ids, (row[1:] for row in zip(*columns, strict=True)), strict=True))}
+
+
+def _chosen(names: Sequence[str], tooltip: Any) -> list[str] | None:
+    """Attributes that a tip has; None if they are not chosen."""
+    if tooltip is True:
+        return None
+    if tooltip is None or tooltip is False:
+        return []
+    if not (isinstance(tooltip, str | int) or hasattr(tooltip, "__iter__")):
+        raise ParameterError(f"`tooltip` is {told(tooltip)}; give True, False or names of columns")
+    chosen = [str(name) for name in ([tooltip] if isinstance(tooltip, str | int) else tooltip)]
+    for name in chosen:
+        if name not in names:
+            raise ParameterError(f"`tooltip`: there is no column {name!r}; the columns are {', '.join(names[:8])}")
+    return chosen
+
+
+def shown(value: Any) -> str:
+    """A value in a tip: a number has no marks of thousands, which legends have, as it may be a year or a code.
+
+    Examples
+    --------
+    >>> shown(3.0), shown(36061), shown(1234567.891), shown(None)
+    ('3', '36061', '1234567.89', '–')
+    """
+    if value is None or value != value:
+        return "–"
+    if isinstance(value, float):
+        return f"{value:.2f}".removesuffix(".00") if 1e6 <= abs(value) < 1e15 else f"{value:.6g}"
+    return str(value)[:LONGEST]

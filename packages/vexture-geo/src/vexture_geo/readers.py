@@ -1,0 +1,172 @@
+"""Readers of geographic data: where there is water, of any supported kind, as `Extent` or as a drawing."""
+
+import os
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from vexture.base.content import FileKind, kind_of, start_of, unpacked
+from vexture.base.errors import LimitError, ParameterError, SourceError
+from vexture.base.notes import Note, warn_of
+from vexture.base.tolerance import HMIN
+from vexture_geo.base.foreign import refuse_foreign
+
+if TYPE_CHECKING:
+    from xarray import DataArray, Dataset
+
+    from vexture.base.workers import Workers
+    from vexture.drawing.drawing import Drawing
+    from vexture_geo.base.extent import Extent, Frame
+
+__all__ = ["extent_of", "read_extent", "read_first_step"]
+
+Place: TypeAlias = str | os.PathLike[str]
+
+
+def read_extent(
+    source: "Place | bytes | Dataset | DataArray",
+    file_name: str | None = None,
+    *,
+    frame: "Frame | None" = None,
+    bounds: tuple[float, float, float, float] | None = None,
+    crs: str | None = None,
+    time_dim: str | None = None,
+    hmin: float = HMIN,
+    variable: str | None = None,
+    layer: str | None = None,
+    snap: float | None = None,
+    depths: Sequence[float] = (),
+) -> "Extent":
+    """Read wet areas from geographic data of any supported kind.
+
+    Parameters
+    ----------
+    source : path, bytes, Dataset or DataArray
+        Polygons (in any format that `vexture.read` takes) or depths (GeoTIFF, Esri's .asc and .flt, GRIB, NetCDF: on
+        rows and columns, a curvilinear grid or a mesh); or depths as xarray holds them, read one step at a time.
+    file_name : str, optional
+        Name of the file and of the drawings; by default the path.
+    frame : Frame, optional
+        Frame of the drawings; by default a new one around `bounds`.
+    bounds : tuple of float, optional
+        West, south, east, north in the reference system of the data; by default all of it.
+    crs : str, optional
+        Reference system of the data; it overrides the one in the file.
+    time_dim : str, optional
+        Dimension of time, for depths; by default the one that looks like it. With any, bands of a GeoTIFF are steps.
+    hmin : float
+        Depth in metres from which there is water, for depths; 0.05 by default.
+    variable : str, optional
+        Variable of the depths, where there are several.
+    layer : str, optional
+        Layer of polygons, where there are several.
+    snap : float, optional
+        Borders of two polygons that differ by no more than this become one, in parts of the frame's larger side; 3e-6
+        by default, 0 leaves all as it is.
+    depths : sequence of float
+        Depths in metres above `hmin`: each step also holds the areas under at least so much water. Polygons and masks
+        have none. A file of classes of depth has those that begin where its own classes do.
+
+    Returns
+    -------
+    Extent
+        One step for each time, or one for a file without times. Its `notes` say what was left out or chosen.
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read.
+    LimitError
+        If it exceeds a limit, or has several layers or variables and none is chosen.
+    ParameterError
+        If a parameter does not fit it.
+    DeviceError
+        If a package is missing.
+
+    Warns
+    -----
+    SourceWarning
+        Once, of all notes.
+
+    Examples
+    --------
+    >>> lake = b'{"type": "Polygon", "coordinates": [[[4, 52], [5, 52], [5, 53], [4, 53]]]}'
+    >>> extent = read_extent(lake, "lake.geojson")
+    >>> extent.frame.crs, extent.steps[0].drawing.name
+    ('OGC:CRS84', 'lake')
+    """
+    from vexture_geo.base.datasets import is_dataset
+
+    path = "" if isinstance(source, bytes) or is_dataset(source) else str(os.fspath(source))
+    shown = file_name or path or "the data"
+    options: dict[str, Any] = {
+        "frame": frame,
+        "bounds": bounds,
+        "crs": crs,
+        "time_dim": time_dim,
+        "variable": variable,
+        "layer": layer,
+    }
+    try:
+        extent = extent_of(source, shown, hmin=hmin, snap=snap, depths=depths, **options)
+    except (SourceError, LimitError, ParameterError) as error:
+        raise type(error)(f"{path}: {error}" if path else str(error)) from None
+    warn_of(shown, extent.notes)
+    return extent
+
+
+def extent_of(
+    source: "Place | bytes | Dataset | DataArray",
+    file_name: str,
+    *,
+    frame: "Frame | None" = None,
+    bounds: tuple[float, float, float, float] | None = None,
+    crs: str | None = None,
+    time_dim: str | None = None,
+    hmin: float = HMIN,
+    variable: str | None = None,
+    layer: str | None = None,
+    snap: float | None = None,
+    depths: Sequence[float] = (),
+    workers: "Workers | None" = None,
+) -> "Extent":
+    """Read wet areas as `read_extent` does, but without a warning, and without the file's name in errors."""
+    from vexture_geo.base.datasets import is_dataset
+
+    if not is_dataset(source):
+        source = unpacked(source)
+        refuse_foreign(start_of(source), file_name)
+    if is_dataset(source) or kind_of(start_of(source), file_name) is FileKind.DEPTHS:
+        from vexture_geo.depth.depths import read_depths
+
+        _refuse({"`layer`": layer, "`snap`": snap}, "polygons, and this file holds depths")
+        return read_depths(
+            source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
+            depths=depths, workers=workers,
+        )  # fmt: skip
+    from vexture_geo.vector.polygons import read_polygons
+
+    _refuse({"`time_dim`": time_dim, "`variable`": variable}, "depths, and this file holds polygons")
+    return read_polygons(source, file_name, frame=frame, bounds=bounds, crs=crs, layer=layer, snap=snap)
+
+
+def _refuse(options: dict[str, str | float | None], kind: str) -> None:
+    """Refuse parameters for data of another kind."""
+    for option, value in options.items():
+        if value is not None:
+            raise ParameterError(f"{option} {value!r} is for {kind}; leave it out")
+
+
+def read_first_step(source: Place | bytes, shown: str, snap: float | None) -> "Drawing":
+    """Read the wet areas at the first time; the file need not be georeferenced."""
+    from vexture_geo.base.crs import UNPLACED, MissingReferenceError
+
+    try:
+        extent = extent_of(source, shown, snap=snap)
+    except MissingReferenceError:
+        extent = extent_of(source, shown, crs=UNPLACED, snap=snap)
+    drawing, count = extent.steps[0].drawing, len(extent.steps)
+    if count == 1:
+        return drawing
+    told = Note("remark", f"it has {count} times, of which the first is read; vexture flood shows all")
+    return replace(drawing, notes=(*drawing.notes, told))

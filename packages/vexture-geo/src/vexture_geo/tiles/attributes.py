@@ -1,0 +1,142 @@
+"""Attributes of a pyramid's features: the table beside it, and their colours by one of its columns."""
+
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.errors import ParameterError
+from vexture.base.notes import Notes
+from vexture_geo.maps.colours import Scale, check_scale, colours_of, rgba_of
+from vexture_geo.tiles.texture import GREY, packed
+from vexture_geo.vector.features import ID
+from vexture_geo.vector.tables import TABLES, cast, with_legends, write_batches
+
+if TYPE_CHECKING:
+    import pyarrow
+
+__all__ = ["Attributes", "Look", "paints_of", "write_table"]
+
+ROWS, PAINTS = "attributes.arrow", "paints.npy"
+"""Files in the folder of an unfinished pyramid."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is kept of features beside their shapes.
+
+    Parameters
+    ----------
+    color : Scale or None
+        Colours by an attribute.
+    fill : str or None
+        One CSS colour for all; grey by default.
+    columns : tuple of str or None
+        Attributes in the table; all by default.
+    order : str or None
+        Column whose greater values lie above; by default smaller features lie above larger ones.
+    table : str
+        Kind of the table's file: ``parquet``, ``arrow`` or ``none``.
+    """
+
+    color: Scale | None = None
+    fill: str | None = None
+    columns: tuple[str, ...] | None = None
+    order: str | None = None
+    table: str = TABLES[-1]
+
+    def check(self) -> None:
+        """Raise a `ParameterError` before anything is read."""
+        if self.color is not None and self.fill is not None:
+            raise ParameterError("`color` and `fill` exclude each other; leave one out")
+        if self.fill is not None:
+            rgba_of(self.fill, "fill")
+        if self.color is not None:
+            check_scale(self.color)
+
+    @property
+    def has_table(self) -> bool:
+        """Whether a table is written."""
+        return self.table != TABLES[-1]
+
+    @property
+    def read(self) -> list[str] | None:
+        """Columns that are read; None is all."""
+        wanted = (None if self.color is None else self.color.column, self.order)
+        own = list(dict.fromkeys(name for name in wanted if name not in (None, ID)))  # ids are there in any case
+        if not self.has_table:
+            return own
+        return None if self.columns is None else list(dict.fromkeys([*self.columns, *own]))
+
+    @property
+    def key(self) -> list[Any]:
+        """All that it is, as JSON."""
+        scale = self.color
+        colours = scale and [scale.column, scale.kind, scale.palette, scale.classes, scale.no_data]
+        return [colours, self.fill, self.columns and list(self.columns), self.order, self.table]
+
+
+class Attributes:
+    """The attributes of a source in a folder: written as they come, in batches; those of colours stay in memory."""
+
+    def __init__(self, folder: Path, look: Look) -> None:
+        self._folder, self._look = folder, look
+        self._coloured: list[pyarrow.ChunkedArray] = []
+        self._writer: Any = None
+        self._opened = ExitStack()
+
+    def add(self, features: Any) -> None:
+        """Append those of some features."""
+        if self._look.color is not None:
+            name = self._look.color.column
+            features.refuse_numbers(name)
+            if name not in features.table.column_names:
+                colours_of(features.table, self._look.color, Notes())  # says which there are
+            self._coloured.append(features.table.column(name))
+        if self._look.has_table:
+            import pyarrow as pa
+
+            if self._writer is None:
+                file = self._opened.enter_context((self._folder / ROWS).open("wb"))
+                self._schema = features.table.schema.remove_metadata()
+                self._writer = self._opened.enter_context(pa.ipc.new_file(file, self._schema))
+            self._writer.write_table(cast(features.table, self._schema))
+
+    def close(self, layer: str, notes: Notes) -> list[dict[str, Any]]:
+        """Write the features' colours, and return the legends."""
+        self._opened.close()
+        look = self._look
+        if look.color is None or not self._coloured:
+            rgba, legends = np.array([GREY if look.fill is None else rgba_of(look.fill, "fill")]), []
+        else:
+            import pyarrow as pa
+
+            values = [chunk for column in self._coloured for chunk in column.chunks]
+            table = pa.table({look.color.column: pa.chunked_array(values, self._coloured[0].type)})
+            rgba, legend = colours_of(table, look.color, notes)
+            legends = [{"layer": layer, **legend}]
+        np.save(self._folder / PAINTS, packed(rgba))
+        return legends
+
+
+def paints_of(folder: Path) -> NDArray[np.uint32]:
+    """The colours of features by their numbers; a single one is that of all."""
+    found: NDArray[np.uint32] = np.load(folder / PAINTS)
+    return found
+
+
+def write_table(file: IO[bytes], folder: Path, kind: str, legends: list[dict[str, Any]]) -> None:
+    """Write the table of a folder as a file of a kind."""
+    import pyarrow as pa
+
+    with pa.memory_map(str(folder / ROWS)) as rows, pa.ipc.open_file(rows) as reader:
+
+        def batches() -> Iterator["pyarrow.Table"]:
+            for number in range(reader.num_record_batches):
+                yield pa.Table.from_batches([reader.get_batch(number)])
+
+        write_batches(file, with_legends(reader.schema, legends), batches(), kind)

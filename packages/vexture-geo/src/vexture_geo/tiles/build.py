@@ -1,0 +1,282 @@
+"""A pyramid of tiles: from a source to one file or a folder."""
+
+import errno
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from math import atan, degrees, exp, pi
+from pathlib import Path
+from typing import Any, BinaryIO, Final
+
+from vexture.base.content import about
+from vexture.base.errors import DeviceError, LimitError, ParameterError, SourceError, VextureError, reason_of
+from vexture.base.notes import Note, Notes
+from vexture.texture.files import writable
+from vexture_geo.base.extent import Bounds
+from vexture_geo.tiles.archive import ARCHIVE, check_target, table_of, write_archive, write_folder
+from vexture_geo.tiles.attributes import Attributes, paints_of, write_table
+from vexture_geo.tiles.grid import HALF, MARGIN, TILE_PIXELS, Tile, last_zoom
+from vexture_geo.tiles.options import TileOptions, digest_of
+from vexture_geo.tiles.order import Order, ranks_of
+from vexture_geo.tiles.partitions import Part, partitioned
+from vexture_geo.tiles.pieces import Pieces
+from vexture_geo.tiles.store import SUFFIX, Store
+from vexture_geo.tiles.subtree import Job, Made, done
+from vexture_geo.tiles.world import in_world
+from vexture_geo.vector.tables import check_targets
+from vexture_geo.vector.vectors import is_memory
+
+__all__ = ["VERSION", "MadeTiles", "make_tiles", "unfinished"]
+
+VERSION: Final = 7
+"""Of what is kept of unfinished pyramids; what another one wrote is not used."""
+
+FULL: Final = (errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC))  # the last is not on Windows
+"""Errors of a disk, or a share of it, that has no room."""
+
+MOVES: Final = 0.25
+"""Pixels: what a border is off at most, at the zoom of its tile."""
+
+Work = Callable[[Iterator[Job], int], Iterator[Made]]
+"""Does pieces of work, so many of them, in order."""
+
+Told = Callable[[str, int, int], None]
+"""Hears what is done, how much of it, and of how much; 0 if nobody knows."""
+
+
+@dataclass(frozen=True)
+class MadeTiles:
+    """What was made."""
+
+    tiles: int
+    contents: int
+    bytes: int
+    features: int
+    notes: tuple[Note, ...]
+
+
+def make_tiles(
+    source: Any, output: Path, options: TileOptions, told: Told = lambda *_: None, batches: Any = None
+) -> MadeTiles:
+    """Make the pyramid of a source, as PMTiles or a folder.
+
+    Parameters
+    ----------
+    source : path
+        What `vexture_geo.vector.features.feature_batches` reads.
+    output : Path
+        A file ``.pmtiles``, or a folder. The table of attributes is beside the one, and in the other.
+    options : TileOptions
+    told : callable
+        Hears how far the work is.
+    batches : callable or None
+        Makes an iterator of the source's features, in place of that function.
+
+    Raises
+    ------
+    SourceError
+        If the source cannot be read, or has no polygons.
+    DeviceError
+        If the output cannot be written, or who shall do the work is not there.
+    """
+    check_target(output)
+    check_targets([output, *([table] if (table := table_of(output, options.look.table)) else [])], [Path(source)])
+    writable(output.parent)
+    options.check_workers()
+    key = {"version": VERSION, "source": digest_of(Path(source)), **options.key}
+    store = Store(output.with_name(output.name + SUFFIX), key)
+    try:
+        facts = store.read_parts() or _read(source, store, options, told, batches)
+        if facts["bounds"] is None:
+            store.remove()
+            raise SourceError(f"{source}: {_why_empty(facts, options.where)}")
+        parts = [Part(Tile(*tile), weight) for *tile, weight in facts["parts"]]
+        _work(store, parts, options, told)
+        made = _written(store, output, options, facts)
+    except BaseException as error:
+        store.close()
+        if not store.has_parts:
+            store.remove()  # reading begins anew
+        if isinstance(error, VextureError) and not store.has_parts:
+            raise
+        if isinstance(error, Exception) and (kind_and_reason := _reason(error, output)) is not None:
+            kind, reason = kind_and_reason
+            raise kind(f"{reason}; {unfinished(output)}") from None
+        raise
+    store.remove()
+    return made
+
+
+def _reason(error: Exception, output: Path) -> tuple[type[VextureError], str] | None:
+    """What a user can do about an error, and the class of the error that says so; None if nothing."""
+    if isinstance(error, VextureError):
+        return type(error), str(error)
+    if isinstance(error, MemoryError) or is_memory(error) or getattr(error, "errno", None) == errno.ENOMEM:
+        return LimitError, (
+            f"{output}: there is not enough memory; give `processes` 1, a larger `max_zoom`, which parts it finer, "
+            "or choose fewer features by `where`"
+        )
+    if isinstance(error, OSError):
+        reason = os.strerror(error.errno) if error.errno else reason_of(error)
+        remedy = "make room, or choose another disk" if error.errno in FULL else "correct that, or write elsewhere"
+        return DeviceError, f"{output}: {reason}; {remedy}"
+    return None
+
+
+def unfinished(output: Path) -> str:
+    """What is left of a pyramid that was not finished, and what to do with it."""
+    folder = output.with_name(output.name + SUFFIX)
+    if not folder.exists():
+        return "nothing of it is finished, and reading begins anew"
+    return f"what is finished is in {folder}, and the same command goes on from there"
+
+
+def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: Any) -> Any:
+    """Part the source, and return what is known of it."""
+    import shapely
+
+    if batches is None:
+        from vexture_geo.vector.features import feature_batches as batches
+    notes = Notes()
+    count, boxes, others = 0, [], 0
+    attributes, order = Attributes(store.folder, options.look), Order(options.look.order)
+
+    def pieces() -> Iterator[Pieces]:
+        nonlocal count, others
+        for features in batches(source, **options.reading, notes=notes):
+            attributes.add(features)
+            others += len(features.lines.ends) + len(features.points.points)
+            found = in_world(features, count, options.max_zoom, notes)
+            order.add(features, found, count)
+            count += len(features.ids)
+            told("reading features", count, 0)
+            if len(found):
+                boxes.append(shapely.total_bounds(found.shapes))
+                yield found
+
+    with _named(source, options):
+        parts = partitioned(pieces(), store.sources, last_zoom(options.max_zoom, options.step), options.step)
+        legends = attributes.close(options.layer or Path(source).name.partition(".")[0], notes)
+        order.write(store.folder)
+    box = shapely.total_bounds(shapely.box(*zip(*boxes, strict=True))).tolist() if boxes else None
+    if others and boxes:
+        notes.remark("a line or point is left out, as tiles have polygons only: vexture map draws them", others)
+    facts: dict[str, Any] = {"parts": [[*part.tile, part.weight] for part in parts], "bounds": box, "features": count}
+    facts |= {"legends": legends, "others": others}
+    facts["notes"] = [[note.kind, note.message, note.count] for note in notes.listed]
+    store.write_parts(facts)
+    return facts
+
+
+@contextmanager
+def _named(source: Any, options: TileOptions) -> Iterator[None]:
+    """Put the name of the source in front of errors about it; columns may be read for colours or the order only."""
+    look = options.look
+    columns = {"color": look.color and look.color.column, "order": look.order}
+    with about(str(source)):
+        try:
+            yield
+        except ParameterError as error:
+            named = (name for name, column in columns.items() if f"no column {column!r} " in str(error))
+            said = str(error).replace("`columns`", f"`{next(named, 'columns')}`").replace("`crs`", "`source_crs`")
+            raise type(error)(said) from None
+        except VextureError as error:
+            raise type(error)(str(error).replace("`crs`", "`source_crs`")) from None
+
+
+def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> None:
+    """Do all the work that is not done: the parts, zoom by zoom the geometry, and then the tiles of all these zooms."""
+    leaves = {part.tile for part in parts}
+    pyramid = options.pyramid(paints_of(store.folder), ranks_of(store.folder))
+
+    def work(jobs: Iterator[Job], count: int) -> Iterator[Made]:
+        return options.who().map(done, pyramid, jobs, count)
+
+    def leaf(tile: Tile) -> Job:
+        return Job("leaf", tile, ((store.sources / f"{tile.name}.parquet").read_bytes(),))
+
+    _all(store, "leaf", [part.tile for part in sorted(parts, key=lambda part: -part.weight)], leaf, work, told)
+    above = [zoom for zoom in options.coarse if zoom < max(tile.z for tile in leaves)]
+    inner = {zoom: sorted({tile.parent(zoom) for tile in leaves if tile.z > zoom}) for zoom in above}
+
+    def join(tile: Tile) -> Job:
+        names = [_kept(store, part) for part in tile.below(options.step)]
+        return Job("join", tile, tuple(store.geometry(name) for name in names if name))
+
+    for zoom in reversed(above):
+        _all(store, "join", inner[zoom], join, work, told)
+
+    def one(tile: Tile) -> Job:
+        around = [(tile, 0.0), *tile.around()]
+        found = [(data, shift) for each, shift in around if (data := _around(store, leaves, each))]
+        return Job("tile", tile, tuple(data for data, _ in found), tuple(shift for _, shift in found))
+
+    # all at once, those of low zooms first, which have most in them: no worker waits for them at the end of each zoom
+    _all(store, "tile", [tile for zoom in above if zoom >= options.min_zoom for tile in inner[zoom]], one, work, told)
+
+
+def _kept(store: Store, tile: Tile) -> str | None:
+    """Name of the work that made the geometry of a tile; None if nothing is there."""
+    return next((name for kind in ("leaf", "join") if store.has(name := f"{kind}-{tile.name}")), None)
+
+
+def _around(store: Store, leaves: set[Tile], tile: Tile) -> bytes | None:
+    """Geometry that holds a tile: its own, or the source in the part in which it lies."""
+    if name := _kept(store, tile):
+        data = store.geometry(name)
+        if data:
+            return data
+    for zoom in range(tile.z, -1, -1):
+        if (part := tile.parent(zoom)) in leaves:
+            return (store.sources / f"{part.name}.parquet").read_bytes()
+    return None
+
+
+def _all(store: Store, kind: str, tiles: list[Tile], job: Callable[[Tile], Job], work: Work, told: Told) -> None:
+    """Do all work of a kind that is not done."""
+    missing = [tile for tile in tiles if not store.has(f"{kind}-{tile.name}")]
+    before = len(tiles) - len(missing)
+    made = work((job(tile) for tile in missing), len(missing))
+    for number, (tile, found) in enumerate(zip(missing, made, strict=True), before + 1):
+        store.add(f"{kind}-{tile.name}", found)
+        told(WORDS[kind], number, len(tiles))
+
+
+WORDS: Final = {"leaf": "parts", "join": "generalising", "tile": "tiles"}
+"""Kinds of work, for people."""
+
+
+def _written(store: Store, output: Path, options: TileOptions, facts: Any) -> MadeTiles:
+    """Write the output."""
+    runs, contents = store.tiles()
+    zooms = options.zooms
+    about: dict[str, Any] = {"name": options.name or output.stem, "attribution": options.attribution}
+    about["vexture"] = {"margin": MARGIN, "zooms": list(zooms), "sharp": options.max_zoom}
+    about["vexture"]["tolerance"] = MOVES / TILE_PIXELS
+    about["vexture"] |= {"legends": legends} if (legends := facts["legends"]) else {}
+    table = table_of(output, options.look.table)
+    extra: dict[Path, Callable[[BinaryIO], None]] = {}
+    if table is not None:
+        about["vexture"]["table"] = table.name
+        extra[table] = lambda file: write_table(file, store.folder, options.look.table, legends)
+    write = write_archive if output.suffix.lower() == ARCHIVE else write_folder
+    size = write(output, runs, contents, zooms, _degrees(facts["bounds"]), about, extra)
+    notes = tuple(Note(*note) for note in facts["notes"])
+    return MadeTiles(sum(count for _, count, _ in runs), len(contents), size, facts["features"], notes)
+
+
+def _why_empty(facts: Any, where: str | None) -> str:
+    """Why there is nothing for tiles, and what to do."""
+    if not facts["features"]:
+        return f"no feature meets `where` {where!r}; correct it" if where else "it has no features; give some"
+    if others := facts["others"]:
+        return f"it has lines or points ({others}), but no polygon, and tiles have only these; draw it by vexture map"
+    return "it has no polygon in the tiles' projection; give polygons"
+
+
+def _degrees(box: list[float]) -> Bounds:
+    """West, south, east, north in degrees, within the world."""
+    west, south, east, north = (min(max(value, -HALF), HALF) / HALF * pi for value in box)
+    low, high = (degrees(2.0 * atan(exp(y)) - pi / 2.0) for y in (south, north))
+    return (degrees(west), low, degrees(east), high)

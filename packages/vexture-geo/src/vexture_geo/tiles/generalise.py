@@ -1,0 +1,157 @@
+"""Generalising: what is smaller than a part of a pixel goes, and what two polygons share stays shared.
+
+Borders are cut where three meet into *arcs*, and each arc is simplified once. What lies on the sides of the box stays
+where it is, so that pieces of one feature in boxes side by side still fit.
+"""
+
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture_geo.base.extent import Bounds
+from vexture_geo.base.validity import made_valid, united
+from vexture_geo.tiles.arcs import simplified
+from vexture_geo.tiles.pieces import Pieces, joined
+from vexture_geo.tiles.shared_borders import shared_lengths
+from vexture_geo.tiles.tiny_polygons import gathered
+
+__all__ = ["dissolved", "generalised"]
+
+MOST_ROUNDS: Final = 32
+"""In each of them, small polygons become part of larger ones beside them."""
+
+MOST_POINTS: Final = 1_000_000
+"""That are simplified at once, which takes some 300 bytes for each; only tiles that no longer part have more."""
+
+DEEPEST: Final = 8
+"""Times that the box of more points is quartered."""
+
+
+def generalised(pieces: Pieces, box: Bounds, tolerance: float, least: float) -> Pieces:
+    """Polygons for pixels of some size.
+
+    Parameters
+    ----------
+    pieces : Pieces
+        Polygons within the box.
+    box : tuple of float
+        What touches its sides goes on beyond.
+    tolerance : float
+        Metres by which a border may move.
+    least : float
+        Square metres. A smaller polygon becomes part of the neighbour with which it shares most of its border; those
+        without one are gathered (`vexture_geo.tiles.tiny_polygons`). Smaller holes are filled. With 0, all features
+        stay.
+    """
+    if tolerance > 0.0 and pieces.points > MOST_POINTS:
+        tolerance /= 2.0  # a half here, a half below
+        pieces = _thinned(pieces, box, tolerance, DEEPEST)
+    return _generalised(pieces, box, tolerance, least)
+
+
+def _thinned(pieces: Pieces, box: Bounds, tolerance: float, depth: int) -> Pieces:
+    """Polygons with fewer points, made in parts of the box, so that memory is for the points of one."""
+    if pieces.points <= MOST_POINTS or depth == 0:
+        return _generalised(pieces, box, tolerance, 0.0)
+    x, y = (box[0] + box[2]) / 2.0, (box[1] + box[3]) / 2.0
+    quarters = [
+        (west, south, east, north)
+        for west, east in ((box[0], x), (x, box[2]))
+        for south, north in ((box[1], y), (y, box[3]))
+    ]
+    return joined([_thinned(pieces.within(quarter), quarter, tolerance, depth - 1) for quarter in quarters])
+
+
+def _generalised(pieces: Pieces, box: Bounds, tolerance: float, least: float) -> Pieces:
+    """As above, of all at once."""
+    import shapely
+
+    kept, specks = _merged(dissolved(pieces), box, least)
+    if len(kept):
+        shapes = _repaired(simplified(kept.shapes, box, tolerance, least))
+        if least == 0.0:
+            gone = shapely.is_empty(shapes)
+            shapes[gone] = kept.shapes[gone]
+        kept = kept.with_shapes(shapes)
+    return joined([kept, gathered(specks, least)]) if len(specks) else kept
+
+
+def _repaired(shapes: NDArray[Any]) -> NDArray[Any]:
+    """The polygons; those whose rings cross are valid then."""
+    import shapely
+
+    broken = np.flatnonzero(~shapely.is_valid(shapes))
+    if len(broken):
+        shapes[broken] = made_valid(shapes[broken])
+    return shapes
+
+
+def dissolved(pieces: Pieces) -> Pieces:
+    """Polygons of which those of one feature do not touch."""
+    return _united(pieces, np.unique(pieces.order, return_inverse=True)[1])
+
+
+def _united(pieces: Pieces, group: NDArray[np.intp]) -> Pieces:
+    """One shape for each group of pieces; it is of the feature of the group's first piece."""
+    if not len(pieces):
+        return pieces
+    order = np.argsort(group, kind="stable")
+    starts = np.flatnonzero(np.diff(group[order], prepend=-1))
+    counts = np.diff(np.append(starts, len(order)))
+    first = order[starts]
+    shapes = pieces.shapes[first].copy()
+    for place in np.flatnonzero(counts > 1).tolist():
+        members = order[starts[place] : starts[place] + counts[place]]
+        shapes[place] = united(pieces.shapes[members])
+    return pieces.taken(first).with_shapes(shapes)
+
+
+def _merged(pieces: Pieces, box: Bounds, least: float) -> tuple[Pieces, Pieces]:
+    """Polygons without those that are too small, which are part of a neighbour; and those that have none."""
+    import shapely
+
+    none = pieces.taken(np.zeros(len(pieces), np.bool_))
+    if not len(pieces):
+        return pieces, none
+    area = shapely.area(pieces.shapes)
+    bounds = shapely.bounds(pieces.shapes).reshape(-1, 4)
+    inside = (bounds[:, :2] > box[:2]).all(axis=1) & (bounds[:, 2:] < box[2:]).all(axis=1)
+    if not (inside & (area < least)).any():
+        return pieces, none
+    label, whole, goes_on = _labels(pieces.shapes, area, ~inside, least)
+    stays = ((whole >= least) | goes_on)[label]
+    sizes = np.bincount(label, minlength=len(label))[label]
+    several = np.flatnonzero(stays & (sizes > 1))
+    several = several[np.argsort(label[several] != several, kind="stable")]  # whose feature it is comes first
+    groups = np.unique(label[several], return_inverse=True)[1]
+    return joined([pieces.taken(stays & (sizes == 1)), _united(pieces.taken(several), groups)]), pieces.taken(~stays)
+
+
+def _labels(
+    shapes: NDArray[Any], area: NDArray[np.float64], goes_on: NDArray[np.bool_], least: float
+) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.bool_]]:
+    """The polygon that each becomes part of, or itself; their areas then, and which of them touch the box."""
+    one, other, length = shared_lengths(shapes)
+    label, whole, goes_on = np.arange(len(shapes)), area.copy(), goes_on.copy()
+    for _ in range(MOST_ROUNDS):
+        small = (whole < least) & ~goes_on
+        a, b = label[one], label[other]
+        apart = small[a] & (a != b)
+        # to a larger one only, so that nobody goes in a circle
+        apart &= (whole[b] > whole[a]) | ((whole[b] == whole[a]) & (b > a)) | goes_on[b]
+        if not apart.any():
+            break
+        pairs, at = np.unique(a[apart] * len(label) + b[apart], return_inverse=True)
+        best = np.lexsort((pairs, np.bincount(at, length[apart]), pairs // len(label)))
+        pairs = pairs[best]  # of each small one, the longest border last
+        last = np.append(np.flatnonzero(np.diff(pairs // len(label))), len(pairs) - 1)
+        target = np.arange(len(label))
+        target[pairs[last] // len(label)] = pairs[last] % len(label)
+        while (target[target] != target).any():
+            target = target[target]
+        moved = target != np.arange(len(label))
+        np.add.at(whole, target[moved], whole[moved])
+        np.logical_or.at(goes_on, target[moved], goes_on[moved])
+        label = target[label]
+    return label, whole, goes_on

@@ -1,0 +1,182 @@
+"""The grid of tiles of Web Mercator (EPSG:3857): boxes, numbers along Hilbert's curve, zooms and their tolerances."""
+
+from math import pi
+from typing import Final, NamedTuple
+
+from vexture.base.errors import ParameterError
+from vexture_geo.base.extent import Bounds
+
+__all__ = [
+    "CRS",
+    "HALF",
+    "LATITUDE",
+    "MARGIN",
+    "MOST_ZOOM",
+    "STEPS",
+    "TILE_PIXELS",
+    "Tile",
+    "check_zooms",
+    "coarse",
+    "last_zoom",
+    "pixel",
+    "span",
+    "widened",
+    "zooms_of",
+]
+
+CRS: Final = "EPSG:3857"
+
+HALF: Final = pi * 6378137.0
+"""Metres. Half the side of the world's square."""
+
+LATITUDE: Final = 85.0511287798066
+"""Degrees. Northern and southern border of the world's square."""
+
+MARGIN: Final = 1 / 32
+"""Share of a tile's side by which its unit square is wider on each side."""
+
+TILE_PIXELS: Final = 512
+"""CSS pixels across a tile at its own zoom."""
+
+MOST_ZOOM: Final = 20
+"""A tile is then 38 m wide; float64 holds Web Mercator to 1e-8 m."""
+
+STEPS: Final = (2, 3)
+"""Zooms from one level of a pyramid to the next."""
+
+
+class Tile(NamedTuple):
+    """A tile of the web's grid: x to the east, y to the south, from the north-west.
+
+    Examples
+    --------
+    >>> Tile(2, 3, 1).parent(1), Tile(1, 1, 0).number, [tile.number for tile in Tile(0, 0, 0).below(1)]
+    (Tile(z=1, x=1, y=0), 4, [1, 4, 2, 3])
+    """
+
+    z: int
+    x: int
+    y: int
+
+    @property
+    def side(self) -> float:
+        """Metres across."""
+        return 2.0 * HALF / (1 << self.z)
+
+    @property
+    def box(self) -> Bounds:
+        """West, south, east, north; neighbours have the same bits on their common side."""
+        count = 1 << self.z
+
+        def at(line: int) -> float:
+            return HALF * ((2 * line - count) / count)
+
+        return (at(self.x), at(count - self.y - 1), at(self.x + 1), at(count - self.y))
+
+    @property
+    def number(self) -> int:
+        """Its number in PMTiles: zoom by zoom, along Hilbert's curve."""
+        x, y, distance = self.x, self.y, 0
+        for bit in range(self.z - 1, -1, -1):
+            half = 1 << bit
+            right, low = (x & half) > 0, (y & half) > 0
+            distance += half * half * ((3 * right) ^ low)
+            if not low:
+                if right:
+                    x, y = ~x & (half - 1), ~y & (half - 1)
+                x, y = y, x
+            x, y = x & (half - 1), y & (half - 1)
+        return _before(self.z) + distance
+
+    def parent(self, z: int) -> "Tile":
+        """The tile of a lower zoom in which it lies."""
+        shift = self.z - z
+        return Tile(z, self.x >> shift, self.y >> shift)
+
+    def below(self, steps: int) -> "list[Tile]":
+        """All tiles in it, some zooms below, row by row."""
+        count = 1 << steps
+        first_x, first_y = self.x << steps, self.y << steps
+        return [Tile(self.z + steps, first_x + x, first_y + y) for y in range(count) for x in range(count)]
+
+    def around(self) -> "list[tuple[Tile, float]]":
+        """Its neighbours, and by how many metres each is moved to be one: the world goes on beyond its side."""
+        count = 1 << self.z
+        found = []
+        for y in range(max(self.y - 1, 0), min(self.y + 2, count)):
+            for x in range(self.x - 1, self.x + 2):
+                if (x, y) != (self.x, self.y):
+                    found.append((Tile(self.z, x % count, y), (x - x % count) / count * 2.0 * HALF))
+        return found
+
+    @property
+    def name(self) -> str:
+        """Its name in files."""
+        return f"{self.z}-{self.x}-{self.y}"
+
+
+def _before(z: int) -> int:
+    """Tiles of lower zooms."""
+    return ((1 << 2 * z) - 1) // 3
+
+
+def span(tile: Tile, z: int) -> tuple[int, int]:
+    """Number of the first tile at a higher zoom in a tile, and how many there are: they follow one another.
+
+    Examples
+    --------
+    >>> span(Tile(1, 1, 1), 2), sorted(tile.number for tile in Tile(1, 1, 1).below(1))
+    ((13, 4), [13, 14, 15, 16])
+    """
+    shift = 2 * (z - tile.z)
+    return _before(z) + ((tile.number - _before(tile.z)) << shift), 1 << shift
+
+
+def widened(box: Bounds, by: float) -> Bounds:
+    """A box with a margin."""
+    return (box[0] - by, box[1] - by, box[2] + by, box[3] + by)
+
+
+def pixel(z: int) -> float:
+    """Metres across a pixel of a zoom."""
+    return 2.0 * HALF / (TILE_PIXELS << z)
+
+
+def check_zooms(least: int, most: int, step: int) -> None:
+    """Raise a `ParameterError` if there is no such pyramid."""
+    if step not in STEPS:
+        raise ParameterError(f"`step` is {step}; it must be {' or '.join(map(str, STEPS))}")
+    if not 0 <= most <= MOST_ZOOM:
+        raise ParameterError(f"`max_zoom` is {most}; it must be in 0..{MOST_ZOOM}")
+    if not 0 <= least <= last_zoom(most, step):
+        raise ParameterError(
+            f"`min_zoom` is {least}; it must be in 0..{last_zoom(most, step)}, the zoom of the largest tiles for views "
+            f"to {most}, `max_zoom`"
+        )
+
+
+def last_zoom(most: int, step: int) -> int:
+    """Zoom of the last tiles of a pyramid, which are right for views to zoom `most`: up to `step` zooms above.
+
+    Examples
+    --------
+    >>> last_zoom(12, 2), last_zoom(12, 3), last_zoom(7, 2), last_zoom(1, 2), last_zoom(0, 2)
+    (10, 9, 6, 0, 0)
+    """
+    return max(most - 1, 0) // step * step
+
+
+def coarse(most: int, step: int) -> list[int]:
+    """Zooms that are generalised, from 0: those before the last.
+
+    Examples
+    --------
+    >>> coarse(6, 2), coarse(7, 3), coarse(2, 2)
+    ([0, 2], [0, 3], [])
+    """
+    return list(range(0, last_zoom(most, step), step))
+
+
+def zooms_of(least: int, most: int, step: int) -> list[int]:
+    """Zooms of a pyramid that have tiles."""
+    return [z for z in (*coarse(most, step), last_zoom(most, step)) if z >= least]

@@ -1,0 +1,121 @@
+"""What a user chooses of a pyramid."""
+
+import hashlib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.errors import ParameterError, SourceError
+from vexture.base.workers import Cluster, Here, Processes, Workers
+from vexture_geo.tiles.attributes import Look
+from vexture_geo.tiles.grid import check_zooms, coarse, zooms_of
+from vexture_geo.tiles.subtree import Pyramid
+
+__all__ = ["TileOptions", "digest_of"]
+
+
+@dataclass(frozen=True)
+class TileOptions:
+    """Options of a pyramid.
+
+    Parameters
+    ----------
+    max_zoom : int
+        The largest zoom of views in which no border is off by more than a quarter of a pixel. As tiles are sharp far
+        beyond their own zoom, the last ones are of a zoom up to `step` lower (`vexture_geo.tiles.grid.last_zoom`).
+    min_zoom : int
+        The smallest zoom that has tiles.
+    step : int
+        2 or 3: zooms from one level to the next.
+    layer, where, id, source_crs : str or None
+        Of the source, as `vexture_geo.vector.features.feature_batches` has them; the last is its `crs`.
+    name, attribution : str
+        Told in the metadata.
+    look : Look
+        Colours, what is above, and the table of attributes.
+    processes : int
+        Processes that share the work on this machine.
+    scheduler : str or None
+        Address of a Dask scheduler, whose workers do the work.
+    """
+
+    max_zoom: int = 12
+    min_zoom: int = 0
+    step: int = 2
+    layer: str | None = None
+    where: str | None = None
+    id: str | None = None
+    source_crs: str | None = None
+    name: str = ""
+    attribution: str = ""
+    look: Look = field(default_factory=Look)
+    processes: int = 1
+    scheduler: str | None = None
+
+    def __post_init__(self) -> None:
+        check_zooms(self.min_zoom, self.max_zoom, self.step)
+        if self.processes < 1:
+            raise ParameterError(f"`processes` is {self.processes}; it must be at least 1")
+        self.look.check()
+
+    def pyramid(self, paints: NDArray[np.uint32], ranks: NDArray[np.uint32]) -> Pyramid:
+        """Its zooms, and the colours and the order of its features."""
+        return Pyramid(self.coarse, self.zooms, self.step, self.max_zoom, paints, ranks)
+
+    @property
+    def zooms(self) -> tuple[int, ...]:
+        """Zooms that have tiles."""
+        return tuple(zooms_of(self.min_zoom, self.max_zoom, self.step))
+
+    @property
+    def coarse(self) -> tuple[int, ...]:
+        """Zooms that are generalised."""
+        return tuple(coarse(self.max_zoom, self.step))
+
+    @property
+    def reading(self) -> dict[str, Any]:
+        """Options of the source's reader."""
+        return {
+            "layer": self.layer,
+            "where": self.where,
+            "crs": self.source_crs,
+            "id": self.id,
+            "columns": self.look.read,
+        }
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """All that what is finished depends on, besides the source."""
+        return {"zooms": [self.min_zoom, self.max_zoom, self.step], **self.reading, "look": self.look.key}
+
+    def check_workers(self) -> None:
+        """Raise a `DeviceError` if who shall do the work is not there."""
+        if self.scheduler is not None:
+            Cluster(self.scheduler).check()
+
+    def who(self) -> Workers:
+        """Who does the work."""
+        if self.scheduler is not None:
+            return Cluster(self.scheduler)
+        return Processes(self.processes) if self.processes > 1 else Here()
+
+
+def digest_of(source: Path) -> str:
+    """Digest of a source's content, with that of files beside it that are part of it."""
+    try:
+        if source.is_dir():
+            files = sorted(path for path in source.rglob("*") if path.is_file())
+        elif source.suffix.lower() == ".shp":
+            files = sorted(path for path in source.parent.iterdir() if path.stem == source.stem and path.is_file())
+        else:
+            files = [source]
+        whole = hashlib.sha256()
+        for path in files:
+            with path.open("rb") as file:
+                whole.update(f"{path.name} {hashlib.file_digest(file, 'sha256').hexdigest()}\n".encode())
+    except OSError as error:
+        raise SourceError(f"{source}: cannot be read ({error.strerror}); correct its name") from None
+    return whole.hexdigest()

@@ -1,0 +1,139 @@
+"""The source in parts of the world, each small enough for one piece of work; on disk, as the source may be larger."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from vexture_geo.tiles.grid import MARGIN, Tile, widened
+from vexture_geo.tiles.pieces import Pieces, joined, schema
+
+__all__ = ["Part", "partitioned", "split"]
+
+WEIGHT: Final = 200_000
+"""Points of a part, above which it is split: some seconds of work."""
+
+TILE_WEIGHT: Final = 64
+"""Points that take about as long as a further tile of the largest zoom which a border goes through."""
+
+GROUP: Final = 200_000
+"""Points that are in memory for a file before they are written."""
+
+DEEPEST: Final = 6
+"""Zooms that one pass over a part can go down: each part that is written needs an open file."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A tile, and how much work is in it."""
+
+    tile: Tile
+    weight: float
+
+
+class _File:
+    """A file of pieces that grows; it is there when something is in it."""
+
+    def __init__(self, folder: Path, tile: Tile, finest: float) -> None:
+        self._path, self._tile, self._finest = folder / f"{tile.name}.parquet", tile, finest
+        self._waiting: list[Pieces] = []
+        self._points = 0
+        self._writer: Any = None
+        self.weight = 0.0
+
+    def add(self, pieces: Pieces) -> None:
+        """Append pieces."""
+        import shapely
+
+        points = pieces.points
+        self.weight += points + TILE_WEIGHT * float(shapely.length(pieces.shapes).sum()) / self._finest
+        self._waiting.append(pieces)
+        self._points += points
+        if self._points >= GROUP:
+            self._flush()
+
+    def _flush(self) -> None:
+        import pyarrow.parquet as pq
+
+        if self._writer is None:
+            self._writer = pq.ParquetWriter(self._path, schema())
+        self._writer.write_table(joined(self._waiting).to_table())
+        self._waiting, self._points = [], 0
+
+    def close(self) -> Part:
+        """Write what is in memory."""
+        self._flush()
+        self._writer.close()
+        return Part(self._tile, self.weight)
+
+
+def partitioned(
+    source: Iterable[Pieces], folder: Path, most: int, step: int, told: Callable[[str], None] = lambda _: None
+) -> list[Part]:
+    """Write the pieces of a source into files of a folder, and return what parts there are, in order.
+
+    `most` is the largest zoom of tiles, and parts are tiles of zooms that `step` divides.
+    """
+    world = Tile(0, 0, 0)
+    first = _spread(source, world, 0, folder, most)
+    waiting, found = list(first), []
+    while waiting:
+        part = waiting.pop()
+        below = _steps(part, most, step)
+        if below == 0:
+            found.append(part)
+            continue
+        path = folder / f"{part.tile.name}.parquet"
+        told(f"parts: {len(found) + len(waiting) + 1}")
+        waiting += split(_batches(path), part.tile, below, folder, most)
+        path.unlink()
+    found.sort(key=lambda part: part.tile)
+    return found
+
+
+def _steps(part: Part, most: int, step: int) -> int:
+    """Zooms to go down to parts that are small enough."""
+    steps = 0
+    while part.weight > WEIGHT << 2 * steps and steps < DEEPEST and part.tile.z + steps + step <= most:
+        steps += step
+    return steps
+
+
+def split(source: Iterable[Pieces], tile: Tile, steps: int, folder: Path, most: int) -> list[Part]:
+    """Parts of a tile, some zooms below, as files of a folder."""
+    return _spread(source, tile, steps, folder, most)
+
+
+def _spread(source: Iterable[Pieces], tile: Tile, steps: int, folder: Path, most: int) -> list[Part]:
+    files: dict[Tile, _File] = {}
+    finest = Tile(most, 0, 0).side
+    try:
+        for pieces in source:
+            for part, inside in _parts(pieces, tile, tile.z + steps):
+                if part not in files:
+                    files[part] = _File(folder, part, finest)
+                files[part].add(inside)
+    finally:
+        found = [file.close() for file in files.values()]
+    return found
+
+
+def _parts(pieces: Pieces, tile: Tile, zoom: int) -> Iterator[tuple[Tile, Pieces]]:
+    """What of pieces is in the tiles of a zoom, and around them."""
+    inside = pieces.within(widened(tile.box, MARGIN * Tile(zoom, 0, 0).side))
+    if not len(inside):
+        return
+    if tile.z == zoom:
+        yield tile, inside
+        return
+    for part in tile.below(1):
+        yield from _parts(inside, part, zoom)
+
+
+def _batches(path: Path) -> Iterator[Pieces]:
+    """Pieces of a file, some at a time."""
+    import pyarrow.parquet as pq
+
+    with pq.ParquetFile(path) as file:
+        for number in range(file.num_row_groups):
+            yield Pieces.of_table(file.read_row_group(number, use_threads=False))

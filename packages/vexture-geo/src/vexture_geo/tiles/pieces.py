@@ -1,0 +1,119 @@
+"""Polygons of features in Web Mercator, on their way through files and processes."""
+
+from dataclasses import dataclass
+from io import BytesIO
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture_geo.base.extent import Bounds
+from vexture_geo.base.rings import clipped
+
+__all__ = ["SCHEMA_NAMES", "Pieces", "joined", "schema"]
+
+SCHEMA_NAMES: Final = ("order", "id", "geometry")
+"""Columns: the number of the feature in the source, its id, and a polygon in WKB."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """Polygons, (n,), in no order; `order` is the feature of each by its number in the source, `ids` its id."""
+
+    order: NDArray[np.int64]
+    ids: NDArray[Any]
+    shapes: NDArray[Any]
+
+    def __len__(self) -> int:
+        return len(self.order)
+
+    def taken(self, which: NDArray[Any]) -> "Pieces":
+        """Some of them, by a mask or their places."""
+        return Pieces(self.order[which], self.ids[which], self.shapes[which])
+
+    def with_shapes(self, shapes: NDArray[Any]) -> "Pieces":
+        """Other shapes of the same features: their polygons, if there are any."""
+        import shapely
+
+        parts, owner = shapely.get_parts(shapes, return_index=True)
+        kinds = shapely.get_type_id(parts)
+        while (kinds > shapely.GeometryType.POLYGON).any():
+            parts, inner = shapely.get_parts(parts, return_index=True)
+            owner, kinds = owner[inner], shapely.get_type_id(parts)
+        areal = (kinds == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)
+        return Pieces(self.order[owner[areal]], self.ids[owner[areal]], parts[areal])
+
+    def within(self, box: Bounds) -> "Pieces":
+        """What of them is in a box; whole polygons stay as they are, bit for bit."""
+        import shapely
+
+        bounds = shapely.bounds(self.shapes).reshape(-1, 4)
+        reaches = (bounds[:, :2] < box[2:]).all(axis=1) & (bounds[:, 2:] > box[:2]).all(axis=1)
+        if not reaches.any():
+            return self.taken(reaches)
+        found, bounds = self.taken(reaches), bounds[reaches]
+        leaves = (bounds[:, :2] < box[:2]).any(axis=1) | (bounds[:, 2:] > box[2:]).any(axis=1)
+        if not leaves.any():
+            return found
+        shapes = found.shapes.copy()
+        shapes[leaves] = clipped(shapes[leaves], box)
+        return found.with_shapes(shapes)
+
+    @property
+    def points(self) -> int:
+        """Points of all of them."""
+        import shapely
+
+        return int(shapely.get_num_coordinates(self.shapes).sum())
+
+    def to_table(self) -> Any:
+        """As a table of Arrow."""
+        import pyarrow as pa
+        import shapely
+
+        geometry = pa.array(shapely.to_wkb(self.shapes), pa.binary())
+        return pa.table([pa.array(self.order), pa.array(self.ids, pa.string()), geometry], schema=schema())
+
+    @classmethod
+    def of_table(cls, table: Any) -> "Pieces":
+        """From a table, or a batch, of Arrow."""
+        import shapely
+
+        order, ids, geometry = (table.column(name) for name in SCHEMA_NAMES)
+        shapes = np.asarray(shapely.from_wkb(geometry.to_numpy(zero_copy_only=False)))
+        return cls(order.to_numpy(zero_copy_only=False), ids.to_numpy(zero_copy_only=False), shapes)
+
+    def to_bytes(self) -> bytes:
+        """As a file of Parquet, always the same for the same pieces."""
+        import pyarrow.parquet as pq
+
+        file = BytesIO()
+        pq.write_table(self.to_table(), file)
+        return file.getvalue()
+
+    @classmethod
+    def of_bytes(cls, data: bytes) -> "Pieces":
+        """From a file of Parquet; no threads, as processes may be copied at any moment."""
+        import pyarrow.parquet as pq
+
+        file = pq.ParquetFile(BytesIO(data))
+        groups = range(file.num_row_groups)  # one after another, as their bytes take more memory than shapes do
+        return joined([cls.of_table(file.read_row_group(number, use_threads=False)) for number in groups])
+
+
+def joined(parts: "list[Pieces]") -> Pieces:
+    """Several, one after another."""
+    if not parts:
+        return Pieces(np.empty(0, np.int64), np.empty(0, object), np.empty(0, object))
+    return Pieces(
+        np.concatenate([part.order for part in parts]),
+        np.concatenate([part.ids for part in parts]),
+        np.concatenate([part.shapes for part in parts]),
+    )
+
+
+def schema() -> Any:
+    """Columns of a table of pieces."""
+    import pyarrow as pa
+
+    return pa.schema(list(zip(SCHEMA_NAMES, (pa.int64(), pa.string(), pa.binary()), strict=True)))

@@ -1,0 +1,134 @@
+"""One tile: polygons of features as a planar map that can be restyled, as the bytes of a texture's file."""
+
+from typing import Final
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from vexture.base.errors import LimitError
+from vexture.base.layout import MOST_PAINTS
+from vexture.bezier.convert import line_cubics
+from vexture.drawing.drawing import IDENTITY, Drawing, Path
+from vexture.drawing.paint import Paint
+from vexture.texture.encode import encode
+from vexture.texture.root import Root
+from vexture.tree.planar.build import build_map
+from vexture.tree.planar.style import style_of
+from vexture_geo.tiles.grid import CRS, MARGIN, Tile, widened
+from vexture_geo.tiles.pieces import Pieces
+
+__all__ = ["GREY", "ROOT", "covering", "packed", "tile_texture", "uniform_texture"]
+
+ROOT: Final = "map"
+"""Name of the map of polygons in each tile."""
+
+GREY: Final = (0.8, 0.8, 0.8, 1.0)
+"""Colour and opacity of features that none is given for."""
+
+LEVELS: Final = 255
+"""Steps of a colour's parts and of its opacity."""
+
+FULL: Final = 1.0 - 1e-9
+"""Part of a tile's square that a polygon covers which covers all of it, but for rounding."""
+
+PRECISION: Final = 2.0**-17
+"""Parts of a tile's square by which rounding moves a border at most: 0.06 pixels in views four zooms deeper."""
+
+MOST_FEATURES: Final = MOST_PAINTS - 1
+"""Features of a tile: one paint is nothing."""
+
+
+def square_of(tile: Tile) -> tuple[float, float, float, float]:
+    """The box of a tile's unit square: wider than the tile."""
+    return widened(tile.box, MARGIN * tile.side)
+
+
+def covering(pieces: Pieces, tile: Tile, ranks: NDArray[np.uint32]) -> int:
+    """Place of the piece that covers the square of a tile and is topmost; -1 if none does."""
+    if not len(pieces):
+        return -1
+    box = square_of(tile)
+    rank = ranks[pieces.order]
+    top = np.flatnonzero(rank == rank.max())
+    full = shapely.area(pieces.shapes[top]) >= FULL * (box[2] - box[0]) * (box[3] - box[1])
+    return int(top[full.argmax()]) if full.any() else -1
+
+
+def packed(rgba: ArrayLike) -> NDArray[np.uint32]:
+    """Colours and opacities, (n, 4), as a number each."""
+    parts = np.rint(np.asarray(rgba, np.float64).clip(0.0, 1.0) * LEVELS).astype("u1")
+    return np.ascontiguousarray(parts).view("<u4").ravel().astype(np.uint32)
+
+
+def _paint(paints: NDArray[np.uint32], feature: int) -> Paint:
+    """The colour of a feature; a single one is that of all."""
+    number = int(paints[feature if len(paints) > 1 else 0])
+    red, green, blue, opacity = (part / LEVELS for part in number.to_bytes(4, "little"))
+    return Paint((red, green, blue), opacity)
+
+
+def tile_texture(pieces: Pieces, tile: Tile, paints: NDArray[np.uint32], ranks: NDArray[np.uint32]) -> bytes:
+    """File of the texture of what is in a tile's square, in the colours and the order of the source's features.
+
+    Raises a `LimitError` if it has too many features.
+    """
+    box = square_of(tile)
+    size = box[2] - box[0]
+    to_source = np.array([[size, 0.0, box[0]], [0.0, size, box[1]]])
+    return _written(Drawing(_paths(pieces, box, size, paints, ranks), to_source, ROOT, CRS))
+
+
+def uniform_texture(pieces: Pieces, place: int, paints: NDArray[np.uint32]) -> bytes:
+    """File of the texture of a tile in which one piece is everywhere: it names no place, so that all are equal."""
+    corners = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+    square = line_cubics(corners, np.roll(corners, -1, axis=0))
+    path = Path((square,), paint=_paint(paints, int(pieces.order[place])), element=str(pieces.ids[place]))
+    return _written(Drawing((path,), IDENTITY.copy(), ROOT))
+
+
+def _written(drawing: Drawing) -> bytes:
+    # borders are simplified already, and to merge more of their sides into curves would take twice as long
+    planar = build_map(drawing, precision=PRECISION, restyle=True)
+    assert planar is not None
+    style = style_of(drawing, planar)
+    root = Root(ROOT, 0, drawing.to_source, crs=drawing.crs, style=style)
+    return encode([planar], [root], name=ROOT).to_ktx2()
+
+
+def _paths(
+    pieces: Pieces,
+    box: tuple[float, float, float, float],
+    size: float,
+    paints: NDArray[np.uint32],
+    ranks: NDArray[np.uint32],
+) -> tuple[Path, ...]:
+    """A path for each feature, the lowest first."""
+    _, place, number = np.unique(ranks[pieces.order], return_index=True, return_inverse=True)
+    features = pieces.order[place]
+    if len(features) > MOST_FEATURES:
+        raise LimitError(
+            f"a tile has {len(features)} features; the limit is {MOST_FEATURES}; give a larger `max_zoom`, or split it"
+        )
+    by_feature = np.argsort(number, kind="stable")
+    names = pieces.ids[by_feature][np.searchsorted(number[by_feature], np.arange(len(features)))]
+    shapes = shapely.orient_polygons(pieces.shapes[by_feature])
+    rings, owner = shapely.get_rings(shapes, return_index=True)
+    points, ring = shapely.get_coordinates(rings, return_index=True)
+    unit = np.clip((points - box[:2]) / size, 0.0, 1.0)
+    inner = ring[1:] == ring[:-1]
+    sides = line_cubics(unit[:-1][inner], unit[1:][inner])
+    contours = np.split(sides, np.flatnonzero(np.diff(ring[:-1][inner])) + 1)
+    of = [_paint(paints, feature) for feature in features.tolist()]
+    return _grouped(contours, number[by_feature][owner], names, of)
+
+
+def _grouped(
+    contours: list[NDArray[np.float64]], feature: NDArray[np.intp], names: NDArray[np.object_], paints: list[Paint]
+) -> tuple[Path, ...]:
+    ends = np.searchsorted(feature, np.arange(len(names)), side="right").tolist()
+    starts = [0, *ends[:-1]]
+    return tuple(
+        Path(tuple(contours[start:end]), paint=paint, element=str(name))
+        for start, end, name, paint in zip(starts, ends, names, paints, strict=True)
+    )

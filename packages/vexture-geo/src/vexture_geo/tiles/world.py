@@ -1,0 +1,88 @@
+"""Polygons of features in the world's square: projected, cut at its borders, repeated where it begins again."""
+
+from typing import Any, Final
+
+import numpy as np
+
+from vexture.base.errors import SourceError
+from vexture.base.notes import Notes
+from vexture.base.tolerance import ROUND
+from vexture_geo.base.crs import period, refuse_metres, shown_bounds, system, transformed
+from vexture_geo.base.longitudes import note_short_ways, unwrapped
+from vexture_geo.base.rings import Rings, cut, moved, refuse_far, repaired, within
+from vexture_geo.tiles.grid import CRS, HALF, LATITUDE, MARGIN, pixel
+from vexture_geo.tiles.pieces import Pieces
+
+__all__ = ["in_world"]
+
+BENT: Final = 0.02
+"""Pixels of the largest zoom by which a projected side may be off."""
+
+BEYOND: Final = 2.0 * MARGIN
+"""Turns of the world to the east and to the west of it, each, that the square of its one tile at zoom 0 shows."""
+
+DEGREES: Final = "EPSG:4326"
+
+
+def in_world(features: Any, first: int, most: int, notes: Notes) -> Pieces:
+    """Pieces of a batch of features, which are numbered from `first`, for tiles up to a zoom."""
+    rings, own = features.rings, features.crs
+    if not len(rings.ends):
+        return Pieces(np.empty(0, np.int64), np.empty(0, object), np.empty(0, object))
+    refuse_far(rings, "correct it")
+    rings = _in_degrees(rings, own, most, notes) if system(own).is_geographic else _in_metres(rings, own, notes)
+    feature = np.asarray(rings.feature, np.int64)
+    ids = np.asarray(features.ids, object)[feature]
+    return Pieces(feature + first, ids, rings.shapes)
+
+
+def _in_degrees(rings: Rings, own: str, most: int, notes: Notes) -> Rings:
+    """Rings of longitudes and latitudes in metres, with copies beyond the antimeridian."""
+    turn = period(own)
+    assert turn is not None
+    degree = turn / 360.0
+    refuse_metres(rings.points, own, f"the coordinates {shown_bounds(rings.box, own)}")
+    note_short_ways(rings.steps, turn, notes)
+    rings = repaired(unwrapped(rings, turn), notes)
+    reach = turn / 2.0 * (1.0 + BEYOND)
+    world = (-reach, -LATITUDE * degree, reach, LATITUDE * degree)
+    boxes = rings.boxes
+    if (np.abs(boxes[:, :, 0]) > turn / 2.0 * (1.0 - BEYOND)).any() or (np.abs(boxes[:, :, 1]) > world[3]).any():
+        rings = cut(within(rings, world, turn), world)
+    if not len(rings.ends):
+        return rings
+    size = np.full(2, BENT * pixel(most) / ROUND)
+    wide = 2.0 * HALF
+    rings = moved(rings, lambda points: _projected(points, own, turn), (-wide, -wide, wide, wide), size)
+    refuse_far(rings, "correct it")
+    return _cut_to_world(rings)
+
+
+def _projected(points: Any, own: str, turn: float) -> Any:
+    """Points in metres; those beyond the antimeridian stay beyond it."""
+    turns = np.rint(points[:, 0] / turn)
+    image = transformed(points - np.stack([turns * turn, np.zeros(len(turns))], axis=1), own, CRS)
+    return image + np.stack([turns * 2.0 * HALF, np.zeros(len(turns))], axis=1)
+
+
+def _in_metres(rings: Rings, own: str, notes: Notes) -> Rings:
+    """Rings of a projected system in metres of Web Mercator."""
+    rings = repaired(rings, notes)
+    if own != CRS:
+        size = np.full(2, 1.0)
+        wide = 2.0 * HALF
+        rings = moved(rings, lambda points: transformed(points, own, CRS), (-wide, -wide, wide, wide), size)
+        if not np.isfinite(rings.points).all():
+            raise SourceError("it has points without a place in the tiles' projection, EPSG:3857; correct its `crs`")
+        rings = repaired(rings, Notes())
+    rings = within(rings, _world(), 2.0 * HALF)
+    return _cut_to_world(rings)
+
+
+def _world() -> tuple[float, float, float, float]:
+    reach = HALF * (1.0 + BEYOND)
+    return (-reach, -HALF, reach, HALF)
+
+
+def _cut_to_world(rings: Rings) -> Rings:
+    return cut(rings, _world()) if len(rings.ends) else rings

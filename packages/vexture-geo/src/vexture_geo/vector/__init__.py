@@ -1,0 +1,1 @@
+"""Features: polygons, lines and points in files of any vector format."""

@@ -1,0 +1,206 @@
+"""Zips of geographic data: a shapefile or several, a FileGDB, or one file of another format. Nothing else is unpacked.
+
+Names in a zip are no places: files are in memory, or in a folder that is made for them, by the last part of their name.
+"""
+
+import os
+import re
+import zipfile
+import zlib
+from collections.abc import Iterable
+from io import BytesIO
+from pathlib import Path, PurePosixPath
+from typing import Final
+
+from vexture.base.content import LARGEST_FILE, SHAPEFILE, ZIP, is_geodatabase, is_stream, read_bytes, start_of
+from vexture.base.errors import LimitError, SourceError, printable, reason_of
+from vexture_geo.base.damage import refuse_cut
+from vexture_geo.base.file_references import refuse_files_of_system
+
+__all__ = [
+    "FOLDER",
+    "KML",
+    "MAIN",
+    "packed_files",
+    "refuse_links_of_folder",
+    "unzipped",
+    "whole",
+    "whole_geodatabase",
+    "whole_shapefile",
+]
+
+PARTS: Final = (".shp", ".shx", ".dbf", ".prj", ".cpg")
+"""Files of one shapefile, of which the first two are required."""
+
+FOLDER: Final = ".gdb"
+NAME: Final = re.compile(r"\w[\w.-]*")
+"""What the folder of a FileGDB ends in, and the names of files that it has."""
+
+SINGLE: Final = (
+    *(".geojson", ".geojsons", ".geojsonl", ".ndjson", ".json", ".topojson", ".kml", ".gpx", ".gml", ".csv", ".tsv"),
+    *(".gpkg", ".sqlite", ".fgb", ".parquet", ".feather", ".arrow"),
+)
+"""Suffixes of formats that are one file."""
+
+DEPTHS: Final = (".tif", ".tiff", ".nc", ".nc4", ".asc", ".flt", ".grib", ".grib2", ".grb", ".grb2")
+"""Suffixes of rasters and meshes of depths."""
+
+KML: Final = ".kml"
+MAIN: Final = "doc.kml"
+"""Suffix of KML, and the name of what of a KMZ is shown."""
+
+MOST_NAMED: Final = 6
+"""Files that a message names."""
+
+REMEDY: Final = "zip the .shp, .shx, .dbf and .prj together"
+
+
+def unzipped(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | bytes:
+    """Return the source itself or, of a zip, what it holds: a zip of shapefiles or of a FileGDB alone, or one file.
+
+    Raises a `SourceError` if it holds none of them, or is damaged, and a `LimitError` if it holds several.
+    """
+    if not start_of(source).startswith(ZIP):
+        return source
+    try:
+        with zipfile.ZipFile(BytesIO(read_bytes(source))) as archive:
+            named = [info for info in archive.infolist() if info.filename]  # a name that is empty is no place, either
+            infos = [info for info in named if not info.is_dir() and _is_own(info.filename)]
+            return _held(archive, infos)
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError, OSError, ValueError) as error:
+        raise SourceError(f"the zip is damaged or encrypted ({reason_of(error)}); zip its files again") from None
+
+
+def _held(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> bytes:
+    """What a zip holds, by the names of its files."""
+    shapes = [info for info in infos if _suffix(info.filename) in PARTS]
+    if any(_suffix(info.filename) == PARTS[0] for info in shapes):
+        return _shapefiles({PurePosixPath(info.filename).name: read for info, read in _read(archive, shapes)})
+    folders = {place for info in infos if (place := PurePosixPath(info.filename).parent).suffix.lower() == FOLDER}
+    if folders:
+        (folder,) = _only(folders, "FileGDBs")
+        inner = [info for info in infos if PurePosixPath(info.filename).parent == folder]
+        return _geodatabase({PurePosixPath(info.filename).name: read for info, read in _read(archive, inner)})
+    singles = [info for info in infos if _suffix(info.filename) in SINGLE]
+    main = [info for info in singles if PurePosixPath(info.filename).name.lower() == MAIN]
+    texts = [info for info in singles if _suffix(info.filename) == KML]
+    if main and len(texts) > 1:  # a KMZ may be in parts, to which its main one links
+        return _packed({info.filename: read for info, read in _read(archive, texts)})
+    depths = [info.filename for info in infos if _suffix(info.filename) in DEPTHS]
+    if depths and not singles:
+        raise SourceError(f"{_shown(depths[0])} is not read in a zip; unzip it, and give the file itself")
+    if not singles:
+        raise SourceError(f"the zip holds no shapefile (.shp), FileGDB (.gdb) or other geographic data; {REMEDY}")
+    chosen = main[:1] or singles
+    _only({PurePosixPath(info.filename) for info in chosen}, "files")
+    ((_, content),) = _read(archive, chosen[:1])
+    if content.startswith(ZIP):
+        raise SourceError(f"{_shown(chosen[0].filename)} in the zip is a zip itself; unpack it")
+    return content
+
+
+def _is_own(name: str) -> bool:
+    """Whether a file of a zip is data, and not what some systems add."""
+    place = PurePosixPath(name)
+    return not place.name.startswith(".") and "__MACOSX" not in place.parts
+
+
+def _suffix(name: str) -> str:
+    return PurePosixPath(name).suffix.lower()
+
+
+def _only(places: Iterable[PurePosixPath], kind: str) -> list[PurePosixPath]:
+    found = sorted(places)
+    if len(found) > 1:
+        shown = ", ".join(_shown(str(place)) for place in found[:MOST_NAMED])
+        more = ", ..." if len(found) > MOST_NAMED else ""
+        raise LimitError(f"the zip holds {len(found)} {kind} that can be read: {shown}{more}; zip one of them")
+    return found
+
+
+def _shown(name: str) -> str:
+    return printable(name)
+
+
+def _read(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> list[tuple[zipfile.ZipInfo, bytes]]:
+    """Contents of files of a zip, none of which has more bytes than it says."""
+    if sum(info.file_size for info in infos) > LARGEST_FILE:
+        raise SourceError(f"what the zip holds is larger than {LARGEST_FILE:,} bytes; split it")
+    return [(info, archive.read(info)) for info in infos]
+
+
+def whole_shapefile(path: Path) -> bytes:
+    """Content of a ``.shp`` and of the files beside it, in one zip; equal files give equal bytes."""
+    try:
+        beside = {each.name.lower(): each for each in path.parent.iterdir()}
+    except OSError as error:
+        raise SourceError(f"its folder cannot be read: {error.strerror}; the files beside it are needed") from None
+    found = {part: beside.get(path.stem.lower() + part) for part in PARTS} | {".shp": path}
+    return _shapefiles({f"{path.stem}{part}": read_bytes(each) for part, each in found.items() if each is not None})
+
+
+def whole(path: Path) -> bytes | None:
+    """A shapefile or FileGDB of several files as one zip; None of anything else."""
+    if is_stream(path):
+        return None
+    if is_geodatabase(path):
+        return whole_geodatabase(path)
+    return whole_shapefile(path) if start_of(path).startswith(SHAPEFILE) else None
+
+
+def whole_geodatabase(path: Path) -> bytes:
+    """Content of the folder of a FileGDB, in one zip; equal files give equal bytes."""
+    refuse_links_of_folder(path)
+    files = {}
+    for each in sorted(path.iterdir()):
+        if each.is_file():
+            files[each.name] = read_bytes(each)
+            if sum(map(len, files.values())) > LARGEST_FILE:
+                raise SourceError(f"its files are larger than {LARGEST_FILE:,} bytes; split it")
+    return _geodatabase(files)
+
+
+def refuse_links_of_folder(path: Path) -> None:
+    """Raise a `SourceError` if a file of the folder of a FileGDB is a symbolic link to one elsewhere."""
+    place = os.path.realpath(path)
+    for each in sorted(path.iterdir()):
+        if each.is_symlink() and os.path.dirname(os.path.realpath(each)) != place:
+            raise SourceError(
+                f"its {printable(each.name)} is a link to another place, and no other file is read; copy the whole "
+                "folder, with what links lead to (cp -rL)"
+            )
+
+
+def packed_files(content: bytes) -> tuple[str, dict[str, bytes]]:
+    """What a zip that `whole` or `unzipped` made is, by a suffix (``.shp``, ``.gdb`` or ``.kml``), and its files."""
+    with zipfile.ZipFile(BytesIO(content)) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    if all(_suffix(name) == KML for name in files):
+        return KML, files
+    inner = {PurePosixPath(name).name: read for name, read in files.items() if name.startswith(f"a{FOLDER}/")}
+    return (FOLDER, inner) if inner else (PARTS[0], files)
+
+
+def _geodatabase(files: dict[str, bytes]) -> bytes:
+    """Files of a FileGDB in one zip."""
+    return _packed({f"a{FOLDER}/{name}": content for name, content in files.items() if NAME.fullmatch(name)})
+
+
+def _shapefiles(files: dict[str, bytes]) -> bytes:
+    """Files of shapefiles in one zip."""
+    named = {Path(name).stem + Path(name).suffix.lower(): content for name, content in files.items()}
+    for stem in [Path(name).stem for name in named if name.endswith(PARTS[0])]:
+        if f"{stem}.shx" not in named:
+            raise SourceError(f"the shapefile {stem}.shp lacks its {stem}.shx; keep its files together")
+        for name in (f"{stem}.shp", f"{stem}.shx"):
+            refuse_cut(name, named[name], len(named[name]))
+        refuse_files_of_system(named.get(f"{stem}.prj", b"").decode(errors="replace"))
+    return _packed(named)
+
+
+def _packed(files: dict[str, bytes]) -> bytes:
+    packed = BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        for name, content in files.items():
+            archive.writestr(zipfile.ZipInfo(name), content)  # without a time: equal files give equal bytes
+    return packed.getvalue()

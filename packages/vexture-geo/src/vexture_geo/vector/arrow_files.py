@@ -1,0 +1,217 @@
+"""Tables with geometries: GeoParquet, Feather (files of Arrow), and CSV with WKT or with coordinates in columns."""
+
+import json
+import os
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.content import ARROW, PARQUET, Header, header_of, read_bytes, start_of
+from vexture.base.errors import SourceError, shortened
+from vexture_geo.vector.curves import BROKEN
+from vexture_geo.vector.decimal_commas import with_decimal_commas
+from vexture_geo.vector.geojson import WORLD
+from vexture_geo.vector.wkt import wkb_of_texts
+
+if TYPE_CHECKING:
+    import pyarrow
+
+__all__ = ["TableFile", "is_table", "opened_table"]
+
+GEOMETRY: Final = "geometry"
+"""Name of the geometries of CSV; a column that has it already has a longer one."""
+
+SHOWN: Final = 60
+"""Characters of a value, or of an error of Arrow's, in a message."""
+
+MOST_NAMED: Final = 12
+"""Columns that a message names."""
+
+UNNAMED: Final = "several of its columns have no name; give each one, or remove it"
+
+UTF_16: Final = (b"\xff\xfe", b"\xfe\xff")
+"""First bytes of text in UTF-16."""
+
+CODE: Final = re.compile(rb'(?<![^,;\t|"\s])0\d')
+CODE_ALONE: Final = r"^\s*0\d"
+"""A number with a zero before other digits: at the start of a value somewhere in a text, and of one value."""
+
+
+@dataclass(frozen=True)
+class TableFile:
+    """A table in memory, which is read as `pyarrow.parquet.ParquetFile` is."""
+
+    table: "pyarrow.Table"
+
+    @property
+    def schema_arrow(self) -> "pyarrow.Schema":
+        """Its columns and metadata."""
+        return self.table.schema
+
+    def read(self, columns: Sequence[str], use_threads: bool = False) -> "pyarrow.Table":
+        """Some columns of all rows."""
+        return self.table.select(list(columns))
+
+    def iter_batches(
+        self, batch_size: int, columns: Sequence[str], use_threads: bool = False
+    ) -> "Iterator[pyarrow.RecordBatch]":
+        """Some columns, so many rows at once."""
+        return iter(self.table.select(list(columns)).combine_chunks().to_batches(batch_size))
+
+
+def is_table(source: str | os.PathLike[str] | bytes) -> bool:
+    """Whether a file is Parquet, Arrow or CSV, by its first bytes; CSV without known columns by its name."""
+    start = start_of(source)
+    return start.startswith((PARQUET, ARROW)) or _is_csv(source, start)
+
+
+def _is_csv(source: str | os.PathLike[str] | bytes, start: bytes) -> bool:
+    is_named = not isinstance(source, bytes) and os.fspath(source).lower().endswith((".csv", ".tsv"))
+    if start.startswith(UTF_16):
+        return is_named or header_of(start.decode("utf-16", "replace").encode()).has_places
+    if start.lstrip()[:1] in (b"{", b"<", b"\x1e") or b"\0" in start or not start:
+        return False
+    return header_of(start).has_places or (is_named and bool(header_of(start).names))
+
+
+def opened_table(source: str | os.PathLike[str] | bytes) -> Any:
+    """A `pyarrow.parquet.ParquetFile`, or what is read alike."""
+    import pyarrow.parquet as pq
+
+    start = start_of(source)
+    if start.startswith(PARQUET):
+        file: Any = pq.ParquetFile(BytesIO(source) if isinstance(source, bytes) else os.path.abspath(source))
+    else:
+        content = read_bytes(source)
+        file = TableFile(_feather(content) if start.startswith(ARROW) else _csv(content))
+    _refuse_repeated(file.schema_arrow.names)
+    return file
+
+
+def _feather(content: bytes) -> "pyarrow.Table":
+    """A file of Arrow, of which nothing points out of its buffers."""
+    import pyarrow as pa
+
+    with pa.ipc.open_file(pa.py_buffer(content)) as file:
+        table = file.read_all()
+    table.validate(full=True)  # which reading does not: an offset may lead anywhere
+    return table
+
+
+def _csv(content: bytes) -> "pyarrow.Table":
+    """A table of text, with geometries of its columns."""
+    import pyarrow as pa
+
+    _refuse_other_encodings(content)
+    header = header_of(content.partition(b"\n")[0])
+    if not header.has_places:
+        shown = ", ".join(header.names[:MOST_NAMED]) + (", ..." if len(header.names) > MOST_NAMED else "")
+        raise SourceError(f"its first line names no columns of places (wkt, or lon and lat, or x and y): {shown}")
+    _refuse_repeated(header.names)
+    table = with_decimal_commas(_columns(content, header), header)
+    if header.text is not None:
+        shapes = _from_texts(table.column(header.text), header.text)
+        table = table.drop_columns([header.text])
+    else:
+        assert header.across is not None
+        assert header.up is not None
+        shapes = _from_numbers(*((table.column(name), name) for name in (header.across, header.up)))
+    name = GEOMETRY
+    while name in table.column_names:
+        name += "_"
+    crs = WORLD if header.is_degrees else None
+    geo = {"version": "1.0.0", "primary_column": name, "columns": {name: {"encoding": "WKB", "crs": crs}}}
+    table = table.append_column(name, pa.array(shapes.tolist(), pa.binary()))
+    return table.replace_schema_metadata({"geo": json.dumps(geo)})
+
+
+def _refuse_repeated(names: Sequence[str]) -> None:
+    """Raise a `SourceError` if two columns have one name: none of them could be chosen."""
+    again = next((name for name, count in Counter(names).items() if count > 1), None)
+    if again is not None:
+        what = f"it has several columns {again!r}; rename all but one" if again else UNNAMED
+        raise SourceError(what)
+
+
+def _refuse_other_encodings(content: bytes) -> None:
+    """Raise a `SourceError` if a text is not in UTF-8."""
+    if content.startswith(UTF_16):
+        raise SourceError("it is text in UTF-16; save it as UTF-8")
+    try:
+        content.decode()
+    except UnicodeDecodeError as error:
+        first = content.rfind(b"\n", 0, error.start) + 1
+        shown = shortened(content[first:].partition(b"\n")[0].decode("cp1252", "replace").strip(), SHOWN)
+        line = content.count(b"\n", 0, error.start) + 1
+        raise SourceError(
+            f"its line {line} is no text in UTF-8, but in another encoding, such as Windows-1252 (where it is "
+            f"{shown!r}); save the file as UTF-8"
+        ) from None
+
+
+def _columns(content: bytes, header: Header) -> "pyarrow.Table":
+    """All columns of a table of text; numbers of which one starts with a zero, as those of codes do, stay texts."""
+    import pyarrow as pa
+    from pyarrow import compute
+
+    types = {} if header.text is None else {header.text: pa.string()}  # WKB in hexadecimal digits looks like a number
+    table = _read_csv(content, header, types)
+    places = (header.text, header.across, header.up)
+    numeric = [
+        field.name
+        for field in table.schema
+        if (pa.types.is_integer(field.type) or pa.types.is_floating(field.type)) and field.name not in places
+    ]
+    if not numeric or CODE.search(content) is None:
+        return table
+    texts = _read_csv(content, header, types | dict.fromkeys(numeric, pa.string()))
+    for name in numeric:
+        if compute.any(compute.match_substring_regex(texts.column(name), CODE_ALONE)).as_py():
+            table = table.set_column(table.column_names.index(name), name, texts.column(name))
+    return table
+
+
+def _read_csv(content: bytes, header: Header, types: dict[str, Any]) -> "pyarrow.Table":
+    import pyarrow as pa
+    from pyarrow import csv
+
+    reading = csv.ReadOptions(use_threads=False, column_names=header.names, skip_rows=1)
+    parsing = csv.ParseOptions(delimiter=header.delimiter, newlines_in_values=True)
+    converting = csv.ConvertOptions(column_types=types, strings_can_be_null=True, quoted_strings_can_be_null=False)
+    return csv.read_csv(pa.py_buffer(content), reading, parsing, converting)
+
+
+def _from_texts(column: Any, name: str) -> NDArray[Any]:
+    """WKB of texts; None where there is none."""
+    texts = np.array([(text or "").strip() or None for text in column.to_pylist()], object)
+    found = wkb_of_texts(texts)
+    for row, shape in enumerate(found):
+        if shape is BROKEN:
+            shown = shortened(" ".join(str(texts[row]).split()), SHOWN)
+            raise SourceError(f"row {row + 1} has no WKT in the column {name!r}, but {shown!r}; correct it")
+    return found
+
+
+def _from_numbers(*columns: tuple[Any, str]) -> NDArray[Any]:
+    """WKB of the points of two columns; None where one has no value."""
+    import pyarrow as pa
+    import shapely
+
+    places = []
+    for column, name in columns:
+        try:
+            places.append(column.cast(pa.float64()).to_numpy())
+        except (pa.ArrowInvalid, pa.ArrowNotImplementedError) as error:
+            reason = shortened(" ".join(str(error).split()), SHOWN)
+            raise SourceError(f"its column {name!r} has a value that is no number ({reason}); correct it") from None
+    across, up = (np.asarray(place, np.float64) for place in places)
+    found = np.full(len(across), None, object)
+    given = ~(np.isnan(across) | np.isnan(up))
+    found[given] = shapely.to_wkb(shapely.points(across[given], up[given]))
+    return found

@@ -1,0 +1,312 @@
+"""Tables of features as their formats have them: attributes in Arrow beside geometries in WKB, in chunks."""
+
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field, replace
+from itertools import islice
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.content import VECTOR_FILES, unpacked
+from vexture.base.errors import ParameterError, SourceError, shortened
+from vexture_geo.base.damage import missing_arcs
+from vexture_geo.base.extent import Bounds
+from vexture_geo.vector.archives import unzipped
+from vexture_geo.vector.arrow_files import is_table, opened_table
+from vexture_geo.vector.feature_ids import ids_of_json, with_ids
+from vexture_geo.vector.frames import arrow_of, check_texts, labels_of
+from vexture_geo.vector.geojson import WORLD
+from vexture_geo.vector.geoparquet import GeometryColumn, geometry_column, objects_of
+from vexture_geo.vector.vector_files import VectorFile, opened_vectors
+from vexture_geo.vector.vectors import chosen_layer, gdal_errors, layers_of
+
+if TYPE_CHECKING:
+    import pyarrow
+
+__all__ = ["Choice", "Chunk", "chunks_of"]
+
+PART: Final = 16_384
+"""Features of which a condition chooses some, before more are read."""
+
+MOST_NAMED: Final = 12
+"""Columns that a message names."""
+
+REFUSALS: Final = ("Invalid SQL", "no such column", "syntax error")
+"""What GDAL says of a condition, at once or, where it is a database's, when it reads."""
+
+READ: Final = f"give a file of GeoJSON, TopoJSON, {VECTOR_FILES}"
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What of a source is read."""
+
+    layer: str | None = None
+    where: str | None = None
+    id: str | None = None
+    columns: tuple[str, ...] | None = None
+    bounds: Bounds | None = None
+
+    def kept(self, names: list[str]) -> list[str]:
+        """The columns to read of those that there are; `ParameterError` if one is missing."""
+        for parameter, wanted in (("id", () if self.id is None else (self.id,)), ("columns", self.columns or ())):
+            for name in wanted:
+                if name not in names:
+                    shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
+                    raise ParameterError(f"it has no column {name!r} for `{parameter}`; there are: {shown or 'none'}")
+        return [name for name in names if self.columns is None or name in self.columns or name == self.id]
+
+
+@dataclass(frozen=True, eq=False)
+class Chunk:
+    """Some features: attributes, geometries (WKB, or shapely's if `parsed`) and their numbers in the source."""
+
+    table: "pyarrow.Table"
+    shapes: NDArray[Any]
+    numbers: NDArray[np.int64]
+    system: str | None
+    id_column: str | None = None
+    parsed: bool = False
+    bounded: bool = False
+    """Whether bounds are applied already."""
+
+    fallback: str | None = field(default=None)
+    """Reference system of coordinates that can be degrees, where the source names none."""
+
+    is_told: bool = False
+    """Whether the source itself names its reference system, rather than its format."""
+
+    labels: NDArray[Any] | None = None
+    """Names that the source has for its features, where no column has their ids: the index of a GeoDataFrame."""
+
+    unlabelled: str = ""
+    """Why the index of a GeoDataFrame is not its features' ids."""
+
+    damaged: int = 0
+    """Geometries that are not whole, in the source and not only here."""
+
+    remarks: Mapping[str, int] = field(default_factory=dict)
+    """What is to be told of the source, and how often: for instance, links that nobody reads."""
+
+    def taken(self, rows: NDArray[np.intp]) -> "Chunk":
+        """Some of the rows, all of which are in bounds."""
+        labels = None if self.labels is None else self.labels[rows]
+        part = replace(self, table=self.table.take(rows), shapes=self.shapes[rows], numbers=self.numbers[rows])
+        return replace(part, labels=labels, bounded=True)
+
+    def crs(self, points: NDArray[np.float64]) -> str | None:
+        """What the source says, or what its coordinates allow."""
+        if self.system or self.fallback is None:
+            return self.system
+        degrees = not len(points) or bool((np.abs(points).max(axis=0) <= (360.0, 90.0)).all())
+        return self.fallback if degrees else None
+
+
+def chunks_of(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
+    """The features of a source, at most `batch` at once, or all in one chunk."""
+    if hasattr(source, "geometry") and hasattr(source, "crs"):
+        yield from _split(_frame(source, choice), batch)
+        return
+    if not isinstance(source, str | bytes | os.PathLike):
+        raise ParameterError(f"`source` is a {type(source).__name__}; {READ}, or a GeoDataFrame")
+    source = unzipped(unpacked(source))
+    if is_table(source):
+        yield from _parquet(source, choice, batch)
+        return
+    with opened_vectors(source) as file:
+        yield from _gdal(file, choice, batch)
+
+
+def _gdal(file: VectorFile, choice: Choice, batch: int | None) -> Iterator[Chunk]:
+    import pyarrow as pa
+    from pyogrio import raw, read_info
+
+    content, is_json = file.content, file.is_json
+    with gdal_errors(file.formats):
+        found = layers_of(file, choice.layer)
+        layers = [layer for layer in found if layer.kind is not None]
+        if found and not layers:
+            raise SourceError(f"it has no geometries, only a table ({found[0].name}); give the file of its places")
+        number = chosen_layer(layers, choice.layer, any_kind=True).number
+        info = read_info(content, layer=number)
+    names = [str(each) for each in info["fields"]]
+    columns = choice.kept(names)
+    may_have_ids = is_json and choice.id is None
+    ids = ids_of_json(content, "id" in names) if may_have_ids and isinstance(content, bytes) else {}
+    own = "id" if may_have_ids and "id" in names and not ids else choice.id
+    if own is not None and own not in columns:
+        columns.append(own)
+    options: dict[str, Any] = {"layer": number, "columns": columns, "where": choice.where, "bbox": choice.bounds}
+    options |= {"return_fids": True, "batch_size": batch or 65_536, "use_pyarrow": True}
+    topology = is_json and not info["crs"]
+    damaged = missing_arcs(content) if topology and isinstance(content, bytes) else 0
+    links = file.links
+    with ExitStack() as stack:
+        with _condition(choice.where, names), gdal_errors(file.formats):
+            meta, reader = stack.enter_context(raw.open_arrow(content, **options))
+        places = meta["fid_column"] or "OGC_FID", meta["geometry_name"] or "wkb_geometry"
+        while True:  # nothing of GDAL's is held while who asked works with what it got
+            with _condition(choice.where, names), gdal_errors(file.formats):
+                table = (
+                    reader.read_all() if batch is None else pa.Table.from_batches([*islice(reader, 1)], reader.schema)
+                )
+            if batch is None or len(table):
+                chunk = _arrow_chunk(table, *places, own, topology, is_json, meta["crs"], damaged)
+                chunk = replace(chunk, remarks=links)
+                yield replace(chunk, table=with_ids(chunk.table, chunk.numbers, ids), id_column="id") if ids else chunk
+                damaged, links = 0, {}
+            if batch is None or not len(table):
+                return
+
+
+def _arrow_chunk(
+    table: "pyarrow.Table",
+    number: str,
+    geometry: str,
+    own: str | None,
+    topology: bool,
+    is_json: bool,
+    crs: str | None,
+    damaged: int,
+) -> Chunk:
+    """A table of GDAL: its own number comes before attributes of that name, and its geometry after them."""
+    first, last = table.schema.get_all_field_indices(number)[0], table.schema.get_all_field_indices(geometry)[-1]
+    numbers = np.asarray(table.column(first).to_numpy(), np.int64)
+    shapes = objects_of(table.column(last))
+    kept = table.remove_column(last).remove_column(first)
+    check_texts(kept)
+    return Chunk(
+        kept,
+        shapes,
+        numbers,
+        crs,
+        own,
+        bounded=True,
+        fallback=WORLD if topology else None,
+        is_told=crs is not None and not is_json,
+        damaged=damaged,
+    )
+
+
+@contextmanager
+def _condition(where: str | None, names: list[str]) -> Iterator[None]:
+    """Say of a condition that GDAL refuses which columns there are."""
+    try:
+        yield
+    except SourceError as error:
+        if where is None or not any(sign in str(error) for sign in REFUSALS):
+            raise
+        raise ParameterError(_refused(where, names)) from None
+
+
+def _refused(where: str, names: list[str]) -> str:
+    shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
+    return f"`where` {where!r} is no condition on its columns; there are: {shown or 'none'}"
+
+
+def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
+    import pyarrow as pa
+
+    if choice.layer is not None:
+        raise ParameterError(f"a table has no layers, so none {choice.layer!r}; leave `layer` out")
+    try:
+        file = opened_table(source)
+        geometry = geometry_column(file)
+        names = [name for name in file.schema_arrow.names if name != geometry.name]
+        columns = choice.kept(names)
+        used = names if choice.where is not None else columns  # a condition may need any of them
+        wanted = [*used, geometry.name]
+        if batch is None and choice.where is None:
+            table = file.read(wanted, use_threads=False)  # a thread that has no memory ends the process
+            yield _parquet_chunk(table, np.arange(len(table)), geometry, columns, choice)
+            return
+        first, kept = 0, []
+        for part in file.iter_batches(batch_size=batch or PART, columns=wanted, use_threads=False):
+            table, numbers = pa.Table.from_batches([part]), np.arange(first, first + len(part))
+            first += len(part)
+            if choice.where is not None:
+                rows = _rows_where(table.drop_columns([geometry.name]), choice.where)
+                table, numbers = table.take(rows), numbers[rows]
+            if batch is None:  # only what is wanted is ever together in memory
+                kept.append((table, numbers))
+            else:
+                yield _parquet_chunk(table, numbers, geometry, columns, choice)
+                geometry = replace(geometry, remarks=())
+        if batch is None:
+            tables = [table for table, _ in kept] or [file.schema_arrow.empty_table().select(wanted)]
+            numbers = np.concatenate([np.empty(0, np.int64), *(each for _, each in kept)])
+            yield _parquet_chunk(pa.concat_tables(tables), numbers, geometry, columns, choice)
+    except (pa.ArrowInvalid, pa.ArrowNotImplementedError, OSError, UnicodeDecodeError) as error:  # of a column's name
+        raise SourceError(f"the table cannot be read ({shortened(str(error), 120)}); save it again") from None
+
+
+def _parquet_chunk(
+    table: "pyarrow.Table",
+    numbers: NDArray[np.int64],
+    geometry: GeometryColumn,
+    columns: list[str],
+    choice: Choice,
+) -> Chunk:
+    shapes, crs = geometry.shapes(table), geometry.crs
+    told = dict.fromkeys(geometry.remarks, 1)
+    is_told = crs not in (None, WORLD)
+    return Chunk(table.select(columns), shapes, numbers, crs, choice.id, is_told=is_told, remarks=told)
+
+
+def _rows_where(table: "pyarrow.Table", where: str) -> NDArray[np.intp]:
+    """Rows for which a condition in SQL holds."""
+    import duckdb
+    import pyarrow as pa
+
+    number = "__row"
+    numbered = table.append_column(number, pa.array(np.arange(len(table))))
+    with duckdb.connect(config={"enable_external_access": False, "threads": 1}) as connection:
+        connection.register("features", numbered)
+        try:
+            found = connection.execute(f"SELECT {number} FROM features WHERE ({where})").fetchnumpy()[number]
+        except duckdb.Error:
+            raise ParameterError(_refused(where, table.column_names)) from None
+    return np.sort(np.asarray(found, np.intp))
+
+
+def _frame(frame: Any, choice: Choice) -> Chunk:
+    """A GeoDataFrame."""
+    import pyarrow as pa
+
+    if choice.layer is not None:
+        raise ParameterError(f"a GeoDataFrame has no layers, so none {choice.layer!r}; leave `layer` out")
+    shapes = np.asarray(frame.geometry.values, object)
+    columns = [] if frame.ndim == 1 else [str(name) for name in frame.columns]
+    if len(set(columns)) < len(columns):
+        again = next(name for name in columns if columns.count(name) > 1)
+        raise ParameterError(f"it has several columns {again!r}; rename all but one")
+    given = {} if frame.ndim == 1 else dict(zip(columns, (frame[name] for name in frame.columns), strict=True))
+    others = {name: arrow_of(values) for name, values in given.items() if str(values.dtype) != "geometry"}
+    labels, why = labels_of(frame.index)
+    if why:  # what its levels tell is not lost
+        named = [(number, str(name)) for number, name in enumerate(frame.index.names) if name is not None]
+        levels = {name: frame.index.get_level_values(number) for number, name in named}
+        others = {name: arrow_of(level.to_series()) for name, level in levels.items() if name not in columns} | others
+    if labels is not None and choice.id == frame.index.name and choice.id not in others:
+        choice = replace(choice, id=None)
+    columns = choice.kept([*others])
+    table = pa.table(others) if others else pa.table({"row": np.arange(len(shapes))})
+    rows = np.arange(len(shapes)) if choice.where is None else _rows_where(table, choice.where)
+    crs = None if frame.crs is None else str(frame.crs.to_wkt())
+    part = table.take(rows).select(columns)
+    chunk = Chunk(part, shapes[rows], rows.astype(np.int64), crs, choice.id, parsed=True, is_told=crs is not None)
+    return replace(chunk, labels=None if labels is None else labels[rows], unlabelled=why)
+
+
+def _split(chunk: Chunk, batch: int | None) -> Iterator[Chunk]:
+    """Runs of a chunk's rows."""
+    step = batch or max(len(chunk.numbers), 1)
+    for first in range(0, max(len(chunk.numbers), 1), step):
+        rows = slice(first, first + step)
+        part = replace(chunk, table=chunk.table.slice(first, step), shapes=chunk.shapes[rows])
+        labels = None if chunk.labels is None else chunk.labels[rows]
+        yield replace(part, numbers=chunk.numbers[rows], labels=labels)
+        chunk = replace(chunk, unlabelled="")  # it is told once

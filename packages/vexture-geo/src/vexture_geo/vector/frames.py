@@ -1,0 +1,81 @@
+"""Columns and indices of GeoDataFrames."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.errors import SourceError
+from vexture.base.labels import texts_of
+
+if TYPE_CHECKING:
+    import pyarrow
+
+__all__ = ["arrow_of", "check_texts", "labels_of"]
+
+
+def labels_of(index: Any) -> tuple[NDArray[Any] | None, str]:
+    """The labels of an index as texts, where they tell rows apart and are more than their numbers.
+
+    Where they do not tell rows apart, there are none, and the second text says why.
+    """
+    if index.nlevels > 1:
+        return None, "has several levels"
+    if index.hasnans:
+        return None, "lacks labels"
+    labels = np.array(texts_of(index.tolist()), object)
+    if len(set(labels.tolist())) < len(labels):
+        return None, "has labels that are equal"
+    is_number = [str(number) for number in range(len(labels))] == labels.tolist()
+    return None if is_number else labels, ""
+
+
+def arrow_of(values: Any) -> Any:
+    """A column of pandas; one that Arrow has no type for, as of numbers and texts together, is its values as texts.
+
+    Numbers beyond 64 bits are floats, categories keep their order, and periods and intervals are texts.
+    """
+    import pyarrow as pa
+
+    if hasattr(values, "cat"):
+        codes = values.cat.codes.to_numpy()
+        names = arrow_of(values.cat.categories.to_series())
+        return pa.DictionaryArray.from_arrays(pa.array(codes, mask=codes < 0), names, ordered=values.cat.ordered)
+    try:
+        found = pa.array(values, from_pandas=True)
+    except OverflowError:
+        return _floats(values)
+    except (pa.ArrowInvalid, pa.ArrowTypeError, pa.ArrowNotImplementedError):
+        return _as_texts(values)
+    return _as_texts(values) if isinstance(found.type, pa.BaseExtensionType) else found
+
+
+def _floats(values: Any) -> Any:
+    import pyarrow as pa
+
+    try:
+        return pa.array(values.astype(float), from_pandas=True)
+    except (TypeError, ValueError):
+        return _as_texts(values)
+
+
+def _as_texts(values: Any) -> Any:
+    import pyarrow as pa
+
+    known = ~values.isna()
+    return pa.array([str(value) if there else None for value, there in zip(values, known, strict=True)], pa.string())
+
+
+def check_texts(table: "pyarrow.Table") -> None:
+    """Refuse texts in another encoding, which GDAL passes on as they are."""
+    import pyarrow as pa
+
+    for name, column in zip(table.column_names, table.columns, strict=True):
+        if pa.types.is_string(column.type) or pa.types.is_large_string(column.type):
+            try:
+                column.validate(full=True)
+            except pa.ArrowInvalid:
+                raise SourceError(
+                    f"the texts in its column {name!r} are not UTF-8; name their encoding, such as ISO-8859-1, in a "
+                    "file of the same name that ends in .cpg, or leave the column out by `columns`"
+                ) from None

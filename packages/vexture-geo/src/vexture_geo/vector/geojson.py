@@ -1,0 +1,365 @@
+"""GeoJSON: the areas of its polygons, with their simplestyle colours."""
+
+import json
+import os
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import chain
+from pathlib import Path as FilePath
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.content import BYTE_ORDER_MARK, READABLE, about, decompressed, read_bytes
+from vexture.base.errors import SourceError
+from vexture.base.notes import Notes, line_of, warn_of
+from vexture.bezier.convert import line_cubics
+from vexture.drawing.drawing import Drawing, FillRule, Path
+from vexture.drawing.paint import BLACK, Paint
+from vexture_geo.base.extent import LARGEST
+from vexture_geo.base.file_references import LINK_TYPES, refuse_link
+from vexture_geo.base.snap import snapped
+from vexture_geo.vector.sequences import one_json
+
+__all__ = ["UNLOCATED", "WORLD", "Area", "areas_of", "geojson_drawing", "met", "read_geojson"]
+
+MOST_POSITIONS: Final = 20_000_000
+MOST_NESTED: Final = 32
+"""Levels of nested geometry collections."""
+
+WORLD: Final = "OGC:CRS84"
+"""Default reference system: longitude and latitude in degrees (RFC 7946, 4)."""
+
+UNLOCATED: Final = "feature without geometry"
+"""Note about a feature whose geometry is null, which RFC 7946, 3.2 allows."""
+
+URN: Final = re.compile(r"urn:ogc:def:crs:(\w+):[^:]*:(\w+)", re.IGNORECASE)
+COLOR: Final = re.compile(r"#?([0-9a-f]{3}|[0-9a-f]{6})", re.IGNORECASE)
+NUMBERS: Final = (float, int)
+WITHOUT_AREA: Final = ("Point", "MultiPoint", "LineString", "MultiLineString")
+
+Ring = NDArray[np.float64]
+
+
+class Look(NamedTuple):
+    """What all polygons of a feature have: its paint, and its name in drawings."""
+
+    paint: Paint = BLACK
+    element: str = ""
+
+
+class Area(NamedTuple):
+    """One polygon: its rings in the units of the file, y up, its look, and its name in messages."""
+
+    rings: list[Ring]
+    look: Look
+    where: str
+
+
+def read_geojson(
+    source: str | os.PathLike[str] | bytes, *, names: str | None = None, snap: float | None = None
+) -> Drawing:
+    """Read GeoJSON (RFC 7946): polygons with their holes, one path for each.
+
+    The box around them is fitted into the unit square at its own aspect ratio. The properties ``fill`` and
+    ``fill-opacity`` of a feature (simplestyle) are its paint, else black. Its ``id``, else its property ``name``, is
+    the name of its paths (`Path.element`). Points and lines, which have no area, are left out and named. The old member
+    ``crs`` is read where it names a system; without it, coordinates are degrees of longitude and latitude.
+
+    Parameters
+    ----------
+    source : path or bytes
+        The file, plain or gzipped, or its content.
+    names : str, optional
+        Property by whose values the paths are named, rather than by ``id``.
+    snap : float, optional
+        Borders of two polygons that differ by no more than this become one, in parts of the larger side of the box;
+        3e-6 by default, 0 leaves all as it is, 0.01 is the most. The detail of a border that no other is near stays.
+
+    Returns
+    -------
+    Drawing
+        In the unit square, y up; `to_source` maps it to the coordinates of the file, whose reference system is `crs`.
+        Its `notes` list what was left out, and what was snapped.
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read, is not GeoJSON, exceeds a limit or holds no area. Features, polygons and rings are
+        counted from 1.
+    ParameterError
+        If `snap` is out of range.
+
+    Warns
+    -----
+    SourceWarning
+        Once for a file, of all notes.
+
+    Examples
+    --------
+    >>> ring = [[4, 52], [6, 52], [6, 53], [4, 53], [4, 52]]
+    >>> drawing = read_geojson(json.dumps({"type": "Polygon", "coordinates": [ring]}).encode())
+    >>> drawing.paths[0].contours[0][:, 0]
+    array([[0.  , 0.25],
+           [1.  , 0.25],
+           [1.  , 0.75],
+           [0.  , 0.75]])
+    >>> drawing.to_source @ (0, 0.25, 1), drawing.crs
+    (array([ 4., 52.]), 'OGC:CRS84')
+    """
+    if isinstance(source, bytes):
+        shown, drawing = "the GeoJSON", geojson_drawing(source, "drawing", names=names, snap=snap)
+    else:
+        shown = os.fspath(source)
+        with about(shown):
+            drawing = geojson_drawing(read_bytes(source), FilePath(source).stem, names=names, snap=snap)
+    warn_of(shown, drawing.notes)
+    return drawing
+
+
+def geojson_drawing(content: bytes, name: str, *, names: str | None = None, snap: float | None = None) -> Drawing:
+    """Read GeoJSON, plain or gzipped, as `read_geojson` does, but without a warning: all notes are in the drawing."""
+    notes = Notes()
+    value = _parsed(one_json(decompressed(content)))
+    reader = _Reader(notes, names)
+    areas = list(reader.areas(value))
+    if not areas:
+        raise SourceError(f"it holds no polygon to fill{met(notes)}; give Polygon or MultiPolygon geometries")
+    reader.check_names()
+    points = np.concatenate([ring for area in areas for ring in area.rings])
+    low, high = points.min(axis=0), points.max(axis=0)
+    width, height = (float(side) for side in high - low)
+    rings = _snapped(areas, max(width, height), snap, notes)
+    paths = [
+        Path(tuple(map(_contour, own)), FillRule.EVENODD, area.look.paint, element=area.look.element)
+        for area, own in zip(areas, rings, strict=True)
+    ]
+    drawing = Drawing.from_source(paths, (float(low[0]), -float(high[1]), width, height), name)
+    if not drawing.paths:
+        raise SourceError("its polygons enclose no area; correct their coordinates")
+    turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source takes y down; no -0.0
+    return replace(drawing, to_source=turned, crs=_crs(value.get("crs")), notes=notes.listed)
+
+
+def _snapped(areas: list[Area], size: float, snap: float | None, notes: Notes) -> list[list[Ring]]:
+    """Rings of each area, with shared borders."""
+    rings = [ring for area in areas for ring in area.rings]
+    points, ends = snapped(np.concatenate(rings), np.cumsum([len(ring) for ring in rings]), size, snap, notes)
+    each = iter(np.split(points, ends[:-1]))
+    return [[ring for _ in area.rings if len(ring := next(each))] for area in areas]
+
+
+def areas_of(content: bytes, notes: Notes) -> tuple[list[Area], str]:
+    """Areas of a file's content, not gzipped, and the reference system of their coordinates."""
+    value = _parsed(content)
+    return list(_Reader(notes).areas(value)), _crs(value.get("crs"))
+
+
+def met(notes: Notes) -> str:
+    """What was left out, in parentheses, for the message that no polygon is left."""
+    line = line_of("met", notes.listed).removeprefix("met: ")
+    return f" ({line})" if line else ""
+
+
+def _parsed(content: bytes) -> dict[str, Any]:
+    """Object of a JSON text."""
+    try:
+        value = json.loads(content.removeprefix(BYTE_ORDER_MARK))
+    except RecursionError:
+        raise SourceError("its lists are nested too deeply; GeoJSON needs no more than a few levels") from None
+    except UnicodeDecodeError as error:
+        raise SourceError(f"it is no UTF-8 text (byte {error.start}); save it as UTF-8") from None
+    except json.JSONDecodeError as error:
+        raise SourceError(f"not JSON: {error.msg} in line {error.lineno}, column {error.colno}") from None
+    except ValueError:
+        raise SourceError("it holds an integer of thousands of digits; correct it") from None
+    if not isinstance(value, dict):
+        raise SourceError(f"its outermost value is a {type(value).__name__}, not an object; this is not GeoJSON")
+    if "type" not in value:
+        raise SourceError(f'its outermost object has no "type", so it is not GeoJSON; {READABLE}')
+    return value
+
+
+class _Reader:
+    """Walks over one file, collects notes and counts positions; features are named by a property, or their `id`."""
+
+    def __init__(self, notes: Notes, names: str | None = None) -> None:
+        self._notes = notes
+        self._names = names
+        self._known: set[str] = set()
+        self._positions = 0
+
+    def areas(self, value: dict[str, Any]) -> Iterator[Area]:
+        """Areas of the outermost object."""
+        kind = value.get("type")
+        if kind != "FeatureCollection":
+            yield from self._feature(value, "the feature") if kind == "Feature" else self._geometry(value, "", Look())
+            return
+        features = value.get("features")
+        if not isinstance(features, list):
+            raise SourceError("the FeatureCollection has no list of features; correct it")
+        for number, feature in enumerate(features, 1):
+            yield from self._feature(feature, f"feature {number}")
+
+    def _feature(self, value: Any, where: str) -> Iterator[Area]:
+        if not isinstance(value, dict) or value.get("type") != "Feature":
+            raise SourceError(f"{where} is not of the type Feature; correct it")
+        if value.get("geometry") is None:  # RFC 7946, 3.2: an unlocated feature
+            self._notes.left_out(UNLOCATED)
+        else:
+            properties = value.get("properties")
+            look = Look(self._paint(properties), self._element(value.get("id"), properties))
+            yield from self._geometry(value["geometry"], where, look)
+
+    def _geometry(self, value: Any, where: str, look: Look, depth: int = 0) -> Iterator[Area]:
+        """Areas of a geometry; `where` names the place in messages."""
+        if not isinstance(value, dict):
+            raise SourceError(f"{_at(where, 'the geometry')} is a {type(value).__name__}, not an object; correct it")
+        kind = value.get("type")
+        content = value.get("geometries" if kind == "GeometryCollection" else "coordinates")
+        if kind in WITHOUT_AREA:
+            self._notes.left_out(kind)
+            return
+        if kind not in ("Polygon", "MultiPolygon", "GeometryCollection"):
+            hint = "convert TopoJSON to GeoJSON" if kind == "Topology" else "see RFC 7946, 1.4"
+            raise SourceError(f"{_at(where, 'type')} {_shown(kind)} is none that GeoJSON knows; {hint}")
+        if not isinstance(content, list):
+            raise SourceError(f"{_at(where, kind)} has no list of its parts; correct it")
+        if kind == "Polygon":
+            yield from self._polygon(content, where, look)
+        elif kind == "MultiPolygon":
+            for number, rings in enumerate(content, 1):
+                yield from self._polygon(rings, _at(where, f"polygon {number}"), look)
+        elif depth == MOST_NESTED:
+            raise SourceError(f"{_at(where, kind)} is nested more than {MOST_NESTED} deep; flatten it")
+        else:
+            for number, part in enumerate(content, 1):
+                yield from self._geometry(part, _at(where, f"geometry {number}"), look, depth + 1)
+
+    def _polygon(self, rings: Any, where: str, look: Look) -> Iterator[Area]:
+        if not isinstance(rings, list):
+            raise SourceError(f"{_at(where, 'the polygon')} is a {type(rings).__name__}, not a list of rings")
+        read = [self._ring(ring, _at(where, f"ring {number}")) for number, ring in enumerate(rings, 1)]
+        kept = [ring for ring in read if ring is not None]
+        if kept:
+            yield Area(kept, look, where)
+
+    def _ring(self, ring: Any, where: str) -> Ring | None:
+        """Positions of a ring, the first not repeated at the end; None of fewer than three."""
+        if not isinstance(ring, list):
+            raise SourceError(f"{where} is a {type(ring).__name__}, not a list of positions; correct it")
+        self._positions += len(ring)
+        if self._positions > MOST_POSITIONS:
+            raise SourceError(f"{where} is beyond the limit of {MOST_POSITIONS:,} positions; simplify or split it")
+        points = _usual(ring)
+        if points is None:
+            points = _position_by_position(ring, where)
+        if len(points) > 1 and (points[0] == points[-1]).all():
+            points = points[:-1]
+        if len(points) < 3:
+            self._notes.left_out("ring of fewer than three positions")
+            return None
+        return points
+
+    def check_names(self) -> None:
+        """Raise a `SourceError` if names are to be those of a property that no feature has."""
+        if self._names is not None and self._names not in self._known:
+            known = ", ".join(sorted(map(repr, self._known))[:10]) or "none"
+            raise SourceError(f"no feature has the property {self._names!r} of `names`; there are {known}")
+
+    def _element(self, identity: Any, properties: Any) -> str:
+        """Name of a feature, from a text or a number."""
+        held = properties if isinstance(properties, dict) else {}
+        self._known.update(held.keys())
+        chosen = (identity, held.get("name")) if self._names is None else (held.get(self._names), identity)
+        return next((str(value) for value in chosen if type(value) in (str, *NUMBERS)), "")
+
+    def _paint(self, properties: Any) -> Paint:
+        """Colour of a feature."""
+        if not isinstance(properties, dict):
+            return Paint()
+        fill, opacity = properties.get("fill", "#000"), properties.get("fill-opacity", 1)
+        match = COLOR.fullmatch(fill) if isinstance(fill, str) else None
+        if match is None:
+            self._notes.left_out(f"fill {_shown(fill)} (colours are #rgb or #rrggbb)")
+        if "stroke" in properties:
+            self._notes.left_out("stroke of a feature")
+        if type(opacity) not in NUMBERS or not 0 <= opacity <= 1:
+            self._notes.left_out(f"fill-opacity {_shown(opacity)}")
+            opacity = 1
+        digits = match[1] if match else "000"
+        step = len(digits) // 3
+        red, green, blue = (int(digits[k : k + step] * (3 - step), 16) / 255 for k in range(0, 3 * step, step))
+        return Paint((red, green, blue), float(opacity))
+
+
+def _usual(ring: list[Any]) -> Ring | None:
+    """Positions of a valid ring whose positions have equal lengths; None of any other. The fast path."""
+    lengths = set(map(len, ring)) if set(map(type, ring)) == {list} else set()
+    if len(lengths) != 1 or min(lengths) < 2:
+        return None
+    numbers = list(chain.from_iterable(ring))
+    if not set(map(type, numbers)) <= set(NUMBERS):
+        return None
+    try:
+        points = np.array(numbers, np.float64).reshape(len(ring), -1)[:, :2]
+    except OverflowError:  # an integer beyond all floats
+        return None
+    return points if bool((np.abs(points) <= LARGEST).all()) else None
+
+
+def _position_by_position(ring: list[Any], where: str) -> Ring:
+    """Positions of any ring, or an error that names the invalid one."""
+    for number, position in enumerate(ring, 1):
+        if not isinstance(position, list) or len(position) < 2 or any(type(c) not in NUMBERS for c in position[:2]):
+            raise SourceError(f"{where}, position {number} is {_shown(position)}; it must be two numbers")
+    try:
+        points = np.array([position[:2] for position in ring], np.float64).reshape(-1, 2)
+    except OverflowError:  # an integer beyond all floats
+        points = np.array([[c if abs(c) <= LARGEST else np.inf for c in position[:2]] for position in ring])
+    bad = ~(np.abs(points) <= LARGEST).all(axis=1)  # NaN is bad too
+    if bad.any():
+        number = int(bad.argmax()) + 1
+        raise SourceError(
+            f"{where}, position {number} is {_shown(ring[number - 1])}; give finite numbers up to {LARGEST:g}"
+        )
+    return points
+
+
+def _contour(ring: Ring) -> NDArray[np.float64]:
+    """A ring as a closed contour of straight cubics, y down."""
+    turned = ring * (1.0, -1.0)
+    return line_cubics(turned, np.roll(turned, -1, axis=0))
+
+
+def _at(where: str, what: str) -> str:
+    return f"{where}, {what}" if where else what
+
+
+def _shown(value: Any) -> str:
+    """A value for a message: short, in one line."""
+    if isinstance(value, dict):
+        return "an object"
+    text = repr(value[:3] if isinstance(value, list) else value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _crs(member: Any) -> str:
+    """Name of the reference system, from the member `crs` that GeoJSON had before RFC 7946; a link is refused.
+
+    Examples
+    --------
+    >>> _crs({"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::28992"}}), _crs(None)
+    ('EPSG:28992', 'OGC:CRS84')
+    """
+    properties = member.get("properties") if isinstance(member, dict) else None
+    if isinstance(member, dict) and str(member.get("type")).lower() in LINK_TYPES:
+        named = properties if isinstance(properties, dict) else {}
+        refuse_link(str(named.get("href") or named.get("url") or ""))
+    name = properties.get("name") if isinstance(properties, dict) else None
+    if not isinstance(name, str) or not name.isprintable() or not 0 < len(name) <= 200:
+        return WORLD
+    urn = URN.fullmatch(name)
+    return f"{urn[1].upper()}:{urn[2]}" if urn else name

@@ -1,0 +1,28 @@
+"""Texts by which features, times and categories are known: those of their values."""
+
+from collections.abc import Iterable
+from typing import Any, Final
+
+import numpy as np
+
+__all__ = ["texts_of"]
+
+MIDNIGHT: Final = " 00:00:00"
+
+
+def texts_of(values: Iterable[Any]) -> list[str | None]:
+    """Values as texts: whole numbers have no decimals, days no time, and what is missing or no number no text.
+
+    Examples
+    --------
+    >>> texts_of([2.0, 0.5, None, float("nan"), "a"])
+    ['2', '0.5', None, None, 'a']
+    """
+    texts = [None if value is None or value != value else _text(value) for value in values]
+    if all(text is None or text.endswith(MIDNIGHT) for text in texts):
+        return [None if text is None else text.removesuffix(MIDNIGHT) for text in texts]
+    return texts
+
+
+def _text(value: Any) -> str:
+    return str(int(value) if isinstance(value, float | np.floating) and value.is_integer() else value)

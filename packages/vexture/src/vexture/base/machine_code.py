@@ -1,0 +1,178 @@
+"""Kernels compiled ahead of time, which run without the time to import Numba or to compile.
+
+A code file holds one kernel, specialised for the types of its arguments, as an object file of one platform. It lists
+its requirements: the platform, processor features, functions of the C library. If one is missing, or the kernels' text
+has changed since, Numba compiles the kernel instead.
+
+The code follows Numba's calling convention: ``int f(result*, exception**, arguments...)``. A tuple is passed as its
+elements, an array as the seven or more words of `_words`. `tools/compile_kernels.py` writes the files, and checks that
+each returns what Numba returns.
+"""
+
+import ctypes
+import json
+import sys
+import weakref
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+__all__ = ["SHIPPED", "Code", "Compiled", "described", "host", "load"]
+
+SHIPPED = Path(__file__).parents[1] / "compiled"
+"""Folder of the code files in a wheel."""
+
+LARGEST = 2**63 - 1
+
+MEMORY, OWNER, COUNT, ITEM_SIZE, DATA, SHAPE = range(6)
+"""Words of an array; the strides follow the shape. MEMORY and OWNER are 0 for an array that NumPy made."""
+
+RELEASE = "NRT_decref"
+"""Function that releases an array of a kernel."""
+
+Described = Any
+"""Type of a value: "int", "float", [dtype, dimensions, writable] of an array, a list with "tuple" first, or None."""
+
+
+class Code(NamedTuple):
+    """The head of a code file."""
+
+    platform: str  # LLVM's target triple
+    features: list[str]  # required of the processor
+    symbols: list[str]  # required of the C library
+    text: str  # digest of the kernels' text
+    arguments: Described
+    result: Described
+    entry: str  # name of the function in the object file
+
+    def write(self, file: Path, machine_code: bytes) -> None:
+        """Write a file: a line of JSON, then the object file."""
+        file.write_bytes(json.dumps(self._asdict()).encode() + b"\n" + machine_code)
+
+
+def described(value: Any) -> Described:
+    """Type of an argument or a result for which a kernel is specialised; "" if there is never code for it."""
+    if value is None:
+        return None
+    if type(value) is int:
+        return "int" if -LARGEST <= value <= LARGEST else ""
+    if type(value) is float:
+        return "float"
+    if isinstance(value, tuple):
+        parts = [described(part) for part in value]
+        return "" if "" in parts else ["tuple", *parts]
+    if isinstance(value, np.ndarray) and value.flags.c_contiguous and value.flags.aligned:
+        return [value.dtype.str, value.ndim, value.flags.writeable]
+    return ""
+
+
+def _words(value: Any) -> list[Any]:
+    """The words that pass an argument."""
+    if isinstance(value, tuple):
+        return [word for part in value for word in _words(part)]
+    if isinstance(value, np.ndarray):
+        numbers = [0, 0, value.size, value.itemsize, value.ctypes.data, *value.shape, *value.strides]
+        return [ctypes.c_int64(number) for number in numbers]
+    return [ctypes.c_double(value) if isinstance(value, float) else ctypes.c_int64(value)]
+
+
+def _layout(result: Described) -> Any:
+    """Structure that holds a result."""
+    if result is None:
+        return ctypes.c_void_p
+    if isinstance(result, str):
+        return {"int": ctypes.c_int64, "float": ctypes.c_double}[result]
+    if result[0] == "tuple":
+        fields = [(f"part_{k}", _layout(part)) for k, part in enumerate(result[1:])]
+        return type("Parts", (ctypes.Structure,), {"_fields_": fields})
+    return ctypes.c_int64 * (SHAPE + 2 * result[1])
+
+
+def _value(result: Described, held: Any, release: Callable[[int], None]) -> Any:
+    """The Python value of a result; arrays are not copied, but released with their last reference."""
+    if result is None:
+        return None
+    if isinstance(result, str):
+        return held
+    if result[0] == "tuple":
+        return tuple(_value(part, getattr(held, f"part_{k}"), release) for k, part in enumerate(result[1:]))
+    dtype, dimensions, _ = result
+    shape = tuple(held[SHAPE : SHAPE + dimensions])
+    memory = (ctypes.c_char * (held[COUNT] * held[ITEM_SIZE])).from_address(held[DATA])
+    weakref.finalize(memory, release, held[MEMORY]).atexit = False
+    return np.ndarray(shape, dtype, memory)
+
+
+class Compiled:
+    """A kernel of a code file, whose object file is `machine_code`; if it `shares`, other threads run meanwhile."""
+
+    def __init__(self, code: Code, machine_code: bytes, shares: bool = False) -> None:
+        import llvmlite.binding as llvm
+
+        self.code = code
+        machine = llvm.Target.from_triple(code.platform).create_target_machine()
+        self.engine: Any = llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
+        self.engine.add_object_file(llvm.ObjectFileRef.from_data(machine_code))
+        self.engine.finalize_object()
+        # PYFUNCTYPE holds the interpreter's lock, as Numba does
+        prototype = ctypes.CFUNCTYPE if shares else ctypes.PYFUNCTYPE
+        self._function = prototype(ctypes.c_int)(self.engine.get_function_address(code.entry))
+        self._layout = _layout(code.result)
+        address = 0 if code.result is None else self.engine.get_function_address(RELEASE)
+        self._give_up = ctypes.PYFUNCTYPE(None, ctypes.c_void_p)(address)
+
+    def _release(self, memory: int) -> None:
+        """Release an array; the bound method keeps the code in memory as long as its arrays exist."""
+        self._give_up(memory)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Run the kernel on arguments of the types that it was compiled for."""
+        held, exception = self._layout(), ctypes.c_void_p()
+        status = self._function(ctypes.byref(held), ctypes.byref(exception), *_words(arguments))
+        if status != 0:
+            raise MemoryError("a kernel failed: it found no memory for its arrays")
+        value = held.value if isinstance(held, ctypes._SimpleCData) else held
+        return _value(self.code.result, value, self._release)
+
+
+@cache
+def host() -> tuple[str, frozenset[str]]:
+    """Platform and processor features of this machine; initialises LLVM for them."""
+    import llvmlite.binding as llvm
+
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    features = llvm.get_host_cpu_features()
+    return llvm.get_process_triple(), frozenset(name for name, has in features.items() if has)
+
+
+def _found(symbols: list[str]) -> bool:
+    """Tell LLVM the addresses of C functions; False if one is missing, at which LLVM would end the process."""
+    import llvmlite.binding as llvm
+
+    library = ctypes.cdll.ucrtbase if sys.platform == "win32" else ctypes.CDLL(None)
+    for symbol in symbols:
+        function = getattr(library, symbol, None)
+        if function is None:
+            return False
+        llvm.add_symbol(symbol, ctypes.cast(function, ctypes.c_void_p).value)
+    return True
+
+
+def load(kernel: Any, text: str, arguments: Described, folder: Path = SHIPPED) -> Compiled | None:
+    """Code of a kernel for arguments of these types (from `described`), if this machine can run it.
+
+    A file is named after the kernel's module and name; `text` is the digest of the kernels' text.
+    """
+    for file in sorted(folder.glob(f"{kernel.__module__}.{kernel.__name__}-*.code")):
+        head, _, machine_code = file.read_bytes().partition(b"\n")
+        code = Code(**json.loads(head))
+        if code.text != text or code.arguments != arguments:
+            continue
+        platform, features = host()
+        if code.platform == platform and features.issuperset(code.features) and _found(code.symbols):
+            return Compiled(code, machine_code, kernel.shares)
+    return None

@@ -1,0 +1,151 @@
+"""The command line: its commands, each in a module of its own."""
+
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from threading import Timer, current_thread, main_thread
+from types import FrameType
+from typing import TYPE_CHECKING, Any, Final
+
+import click
+
+from vexture.base.errors import printable
+from vexture.cli.interrupt import INTERRUPTED, at_once
+from vexture.cli.messages import say
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+__all__ = ["ADDED_SUMMARIES", "COMMANDS", "SUMMARIES", "main"]
+
+SUMMARIES: Final = {
+    "convert": "Convert drawings into textures.",
+    "text": "Convert a word or lines of text into a texture.",
+    "font": "Convert the characters of a font into one texture, a shape for each, with its metrics as JSON beside it.",
+    "render": "Draw a drawing, a picture as it is traced, or a texture as a PNG, in its colours.",
+    "info": "Describe a texture, or a pyramid of tiles: a file (PMTiles), or a folder.",
+    "restyle": "Give elements of a planar map other colours.",
+    "view": "Show drawings or packed textures in the browser, until Ctrl-C.",
+    "export": "Write one page that shows drawings, with everything in it.",
+    "serve": "Serve a folder of shapes, and take new ones by a token.",
+    "push": "Publish a drawing, geographic data or a packed texture on a server.",
+    "fold": "Make the outline of a drawing slide to and fro, as water on a beach.",
+    "gltf": "Put drawings on materials of a model (glTF 2.0, .glb or .gltf).",
+}
+"""The commands in the order of their list, and the first sentence of each: the list imports no command."""
+
+COMMANDS: Final = {name: f"vexture.cli.{name}" for name in SUMMARIES}
+"""Module of each command; it is imported when the command is used."""
+
+PLUGINS: Final = "vexture.commands"
+"""Entry points of other distributions that add commands."""
+
+OF_GEO: Final = "the package vexture-geo adds it: pip install 'vexture[geo]'"
+
+ELSEWHERE: Final = {
+    "flood": OF_GEO,
+    "map": OF_GEO,
+    "tiles": OF_GEO,
+    "report": "the package vexture-evidence adds it: in a clone, pip install packages/vexture-evidence",
+}
+"""Commands of known distributions, and how to install these."""
+
+ADDED_SUMMARIES: Final = {
+    "flood": "Show a flood as a living sea, on one page or on a server.",
+    "map": "Make a map of geographic data: one texture, and a table of the attributes beside it.",
+    "tiles": "Make a pyramid of tiles of a map's polygons: one file (PMTiles), or a folder with a TileJSON.",
+}
+"""First sentences of commands of vexture-geo: the list imports none of these, either."""
+
+
+class _Commands(click.Group):
+    """The commands by name, and those that other distributions add."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return [*COMMANDS, *_added(ctx)]
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name in COMMANDS:
+            command: click.Command = getattr(import_module(COMMANDS[cmd_name]), cmd_name)
+            return command
+        added = _added(ctx).get(cmd_name)
+        if added is None and cmd_name in ELSEWHERE:
+            ctx.fail(f"No such command {cmd_name!r}; {ELSEWHERE[cmd_name]}")
+        return None if added is None else added.load()
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands without their modules, which take longer to import than all else of the help."""
+        listed = {name: click.Command(name, help=line) for name, line in SUMMARIES.items()}
+        for name, point in _added(ctx).items():
+            line = ADDED_SUMMARIES.get(name)
+            listed[name] = point.load() if line is None else click.Command(name, help=line)
+        _Listed(commands=listed).format_commands(ctx, formatter)
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        with _printable_errors():
+            return super().parse_args(ctx, args)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run a command; Ctrl-C ends it in a line, also while modules are imported and kernels compiled."""
+        before = signal.getsignal(signal.SIGINT)
+        ours = current_thread() is main_thread() and before in (signal.default_int_handler, at_once)
+        if ours:
+            signal.signal(signal.SIGINT, _on_ctrl_c)
+        try:
+            with _printable_errors():
+                return super().invoke(ctx)
+        except KeyboardInterrupt:
+            say("interrupted")
+            sys.exit(INTERRUPTED)
+        finally:
+            if ours:
+                signal.signal(signal.SIGINT, before)
+
+
+class _Listed(click.Group):
+    """Commands that are listed in the order in which they are given."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return [*self.commands]
+
+
+def _added(ctx: click.Context) -> "dict[str, EntryPoint]":
+    """Commands of other distributions by name; all that are installed are looked through once."""
+    if PLUGINS not in ctx.meta:
+        from importlib.metadata import entry_points
+
+        ctx.meta[PLUGINS] = {point.name: point for point in entry_points(group=PLUGINS)}
+    found: dict[str, EntryPoint] = ctx.meta[PLUGINS]
+    return found
+
+
+@contextmanager
+def _printable_errors() -> Iterator[None]:
+    """Let no word of the command line, such as a file's name, control the terminal by an error about it."""
+    try:
+        yield
+    except click.ClickException as error:
+        error.message = printable(error.message)  # type: ignore[misc]  # declared final, but by no means
+        raise
+
+
+def _on_ctrl_c(number: int, frame: FrameType | None) -> None:
+    """Raise a `KeyboardInterrupt`; later within calls that lose it or crash: LLVM's, Numba's that do not compile."""
+    places = set()
+    while frame is not None:
+        places |= {frame.f_globals.get("__name__", "").partition(".")[0], frame.f_code.co_name}
+        frame = frame.f_back
+    if "llvmlite" in places or ("numba" in places and "_compile_for_args" not in places):
+        again = Timer(0.05, signal.raise_signal, (number,))
+        again.daemon = True
+        again.start()
+        return
+    raise KeyboardInterrupt
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.version_option(package_name="vexture")
+def main() -> None:
+    """Turn vector drawings into textures with random access on the GPU."""

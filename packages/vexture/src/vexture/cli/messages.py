@@ -1,0 +1,89 @@
+"""Messages of the command line, each of one line."""
+
+import errno
+import re
+import sys
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vexture.base.errors import EXPECTED, printable, reason_of
+
+if TYPE_CHECKING:
+    from vexture.base.notes import Note
+
+__all__ = ["as_options", "echo", "note_facts", "one_line", "say", "say_notes"]
+
+PARAMETER = re.compile(r"`([a-z_]+)`")
+"""A parameter in a message of the library."""
+
+NAMED_OTHERWISE = {"fonts": "font", "page_colors": "color", "characters": "chars"}
+"""Parameters whose options have other names: lists, whose options are given once for each entry, and long ones."""
+
+
+OF_FLOODS = frozenset({"layer", "time_dim", "variable"})
+"""Parameters of depths and areas that other commands read, too, but choose nothing of."""
+
+
+def say(message: str) -> None:
+    """Print a line to standard error."""
+    echo(f"vexture: {as_options(message)}", err=True)
+
+
+def echo(line: str, *, err: bool = False) -> None:
+    """Print a line, in which names of strangers control no terminal."""
+    click.echo(printable(line), err=err)
+
+
+def as_options(message: str) -> str:
+    """Return a message of the library with options in place of the parameters that it names in backticks."""
+    return PARAMETER.sub(lambda found: option_of(found[1]), message)
+
+
+def option_of(parameter: str) -> str:
+    """The option for a parameter of the library: that of the command that runs, or else the usual one."""
+    context = click.get_current_context(silent=True)
+    options = {} if context is None else {option.name: option for option in context.command.params}
+    if parameter in options and parameter in NAMED_OTHERWISE:
+        return next(flag for flag in options[parameter].opts if flag.startswith("--"))
+    usual = "--" + NAMED_OTHERWISE.get(parameter, parameter).replace("_", "-")
+    return f"{usual} of vexture flood" if options and parameter in OF_FLOODS - options.keys() else usual
+
+
+def note_facts(notes: Sequence["Note"]) -> list[dict[str, Any]]:
+    """Notes ready for JSON, with the options of the command line."""
+    return [note.facts() | {"message": as_options(note.message)} for note in notes]
+
+
+def say_notes(source: object, notes: Sequence["Note"]) -> None:
+    """Print the notes about a source in one line, if there are any."""
+    from vexture.base.notes import line_of  # the list of the commands does not wait for it
+
+    if line := line_of(str(source), notes):
+        say(f"warning: {line}")
+
+
+@contextmanager
+def one_line() -> Iterator[None]:
+    """Print errors that the user can correct, and warnings of libraries, as one line each."""
+    with warnings.catch_warnings():
+        warnings.showwarning = lambda message, *_args, **_kwargs: say(f"warning: {message}")
+        warnings.simplefilter("always")
+        warnings.simplefilter("ignore", ResourceWarning)  # what Ctrl-C interrupts is left open
+        try:
+            yield
+        except EXPECTED as error:
+            say(str(error))
+            sys.exit(1)
+        except BrokenPipeError:
+            raise  # click ends in silence: who reads standard output has enough, such as head
+        except OSError as error:
+            remedy = "make room, or choose another place" if error.errno == errno.ENOSPC else "choose another file"
+            say(f"{error.filename or 'the output'}: {error.strerror or reason_of(error)}; {remedy}")
+            sys.exit(1)
+        except MemoryError:
+            say("out of memory; use a smaller drawing or a smaller --size")
+            sys.exit(1)

@@ -1,0 +1,302 @@
+"""The characters of a font as the shapes of one texture, with the metrics by which programs lay out text."""
+
+import json
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from vexture.base.deadline import DEFAULT_SECONDS, check_time, within
+from vexture.base.errors import LimitError, ParameterError, SourceError, counted
+from vexture.base.notes import Note, Notes, warn_of
+from vexture.conversion.pipeline import atlas
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import BLACK
+from vexture.fonts.face import Face
+from vexture.fonts.levels import LATIN, scripts
+from vexture.fonts.lines import Choice, Placed, named
+from vexture.fonts.shaping import Glyph, shape
+from vexture.fonts.text import Canvas, Places, TextOptions
+
+if TYPE_CHECKING:
+    from vexture.texture.texture import Texture
+
+__all__ = ["PRINTABLE", "FontAtlas", "font_atlas", "made_atlas"]
+
+PRINTABLE: Final = "".join(map(chr, range(0x20, 0x7F)))
+"""The printable characters of ASCII."""
+
+MOST_CHARACTERS: Final = 4096
+
+MOST_KERNED: Final = 1024
+"""Characters of which all pairs are shaped: a million pairs."""
+
+UNKERNED: Final = f"kerning: there are more than {MOST_KERNED:,} characters, so that there are too many pairs"
+
+LINE_METRICS: Final = ("ascender", "descender", "line_gap", "x_height", "cap_height")
+
+DIGITS: Final = 6
+"""Decimals of metrics: a millionth of an em."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FontAtlas:
+    """A texture with a shape for each glyph, and the metrics of the font.
+
+    Parameters
+    ----------
+    texture : Texture
+        `Root.to_source` maps the unit square of a shape to ems, y up, from the origin of its glyph.
+    metrics : dict
+        Ready for JSON, as the guide to fonts describes it; all lengths are in ems.
+    notes : tuple of Note
+        Characters that the font does not have, and what was left out.
+    """
+
+    texture: "Texture"
+    metrics: dict[str, Any]
+    notes: tuple[Note, ...] = ()
+
+    def files(self, path: Path, *, deflate: bool = True) -> dict[Path, bytes]:
+        """Contents of the texture's file and of the metrics', which is beside it and ends in ``.json``."""
+        text = json.dumps(self.metrics, ensure_ascii=False, separators=(",", ":")) + "\n"
+        return {path: self.texture.to_ktx2(deflate=deflate), path.with_suffix(".json"): text.encode()}
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the texture's file and the metrics beside it; returns the former, and raises as `Texture.save` does."""
+        from vexture.texture.files import target_of, write_together
+
+        target = target_of(path, self.texture.name)
+        write_together(self.files(target))
+        return target
+
+
+def font_atlas(
+    font: Places = (),
+    characters: Iterable[str] = PRINTABLE,
+    *,
+    weight: float = 400,
+    style: str = "normal",
+    stretch: float = 100.0,
+    name: str | None = None,
+    **parameters: Any,
+) -> FontAtlas:
+    """Convert characters of a font into the shapes of one texture, with their metrics.
+
+    Parameters
+    ----------
+    font : path or sequence of path
+        A font file, or a folder of the faces of a font; by default the default font, Noto Sans.
+    characters : iterable of str
+        By default the printable ones of ASCII. A shape has the name of its character; characters that look alike may
+        share one. One more, named ``.notdef``, is the font's for characters that are not there. Ligatures and the forms
+        of joined scripts are no characters: draw those as a `vexture.text`.
+    weight, style, stretch
+        Of the face, as in `vexture.text`.
+    name : str, optional
+        Names the texture; by default the font's family.
+    **parameters
+        Those of `vexture.atlas`, such as `tolerance`.
+
+    Returns
+    -------
+    FontAtlas
+
+    Raises
+    ------
+    SourceError
+        If the font cannot be read, or has none of the characters.
+    ParameterError
+        If `characters` is empty, or holds more than one character in an entry.
+    LimitError
+        If there are too many characters.
+    DeviceError
+        If ``vexture[text]`` is not installed.
+
+    Warns
+    -----
+    SourceWarning
+        Once, of all notes.
+
+    Examples
+    --------
+    >>> made = font_atlas(characters="AV ")
+    >>> [root.name for root in made.texture.roots]
+    ['A', 'V', '.notdef']
+    >>> made.metrics["kerning"]["A"]
+    {'V': -0.04}
+    """
+    made = made_atlas(TextOptions(font, (), weight, style, stretch, name=name), characters, **parameters)
+    warn_of(made.texture.name, made.notes)
+    return made
+
+
+def made_atlas(
+    options: TextOptions, characters: Iterable[str], optional: Iterable[int] = (), **parameters: Any
+) -> FontAtlas:
+    """Make an atlas as `font_atlas` does, but without a warning; of `options`, the font and its style count.
+
+    `optional` are codes of characters that the font need not have.
+    """
+    notes = Notes()
+    given, ranged = [*characters], [*optional]
+    if not given and not ranged:
+        raise ParameterError("`characters` is empty; give some, such as a text that holds them")
+    for each in given:
+        if not (isinstance(each, str) and len(each) == 1):
+            raise ParameterError(f"`characters` holds {each!r}, which is not one character; give them one by one")
+    with within(parameters.get("max_seconds", DEFAULT_SECONDS)):
+        asked = [*dict.fromkeys([*given, *map(chr, ranged)])]
+        choice = options.choice(notes, asked)
+        face = choice.first
+        faces = faces_of_characters(choice, asked)
+        found = {character: faces[character] for character in asked if character in faces}
+        missing = [character for character in dict.fromkeys(given) if character not in found]
+        if len(found) + len(missing) > MOST_CHARACTERS:
+            many = f"{len(found) + len(missing):,} characters, of at most {MOST_CHARACTERS:,}"
+            raise LimitError(f"{many}; make several atlases")
+        for character in missing:
+            notes.left_out(f"{named(character)}, which {face.family} lacks")
+        if not found:
+            number = counted(len(given) + len(ranged), "character")
+            raise SourceError(f"{face.family} has none of what is asked for ({number}); give others as `characters`")
+        glyphs = {character: shape(of, character, features=PLAIN)[0] for character, of in found.items()}
+        box = missing_glyph(face)
+        shapes = drawn(glyphs | {NOTDEF: box}, notes)
+        if not shapes.keys() - {key_of(box)}:
+            raise SourceError(f"the characters of {face.family} show nothing; give others as `characters`")
+        texture = atlas([each.drawing for each in shapes.values()], name=options.name or face.family, **parameters)
+        uncoloured = tuple(replace(root, paint=None) for root in texture.roots)  # programs colour them
+        texture = replace(texture, roots=uncoloured)
+        entries = {character: entry(glyph, shapes) for character, glyph in glyphs.items()}
+        pairs = kerning(glyphs) if len(found) <= MOST_KERNED else {}
+    if len(found) > MOST_KERNED:
+        notes.left_out(UNKERNED)
+    metrics = {
+        "font": facts(face),
+        "lines": lines(face),
+        "glyphs": entries,
+        "notdef": entry(box, shapes),
+        "kerning": pairs,
+        "missing": missing,
+    }
+    return FontAtlas(texture, metrics, notes.listed)
+
+
+def faces_of_characters(choice: Choice, characters: Iterable[str]) -> dict[str, Face]:
+    """The face of each character: the first of all, or another subset of the same font; without those of neither."""
+    left = dict.fromkeys(characters)
+    found: dict[str, Face] = {}
+    for face in choice.subsets():
+        check_time()
+        found |= {character: face for character in left if face.has(ord(character))}
+        left = {character: None for character in left if character not in found}
+        if not left:
+            break
+    return found
+
+
+PLAIN: Final = ("-liga", "-clig", "-calt", "-rlig")
+"""No feature that makes one glyph of several characters."""
+
+
+NOTDEF: Final = ".notdef"
+"""Name of the glyph of a character that a font lacks, as in the font."""
+
+
+def missing_glyph(face: Face) -> Glyph:
+    """The glyph of a character that a font lacks."""
+    privates = map(chr, range(0x10FFFD, 0xF0000, -1))
+    lacked = next(character for character in privates if not face.has(ord(character)))
+    return shape(face, lacked, features=PLAIN)[0]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shape:
+    """A glyph that shows something: its drawing, and its box (left, bottom, right, top); both in ems, y up."""
+
+    drawing: Drawing
+    box: tuple[float, float, float, float]
+
+
+def key_of(glyph: Glyph) -> tuple[Face, int]:
+    """What tells glyphs apart: several faces may be subsets of one font."""
+    return glyph.face, glyph.glyph
+
+
+def drawn(glyphs: dict[str, Glyph], notes: Notes) -> dict[tuple[Face, int], Shape]:
+    """Shapes by the keys of their glyphs, each named after the first character that it stands for."""
+    found: dict[tuple[Face, int], Shape] = {}
+    for character, glyph in glyphs.items():
+        if key_of(glyph) in found:
+            continue
+        canvas = Canvas(1.0, BLACK, notes)
+        canvas.draw(Placed(glyph, 0.0, 0.0, character), 0.0, 0.0)
+        left, top, right, bottom = canvas.painted
+        if left < right and top < bottom:
+            drawing = canvas.drawing(canvas.painted, character)
+            upwards = np.array([[1.0], [-1.0]]) * drawing.to_source + 0.0  # no -0.0
+            found[key_of(glyph)] = Shape(replace(drawing, to_source=upwards), (left, -bottom, right, -top))
+    return found
+
+
+def entry(glyph: Glyph, shapes: dict[tuple[Face, int], Shape]) -> dict[str, Any]:
+    """Metrics of a character."""
+    advance = glyph.advance[0] / glyph.face.units_per_em
+    if key_of(glyph) not in shapes:
+        return {"shape": None, "advance": rounded(advance)}
+    found = shapes[key_of(glyph)]
+    (side, _, x), (_, _, y) = found.drawing.to_source.tolist()
+    left, _, right, _ = found.box
+    return {
+        "shape": [*shapes].index(key_of(glyph)),
+        "advance": rounded(advance),
+        "bearings": [rounded(left), rounded(advance - right)],
+        "box": [rounded(part) for part in found.box],
+        "square": [rounded(x), rounded(y), rounded(side)],
+    }
+
+
+def kerning(glyphs: dict[str, Glyph]) -> dict[str, dict[str, float]]:
+    """What is added to the advance of a character before another of its face, in ems, where it is not 0."""
+    kinds = {character: scripts([character])[0] for character in glyphs}  # Latin, if it is common to several
+    groups: dict[Face, dict[str, list[str]]] = {}
+    for character, script in kinds.items():
+        groups.setdefault(glyphs[character].face, {}).setdefault(script, []).append(character)
+    found: dict[str, dict[str, float]] = {}
+    for first, one in glyphs.items():
+        check_time()
+        pairs = {}
+        for group, seconds in groups[one.face].items():
+            script = group if kinds[first] == LATIN else kinds[first]
+            line = "".join(first + second for second in seconds)
+            row = shape(one.face, line, direction="ltr", script=script, features=PLAIN)
+            clusters = {glyph.cluster: glyph for glyph in row}
+            for place, second in enumerate(seconds):
+                glyph = clusters.get(2 * place)
+                if glyph is not None and glyph.glyph == one.glyph and glyph.advance != one.advance:
+                    pairs[second] = rounded((glyph.advance[0] - one.advance[0]) / one.face.units_per_em)
+        if pairs:
+            found[first] = pairs
+    return found
+
+
+def facts(face: Face) -> dict[str, Any]:
+    """What says which font it is."""
+    return {"family": face.family, "weight": face.weight, "style": face.style, "stretch": face.stretch}
+
+
+def lines(face: Face) -> dict[str, Any]:
+    """Metrics of lines, in ems."""
+    em = face.units_per_em
+    heights = {name: rounded(getattr(face, name) / em) for name in LINE_METRICS}
+    places = {name: [rounded(part / em) for part in getattr(face, name)] for name in ("underline", "strikeout")}
+    return heights | places
+
+
+def rounded(length: float) -> float:
+    """A length as metrics have it."""
+    return round(length, DIGITS)

@@ -1,0 +1,106 @@
+"""The parameters of a conversion, as one value."""
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, get_args
+
+from vexture.base.content import FileKind
+from vexture.base.deadline import DEFAULT_SECONDS
+from vexture.base.errors import ParameterError
+
+if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take long
+    from vexture.drawing.drawing import Drawing
+
+__all__ = ["READING", "Fonts", "Parameters", "Split", "check_reading"]
+
+Split: TypeAlias = Literal["auto", "faces", "paint"] | None
+"""How a drawing becomes shapes; see `vexture.convert`."""
+
+SPLITS = get_args(get_args(Split)[0])
+
+READING: Final = ("select", "names", "snap", "fonts", "trace_images", "page_colors")
+"""Parameters of the source's reader."""
+
+Fonts: TypeAlias = "Sequence[str | os.PathLike[str]] | None"
+"""Font files, and folders of them, for the texts of SVG."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameters:
+    """Parameters of a conversion, as `vexture.convert` describes them; None is the default.
+
+    Examples
+    --------
+    >>> Parameters(split="colour")
+    Traceback (most recent call last):
+    vexture.base.errors.ParameterError: `split` is 'colour'; it must be 'auto', 'faces', 'paint' or None
+    """
+
+    split: Split = "auto"
+    select: str | None = None
+    tolerance: float | Literal["auto"] = "auto"
+    max_depth: int | None = None
+    capacity: int | None = None
+    precision: float | None = None
+    max_seconds: float = DEFAULT_SECONDS
+    names: str | None = None
+    snap: float | None = None
+    restyle: bool = False
+    fonts: "Fonts" = None
+    trace_images: bool = False
+    page_colors: "Mapping[str, str] | None" = None
+
+    def __post_init__(self) -> None:
+        if self.split is not None and self.split not in SPLITS:
+            raise ParameterError(f"`split` is {self.split!r}; it must be {', '.join(map(repr, SPLITS))} or None")
+        if self.restyle and self.split is None:
+            raise ParameterError("`restyle` is for a drawing in its colours, and a silhouette has none; leave it out")
+        if self.restyle and self.split not in ("auto", "faces"):
+            raise ParameterError(
+                f"`split` is {self.split!r}, but `restyle` is for a whole drawing in its colours: 'faces'"
+            )
+
+    @property
+    def reading(self) -> dict[str, Any]:
+        """Those of the source's reader that are given."""
+        values = ((name, getattr(self, name)) for name in READING)
+        return {name: value for name, value in values if value is not None and value is not False}
+
+    def split_of(self, drawing: "Drawing") -> Split:
+        """How a drawing becomes shapes: "auto" decided.
+
+        A drawing of one colour is a silhouette in that colour, unless it is translucent and may overlap itself.
+        """
+        if self.split != "auto":
+            return self.split
+        return "faces" if self.restyle or drawing.is_coloured or len(drawing.layers()) > 1 else None
+
+
+def check_reading(
+    kind: FileKind,
+    select: str | None,
+    names: str | None,
+    snap: float | None,
+    fonts: "str | os.PathLike[str] | Sequence[str | os.PathLike[str]]",
+    page_colors: "Mapping[str, str] | None",
+    *,
+    trace_images: bool,
+) -> None:
+    """Raise a `ParameterError` for a parameter of a reader that means nothing for files of a kind."""
+    if names is not None and kind not in (FileKind.GEOJSON, FileKind.SVG):
+        raise ParameterError(f"`names` {names!r} is for the elements of GeoJSON and SVG; leave it out")
+    if snap is not None and kind in (FileKind.SVG, FileKind.PICTURE):
+        raise ParameterError(f"`snap` {snap} is for the borders of polygons in a map; leave it out")
+    if kind in (FileKind.SVG, FileKind.TEXTURE):
+        return
+    if select is not None:
+        raise ParameterError(f"`select` {select!r} chooses elements of an SVG; leave it out")
+    if fonts:
+        given = fonts if isinstance(fonts, str | os.PathLike) else fonts[0]
+        raise ParameterError(f"`fonts` {os.fspath(given)!r} is for the texts of an SVG; leave it out")
+    if trace_images:
+        raise ParameterError("`trace_images` is for the images in an SVG; leave it out")
+    if page_colors:
+        name, color = next(iter(page_colors.items()))
+        raise ParameterError(f"`page_colors` {name}={color} is for the colours of an SVG; leave it out")

@@ -1,0 +1,245 @@
+"""The entry point of all sources: the content of a file decides how it is read, in every command and server."""
+
+import io
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any, TypeAlias
+
+from vexture.base.content import (
+    BEFORE_MARKUP,
+    LARGEST_FILE,
+    SHAPEFILE,
+    FileKind,
+    about,
+    is_geodatabase,
+    is_stream,
+    kind_of,
+    known_kind,
+    read_bytes,
+    start_of,
+    unpacked,
+)
+from vexture.base.errors import ParameterError, SourceError
+from vexture.base.notes import warn_of
+from vexture.conversion.extensions import find_geographic_reader, geographic_reader
+from vexture.conversion.parameters import check_reading
+
+if TYPE_CHECKING:  # at run time a reader is imported when it is needed
+    from vexture.drawing.drawing import Drawing
+    from vexture.svg.images import Images
+
+__all__ = [
+    "Source",
+    "content_of",
+    "drawing_of",
+    "images_of",
+    "name_of",
+    "read",
+    "read_drawing",
+]
+
+Place: TypeAlias = str | os.PathLike[str]
+Source: TypeAlias = Place | bytes | bytearray | memoryview | IO[bytes]
+"""A path, the content of a file, or a binary file that is open."""
+
+UNNAMED = "drawing"
+
+
+def read(
+    source: Source,
+    *,
+    name: str | None = None,
+    select: str | None = None,
+    names: str | None = None,
+    snap: float | None = None,
+    fonts: Sequence[Place] = (),
+    trace_images: bool = False,
+    page_colors: Mapping[str, str] | None = None,
+) -> "Drawing":
+    """Read a drawing from a file of any supported kind; its content decides, not its suffix.
+
+    - SVG, plain or gzipped (`vexture.read_svg`).
+    - GeoJSON (`vexture.read_geojson`).
+    - PNG, JPEG, WebP, GIF or BMP, traced (`vexture.read_image`; needs ``vexture[trace]``).
+    - Wet areas of a GeoPackage, SpatiaLite, FlatGeobuf, zipped shapefile or FileGDB, KML, KMZ, GPX, GML, GeoTIFF,
+      Esri grid, NetCDF or GRIB, of a series at its first time (`vexture.read_extent`; needs ``vexture[gis]``),
+      GeoParquet, Feather or CSV (``vexture[map]``).
+
+    Parameters
+    ----------
+    source : path, bytes or binary file
+        The file, or its content. The paths of a shapefile and of the folder of a FileGDB need no zip.
+    name : str, optional
+        Name of the file in messages and, without its suffix, of the drawing; by default the path.
+    select : str, optional
+        A CSS selector, of SVG only; see `vexture.read_svg`.
+    names : str, optional
+        What names paths: a property of GeoJSON (`vexture.read_geojson`), an attribute or ``title`` of SVG
+        (`vexture.read_svg`).
+    snap : float, optional
+        How far borders of polygons that become one may differ, of maps only; see `vexture.read_geojson`.
+    fonts : sequence of path
+        Font files, and folders of them, for the texts of an SVG; see `vexture.read_svg`.
+    trace_images : bool
+        Trace the pictures in an SVG (PNG, JPEG, WebP, GIF, BMP; needs ``vexture[trace]``): those in it, and those in
+        files beside it or in folders below, if `source` is a path. Drawings in both places are always drawn. Other
+        files and addresses are never read.
+    page_colors : mapping of str to str, optional
+        Colours that its page would give an SVG, such as of ``currentColor``; see `vexture.read_svg`.
+
+    Returns
+    -------
+    Drawing
+        Its `notes` say what was left out, simplified or chosen.
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read, or is a texture.
+    ParameterError
+        If `select`, `fonts`, `trace_images` or `page_colors` is given for anything but an SVG, `names` for neither
+        GeoJSON nor SVG, `snap` for anything but a map, `select` is no selector, `page_colors` holds no colour, `source`
+        is the text of a file, or a parameter is of the wrong type.
+    TypeError
+        If `source` is something else, such as a file that is open in text mode.
+    LimitError
+        If `select` matches nothing that is painted, or a limit is exceeded.
+    DeviceError
+        If a package is missing.
+
+    Warns
+    -----
+    SourceWarning
+        Once, of all notes.
+
+    Examples
+    --------
+    >>> read(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', name="half.svg").name
+    'half'
+    >>> read(b'{"type": "Polygon", "coordinates": [[[4, 52], [6, 52], [6, 53], [4, 53]]]}').crs
+    'OGC:CRS84'
+    """
+    drawing = read_drawing(
+        source, name=name, select=select, names=names, snap=snap, fonts=fonts, trace_images=trace_images,
+        page_colors=page_colors,
+    )  # fmt: skip
+    warn_of(name_of(source, name), drawing.notes)
+    return drawing
+
+
+def read_drawing(
+    source: Source,
+    *,
+    name: str | None = None,
+    select: str | None = None,
+    names: str | None = None,
+    snap: float | None = None,
+    fonts: Sequence[Place] = (),
+    trace_images: bool = False,
+    page_colors: Mapping[str, str] | None = None,
+) -> "Drawing":
+    """Read a drawing as `read` does, but without a warning."""
+    source, shown = _checked(source), name_of(source, name)
+    if not isinstance(trace_images, bool):
+        raise ParameterError(f"`trace_images` is {trace_images!r:.80}; it must be True or False")
+    with about(shown):
+        given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
+        kind = FileKind.AREAS
+        if not is_geodatabase(given):
+            if not _is_drawing(given) and (reader := find_geographic_reader()) is not None:
+                given = reader.unpack(given, shown)
+            kind = known_kind(start_of(given) or read_bytes(given), shown)
+        check_reading(kind, select, names, snap, fonts, page_colors, trace_images=trace_images)
+        if kind is not FileKind.SVG:
+            return _read_other(kind, given, shown, names, snap)
+        content = read_bytes(given)
+    from vexture.svg.read import svg_drawing
+
+    folder = Path(source).parent if isinstance(source, str | os.PathLike) else None
+    return svg_drawing(content, shown, select, names, fonts, images_of(folder, traced=trace_images), page_colors)
+
+
+def images_of(folder: Path | None, *, traced: bool) -> "Images":
+    """Images that are read: those in an SVG, and those in a folder, if there is one; pictures if they are `traced`."""
+    from vexture.svg.images import Images
+
+    if not traced:
+        return Images(folder=folder)
+    from vexture.tracing.trace import embedded_image
+
+    return Images(embedded_image, folder)
+
+
+def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":
+    """Drawing that a source is or holds, with the parameters of its reader."""
+    from vexture.drawing.drawing import Drawing
+
+    if not isinstance(source, Drawing):
+        if not isinstance(source, str | os.PathLike):
+            kind = type(source).__name__
+            raise TypeError(
+                f"`source` is of the type {kind}; give a path or a Drawing, which vexture.read makes of bytes and files"
+            )
+        return read_drawing(source, **reading)
+    for name, value in reading.items():
+        raise ParameterError(
+            f"`{name}` is {value!r}, but {source.name} is a drawing, which is read already; "
+            f"use vexture.read(path, {name}=...)"
+        )
+    return source
+
+
+def _checked(source: object) -> Place | bytes | IO[bytes]:
+    """Return a source as it is, or a buffer as bytes; refuse anything else."""
+    if isinstance(source, bytearray | memoryview):
+        return bytes(source)
+    if isinstance(source, io.TextIOBase):
+        raise TypeError("`source` is open in text mode; open it in binary mode: open(path, 'rb')")
+    if not (isinstance(source, bytes | str | os.PathLike) or hasattr(source, "read")):
+        kind = type(source).__name__
+        raise TypeError(f"`source` is of the type {kind}; give a path, bytes or a file that is open in binary mode")
+    if isinstance(source, str) and source.lstrip().startswith(("<", "{")) and not os.path.exists(source):
+        start = " ".join(source[:60].split())
+        raise ParameterError(f"`source` is no path, but a text: {start} ...; use vexture.read(text.encode())")
+    return source  # type: ignore[return-value]
+
+
+def name_of(source: Source, name: str | None = None) -> str:
+    """Name of a source in messages: the given one, or its path."""
+    if name is not None:
+        return name
+    if isinstance(source, bytes):
+        return UNNAMED
+    if isinstance(source, str | os.PathLike):
+        return os.fspath(source)
+    called = getattr(source, "name", None)  # of a pipe it is a number
+    return called if isinstance(called, str) else UNNAMED
+
+
+def _read_other(kind: FileKind, source: Place | bytes, shown: str, names: str | None, snap: float | None) -> "Drawing":
+    """Read anything but SVG; the caller puts the name in front of errors."""
+    if kind is FileKind.TEXTURE:
+        raise SourceError("is a texture already; give the drawing that it was made from")
+    name = Path(shown).stem or UNNAMED
+    if kind is FileKind.PICTURE:
+        from vexture.tracing.trace import image_drawing
+
+        return image_drawing(source, name)
+    return geographic_reader().read_drawing(kind, source, shown, name, names=names, snap=snap)
+
+
+def _is_drawing(source: Place | bytes) -> bool:
+    """Whether a source is a drawing, a picture or a texture by its first bytes, and no geographic data."""
+    start = start_of(source)
+    kind = kind_of(start)
+    return kind in (FileKind.TEXTURE, FileKind.PICTURE) or (
+        kind is FileKind.SVG and start.lstrip(BEFORE_MARKUP)[:1] == b"<"
+    )
+
+
+def content_of(path: str | os.PathLike[str]) -> bytes:
+    """Content of a file as `read_bytes` has it; a zip of a FileGDB, or of a shapefile and the files beside it."""
+    with about(os.fspath(path)):
+        several = is_geodatabase(path) or start_of(path).startswith(SHAPEFILE)
+        return (geographic_reader().pack(Path(path)) if several and not is_stream(path) else None) or read_bytes(path)

@@ -1,0 +1,370 @@
+"""The normal form of all sources, from which quad-trees are built.
+
+A `Drawing` is a list of painted `Path` objects in the unit square: x to the right, **y up**, origin at the bottom
+left. Every contour is closed and made of cubics only; a straight line is a cubic with its inner control points at
+one and two thirds.
+"""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from copy import copy
+from dataclasses import dataclass, field, replace
+from enum import IntEnum
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.deadline import check_time
+from vexture.base.errors import SourceError
+from vexture.base.notes import Note
+from vexture.bezier.convert import line_cubics
+from vexture.drawing.contours import check_contours, joined, together
+from vexture.drawing.group import Blend, Group, Mask, groups_around
+from vexture.drawing.paint import BLACK, Affine, Paint
+from vexture.drawing.unit_square import clipped, tidied
+
+__all__ = ["Drawing", "FillRule", "Path"]
+
+SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
+BLENDING, MASKING, SHADED = "mix-blend-mode", "clip-path or mask", "gradient shown as its mean colour"
+SOLID: Final = "pattern shown as solid"
+"""Messages about layers and silhouettes, which know no groups; layers know no gradients either."""
+
+IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+
+
+class FillRule(IntEnum):
+    """Rule by which winding numbers are inside: all but 0, or the odd ones."""
+
+    NONZERO = 0
+    EVENODD = 1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Path:
+    """Closed contours that are filled together by one rule.
+
+    Parameters
+    ----------
+    contours : tuple of (n, 4, 2) float64 arrays
+        Cubics P0 P1 P2 P3 in unit-square units; each starts, bit for bit, where the one before it ends, and the
+        first starts where the last ends.
+    fill_rule : FillRule
+    paint : Paint
+    group : int
+        The innermost group around it, as a place in `Drawing.groups`; -1 if there is none.
+    element : str
+        Name of the element of the source that it draws, for picking and restyling; several paths may share one. Empty
+        if the element has none.
+    hides : bool
+        Whether it hides something that the drawing does not have: in a map to be restyled it then stays opaque.
+
+    Raises
+    ------
+    SourceError
+        If a contour is of another shape, is not closed or is not finite.
+    """
+
+    contours: tuple[NDArray[np.float64], ...]
+    fill_rule: FillRule = FillRule.NONZERO
+    paint: Paint = BLACK
+    group: int = -1
+    element: str = ""
+    hides: bool = False
+
+    def __post_init__(self) -> None:
+        check_contours(self.contours)
+
+    @classmethod
+    def sound(
+        cls,
+        contours: tuple[NDArray[np.float64], ...],
+        fill_rule: FillRule,
+        paint: Paint,
+        group: int = -1,
+        element: str = "",
+        hides: bool = False,
+    ) -> "Path":
+        """Path of contours that are known to be finite and closed, without a check, which costs more than the rest."""
+        path, assign = object.__new__(cls), object.__setattr__  # a loop over the names takes three times as long
+        assign(path, "contours", contours)
+        assign(path, "fill_rule", fill_rule)
+        assign(path, "paint", paint)
+        assign(path, "group", group)
+        assign(path, "element", element)
+        assign(path, "hides", hides)
+        return path
+
+    @classmethod
+    def _sound(cls, contours: tuple[NDArray[np.float64], ...], like: "Path", to_source: Affine) -> "Path":
+        """Sound path whose rest is another's, moved."""
+        return cls.sound(contours, like.fill_rule, like.paint.after(to_source), like.group, like.element, like.hides)
+
+    @property
+    def box(self) -> NDArray[np.float64]:
+        """Least and greatest coordinates of all control points, (2, 2): no part of the path is outside."""
+        if not self.contours:
+            return np.array([[np.inf, np.inf], [-np.inf, -np.inf]])
+        points = joined(self.contours)
+        return np.stack([points.min(axis=(0, 1)), points.max(axis=(0, 1))])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drawing:
+    """Painted paths in the unit square, in painting order.
+
+    Its *silhouette* is the union of everything painted.
+
+    Parameters
+    ----------
+    paths : tuple of Path
+        In painting order; all coordinates lie in [0, 1].
+    to_source : (2, 3) float64 array
+        Affine map from the unit square to the units of the source.
+    name : str
+        Name of the shape in messages and files.
+    crs : str or None
+        Coordinate reference system of the source's units, if it has one.
+    notes : tuple of Note
+        What was left out, simplified or invalid when it was read.
+    groups : tuple of Group
+        Each after the group around it. The paths of a group, with those of the groups in it, follow one another.
+    sides : tuple of float
+        Width and height of the source's box, which is in the middle of the unit square; the longer one is 1.
+
+    Examples
+    --------
+    >>> square = Drawing.polygon([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])
+    >>> square.segments
+    4
+    """
+
+    paths: tuple[Path, ...]
+    to_source: NDArray[np.float64] = field(default_factory=IDENTITY.copy)
+    name: str = "drawing"
+    crs: str | None = None
+    notes: tuple[Note, ...] = ()
+    groups: tuple[Group, ...] = ()
+    sides: tuple[float, float] = (1.0, 1.0)
+
+    def __post_init__(self) -> None:
+        self._check_groups()
+        if np.shape(self.to_source) != (2, 3) or not np.isfinite(self.to_source).all():
+            raise SourceError(f"{self.name}: to_source must be a finite (2, 3) array")
+        begins = joined(together([path.contours for path in self.paths]))[:, 0]
+        inside = (begins[:, axis].min() >= 0.0 and begins[:, axis].max() <= 1.0 for axis in range(2))
+        if len(begins) and not all(inside):
+            raise SourceError(f"{self.name}: a contour leaves the unit square; clip or scale it first")
+
+    def _check_groups(self) -> None:
+        """Raise a `SourceError` unless groups are nested, and each path names one of them that is still open."""
+        if not self.groups and all(path.group == -1 for path in self.paths):
+            return
+        for place, group in enumerate(self.groups):
+            if not -1 <= group.outer < place:
+                raise SourceError(f"{self.name}: group {place} lies in group {group.outer}, which is not before it")
+        ended: set[int] = set()
+        open_groups: list[int] = []
+        for path in self.paths:
+            if not -1 <= path.group < len(self.groups):
+                raise SourceError(f"{self.name}: a path is in group {path.group}, of {len(self.groups)}")
+            around = self.around(path.group)
+            ended.update(set(open_groups) - set(around))
+            open_groups = around
+            if not ended.isdisjoint(around):
+                raise SourceError(f"{self.name}: paths of group {path.group} do not follow one another")
+
+    def around(self, group: int) -> list[int]:
+        """The groups from the outermost to a given one, which may be -1."""
+        return groups_around(self.groups, group)
+
+    @property
+    def segments(self) -> int:
+        """Number of cubics."""
+        return sum(len(contour) for path in self.paths for contour in path.contours)
+
+    @property
+    def is_coloured(self) -> bool:
+        """Whether it has more than one colour: several paints, a gradient, or groups, which change colours.
+
+        Examples
+        --------
+        >>> Drawing.polygon([(0, 0), (1, 0), (0, 1)]).is_coloured
+        False
+        """
+        paints = {path.paint for path in self.paths}
+        return len(paints) > 1 or bool(self.groups) or any(paint.gradient is not None for paint in paints)
+
+    def layers(self) -> "tuple[Drawing, ...]":
+        """Split the drawing by paint: drawn in this order, the layers give the drawing in its colours.
+
+        Consecutive paths of one opaque paint are one layer. A translucent paint shows twice where two paths overlap,
+        so its paths share a layer only if their boxes do not touch. Layers know no groups: each path has the opacities
+        of all groups around it by itself, and blends normally. A gradient becomes its mean colour.
+
+        Returns
+        -------
+        tuple of Drawing
+            In painting order, each of one paint and named ``name/number-colour``, counted from 1, with the notes of
+            the whole, and of what the groups and gradients would change; an empty tuple if nothing is painted.
+
+        Examples
+        --------
+        >>> square = Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]).paths[0].contours
+        >>> red, blue = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.0, 1.0), 0.5)
+        >>> logo = Drawing(tuple(Path(square, paint=paint) for paint in (red, red, blue, blue)), name="logo")
+        >>> [(layer.name, len(layer.paths)) for layer in logo.layers()]
+        [('logo/1-#ff0000', 2), ('logo/2-#0000ff80', 1), ('logo/3-#0000ff80', 1)]
+        """
+        if self.groups or any(path.paint.gradient is not None for path in self.paths):
+            return self.flat().layers()
+        boxes = np.array([path.box for path in self.paths]).reshape(-1, 2, 2)
+        starts: list[int] = []
+        for place, path in enumerate(self.paths):
+            check_time(self.name)
+            if starts and path.paint == self.paths[starts[-1]].paint:
+                above, below = boxes[place], boxes[starts[-1] : place]
+                apart = (above[0] > below[:, 1]) | (above[1] < below[:, 0])
+                if path.paint.opacity >= 1.0 or apart.any(axis=1).all():
+                    continue
+            starts.append(place)
+        return tuple(
+            self._part(start, end, f"{self.name}/{number}-{self.paths[start].paint.hex}")
+            for number, (start, end) in enumerate(pairwise([*starts, len(self.paths)]), 1)
+        )
+
+    def flat(self) -> "Drawing":
+        """The drawing without groups, and so without masks, and without gradients.
+
+        Each path has the opacities of the groups around it by itself, and a shape that a pattern fills is solid. Notes
+        say where a picture differs.
+        """
+        opacities, hidden = {-1: 1.0}, set[int]()
+        patterns = {place for place, group in enumerate(self.groups) if group.pattern}
+        for place, group in enumerate(self.groups):
+            opacities[place] = opacities[group.outer] * group.opacity
+            if group.outer in hidden or bool(group.mask) != (group.outer in patterns):
+                hidden.add(place)
+        hidden |= patterns
+        shown = [path for path in self.paths if path.group not in hidden]
+        paints = (path.paint.faded(opacities[path.group]) for path in shown)
+        flat = (Paint(paint.color, paint.opacity) for paint in paints)
+        paths = tuple(replace(path, paint=paint, group=-1) for path, paint in zip(shown, flat, strict=True))
+        return replace(self, paths=paths, groups=(), notes=(*self.notes, *self._lost()))
+
+    def unmasked(self) -> "Drawing":
+        """What a silhouette is made of: the drawing without its masks, with a note of them if it has any."""
+        if not any(group.mask for group in self.groups):
+            return self
+        plain = self.flat()
+        lost = tuple(note for note in plain.notes[len(self.notes) :] if note.message in (MASKING, SOLID))
+        return replace(plain, notes=(*self.notes, *lost))
+
+    def _lost(self) -> Iterator[Note]:
+        """Notes of what layers lose of groups and gradients; a path by itself loses no opacity."""
+        held = Counter(path.group for path in self.paths)
+        for place in reversed(range(len(self.groups))):
+            if self.groups[place].pattern:
+                held[place] = min(held[place], 1)  # the shape that it fills
+            held[self.groups[place].outer] += held[place]
+        shared = sum(group.opacity < 1.0 and held[place] > 1 for place, group in enumerate(self.groups))
+        blended = sum(group.blend is not Blend.NORMAL and held[place] > 0 for place, group in enumerate(self.groups))
+        patterns = sum(group.pattern for group in self.groups)
+        masks = sum(group.mask is not Mask.NONE for group in self.groups) - patterns
+        shaded = sum(path.paint.gradient is not None for path in self.paths)
+        counts = ((SHARED_OPACITY, shared), (BLENDING, blended), (MASKING, masks), (SOLID, patterns), (SHADED, shaded))
+        for message, count in counts:
+            if count:
+                yield Note("simplified", message, count)
+
+    def _part(self, start: int, end: int, name: str) -> "Drawing":
+        """Drawing of some of the paths, which were checked already."""
+        part = copy(self)
+        object.__setattr__(part, "paths", self.paths[start:end])
+        object.__setattr__(part, "name", name)
+        return part
+
+    @classmethod
+    def polygon(cls, *contours: Iterable[tuple[float, float]], fill_rule: FillRule = FillRule.NONZERO) -> "Drawing":
+        """Drawing of one path with straight sides, from its corners in unit-square units.
+
+        Examples
+        --------
+        >>> Drawing.polygon([(0, 0), (1, 0), (0, 1)]).paths[0].contours[0][0]
+        array([[0.        , 0.        ],
+               [0.33333333, 0.        ],
+               [0.66666667, 0.        ],
+               [1.        , 0.        ]])
+        """
+        closed = []
+        for contour in contours:
+            start = np.array(list(contour), dtype=np.float64)
+            closed.append(line_cubics(start, np.roll(start, -1, axis=0)))
+        return cls((Path(tuple(closed), fill_rule),))
+
+    @classmethod
+    def from_source(
+        cls,
+        paths: Iterable[Path],
+        box: tuple[float, float, float, float],
+        name: str = "drawing",
+        groups: tuple[Group, ...] = (),
+    ) -> "Drawing":
+        """Bring the paths of a source into the normal form.
+
+        The source's box keeps its aspect ratio, is centred in the unit square and flipped to y up. Parts outside of the
+        box are clipped. Cubics without length and contours that enclose nothing are dropped.
+
+        Parameters
+        ----------
+        paths : iterable of Path
+            In the units of the source, **y down**.
+        box : tuple of float
+            Least x, least y, width and height of the visible part, in the units of the source.
+        name : str
+        groups : tuple of Group
+
+        Raises
+        ------
+        SourceError
+            If the box has no area or a coordinate is too far from it.
+
+        Examples
+        --------
+        >>> wide = Path((line_cubics(*np.array([[(0, 0), (4, 0), (0, 2)], [(4, 0), (0, 2), (0, 0)]], float)),))
+        >>> drawing = Drawing.from_source([wide], (0, 0, 4, 2))
+        >>> drawing.paths[0].contours[0][:, 0]
+        array([[0.  , 0.75],
+               [1.  , 0.75],
+               [0.  , 0.25]])
+        >>> drawing.to_source @ (1, 0.75, 1)
+        array([4., 0.])
+        """
+        x, y, width, height = box
+        size = max(width, height)
+        if not (min(width, height) > 0.0 and np.isfinite(size) and np.isfinite(1.0 / size)):
+            raise SourceError(f"the drawing's box is {width:g} x {height:g}; both must be above 0")
+        to_source = np.array([[size, 0.0, x - (size - width) / 2], [0.0, -size, y + height + (size - height) / 2]])
+        sides = (width / size, height / size)
+        low = np.array([(1.0 - side) / 2 for side in sides])
+        listed = list(paths)
+        contours = [contour for path in listed for contour in path.contours]
+        if not contours:
+            return cls((), to_source, name, groups=groups, sides=sides)
+        cubics = (joined(contours) - (x, y)) / size + low
+        cubics[..., 1] = 1.0 - cubics[..., 1]
+        ends = np.cumsum([len(contour) for contour in contours])
+        kept = tidied(*clipped(cubics, ends, low, 1.0 - low))
+        normal = []
+        a, b, c, d, e, f = to_source.ravel().tolist()
+        rows = ((a, b, c), (d, e, f))
+        at = 0
+        for path in listed:
+            after = at + len(path.contours)
+            inside = tuple(kept[k] for k in range(at, after) if k in kept)
+            at = after
+            if inside:
+                normal.append(Path._sound(inside, path, rows))
+        return cls(tuple(normal), to_source, name, groups=groups, sides=sides)

@@ -1,0 +1,140 @@
+"""Paints: flat colours, and gradients as SVG has them."""
+
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from math import isfinite
+
+from vexture.base.errors import SourceError
+
+__all__ = ["BLACK", "Affine", "Gradient", "Paint", "Spread", "Stop"]
+
+Color = tuple[float, float, float]
+"""Red, green and blue, sRGB, each in 0..1."""
+
+Affine = tuple[tuple[float, float, float], tuple[float, float, float]]
+"""Rows of a map from (x, y, 1)."""
+
+
+class Spread(IntEnum):
+    """What a gradient does beyond its first and last stop: keep their colours, go back and forth, or begin again."""
+
+    PAD = 0
+    REFLECT = 1
+    REPEAT = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """A colour at a place of a gradient's ramp; between two stops, unpremultiplied sRGB components run straight."""
+
+    offset: float
+    color: Color
+    opacity: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not all(0.0 <= part <= 1.0 for part in (self.offset, *self.color, self.opacity)):
+            raise SourceError(f"a stop is at {self.offset}, {self.color} with opacity {self.opacity}; all are in 0..1")
+
+
+@dataclass(frozen=True, slots=True)
+class Gradient:
+    """Colours by the place t on a ramp, as in SVG 2, 14.2.
+
+    Parameters
+    ----------
+    to_ramp : Affine
+        Map from the drawing's coordinates to the ramp's own, in which a linear gradient has t = x. A radial one has its
+        outer circle about the origin, of radius 1, and its focal point on the x axis.
+    stops : tuple of Stop
+        One or more; no offset is below the one before it.
+    spread : Spread
+    focus : (float, float) or None
+        Of a radial gradient: x, at least 0, of its focal point, and the focal radius. Its circle at t is about
+        (x (1 - t), 0) and has the radius (1 - t) times the focal one plus t. None for a linear gradient.
+    """
+
+    to_ramp: Affine
+    stops: tuple[Stop, ...]
+    spread: Spread = Spread.PAD
+    focus: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        offsets = [stop.offset for stop in self.stops]
+        if not offsets or offsets != sorted(offsets):
+            raise SourceError(f"a gradient has stops at {offsets}; it needs one or more, in order")
+        numbers = [*self.to_ramp[0], *self.to_ramp[1], *(self.focus or ())]
+        if not all(map(isfinite, numbers)) or min(self.focus or (0.0,)) < 0.0:
+            raise SourceError(f"a gradient has the map {self.to_ramp} and the focus {self.focus}; all must be finite")
+
+    def after(self, matrix: Affine) -> "Gradient":
+        """The gradient in other coordinates, from which `matrix` leads to those of before."""
+        (a, b, c), (d, e, f) = matrix
+        rows = [(p * a + q * d, p * b + q * e, p * c + q * f + r) for p, q, r in self.to_ramp]
+        return replace(self, to_ramp=(rows[0], rows[1]))
+
+
+@dataclass(frozen=True, slots=True)
+class Paint:
+    """A flat colour, sRGB components and opacity, each in 0..1; or a gradient, of which it is then the mean.
+
+    Whatever knows no gradients shows the flat colour.
+    """
+
+    color: Color = (0.0, 0.0, 0.0)
+    opacity: float = 1.0
+    gradient: Gradient | None = None
+
+    def __post_init__(self) -> None:
+        if not all(0.0 <= part <= 1.0 for part in (*self.color, self.opacity)):
+            raise SourceError(f"a paint is {self.color} with opacity {self.opacity}; all must be in 0..1")
+
+    @classmethod
+    def of(cls, gradient: Gradient) -> "Paint":
+        """Paint of a gradient, with the mean of its stops' colours.
+
+        Examples
+        --------
+        >>> Paint.of(Gradient(((1, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1), 0.5)))).hex
+        '#800080bf'
+        """
+        stops = gradient.stops
+        red, green, blue = (sum(stop.color[k] for stop in stops) / len(stops) for k in range(3))
+        return cls((red, green, blue), sum(stop.opacity for stop in stops) / len(stops), gradient)
+
+    def faded(self, opacity: float) -> "Paint":
+        """The paint with its opacity, and that of all stops, multiplied."""
+        if opacity == 1.0:
+            return self
+        gradient = self.gradient
+        if gradient is not None:
+            stops = tuple(replace(stop, opacity=opacity * stop.opacity) for stop in gradient.stops)
+            gradient = replace(gradient, stops=stops)
+        return Paint(self.color, opacity * self.opacity, gradient)
+
+    def after(self, matrix: Affine) -> "Paint":
+        """The paint in other coordinates, from which `matrix` leads to those of before."""
+        return self if self.gradient is None else replace(self, gradient=self.gradient.after(matrix))
+
+    @property
+    def is_opaque(self) -> bool:
+        """Whether nothing below is seen through any part of it."""
+        if self.gradient is None:
+            return self.opacity >= 1.0
+        focus = self.gradient.focus
+        inside = focus is None or focus[0] + focus[1] < 1.0  # else it is a cone, with nothing beside it
+        return inside and all(stop.opacity >= 1.0 for stop in self.gradient.stops)
+
+    @property
+    def hex(self) -> str:
+        """The flat colour as CSS writes it, rounded to 8 bits: ``#rrggbb``, and ``#rrggbbaa`` where it is translucent.
+
+        Examples
+        --------
+        >>> Paint((1.0, 0.5, 0.0)).hex, Paint(opacity=0.5).hex
+        ('#ff8000', '#00000080')
+        """
+        channels = (*self.color, self.opacity) if self.opacity < 1.0 else self.color
+        return "#" + "".join(f"{round(255.0 * channel):02x}" for channel in channels)
+
+
+BLACK = Paint()

@@ -1,0 +1,309 @@
+"""One face of a font: its names, metrics and outlines, in font units."""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.content import about, read_bytes, start_of
+from vexture.base.errors import SourceError
+from vexture.drawing.paint import Color
+from vexture.fonts.engine import harfbuzz
+from vexture.fonts.files import DESCRIBING, is_sfnt, sfnt_of
+from vexture.fonts.layers import Layers, glyph_layers
+from vexture.fonts.outlines import glyph_outline
+from vexture.fonts.places import NO_FILE
+
+__all__ = ["Face", "faces_in", "faces_of"]
+
+FAMILY_NAMES: Final = (16, 21, 1)
+"""Name IDs of families: typographic, of weights and widths and slopes only, and the legacy one."""
+
+VERTICAL: Final = frozenset({"vmtx", "VORG"})
+"""Tables of origins of glyphs in vertical text."""
+
+OWN: Final = frozenset({4, 6})
+"""Name IDs of a face itself: full and PostScript."""
+
+RAISED: Final = 250
+"""Weight class that fonts lighter than it have instead of their own: older Windows made those bolder."""
+
+LIGHTEST: Final = {"thin": 100, "hairline": 100, "extralight": 200, "ultralight": 200}
+"""Weights of such fonts, by how the style begins in their PostScript names."""
+
+POSTSCRIPT: Final = 6
+"""Name ID."""
+
+MOST_FACES: Final = 1000
+"""Of a collection."""
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A face of a font, with its variations set if it is a variable one.
+
+    All lengths are in font units, of which `units_per_em` make an em, y up.
+
+    Parameters
+    ----------
+    blob : uharfbuzz.Blob
+        A TrueType or OpenType font, or a collection of them; `faces_in` and `faces_of` make it of bytes and files.
+    index : int
+        Which of a collection.
+    variations : tuple of (str, float)
+        Places on the axes of a variable font, such as ``("wght", 700)``; the others have their defaults.
+    ranges : tuple of (int, int)
+        First and last characters of ranges that it is to be used for; all of its characters without any.
+    load : callable, optional
+        Returns the whole font, if `blob` holds only the tables that describe it.
+
+    Raises
+    ------
+    SourceError
+        If it is no font; what is damaged in the rest of the font is met when a glyph is first used.
+    DeviceError
+        If uharfbuzz is not installed.
+    """
+
+    blob: Any
+    index: int = 0
+    variations: tuple[tuple[str, float], ...] = ()
+    ranges: tuple[tuple[int, int], ...] = ()
+    load: Callable[[], Any] | None = None
+
+    def __post_init__(self) -> None:
+        if not self.glyph_count:
+            raise SourceError("the font is damaged: it has no glyphs; save it again")
+
+    @cached_property
+    def _font(self) -> Any:
+        """The whole font."""
+        return self._described if self.load is None else self._font_of(self.load())
+
+    @cached_property
+    def _described(self) -> Any:
+        """The font, of which only the tables that describe it may be there."""
+        return self._font_of(self.blob)
+
+    def _font_of(self, blob: Any) -> Any:
+        hb = harfbuzz()
+        font = hb.Font(hb.Face(blob, self.index))
+        if self.variations:
+            font.set_variations(dict(self.variations))
+        return font
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """All names of its family, in all languages; the first is `family`."""
+        face = self._described.face
+        entries = {(entry.name_id, entry.language) for entry in face.list_names()}
+        english = [face.get_name(number) for number in FAMILY_NAMES if any(number == known for known, _ in entries)]
+        others = [face.get_name(number, language) for number, language in sorted(entries) if number in FAMILY_NAMES]
+        return tuple(dict.fromkeys(name for name in (*english, *others) if name))
+
+    @cached_property
+    def full_names(self) -> frozenset[str]:
+        """Its own names, of which no other face of its family has one: in words, and as PostScript knows it."""
+        face = self._described.face
+        found = (face.get_name(entry.name_id, entry.language) for entry in face.list_names() if entry.name_id in OWN)
+        return frozenset(name.casefold() for name in found if name)
+
+    @property
+    def family(self) -> str:
+        """Name of its family, in English if it has one; ``unnamed`` without any."""
+        return self.names[0] if self.names else "unnamed"
+
+    @cached_property
+    def weight(self) -> int:
+        """CSS weight, 1 to 1000: 400 is regular, 700 bold."""
+        said = min(max(round(self._style("WEIGHT")), 1), 1000)
+        if said == RAISED and not self.axes:
+            style = (self._described.face.get_name(POSTSCRIPT) or "").partition("-")[2].casefold()
+            return next((weight for start, weight in LIGHTEST.items() if style.startswith(start)), said)
+        return said
+
+    @cached_property
+    def stretch(self) -> float:
+        """Width in percent of the normal one."""
+        return float(self._style("WIDTH"))
+
+    @cached_property
+    def style(self) -> str:
+        """``"normal"``, ``"italic"`` or ``"oblique"``."""
+        if self._style("ITALIC") > 0.0:
+            return "italic"
+        return "oblique" if self._style("SLANT_ANGLE") != 0.0 else "normal"
+
+    def _style(self, name: str) -> float:
+        value: float = self._described.get_style_value(harfbuzz().StyleTag[name])
+        return value
+
+    @cached_property
+    def axes(self) -> dict[str, tuple[float, float]]:
+        """Least and greatest place on each axis of a variable font."""
+        return {axis.tag: (axis.min_value, axis.max_value) for axis in self._described.face.axis_infos}
+
+    @property
+    def units_per_em(self) -> int:
+        """Units that make an em."""
+        return int(self._described.face.upem)
+
+    @property
+    def ascender(self) -> float:
+        """Height of a line above the baseline."""
+        return self._metric("HORIZONTAL_ASCENDER")
+
+    @property
+    def descender(self) -> float:
+        """Depth of a line below the baseline: below 0."""
+        return self._metric("HORIZONTAL_DESCENDER")
+
+    @property
+    def line_gap(self) -> float:
+        """Additional distance between lines."""
+        return self._metric("HORIZONTAL_LINE_GAP")
+
+    @property
+    def x_height(self) -> float:
+        """Height of an x; that of the glyph if the font says none."""
+        return self._metric("X_HEIGHT")
+
+    @property
+    def cap_height(self) -> float:
+        """Height of an H; that of the glyph if the font says none."""
+        return self._metric("CAP_HEIGHT")
+
+    @property
+    def underline(self) -> tuple[float, float]:
+        """Position of the middle of the line, and its thickness."""
+        return self._metric("UNDERLINE_OFFSET"), self._metric("UNDERLINE_SIZE")
+
+    @property
+    def strikeout(self) -> tuple[float, float]:
+        """Position of the middle of the line, and its thickness."""
+        return self._metric("STRIKEOUT_OFFSET"), self._metric("STRIKEOUT_SIZE")
+
+    @property
+    def shifts(self) -> tuple[float, float]:
+        """Baselines of subscripts, below 0, and of superscripts."""
+        return -self._metric("SUBSCRIPT_EM_Y_OFFSET"), self._metric("SUPERSCRIPT_EM_Y_OFFSET")
+
+    @property
+    def vertical(self) -> tuple[float, float]:
+        """Ascender and descender of vertical lines: to the right and left of their middle."""
+        return self._metric("VERTICAL_ASCENDER"), self._metric("VERTICAL_DESCENDER")
+
+    def _metric(self, name: str) -> float:
+        tag = harfbuzz().OTMetricsTag[name]
+        return float(self._font.get_metric_position_with_fallback(tag))
+
+    def has(self, codepoint: int) -> bool:
+        """Whether it has a glyph of a character, and is to be used for it."""
+        if self.ranges and not any(first <= codepoint <= last for first, last in self.ranges):
+            return False
+        return self._described.get_nominal_glyph(codepoint) is not None
+
+    @cached_property
+    def characters(self) -> frozenset[int]:
+        """Codes of the characters in its table; a font of symbols `has` others in their stead, too."""
+        return frozenset(self._described.face.unicodes)
+
+    def lowered(self, glyph: int) -> float:
+        """How far a glyph of vertical text is to be moved from where HarfBuzz puts it.
+
+        HarfBuzz centres each glyph of a font without vertical metrics in its cell. Browsers put all of a font on the
+        baseline, at the ascent below the top, so that letters have even steps.
+        """
+        if self._has_vertical:
+            return 0.0
+        return float(self._font.get_glyph_v_origin(glyph)[1]) - self.ascender
+
+    @cached_property
+    def _has_vertical(self) -> bool:
+        """Whether the font says where the glyphs of vertical text are."""
+        return not VERTICAL.isdisjoint(self._font.face.table_tags)
+
+    @property
+    def glyph_count(self) -> int:
+        """Number of glyphs."""
+        return int(self._described.face.glyph_count)
+
+    def outline(self, glyph: int) -> tuple[NDArray[np.float64], ...]:
+        """Closed contours of cubics (n, 4, 2), filled by the nonzero rule; none of a glyph that is empty."""
+        if glyph not in self._outlines:
+            self._outlines[glyph] = glyph_outline(self._font, glyph)
+        return self._outlines[glyph]
+
+    @cached_property
+    def _outlines(self) -> dict[int, tuple[NDArray[np.float64], ...]]:
+        return {}
+
+    def missing(self, glyph: int) -> str:
+        """What a note says of a glyph that has a box and no outline; empty for any other.
+
+        HarfBuzz draws none that is composed of itself, or of more than its limits allow.
+        """
+        if self.outline(glyph) or self._in_colour:
+            return ""
+        box = self._font.get_glyph_extents(glyph)
+        if box is None or not (box.width and box.height):
+            return ""
+        return f"glyph {glyph} of font {self.family[:40]!r}, which is composed of itself or of too many others"
+
+    def layers(self, glyph: int, foreground: Color = (0.0, 0.0, 0.0)) -> Layers | None:
+        """What a glyph in colour paints, with the text's own colour where the font says so; None of any other."""
+        return glyph_layers(self._font, glyph, self.outline, foreground) if self._in_colour else None
+
+    @cached_property
+    def _in_colour(self) -> bool:
+        """Whether it may have glyphs in colour."""
+        face = self._font.face
+        return bool(face.has_color_paint or face.has_color_layers or face.has_color_svg or face.has_color_png)
+
+    def varied(self, weight: float, stretch: float, style: str) -> "Face":
+        """The face nearest to a style; itself if it is not variable."""
+        slant = {"italic": ("ital", 1.0), "oblique": ("slnt", -14.0)}
+        wanted = dict([("wght", weight), ("wdth", stretch), *([slant[style]] if style in slant else [])])
+        if style == "italic" and "ital" not in self.axes:
+            wanted["slnt"] = slant["oblique"][1]
+        places = {
+            tag: min(max(value, low), high)
+            for tag, value in wanted.items()
+            for low, high in [self.axes.get(tag, (None, None))]
+            if low is not None and high is not None
+        }
+        return replace(self, variations=tuple(sorted(places.items()))) if places else self
+
+
+def faces_in(content: bytes) -> list[Face]:
+    """All faces of the content of a font file or collection; raises as `sfnt_of` does."""
+    return _all_faces(harfbuzz().Blob(sfnt_of(content)))
+
+
+def faces_of(path: Path) -> list[Face]:
+    """All faces of a font file, of which only those parts are read that are used; raises as `faces_in` does."""
+    if not path.is_file():  # a pipe would be waited for
+        raise SourceError(NO_FILE)
+    start = start_of(path)
+    if is_sfnt(start):
+        return _all_faces(harfbuzz().Blob.from_file_path(os.fspath(path)))
+    content = read_bytes(path)
+
+    @cache
+    def load() -> Any:
+        with about(os.fspath(path)):
+            return harfbuzz().Blob(sfnt_of(content))
+
+    return _all_faces(harfbuzz().Blob(sfnt_of(content, DESCRIBING)), load)
+
+
+def _all_faces(blob: Any, load: Callable[[], Any] | None = None) -> list[Face]:
+    count = min(harfbuzz().Face(blob).count, MOST_FACES)
+    if not count:
+        raise SourceError("the font is damaged: it has no faces; save it again")
+    return [Face(blob, index, load=load) for index in range(count)]

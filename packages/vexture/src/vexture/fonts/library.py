@@ -1,0 +1,289 @@
+"""The fonts that a text may use, and which of them it gets."""
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from itertools import chain
+from pathlib import Path
+from string import ascii_letters
+from typing import Final, TypeAlias
+
+from vexture.base.content import about
+from vexture.base.errors import SourceError
+from vexture.fonts.face import Face, faces_in, faces_of
+from vexture.fonts.files import SUFFIXES
+from vexture.fonts.matching import NORMAL_STRETCH, REGULAR, Traits, preference
+from vexture.fonts.system import default_files, font_files, generic_family, system_files
+
+__all__ = ["GENERIC", "EmbeddedFont", "Fonts"]
+
+Place: TypeAlias = str | os.PathLike[str]
+
+SANS: Final = ("Noto Sans", "DejaVu Sans", "Liberation Sans", "Arial", "Helvetica", "Segoe UI")
+LATIN: Final = frozenset(map(ord, ascii_letters))
+GENERIC: Final = {
+    "serif": ("Noto Serif", "DejaVu Serif", "Liberation Serif", "Times New Roman", "Times"),
+    "sans-serif": SANS,
+    "monospace": ("Noto Sans Mono", "DejaVu Sans Mono", "Liberation Mono", "Menlo", "Consolas", "Courier New"),
+    "cursive": ("Comic Neue", "Comic Sans MS", "Apple Chancery"),
+    "fantasy": ("Impact", "Papyrus"),
+    "system-ui": SANS,
+    "emoji": ("Noto Color Emoji", "Apple Color Emoji", "Segoe UI Emoji", "Twemoji Mozilla"),
+    "math": ("Noto Sans Math", "STIX Two Math", "Cambria Math"),
+}
+"""Generic families, and what may stand for them where fontconfig does not say."""
+
+
+@dataclass(frozen=True, slots=True)
+class EmbeddedFont:
+    """A font of a drawing, as an ``@font-face`` rule describes it; where it says nothing, the font itself does."""
+
+    family: str
+    content: bytes | Face
+    weights: tuple[float, float] | None = None
+    stretches: tuple[float, float] | None = None
+    style: str | None = None
+    ranges: tuple[tuple[int, int], ...] = ()  # first and last characters that it is used for; all without any
+
+
+@dataclass(frozen=True)
+class Listed:
+    """A face that may be used."""
+
+    names: frozenset[str]
+    traits: Traits
+    face: Face
+    place: int = 0  # of the given files and folders, that which it is from
+    file: Path | None = None  # None of a font of the drawing
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What a text wants of a face: a style, and glyphs of some characters, by their codes."""
+
+    weight: float
+    style: str
+    stretch: float
+    codes: frozenset[int] = frozenset()
+
+    def rank(self, listed: Listed) -> tuple[float, ...]:
+        """Sorts faces by their style, the best first."""
+        return preference(listed.traits, self.weight, self.style, self.stretch)
+
+    def best_of(self, faces: Sequence[Listed]) -> list[Listed]:
+        """The best of some faces; all subsets of it, if it is cut into some, that with most of the characters first.
+
+        Many subsets have a few Latin letters, too: of those with as many of the characters, that with most of these is
+        first, so that pairs of letters are kerned.
+        """
+        best = min(faces, key=self.rank)
+        name, rank = best.face.full_names, self.rank(best)
+        subsets = [one for one in faces if one.face.full_names == name and self.rank(one) == rank]
+        if len(subsets) > 1:
+            subsets.sort(
+                key=lambda one: (len(self.codes & (own := one.face.characters)), len(LATIN & own)), reverse=True
+            )
+        return subsets
+
+
+class Fonts:
+    """Fonts for texts, from files, a drawing, the system and a default font.
+
+    Parameters
+    ----------
+    files : iterable of path
+        Font files, and folders of them.
+    embedded : iterable of EmbeddedFont
+        Fonts of the drawing.
+    system : bool
+        Whether the system's fonts are used too.
+
+    Raises
+    ------
+    SourceError
+        If a file cannot be read or is no font, or a folder holds none.
+    DeviceError
+        If uharfbuzz is not installed.
+    """
+
+    def __init__(self, files: Iterable[Place] = (), embedded: Iterable[EmbeddedFont] = (), system: bool = True) -> None:
+        self.files = tuple(Path(file) for file in files)
+        self.embedded = tuple(embedded)
+        self.system = system
+
+    def faces(
+        self,
+        families: Sequence[str],
+        weight: int = 400,
+        style: str = "normal",
+        stretch: float = 100.0,
+        characters: Iterable[str] = ascii_letters,
+    ) -> Iterator[Face]:
+        """Faces for a text, the best first: use for each character the first that has it.
+
+        Those of the families come first, and then one of each other family: of the given files, of the default font,
+        of the system. `Face.family` tells what a face is of. A font may be cut into subsets, as those of the web are:
+        all of a face come one after another, that with most of the `characters` first.
+        """
+        shown: set[int] = set()
+        for listed in self._ordered(families, Wanted(weight, style, stretch, frozenset(map(ord, characters)))):
+            if id(listed) not in shown:
+                shown.add(id(listed))
+                yield listed.face.varied(weight, stretch, style)
+
+    def substitute(
+        self, families: Sequence[str], weight: int = 400, style: str = "normal", stretch: float = 100.0
+    ) -> Path | None:
+        """File of the first of `faces`, if it lacks the weight, the width or the upright style that is asked for.
+
+        None, too, if there is nothing to choose: only one face is there, and it is not asked for another weight or
+        width than the normal one. A slope that is asked for and lacking is not looked at.
+        """
+        wanted = Wanted(weight, style, stretch)
+        first = next(self._ordered(families, wanted), None)
+        if first is None or first.traits.offers(weight, style if style == "normal" else None, stretch):
+            return None
+        is_one = len({one.traits for one in self._beside(first)}) == 1
+        return None if is_one and (weight, stretch) == (REGULAR, NORMAL_STRETCH) else first.file
+
+    def _beside(self, listed: Listed) -> Iterator[Listed]:
+        """The faces among which one was chosen: of the same given file or folder, or else of the same family."""
+        for source in self._sources():
+            if listed in source:
+                if source is self._given:
+                    yield from (one for one in source if one.place == listed.place)
+                else:
+                    yield from (one for one in source if one.names & listed.names)
+                return
+
+    def _ordered(self, families: Sequence[str], wanted: Wanted) -> Iterator[Listed]:
+        """What may be used, the best first; some of it several times."""
+        return chain(self._named(families, wanted), self._others(wanted))
+
+    def count_named(
+        self, families: Sequence[str], weight: int = 400, style: str = "normal", stretch: float = 100.0
+    ) -> int:
+        """Number of the first `faces` that are of the families; the others stand in for these."""
+        return len({id(listed) for listed in self._named(families, Wanted(weight, style, stretch))})
+
+    def _named(self, families: Sequence[str], wanted: Wanted) -> Iterator[Listed]:
+        """The best face of each of some families."""
+        for name in self._asked(families):
+            yield from self._chosen(name, wanted)
+
+    def _asked(self, families: Sequence[str]) -> Iterator[str]:
+        """Names of families, with those that stand for generic ones: given ones, the system's choice, and others."""
+        for family in families:
+            yield family
+            if family.lower() in GENERIC:
+                given = {name for listed in (*self._given, *self._embedded) for name in listed.names}
+                yield from (name for name in GENERIC[family.lower()] if name.casefold() in given)
+                yield from filter(None, [generic_family(family.lower()) if self.system else ""])
+                yield from GENERIC[family.lower()]
+
+    def local(self, name: str) -> Face | None:
+        """The face of a full or PostScript name among the given fonts and those of the system; None without it."""
+        found = (
+            listed.face
+            for source in self._sources()
+            if source is not self._embedded
+            for listed in source
+            if name.casefold() in listed.face.full_names
+        )
+        return next(found, None)
+
+    def _chosen(self, name: str, wanted: Wanted) -> Iterator[Listed]:
+        """The best face of a family in the first source that has the family.
+
+        Of a family of the drawing all that are as good come, the last one first: each is for characters of its own
+        (CSS Fonts 4, 5.3).
+        """
+        for source in self._sources():
+            named = [listed for listed in source if name.casefold() in listed.names]
+            if named:
+                if source is self._embedded:
+                    best = min(map(wanted.rank, named))
+                    yield from (one for one in reversed(named) if wanted.rank(one) == best)
+                else:
+                    yield from wanted.best_of(named)
+                return
+
+    def _others(self, wanted: Wanted) -> Iterator[Listed]:
+        """The best face of each family of each source; a font of the drawing stands in for no other one.
+
+        Of the families in a given folder, that which has the style comes first: fonts with nine weights often have a
+        family for each.
+        """
+        for source in self._sources():
+            if source is self._embedded:
+                continue
+            families: dict[str, list[Listed]] = {}
+            for listed in source:
+                families.setdefault(listed.face.family, []).append(listed)
+            ordered = [*families.values()]
+            if source is self._given:
+                ordered.sort(key=lambda named: (named[0].place, min(map(wanted.rank, named))))
+            for named in ordered:
+                yield from wanted.best_of(named)
+
+    def _sources(self) -> Iterator[tuple[Listed, ...]]:
+        yield self._given
+        yield self._embedded
+        yield of_files(default_files())
+        if self.system:
+            yield of_files(system_files())
+
+    @cached_property
+    def _given(self) -> tuple[Listed, ...]:
+        found: list[Listed] = []
+        for place, path in enumerate(self.files):
+            if path.is_dir():
+                in_it = of_files(tuple(font_files(path)))
+                if not in_it:
+                    kinds = ", ".join(SUFFIXES)
+                    raise SourceError(f"{path}: the folder holds no font that can be read; give one with {kinds}")
+                found += (replace(listed, place=place) for listed in in_it)
+                continue
+            with about(os.fspath(path)):
+                found += (replace(listed_of(face, path), place=place) for face in faces_of(path))
+        return tuple(found)
+
+    @cached_property
+    def _embedded(self) -> tuple[Listed, ...]:
+        found = []
+        for font in self.embedded:
+            with about(f"the font {font.family!r} of the drawing"):
+                face = font.content if isinstance(font.content, Face) else faces_in(font.content)[0]
+                own = listed_of(replace(face, ranges=font.ranges))
+            traits = Traits(
+                font.weights or own.traits.weights,
+                font.stretches or own.traits.stretches,
+                own.traits.styles if font.style is None else (font.style,),
+            )
+            found.append(Listed(frozenset([font.family.casefold()]), traits, own.face))
+        return tuple(found)
+
+
+@cache
+def of_files(paths: tuple[Path, ...]) -> tuple[Listed, ...]:
+    """All faces of files; those that cannot be read are passed over."""
+    found: list[Listed] = []
+    for path in paths:
+        try:
+            found += (listed_of(face, path) for face in faces_of(path))
+        except SourceError:
+            continue
+    return tuple(found)
+
+
+def listed_of(face: Face, file: Path | None = None) -> Listed:
+    """A face with its names, what it offers, and its file."""
+    axes = face.axes
+    slopes = [style for style, axis in (("italic", "ital"), ("oblique", "slnt")) if axis in axes]
+    traits = Traits(
+        axes.get("wght", (face.weight, face.weight)),
+        axes.get("wdth", (face.stretch, face.stretch)),
+        (face.style, *slopes),
+    )
+    return Listed(frozenset(name.casefold() for name in face.names), traits, face, file=file)

@@ -1,0 +1,34 @@
+"""Fonts as parameters give them: files, and folders of them."""
+
+import os
+from pathlib import Path
+
+from vexture.base.errors import ParameterError, SourceError
+
+__all__ = ["NO_FILE", "font_places"]
+
+NO_FILE = "it is no file; give a font file or a folder of fonts"
+
+
+def font_places(given: object, name: str) -> tuple[Path, ...]:
+    """Paths of the parameter `name`: one of them or several.
+
+    Raises a `ParameterError` if they are no paths, and a `SourceError` if one leads nowhere, whether it is used or not.
+
+    Examples
+    --------
+    >>> font_places("nowhere.ttf", "fonts")
+    Traceback (most recent call last):
+    vexture.base.errors.SourceError: nowhere.ttf: it is no file; give a font file or a folder of fonts
+    """
+    several = [given] if isinstance(given, str | os.PathLike) else given
+    places = [*several] if isinstance(several, list | tuple | set | frozenset) else [several]
+    found = list[Path]()
+    for place in places:
+        if not isinstance(place, str | os.PathLike) or not isinstance(os.fspath(place), str):
+            raise ParameterError(f"`{name}` is {given!r:.80}; it must be paths of font files or folders of fonts")
+        found.append(Path(place))
+    for path in found:
+        if not path.exists():
+            raise SourceError(f"{path}: {NO_FILE}")
+    return tuple(found)

@@ -1,0 +1,217 @@
+"""The widget of a drawing: what it shows is traits, which Python and the page both change."""
+
+import base64
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+import anywidget
+import numpy as np
+import traitlets
+from ipywidgets import widget_serialization
+from numpy.typing import NDArray
+
+from vexture.base.errors import ParameterError
+from vexture.drawing.colors import Color, parse_color
+from vexture.notebook.colours import coloured, components_of
+from vexture.notebook.picture import MODES, Mode, home_of, png_of, seen
+from vexture.notebook.shared import Shared, shared
+from vexture.notebook.traits import Background, Choice, Colours, Pixels, Rectangle
+from vexture.pages.page import Bundle, built, check_output, data_address, whole_page
+from vexture.renderers.view import Size, window
+from vexture.server.published import TEXTURE_TYPE, File
+from vexture.texture.files import write_together
+from vexture.texture.select_root import layers_of
+from vexture.texture.texture import Texture
+
+__all__ = ["HEIGHT", "PAGE", "VectorWidget"]
+
+PAGE: Final = Bundle("notebook.js", "notebook.css")
+"""The engine of all widgets, which is also the script of a page that `save` writes."""
+
+LOADER: Final = "notebook-widget.js"
+HEIGHT: Final = 400
+"""Pixels."""
+
+PICTURE_WIDTH: Final = 640
+"""Pixels of a picture of a widget that is as wide as its cell."""
+
+PNG: Final = ".png"
+SAVED: Final = ("view", "root", "mode", "background", "colors", "_home", "_name")
+"""Traits that a saved page has; it is as large as its window."""
+
+
+def _colours_to_json(colours: Mapping[str, Any], widget: "VectorWidget") -> dict[str, list[float]]:
+    return widget.components(colours)
+
+
+def _written(value: Any) -> Any:
+    """A trait as JSON, which has no bytes."""
+    if isinstance(value, dict):
+        return {name: _written(part) for name, part in value.items()}
+    return {"base64": base64.b64encode(value).decode()} if isinstance(value, bytes | memoryview) else value
+
+
+class VectorWidget(anywidget.AnyWidget):
+    """A drawing that can be moved and pointed at; `vexture.show` makes it.
+
+    Attributes
+    ----------
+    view : (float, float, float, float)
+        What is seen: left, bottom, width and height of a rectangle of the unit square (y up), centred at the largest
+        size that fits, as of `vexture.window`. Dragging, the wheel and keys change it, and so may Python.
+    root : str, int or None
+        Which drawing of the texture; another one is shown whole, unless the view was chosen.
+    mode : str
+        ``"paint"``, the drawing in its colours, or ``"silhouette"``, what it covers, in black.
+    colors : dict
+        Other colours, by the names of elements (of a drawing converted with `restyle`) or of shapes: what
+        `Texture.with_paints` takes. Without an entry a colour is the drawing's own.
+    background : str
+        A CSS colour, or ``"transparent"``.
+    width, height : int
+        CSS pixels; without a width it is as wide as its cell.
+    picked : dict or None
+        What was clicked last: ``root`` and ``element``, names or None; ``position`` in the unit square, and ``source``,
+        the same place in the units of the drawing's file.
+    hovered : dict or None
+        ``root`` and ``element`` under the pointer.
+    """
+
+    saved_traits: tuple[str, ...] = ()
+    """Traits of a subclass that a saved page has, too."""
+
+    _esm = traitlets.Unicode().tag(sync=True)
+    _engine = traitlets.Instance(Shared).tag(sync=True, **widget_serialization)
+    _source = traitlets.Instance(Shared, allow_none=True).tag(sync=True, **widget_serialization)
+    _home = Rectangle().tag(sync=True)
+    _name = traitlets.Unicode().tag(sync=True)
+    view = Rectangle().tag(sync=True)
+    root = traitlets.Union([traitlets.Int(), traitlets.Unicode()], allow_none=True, default_value=None).tag(sync=True)
+    mode = Choice(MODES, MODES[0]).tag(sync=True)
+    colors = Colours().tag(sync=True, to_json=_colours_to_json)
+    background = Background("white").tag(sync=True)
+    width = Pixels(None, allow_none=True).tag(sync=True)
+    height = Pixels(HEIGHT).tag(sync=True)
+    picked = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
+    hovered = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
+
+    def __init__(self, texture: Texture | None, **traits: Any) -> None:
+        self._texture = texture
+        if texture is not None:  # else it comes later
+            traits |= {"_home": home_of(texture, traits.get("root")), "_name": texture.name}
+            traits["_source"] = shared(texture.to_ktx2())
+        traits.setdefault("view", traits["_home"])
+        super().__init__(_engine=shared(built(PAGE.script)), **traits)
+
+    def __repr__(self) -> str:
+        """Name and view."""
+        return f"<{type(self).__name__} {self._name!r}: view {', '.join(f'{number:g}' for number in self.view)}>"
+
+    @property
+    def texture(self) -> Texture:
+        """What is shown; for another one make another widget."""
+        assert self._texture is not None
+        return self._texture
+
+    def close(self) -> None:
+        """End the widget; the last one of a texture frees its bytes."""
+        if self.comm is not None:
+            for each in (self._engine, self._source):
+                if each is not None:
+                    each.release()
+        super().close()
+
+    def render(self, size: Size | None = None) -> NDArray[np.float32]:
+        """What the widget shows, drawn by the renderer on the CPU, without its background.
+
+        Parameters
+        ----------
+        size : int or (int, int), optional
+            Width and height in pixels; by default those of the widget, 640 pixels wide if it is as wide as its cell.
+
+        Returns
+        -------
+        (height, width, 4) float32 array
+            As of `vexture.render`.
+        """
+        shown = self.coloured()
+        mode: Mode = self.mode
+        return seen(shown, size or (self.width or PICTURE_WIDTH, self.height), self.view, mode, self.root)
+
+    def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
+        """Red, green, blue and opacity of colours by their names; refuses what cannot be shown."""
+        return components_of(self.texture, colours, self.root)
+
+    def coloured(self) -> Texture:
+        """The texture in the colours that the widget shows."""
+        return coloured(self.texture, self.colors, self.root)
+
+    def only_saved(self) -> dict[str, Any]:
+        """What a saved page has in place of the kernel."""
+        return {}
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write what the widget shows: ``NAME.png`` is a picture, ``NAME.html`` a page that needs no kernel or network.
+
+        Raises
+        ------
+        ParameterError
+            If the name ends otherwise.
+        DeviceError
+            If the file cannot be written.
+        """
+        target = Path(path)
+        if target.suffix.lower() == PNG:
+            return write_together({target: png_of(self.render(), self.background)})
+        check_output(target, PAGE)
+        state = {
+            **{name: _written(self.get_state(name)[name]) for name in (*SAVED, *self.saved_traits)},
+            **self.only_saved(),
+            "width": None,
+            "height": None,
+        }
+        assert self._source is not None
+        texture = data_address(File(self._source.content, TEXTURE_TYPE, ".ktx2"))
+        return write_together({target: whole_page(PAGE, {"state": state, "texture": texture}, self.texture.name)})
+
+    @traitlets.default("_esm")
+    def _loader(self) -> str:
+        return built(LOADER).decode()
+
+    @traitlets.validate("root")
+    def _checked_root(self, proposal: Any) -> Any:
+        layers_of(self.texture.roots, proposal["value"], self.texture.name)
+        return proposal["value"]
+
+    @traitlets.validate("colors")
+    def _checked_colours(self, proposal: Any) -> Any:
+        self.components(proposal["value"])
+        return proposal["value"]
+
+    @traitlets.validate("background")
+    def _checked_background(self, proposal: Any) -> Any:
+        if not isinstance(parse_color(proposal["value"]), Color):
+            raise ParameterError(
+                f"`background` is {proposal['value'][:60]!r}; give a CSS colour, such as 'white' or 'transparent'"
+            )
+        return proposal["value"]
+
+    @traitlets.validate("view")
+    def _checked_view(self, proposal: Any) -> Any:
+        window(*proposal["value"])  # which says what is wrong
+        return proposal["value"]
+
+    @traitlets.observe("root")
+    def _go_home(self, change: Any) -> None:
+        was_home = self.view == self._home
+        self._home = home_of(self.texture, change["new"])
+        if was_home:
+            self.view = self._home
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+        """The widget, and a picture of it for where there are no widgets: IPython asks by this name."""
+        data, metadata = super()._repr_mimebundle_(**kwargs) or ({}, {})
+        picture = base64.b64encode(png_of(self.render(), self.background)).decode()
+        return {**data, "image/png": picture}, metadata

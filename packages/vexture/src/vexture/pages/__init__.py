@@ -1,0 +1,1 @@
+"""The viewer: its page, on a server or in one file."""

@@ -1,0 +1,77 @@
+"""`vexture serve`: the shapes of a folder, for readers and publishers."""
+
+from collections.abc import Callable, Sequence
+from contextlib import closing, suppress
+from dataclasses import replace
+from pathlib import Path
+
+from starlette.routing import Route
+
+from vexture.base.errors import DeviceError, counted
+from vexture.pages.page_routes import page_routes
+from vexture.server.converter import BusyError, Converter
+from vexture.server.folder import Folder
+from vexture.server.limits import Limits
+from vexture.server.listen import background, bind, listen, serve_until_stopped
+from vexture.server.publish_file import PUBLISHED_PARAMETERS
+from vexture.server.routes import application, routes
+from vexture.server.tokens import read_token
+from vexture.server.uploads import publishing_routes
+
+__all__ = ["serve"]
+
+
+def serve(
+    path: Path,
+    token_file: Path | None,
+    host: str,
+    port: int,
+    limits: Limits,
+    precision: float | None,
+    fonts: Sequence[Path] | None,
+    say: Callable[[str], None],
+) -> None:
+    """Serve a folder until Ctrl-C or SIGTERM; without a token nothing can be published.
+
+    `precision` and `fonts` are those of conversions; `say` takes lines for the user, first the address of the server.
+    """
+    token = None if token_file is None else read_token(token_file)
+    with closing(bind(host, port)) as taken:
+        is_new = not path.exists()
+        folder = Folder(path, limits, say)
+        waiting = len(folder.drawings)
+        converter = Converter(limits, replace(PUBLISHED_PARAMETERS, precision=precision, fonts=fonts))
+
+        async def start() -> None:
+            with suppress(BusyError):
+                await converter.warm()
+                await folder.take_drawings(converter)
+                if waiting:
+                    say(f"{path}: {counted(len(folder.names), 'shape')}")
+
+        app = application(
+            [*routes(folder), *publishing_routes(folder, converter, limits, token), *_page()],
+            limits,
+            lifespan=background(start),
+        )
+
+        def stop() -> None:
+            folder.close()
+            converter.close()
+
+        shapes = f"{counted(len(folder.names), 'shape')} of " if folder.names or not waiting else ""
+        to_read = f", with {counted(waiting, 'file')} to read," if waiting else ""
+        say(f"serving {shapes}{path}{to_read} at {listen(taken)}")
+        if is_new:
+            say(f"{path}: there was no such folder, so it was created")
+        try:
+            serve_until_stopped(app, taken, stop, limits)
+        finally:
+            folder.release()
+
+
+def _page() -> list[Route]:
+    """Routes of the viewer's page, if it is built."""
+    with suppress(DeviceError):
+        return page_routes()
+    return []

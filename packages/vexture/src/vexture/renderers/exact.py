@@ -1,0 +1,209 @@
+"""The reference renderer: exact coverage or colours of a drawing's pixels, directly from its curves.
+
+It deliberately uses neither the quad-tree, its boundary code nor a fill library, because it judges them. A sweep goes
+from top to bottom over the drawing's chords (`vexture.renderers.flatten`), slab by slab (`vexture.renderers.slabs`).
+Each path's winding number, counted from left to right, tells which chords bound the union of the paths, or at which the
+colour changes (`vexture.renderers.faces`). The exact trapezoids of these are added to the pixels of the row, and the
+integrals over faces with gradients (`vexture.renderers.regions`).
+"""
+
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.deadline import check_time
+from vexture.base.errors import ParameterError
+from vexture.base.kernels import kernel
+from vexture.base.tolerance import FLATNESS, SCANLINE
+from vexture.drawing.drawing import Drawing, FillRule
+from vexture.renderers.faces import FLAT, RUN, Faces, Stack, find_face, forget
+from vexture.renderers.flatten import Chords, find_chords
+from vexture.renderers.regions import SIDE, Regions, add_region, end_row
+from vexture.renderers.slabs import Sweep, add_edge, cross, next_slab
+from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
+
+__all__ = ["render_exact", "render_exact_colours"]
+
+BAND: Final = 4
+"""Rows between two looks at the clock: a row of thousands of outlines may take a second."""
+
+
+def render_exact(
+    drawing: Drawing, size: Size, view: ViewLike = None, *, flatness: float = FLATNESS
+) -> NDArray[np.float32]:
+    """Exact coverage of each pixel's square by the drawing's silhouette: the one-pixel box filter in screen space.
+
+    The silhouette is the union, over the paths, of the points whose winding number the path's fill rule accepts;
+    contours may cross, overlap and coincide. `size`, `view` and the result are as in `vexture.coverage`. `flatness` is
+    the largest distance between a curve and its chords, in pixels; at the default, the error of coverage is at most
+    0.03/255.
+    """
+    width, height = size_of(size)
+    image = np.zeros((height, width), np.float32)
+    chords = chords_of(drawing, (width, height), view, flatness)
+    if len(chords.lines):
+        evenodd = np.array([path.fill_rule == FillRule.EVENODD for path in drawing.paths])
+        sweep = Sweep.over(chords)
+        for rows in bands(height, drawing.name):
+            cover_rows(sweep, chords.owners, evenodd, rows, image)
+    return image
+
+
+def render_exact_colours(
+    drawing: Drawing, size: Size, view: ViewLike = None, *, flatness: float = FLATNESS
+) -> NDArray[np.float32]:
+    """Exact colour of each pixel's square, in sRGB: the sum, over the faces, of a face's colour times its area there.
+
+    A *face* is where the same paths are inside. Its colour is composited as SVG and CSS say, with the drawing's groups:
+    once, or where gradients are seen at every point, over which it is integrated. So nothing shines through where two
+    paths touch. The result is (height, width, 4), premultiplied, top row first; all else is as in `render_exact`.
+
+    The error of a component is at most 2/3 of the flatness times the length of the outlines in the pixel, each times
+    the jump of the component there: by default 0.005/255 for one outline. Integrals over gradients are refined until
+    they are steady, which costs up to 0.02/255 in most drawings, and was 0.1/255 in the worst pixel of 120 random ones
+    with all blend modes and up to ten periods of a gradient in a pixel. More than 64 periods in a pixel, or 1,024
+    corners of ramps on a line of one, are not resolved.
+    """
+    width, height = size_of(size)
+    image = np.zeros((height, width, 4), np.float32)
+    chords = chords_of(drawing, (width, height), view, flatness)
+    if len(chords.lines):
+        stack = Stack.of(drawing, view_matrix(view, (width, height)))
+        regions = Regions.between(chords.lines if stack.ramps.stops.size else chords.lines[:0], width)
+        sweep, faces = Sweep.over(chords), Faces.of(stack)
+        for rows in bands(height, drawing.name):
+            colour_rows(sweep, chords.owners, stack, faces, regions, rows, image)
+    return image
+
+
+def chords_of(drawing: Drawing, size: tuple[int, int], view: ViewLike, flatness: float) -> Chords:
+    """Chords of a drawing, after a look at what a caller asks for."""
+    matrix = view_matrix(view, size)
+    if not flatness >= SCANLINE:
+        raise ParameterError(f"`flatness` is {flatness:g} pixels; it must be at least {SCANLINE:.1e}")
+    return find_chords(drawing, size, matrix, flatness) if drawing.segments else Chords.room_for(0)
+
+
+def bands(height: int, name: str) -> Iterator[tuple[int, int]]:
+    """Yield the first row of each band of an image, and the one behind it, while there is time."""
+    for first in range(0, height, BAND):
+        check_time(name, "the exact renderer", "use another `renderer`, simplify the drawing")
+        yield first, min(first + BAND, height)
+
+
+@kernel
+def cover_rows(
+    sweep: Sweep,
+    owners: NDArray[np.int32],
+    evenodd: NDArray[np.bool_],
+    rows: tuple[int, int],
+    image: NDArray[np.float32],
+) -> None:
+    """Accumulate the coverage of each row of a band, slab by slab, below the rows that the sweep has reached."""
+    width = image.shape[1]
+    winding = np.zeros(len(evenodd), np.int64)
+    change = np.empty((width + 2, 1))  # of coverage from one pixel to the next; x = width adds to the last two
+    y = float(rows[0])
+    for row in range(rows[0], rows[1]):
+        change[:] = 0.0
+        while y < row + 1.0:
+            low = next_slab(sweep, y, row + 1.0)
+            cover_slab(sweep, owners, low - y, evenodd, winding, change)
+            y = low
+        coverage = 0.0
+        for column in range(width):
+            coverage += change[column, 0]
+            image[row, column] = min(max(coverage, 0.0), 1.0)
+
+
+@kernel
+def cover_slab(
+    sweep: Sweep,
+    owners: NDArray[np.int32],
+    height: float,
+    evenodd: NDArray[np.bool_],
+    winding: NDArray[np.int64],
+    change: NDArray[np.float64],
+) -> None:
+    """Count the windings across a slab's chords from left to right; add the chords where the union begins or ends."""
+    active, highs, lows = sweep.active[: sweep.counts[0]], sweep.highs, sweep.lows
+    covering = 0  # paths that are inside here
+    for k in range(len(active)):
+        step = cross(owners[active[k]], winding, evenodd)
+        covering += step
+        if step > 0 and covering == 1:
+            add_edge(highs[k], lows[k], height, (1.0,), change)
+        elif step < 0 and covering == 0:
+            add_edge(highs[k], lows[k], -height, (1.0,), change)
+    for chord in active:
+        winding[abs(owners[chord]) - 1] = 0
+
+
+@kernel
+def colour_rows(
+    sweep: Sweep,
+    owners: NDArray[np.int32],
+    stack: Stack,
+    faces: Faces,
+    regions: Regions,
+    rows: tuple[int, int],
+    image: NDArray[np.float32],
+) -> None:
+    """Accumulate the colours of each row of a band, as `cover_rows` does."""
+    width = image.shape[1]
+    change = np.empty((width + 2, 4))  # of each component, as in `cover_rows`
+    y = float(rows[0])
+    for row in range(rows[0], rows[1]):
+        change[:] = 0.0
+        forget(faces)
+        while y < row + 1.0:
+            low = next_slab(sweep, y, row + 1.0)
+            colour_slab(sweep, owners, (y, low), stack, faces, regions, change)
+            y = low
+        end_row(stack, faces, regions, change)
+        for channel in range(4):
+            value = 0.0
+            for column in range(width):
+                value += change[column, channel]
+                image[row, column, channel] = min(max(value, 0.0), 1.0)
+
+
+@kernel(allocates=False)
+def colour_slab(
+    sweep: Sweep,
+    owners: NDArray[np.int32],
+    heights: tuple[float, float],
+    stack: Stack,
+    faces: Faces,
+    regions: Regions,
+    change: NDArray[np.float64],
+) -> None:
+    """Add the chords of a slab at which the colour changes, by as much as it changes, and what varies between them."""
+    active, left = sweep.active[: sweep.counts[0]], faces.left
+    name, begin, face = 0, SIDE, (FLAT, 0)
+    left[:] = 0.0
+    for k in range(len(active)):
+        owner = owners[active[k]]
+        path = abs(owner) - 1
+        step = cross(owner, faces.winding, stack.evenodd)
+        if step != 0:
+            if face[0] != FLAT:
+                add_region((begin, active[k]), face, heights, stack, faces, regions, change)
+            faces.inside[path // RUN] += step
+            name ^= stack.names[path]
+            found = find_face(name, stack, faces)
+            begin, face = active[k], (faces.starts[found], faces.ends[found])
+            right = faces.colours[found]
+            jump = right[0] - left[0], right[1] - left[1], right[2] - left[2], right[3] - left[3]
+            if jump != (0.0, 0.0, 0.0, 0.0):
+                add_edge(sweep.highs[k], sweep.lows[k], heights[1] - heights[0], jump, change)
+                for channel in range(4):
+                    left[channel] = right[channel]
+    if face[0] != FLAT:
+        add_region((begin, SIDE), face, heights, stack, faces, regions, change)
+    for chord in active:
+        path = abs(owners[chord]) - 1
+        faces.winding[path] = 0
+        faces.inside[path // RUN] = 0

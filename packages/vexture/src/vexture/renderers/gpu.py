@@ -1,0 +1,69 @@
+"""Renders a packed texture by its shader on the GPU, without a window."""
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.layout import MAP_HEAD
+from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compiled, context, draw, upload
+from vexture.renderers.shader import color_source, view_source
+from vexture.renderers.uniforms import HasTexels, Uniforms, uniforms_of
+from vexture.renderers.view import Size, ViewLike
+
+__all__ = ["render_gpu", "render_gpu_colours"]
+
+
+@cache
+def program(is_flat: bool) -> Any:
+    """Compiled shader for all packed textures, in flat or any views, with its triangle."""
+    return compiled(view_source(VERSION, is_flat))
+
+
+@cache
+def color_program(is_flat: bool, is_linear: bool, has_gradients: bool) -> Any:
+    """The same for planar maps, averaged in linear light or in sRGB."""
+    return compiled(color_source(VERSION, is_flat, is_linear, has_gradients))
+
+
+def has_gradients(texture: HasTexels, quad: int) -> bool:
+    """Whether a paint of the planar map with this root quad is a program (FORMAT.md, D.1)."""
+    flat, head = texture.texels.reshape(-1, 4), quad - MAP_HEAD
+    return not 0 <= head < len(flat) or bool(flat[head, 1])
+
+
+def drawn(gl: Any, triangle: Any, texture: HasTexels, uniforms: Uniforms, channels: int) -> NDArray[np.float32]:
+    """Picture of one shape by a compiled shader, (height, width, channels)."""
+    uploaded = upload(gl, texture.texels, 0, "u4")
+    triangle.program["vextureTexels"] = 0
+    triangle.program["to_unit"].write(uniforms.to_unit.T.astype(np.float32).tobytes())
+    triangle.program["base"] = uniforms.base
+    triangle.program["root"] = uniforms.quad
+    pixels = draw(gl, triangle, uniforms.size, channels)
+    uploaded.release()
+    return pixels
+
+
+def render_gpu(texture: HasTexels, size: Size, view: ViewLike = None, *, root: int = 0) -> NDArray[np.float32]:
+    """Render one shape of a packed texture; parameters as in `vexture.renderers.cpu.render_cpu`.
+
+    Raises `DeviceError` without OpenGL, and `LimitError` if the image is larger than the device allows.
+    """
+    uniforms = uniforms_of(texture, size, view, root)
+    with ONE_AT_A_TIME, context() as gl:
+        return drawn(gl, program(uniforms.is_flat), texture, uniforms, 1)[..., 0]
+
+
+def render_gpu_colours(
+    texture: HasTexels, size: Size, view: ViewLike = None, *, root: int = 0, is_linear: bool = False
+) -> NDArray[np.float32]:
+    """Render one planar map of a texture; parameters as in `vexture.renderers.colour.render_cpu_colours`.
+
+    Raises as `render_gpu` does.
+    """
+    uniforms = uniforms_of(texture, size, view, root)
+    with ONE_AT_A_TIME, context() as gl:
+        return drawn(
+            gl, color_program(uniforms.is_flat, is_linear, has_gradients(texture, uniforms.quad)), texture, uniforms, 4
+        )

@@ -1,0 +1,21 @@
+"""What the generator does not know is refused, never guessed at."""
+
+from vexture.base.errors import VextureError
+
+__all__ = ["ShaderError"]
+
+
+class ShaderError(VextureError):
+    """A text is outside of the subset of GLSL that has a meaning in WGSL.
+
+    Parameters
+    ----------
+    line : int
+        Its number in the text, from 1.
+    what : str
+        What is there, and what may be.
+    """
+
+    def __init__(self, line: int, what: str) -> None:
+        super().__init__(f"line {line}: {what}")
+        self.line = line

@@ -1,0 +1,1 @@
+"""Servers: textures that change while people look at them."""

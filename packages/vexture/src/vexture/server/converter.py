@@ -1,0 +1,181 @@
+"""Conversion in processes of their own, so that one that takes too long or too much memory cannot harm the server."""
+
+import asyncio
+import errno
+import os
+from collections.abc import AsyncIterator, Callable, Iterator
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import AsyncExitStack, asynccontextmanager, contextmanager, suppress
+from typing import Any, Final, Protocol, TypeVar
+
+from vexture.base.content import FileKind, kind_of, start_of
+from vexture.base.errors import LimitError, VextureError
+from vexture.conversion.parameters import Parameters
+from vexture.server.limits import Limits
+from vexture.server.publish_file import PUBLISHED_PARAMETERS, SMALL, shape_of
+from vexture.server.published import Shape
+from vexture.server.worker import Worker
+
+__all__ = ["BusyError", "Conversion", "Converter"]
+
+T = TypeVar("T")
+
+SIDE_BY_SIDE: Final = 2
+"""Conversions at one time: a slow one does not keep all others waiting."""
+
+MEMORY_BYTES: Final = 4 * 2**30
+"""Address space of a process."""
+
+TEMPORARY_BYTES: Final = 512 * 2**20
+"""On the disk, of all temporary files of a conversion, and of each."""
+
+FULL: Final = (errno.EFBIG, errno.ENOSPC, errno.EDQUOT)
+"""What systems say where there is no room for a file."""
+
+LOOK_SECONDS: Final = 0.2
+"""Between two looks at the temporary files of a conversion."""
+
+SUFFIXES: Final = {FileKind.TEXTURE: ".ktx2", FileKind.GEOJSON: ".geojson", FileKind.SVG: ".svg"}
+"""Added to the name of an upload, which its texture then names as its source."""
+
+
+class BusyError(VextureError):
+    """Too many conversions wait: try again later."""
+
+
+class Conversion(Protocol):
+    """A conversion of uploads of another kind, such as into the frame of a flood; it is sent to the processes."""
+
+    def warm(self) -> None:
+        """Load what a conversion needs."""
+
+    def shape_of(self, data: bytes, name: str) -> Shape:
+        """Convert an upload."""
+
+
+class Converter:
+    """Converts uploads side by side, as parameters say or by a conversion of another kind."""
+
+    def __init__(self, limits: Limits, how: Parameters | Conversion = PUBLISHED_PARAMETERS) -> None:
+        self._limits = limits
+        self._how = how
+        self._waiting = 0
+        self._workers = [Worker(MEMORY_BYTES, TEMPORARY_BYTES) for _ in range(SIDE_BY_SIDE)]
+        self._idle: asyncio.LifoQueue[Worker] = asyncio.LifoQueue()  # the last used is warm; others start when needed
+        for worker in self._workers:
+            self._idle.put_nowait(worker)
+        self._ended = False
+
+    @asynccontextmanager
+    async def _worker(self) -> AsyncIterator[Worker]:
+        """Wait for a worker that is idle."""
+        worker = await self._idle.get()
+        try:
+            if self._ended:
+                raise BusyError("the server stops; try again later")
+            yield worker
+        finally:
+            self._idle.put_nowait(worker)
+
+    async def warm(self) -> None:
+        """Start a process, so that the first conversion need not wait for it."""
+        async with AsyncExitStack() as held:  # all of them: a second one would compile the same kernels meanwhile
+            first, *_ = [await held.enter_async_context(self._worker()) for _ in self._workers]
+            with suppress(BrokenProcessPool):  # the server stops
+                await self._warmed(first)
+
+    async def _warmed(self, worker: Worker) -> Worker:
+        """A worker whose process is started, which takes no time of a conversion's."""
+        if not worker.is_running:
+            await worker.run(_warm, self._how)
+        return worker
+
+    @contextmanager
+    def place(self) -> Iterator[None]:
+        """Reserve a place for an upload; raises a `BusyError` if there is none."""
+        if self._waiting >= self._limits.conversions:
+            raise BusyError(f"{self._waiting} drawings wait to be converted already; try again in a few seconds")
+        self._waiting += 1
+        try:
+            yield
+        finally:
+            self._waiting -= 1
+
+    async def shape_of(self, data: bytes, name: str, file_name: str | None = None) -> Shape:
+        """Shape of an upload, whose content decides what it is; raises a `BusyError` if the server stops.
+
+        `file_name` is what its sender calls it; by default its name, with the suffix of what it is.
+        """
+        return await self.run(_convert, data, name, file_name, self._limits.texture_bytes, self._how, about=name)
+
+    async def run(self, work: Callable[..., T], *given: Any, about: str, seconds: float | None = None) -> T:
+        """Do work in a process, within so many seconds, by default those of an upload; raises as `shape_of` does."""
+        seconds = self._limits.conversion_seconds if seconds is None else seconds
+        async with self._worker() as worker:
+            try:
+                await self._warmed(worker)
+                async with asyncio.timeout(seconds):
+                    return await _watched(worker, worker.run(work, *given))
+            except asyncio.CancelledError:
+                worker.kill()
+                raise
+            except (TimeoutError, BrokenProcessPool, MemoryError, OSError) as error:
+                if isinstance(error, OSError) and not isinstance(error, TimeoutError) and error.errno not in FULL:
+                    raise
+                worker.kill()
+                if self._ended:
+                    raise BusyError("the server stops; try again later") from None
+                raise LimitError(f"{about}: its conversion {_need(error, seconds)}; simplify the drawing") from None
+
+    def close(self) -> None:
+        """End the processes and start no other one."""
+        self._ended = True
+        for worker in self._workers:
+            worker.kill()
+
+
+async def _watched(worker: Worker, work: "asyncio.Future[T]") -> T:
+    """Result of work whose temporary files have room; raises an `OSError` when they have none any more."""
+    while not work.done():
+        await asyncio.wait([work], timeout=LOOK_SECONDS)
+        if worker.temporary_bytes > TEMPORARY_BYTES:
+            raise OSError(errno.EFBIG, os.strerror(errno.EFBIG))
+    return await work
+
+
+def _need(error: Exception, seconds: float) -> str:
+    """What a conversion needs that it cannot have."""
+    if isinstance(error, TimeoutError):
+        return f"takes longer than {seconds:g} s"
+    if isinstance(error, OSError):
+        return f"needs more temporary files than have room, or than {TEMPORARY_BYTES:,} bytes of them"
+    return "needs too much memory"
+
+
+def _warm(how: Parameters | Conversion) -> None:
+    """Load what a conversion needs."""
+    if isinstance(how, Parameters):
+        shape_of(SMALL, "small.svg", "small", how)
+    else:
+        how.warm()
+
+
+def _convert(data: bytes, name: str, file_name: str | None, most: int, how: Parameters | Conversion) -> Shape:
+    """Convert an upload, in the process."""
+    from vexture.texture.ktx2 import TEXEL_BYTES
+    from vexture.texture.load import texture_from
+
+    if not isinstance(how, Parameters):
+        shape = how.shape_of(data, name)
+    elif file_name is not None:
+        shape = shape_of(data, file_name, name, how)
+    elif not data.strip():
+        raise LimitError(f"{name}: the upload is empty; send an SVG, GeoJSON, a picture or a packed texture")
+    else:
+        shape = shape_of(data, name + SUFFIXES.get(kind_of(start_of(data)), ""), name, how)
+    size = texture_from(shape.texture.data, name).nbytes
+    if size > most:
+        raise LimitError(
+            f"{name}: its texture has {size // TEXEL_BYTES} texels; the limit is {most // TEXEL_BYTES}; simplify it"
+        )
+    return shape

@@ -1,0 +1,40 @@
+"""A shelf with room for as many shapes, and as many bytes, as the limits of its server say."""
+
+from vexture.base.errors import LimitError
+from vexture.server.limits import Limits
+from vexture.server.published import Shape, Shelf
+
+__all__ = ["FullError", "LimitedShelf"]
+
+
+class FullError(LimitError):
+    """There is no room for a shape: remove others or raise the limit."""
+
+
+class LimitedShelf(Shelf):
+    """A shelf that accepts `Limits.max_shapes` shapes and `Limits.max_total` bytes."""
+
+    def __init__(self, limits: Limits) -> None:
+        super().__init__()
+        self._limits = limits
+
+    async def publish(self, shape: Shape) -> None:
+        """Keep a shape and tell all clients; raises what `check_room` raises."""
+        self.check_room(shape)
+        self.put(shape)
+
+    async def withdraw(self, name: str) -> None:
+        """Keep the shape of a name no longer, and tell all clients."""
+        self.remove(name)
+
+    def check_room(self, shape: Shape) -> None:
+        """Raise a `FullError` if there would be too many shapes, or too many bytes."""
+        before = self.shape(shape.name)
+        if before is None and len(self.names) >= self._limits.max_shapes:
+            raise FullError(f"{shape.name}: there are {len(self.names)} shapes, the limit; replace one of them")
+        new = {file.name: len(file.data) for file in shape.files}
+        old = {file.name: len(file.data) for file in (before.files if before else ()) if self.owners(file.name) == 1}
+        size = self.nbytes - sum(old[name] for name in old.keys() - new.keys())
+        size += sum(new[name] for name in new if not self.owners(name))
+        if size > self._limits.max_total:
+            raise FullError(f"{shape.name}: all shapes then have {size} bytes; the limit is {self._limits.max_total}")

@@ -1,0 +1,64 @@
+"""Limits of what a server accepts: sizes, times and rates."""
+
+import time
+from collections import OrderedDict
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+from vexture.base.errors import ParameterError
+
+__all__ = ["Limits", "Pace"]
+
+MOST_KNOWN: Final = 10_000
+"""Addresses whose pace is remembered; the one that was silent for longest is forgotten first."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Limits of a server, each of which it names when it refuses."""
+
+    max_bytes: int = 16 * 2**20  # of one upload
+    max_total: int = 2**30  # bytes of all files of all shapes
+    max_shapes: int = 10_000
+    rate: float = 10.0  # uploads a second from one address
+    burst: int = 20  # uploads at once from one address, after a pause
+    texture_bytes: int = 64 * 2**20  # of one texture in memory
+    upload_seconds: float = 60.0
+    conversion_seconds: float = 60.0
+    conversions: int = 16  # that may run or wait
+    connections: int = 2000  # less where the system allows fewer open files
+    head_seconds: float = 15.0  # from a connection, or the answer before, to the whole head of a request
+    stall_seconds: float = 60.0  # for a client to take what is buffered of its answer, about 128 kB
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            value = getattr(self, name)
+            if not value > 0:
+                raise ParameterError(f"`{name}` is {value:g}; it must be above 0")
+
+
+class Pace:
+    """Limits the rate of each publisher: a bucket of `burst` tokens for each address, refilled by `rate` a second.
+
+    Examples
+    --------
+    >>> pace = Pace(rate=2.0, burst=1, clock=lambda: 0.0)
+    >>> pace.wait("a"), pace.wait("a"), pace.wait("b")
+    (0.0, 0.5, 0.0)
+    """
+
+    def __init__(self, rate: float, burst: int, clock: Callable[[], float] = time.monotonic) -> None:
+        self._rate, self._burst, self._clock = rate, burst, clock
+        self._buckets: OrderedDict[str, tuple[float, float]] = OrderedDict()
+
+    def wait(self, who: str) -> float:
+        """Take a token; return 0 if there was one, else the seconds until there is."""
+        now = self._clock()
+        tokens, before = self._buckets.pop(who, (float(self._burst), now))
+        tokens = min(tokens + (now - before) * self._rate, self._burst)
+        taken = tokens >= 1.0
+        self._buckets[who] = (tokens - taken, now)
+        if len(self._buckets) > MOST_KNOWN:
+            self._buckets.popitem(last=False)
+        return 0.0 if taken else (1.0 - tokens) / self._rate

@@ -1,0 +1,161 @@
+"""The life of a server: its socket, work beside its answers, and a stop within a second."""
+
+import asyncio
+import logging
+import resource
+import signal
+import socket
+from collections.abc import AsyncIterator, Callable, Coroutine
+from contextlib import AbstractAsyncContextManager, asynccontextmanager, suppress
+from typing import Any, Final, TypeAlias
+
+import uvicorn
+from starlette.types import ASGIApp
+
+from vexture.base.errors import DeviceError, ParameterError
+from vexture.server.connections import ACCEPTED, InPieces, connections
+from vexture.server.limits import Limits, Pace
+
+__all__ = ["Lifespan", "background", "bind", "listen", "serve_until_stopped"]
+
+WAITING: Final = 2048
+"""Connections that may wait to be accepted."""
+
+STOP_SECONDS: Final = 1
+
+Lifespan: TypeAlias = Callable[[Any], AbstractAsyncContextManager[None]]
+
+
+def bind(host: str, port: int) -> socket.socket:
+    """Take a port, before anything else is done; clients are refused until `listen`.
+
+    Raises
+    ------
+    DeviceError
+        If the address cannot be used, above all because another server listens there.
+    ParameterError
+        If the number is not that of a port.
+
+    Examples
+    --------
+    >>> with bind("127.0.0.1", 0) as first:
+    ...     listen(first).startswith("http://127.0.0.1:")
+    True
+    """
+    try:  # without the port: getaddrinfo would take it modulo 2^16
+        family, kind, protocol, _, where = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)[0]
+        taken = socket.socket(family, kind, protocol)
+    except OSError as error:
+        raise DeviceError(f"host {host}: {error.strerror}; choose another `host`") from None
+    try:
+        taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        taken.bind((where[0], port, *where[2:]))
+    except OverflowError:
+        taken.close()
+        raise ParameterError(f"`port` is {port}; it must be 0 to 65535") from None
+    except OSError as error:
+        taken.close()
+        raise _unusable(host, port, error) from None
+    return taken
+
+
+def listen(taken: socket.socket) -> str:
+    """Let clients connect, since all is ready to be served; URL of the server.
+
+    Raises
+    ------
+    DeviceError
+        If another server has taken the port at the same time.
+    """
+    host, port = taken.getsockname()[:2]
+    try:
+        taken.listen(WAITING)
+    except OSError as error:
+        raise _unusable(host, port, error) from None
+    return f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"
+
+
+def _unusable(host: str, port: int, error: OSError) -> DeviceError:
+    line = f"port {port} on {host} cannot be used ({error.strerror}); stop the other server or choose another `port`"
+    return DeviceError(line)
+
+
+def background(work: Callable[[], Coroutine[Any, Any, None]]) -> Lifespan:
+    """Context of a server that does `work` while it answers, and cancels it when it stops."""
+
+    @asynccontextmanager
+    async def lifespan(_app: Any) -> AsyncIterator[None]:
+        task = asyncio.create_task(work())
+        try:
+            yield
+        finally:
+            task.cancel()
+            with suppress(asyncio.CancelledError):
+                await task
+
+    return lifespan
+
+
+class _Server(uvicorn.Server):
+    """A server that ends its open streams when it stops; otherwise it would wait for them."""
+
+    def __init__(self, config: uvicorn.Config, stop: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._stop = stop
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        for taken in sockets or ():
+            taken.listen(WAITING)  # the event loop has made the queue as short as the number that it accepts at once
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        self._stop()
+        logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)  # uploads that are cut off are no errors
+        await super().shutdown(sockets)
+
+
+class _Few(logging.Filter):
+    """Drops what was logged a moment ago: no client can fill the disk with a line."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._pace = Pace(rate=1 / 60, burst=3)
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        kind = record.exc_info[0] if record.exc_info else None
+        return not self._pace.wait(f"{record.name} {kind} {record.getMessage()[:100]}")
+
+
+def serve_until_stopped(app: ASGIApp, taken: socket.socket, stop: Callable[[], None], limits: Limits) -> None:
+    """Serve until Ctrl-C or SIGTERM; `stop` then ends streams and conversions, before the server waits for clients."""
+    _, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    with suppress(ValueError, OSError):  # one file for each client: as many as the system allows
+        resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
+
+    errors = logging.StreamHandler()
+    errors.addFilter(_Few())
+    logging.basicConfig(handlers=[errors], format="%(message)s")
+    config = uvicorn.Config(
+        InPieces(app),
+        http=connections(limits),
+        backlog=ACCEPTED,
+        log_config=None,
+        log_level="error",  # below it are only complaints about clients, which they are told
+        access_log=False,
+        server_header=False,
+        ws="none",
+        timeout_graceful_shutdown=STOP_SECONDS,
+    )
+    server = _Server(config, stop)
+
+    def end(*_: Any) -> None:
+        """Stop before Uvicorn listens to signals; it raises them again at its end, where nothing is left to do."""
+        server.should_exit = True
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, end)
+    try:
+        with suppress(KeyboardInterrupt):
+            server.run(sockets=[taken])
+    finally:
+        stop()  # a server that is ended while it starts does not shut down

@@ -1,0 +1,273 @@
+"""What every server answers: the list of shapes, their manifests, their files, and the stream of changes."""
+
+import asyncio
+import hashlib
+import ipaddress
+import json
+import unicodedata
+from collections.abc import AsyncIterator, Callable, Mapping
+from functools import lru_cache
+from typing import Any, Final, TypeAlias
+from urllib.parse import urlsplit
+
+from starlette.applications import Starlette
+from starlette.convertors import PathConvertor, register_url_convertor
+from starlette.exceptions import HTTPException
+from starlette.middleware import Middleware
+from starlette.middleware.cors import CORSMiddleware
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response, StreamingResponse
+from starlette.routing import Match, Route
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from vexture.server.description import DESCRIPTION, description
+from vexture.server.limits import Limits
+from vexture.server.listen import Lifespan
+from vexture.server.published import Event, Shape, Shelf, manifest
+
+__all__ = [
+    "FOREVER",
+    "NO_SNIFFING",
+    "KnownHosts",
+    "application",
+    "current",
+    "entity_tag",
+    "fixed",
+    "levels_below",
+    "refusal",
+    "routes",
+]
+
+PING_SECONDS: Final = 15
+"""A proxy takes a stream for dead that is silent for long."""
+
+TOLD: Final = 256
+"""Shapes of which a new client is told at once: a slow one takes its time without a copy of all."""
+
+FOREVER: Final = "public, max-age=31536000, immutable"
+SVG_POLICY: Final = "sandbox; default-src 'none'; style-src 'unsafe-inline'"
+NO_SNIFFING: Final = {"X-Content-Type-Options": "nosniff"}
+
+Views: TypeAlias = Callable[[Shape], Mapping[str, Any]]
+"""What a manifest names beside the files of a shape, relative to the manifest."""
+
+OTHER_ORIGINS: Final = Middleware(
+    CORSMiddleware,
+    allow_origins=["*"],
+    allow_methods=["GET", "HEAD"],
+    allow_headers=["If-None-Match", "Cache-Control", "Last-Event-ID"],
+    expose_headers=["ETag"],
+    max_age=86400,
+)
+"""Lets pages of other origins read."""
+
+
+class _Any(PathConvertor):
+    """Any rest of a path: Starlette's own has no ends of lines in it, and leaves out one at the end."""
+
+    regex = "(?s:.*)"
+
+
+register_url_convertor("any", _Any())
+
+
+class KnownHosts:
+    """Answers only requests to an IP address, ``localhost`` or the name of this server.
+
+    A hostile page can make its own name stand for this machine (DNS rebinding). It would then have the same origin as
+    the viewer and could read drawings. It cannot have the same origin as an IP address.
+    """
+
+    def __init__(self, app: ASGIApp, name: str) -> None:
+        self.app = app
+        self.names = {"localhost", name.lower()}
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass a request on, or refuse it."""
+        if scope["type"] == "http":
+            host = dict(scope["headers"]).get(b"host", b"").decode("latin-1")
+            if not self.knows(host):
+                answer = refusal(421, f"host {host[:100]!r} is not this server; open it by the address that it printed")
+                await answer(scope, receive, send)
+                return
+        await self.app(scope, receive, send)
+
+    def knows(self, host: str) -> bool:
+        """Whether a ``Host`` header names this server.
+
+        Examples
+        --------
+        >>> known = KnownHosts(None, "studio")
+        >>> [known.knows(host) for host in ("127.0.0.1:80", "[::1]:80", "Studio", "evil.example:80", "")]
+        [True, True, True, False, False]
+        """
+        try:
+            name = urlsplit(f"//{host}").hostname or ""
+            return name in self.names or bool(ipaddress.ip_address(name))
+        except ValueError:
+            return False
+
+
+def application(
+    listed: list[Route], limits: Limits, *, only_at: str | None = None, lifespan: Lifespan | None = None
+) -> Starlette:
+    """Make routes an application that describes itself, and whose errors are JSON.
+
+    With `only_at` it answers only requests that name this host or the machine itself (`KnownHosts`). Otherwise it
+    answers everyone, and lets pages of other origins read.
+    """
+    described = fixed(DESCRIPTION, description(listed, limits), "application/json", {"Cache-Control": "no-cache"})
+    app = Starlette(
+        routes=[*listed, described],
+        middleware=[OTHER_ORIGINS if only_at is None else Middleware(KnownHosts, name=only_at)],
+        lifespan=lifespan,
+        exception_handlers={HTTPException: _told, Exception: _failed},
+    )
+    app.router.redirect_slashes = False  # to a host that the client names
+    return app
+
+
+def refusal(status: int, line: str, headers: Mapping[str, str] | None = None) -> JSONResponse:
+    """Answer with one line that says why not."""
+    return JSONResponse({"error": line}, status, {"Cache-Control": "no-store", **(headers or {})})
+
+
+async def _told(request: Request, error: Exception) -> Response:
+    """Say in JSON what the framework refuses."""
+    assert isinstance(error, HTTPException)
+    if error.status_code == 405:
+        found = [route for route in request.app.routes if route.matches(request.scope)[0] is not Match.NONE]
+        allowed = sorted(set().union(*(route.methods for route in found)))  # the framework names those of one route
+        return refusal(405, f"{request.method} is not possible here", {"Allow": ", ".join(allowed)})
+    line = f"{request.url.path}: there is nothing here" if error.status_code == 404 else error.detail
+    return refusal(error.status_code, line, error.headers)
+
+
+async def _failed(request: Request, error: Exception) -> Response:
+    """Answer that the server has a fault; the traceback is in its log, not here."""
+    return refusal(500, f"the server failed ({type(error).__name__}); its log says more")
+
+
+def fixed(path: str, content: bytes, media_type: str, headers: Mapping[str, str]) -> Route:
+    """Route of content that never changes while the server runs."""
+    return current(path, lambda: content, media_type, headers)
+
+
+def current(path: str, content: Callable[[], bytes], media_type: str, headers: Mapping[str, str]) -> Route:
+    """Route of content as it is now; the same object is digested once."""
+    digest = lru_cache(1)(lambda found: hashlib.sha256(found).hexdigest()[:32])
+
+    async def answer(request: Request) -> Response:
+        found = content()
+        tagged = {"ETag": f'"{digest(found)}"', **headers}
+        return _unchanged(request, tagged) or Response(found, media_type=media_type, headers=tagged)
+
+    return Route(path, answer)
+
+
+def levels_below(request: Request) -> int:
+    """How many levels below ``shapes/`` the address of a shape's manifest is, as the client wrote it.
+
+    The slash in ``flood/00`` is a level, and ``%2F`` in its place is none.
+    """
+    name = request.path_params["name"]
+    return int(name.count("/")) - bytes(request.scope.get("raw_path") or b"").lower().count(b"%2f")
+
+
+def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[Route]:
+    """Routes to read the shapes of a shelf, whose manifests also name what `views` gives."""
+
+    async def shapes(request: Request) -> Response:
+        listed = _listed(tuple(shelf.names))
+        return Response(listed, media_type="application/json", headers={"Cache-Control": "no-cache"})
+
+    async def one(request: Request) -> Response:
+        name = unicodedata.normalize("NFC", request.path_params["name"])
+        shape = shelf.shape(name)
+        if shape is None:
+            return refusal(404, f"no shape {name[:100]!r}; /shapes lists the names")
+        note = shelf.notes.get(name)
+        headers = {"ETag": entity_tag(shape.version, note), "Cache-Control": "no-cache"}
+        told = manifest(shape, note, views(shape), levels=levels_below(request))
+        return _unchanged(request, headers) or JSONResponse(told, headers=headers)
+
+    async def file(request: Request) -> Response:
+        name = request.path_params["name"]
+        found = shelf.file(name)
+        if found is None:
+            return refusal(404, f"no file {name[:100]!r}; the manifest of its shape names the newest")
+        headers = {"ETag": f'"{name}"', "Cache-Control": FOREVER, **NO_SNIFFING}
+        if found.media_type.startswith("image/svg"):
+            headers["Content-Security-Policy"] = SVG_POLICY
+        return _unchanged(request, headers) or Response(found.data, media_type=found.media_type, headers=headers)
+
+    async def events(request: Request) -> Response:
+        headers = {"Cache-Control": "no-cache", "X-Accel-Buffering": "no", "Content-Type": "text/event-stream"}
+        if request.method != "HEAD":
+            return StreamingResponse(stream(shelf), headers=headers)
+        answer = Response(headers=headers)
+        del answer.headers["Content-Length"]  # of a stream nobody knows it
+        return answer
+
+    return [
+        Route("/shapes", shapes),
+        Route("/shapes/{name:any}", one),
+        Route("/files/{name}", file),
+        Route("/events", events),
+    ]
+
+
+@lru_cache(1)
+def _listed(names: tuple[str, ...]) -> bytes:
+    """Answer that many clients share."""
+    return json.dumps({"shapes": names}, ensure_ascii=False, separators=(",", ":")).encode()
+
+
+async def stream(shelf: Shelf) -> AsyncIterator[bytes]:
+    """First all versions and notes, so that a client that comes back catches up; then the changes.
+
+    The versions are one event, in parts. What changes between two parts is a change that comes after the event.
+    """
+    with shelf.events() as listener:
+        yield b'event: hello\r\ndata: {"versions":{'
+        names, separator = shelf.names, ""
+        for start in range(0, len(names), TOLD):
+            if versions := shelf.versions(names[start : start + TOLD]):
+                yield f"{separator}{json.dumps(versions, separators=(',', ':'))[1:-1]}".encode()
+                separator = ","
+        yield b"}}\r\n\r\n"
+        for name, message in shelf.notes.items():
+            yield Event("note", {"name": name, "message": message}).sent
+        while True:
+            try:
+                async with asyncio.timeout(PING_SECONDS):
+                    change = await listener.next()
+            except TimeoutError:
+                yield b": still here\r\n\r\n"
+                continue
+            if change is None:
+                return
+            yield change.sent
+
+
+def entity_tag(version: str, note: str | None) -> str:
+    """Tag of a manifest: its version, and a digest of the note."""
+    return f'"{version}"' if note is None else f'"{version}-{hashlib.sha256(note.encode()).hexdigest()[:8]}"'
+
+
+def _unchanged(request: Request, headers: Mapping[str, str]) -> Response | None:
+    """Answer 304 to a client that has the content of this ``ETag`` already, or None."""
+    known = is_known(headers["ETag"], request.headers.get("if-none-match", ""))
+    return Response(status_code=304, headers=headers) if known else None
+
+
+def is_known(tag: str, header: str) -> bool:
+    """Whether ``If-None-Match`` names a tag (RFC 9110, 13.1.2: weak comparison).
+
+    Examples
+    --------
+    >>> is_known('"a"', 'W/"a", "b"'), is_known('"a"', "*"), is_known('"a"', "")
+    (True, True, False)
+    """
+    tags = [part.strip().removeprefix("W/") for part in header.split(",")]
+    return tag in tags or tags == ["*"]

@@ -1,0 +1,148 @@
+"""Uploads of shapes: authorization, limits, and the answer to each upload that is refused."""
+
+import asyncio
+import hmac
+from contextlib import suppress
+from math import ceil
+from typing import Final
+from weakref import WeakValueDictionary
+
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Route
+
+from vexture.base.errors import EXPECTED, DeviceError, LimitError
+from vexture.server.converter import BusyError, Converter
+from vexture.server.limited_shapes import FullError, LimitedShelf
+from vexture.server.limits import Limits, Pace
+from vexture.server.names import checked_name
+from vexture.server.published import manifest
+from vexture.server.routes import entity_tag, levels_below, refusal
+from vexture.server.tokens import WrongTokens
+
+__all__ = ["publishing_routes", "received"]
+
+DRAINED: Final = 4
+"""Times the limit. So much of a refused body is read: a client that still sends does not see the answer."""
+
+DELAY_SECONDS: Final = 1.0
+MOST_DELAYED: Final = 100
+"""How long an answer to one of too many wrong tokens takes, and how many such answers wait at most."""
+
+CHALLENGE: Final = {"WWW-Authenticate": 'Bearer realm="vexture"'}
+WRONG: Final = {"WWW-Authenticate": 'Bearer realm="vexture", error="invalid_token"'}
+
+
+class _RefusedError(Exception):
+    """An upload that is answered with one line."""
+
+    def __init__(self, status: int, line: str, headers: dict[str, str] | None = None) -> None:
+        super().__init__(line)
+        self.status, self.line, self.headers = status, line, headers
+
+
+class _WrongTokenError(_RefusedError):
+    """One of too many."""
+
+
+def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits, token: str | None) -> list[Route]:
+    """Routes to publish shapes on a shelf with the token; without one, all uploads are refused."""
+    pace, wrong = Pace(limits.rate, limits.burst), WrongTokens()
+    delayed = asyncio.Semaphore(MOST_DELAYED)
+    turns: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
+
+    def admitted(request: Request) -> str:
+        who = request.client.host if request.client else ""
+        _check_token(request, token, wrong, who)
+        try:
+            name = checked_name(request.path_params["name"])
+        except LimitError as error:
+            raise _RefusedError(400, str(error)) from None
+        if wait := pace.wait(who):
+            line = f"more than {limits.rate:g} uploads a second; wait {wait:.1f} s"
+            raise _RefusedError(429, line, {"Retry-After": str(ceil(wait))})
+        return name
+
+    async def put(request: Request) -> Response:
+        try:
+            name = admitted(request)
+        except _RefusedError as error:
+            with suppress(TimeoutError, ClientDisconnect):
+                await received(request, limits, 0)
+            if isinstance(error, _WrongTokenError) and not delayed.locked():
+                async with delayed:
+                    await asyncio.sleep(DELAY_SECONDS)
+            return refusal(error.status, error.line, error.headers)
+        try:
+            data = await _body(request, limits)
+            with converter.place():  # not before the upload is here: a slow sender takes no place
+                async with turns.setdefault(name, asyncio.Lock()):  # of one name the last one that came stays
+                    return await published(name, data, levels_below(request))
+        except _RefusedError as error:
+            return refusal(error.status, error.line, error.headers)
+        except BusyError as error:
+            return refusal(503, str(error), {"Retry-After": "5"})
+
+    async def published(name: str, data: bytes, levels: int) -> Response:
+        try:
+            shape = await converter.shape_of(data, name)
+        except BusyError:
+            raise
+        except EXPECTED as error:
+            if shelf.shape(name) is not None:
+                shelf.refuse(name, str(error))
+            return refusal(422, str(error))
+        is_new = shelf.shape(name) is None
+        try:
+            await shelf.publish(shape)
+        except (FullError, DeviceError) as error:
+            return refusal(507, str(error))
+        headers = {"ETag": entity_tag(shape.version, None), "Cache-Control": "no-store"}
+        return JSONResponse(manifest(shape, None, {}, levels=levels), 201 if is_new else 200, headers)
+
+    return [Route("/shapes/{name:any}", put, methods=["PUT"])]
+
+
+def _check_token(request: Request, token: str | None, wrong: WrongTokens, who: str) -> None:
+    if token is None:
+        raise _RefusedError(403, "this server takes no uploads; start it with --token-file")
+    scheme, _, given = request.headers.get("authorization", "").partition(" ")
+    if scheme.lower() != "bearer":
+        raise _RefusedError(401, "uploads need the header Authorization: Bearer TOKEN", CHALLENGE)
+    if not hmac.compare_digest(given.strip().encode(), token.encode()):
+        if wait := wrong.wait(who):
+            line = f"the token is wrong, as others were before it; wait {wait:.0f} s, and give the right one"
+            raise _WrongTokenError(429, line, {"Retry-After": str(ceil(wait))})
+        raise _RefusedError(401, "the token is wrong", WRONG)
+
+
+async def _body(request: Request, limits: Limits) -> bytes:
+    """Content of an upload that is not too large and arrives in time."""
+    most = limits.max_bytes
+    length = request.headers.get("content-length", "0")
+    too_large = int(length[:20]) > most if length.isdecimal() else True
+    try:
+        body, size = await received(request, limits, 0 if too_large else most)
+    except TimeoutError:
+        raise _RefusedError(408, f"the upload took longer than {limits.upload_seconds:g} s; try again") from None
+    except ClientDisconnect:
+        raise _RefusedError(400, "the upload broke off; try again") from None
+    if too_large or size > most:
+        raise _RefusedError(413, f"the upload is larger than {most} bytes, the limit here; simplify the drawing")
+    return body
+
+
+async def received(request: Request, limits: Limits, kept: int) -> tuple[bytes, int]:
+    """Read a body: its content, if it has at most `kept` bytes, and the number of bytes read.
+
+    Raises a `TimeoutError` if that takes too long, and a `ClientDisconnect` if it breaks off.
+    """
+    body, size = bytearray(), 0
+    async with asyncio.timeout(limits.upload_seconds):
+        async for chunk in request.stream():
+            size += len(chunk)
+            if size <= kept:
+                body += chunk
+            elif size > DRAINED * limits.max_bytes:
+                break
+    return bytes(body), size

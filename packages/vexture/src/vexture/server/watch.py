@@ -1,0 +1,132 @@
+"""Files that are converted again whenever someone saves them."""
+
+import asyncio
+import unicodedata
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from vexture.base.errors import EXPECTED
+from vexture.conversion.reading import content_of
+from vexture.server.published import Shape, Shelf
+
+__all__ = ["Source", "named", "watch"]
+
+STEP_MILLISECONDS = 10
+DEBOUNCE_MILLISECONDS = 50
+"""Interval between two looks for changes, and the longest time over which changes are gathered."""
+
+CHECK_MILLISECONDS = 1000
+"""Interval at which all files are checked. It finds what was saved before watching began, or on a disk that reports no
+changes."""
+
+SETTLING_SECONDS = (0.03, 0.15, 0.5)
+"""Pauses before a file that cannot be read, or is no drawing, is read again. Editors delete a file, or write it in
+pieces, while they save."""
+
+
+_Stamp = tuple[int, int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A file that is shown."""
+
+    path: Path  # as the user gave it, for messages
+    name: str  # of its shape
+
+    @property
+    def places(self) -> set[Path]:
+        """Paths whose changes change the file: its own and, of a link, its target."""
+        return {self.path.parent.resolve() / self.path.name, self.path.resolve()}
+
+
+Convert = Callable[[Source, bytes], Awaitable[Shape]]
+
+
+def named(paths: Sequence[Path]) -> list[Source]:
+    r"""Give each file a name of its own, made from its stem, in Unicode's normal form NFC.
+
+    Examples
+    --------
+    >>> [source.name for source in named([Path("a/duck.svg"), Path("b/duck.svg"), Path("cake.svg")])]
+    ['duck', 'duck-2', 'cake']
+    >>> [source.name for source in named([Path("cafe\u0301.svg")])] == ["caf\u00e9"]
+    True
+    """
+    names: set[str] = set()
+    sources = []
+    for path in paths:
+        stem = unicodedata.normalize("NFC", path.stem) or "drawing"
+        name, number = stem, 1
+        while name in names:
+            number += 1
+            name = f"{stem}-{number}"
+        names.add(name)
+        sources.append(Source(path, name))
+    return sources
+
+
+async def watch(shelf: Shelf, sources: Sequence[Source], convert: Convert, seen: Mapping[str, bytes | None]) -> None:
+    """Publish each file again when it changes, or tell clients why not; ends only when it is cancelled.
+
+    `convert` makes the shape of a file with a content; `seen` is the content that is published already, by name.
+    """
+    from watchfiles import awatch
+
+    content: dict[str, bytes | None] = dict(seen)
+    read: dict[str, _Stamp | None] = {}
+    owners: dict[Path, list[Source]] = {}
+    for source in sources:
+        for place in source.places:
+            owners.setdefault(place, []).append(source)
+
+    def ours(_change: Any, path: str) -> bool:
+        return Path(path) in owners
+
+    async for changes in awatch(
+        *{place.parent for place in owners},
+        watch_filter=ours,
+        step=STEP_MILLISECONDS,
+        debounce=DEBOUNCE_MILLISECONDS,
+        rust_timeout=CHECK_MILLISECONDS,
+        yield_on_timeout=True,
+        recursive=False,
+    ):
+        changed = {source for _, path in changes for source in owners[Path(path)]}
+        for source in changed or sources:
+            stamp = _stamp(source.path)
+            if source in changed or read.get(source.name, ()) != stamp:
+                read[source.name] = stamp
+                await _publish(shelf, source, convert, content)
+
+
+def _stamp(path: Path) -> _Stamp | None:
+    """Inode, size and time of a file, which differ when its content does; None if it is not there."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_ino, found.st_size, found.st_mtime_ns
+
+
+async def _publish(shelf: Shelf, source: Source, convert: Convert, content: dict[str, bytes | None]) -> None:
+    """Publish a file once it is a drawing; after the last pause, tell clients why it is none."""
+    line = ""
+    for delay in (*SETTLING_SECONDS, None):
+        try:
+            data = await asyncio.to_thread(content_of, source.path)
+            if data == content[source.name]:
+                return
+            shape = await convert(source, data)
+        except EXPECTED as error:
+            line = str(error)
+            if delay is not None:
+                await asyncio.sleep(delay)
+            continue
+        content[source.name] = data
+        shelf.put(shape)
+        return
+    content[source.name] = None  # the last good content, once it is back, is published and clears the note
+    shelf.refuse(source.name, line)

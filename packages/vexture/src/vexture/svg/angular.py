@@ -1,0 +1,188 @@
+"""Angular gradients, which SVG has not: Figma writes each as a box of HTML that a `conic-gradient()` fills.
+
+No paint turns about a point, so that such a gradient becomes sectors of flat colours (CSS Images 4, 3.3).
+"""
+
+from dataclasses import replace
+from itertools import pairwise
+from math import ceil, cos, floor, hypot, pi, sin
+from typing import Final, NamedTuple, Protocol
+
+import numpy as np
+from lxml import etree
+
+from vexture.drawing.calculation import parsed
+from vexture.drawing.drawing import FillRule
+from vexture.drawing.paint import Paint, Stop
+from vexture.svg.css_gradients import CssGradient, between, read_function
+from vexture.svg.declarations import read_style
+from vexture.svg.document import HTML
+from vexture.svg.images import image_sides
+from vexture.svg.outline import Outline
+from vexture.svg.painter import Painter
+from vexture.svg.report import Report
+from vexture.svg.space import Place
+from vexture.svg.transform import Identity, angle, parse_origin
+from vexture.svg.values import fraction, number
+from vexture.svg.viewport import Rectangle
+
+__all__ = ["angular_fill", "paint_angular"]
+
+CONIC: Final = frozenset({"conic-gradient", "repeating-conic-gradient"})
+FILLING: Final = {"width": ("100%", "auto"), "height": ("100%",)}
+"""Sizes of a box of HTML that fills the element around it."""
+
+STEP: Final = 4 / 255
+"""Largest difference of a channel between neighbouring sectors: each is within 2/255 of what it stands for."""
+
+MOST_SECTORS: Final = 180
+MOST_COURSES: Final = 2 * MOST_SECTORS
+"""Between stops, around a turn: each takes a sector or more."""
+
+WIDEST: Final = 1 / 8
+"""Turns. A wider sector is divided, so that its triangle reaches beyond the box."""
+
+BEYOND: Final = 1.01
+"""How far triangles reach, as a part of what is needed."""
+
+
+class Fill(NamedTuple):
+    """What fills a box of HTML."""
+
+    gradient: CssGradient
+    opacity: float
+
+
+class Course(NamedTuple):
+    """A part of a turn, clockwise, along which one colour becomes another; the offsets of its stops mean nothing."""
+
+    begin: float
+    end: float
+    first: Stop
+    last: Stop
+
+    def color(self, at: float) -> Stop:
+        """Colour at a place in it."""
+        share = (at - self.begin) / (self.end - self.begin)
+        return between(replace(self.first, offset=0.0), replace(self.last, offset=1.0), share)
+
+    def within(self, low: float, high: float) -> "Course":
+        """What of it lies in a range."""
+        begin, end = max(self.begin, low), min(self.end, high)
+        return Course(begin, end, self.color(begin), self.color(end))
+
+    @property
+    def change(self) -> float:
+        """Largest change of a channel."""
+        before, after = ((*stop.color, stop.opacity) for stop in (self.first, self.last))
+        return max(abs(a - b) for a, b in zip(before, after, strict=True))
+
+    def sectors(self, step: float) -> "list[Course]":
+        """Sectors of one colour each, that of the middle."""
+        count = max(ceil(self.change / step - 1e-9), ceil((self.end - self.begin) / WIDEST), 1)
+        ends = np.linspace(self.begin, self.end, count + 1).tolist()
+        middles = [self.color((begin + end) / 2.0) for begin, end in pairwise(ends)]
+        return [Course(*pair, color, color) for pair, color in zip(pairwise(ends), middles, strict=True)]
+
+
+class Imaging(Protocol):
+    """What is needed of a scene."""
+
+    report: Report
+
+
+def angular_fill(element: etree._Element) -> Fill | None:
+    """The angular gradient that fills a `foreignObject`; None if it holds anything else."""
+    boxes = list(element.iterchildren("*"))
+    if len(boxes) != 1 or boxes[0].tag != f"{HTML}div" or len(boxes[0]) or (boxes[0].text or "").strip():
+        return None
+    said = {name: value.strip().lower() for name, value, _ in read_style(boxes[0].get("style", ""))}
+    if said.get("width", "auto") not in FILLING["width"] or said.get("height", "auto") not in FILLING["height"]:
+        return None
+    opacity = fraction(said.get("opacity", "1"))
+    tokens = [token for token in parsed(said.get("background-image", "")) if token.type != "whitespace"]
+    if opacity is None or len(tokens) != 1 or tokens[0].type != "function" or tokens[0].lower_name not in CONIC:
+        return None
+    gradient = read_function(tokens[0])
+    return None if gradient is None else Fill(gradient, opacity)
+
+
+def paint_angular(scene: Imaging, element: etree._Element, place: Place, painter: Painter) -> None:
+    """Paint the angular gradient that fills a `foreignObject`, at a place with its own style."""
+    fill, box = angular_fill(element), image_sides(place, (0.0, 0.0))
+    if fill is None or min(box[2:]) <= 0.0 or place.style["visibility"].lower() != "visible" or place.space.flat:
+        return
+    found, courses = center_of(fill.gradient.shape, box, place), courses_of(fill.gradient, place)
+    if found is None or not courses:
+        scene.report.left_out("angular gradient", element)
+        return
+    count = sum(len(course.sectors(STEP)) for course in courses)
+    step = STEP * max(count / MOST_SECTORS, 1.0)
+    sectors = [sector for course in courses for sector in course.sectors(step)]
+    if any(course.change for course in courses):
+        scene.report.simplified(f"angular gradient drawn in {len(sectors)} sectors", element)
+    inner = replace(place, space=place.space.window(box, Identity))
+    for sector in sectors if fill.opacity < 1.0 else overlapping(sectors):
+        paint = Paint(sector.first.color, sector.first.opacity * fill.opacity)
+        if paint.opacity > 0.0:
+            loop = triangle(sector, box, *found)
+            painter.add([loop.loop], inner, FillRule.NONZERO, paint, place.name)
+
+
+def overlapping(sectors: list[Course]) -> list[Course]:
+    """Sectors around a turn in painting order, each up to the end of the next, so that nothing is seen between them.
+
+    Translucent ones stay beside one another, as their overlaps would show.
+    """
+    if any(sector.first.opacity < 1.0 for sector in sectors):
+        return sectors
+    *others, before, last = sectors
+    lowest = last._replace(begin=before.begin, end=last.end + sectors[0].end - sectors[0].begin)
+    return [lowest, *(one._replace(end=after.end) for one, after in pairwise([*others, before])), before]
+
+
+def center_of(shape: str, box: Rectangle, place: Place) -> tuple[float, float, float] | None:
+    """Middle of a gradient in a box, and where it begins, in turns from the top; None if `shape` is not valid."""
+    left, top, width, height = box
+    turn, _, where = f" {shape.lower()} ".partition(" at ")
+    start = angle(turn.strip().removeprefix("from").strip()) if turn.strip() else 0.0
+    view = replace(place.viewport, width=width, height=height)
+    middle = parse_origin(where.strip() or "center", view.along(place.style.font_size))
+    return None if start is None or middle is None else (left + middle[0], top + middle[1], start / (2.0 * pi))
+
+
+def triangle(sector: Course, box: Rectangle, x: float, y: float, start: float) -> Outline:
+    """A sector about a point, beyond a box."""
+    left, top, width, height = box
+    far = hypot(max(abs(x - left), abs(left + width - x)), max(abs(y - top), abs(top + height - y)))
+    reach = BEYOND * far / cos(pi * (sector.end - sector.begin))
+    turns = [2.0 * pi * (start + at) for at in (sector.begin, sector.end)]
+    corners = [(x, y), *((x + reach * sin(turn), y - reach * cos(turn)) for turn in turns)]
+    return Outline.polygon(np.array(corners), closed=True)
+
+
+def courses_of(gradient: CssGradient, place: Place) -> list[Course]:
+    """Courses of a gradient around a whole turn; none if it is not valid, or they are too many."""
+    stops = gradient.placed(place.style.solid, turns_of, 1.0)
+    if not 0 < len(stops) <= MOST_COURSES:
+        return []
+    ends = [(stop.offset, Stop(0.0, stop.color, stop.opacity)) for stop in stops]
+    first, last = ends[0], ends[-1]
+    long = last[0] - first[0]
+    if not gradient.repeats:
+        ends = [(min(first[0], 0.0), first[1]), *ends, (max(last[0], 1.0), last[1])]
+    elif long * MOST_SECTORS < 1.0:
+        return []
+    else:
+        rounds = range(floor(-last[0] / long), ceil((1.0 - first[0]) / long) + 1)
+        ends = [(at + long * turn, color) for turn in rounds for at, color in ends]
+    courses = [Course(low, high, before, after) for (low, before), (high, after) in pairwise(ends) if high > low]
+    shown = [course.within(0.0, 1.0) for course in courses if course.begin < 1.0 and course.end > 0.0]
+    return shown if len(shown) <= MOST_COURSES else []
+
+
+def turns_of(text: str, axis: int) -> float | None:
+    """A place of a stop, in turns; of a percentage, whose sign is taken off, its number."""
+    plain = number(text)
+    turn = angle(text) if plain is None else None
+    return plain if turn is None else turn / (2.0 * pi)

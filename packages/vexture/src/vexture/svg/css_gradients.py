@@ -1,0 +1,292 @@
+"""Gradients of CSS, as the background of the outermost element may be one (CSS Images 3, 3)."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil, cos, hypot, inf, sin, sqrt
+from typing import Any, Final
+
+import tinycss2
+
+from vexture.drawing.calculation import keyword, parsed, separated
+from vexture.drawing.colors import Color, parse_color
+from vexture.drawing.paint import Affine, Gradient, Paint, Spread, Stop
+from vexture.svg.style import Style
+from vexture.svg.transform import KEYWORDS, Length, angle, parse_origin
+from vexture.svg.values import Viewport, words
+from vexture.svg.viewport import Rectangle
+
+__all__ = ["CssGradient", "background_gradient", "background_of", "between", "own_background", "read_function"]
+
+REPEATING: Final = "repeating-"
+FUNCTIONS: Final = frozenset({"linear-gradient", "radial-gradient"})
+
+HARMLESS: Final = frozenset(
+    {
+        *("no-repeat", "repeat", "repeat-x", "repeat-y", "scroll", "fixed", "local", *KEYWORDS, "0", "0%"),
+        *("/", "auto", "cover", "contain", "100%"),
+    }
+)
+"""Words of a background that change nothing where its image fills the box."""
+
+CORNERS: Final = {"to": (0.0, 0.0), "left": (-1.0, 0.0), "right": (1.0, 0.0), "top": (0.0, -1.0), "bottom": (0.0, 1.0)}
+
+WHOLE: Final = frozenset({"auto", "cover", "contain", "100%", "100% 100%", "auto auto"})
+"""Sizes of an image without one of its own that fill the box."""
+
+SIDES: Final = {"closest-side": (min, False), "farthest-side": (max, False), "closest-corner": (min, True)}
+FARTHEST: Final = (max, True)
+
+SPACE: Final = re.compile(r"\s+")
+
+MIXED: Final = 8
+"""Parts of a step between stops of different opacity: CSS mixes premultiplied colours, a paint has straight ones."""
+
+Solid = Callable[[str], Color | None]
+"""The colour of a text, which may depend on the element's own."""
+
+
+Line = tuple[Affine, float, bool]
+"""From a box to the ramp, the ramp's length, and whether it goes out from a middle."""
+
+
+@dataclass(frozen=True, slots=True)
+class CssGradient:
+    """A gradient that fills a box: its function, what its first argument says, and the texts of its stops."""
+
+    name: str
+    shape: str
+    stops: tuple[tuple[str, ...], ...]  # a colour and up to two places
+
+    @property
+    def repeats(self) -> bool:
+        """Whether it begins again after its last stop."""
+        return self.name.startswith(REPEATING)
+
+    def paint(self, box: Rectangle, solid: Solid, length: Length) -> Paint | None:
+        """Paint of a box; None if it is not valid. `length` has the box's width and height for percentages."""
+        is_linear = self.name.endswith("linear-gradient")
+        line = linear(self.shape, box) if is_linear else radial(self.shape, box, length)
+        if line is None:
+            return None
+        to_ramp, whole, is_radial = line
+        stops = self.placed(solid, length, whole)
+        if not stops:
+            return None
+        first, last = stops[0].offset, stops[-1].offset
+        if is_radial and first < 0.0 < last:
+            stops = self.outward(stops)
+            first, last = stops[0].offset, stops[-1].offset
+        if last <= first or (first < 0.0 and is_radial):
+            return Paint(stops[-1].color, stops[-1].opacity)
+        within = [Stop((one.offset - first) / (last - first), one.color, one.opacity) for one in stops]
+        spread = Spread.REPEAT if self.repeats else Spread.PAD
+        (a, c, e), (b, d, f) = to_ramp
+        if is_radial:
+            rows = (a / last, c / last, e / last), (b / last, d / last, f / last)
+            return Paint.of(Gradient(rows, tuple(mixed(within)), spread, (0.0, first / last)))
+        long = last - first
+        return Paint.of(Gradient(((a / long, c / long, (e - first) / long), (b, d, f)), tuple(mixed(within)), spread))
+
+    def outward(self, stops: "list[Place]") -> "list[Place]":
+        """Stops of a radial gradient that begins before its middle, from there on."""
+        first, last = stops[0].offset, stops[-1].offset
+        if self.repeats:
+            turns = ceil(-first / (last - first)) * (last - first)
+            return [Place(stop.offset + turns, stop.color, stop.opacity) for stop in stops]
+        at = max(number for number, stop in enumerate(stops) if stop.offset <= 0.0)
+        low, high = stops[at], stops[at + 1]
+        share = -low.offset / (high.offset - low.offset)
+        start = between(Stop(0.0, low.color, low.opacity), Stop(1.0, high.color, high.opacity), share)
+        return [Place(0.0, start.color, start.opacity), *stops[at + 1 :]]
+
+    def placed(self, solid: Solid, length: Length, whole: float) -> "list[Place]":
+        """Stops in order, in parts of the ramp; none if one is not valid."""
+        found = list[Place]()
+        for color, *places in self.stops:
+            value = solid(color)
+            offsets = [part_of(place, length, whole) for place in places] or [None]
+            if value is None or (places and None in offsets):
+                return []
+            found += [Place(offset, value.rgb, value.alpha) for offset in offsets]
+        return even(found)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A stop at any place, or at none yet."""
+
+    at: float | None
+    color: tuple[float, float, float]
+    opacity: float
+
+    @property
+    def offset(self) -> float:
+        """Its place."""
+        return 0.0 if self.at is None else self.at
+
+
+def background_gradient(text: str) -> CssGradient | None:
+    """The one gradient that a value of `background` or `background-image` fills the box with; None for anything else.
+
+    Examples
+    --------
+    >>> background_gradient("linear-gradient(to right, red, #00f 60%) no-repeat")
+    CssGradient(name='linear-gradient', shape='to right', stops=(('red',), ('#00f', '60%')))
+    """
+    found = None
+    for token in parsed(text.strip()):
+        word = str(tinycss2.serialize([token])).strip().lower()
+        if token.type == "function" and token.lower_name.removeprefix(REPEATING) in FUNCTIONS and found is None:
+            found = read_function(token)
+            if found is None:
+                return None
+        elif word and word not in HARMLESS and not parse_color(word):
+            return None
+    return found
+
+
+def own_background(style: Style) -> CssGradient | None:
+    """The gradient that fills the box of the outermost element by its style; None without one, or with more."""
+    is_whole = style["background-size"].lower() in WHOLE and style["background-blend-mode"].lower() == "normal"
+    return background_gradient(style["background-image"]) if is_whole else None
+
+
+def background_of(style: Style, frame: Rectangle) -> list[Paint]:
+    """Paints of the background of the outermost element, whose box has a frame, the lowest first."""
+    found = []
+    color = style.solid(style["background-color"])
+    if color is not None and color.alpha > 0.0:
+        found.append(Paint(color.rgb, color.alpha))
+    gradient = own_background(style)
+    if gradient is not None:
+        view = Viewport(*frame[2:])
+        paint = gradient.paint(frame, style.solid, view.along(style.font_size))
+        found += [] if paint is None else [paint]
+    return found
+
+
+def read_function(token: Any) -> CssGradient | None:
+    """A gradient function; None if it says what is not read: hints between colours, spaces of interpolation."""
+    arguments = [tinycss2.serialize(part).strip() for part in separated(token.arguments)]
+    shape = "" if parse_color(first_word(arguments[0])) else arguments.pop(0)
+    said = words(shape.lower(), SPACE)
+    if len(arguments) < 2 or "in" in said or ("at" in said and len(said) - said.index("at") > 3):
+        return None  # a space of interpolation, or a place counted from other sides
+    stops = []
+    for argument in arguments:
+        parts = [str(tinycss2.serialize([part])) for part in parsed(argument) if part.type != "whitespace"]
+        if not 1 <= len(parts) <= 3 or not parse_color(parts[0]):
+            return None
+        stops.append(tuple(parts))
+    return CssGradient(token.lower_name, shape, tuple(stops))
+
+
+def first_word(text: str) -> str:
+    """The first value in a text."""
+    tokens = [token for token in parsed(text) if token.type != "whitespace"]
+    return str(tinycss2.serialize(tokens[:1])) if tokens else ""
+
+
+def linear(shape: str, box: Rectangle) -> Line | None:
+    """Map of a box to the ramp of a linear gradient, and the length of its line (CSS Images 3, 3.1)."""
+    left, top, width, height = box
+    said = shape.lower().split()
+    if not said:
+        x, y = 0.0, 1.0
+    elif said[0] == "to" and all(word in CORNERS for word in said) and len(said) in (2, 3):
+        sides = [CORNERS[word] for word in said]
+        x, y = (sum(side[k] for side in sides) for k in (0, 1))
+        if x and y:
+            x, y = x * height, y * width  # what is halfway runs through the two other corners
+    else:
+        turn = angle(shape)
+        if turn is None:
+            return None
+        x, y = sin(turn), -cos(turn)
+    away = hypot(x, y)
+    if away == 0.0:
+        return None
+    x, y = x / away, y / away
+    whole = abs(width * x) + abs(height * y)
+    start = (left + width / 2) * x + (top + height / 2) * y - whole / 2
+    return ((x / whole, y / whole, -start / whole), (-y / whole, x / whole, 0.0)), whole, False
+
+
+def radial(shape: str, box: Rectangle, length: Length) -> Line | None:
+    """Map of a box to the ramp of a radial gradient, and the length of its first radius (CSS Images 3, 3.2)."""
+    left, top, width, height = box
+    size, _, place = f" {shape.lower()} ".partition(" at ")
+    middle = parse_origin(place.strip() or "center", length)
+    said = size.split()
+    if middle is None:
+        return None
+    x, y = middle
+    is_circle = "circle" in said
+    said = [word for word in said if word not in ("circle", "ellipse")]
+    nearest, to_corner = SIDES.get(said[0], FARTHEST) if said else FARTHEST
+    radii: list[float | None]
+    if said and said[0] not in SIDES and said != ["farthest-corner"]:
+        radii = [length(word, axis) for axis, word in enumerate(said)]
+        radii = radii * 2 if len(radii) == 1 else radii
+    else:
+        across, down = nearest(abs(x), abs(width - x)), nearest(abs(y), abs(height - y))
+        if is_circle:
+            radii = [hypot(across, down) if to_corner else nearest(across, down)] * 2
+        else:
+            factor = sqrt(2.0) if to_corner else 1.0
+            radii = [factor * across, factor * down]
+    match radii:
+        case [float(a), float(b)] if a > 0.0 and b > 0.0:
+            return ((1.0 / a, 0.0, -(left + x) / a), (0.0, 1.0 / b, -(top + y) / b)), a, True
+    return None
+
+
+def part_of(text: str, length: Length, whole: float) -> float | None:
+    """A place of a stop, in parts of the ramp's length; None if it is none."""
+    if text.endswith("%"):
+        value = length(text.removesuffix("%"), 0)
+        return None if value is None else value / 100.0
+    if keyword(list(parsed(text))):
+        return None
+    turn = length(text, 0)
+    return None if turn is None or whole <= 0.0 else turn / whole
+
+
+def even(stops: list[Place]) -> list[Place]:
+    """Stops with places for all, none before the one before it; those without are even between others (3.4.3)."""
+    if not stops:
+        return []
+    at = [stop.at for stop in stops]
+    at[0] = 0.0 if at[0] is None else at[0]
+    at[-1] = 1.0 if at[-1] is None else at[-1]
+    known = [number for number, place in enumerate(at) if place is not None]
+    least = -inf
+    for number in known:
+        at[number] = least = max(least, at[number] or 0.0)
+    for before, after in pairwise(known):
+        low, high = at[before] or 0.0, at[after] or 0.0
+        for number in range(before + 1, after):
+            at[number] = low + (high - low) * (number - before) / (after - before)
+    return [Place(place, stop.color, stop.opacity) for place, stop in zip(at, stops, strict=True)]
+
+
+def mixed(stops: list[Stop]) -> list[Stop]:
+    """Stops with others between those of different opacity, that are mixed as premultiplied colours."""
+    found = stops[:1]
+    for before, after in pairwise(stops):
+        if before.opacity != after.opacity:
+            found += [between(before, after, part / MIXED) for part in range(1, MIXED)]
+        found.append(after)
+    return found
+
+
+def between(before: Stop, after: Stop, share: float) -> Stop:
+    """A stop between two."""
+    opacity = before.opacity + (after.opacity - before.opacity) * share
+    if opacity == 0.0:
+        return Stop(before.offset + (after.offset - before.offset) * share, before.color, 0.0)
+    ours, theirs = before.opacity * (1.0 - share) / opacity, after.opacity * share / opacity
+    red, green, blue = (min(a * ours + b * theirs, 1.0) for a, b in zip(before.color, after.color, strict=True))
+    return Stop(before.offset + (after.offset - before.offset) * share, (red, green, blue), opacity)

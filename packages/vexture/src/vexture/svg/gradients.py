@@ -1,0 +1,197 @@
+"""Gradients of an SVG: what their elements say, and where they lie on what they paint (SVG 2, 14.2)."""
+
+from dataclasses import dataclass, replace
+from math import hypot
+from typing import Final
+
+import numpy as np
+from lxml import etree
+
+from vexture.bezier.bounds import bounds
+from vexture.drawing.paint import Affine, Gradient, Paint, Spread, Stop
+from vexture.svg.document import local_name
+from vexture.svg.outline import Outline
+from vexture.svg.report import Report
+from vexture.svg.space import SMALLEST, Place
+from vexture.svg.spatial import Attribute, css_transform, seen
+from vexture.svg.style import Style
+from vexture.svg.transform import Identity, Transform, about_origin, parse_transform
+from vexture.svg.values import LARGEST, Viewport, fraction, number
+
+__all__ = ["BOXED", "GRADIENTS", "SHORTEST", "WHOLE", "Ramp", "read_ramp", "rows", "stop_offsets", "transform_of"]
+
+LENGTHS: Final = {
+    "linearGradient": {"x1": "0%", "y1": "0%", "x2": "100%", "y2": "0%"},
+    "radialGradient": {"cx": "50%", "cy": "50%", "r": "50%", "fx": "", "fy": "", "fr": "0%"},
+}
+"""Attributes of the geometry, and their initial values; fx and fy are cx and cy."""
+
+GRADIENTS: Final = frozenset(LENGTHS)
+SPREADS = {spread.name.lower(): spread for spread in Spread}
+BOXED = {"objectBoundingBox": True, "userSpaceOnUse": False}
+WHOLE = Viewport(1.0, 1.0)
+"""Percentages of an `objectBoundingBox`."""
+
+SHORTEST: Final = 1 / LARGEST
+"""User units, or parts of a bounding box. A ramp that is shorter has only its end, a tile that is shorter no area."""
+
+TOUCHING: Final = 1 / 4096
+"""Part of the outer radius. Circles that nearly touch from inside do touch, as in Skia, which browsers draw by: if they
+touch, half of the plane has colours; if they just cross, the colours there are others."""
+
+
+def touching(focal: float) -> tuple[float, float]:
+    """Distance and radius of a focal circle that touches the end circle, whose radius is 1, also in float32.
+
+    Examples
+    --------
+    >>> away, focal = touching(0.6)
+    >>> float(np.float32(away)) == away, float(np.float32(focal)) == focal, away == 1.0 - focal
+    (True, True, True)
+    """
+    if focal < 0.5:  # of this and its difference to 1, the larger one is rounded: then the other is exact
+        away = float(np.float32(1.0 - focal))
+        return away, 1.0 - away
+    focal = float(np.float32(focal))
+    return abs(1.0 - focal), focal
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ramp:
+    """A gradient as its element and those that it refers to say, with no place yet."""
+
+    radial: bool
+    lengths: dict[str, str]  # all of `LENGTHS`
+    boxed: bool  # whether in parts of the bounding box
+    moved: Transform  # `gradientTransform`
+    origin: str  # about which it is
+    spread: Spread
+    stops: tuple[Stop, ...]  # one or more
+    font_size: float  # of the element
+
+    def paint(self, place: Place, outlines: list[Outline]) -> Paint | None:
+        """The paint of outlines at a place, in the drawing's coordinates; None if the gradient has no area there."""
+        whole = place.space.whole
+        if self.boxed:
+            left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
+            whole = whole.transform(Transform(right - left, 0.0, 0.0, bottom - top, left, top))
+        view = WHOLE if self.boxed else place.viewport
+        whole = whole.transform(about_origin(self.moved, self.origin, view.along(self.font_size)))
+        a, b, c, d = whole[:4]
+        if not SMALLEST <= abs(a * d - b * c) <= 1.0 / SMALLEST:
+            return None
+        gradient = self.along(view)
+        if gradient is None:
+            last = self.stops[-1]
+            return Paint(last.color, last.opacity)
+        return Paint.of(gradient.after(rows(whole.inverse())))
+
+    def along(self, view: Viewport) -> Gradient | None:
+        """The gradient in its own coordinates; None if it has one colour, that of the last stop (SVG 2, 14.2)."""
+        if len(self.stops) == 1:
+            return None
+        return self.radial_along(view) if self.radial else self.linear_along(view)
+
+    def linear_along(self, view: Viewport) -> Gradient | None:
+        """`along` of a linear gradient."""
+        x1, y1 = self.length("x1", view), self.length("y1", view)
+        x, y = self.length("x2", view) - x1, self.length("y2", view) - y1
+        if hypot(x, y) < SHORTEST:
+            return None
+        square = x * x + y * y
+        to_ramp = Transform(x / square, -y / square, y / square, x / square, 0.0, 0.0).translate(-x1, -y1)
+        return Gradient(rows(to_ramp), self.stops, self.spread)
+
+    def radial_along(self, view: Viewport) -> Gradient | None:
+        """`along` of a radial gradient.
+
+        A focal circle that is not inside the outer one spans a cone with it, as SVG 2 and all browsers have it. SVG 1.1
+        moved the focal point onto the circle.
+        """
+        cx, cy, r = self.length("cx", view), self.length("cy", view), self.length("r", view)
+        if r < SHORTEST:
+            return None
+        x = (self.length("fx", view) - cx if self.lengths["fx"] else 0.0) / r
+        y = (self.length("fy", view) - cy if self.lengths["fy"] else 0.0) / r
+        away, focal = hypot(x, y), self.length("fr", view) / r
+        cos, sin = (x / away, y / away) if away else (1.0, 0.0)
+        to_ramp = rows(Transform(cos / r, -sin / r, sin / r, cos / r, 0.0, 0.0).translate(-cx, -cy))
+        if max(away, abs(1.0 - focal)) <= TOUCHING:  # one circle: the first colour inside, the last one outside
+            first, last = (replace(stop, offset=1.0) for stop in (self.stops[0], self.stops[-1]))
+            return Gradient(to_ramp, (first, last), focus=(0.0, 0.0))
+        if abs(away - abs(1.0 - focal)) <= TOUCHING:
+            away, focal = touching(focal)
+        return Gradient(to_ramp, self.stops, self.spread, (away, focal))
+
+    def length(self, name: str, view: Viewport) -> float:
+        """Value of an attribute of the geometry."""
+        whole = {"x": view.width, "y": view.height}.get(name.strip("cf12"), view.diagonal)
+        return view.length(self.lengths[name], whole, self.font_size) or 0.0
+
+
+def rows(matrix: Transform) -> Affine:
+    """An affine map as a paint has it."""
+    a, b, c, d, e, f = matrix
+    return (a, c, e), (b, d, f)
+
+
+def read_ramp(chain: list[etree._Element], stops: tuple[Stop, ...], style: Style, report: Report) -> Ramp:
+    """Ramp of the first of some gradient elements, which has a style, and each of which refers to the next."""
+    name = local_name(chain[0]) or ""
+    lengths = dict(LENGTHS[name])
+    words = dict.fromkeys(("gradientUnits", "spreadMethod", "gradientTransform"), "")
+    for element in reversed(chain):
+        if local_name(element) == name:  # of one of the other kind, only what both kinds have counts (SVG 2, 14.1.1)
+            lengths.update(own_lengths(element, name, report))
+        words.update({key: text for key in words if (text := element.get(key)) is not None})
+    words["gradientTransform"], moved = transform_of(words["gradientTransform"], chain[0], style)
+    found = BOXED.get(words["gradientUnits"].strip()), SPREADS.get(words["spreadMethod"].strip()), moved
+    for (key, text), value in zip(words.items(), found, strict=True):
+        if text and value is None:
+            report.invalid(key, text, chain[0])
+    boxed, spread, _ = found
+    radial = name == "radialGradient"
+    moved, spread = moved or Identity, spread or Spread.PAD
+    origin = style["transform-origin"]
+    return Ramp(radial, lengths, boxed is not False, moved, origin, spread, stops, style.font_size)
+
+
+def transform_of(text: str, element: etree._Element, style: Style) -> tuple[str, Transform | None]:
+    """Text and value of the transform of a paint server: the CSS property, or else the text of its attribute.
+
+    An attribute `transform` means nothing here, though the cascade takes it for the property.
+    """
+    css = style["transform"]
+    if css.lower() != "none" and not isinstance(css, Attribute):
+        matrix = css_transform(css, WHOLE.along(style.font_size))
+        return css, None if matrix is None else seen(matrix)[0]
+    return text, parse_transform(text, lambda part, axis: number(part))
+
+
+def own_lengths(element: etree._Element, name: str, report: Report) -> dict[str, str]:
+    """Valid attributes of the geometry that an element has; a negative radius is zero, as browsers take it."""
+    found = {}
+    for key in LENGTHS[name]:
+        text = element.get(key)
+        if text is None:
+            continue
+        value = WHOLE.length(text, 1.0, 1.0)
+        negative = key in ("r", "fr") and value is not None and value < 0.0
+        if value is None or negative:
+            report.invalid(key, text, element)
+        if value is not None:
+            found[key] = "0" if negative else text
+    return found
+
+
+def stop_offsets(stops: list[etree._Element], report: Report) -> list[float]:
+    """Offsets of stops, in 0..1, none below the one before it; 0 for one without a number."""
+    offsets, least = [], 0.0
+    for stop in stops:
+        text = stop.get("offset", "0")
+        value = fraction(text)
+        if value is None:
+            report.invalid("offset", text, stop)
+        least = max(least, value or 0.0)
+        offsets.append(least)
+    return offsets

@@ -1,0 +1,229 @@
+"""Images in an SVG (SVG 2, 12.3): drawings are drawn, pictures are traced if that is asked for.
+
+Nothing but data: URLs is read, unless a folder is given: then files in it and below it, never by a link that leads out.
+"""
+
+import binascii
+import re
+from base64 import b64decode
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Final, Protocol, TypeAlias
+from urllib.parse import unquote, unquote_to_bytes
+
+from lxml import etree
+
+from vexture.base.content import BEFORE_MARKUP, FileKind, kind_of, picture_size, read_bytes, start_of, unpacked
+from vexture.base.errors import LimitError, SourceError, shortened
+from vexture.drawing.drawing import Drawing
+from vexture.svg.document import parse_svg
+from vexture.svg.gradients import rows
+from vexture.svg.links import reference
+from vexture.svg.painter import Painter
+from vexture.svg.report import Report
+from vexture.svg.space import Place, Window
+from vexture.svg.transform import Identity, Transform, mapped
+from vexture.svg.viewport import THINNEST, Rectangle, own_size
+
+__all__ = ["Images", "image_sides", "paint_image"]
+
+DEEPEST: Final = 4
+"""Drawings in images of one another."""
+
+MOST_IMAGES: Final = 256
+"""Different images of a drawing, those in its images included."""
+
+OUTSIDE: Final = "only files beside the drawing and in folders below are read"
+
+BESIDE: Final = re.compile(r"(?![a-z][a-z0-9+.-]*:|[/\\])[^\0]+", re.IGNORECASE)
+"""A link that can lead to a file in the folder: neither an address with a scheme or a host, nor an absolute path."""
+
+ADDRESS: Final = re.compile(r"(?!file:)[a-z][a-z0-9+.-]+:|//", re.IGNORECASE)
+"""A link that leads to a server; a single letter before a colon is that of a drive."""
+
+SHOWN: Final = 40
+"""Characters of a file's name in a message."""
+
+
+Found: TypeAlias = etree._Element | Drawing
+"""Root of a drawing, or a picture as it is traced."""
+
+
+@dataclass(frozen=True, slots=True)
+class Images:
+    """What of the images of a drawing is read."""
+
+    trace: Callable[[bytes], Drawing] | None = None  # a picture's content; None leaves pictures and files out
+    folder: Path | None = None  # of files that may be read
+    depth: int = 0
+    known: dict[tuple[int, str], Found | SourceError | LimitError] = field(default_factory=dict)  # by depth and link
+
+    @property
+    def inside(self) -> "Images":
+        """Those of a drawing in an image: it may hold others, and refers to no file."""
+        return replace(self, folder=None, depth=self.depth + 1)
+
+    def read(self, link: str) -> Found:
+        """Root of the drawing that a link leads to, or the picture traced; a `SourceError` or `LimitError` if none.
+
+        The error is what a note says: it names the image, and why it is left out.
+        """
+        key = self.depth, link
+        if key not in self.known:
+            if len(self.known) >= MOST_IMAGES:
+                raise LimitError(f"{called(link)} (the drawing has more than {MOST_IMAGES} images)")
+            try:
+                self.known[key] = self.opened(link)
+            except (SourceError, LimitError) as error:
+                self.known[key] = type(error)(f"{called(link)} ({error})")
+        found = self.known[key]
+        if isinstance(found, SourceError | LimitError):
+            raise found
+        return found
+
+    def opened(self, link: str) -> Found:
+        """As `read`, without looking whether it is known, and with errors that do not name the image."""
+        content = unpacked(embedded(link) if is_embedded(link) else self.beside(link))
+        start = start_of(content) or read_bytes(content)
+        kind = kind_of(start)
+        if kind is FileKind.PICTURE:
+            if self.trace is None:
+                raise SourceError("`trace_images` traces it")
+            return self.trace(read_bytes(content))
+        if kind is not FileKind.SVG or not start.lstrip(BEFORE_MARKUP).startswith(b"<"):
+            raise SourceError("it is empty" if not start else "it is no SVG, PNG, JPEG, WebP, GIF or BMP")
+        if self.depth >= DEEPEST:
+            raise LimitError(f"drawings in it are nested more than {DEEPEST} deep")
+        return parse_svg(read_bytes(content))
+
+    def beside(self, link: str) -> Path:
+        """A file in the folder or below it."""
+        path = unquote(link.partition("#")[0])
+        if ADDRESS.match(path):
+            raise SourceError("nothing is fetched from an address")
+        if self.folder is None:
+            owner = "an image of another drawing" if self.depth else "a drawing that is no file itself"
+            raise SourceError(f"{owner} shows no files")
+        if not BESIDE.fullmatch(path) or ".." in Path(path).parts:
+            raise SourceError(OUTSIDE)
+        folder = self.folder.resolve()
+        try:
+            file = (folder / path).resolve()
+            is_there = file.is_file()
+        except OSError:
+            raise SourceError("its name is too long for a file") from None
+        if not file.is_relative_to(folder):
+            raise SourceError(OUTSIDE)
+        if not is_there:
+            raise SourceError("there is no such file beside the drawing")
+        return file
+
+
+def is_embedded(link: str) -> bool:
+    """Whether a link is a data: URL."""
+    return link[:5].lower() == "data:"
+
+
+def called(link: str) -> str:
+    """An image as a message names it: by its file's name, or by what is embedded.
+
+    Examples
+    --------
+    >>> called("pictures/a%20b.png#top"), called("https://example.org/a.png?x=/1"), called("data:,x")
+    ("image 'a b.png'", "image 'a.png'", 'an embedded image')
+    """
+    if not is_embedded(link):
+        place = re.split("[?#]", link, maxsplit=1)[0]
+        name = re.split(r"[/\\:]", unquote(place).rstrip("/\\"))[-1] or place
+        return f"image '{shortened(name, SHOWN)}'"
+    try:
+        content = embedded(link)
+    except SourceError:
+        return "an embedded image"
+    size = picture_size(content)
+    if size is not None:
+        kind, width, height = size
+        return f"an embedded {kind} of {width} x {height}"
+    return "an embedded image"
+
+
+class Imaging(Protocol):
+    """What is needed of a scene."""
+
+    report: Report
+    images: Images
+
+    def fit(self, element: etree._Element, box: Rectangle, width: float, height: float) -> Transform:
+        """Map from a view box to a viewport, by the element's `preserveAspectRatio`."""
+
+    def paint_embedded(self, root: etree._Element, place: Place, painter: Painter) -> None:
+        """Paint another document at a place inside its viewport."""
+
+
+def embedded(link: str) -> bytes:
+    """Content of a data: URL (RFC 2397).
+
+    Examples
+    --------
+    >>> embedded("data:image/svg+xml,%3Csvg/%3E"), embedded("data:;base64,PHN2 Zy8+")
+    (b'<svg/>', b'<svg/>')
+    """
+    head, comma, body = link.partition("#")[0].partition(",")
+    if not comma:
+        raise SourceError("its data: URL has no data")
+    content = unquote_to_bytes(body)
+    if not head.lower().endswith(";base64"):
+        return content
+    try:
+        return b64decode(b"".join(content.split()))
+    except binascii.Error:
+        raise SourceError("its data is no base64") from None
+
+
+def paint_image(scene: Imaging, element: etree._Element, place: Place, painter: Painter) -> None:
+    """Paint an image at a place with its own style, or name it."""
+    link = (reference(element) or "").strip()
+    if not link or place.style["visibility"].lower() != "visible" or place.space.flat:
+        return
+    try:
+        found = scene.images.read(link)
+    except (SourceError, LimitError) as error:
+        scene.report.left_out(str(error), element)
+        return
+    width, height = size_of(found)
+    sides = image_sides(place, (width, height))
+    if min(*sides[2:], width, height) < THINNEST:
+        return
+    content = Identity.translate(*sides[:2]).transform(scene.fit(element, (0.0, 0.0, width, height), *sides[2:]))
+    visible = None if place.style["overflow"].lower() in ("visible", "auto") else sides
+    inner = Window(visible, content, (width, height)).within(place)
+    if not isinstance(found, Drawing):
+        scene.paint_embedded(found, inner, painter)
+        return
+    scene.report.simplified("<image> traced", element)
+    (a, b, c), (d, e, f) = found.to_source.tolist()
+    to_pixels = Transform(a, d, b, e, c, f)
+    to_unit = rows(inner.space.whole.transform(to_pixels).inverse())
+    for path in found.paths:
+        contours = [mapped(contour, to_pixels) for contour in path.contours]
+        painter.add(contours, inner, path.fill_rule, path.paint.after(to_unit), place.name)
+
+
+def size_of(found: Found) -> tuple[float, float]:
+    """Width and height of a picture, or of a drawing in its own pixels."""
+    if isinstance(found, Drawing):  # whose pixels begin at 0, 0, in the middle of the unit square
+        (side, _, left), (_, _, bottom) = found.to_source.tolist()
+        return side + 2.0 * left, 2.0 * bottom - side
+    return own_size(found)
+
+
+def image_sides(place: Place, size: tuple[float, float]) -> Rectangle:
+    """Place and size of an image; what it leaves to the picture follows from the size of that."""
+    style, view = place.style, place.viewport
+    wholes = {"x": view.width, "y": view.height, "width": view.width, "height": view.height}
+    x, y, width, height = (view.length(style[name], whole, style.font_size) for name, whole in wholes.items())
+    ratio = size[0] / size[1] if min(size) >= THINNEST else 1.0
+    if width is None:
+        width = size[0] if height is None else height * ratio
+    return x or 0.0, y or 0.0, width, width / ratio if height is None else height

@@ -1,0 +1,184 @@
+"""Clips and masks of an element (CSS Masking 1): what they show is painted in groups that mask the element's.
+
+A clip by one rectangle cuts outlines instead, so that silhouettes and layers have it, too.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Final, Protocol
+
+import numpy as np
+from lxml import etree
+
+from vexture.base.tolerance import ROUND
+from vexture.drawing.group import Mask
+from vexture.svg.clip_shapes import STROKED, VIEWED, clip_element
+from vexture.svg.compositing import Veil
+from vexture.svg.document import local_name
+from vexture.svg.paint_servers import PaintServers
+from vexture.svg.report import Report
+from vexture.svg.shapes import Shape, shape_outlines
+from vexture.svg.space import Place, Placed, Space
+from vexture.svg.style import Cascade, Style
+from vexture.svg.transform import Identity, Transform
+from vexture.svg.viewport import Rectangle, view_box
+
+__all__ = ["MASKING", "Measured", "add_masks", "note_outer_units"]
+
+MASKING: Final = {"clip-path": "clipPath", "mask": "mask"}
+"""The properties that mask an element, and the elements to which they refer."""
+
+REGION: Final = {"x": "-10%", "y": "-10%", "width": "120%", "height": "120%"}
+"""What of a mask is used, if its attributes do not say otherwise."""
+
+NOTHING: Final = Identity.scale(0.0)
+
+
+class Measured(Protocol):
+    """What is needed of a scene."""
+
+    report: Report
+    cascade: Cascade
+    servers: PaintServers
+
+    def transform(self, element: etree._Element, style: Style, place: Place) -> Transform:
+        """Transform of an element, about its origin."""
+
+    def extent(self, element: etree._Element, place: Place) -> Rectangle | None:
+        """As `around`, without strokes; None if the box has no area."""
+
+    def around(self, element: etree._Element, place: Place, stroked: bool) -> Rectangle | None:
+        """Bounding box of what an element shows, in the units of the place inside it; None if that is nothing."""
+
+
+def add_masks(
+    scene: Measured, element: etree._Element, place: Place, names: Iterable[str] = MASKING
+) -> tuple[Place, list[Placed]]:
+    """The place inside an element, cut by its clips, and what is to be shown to mask it.
+
+    The element has a veil of its own if it has a clip or a mask. `names` are the properties that have an effect: in a
+    clip, of which only outlines count, a mask has none.
+    """
+    shown: list[Placed] = []
+    for name in names:
+        target = shape_of(scene, element, place) if name == "clip-path" else None
+        if target is None:
+            target = scene.servers.referred(name, MASKING[name], place)
+        if target is not None:
+            place, more = add_mask(scene, element, target, place)
+            shown += more
+    return place, shown
+
+
+def note_outer_units(scene: Measured, root: etree._Element, style: Style, size: tuple[float, float] | None) -> None:
+    """Note clips and masks of the outermost element, of a size, whose units browsers take for pixels."""
+    box = view_box(root.get("viewBox", ""))
+    if size is None or box is None or box[2:] == size:
+        return
+    for name in MASKING.keys() & style.own.keys():
+        if style[name].lower() != "none":
+            scene.report.simplified(f"{name} of the outermost <svg> read in the units of its content", root)
+
+
+def shape_of(scene: Measured, element: etree._Element, place: Place) -> etree._Element | None:
+    """The clip that an element has by a basic shape, as an element; None if it has none.
+
+    Two kinds are left out: those of an outermost element, which are in the units around it, and those of clips and
+    masks themselves, whose reference box is another element's.
+    """
+    value = place.style["clip-path"]
+    if value.lower() == "none" or element.getparent() is None or local_name(element) in MASKING.values():
+        return None
+
+    def box(name: str) -> Rectangle | None:
+        if name == VIEWED:
+            return 0.0, 0.0, place.viewport.width, place.viewport.height
+        return scene.around(element, place, name == STROKED)
+
+    return clip_element(value, box, place.viewport.root_font_size, place.style.font_size)
+
+
+def add_mask(
+    scene: Measured, element: etree._Element, target: etree._Element, place: Place
+) -> tuple[Place, list[Placed]]:
+    """As `add_masks`, of one `clipPath` or `mask`."""
+    masks = place.deeper()
+    is_clip, style = local_name(target) == "clipPath", scene.servers.style_of(target)
+    matrix = scene.transform(target, style, place) if is_clip else Identity
+    if target.get("clipPathUnits" if is_clip else "maskContentUnits") == "objectBoundingBox":
+        matrix = matrix.transform(box_matrix(scene, element, place))
+    space = place.space.moved(matrix)
+    if is_clip and not space.flat:
+        rectangle = only_rectangle(scene, target, style, place)
+        if rectangle is not None:
+            return replace(place, space=space.window(rectangle, matrix.inverse())), []
+    if not is_clip:
+        if style["color-interpolation"].lower() == "linearrgb":
+            scene.report.simplified("mask in linear light (color-interpolation) read as one in sRGB", element)
+        space = region(scene, element, target, place, matrix)
+    assert place.veil is not None
+    mode = place.style["mask-mode"].lower().partition(",")[0].strip()  # of one layer
+    kind = style["mask-type"].lower() if mode == "match-source" else mode
+    by_opacity = is_clip or kind == "alpha"
+    veil = Veil(place.veil, 1.0, mask=Mask.OPACITY if by_opacity else Mask.LUMINANCE)
+    place.veil.masks.append(veil)
+    content = Place(
+        place.viewport,
+        space,
+        style,
+        target,
+        place,
+        place.depth + 1,
+        used=True,
+        veil=veil,
+        is_clip=is_clip,
+        masks=masks,
+        is_instance=True,
+    )
+    content, shown = add_masks(scene, target, content, ("clip-path",) if is_clip else tuple(MASKING))
+    return place, [*shown, *((child, content) for child in target)]
+
+
+def box_matrix(scene: Measured, element: etree._Element, place: Place) -> Transform:
+    """From the unit square to the bounding box of what an element shows; to a point if that has no area."""
+    box = scene.extent(element, place)
+    return NOTHING if box is None else Transform(box[2], 0.0, 0.0, box[3], box[0], box[1])
+
+
+def region(scene: Measured, element: etree._Element, target: etree._Element, place: Place, matrix: Transform) -> Space:
+    """The space inside a mask's region; `matrix` leads from its content to the units of the element."""
+    by_box = target.get("maskUnits") != "userSpaceOnUse"
+    whole = (1.0, 1.0) if by_box else (place.viewport.width, place.viewport.height)
+    units = box_matrix(scene, element, place) if by_box else Identity
+    lengths = []
+    for k, name in enumerate(REGION):
+        text = target.get(name, REGION[name])
+        length = place.viewport.length(text, whole[k % 2], place.style.font_size)
+        if length is None:
+            scene.report.invalid(name, text, target)
+            length = place.viewport.length(REGION[name], whole[k % 2], place.style.font_size)
+        lengths.append(length or 0.0)
+    x, y, width, height = lengths
+    if width <= 0.0 or height <= 0.0 or units == NOTHING:
+        return place.space.moved(NOTHING)
+    visible = (units.dx + x * units.xx, units.dy + y * units.yy, width * units.xx, height * units.yy)
+    return place.space.window(visible, matrix)
+
+
+def only_rectangle(scene: Measured, clip: etree._Element, style: Style, place: Place) -> Rectangle | None:
+    """The rectangle, in the units of a clip's content, if that is all that it shows, and upright there."""
+    children = [child for child in clip if local_name(child) not in (None, "title", "desc", "metadata")]
+    if len(children) != 1 or local_name(children[0]) != "rect":
+        return None
+    own = scene.cascade.style(children[0], style)
+    if (
+        {*MASKING, "transform", "display"} & {*own.own}
+        or {*MASKING} & {*style.own}
+        or own["visibility"].lower() != "visible"
+    ):
+        return None
+    outlines = shape_outlines(Shape(children[0], own, place.viewport, ROUND, scene.report))
+    if len(outlines) != 1 or len(outlines[0].cubics) != 4:
+        return None
+    (left, top), (right, bottom) = (limit(outlines[0].cubics, axis=(0, 1)).tolist() for limit in (np.min, np.max))
+    return (left, top, right - left, bottom - top)

@@ -1,0 +1,206 @@
+"""Media queries: whether a style sheet holds for a picture in a page on a screen (Media Queries 4)."""
+
+import operator
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Final
+
+import tinycss2
+
+from vexture.drawing.calculation import separated
+from vexture.svg.values import INITIAL_SIZE, TooLargeError, Viewport, number
+
+__all__ = ["Answer", "Medium", "condition", "shown", "word"]
+
+TYPES: Final = {"all": True, "screen": True, "print": False, "speech": False}
+
+WORDS: Final = {
+    "any-hover": "none",
+    "any-pointer": "none",
+    "color-gamut": "srgb",
+    "display-mode": "browser",
+    "dynamic-range": "standard",
+    "forced-colors": "none",
+    "hover": "none",
+    "inverted-colors": "none",
+    "overflow-block": "scroll",
+    "overflow-inline": "scroll",
+    "pointer": "none",
+    "prefers-color-scheme": "light",
+    "prefers-contrast": "no-preference",
+    "prefers-reduced-data": "no-preference",
+    "prefers-reduced-motion": "no-preference",
+    "prefers-reduced-transparency": "no-preference",
+    "scripting": "none",
+    "update": "fast",
+}
+"""Features that words describe, as browsers answer for an image on a screen: nothing points at it, no script runs."""
+
+NUMBERS: Final = {"color": 8.0, "color-index": 0.0, "grid": 0.0, "monochrome": 0.0}
+"""Features that whole numbers describe."""
+
+NOTHING: Final = ("none", "no-preference")
+"""Words for which a feature without a value does not hold."""
+
+ALIASES: Final = {"-webkit-device-pixel-ratio": "resolution", "device-width": "width", "device-height": "height"}
+
+PER_PIXEL: Final = {"": 1.0, "x": 1.0, "dppx": 1.0, "dpi": 1 / 96, "dpcm": 2.54 / 96}
+"""Dots for each pixel of each unit of a resolution."""
+
+COMPARED: Final[dict[str, Callable[[float, float], bool]]] = {
+    "<": operator.lt,
+    "<=": operator.le,
+    "=": operator.eq,
+    ">": operator.gt,
+    ">=": operator.ge,
+}
+RANGE = re.compile(r"([^<>=]+)([<>]=?|=)([^<>=]+)(?:([<>]=?)([^<>=]+))?")
+RESOLUTION = re.compile(r"(.*?\d)\s*([a-z]*)")
+PREFIX = re.compile(r"(-webkit-)?(min-|max-)?(.*)")
+
+DIGITS: Final = 9
+"""Digits after the point of ratios that are compared."""
+
+Answer = bool | None
+"""Whether a condition holds; None if it is not known, which counts as false, and so does its opposite."""
+
+
+def condition(tokens: list[Any], atom: Callable[[Any], Answer], alternatives: bool = True) -> Answer:
+    """Answer of conditions joined by "not", "and" or "or"; None if they are not valid.
+
+    `atom` answers for one of them, which is a bracket or a function. Without `alternatives` there is no "or".
+    """
+    if tokens and word(tokens[0]) == "not":
+        answer = atom(tokens[1]) if len(tokens) == 2 else None
+        return None if answer is None else not answer
+    joints = {word(token) for token in tokens[1::2]}
+    if len(tokens) % 2 == 0 or len(joints) > 1 or not joints <= ({"and", "or"} if alternatives else {"and"}):
+        return None
+    answers = [atom(token) for token in tokens[::2]]
+    decisive = joints == {"or"}
+    if decisive in answers:
+        return decisive
+    return None if None in answers else not decisive
+
+
+def word(token: Any) -> str | None:
+    """Keyword that a token is."""
+    return token.lower_value if token.type == "ident" else None
+
+
+def shown(tokens: list[Any]) -> list[Any]:
+    """Tokens without spaces and comments."""
+    return [token for token in tokens if token.type not in ("whitespace", "comment")]
+
+
+@dataclass(frozen=True, slots=True)
+class Medium:
+    """A picture in a page on a screen.
+
+    Examples
+    --------
+    >>> queries = "print, (width > 9em) and (orientation: landscape)"
+    >>> Medium(200.0, 100.0).holds(tinycss2.parse_component_value_list(queries))
+    True
+    """
+
+    width: float  # user units
+    height: float
+
+    def holds(self, queries: list[Any]) -> Answer:
+        """Whether one of some media queries holds; an empty list does. A number that is too large is not known."""
+        if not shown(queries):
+            return True
+        try:
+            answers = [self.query(shown(query)) for query in separated(queries)]
+        except TooLargeError:
+            return None
+        return True if True in answers else None if None in answers else False
+
+    def query(self, tokens: list[Any]) -> Answer:
+        """Answer of one media query."""
+        first = next((at for at, token in enumerate(tokens) if word(token) not in ("not", "only")), len(tokens))
+        name = word(tokens[first]) if first < len(tokens) else None
+        if name is None:
+            return condition(tokens, self.atom)
+        if first > 1 or name in ("and", "or", "layer"):
+            return None
+        answer: Answer = TYPES.get(name, False)
+        if rest := tokens[first + 1 :]:
+            more = condition(rest[1:], self.atom, alternatives=False) if word(rest[0]) == "and" else None
+            answer = False if answer is False and more is not None else more
+        if answer is None or first == 0 or word(tokens[0]) == "only":
+            return answer
+        return not answer
+
+    def atom(self, token: Any) -> Answer:
+        """Answer of a condition in brackets."""
+        if token.type != "() block":
+            return None
+        inside = shown(token.content)
+        if inside and (inside[0].type == "() block" or word(inside[0]) == "not"):
+            return condition(inside, self.atom)
+        return self.feature(tinycss2.serialize(token.content).strip().lower())
+
+    def feature(self, text: str) -> Answer:
+        """Answer of a feature, as in ``min-width: 20em``, ``width >= 20em`` or ``color``."""
+        name, colon, value = (part.strip() for part in text.partition(":"))
+        if colon:
+            return self.plain(name, value)
+        if match := RANGE.fullmatch(text):
+            left, sign, middle, other, right = (part and part.strip() for part in match.groups())
+            if other is None:
+                a, b = self.value(left, middle), self.value(middle, left)
+                return None if a is None or b is None else COMPARED[sign](a, b)
+            values = self.value(left, middle), self.value(middle, left), self.value(right, middle)
+            if None in values or sign[0] != other[0]:
+                return None
+            a, b, c = (value or 0.0 for value in values)
+            return COMPARED[sign](a, b) and COMPARED[other](b, c)
+        if name in WORDS:
+            return WORDS[name] not in NOTHING
+        if name == "orientation":
+            return True
+        own = self.own(ALIASES.get(name, name))
+        return None if own is None else own > 0.0
+
+    def plain(self, name: str, value: str) -> Answer:
+        """Answer of a feature and its value."""
+        if name == "orientation":
+            upright = {"portrait": True, "landscape": False}.get(value)
+            return None if upright is None else upright == (self.height >= self.width)
+        if name in WORDS:
+            return WORDS[name] == value
+        match = PREFIX.fullmatch(name)
+        webkit, limit, name = match.groups() if match else (None, None, name)
+        name = f"{webkit or ''}{name}"
+        own, other = self.own(ALIASES.get(name, name)), self.value(value, name)
+        if own is None or other is None:
+            return None
+        return COMPARED[{"min-": ">=", "max-": "<=", None: "="}[limit]](own, other)
+
+    def own(self, name: str) -> float | None:
+        """What a feature is that has a size."""
+        sizes = {"width": self.width, "height": self.height, "resolution": 1.0}
+        if name in ("aspect-ratio", "device-aspect-ratio"):
+            return round(self.width / self.height, DIGITS) if self.height else None
+        return sizes.get(name, NUMBERS.get(name))
+
+    def value(self, text: str, name: str) -> float | None:
+        """What one side of a comparison says, a feature or a value; `name` is the other side."""
+        text, name = ALIASES.get(text, text), ALIASES.get(name, name)
+        if (own := self.own(text)) is not None:
+            return own
+        if name in ("width", "height"):
+            length = Viewport(self.width, self.height).length(text, self.width, INITIAL_SIZE)
+            return None if length and number(text) is not None else length  # no unit: only zero has none
+        if name == "resolution":
+            match = RESOLUTION.fullmatch(text)
+            amount = number(match[1]) if match else None
+            return amount * PER_PIXEL[match[2]] if match and amount is not None and match[2] in PER_PIXEL else None
+        if name in ("aspect-ratio", "device-aspect-ratio"):
+            across, _, down = text.partition("/")
+            a, b = number(across), number(down or "1")
+            return None if a is None or not b else round(a / b, DIGITS)
+        return number(text)

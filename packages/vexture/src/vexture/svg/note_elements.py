@@ -1,0 +1,53 @@
+"""What the notes of an SVG are about: elements by name, and where in the drawing they are."""
+
+from collections.abc import Collection, Iterable
+
+import numpy as np
+from lxml import etree
+from numpy.typing import NDArray
+
+from vexture.base.notes import Box, Subject
+from vexture.drawing.drawing import Path
+from vexture.svg.names import ElementNames
+from vexture.svg.report import described
+from vexture.svg.space import Place
+
+__all__ = ["boxes_of", "subject_of"]
+
+LONGEST_NAME = 80
+"""Letters of a name that are kept."""
+
+Boxes = dict[etree._Element, NDArray[np.float64]]
+"""Least and greatest coordinates of what elements paint, (2, 2) each, in the coordinates of the paths."""
+
+
+def boxes_of(elements: Collection[etree._Element], paths: Iterable[Path], places: Iterable[Place]) -> Boxes:
+    """Boxes of what some elements paint, from the paths of the drawing with the place of each.
+
+    What they show as a clip, marker, mask or pattern of others is not theirs.
+    """
+    boxes: Boxes = {}
+    if not elements:
+        return boxes
+    for path, innermost in zip(paths, places, strict=True):
+        place: Place | None = None if innermost.masks else innermost
+        while place is not None:
+            if place.element in elements:
+                assert place.element is not None
+                both = np.concatenate([path.box, boxes.get(place.element, path.box)])
+                boxes[place.element] = np.stack([both.min(axis=0), both.max(axis=0)])
+            place = place.outer
+    return boxes
+
+
+def subject_of(
+    element: etree._Element, names: ElementNames, boxes: Boxes, to_source: NDArray[np.float64] | None
+) -> Subject:
+    """An element as a note names it; `to_source` maps the unit square to the coordinates of its box, without a turn."""
+    name = (names.of(element) or described(element))[:LONGEST_NAME]
+    if element not in boxes or to_source is None:
+        return Subject(name, None)
+    corners = ((boxes[element] - to_source[:, 2]) / np.diag(to_source)).clip(0.0, 1.0)
+    (left, bottom), (right, top) = np.sort(corners, axis=0).tolist()
+    shown: Box = (left, bottom, right, top)
+    return Subject(name, shown if left < right or bottom < top else None)

@@ -1,0 +1,128 @@
+"""Colours that the page around a drawing gives it: `currentColor`, custom properties and context paints."""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Final
+
+from lxml import etree
+
+from vexture.base.errors import ParameterError, shortened
+from vexture.base.notes import Note
+from vexture.drawing.colors import CONTEXT, CURRENT, Color, parse_color
+from vexture.svg.document import local_name
+
+__all__ = ["CURRENT_IS_BLACK", "ENCLOSED", "Page", "unused_colors"]
+
+NAMED: Final = "currentColor, context-fill, context-stroke or a custom property, such as --primary"
+CURRENT_IS_BLACK: Final = "currentColor has no value in it, and is black as in browsers (`page_colors` gives it one)"
+"""What a note says of a drawing that has other colours, too."""
+
+LONGEST: Final = 40
+"""Letters of a name in a note."""
+
+MOST_NAMED: Final = 5
+"""Names in a list of a note."""
+
+REFERENCE: Final = re.compile(r"var\(\s*(--[^\s,()]+)|(?<![\w-])(currentcolor|context-(?:fill|stroke))", re.IGNORECASE)
+"""A name to which a value refers."""
+
+DECLARATION: Final = re.compile(r"(?<![\w-])(--[^\s:;,(){}]+)\s*:")
+"""A custom property that a style sheet or an attribute `style` declares."""
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """What surrounds a drawing, and the colours that it gives.
+
+    Examples
+    --------
+    >>> Page.of({"currentColor": "#c00", "--primary": "teal"}).inherited
+    {'color': '#c00', '--primary': 'teal'}
+    """
+
+    colors: Mapping[str, str] = field(default_factory=dict)  # by names, of which `currentcolor` is in small letters
+    is_open: bool = True  # whether a user can give colours: nobody can to a drawing in an image
+
+    @classmethod
+    def of(cls, given: object) -> "Page":
+        """The page that gives some colours, by `page_colors`; raises a `ParameterError` if they are none."""
+        if given is None:
+            return cls()
+        if not isinstance(given, Mapping):
+            raise ParameterError(f"`page_colors` is {given!r:.80}; it must be a mapping of names to CSS colours")
+        return cls({checked_name(name): checked_color(name, color) for name, color in given.items()})
+
+    @property
+    def inherited(self) -> dict[str, str]:
+        """Properties that the outermost element of a drawing inherits."""
+        given = ((name, color) for name, color in self.colors.items() if name not in CONTEXT)
+        return {"color" if name == CURRENT else name: color for name, color in given}
+
+    def context(self, name: str) -> Color | None:
+        """The colour of a context paint outside of markers and uses; None if it has none there."""
+        color = parse_color(self.colors.get(name, ""))
+        return color if isinstance(color, Color) else None
+
+    def lost(self, what: str, *, helps: bool) -> str:
+        """What a note says of something that has no value; `helps` is whether a colour would be valid there."""
+        remedy = " (`page_colors` gives it one)" if helps and self.is_open else ""
+        return f"{shortened(what, LONGEST)}, which has no value{remedy}"
+
+
+ENCLOSED: Final = Page(is_open=False)
+"""What surrounds a drawing in an image: it gives none."""
+
+
+def checked_name(name: object) -> str:
+    """A name to which a page can give a colour; raises a `ParameterError` if it is another."""
+    if isinstance(name, str):
+        if name.startswith("--") and len(name) > len("--"):
+            return name
+        if name.lower() in (CURRENT, *CONTEXT):
+            return name.lower()
+    raise ParameterError(f"`page_colors` names {name!r:.80}; give {NAMED}")
+
+
+def checked_color(name: object, color: object) -> str:
+    """A colour that a page gives; raises a `ParameterError` if it is none."""
+    if not isinstance(color, str) or not isinstance(parse_color(color), Color):
+        raise ParameterError(f"`page_colors` gives {name} {color!r:.80}; give a CSS colour, such as teal or #c00")
+    return color.strip()
+
+
+def unused_colors(page: Page, root: etree._Element) -> tuple[Note, ...]:
+    """The note about colours of a page to whose names nothing in a document refers, if there are any.
+
+    Examples
+    --------
+    >>> root = etree.fromstring('<svg><path fill="var(--primary)" stroke="currentColor"/></svg>')
+    >>> print(*unused_colors(Page.of({"--primry": "teal"}), root))
+    `page_colors` names --primry, which the drawing does not have; it has --primary, currentColor
+    """
+    if not page.colors:
+        return ()
+    texts = [*texts_of(root)]
+    matches = [match for text in texts for match in REFERENCE.finditer(text)]
+    used = dict.fromkeys(match[1] or match[2].lower() for match in matches)
+    unused = [name for name in page.colors if name not in used]
+    if not unused:
+        return ()
+    own = {name for text in texts for name in DECLARATION.findall(text)}
+    open_names = [name for name in used if name not in own]
+    rest = f"it has {listed(open_names)}" if open_names else "it leaves no colour to the page"
+    return (Note("remark", f"`page_colors` names {listed(unused)}, which the drawing does not have; {rest}"),)
+
+
+def texts_of(root: etree._Element) -> Iterator[str]:
+    """Texts of a document in which values are: attributes and style sheets."""
+    for element in root.iter("*"):
+        yield from map(str, element.attrib.values())
+        if local_name(element) == "style":
+            yield "".join(map(str, element.itertext()))
+
+
+def listed(names: list[str]) -> str:
+    """The first of some names of colours, as a note lists them."""
+    shown = ["currentColor" if name == CURRENT else shortened(name, LONGEST) for name in names[:MOST_NAMED]]
+    return ", ".join((*shown, "...") if len(names) > MOST_NAMED else shown)

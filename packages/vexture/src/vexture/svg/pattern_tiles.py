@@ -1,0 +1,241 @@
+"""Repeating what one tile of a pattern paints.
+
+Neighbours share their border bit for bit, so that no seam is between them. What reaches from one border of its tile to
+the other is not repeated but stretched: a hatching is one strip for each of its lines.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+from copy import deepcopy
+from dataclasses import dataclass, replace
+from math import ceil, floor
+from typing import Final
+
+import numpy as np
+from lxml import etree
+from numpy.typing import NDArray
+
+from vexture.base.deadline import check_time
+from vexture.base.tolerance import ROUND
+from vexture.bezier.bounds import bounds
+from vexture.bezier.clip import clip_contour
+from vexture.bezier.convert import line_cubics, straight
+from vexture.drawing.drawing import Path
+from vexture.svg.compositing import Veil
+from vexture.svg.report import Report, described
+from vexture.svg.transform import Identity, Transform, mapped, scale_of
+from vexture.svg.viewport import Rectangle
+
+__all__ = ["Budget", "Canvas", "FirstTile", "Tiles", "is_window", "visible"]
+
+MOST: Final = {"elements": 20_000, "segments": 400_000, "gradients": 2_000}
+"""Of all patterns of a drawing: elements in first tiles, and what tiles are made of; each has gradients of its own."""
+
+TOUCHED: Final = 1e-6
+"""Part of a tile. Tiles that a shape does not reach farther into are not made."""
+
+LOOSE: Final = 1e-3
+"""Part of a tile. Points that are nearer to its border than this, and than a reader's accuracy, are on it."""
+
+Window = tuple[NDArray[np.float64], NDArray[np.float64]]
+"""Least and greatest coordinates."""
+
+
+@dataclass(frozen=True, slots=True)
+class Canvas:
+    """What is painted on: the drawing, or a pattern's first tile in the pattern's space."""
+
+    frame: Rectangle | None  # the visible part, None while it is unknown
+    size: float  # larger side of the drawing, which bounds the error of approximations; infinite while it is unknown
+    whole: Transform = Identity  # to the drawing
+
+    @property
+    def window(self) -> Window:
+        """Corners of the frame, as `Space.window` clips to it."""
+        assert self.frame is not None
+        x, y, width, height = self.frame
+        return np.array([x, y]), np.array([x + width, y + height])
+
+    @property
+    def sides(self) -> NDArray[np.float64]:
+        """Width and height of the frame."""
+        assert self.frame is not None
+        return np.array(self.frame[2:])
+
+    @property
+    def near(self) -> float:
+        """Distance within which points are on the border of a tile."""
+        return min(ROUND * self.size / scale_of(self.whole), LOOSE * float(self.sides.min()))
+
+    def fitted(self, contour: NDArray[np.float64]) -> NDArray[np.float64]:
+        """A contour whose points near the border are on it; empty if it has no area then."""
+        lines, near = straight(contour), self.near
+        for border in self.window:
+            contour = np.where(np.abs(contour - border) <= near, border, contour)
+        contour[lines] = line_cubics(contour[lines, 0], contour[lines, 3])
+        contour = contour[(contour != contour[:, :1]).any(axis=(1, 2))]
+        return contour if len(contour) and np.ptp(contour, axis=(0, 1)).all() else contour[:0]
+
+    def spans(self, contour: NDArray[np.float64]) -> tuple[bool, bool]:
+        """Whether a contour is an upright rectangle from one side to the other, across and down."""
+        ends = contour[:, 0]
+        upright = (np.abs(contour[:, 3] - ends) <= self.near).any(axis=1)
+        if len(contour) != 4 or not upright.all() or not straight(contour).all():
+            return False, False
+        low, high = self.window
+        x, y = (bool(set(ends[:, axis].tolist()) == {low[axis], high[axis]}) for axis in (0, 1))
+        return x, y
+
+
+@dataclass(frozen=True, slots=True)
+class FirstTile:
+    """What a pattern paints in one tile, in the pattern's space but for gradients, which are in the drawing's."""
+
+    canvas: Canvas
+    veil: Veil  # around all of it
+    painted: tuple[tuple[Path, Veil | None], ...]  # each with the innermost veil around it
+
+    @classmethod
+    def of(cls, canvas: Canvas, veil: Veil, paths: list[Path], veils: list[Veil | None]) -> "FirstTile":
+        """What was painted, fitted into the tile."""
+        painted = []
+        for path, innermost in zip(paths, veils, strict=True):
+            fitted = tuple(contour for contour in map(canvas.fitted, path.contours) if len(contour))
+            if fitted:
+                painted.append((replace(path, contours=fitted), innermost))
+        return cls(canvas, veil, tuple(painted))
+
+    def again(self) -> "FirstTile":
+        """The same with veils of its own."""
+        return deepcopy(self, {id(path): path for path, _ in self.painted})
+
+
+class Budget:
+    """What is left to the patterns of a drawing."""
+
+    def __init__(self, report: Report) -> None:
+        self.report = report
+        self.spent: Counter[str] = Counter()
+
+    def affords(self, pattern: etree._Element, **counts: int) -> bool:
+        """Whether a pattern may have so many of the things that `MOST` limits; if not, a note says so."""
+        for what, count in counts.items():
+            if self.spent[what] + count > MOST[what]:
+                self.report.simplified(
+                    f"{described(pattern)} read as solid: here it has {count:,} {what} in its tiles; all patterns of a"
+                    f" drawing may have {MOST[what]:,}",
+                    pattern,
+                )
+                return False
+        self.spent.update(counts)
+        return True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tiles:
+    """The tiles over a part of the drawing."""
+
+    tile: Canvas  # the first one
+    matrix: Transform  # from the pattern's space to the canvas that is painted on
+    first: tuple[int, int]  # column and row
+    last: tuple[int, int]  # behind the last
+    window: Window  # on the canvas
+
+    @classmethod
+    def over(cls, tile: Canvas, shape: list[NDArray[np.float64]], window: Window, canvas: Canvas) -> "Tiles":
+        """The tiles over a shape within a window of a canvas."""
+        (x, y), (width, height) = tile.window[0], tile.sides
+        matrix = tile.whole if canvas.whole == Identity else canvas.whole.inverse().transform(tile.whole)
+        left, top, right, bottom = bounds(mapped(np.concatenate(shape), matrix.inverse()))
+        first = floor((left - x) / width + TOUCHED), floor((top - y) / height + TOUCHED)
+        last = ceil((right - x) / width - TOUCHED), ceil((bottom - y) / height - TOUCHED)
+        return cls(tile, matrix, first, (max(last[0], first[0] + 1), max(last[1], first[1] + 1)), window)
+
+    @property
+    def count(self) -> int:
+        """Number of tiles."""
+        return (self.last[0] - self.first[0]) * (self.last[1] - self.first[1])
+
+    def cost(self, path: Path) -> tuple[int, int]:
+        """Number of cubics and of gradients that `repeated` makes of a path."""
+        if path.paint.gradient is not None:
+            return self.count * sum(map(len, path.contours)), self.count
+        columns, rows = self.last[0] - self.first[0], self.last[1] - self.first[1]
+        cubics = 0
+        for contour in path.contours:
+            across, down = self.tile.spans(contour)
+            cubics += len(contour) * (1 if across else columns) * (1 if down else rows)
+        return cubics, 0
+
+    def repeated(self, path: Path) -> list[Path]:
+        """What a path of the first tile is in all tiles."""
+        if path.paint.gradient is not None:
+            return [made for at in self._places(False, False) for made in self._shaded(path, at)]
+        contours: list[NDArray[np.float64]] = []
+        for contour in path.contours:
+            check_time()
+            stretched = self.tile.spans(contour)
+            start = self._places(*stretched)
+            contours += self._moved(contour, start, np.where(stretched, np.array(self.last, np.float64), start + 1.0))
+        return [replace(path, contours=tuple(contours))] if contours else []
+
+    def _places(self, across: bool, down: bool) -> NDArray[np.float64]:
+        """Columns and rows of tiles, (m, 2): of all, or along an axis of the first ones only."""
+        ends = zip(self.first, self.last, (across, down), strict=True)
+        columns, rows = (np.arange(first, first + 1 if one else last, dtype=np.float64) for first, last, one in ends)
+        return np.stack(np.meshgrid(columns, rows), axis=-1).reshape(-1, 2)
+
+    def _shaded(self, path: Path, at: NDArray[np.float64]) -> Iterator[Path]:
+        """A path with a gradient, in one tile."""
+        check_time()
+        contours = [part for contour in path.contours for part in self._moved(contour, at[None], at[None] + 1.0)]
+        if contours:
+            a, b, c, d = self.tile.whole[:4]
+            x, y = (at * self.tile.sides).tolist()
+            paint = path.paint.after(((1.0, 0.0, -a * x - c * y), (0.0, 1.0, -b * x - d * y)))
+            yield replace(path, contours=tuple(contours), paint=paint)
+
+    def _moved(
+        self, contour: NDArray[np.float64], start: NDArray[np.float64], end: NDArray[np.float64]
+    ) -> list[NDArray[np.float64]]:
+        """A contour of the first tile in others, on the canvas, as far as it is in the window.
+
+        Its points on the greater borders move to the columns and rows `end`, (m, 2), and all others to `start`.
+        """
+        low, high = self.tile.window
+        on_end = contour == high
+        base = np.where(on_end, low, contour)
+        index = np.where(on_end, end[:, None, None], start[:, None, None])
+        points = base + index * self.tile.sides
+        if (end - start > 1.0).any():
+            ends = points[:, :, 0]
+            points = line_cubics(ends, np.roll(ends, -1, axis=1))
+        points = mapped(points, self.matrix)
+        low, high = self.window
+        least, most = points.min(axis=(1, 2)), points.max(axis=(1, 2))
+        inside = ((least >= low) & (most <= high)).all(axis=1)
+        found = []
+        for k in np.flatnonzero(((least < high) & (most > low)).all(axis=1)).tolist():
+            part = points[k] if inside[k] else clip_contour(points[k], low, high)
+            if len(part):
+                found.append(part)
+        return found
+
+
+def visible(shape: list[NDArray[np.float64]], frame: Rectangle) -> tuple[list[NDArray[np.float64]], Window]:
+    """What of a shape is inside a frame, and its bounding box."""
+    x, y, width, height = frame
+    cut = (clip_contour(contour, (x, y), (x + width, y + height)) for contour in shape)
+    inside = [contour for contour in cut if len(contour)]
+    box = bounds(np.concatenate(inside)) if inside else (x, y, x, y)
+    return inside, (np.array(box[:2]), np.array(box[2:]))
+
+
+def is_window(shape: list[NDArray[np.float64]], window: Window) -> bool:
+    """Whether a shape is an upright rectangle, bit for bit, and so its bounding box."""
+    if len(shape) != 1 or len(shape[0]) != 4:
+        return False
+    (left, top), (right, bottom) = (corner.tolist() for corner in window)
+    corners = {(x, y) for x in (left, right) for y in (top, bottom)}
+    upright = (np.ptp(shape[0], axis=1) == 0.0).any(axis=1)
+    return bool(upright.all()) and {(x, y) for x, y in shape[0][:, 0].tolist()} == corners

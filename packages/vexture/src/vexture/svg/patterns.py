@@ -1,0 +1,156 @@
+"""Patterns of an SVG: what their elements say, and where their tiles lie on what they paint (SVG 2, 14.3)."""
+
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, replace
+from typing import Final, TypeVar
+
+import numpy as np
+from lxml import etree
+
+from vexture.bezier.bounds import bounds
+from vexture.drawing.paint import Paint
+from vexture.svg.compositing import Veil
+from vexture.svg.document import local_name
+from vexture.svg.gradients import BOXED, SHORTEST, WHOLE, transform_of
+from vexture.svg.outline import Outline
+from vexture.svg.report import Report
+from vexture.svg.space import SMALLEST, Place, Placed, Space
+from vexture.svg.style import Style
+from vexture.svg.transform import Identity, Transform, about_origin
+from vexture.svg.values import Viewport
+from vexture.svg.viewport import CENTRED, THINNEST, Fit, Rectangle, parse_fit, view_box, view_transform
+
+__all__ = ["Pattern", "Tiling", "read_pattern"]
+
+SIZES: Final = ("width", "height")
+LENGTHS: Final = ("x", "y", *SIZES)
+Value = TypeVar("Value")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pattern:
+    """A pattern as its element and those that it refers to say, with no place yet."""
+
+    element: etree._Element
+    holder: etree._Element  # whose children are shown
+    style: Style  # that they inherit
+    lengths: tuple[str, ...]  # as `LENGTHS`
+    font_size: float  # of the element
+    boxed: bool  # whether the lengths are parts of the bounding box
+    box_is_unit: bool  # whether the content is in parts of the bounding box
+    moved: Transform  # `patternTransform`
+    origin: str  # about which it is
+    view: Rectangle | None
+    fit: Fit
+
+    def tiling(self, place: Place, outlines: list[Outline], solid: Paint) -> "Tiling | None":
+        """The tiles on outlines at a place; None if they have no area there."""
+        left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
+        width, height = right - left, bottom - top
+        view = WHOLE if self.boxed else place.viewport
+        whole = place.space.whole.transform(about_origin(self.moved, self.origin, place.viewport.along(self.font_size)))
+        a, b, c, d = whole[:4]
+        if not SMALLEST <= abs(a * d - b * c) <= 1.0 / SMALLEST:
+            return None
+        tile = self.in_view(view)
+        if self.boxed:
+            tile = left + tile[0] * width, top + tile[1] * height, tile[2] * width, tile[3] * height
+        if min(tile[2:]) < SHORTEST or (self.view is not None and min(self.view[2:]) < THINNEST):
+            return None
+        content, viewport = Identity.translate(*tile[:2]), place.viewport
+        if self.view is not None:
+            content = content.transform(view_transform(self.view, self.fit, *tile[2:]))
+            viewport = replace(viewport, width=self.view[2], height=self.view[3])
+        elif self.box_is_unit:
+            content = content.scale(width, height)
+        return Tiling(self, tile, Space(whole=whole), content, viewport, solid)
+
+    def in_view(self, view: Viewport) -> Rectangle:
+        """The first tile, of which percentages refer to a viewport."""
+        wholes = (view.width, view.height) * 2
+        pairs = zip(self.lengths, wholes, strict=True)
+        x, y, width, height = (view.length(text, whole, self.font_size) or 0.0 for text, whole in pairs)
+        return x, y, width, height
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tiling:
+    """A pattern on what it paints."""
+
+    pattern: Pattern
+    tile: Rectangle  # the first one, in the units of `space`
+    space: Space  # in which the tiles are upright
+    content: Transform  # from the units of the pattern's content to those of `space`
+    viewport: Viewport  # to which percentages in the content refer
+    solid: Paint  # where tiles cannot be
+    opacity: float = 1.0
+
+    @property
+    def key(self) -> tuple[Hashable, ...]:
+        """What its first tile depends on."""
+        return self.pattern, self.tile, self.space.whole, self.content, self.viewport
+
+    def faded(self, opacity: float) -> "Tiling":
+        """The tiling with its opacity multiplied."""
+        return replace(self, solid=self.solid.faded(opacity), opacity=opacity * self.opacity)
+
+    def shown(self, place: Place, veil: Veil) -> list[Placed]:
+        """What is to be painted as the first tile, for a shape at a place."""
+        pattern = self.pattern
+        inner = Place(
+            self.viewport,
+            self.space.window(self.tile, self.content),
+            pattern.style,
+            pattern.holder,
+            place,
+            place.depth + 1,
+            used=True,
+            veil=veil,
+            masks=place.deeper(),
+            is_instance=True,
+        )
+        return [(child, inner) for child in reversed(pattern.holder)]
+
+
+def read_pattern(chain: list[etree._Element], styles: list[Style], report: Report) -> Pattern | None:
+    """The first of some pattern elements, each of which refers to the next; None if they have no content."""
+
+    def said(name: str, parse: Callable[[str], Value | None], default: Value) -> Value:
+        element = next((element for element in chain if element.get(name) is not None), None)
+        text = "" if element is None else element.get(name, "")
+        value = default if element is None else parse(text)
+        if value is None and element is not None:
+            report.invalid(name, text, element)
+        return default if value is None else value
+
+    holders = (k for k, element in enumerate(chain) if any(local_name(child) for child in element))
+    holder = next(holders, None)
+    if holder is None:
+        return None
+    words = (text for element in chain if (text := element.get("patternTransform")) is not None)
+    text, moved = transform_of(next(words, ""), chain[0], styles[0])
+    if moved is None:
+        report.invalid("patternTransform", text, chain[0])
+    return Pattern(
+        chain[0],
+        chain[holder],
+        styles[holder],
+        tuple(said(name, size_text if name in SIZES else length_text, "0") for name in LENGTHS),
+        styles[0].font_size,
+        said("patternUnits", lambda text: BOXED.get(text.strip()), True),
+        said("patternContentUnits", lambda text: BOXED.get(text.strip()), False),
+        moved or Identity,
+        styles[0]["transform-origin"],
+        said("viewBox", view_box, None),
+        said("preserveAspectRatio", parse_fit, CENTRED),
+    )
+
+
+def length_text(text: str) -> str | None:
+    """A length as it is; None if it is none."""
+    return None if WHOLE.length(text, 1.0, 1.0) is None else text
+
+
+def size_text(text: str) -> str | None:
+    """A length as it is; None if it is none, or below 0."""
+    return text if (WHOLE.length(text, 1.0, 1.0) or 0.0) >= 0.0 and length_text(text) else None

@@ -1,0 +1,149 @@
+"""Notes about an SVG: what was left out, simplified or invalid, and at which element."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import islice
+from typing import Final, TypeAlias
+
+from lxml import etree
+
+from vexture.base.errors import SourceError, printable, shortened
+from vexture.base.notes import MOST_SUBJECTS, Kind, Note, Notes, Subject
+
+__all__ = ["LocatedError", "Report", "described"]
+
+Step: TypeAlias = Callable[[etree._Element], etree._Element | None]
+"""From an element to another one."""
+
+
+BOXED: Final = ""
+"""For what the note of characters that no font has stands."""
+
+NEAR: Final = 100
+"""Elements before and after one among which those of its kind are counted."""
+
+
+class LocatedError(SourceError):
+    """An error that names an element."""
+
+
+def described(element: etree._Element) -> str:
+    """Element as a message names it: by its `id`, or else by its line, and its number of those alike in that.
+
+    Examples
+    --------
+    >>> root = etree.fromstring('<svg><path id="a"/><g><rect/></g><rect/><circle/></svg>')
+    >>> [described(element) for element in root.iter("path", "rect", "circle")]
+    ['<path id="a"> in line 1', 'the 1st <rect> in line 1', 'the 2nd <rect> in line 1', '<circle> in line 1']
+    """
+    name = str(element.tag).rpartition("}")[2]
+    label = f' id="{element.get("id", "")[:40]}"' if element.get("id") else ""
+    line = f" in line {element.sourceline}" if element.sourceline else ""
+    which = "" if label else placed_in_line(element)
+    return f"{which}<{name[:40]}{label}>{line}"
+
+
+def placed_in_line(element: etree._Element) -> str:
+    """Which of the elements of its kind in its line an element is; empty if it is the only one, or they are many."""
+    before = list(islice(beside(element, previous), NEAR))
+    after = any(other.tag == element.tag for other in islice(beside(element, following), NEAR))
+    count = 1 + sum(other.tag == element.tag for other in before)
+    if len(before) == NEAR or (count == 1 and not after):
+        return ""
+    ending = "th" if count % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(count % 10, "th")
+    return f"the {count}{ending} "
+
+
+def beside(element: etree._Element, step: Step) -> Iterator[etree._Element]:
+    """Yield the elements before or after one in its line, the nearest first."""
+    other = step(element)
+    while other is not None and other.sourceline == element.sourceline:
+        yield other
+        other = step(other)
+
+
+def previous(element: etree._Element) -> etree._Element | None:
+    """The element that begins before another one."""
+    before = element.getprevious()
+    if before is None:
+        return element.getparent()
+    while len(before):
+        before = before[-1]
+    return before
+
+
+def following(element: etree._Element) -> etree._Element | None:
+    """The element that begins after another one."""
+    if len(element):
+        return element[0]
+    around: etree._Element | None = element
+    while around is not None:
+        after = around.getnext()
+        if after is not None:
+            return after
+        around = around.getparent()
+    return None
+
+
+class Report(Notes):
+    """Notes about one document.
+
+    Examples
+    --------
+    >>> report = Report()
+    >>> report.invalid("r", "x", etree.fromstring("<rect/>"))
+    >>> [str(note) for note in report.listed]
+    ["r='x' of <rect> in line 1"]
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._about: dict[tuple[Kind, str], dict[etree._Element, None]] = {}
+        self._once = set[tuple[Kind, str, etree._Element]]()
+
+    def left_out(self, what: str, element: etree._Element | None = None) -> None:
+        """Note something that is not supported, and so paints nothing or has no effect."""
+        self.count("left out", what, element)
+
+    def simplified(self, what: str, element: etree._Element | None = None) -> None:
+        """Note something that is in the result, but not as it should be."""
+        self.count("simplified", what, element)
+
+    def invalid(self, name: str, value: str, element: etree._Element) -> None:
+        """Note a value that the standard does not allow."""
+        self.count("invalid", f"{name}='{' '.join(shortened(value, 40).split())}' of {described(element)}", element)
+
+    def boxed(self, character: str, element: etree._Element | None = None) -> None:
+        """Note a character of an element that no font has."""
+        super().boxed(character)
+        self.add_about("simplified", BOXED, element)
+
+    def count(self, kind: Kind, what: str, element: etree._Element | None = None) -> None:
+        """Note something once more, of an element if it is about one."""
+        super().count(kind, what)
+        self.add_about(kind, printable(what), element)
+
+    def once(self, kind: Kind, what: str, element: etree._Element) -> None:
+        """Note something about an element, but for the first time only, however often it is shown."""
+        if (kind, what, element) not in self._once:
+            self._once.add((kind, what, element))
+            self.count(kind, what, element)
+
+    def add_about(self, kind: Kind, what: str, element: etree._Element | None) -> None:
+        """Keep that a note is about an element, too."""
+        if element is not None:
+            about = self._about.setdefault((kind, what), {})
+            if len(about) < MOST_SUBJECTS:
+                about[element] = None
+
+    @property
+    def elements(self) -> set[etree._Element]:
+        """Elements that any note is about."""
+        return {element for about in self._about.values() for element in about}
+
+    def about(self, subject: Callable[[etree._Element], Subject]) -> tuple[Note, ...]:
+        """All notes, as `listed`, with what their elements are."""
+        boxes = {note.message: BOXED for note in self.of_boxes}
+        keys = ((note, boxes.get(note.message, note.message)) for note in self.listed)
+        found = ((note, self._about.get((note.kind, key), {})) for note, key in keys)
+        return tuple(replace(note, elements=tuple(map(subject, about))) for note, about in found)

@@ -1,0 +1,146 @@
+"""Where an element stands: its user units, the viewports that clip it, and the style that it inherits."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from lxml import etree
+from numpy.typing import NDArray
+
+from vexture.base.errors import SourceError
+from vexture.bezier.clip import clip_contour
+from vexture.svg.compositing import Veil
+from vexture.svg.outline import Outline
+from vexture.svg.style import INITIAL, Style
+from vexture.svg.transform import Identity, Transform, mapped
+from vexture.svg.values import LARGEST, TooLargeError, Viewport
+from vexture.svg.viewport import Rectangle
+
+__all__ = ["SMALLEST", "Context", "Place", "Placed", "Space", "Window"]
+
+MOST_MASKS = 32
+"""Clips, markers, masks and patterns in one another."""
+
+SMALLEST = 1 / LARGEST**4
+"""Smallest determinant: below it, sizes in user units cannot be computed in floating point."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Space:
+    """A coordinate system inside nested viewports."""
+
+    matrix: Transform = Identity  # to the coordinates of `outer`, or of the drawing if there is none
+    clip: Rectangle | None = None  # visible part, in those coordinates
+    outer: "Space | None" = None  # coordinate system around the nearest viewport that clips
+    whole: Transform = Identity  # to the coordinates of the drawing
+
+    @property
+    def flat(self) -> bool:
+        """Whether shapes in it have no area in the drawing, or too little for floating point."""
+        a, b, c, d = self.whole[:4]
+        return bool(abs(a * d - b * c) < SMALLEST)
+
+    def moved(self, matrix: Transform) -> "Space":
+        """Coordinate system of an element with a transform."""
+        whole = self.whole.transform(matrix)
+        if not max(map(abs, whole)) <= LARGEST:
+            raise TooLargeError(f"the transforms multiply to {max(map(abs, whole)):g}; the limit is {LARGEST:g}")
+        return replace(self, matrix=self.matrix.transform(matrix), whole=whole)
+
+    def window(self, visible: Rectangle, matrix: Transform) -> "Space":
+        """Coordinate system inside a viewport that shows only `visible`, given in these coordinates."""
+        return replace(self.moved(matrix), matrix=matrix, clip=visible, outer=self)
+
+    def to_drawing(self, contour: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Map a contour to the drawing's coordinates and clip it; empty if nothing is left."""
+        space: Space | None = self
+        while space is not None:
+            if space.matrix != Identity:
+                contour = mapped(contour, space.matrix)
+            if space.clip is not None and len(contour):
+                x, y, width, height = space.clip
+                contour = clip_contour(contour, (x, y), (x + width, y + height))
+            space = space.outer
+        return contour
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Place:
+    """The context of an element in the drawing; `use` puts the same element in several places."""
+
+    viewport: Viewport  # percentages refer to it
+    space: Space  # the user units
+    style: Style = INITIAL  # style to inherit
+    element: etree._Element | None = None  # the parent, or the `use` that shows it
+    outer: "Place | None" = None  # the place of `element`
+    depth: int = 0  # number of elements around it
+    used: bool = False  # whether one of them is a `use`
+    use: Style | None = None  # style of the `use` whose target stands here
+    chosen: bool = True  # whether elements here are painted
+    veil: Veil | None = None  # the innermost one around it
+    is_clip: bool = False  # whether only the outlines of shapes here count
+    masks: int = 0  # number of clips, markers, masks and patterns around it that it is a part of
+    name: str = ""  # of elements here: the nearest name around them, or that of the outermost `use`
+    is_instance: bool = False  # whether the name is that of a `use`
+    context: "Context | None" = None  # the element whose paints `context-fill` and `context-stroke` are
+
+    @property
+    def position(self) -> tuple[float, float]:
+        """Values of `x` and `y` of the element here."""
+        x, y = self.style["x"], self.style["y"]
+        view, font_size = self.viewport, self.style.font_size
+        return view.length(x, view.width, font_size) or 0.0, view.length(y, view.height, font_size) or 0.0
+
+    def deeper(self) -> int:
+        """Number of clips, markers, masks and patterns around what is in one more; a `SourceError` if too many."""
+        if self.masks >= MOST_MASKS:
+            what = "its clips, markers, masks and patterns"
+            raise SourceError(f"{what} are nested more than {MOST_MASKS} deep; simplify them")
+        return self.masks + 1
+
+    def named(self, own: str, is_use: bool) -> tuple[str, bool]:
+        """Name of an element here, and whether it is that of a `use`: what a `use` shows is one thing, of its name.
+
+        `own` is what the element is named itself.
+        """
+        if self.is_instance or not own:
+            return self.name, self.is_instance
+        return own, is_use
+
+    def inside(self, element: etree._Element) -> bool:
+        """Whether an element is around this place."""
+        place: Place | None = self
+        while place is not None:
+            if place.element is element:
+                return True
+            place = place.outer
+        return False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Context:
+    """An element that has markers, or a `use`: its paints lie as it does (SVG 2, 13.2)."""
+
+    place: Place  # inside it, with its style
+    outlines: Callable[[], list[Outline]]  # of which gradients and patterns may need the bounding box
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """A viewport, and how it shows its content."""
+
+    visible: Rectangle | None  # None if its content may reach beyond
+    content: Transform  # from the units of its content to those around it
+    size: tuple[float, float]  # to which percentages in its content refer
+
+    def within(self, place: Place) -> Place:
+        """The place inside it, if it stands at a place."""
+        space = place.space.moved(self.content)
+        if self.visible is not None:
+            space = place.space.window(self.visible, self.content)
+        width, height = self.size
+        return replace(place, viewport=replace(place.viewport, width=width, height=height), space=space)
+
+
+Placed = tuple[etree._Element, Place]
+"""An element, and the place around it."""

@@ -1,0 +1,302 @@
+"""Style sheets of a drawing: their rules with media, layers and nesting, and what they say of an element."""
+
+from collections.abc import Iterator
+from math import inf
+from typing import Any, Final, NamedTuple
+
+import cssselect2
+import tinycss2
+from lxml import etree
+
+from vexture.base.errors import shortened
+from vexture.drawing.calculation import separated
+from vexture.svg.animations import KEYFRAMES, Values, read_keyframes
+from vexture.svg.css_names import is_other_property
+from vexture.svg.declarations import (
+    Declaration,
+    canonical,
+    expanded,
+    longhands,
+    read_declaration,
+    read_descriptors,
+    tokens,
+)
+from vexture.svg.media import Answer, Medium, condition, shown, word
+from vexture.svg.properties import PROPERTIES
+from vexture.svg.report import Report
+from vexture.svg.select import Node
+
+__all__ = ["FontFace", "Sheets"]
+
+UNREADABLE = (cssselect2.SelectorError, SyntaxError, AttributeError, NotImplementedError, RecursionError, MemoryError)
+"""What cssselect2 raises for selectors that it cannot read."""
+
+LONGEST: Final = 20_000
+"""Characters of a selector with those of the rules around it, which multiply where `&` is nested."""
+
+LONGEST_NAMED: Final = 60
+"""Characters of what a note names."""
+
+PARENT: Final = "&"
+
+FORGIVING: Final = frozenset({"is", "where", "matches", "-webkit-any"})
+NOTHING: Final = tinycss2.parse_component_value_list(":not(*)")
+"""A selector that nothing matches."""
+
+COMBINATORS: Final = (">", "+", "~")
+
+SILENT: Final = frozenset({"charset"})
+"""At-rules that change nothing."""
+
+Layer = tuple[str, ...]
+"""Names of the layers around a rule, from the outer one."""
+
+
+class FontFace(NamedTuple):
+    """A rule `@font-face`."""
+
+    descriptors: dict[str, str]  # by their names
+    element: etree._Element  # the style sheet
+
+
+class Around(NamedTuple):
+    """A style rule around others."""
+
+    selectors: list[Any]
+    text: str
+
+
+class Sheets:
+    """The `<style>` elements of a document; `medium` is what it is shown in."""
+
+    def __init__(self, root: etree._Element, report: Report, medium: Medium) -> None:
+        self.report = report
+        self.medium = medium
+        self.matcher: Any = None
+        self.font_faces: list[FontFace] = []
+        self.keyframes: dict[str, Values] = {}
+        self.wrappers: dict[etree._Element, Any] = {}
+        self.layers: dict[Layer, int] = {(): 0}  # in order of appearance
+        self.prefixes = dict[str, str]()  # of namespaces
+        sheets = [element for element in root.iter("{*}style") if element.text]
+        if not sheets:
+            return
+        self.matcher = cssselect2.Matcher()
+        for sheet in sheets:
+            self.element = sheet
+            if sheet.get("type", "text/css").strip().lower() in ("", "text/css") and self.holds(
+                tokens(sheet.get("media", "")), 'media="{}" of <style>'
+            ):
+                self.add_rules(tinycss2.parse_stylesheet(tokens(sheet.text or ""), True, True), ())
+        for wrapper in Node.from_xml_root(root).iter_subtree():
+            self.wrappers[wrapper.etree_element] = wrapper
+        self.ranks = {layer: rank for rank, layer in enumerate(sorted(self.layers, key=self.standing))}
+
+    @property
+    def has_layers(self) -> bool:
+        """Whether there are layers."""
+        return len(self.layers) > 1
+
+    def standing(self, layer: Layer) -> tuple[float, ...]:
+        """What layers are sorted by: what is in none comes after all that are in one (CSS Cascade 5, 6.4.3)."""
+        return *(self.layers[layer[:depth]] for depth in range(1, len(layer) + 1)), inf
+
+    def declared(self, element: etree._Element) -> Iterator[tuple[float, Declaration]]:
+        """Yield what the rules say of an element, in rising specificity, each with the rank of its layer."""
+        if self.matcher is not None and element in self.wrappers:  # not one that stands for a shape of CSS
+            for _, _, pseudo, (declarations, layer) in self.matcher.match(self.wrappers[element]):
+                if pseudo is None:
+                    rank = self.ranks[layer]
+                    for declaration in declarations:
+                        yield rank, declaration
+
+    def add_rules(self, rules: list[Any], layer: Layer) -> None:
+        """Add rules, in order."""
+        for rule in rules:
+            if rule.type == "qualified-rule":
+                self.add_style_rule(rule, layer)
+            elif rule.type == "at-rule":
+                self.add_at_rule(rule, layer)
+
+    def add_style_rule(self, rule: Any, layer: Layer, around: Around | None = None) -> None:
+        """Add the declarations and the nested rules of a style rule."""
+        try:
+            text = tinycss2.serialize(rule.prelude).strip()
+            parent = ":root" if around is None else around.text
+            copies = text.count(PARENT) + (0 if around is None else text.count(",") + 1)
+            if copies and len(text) + copies * len(parent) > LONGEST:
+                raise SyntaxError
+            if copies:
+                text = nested(rule.prelude, parent, around is not None)
+            selectors = self.compiled(text)
+        except UNREADABLE:
+            self.report.left_out(f"CSS selector '{spelled(rule.prelude)}', which cannot be read", self.element)
+            return
+        self.add_block(rule.content, layer, Around(selectors, text))
+
+    def compiled(self, text: str) -> list[Any]:
+        """Selectors of a list; unknown ones in `:is()` and `:where()` match nothing (Selectors 4, 4.2)."""
+        try:
+            return list(cssselect2.compile_selector_list(text, self.prefixes))
+        except cssselect2.SelectorError:
+            forgiven = forgiving(tinycss2.parse_component_value_list(text), self.prefixes)
+            return list(cssselect2.compile_selector_list(forgiven, self.prefixes))
+
+    def add_block(self, content: Any, layer: Layer, around: Around) -> None:
+        """Add what a block says of the elements of a style rule, and the rules in it."""
+        declarations = list[Declaration]()
+        for item in tinycss2.parse_blocks_contents(content, skip_comments=True, skip_whitespace=True):
+            if item.type == "declaration":
+                declarations += read_declaration(item.name, tinycss2.serialize(item.value).strip(), item.important)
+                continue
+            self.add_declarations(declarations, layer, around)
+            declarations = []
+            if item.type == "qualified-rule":
+                self.add_style_rule(item, layer, around)
+            elif item.type == "at-rule":
+                self.add_at_rule(item, layer, around)
+        self.add_declarations(declarations, layer, around)
+
+    def add_declarations(self, declarations: list[Declaration], layer: Layer, around: Around) -> None:
+        """Add declarations for the elements of a style rule."""
+        if declarations:
+            for selector in around.selectors:
+                self.matcher.add_selector(selector, (declarations, layer))
+
+    def add_at_rule(self, rule: Any, layer: Layer, around: Around | None = None) -> None:
+        """Add the rules inside an at-rule, if it is a condition that holds or a layer."""
+        name = rule.lower_at_keyword
+        if name == "font-face":
+            descriptors = {each.name.lower(): each.value for each in read_descriptors(rule.content or [])}
+            self.font_faces.append(FontFace(descriptors, self.element))
+        elif name in KEYFRAMES:
+            called, values = read_keyframes(rule, declarations)
+            self.keyframes[called] = values
+        elif name == "layer":
+            self.add_layers(rule, layer, around)
+        elif name == "media" and rule.content is not None:
+            if self.holds(rule.prelude, "@media {}"):
+                self.add_content(rule.content, layer, around)
+        elif name == "supports" and rule.content is not None:
+            answer = condition(shown(rule.prelude), supported)
+            if answer:
+                self.add_content(rule.content, layer, around)
+            elif answer is None:
+                self.report.left_out(f"@supports {spelled(rule.prelude)}", self.element)
+        elif name == "namespace":
+            self.add_namespace(rule)
+        elif name not in SILENT:
+            self.report.left_out(f"@{name[:40]}", self.element)
+
+    def add_namespace(self, rule: Any) -> None:
+        """Remember the prefix of a namespace; one without a prefix is that of the drawing, or else of nothing in it."""
+        prefix, *values = shown(rule.prelude) or [None]
+        if values and prefix.type == "ident":
+            value = values[0]
+            self.prefixes[prefix.value] = value.arguments[0].value if value.type == "function" else value.value
+
+    def holds(self, queries: list[Any], said: str) -> bool:
+        """Whether media queries hold; those that are not known are named."""
+        answer = self.medium.holds(queries)
+        if answer is None:
+            self.report.left_out(said.format(spelled(queries)), self.element)
+        return answer is True
+
+    def add_content(self, content: list[Any], layer: Layer, around: Around | None) -> None:
+        """Add what is inside an at-rule."""
+        if around is None:
+            self.add_rules(tinycss2.parse_rule_list(content, skip_comments=True, skip_whitespace=True), layer)
+        else:
+            self.add_block(content, layer, around)
+
+    def add_layers(self, rule: Any, layer: Layer, around: Around | None) -> None:
+        """Add the layers that a rule names, in their order, and the rules inside it."""
+        names = [tinycss2.serialize(part).strip() for part in separated(rule.prelude)]
+        for name in names:
+            inner = layer
+            for part in name.split(".") if name else [f" {len(self.layers)}"]:  # one without a name is like no other
+                inner = (*inner, part.strip())
+                self.layers.setdefault(inner, len(self.layers))
+            if rule.content is not None and len(names) == 1:
+                self.add_content(rule.content, inner, around)
+
+
+def declarations(content: Any) -> Iterator[Declaration]:
+    """Yield the declarations of a block without rules in it."""
+    for name, value, important in read_descriptors(content):
+        yield from read_declaration(name, value, important)
+
+
+def spelled(tokens: list[Any]) -> str:
+    """The begin of some tokens, for a note."""
+    try:
+        text = str(tinycss2.serialize(tokens))
+    except RecursionError:
+        text = "..."
+    return shortened(" ".join(text.split()), LONGEST_NAMED)
+
+
+def nested(prelude: list[Any], around: str, is_relative: bool) -> str:
+    """Selector of a rule inside another one, whose selector is `around` (CSS Nesting 1)."""
+    found = list[str]()
+    for part in separated(prelude):
+        text = with_parent(part, around).strip()
+        bare = PARENT not in tinycss2.serialize(part) or text.startswith(COMBINATORS)
+        found.append(f":is({around}) {text}" if is_relative and bare else text)
+    return ", ".join(found)
+
+
+def forgiving(tokens: list[Any], prefixes: dict[str, str]) -> list[Any]:
+    """Tokens of a selector without what is unknown in its functions `:is()` and `:where()`."""
+    found = list[Any]()
+    for token in tokens:
+        if token.type == "function" and token.lower_name in FORGIVING:
+            parts = [forgiving(part, prefixes) for part in separated(token.arguments)]
+            known = [part for part in parts if is_selector(part, prefixes)] or [NOTHING]
+            text = ",".join(str(tinycss2.serialize(part)) for part in known)
+            found += tinycss2.parse_component_value_list(f"{token.name}({text})")
+        else:
+            found.append(token)
+    return found
+
+
+def with_parent(prelude: list[Any], around: str) -> str:
+    """Text of a selector with another one in place of each `&`."""
+    found = list[str]()
+    for token in prelude:
+        if token == PARENT:
+            found.append(f":is({around})")
+        elif token.type == "function":
+            found.append(f"{token.name}({with_parent(token.arguments, around)})")
+        else:
+            found.append(tinycss2.serialize([token]))
+    return "".join(found)
+
+
+def supported(token: Any) -> Answer:
+    """Whether a condition of `@supports` holds: a declaration or a selector, as browsers know them."""
+    if token.type == "function":
+        return is_selector(token.arguments) if token.lower_name == "selector" else None
+    if token.type != "() block":
+        return None
+    inside = shown(token.content)
+    if inside and (inside[0].type in ("() block", "function") or word(inside[0]) == "not"):
+        return condition(inside, supported)
+    name, colon, value = (part.strip() for part in tinycss2.serialize(token.content).partition(":"))
+    if not colon:
+        return None
+    if name.startswith("--"):
+        return True
+    known = canonical(name)
+    if not longhands(known):
+        return is_other_property(name.lower())  # its value is taken for one of those that it may have
+    pairs = [*expanded(known, value)]
+    return bool(pairs) and all(PROPERTIES[longhand].allows(part) for longhand, part in pairs)
+
+
+def is_selector(arguments: list[Any], prefixes: dict[str, str] | None = None) -> bool:
+    """Whether tokens are a selector that is known here."""
+    try:
+        return len(cssselect2.compile_selector_list(arguments, prefixes)) == 1
+    except UNREADABLE:
+        return False

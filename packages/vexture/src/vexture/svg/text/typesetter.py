@@ -1,0 +1,70 @@
+"""Setting texts: the fonts of a drawing, and what each of its texts paints."""
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from lxml import etree
+
+from vexture.base.errors import DeviceError
+from vexture.svg.outline import Outline
+from vexture.svg.report import Report
+from vexture.svg.space import Place
+from vexture.svg.stylesheets import FontFace
+
+if TYPE_CHECKING:  # imported at run time for drawings with texts only
+    from vexture.svg.text.pieces import Piece
+    from vexture.svg.text.runs import Faces
+    from vexture.svg.text.tree import Setting
+
+__all__ = ["Text", "Typesetter"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Text:
+    """What a text paints, and the box around the cells of its glyphs."""
+
+    pieces: "tuple[Piece, ...]" = ()
+    box: Outline | None = None
+
+
+class Typesetter:
+    """Sets the texts of a drawing in fonts: of files, of its own, and of the system."""
+
+    def __init__(self, files: Sequence[str | os.PathLike[str]], font_faces: Sequence[FontFace], report: Report) -> None:
+        self.files = (files,) if isinstance(files, str | os.PathLike) else files
+        self.font_faces = font_faces
+        self.report = report
+        self.count: int = 0  # of characters set so far
+
+    @cached_property
+    def faces(self) -> "Faces":
+        """The faces of the drawing; raises a `DeviceError` without HarfBuzz."""
+        from vexture.fonts.library import Fonts
+        from vexture.svg.text.embedded import embedded_fonts
+        from vexture.svg.text.runs import Faces
+
+        embedded = embedded_fonts(self.font_faces, Fonts(self.files), self.report)
+        return Faces(Fonts(self.files, embedded), self.report)
+
+    def text(self, scene: "Setting", element: etree._Element, place: Place) -> Text:
+        """What a text element paints at a place with its style."""
+        from vexture.svg.text.layout import is_vertical, laid_out
+        from vexture.svg.text.pieces import cells, pieces
+        from vexture.svg.text.runs import clusters
+        from vexture.svg.text.tree import characters
+
+        found = characters(scene, element, place, self.count)
+        self.count = found.count
+        vertical = is_vertical(place.style)
+        try:
+            faces = self.faces
+            faces.report, faces.noted = scene.report, set()
+            made = clusters(found, faces, vertical)
+        except DeviceError as error:
+            scene.report.left_out(f"<text>: {error}", element)
+            return Text()
+        chunks = laid_out(found, made, vertical, scene.report)
+        return Text(tuple(pieces(chunks, vertical, scene.report)), cells(chunks))

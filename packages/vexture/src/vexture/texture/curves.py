@@ -1,0 +1,143 @@
+"""Curves as texels, one to a texel, or, in leaves of a planar map that are all straight, two (FORMAT.md, B.4, D.2)."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.kernels import kernel
+from vexture.base.layout import (
+    CONTROL_OFFSET,
+    COORDINATE_BITS,
+    COUNT_SHIFT,
+    MOST_CURVES,
+    QUAD_FLAG,
+    STRAIGHT,
+)
+
+__all__ = [
+    "LeafCurves",
+    "are_straight",
+    "curve_points",
+    "curve_texels",
+    "leaf_points",
+    "leaf_texels",
+    "read_curve",
+    "read_leaf_curve",
+    "texels_in",
+    "texels_of_cell",
+]
+
+COORDINATE = (1 << COORDINATE_BITS) - 1
+OFFSETS = np.array([0, CONTROL_OFFSET, CONTROL_OFFSET, 0])[:, None]
+"""Of P0 to P3, as stored."""
+
+NEAR = 1
+"""Lattice units by which P1 and P2 of a straight curve may differ from the thirds."""
+
+
+def curve_texels(curves: NDArray[np.int32]) -> NDArray[np.uint32]:
+    """A texel for each curve (n, 4, 2), in lattice units."""
+    return _words(curves + OFFSETS)
+
+
+def curve_points(texels: NDArray[np.uint32]) -> NDArray[np.int32]:
+    """Points of curves in lattice units of their leaf, (n, 4) -> (n, 4, 2)."""
+    return _points(texels) - OFFSETS.astype(np.int32)
+
+
+def _words(points: NDArray[np.int32]) -> NDArray[np.uint32]:
+    words: NDArray[np.uint32] = (points[..., 0] | (points[..., 1] << COORDINATE_BITS)).astype(np.uint32)
+    return words
+
+
+def _points(words: NDArray[np.uint32]) -> NDArray[np.int32]:
+    return np.stack([words & COORDINATE, words >> COORDINATE_BITS], axis=-1).astype(np.int32)
+
+
+def _straight(ends: NDArray[np.int32]) -> NDArray[np.int32]:
+    """The straight curves between ends, (n, 2, 2) -> (n, 4, 2)."""
+    p0, p3 = ends[:, 0], ends[:, 1]
+    return np.stack([p0, (2 * p0 + p3 + 1) // 3, (p0 + 2 * p3 + 1) // 3, p3], axis=1)
+
+
+class LeafCurves(NamedTuple):
+    """Where the curves of leaves lie in the texels of all these leaves."""
+
+    texel: NDArray[np.int64]  # (curves,)
+    half: NDArray[np.int64]  # (curves,): 0 or 1 in a texel of two; 0 elsewhere
+    is_straight: NDArray[np.bool_]  # (curves,): whether it is in a texel of two
+
+    @classmethod
+    def of(cls, count: NDArray[np.int64], is_straight: NDArray[np.bool_]) -> "LeafCurves":
+        """Of leaves with so many curves (leaves,), which are all straight or not."""
+        texels, paired = texels_in(count, is_straight), np.repeat(is_straight, count)
+        number = np.arange(len(paired)) - np.repeat(np.cumsum(count) - count, count)
+        first = np.repeat(np.cumsum(texels) - texels, count)
+        return cls(first + np.where(paired, number >> 1, number), np.where(paired, number & 1, 0), paired)
+
+
+def texels_in(count: NDArray[np.int64], is_straight: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Texels that the curves of leaves take."""
+    return np.where(is_straight, (count + 1) >> 1, count)
+
+
+def are_straight(curves: NDArray[np.int32], count: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Whether leaves with so many curves (leaves,) have some, all of which are straight but for their rounding."""
+    off = abs(curves - _straight(curves[:, [0, 3]])).max(axis=(1, 2), initial=0)
+    bent = np.append(0, np.cumsum(off > NEAR))
+    last = np.cumsum(count)
+    straight: NDArray[np.bool_] = (count > 0) & (bent[last] == bent[last - count])
+    return straight
+
+
+def leaf_texels(
+    curves: NDArray[np.int32], count: NDArray[np.int64], is_straight: NDArray[np.bool_]
+) -> NDArray[np.uint32]:
+    """Texels of the curves (n, 4, 2) of leaves with so many curves (leaves,), which are all straight or not."""
+    at = LeafCurves.of(count, is_straight)
+    texels, full = np.zeros((texels_in(count, is_straight).sum(), 4), np.uint32), curve_texels(curves)
+    texels[at.texel[~at.is_straight]] = full[~at.is_straight]
+    pairs = texels.reshape(-1, 2, 2)
+    pairs[at.texel[at.is_straight], at.half[at.is_straight]] = full[at.is_straight][:, [0, 3]]
+    return texels
+
+
+def leaf_points(texels: NDArray[np.uint32], at: LeafCurves) -> NDArray[np.int32]:
+    """Points of the curves of leaves, (n, 4, 2), in the texels of all these leaves."""
+    points = curve_points(texels[at.texel])
+    ends = _points(texels).reshape(-1, 2, 2, 2)[at.texel, at.half]
+    points[at.is_straight] = _straight(ends[at.is_straight])
+    return points
+
+
+@kernel
+def read_curve(texel: NDArray[np.uint32], curve: NDArray[np.float64]) -> None:
+    """Write the points of a curve in lattice units."""
+    for k in range(4):
+        offset = CONTROL_OFFSET if k in (1, 2) else 0
+        word = int(texel[k])
+        curve[k, 0], curve[k, 1] = (word & COORDINATE) - offset, (word >> COORDINATE_BITS) - offset
+
+
+@kernel
+def read_leaf_curve(flat: NDArray[np.uint32], first: int, cell: int, i: int, curve: NDArray[np.float64]) -> None:
+    """Write the points of curve i of a map's leaf, whose curves begin at texel `first`; `cell` is its byte."""
+    if cell & STRAIGHT == 0:
+        read_curve(flat[first + i], curve)
+        return
+    texel, word = first + (i >> 1), 2 * (i & 1)
+    start, end = int(flat[texel, word]), int(flat[texel, word + 1])
+    for axis in range(2):
+        a, b = start >> COORDINATE_BITS * axis & COORDINATE, end >> COORDINATE_BITS * axis & COORDINATE
+        curve[0, axis], curve[3, axis] = a, b
+        curve[1, axis], curve[2, axis] = (2 * a + b + 1) // 3, (a + 2 * b + 1) // 3
+
+
+@kernel
+def texels_of_cell(cell: int) -> int:
+    """Texels that the curves of a cell of a map take, by its byte."""
+    if cell >= QUAD_FLAG:
+        return 0
+    count = cell >> COUNT_SHIFT & MOST_CURVES
+    return (count + 1) >> 1 if cell & STRAIGHT != 0 else count

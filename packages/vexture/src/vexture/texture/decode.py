@@ -1,0 +1,42 @@
+"""From a texture (FORMAT.md, part B) back to the trees of its shapes."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base import layout
+from vexture.texture.curves import curve_points
+from vexture.texture.texture import Texture
+from vexture.texture.walk import WalkLevel, walk
+from vexture.tree.tree import Tree
+
+__all__ = ["decode"]
+
+
+def decode(texture: Texture, root: str | int | None = None) -> Tree:
+    """Tree of one shape, by its name or number, with `deviation` and `unresolved` 0.
+
+    It equals the tree given to `encode` except for the rounding of coverages, and encodes to the same texels. Other
+    writers may store quads and curves in another order; here they are numbered as in `Tree`. Raises a `ParameterError`
+    as `Texture.root` does, and a `FormatError` if the texels are no tree.
+    """
+    flat = texture.flat
+    levels = walk(flat, np.array([texture.root(root).quad]))
+    is_quad, count = _joined(levels, "is_quad"), _joined(levels, "counts")
+    quads_in, curves_in = is_quad.sum(axis=1), count.sum(axis=1)
+    return Tree(
+        is_quad,
+        count.astype(np.uint8),
+        _joined(levels, "windings").astype(np.int8),
+        (1 + np.cumsum(quads_in) - quads_in).astype(np.int32),
+        (np.cumsum(curves_in) - curves_in).astype(np.int32),
+        _joined(levels, "coverages") / layout.COVERAGE_ONE,
+        curve_points(flat[_joined(levels, "curves")]),
+        deviation=0.0,
+        unresolved=0,
+    )
+
+
+def _joined(levels: list[WalkLevel], what: str) -> NDArray[Any]:
+    return np.concatenate([getattr(level, what) for level in levels])

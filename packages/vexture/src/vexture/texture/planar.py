@@ -1,0 +1,338 @@
+"""From a planar map to texels, and back (FORMAT.md, part D)."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base import layout
+from vexture.base.errors import FormatError
+from vexture.texture.curves import LeafCurves, are_straight, leaf_points, leaf_texels, texels_in
+from vexture.texture.programs import NO_PROGRAMS, ProgramTexels, halves, program_texels, read_programs
+from vexture.texture.walk import REMEDY, WalkLevel, walk
+from vexture.tree.planar.map import PlanarMap
+from vexture.tree.planar.programs import Program
+
+__all__ = [
+    "MapHead",
+    "MapTexels",
+    "decode_map",
+    "head_of",
+    "map_texels",
+    "paint_texels",
+    "paints_from",
+    "read_map",
+]
+
+
+def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
+    """The texels of a map, (n, 4), of which the first has index `at`, in the order of `PARTS`."""
+    quads = len(planar.count)
+    count = planar.count.ravel().astype(np.int64)
+    straight = are_straight(planar.curves, count)
+    curves = leaf_texels(planar.curves, count, straight)
+    first_quad = at + layout.MAP_HEAD
+    first_curve = first_quad + quads
+    first_cells = first_curve + len(curves)
+    sides = side_texels(planar.sides, len(planar.paints))
+    cells = cell_texels(planar)
+    first_sides = first_cells + len(cells)
+    first_paint = first_sides + len(sides)
+    programs = program_texels(planar.programs)
+    paints = paint_texels(planar.paints, programs, first_paint)
+    some = [first_paint + len(paints), len(programs.operations), len(programs.stops)] if planar.programs else [0, 0, 0]
+    head = [[*some, 0], [len(planar.paints), first_cells, first_sides, first_paint]]
+    texels = [
+        np.array(head, np.uint32),
+        _quad_texels(planar, straight.reshape(-1, 4), first_quad, first_curve),
+        curves,
+        cells,
+        sides,
+        paints,
+        programs.operations,
+        programs.stops,
+    ]
+    return np.concatenate(texels)
+
+
+def _quad_texels(
+    planar: PlanarMap, straight: NDArray[np.bool_], first_quad: int, first_curve: int
+) -> NDArray[np.uint32]:
+    count = planar.count.astype(np.int64)
+    cells = (count << layout.COUNT_SHIFT) + np.where(straight, layout.STRAIGHT, 0)
+    cells += np.where(_holds_program(planar), layout.HOLDS_PROGRAM, 0)
+    cells = np.where(planar.is_quad, layout.QUAD_FLAG, np.where(planar.is_mean, layout.IS_MEAN, cells))
+    texels = np.zeros((len(cells), 4), np.uint32)
+    texels[:, 0] = first_quad + planar.first_quad
+    texels[:, 1] = first_curve + _before(texels_in(count, straight).sum(axis=1))
+    texels[:, 2] = (cells << layout.CELL_BITS * np.arange(4)).sum(axis=1)
+    texels[:, 3] = _before(count.sum(axis=1))
+    return texels
+
+
+def _before(count: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The sum of those before each."""
+    before: NDArray[np.int64] = np.cumsum(count) - count
+    return before
+
+
+def _holds_program(planar: PlanarMap) -> NDArray[np.bool_]:
+    """Whether the base paint of a cell, or a paint beside a curve of it, is a program; (quads, 4)."""
+    is_program = np.zeros(len(planar.paints), np.bool_)
+    is_program[list(planar.programs)] = True
+    beside = np.append(0, np.cumsum(is_program[planar.sides].any(axis=1)))
+    last = planar.first_curve[:, None] + np.cumsum(planar.count, axis=1, dtype=np.int64)
+    holds: NDArray[np.bool_] = is_program[planar.base] | (beside[last] > beside[last - planar.count])
+    return holds
+
+
+def cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
+    """Blocks of some quads: a texel with the base paints of all their cells, and one for each with its cells' means."""
+    shift = np.arange(4, dtype=np.int64) * layout.CELL_BITS
+    means = np.rint(planar.mean.clip(0.0, 1.0) * layout.COVERAGE_ONE).astype(np.int64)
+    means = np.minimum(means, means[..., 3:])  # sums of areas round
+    quads, inside = len(means), quads_in_block(len(planar.paints))
+    blocks = np.zeros((-(-quads // inside), 1 + inside, 4), np.uint32)
+    base = np.zeros((inside * len(blocks), 4), _number(len(planar.paints)))
+    base[:quads] = planar.base
+    blocks[:, 0] = base.ravel().view("<u4").reshape(-1, 4)
+    texels = np.zeros((inside * len(blocks), 4), np.uint32)
+    texels[:quads] = (means << shift).sum(axis=2)
+    blocks[:, 1:] = texels.reshape(len(blocks), inside, 4)
+    return blocks.reshape(-1, 4)[: quads + len(blocks)]
+
+
+def _number(paints: int) -> np.dtype[np.unsignedinteger]:
+    """What the number of a paint beside a curve is, in a map with so many paints."""
+    if paints > layout.MOST_HALF_PAINTS:
+        return np.dtype("<u4")
+    return np.dtype("<u1" if paints <= layout.MOST_BYTE_PAINTS else "<u2")
+
+
+def quads_in_block(paints: int) -> int:
+    """Quads of which a texel holds all base paints, in a map with so many paints."""
+    return sides_in_texel(paints) // 2
+
+
+def sides_in_texel(paints: int) -> int:
+    """Curves of which a texel holds the paints beside them, in a map with so many paints."""
+    return np.dtype("4<u4").itemsize // (2 * _number(paints).itemsize)
+
+
+def side_texels(sides: NDArray[np.int32], paints: int) -> NDArray[np.uint32]:
+    """Paints on the left and right of curves, (n, 2), as texels of a map with so many paints."""
+    room = np.zeros((-(-len(sides) // sides_in_texel(paints)) * sides_in_texel(paints), 2), _number(paints))
+    room[: len(sides)] = sides
+    return room.ravel().view("<u4").astype(np.uint32).reshape(-1, 4)
+
+
+def paint_texels(
+    paints: NDArray[np.uint16], programs: ProgramTexels = NO_PROGRAMS, after: int = 0
+) -> NDArray[np.uint32]:
+    """Two paints to a texel: red and green, blue and opacity; or a program's first texel and how many it has.
+
+    The paints begin at texel `after`, and programs follow on them.
+    """
+    size = -(-len(paints) // 2)
+    halves = np.zeros((2 * size, 4), np.int64)
+    halves[: len(paints)] = paints
+    words = halves[:, 0::2] | (halves[:, 1::2] << layout.COORDINATE_BITS)
+    for paint, (start, count) in programs.starts.items():
+        words[paint] = after + size + start, count
+    return words.astype(np.uint32).reshape(-1, 4)
+
+
+class MapHead(NamedTuple):
+    """The head of a planar map (FORMAT.md, D.1)."""
+
+    used: int  # number of paints
+    cells: int
+    sides: int
+    paints: int
+
+    @property
+    def paint_texels(self) -> slice:
+        """Where the paints are."""
+        return slice(self.paints, self.paints + (self.used + 1) // 2)
+
+
+def head_of(flat: NDArray[np.uint32], quad: int) -> MapHead:
+    """The head of the map with a root quad, which is not checked."""
+    return MapHead(*flat[quad - 1].tolist())
+
+
+PARTS: Final = ("head", "quads", "curves", "cells", "sides", "paints", "programs")
+
+
+class MapTexels(NamedTuple):
+    """Where the texels of a planar map lie, and what they say; all of it checked."""
+
+    levels: list[WalkLevel]
+    quad: int
+    first_curve: int
+    curves: int  # number of their texels
+    points: NDArray[np.int32]  # of each curve, (curves, 4, 2), in the order of the levels
+    texels: NDArray[np.int64]  # of each of them
+    cells: int
+    sides: int
+    paints: int
+    used: int  # number of paints
+    programs: int
+    operations: int  # number of texels of programs; those of stops follow
+    stops: int
+
+    @property
+    def ranges(self) -> list[tuple[int, int]]:
+        """First and last + 1 of the texels of each part."""
+        quads = sum(len(level.quads) for level in self.levels)
+        return [
+            (self.quad - layout.MAP_HEAD, self.quad),
+            (self.quad, self.quad + quads),
+            (self.first_curve, self.first_curve + self.curves),
+            (self.cells, self.cells + quads + -(-quads // quads_in_block(self.used))),
+            (self.sides, self.sides + -(-len(self.points) // sides_in_texel(self.used))),
+            (self.paints, self.paints + (self.used + 1) // 2),
+            (self.programs, self.programs + self.operations + self.stops),
+        ]
+
+
+def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
+    """The parts of the planar map with a root quad; raises a `FormatError` where they contradict FORMAT.md."""
+    levels = walk(flat, np.array([quad]), of_maps=True)
+    if quad < layout.MAP_HEAD:
+        raise FormatError(f"the root of a map is quad {quad}, which has no head before it; {REMEDY}")
+    used, cells, sides, paints = head_of(flat, quad)
+    programs, operations, stops, rest = flat[quad - layout.MAP_HEAD].tolist()
+    if rest or (operations == 0 and programs + stops):
+        raise FormatError(f"the map with root {quad} has a head that is not 0 where it must be; {REMEDY}")
+    if not 1 <= used <= layout.MOST_PAINTS:
+        raise FormatError(f"the map with root {quad} has {used} paints; the limit is {layout.MOST_PAINTS}; {REMEDY}")
+    quads = np.concatenate([level.quads for level in levels])
+    curves = np.concatenate([level.curves for level in levels])
+    for what, listed in (("quads", quads), ("curves", curves)):
+        if len(listed) and np.ptp(listed) + 1 != len(listed):
+            raise FormatError(f"the {what} of the map with root {quad} are not consecutive; {REMEDY}")
+    first_curve = int(curves.min()) if len(curves) else 0
+    points, at = _curves(flat, levels, curves)
+    parts = (cells, sides, paints, used, programs, operations, stops)
+    found = MapTexels(levels, quad, first_curve, len(curves), points, at, *parts)
+    count = np.concatenate([level.counts for level in levels]).sum(axis=1)
+    order = np.argsort(quads)
+    if (flat[quads[order], 3] != _before(count[order])).any() or (points[:, 0, 1] > points[:, 3, 1]).any():
+        raise FormatError(f"the map with root {quad} has curves out of number or a curve that goes down; {REMEDY}")
+    for what, (_, stop) in zip(PARTS, found.ranges, strict=True):
+        if stop > len(flat):
+            raise FormatError(f"the {what} of the map with root {quad} end at texel {stop} of {len(flat)}; {REMEDY}")
+    last = max(int(_bases(flat, found).max()), int(_sides(flat, found).max(initial=0)))
+    if last >= used:
+        raise FormatError(f"the map with root {quad} has paint {last} of {used}; {REMEDY}")
+    _programs(flat, found)
+    table, means = _paints(flat, found), _means(flat, found)
+    if (table[:, :3] > table[:, 3:]).any() or (means[..., :3] > means[..., 3:]).any():
+        raise FormatError(f"the map with root {quad} has a colour above its opacity; {REMEDY}")
+    return found
+
+
+def _curves(
+    flat: NDArray[np.uint32], levels: list[WalkLevel], texels: NDArray[np.int64]
+) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """The curves of a map, (curves, 4, 2), and the texel of each, both in the order of the levels, as are `texels`."""
+    count = np.concatenate([level.counts.ravel() for level in levels])
+    straight = np.concatenate([level.windings.ravel() & layout.STRAIGHT > 0 for level in levels])
+    at = LeafCurves.of(count, straight)
+    points = leaf_points(flat[texels], at)
+    alone = np.cumsum(texels_in(count, straight))[straight & (count % 2 == 1)] - 1
+    if flat[texels[alone], 2:].any():
+        raise FormatError(f"texel {texels[alone][0]} or another of one curve has a second one; {REMEDY}")
+    return points, texels[at.texel]
+
+
+def _parts(flat: NDArray[np.uint32], found: MapTexels, part: int) -> NDArray[np.uint32]:
+    start, stop = found.ranges[part]
+    return flat[start:stop]
+
+
+def _blocks(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.uint32]:
+    """The texels of cells, (blocks, 1 + quads, 4), of which the last block ends in others."""
+    texels, size = _parts(flat, found, 3), 1 + quads_in_block(found.used)
+    blocks = np.zeros((-(-len(texels) // size), size, 4), np.uint32)
+    blocks.reshape(-1, 4)[: len(texels)] = texels
+    return blocks
+
+
+def _bases(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
+    """Base paint of each cell, (quads, 4); 0 of those that have none."""
+    blocks, number = _blocks(flat, found)[:, 0], _number(found.used)
+    bases = np.ascontiguousarray(blocks).astype("<u4").view(number).reshape(-1, 4).astype(np.int64)
+    quads = np.concatenate([level.quads for level in found.levels]) - found.quad
+    none = np.concatenate([level.is_quad | (level.windings == layout.IS_MEAN) for level in found.levels])
+    if (bases[quads][none] != 0).any():
+        raise FormatError(f"a cell without a base paint has one; {REMEDY}")
+    return bases[: len(quads)]
+
+
+def _means(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
+    """Mean colour of each cell, (quads, 4, 4), 0..255."""
+    shift = np.arange(4) * layout.CELL_BITS
+    words = _blocks(flat, found)[:, 1:].reshape(-1, 4)[: sum(len(level.quads) for level in found.levels)]
+    means: NDArray[np.int64] = words.astype(np.int64)[:, :, None] >> shift & layout.COVERAGE_ONE
+    return means
+
+
+def _sides(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
+    """Paints on the left and right of each curve, (curves, 2)."""
+    numbers = _parts(flat, found, 4).astype("<u4").view(_number(found.used)).reshape(-1, 2)
+    return numbers[: len(found.points)].astype(np.int64)
+
+
+def paints_from(texels: NDArray[np.uint32], used: int) -> NDArray[np.uint16]:
+    """Paints, (used, 4), from the texels that hold them, none of which is a program."""
+    return halves(texels.reshape(-1, 2)[:used]).astype(np.uint16)
+
+
+def _paint_words(flat: NDArray[np.uint32], found: MapTexels) -> tuple[NDArray[np.uint32], NDArray[np.bool_]]:
+    """Both words of each paint, (paints, 2), and whether it is a program: without opacity, but with a first word."""
+    words = _parts(flat, found, 5).reshape(-1, 2)[: found.used]
+    return words, (words[:, 0] != 0) & (words[:, 1] >> layout.COORDINATE_BITS == 0)
+
+
+def _paints(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.uint16]:
+    """Paints, (paints, 4); of programs 0."""
+    words, is_program = _paint_words(flat, found)
+    return np.where(is_program[:, None], 0, halves(words)).astype(np.uint16)
+
+
+def _programs(flat: NDArray[np.uint32], found: MapTexels) -> dict[int, Program]:
+    """The programs of paints."""
+    words, is_program = _paint_words(flat, found)
+    starts = {int(j): (int(words[j, 0]) - found.programs, int(words[j, 1])) for j in np.flatnonzero(is_program)}
+    texels = _parts(flat, found, 6)
+    return read_programs(texels[: found.operations], texels[found.operations :], starts)
+
+
+def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
+    """The planar map with a root quad, its means rounded to 8 bits; quads and curves are numbered as in `PlanarMap`."""
+    found = read_map(flat, quad)
+    levels = found.levels
+    quads = np.concatenate([level.quads for level in levels])
+    is_quad = np.concatenate([level.is_quad for level in levels])
+    count = np.concatenate([level.counts for level in levels])
+    quads_in, curves_in = is_quad.sum(axis=1), count.sum(axis=1)
+    first = _before(curves_in)
+    number = np.arange(len(found.points)) + np.repeat(flat[quads, 3] - first, curves_in)
+    return PlanarMap(
+        is_quad,
+        np.concatenate([level.windings == layout.IS_MEAN for level in levels]),
+        count.astype(np.uint8),
+        _bases(flat, found)[quads - found.quad].astype(np.int32),
+        np.where(quads_in > 0, 1 + np.cumsum(quads_in) - quads_in, 0).astype(np.int32),
+        np.where(curves_in > 0, first, 0).astype(np.int32),
+        _means(flat, found)[quads - found.quad] / layout.COVERAGE_ONE,
+        found.points,
+        _sides(flat, found)[number].astype(np.int32),
+        _paints(flat, found),
+        _programs(flat, found),
+        (),
+        0,
+        0.0,
+    )

@@ -1,0 +1,181 @@
+"""A shape of a packed texture, and the description of all shapes in the texture's file."""
+
+import json
+import zlib
+from dataclasses import dataclass, field, replace
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.errors import FormatError, LimitError
+from vexture.base.layout import MOST_STYLE_BYTES, TEXT_ROOTS, TEXT_STYLES
+from vexture.drawing.drawing import IDENTITY
+from vexture.drawing.paint import Paint
+from vexture.texture.ktx2 import inflated
+from vexture.texture.style_text import line, numbers, paint_as_json, read_paint, read_style, short, style_as_json
+from vexture.texture.walk import REMEDY
+from vexture.tree.planar.style import Style
+
+__all__ = ["Root", "deflated_texts", "read_roots", "roots_text"]
+
+WORTH: Final = 200
+"""Bytes of styles from which they are deflated: shorter ones take more room so."""
+
+LENGTH_BYTES: Final = 4
+"""Before deflated styles: the length of their text."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Root:
+    """One shape of a packed texture.
+
+    Parameters
+    ----------
+    name : str
+        Names the shape within its texture.
+    quad : int
+        Index of its root quad's texel; a shader needs nothing else of a silhouette.
+    to_source : (2, 3) float64 array
+        Affine map from the unit square to the units of the source.
+    tolerance : float
+        Largest distance between the drawing's outline and the texture's before quantisation, in unit-square units.
+    crs : str or None
+        Coordinate reference system of the source units, if there is one.
+    paint : Paint or None
+        The colour, if the shape is one layer of a drawing; None for a silhouette.
+    is_map : bool
+        Whether the shape is a planar map: a whole drawing in its colours.
+    style : Style or None
+        The elements of a planar map whose colours can be changed, and whose names can be found.
+
+    Examples
+    --------
+    >>> root = Root("lake", to_source=np.array([[200.0, 0.0, 5000.0], [0.0, 200.0, 7000.0]]), crs="EPSG:28992")
+    >>> root.to_source @ (0.5, 0.5, 1.0)
+    array([5100., 7100.])
+    """
+
+    name: str
+    quad: int = 0
+    to_source: NDArray[np.float64] = field(default_factory=IDENTITY.copy)
+    tolerance: float = 0.0
+    crs: str | None = None
+    paint: Paint | None = None
+    is_map: bool = False
+    style: Style | None = None
+
+
+def roots_text(roots: tuple[Root, ...]) -> str:
+    """JSON text of a texture's roots (FORMAT.md, B.5): compact, and always the same for the same roots.
+
+    Raises a `LimitError` if a number is not finite.
+    """
+    try:
+        return _compact([_as_json(root) for root in roots])
+    except ValueError:
+        raise LimitError("a root's transform, tolerance or paint is not finite; scale the drawing down") from None
+
+
+def deflated_texts(roots: tuple[Root, ...]) -> dict[str, str | bytes]:
+    """Texts of a texture's roots by their keys, with long styles deflated by themselves.
+
+    Raises a `LimitError` if a number is not finite, or the styles are too long.
+    """
+    if any(root.style is not None for root in roots):
+        styles = _compact([None if root.style is None else style_as_json(root.style) for root in roots]).encode()
+        if len(styles) > MOST_STYLE_BYTES:
+            raise LimitError(
+                f"{len(styles)} bytes say what can be restyled; the limit is {MOST_STYLE_BYTES}; use several textures"
+            )
+        if len(styles) >= WORTH:
+            packed = len(styles).to_bytes(LENGTH_BYTES, "little") + zlib.compress(styles)
+            return {TEXT_ROOTS: roots_text(tuple(replace(root, style=None) for root in roots)), TEXT_STYLES: packed}
+    return {TEXT_ROOTS: roots_text(roots)}
+
+
+def _compact(value: Any) -> str:
+    text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return text.encode(errors="backslashreplace").decode()  # a lone surrogate becomes its JSON escape
+
+
+def _as_json(root: Root) -> dict[str, Any]:
+    entry = {
+        "name": root.name,
+        "quad": int(root.quad),
+        "transform": [short(number) for number in root.to_source.flat],
+        "tolerance": short(root.tolerance),
+    }
+    if root.is_map:
+        entry["map"] = True
+    if root.style is not None:
+        entry["style"] = style_as_json(root.style)
+    if root.crs is not None:
+        entry["crs"] = root.crs
+    if root.paint is not None:
+        entry["paint"] = paint_as_json(root.paint)
+    return entry
+
+
+def read_roots(text: str, styles: bytes | None = None) -> tuple[Root, ...]:
+    """Roots from their JSON text, and their styles if these are deflated; unknown members are ignored.
+
+    Raises a `FormatError` if the text contradicts FORMAT.md.
+    """
+    entries = _json(text, TEXT_ROOTS)
+    if not isinstance(entries, list) or not entries:
+        raise FormatError(f"{TEXT_ROOTS} is {line(text)}; it must be a list of at least one root; {REMEDY}")
+    if styles is not None:
+        listed = _json(_text(styles), TEXT_STYLES)
+        if not isinstance(listed, list) or len(listed) != len(entries):
+            raise FormatError(f"{TEXT_STYLES} is no list of one style for each of {len(entries)} roots; {REMEDY}")
+        entries = [
+            entry | {"style": style} if isinstance(entry, dict) else entry
+            for entry, style in zip(entries, listed, strict=True)
+        ]
+    return tuple(_read_root(entry, place) for place, entry in enumerate(entries))
+
+
+def _text(styles: bytes) -> str:
+    """The text of deflated styles."""
+    length = int.from_bytes(styles[:LENGTH_BYTES], "little")
+    if not 0 < length <= MOST_STYLE_BYTES or len(styles) <= LENGTH_BYTES:
+        raise FormatError(f"{TEXT_STYLES} says that it has {length} bytes; the limit is {MOST_STYLE_BYTES}; {REMEDY}")
+    raw = inflated(styles[LENGTH_BYTES:], length, "styles")
+    if len(raw) != length:
+        raise FormatError(f"{TEXT_STYLES} has {len(raw)} bytes and says {length}; {REMEDY}")
+    return raw.decode(errors="replace")
+
+
+def _json(text: str, what: str) -> Any:
+    try:
+        return json.loads(text, parse_constant=_refuse_constant)
+    except (ValueError, RecursionError) as error:
+        raise FormatError(f"{what} is not JSON ({line(error)}); {REMEDY}") from None
+
+
+def _read_root(entry: Any, place: int) -> Root:
+    if not isinstance(entry, dict):
+        raise FormatError(f"root {place} is {line(entry)}; it must be an object; {REMEDY}")
+    name, quad, crs, is_map = entry.get("name"), entry.get("quad"), entry.get("crs"), entry.get("map", False)
+    if not isinstance(name, str):
+        raise FormatError(f"root {place} has the name {line(name)}; it must be a text; {REMEDY}")
+    if type(quad) is not int or not 0 <= quad < 1 << 32:
+        raise FormatError(f"root {place} has the quad {line(quad)}; it must be an index of a texel; {REMEDY}")
+    if type(is_map) is not bool:
+        raise FormatError(f"root {place}: map is {line(is_map)}; it must be true or false; {REMEDY}")
+    if crs is not None and not isinstance(crs, str):
+        raise FormatError(f"root {place} has the crs {line(crs)}; it must be a text; {REMEDY}")
+    transform = numbers(entry.get("transform"), 6, f"root {place}: transform")
+    (tolerance,) = numbers([entry.get("tolerance", 0)], 1, f"root {place}: tolerance")
+    if tolerance < 0.0:
+        raise FormatError(f"root {place}: tolerance is {tolerance:g}; it must be at least 0; {REMEDY}")
+    paint = None if entry.get("paint") is None else read_paint(entry["paint"], f"root {place}")
+    style = None if entry.get("style") is None else read_style(entry["style"], f"root {place}")
+    if style is not None and not is_map:
+        raise FormatError(f"root {place} has a style and is no map; {REMEDY}")
+    return Root(name, quad, np.array(transform).reshape(2, 3), tolerance, crs, paint, is_map, style)
+
+
+def _refuse_constant(name: str) -> float:
+    raise ValueError(f"{name} is no number of JSON")

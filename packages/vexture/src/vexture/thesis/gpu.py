@@ -1,0 +1,59 @@
+"""Renders a texture of the thesis's encoding by its shader on the GPU, without a window."""
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compiled, context, draw, upload
+from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
+from vexture.thesis.shader_text import Pair, TextureSizes, view_source
+
+__all__ = ["fold", "render_thesis_gpu"]
+
+
+@lru_cache(maxsize=64)
+def program(sizes: TextureSizes) -> Any:
+    """Compiled shader for all textures of the same sizes, with its triangle."""
+    return compiled(view_source(VERSION, sizes))
+
+
+def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:
+    """Lay a list out as a texture no higher than a limit; row r goes to row r % height, in block r // height.
+
+    `rows` are (rows, width, 3) uint8 or uint16; the result is (min(rows, height), blocks * width, 4) float32 in 0..1,
+    unused values 0.
+    """
+    count, width, channels = rows.shape
+    blocks = -(-count // height)
+    height = min(count, height)
+    padded = np.zeros((blocks * height, width, 4), np.float32)
+    padded[:count, :, :channels] = rows / np.float32(np.iinfo(rows.dtype).max)
+    return padded.reshape(blocks, height, width, 4).swapaxes(0, 1).reshape(height, -1, 4)
+
+
+def render_thesis_gpu(
+    texture: Pair, size: Size, view: ViewLike = None, fold_height: int | None = None
+) -> NDArray[np.float32]:
+    """Render a texture by the thesis's shader; parameters as in `vexture.coverage`.
+
+    The lists are folded at `fold_height` rows, or at the device's own limit if it is None. Raises `FormatError` if the
+    texture's quads do not form a tree, `DeviceError` without OpenGL, and `LimitError` if the device cannot draw such a
+    large image.
+    """
+    width, height = size_of(size)
+    matrix = view_matrix(view, (width, height))
+    with ONE_AT_A_TIME, context() as gl:
+        sizes = TextureSizes.of(texture, fold_height or gl.info["GL_MAX_TEXTURE_SIZE"])
+        triangle = program(sizes)
+        lists = []
+        for unit, (name, rows) in enumerate((("quads", texture.quads), ("curves", texture.curves))):
+            lists.append(upload(gl, fold(rows, sizes.fold_height), unit, "f4"))
+            triangle.program[name] = unit
+        triangle.program["list_lengths"] = (len(texture.quads), len(texture.curves))
+        triangle.program["to_unit"].write(matrix.T.astype(np.float32).tobytes())
+        pixels = draw(gl, triangle, (width, height))[..., 0]
+        for uploaded in lists:
+            uploaded.release()
+    return pixels

@@ -1,0 +1,334 @@
+"""The thesis's pair of textures, as arrays and as files."""
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.errors import FormatError, LimitError, ParameterError
+from vexture.base.layout import TEXT_ENCODING, TEXT_VERSION
+from vexture.drawing.drawing import IDENTITY
+from vexture.drawing.paint import Paint
+from vexture.renderers.picture import painted, stacked
+from vexture.renderers.view import Size, ViewLike, size_of
+from vexture.texture.files import file_name, is_folder, read_file, write_together
+from vexture.texture.registry import TextureRenderer
+from vexture.thesis import layout
+from vexture.thesis.png import read_png, write_png
+from vexture.thesis.tree import CellKind
+
+__all__ = ["ThesisTexture", "load", "pair_of"]
+
+REMEDY: Final = "convert the drawing again"
+
+NOT_FOUND: Final = (
+    f"a texture in the encoding thesis is the pair NAME{layout.QUADS_SUFFIX} and NAME{layout.CURVES_SUFFIX}; "
+    "name either of the two"
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ThesisTexture:
+    """The thesis's pair of textures (FORMAT.md, part A).
+
+    Parameters
+    ----------
+    quads : (quads, 4, 3) uint8 or uint16 array
+        A row for each quad, a pixel for each cell: its kind, its index, the quad's coverage.
+    curves : (2 + curves, 2, 3) array of the same type
+        A row for each curve; the first two stand for *full* and *empty*.
+    to_source : (2, 3) float64 array
+        Affine map from the unit square to the units of the source.
+    name : str
+        Names the shape in messages and files.
+    crs : str or None
+        Coordinate reference system of the source units, where there is one.
+
+    Raises
+    ------
+    FormatError
+        If the arrays are of another shape or type, or longer than `layout.LIST_LIMIT`.
+
+    Examples
+    --------
+    >>> import vexture
+    >>> half = vexture.Drawing.polygon([(0, 0), (1, 0), (0, 1)])
+    >>> texture = vexture.convert(half, encoding="thesis", bits=8)
+    >>> texture.quads.shape, texture.curves.shape, texture.bits
+    ((1, 4, 3), (4, 2, 3), 8)
+    """
+
+    quads: NDArray[Any]
+    curves: NDArray[Any]
+    to_source: NDArray[np.float64] = field(default_factory=IDENTITY.copy)
+    name: str = "texture"
+    crs: str | None = None
+
+    def __post_init__(self) -> None:
+        for what, pixels, width, least in (
+            ("quads", self.quads, layout.QUAD_WIDTH, 1),
+            ("curves", self.curves, layout.CURVE_WIDTH, layout.CONSTANT_ROWS),
+        ):
+            if pixels.ndim != 3 or pixels.shape[1:] != (width, 3) or pixels.dtype not in (np.uint8, np.uint16):
+                raise FormatError(
+                    f"{what} are {pixels.dtype}{pixels.shape}; they must be uint8 or uint16 (n, {width}, 3)"
+                )
+            most = layout.LIST_LIMIT[8 * pixels.dtype.itemsize]
+            if not least <= len(pixels) <= most:
+                raise FormatError(f"{len(pixels)} rows of {what}; there must be {least} to {most}; {REMEDY}")
+        if self.quads.dtype != self.curves.dtype:
+            other = 8 * self.curves.dtype.itemsize
+            raise FormatError(f"quads of {self.bits} bits with curves of {other}; a pair has one depth; {REMEDY}")
+
+    @property
+    def bits(self) -> int:
+        """Bits per channel, 8 or 16."""
+        return 8 * int(self.quads.dtype.itemsize)
+
+    @property
+    def maximum(self) -> int:
+        """The channel value that stands for 1."""
+        return (1 << self.bits) - 1
+
+    def cells(self) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
+        """Kind and index of each cell; checks that the quads form a tree.
+
+        Both are (quads, 4), in the order of `vexture.thesis.tree.CellTree`: a `CellKind` as uint8, and the index of the
+        quad or curve (without the constants) as int32, -1 for constant cells. Raises `FormatError` if a row is not
+        referred to exactly once, in order.
+        """
+        red, green, _ = np.moveaxis(self.quads[:, np.argsort(layout.CELL_ORDER)] / self.maximum, 2, 0)
+        is_quad = red > layout.THRESHOLD_QUAD
+        is_corner = (red > layout.THRESHOLD_CORNER) & ~is_quad
+        last = np.where(is_quad, len(self.quads) - 1, len(self.curves) - 1)
+        row = np.rint(green * last).astype(np.int32)
+        constant = ~is_quad & (row < layout.CONSTANT_ROWS)
+        _check_rising(row[is_quad], 1, len(self.quads), "quad")
+        _check_rising(row[~is_quad & ~constant], layout.CONSTANT_ROWS, len(self.curves), "curve")
+        for bad, fault in (
+            (is_quad & (row <= np.arange(len(row))[:, None]), "refers to itself or backwards"),
+            (is_corner & constant, "calls a constant a corner"),
+        ):
+            if bad.any():
+                quad, cell = np.argwhere(bad)[0]
+                raise FormatError(f"quad {quad}, cell {cell} {fault} (row {row[quad, cell]}); {REMEDY}")
+        kind = np.select(
+            [is_quad, is_corner, ~constant, row == layout.FULL_ROW],
+            [CellKind.QUAD, CellKind.CORNER, CellKind.CURVE, CellKind.FULL],
+            CellKind.EMPTY,
+        )
+        row = np.where(constant, -1, np.where(is_quad, row, row - layout.CONSTANT_ROWS))
+        return kind.astype(np.uint8), row.astype(np.int32)
+
+    def check(self) -> None:
+        """Raise a `FormatError` where the pixels contradict FORMAT.md."""
+        self.cells()
+        uneven = (self.quads[:, :, 2] != self.quads[:, :1, 2]).any(axis=1)
+        if uneven.any():
+            quad = uneven.argmax()
+            raise FormatError(
+                f"quad {quad} has coverages {self.quads[quad, :, 2].tolist()}; all must be equal; {REMEDY}"
+            )
+        ends = self.curves[layout.CONSTANT_ROWS :, :, 0] % self.maximum
+        same = ends[:, 0] == ends[:, 1]
+        if same.any():
+            row = same.argmax() + layout.CONSTANT_ROWS
+            raise FormatError(f"curve row {row}: P0 and P3 are both at edge step {ends[same][0, 0]}; {REMEDY}")
+
+    @property
+    def depth(self) -> int:
+        """Depth of the deepest quad; the unit square has depth 0. A shader descends at most this often."""
+        kind, ref = self.cells()
+        is_quad = kind == CellKind.QUAD
+        level = np.zeros(1, np.int32)
+        depth = -1
+        while level.size:
+            depth += 1
+            level = ref[level][is_quad[level]]
+        return depth
+
+    @property
+    def nbytes(self) -> int:
+        """Size in memory, of a GPU too."""
+        return int(self.quads.nbytes + self.curves.nbytes)
+
+    def coverage(
+        self,
+        size: Size,
+        view: ViewLike = None,
+        *,
+        renderer: TextureRenderer = "cpu",
+        root: str | int | None = None,
+    ) -> NDArray[np.float32]:
+        """Covered part of each pixel; the parameters are those of `vexture.coverage`."""
+        if root not in (None, 0, self.name):
+            raise ParameterError(f"`root` is {root!r}; {self.name} is a texture of one shape, leave it out")
+        if renderer == "cpu":
+            from vexture.thesis.cpu import render_thesis_cpu  # late: compiled code
+
+            return render_thesis_cpu(self, size, view)
+        if renderer != "gpu":
+            raise ParameterError(f"`renderer` is {renderer!r}; a texture is rendered by 'cpu' or 'gpu'")
+        from vexture.thesis.gpu import render_thesis_gpu
+
+        return render_thesis_gpu(self, size, view)
+
+    def render(
+        self,
+        size: Size,
+        view: ViewLike = None,
+        *,
+        renderer: TextureRenderer = "cpu",
+        root: str | int | None = None,
+    ) -> NDArray[np.float32]:
+        """Picture of the shape in black; the parameters are those of `vexture.render`."""
+        covered = self.coverage(size, view, renderer=renderer, root=root)
+        return stacked(size_of(size), [painted(Paint(), covered)])
+
+    def info(self) -> dict[str, Any]:
+        """Describe the texture, ready for JSON.
+
+        Examples
+        --------
+        >>> full = ThesisTexture(np.zeros((1, 4, 3), np.uint8), np.zeros((2, 2, 3), np.uint8))
+        >>> full.info()["cells"]
+        {'curve': 0, 'quad': 0, 'corner': 0, 'full': 4, 'empty': 0}
+        """
+        kind, _ = self.cells()
+        counts = np.bincount(kind.ravel(), minlength=len(CellKind)).tolist()
+        return {
+            "encoding": layout.ENCODING_THESIS,
+            "version": layout.FORMAT_VERSION,
+            "bits": self.bits,
+            "name": self.name,
+            "quads": len(self.quads),
+            "curves": len(self.curves) - layout.CONSTANT_ROWS,
+            "depth": self.depth,
+            "coverage": int(self.quads[0, 0, 2]) / self.maximum,
+            "transform": self.to_source.tolist(),
+            "crs": self.crs,
+            "cells": {cell_kind.name.lower(): counts[cell_kind] for cell_kind in CellKind},
+            "bytes": self.nbytes,
+        }
+
+    def texts(self) -> dict[str, str]:
+        """Text chunks of both files."""
+        texts = {
+            TEXT_VERSION: layout.FORMAT_VERSION,
+            TEXT_ENCODING: layout.ENCODING_THESIS,
+            layout.TEXT_TRANSFORM: " ".join(repr(float(v)).removesuffix(".0") for v in self.to_source.flat),
+        }
+        return texts if self.crs is None else {**texts, layout.TEXT_CRS: self.crs}
+
+    def to_png(self) -> tuple[bytes, bytes]:
+        """Return the contents of the two files, quads and curves."""
+        texts = self.texts()
+        files = write_png(self.quads, texts), write_png(self.curves, texts)
+        longest = max(map(len, files))
+        if longest > layout.FILE_LIMIT:
+            raise LimitError(f"{self.name}: a file of {longest} bytes exceeds {layout.FILE_LIMIT}; shorten its crs")
+        return files
+
+    def files(self) -> dict[str, bytes]:
+        """Contents of the two files, by what follows the texture's name in their names."""
+        return dict(zip((layout.QUADS_SUFFIX, layout.CURVES_SUFFIX), self.to_png(), strict=True))
+
+    def save(self, path: str | os.PathLike[str]) -> tuple[Path, Path]:
+        """Write the pair of files, both or none; return their paths, the quads' first.
+
+        Parameters
+        ----------
+        path : path
+            A folder (that exists or ends with a separator): the files get the texture's name. Otherwise either file or
+            their common stem, with or without ``.png``.
+
+        Raises
+        ------
+        DeviceError
+            If the disk refuses.
+        """
+        targets = pair_of(Path(path) / (file_name(self.name) + layout.QUADS_SUFFIX) if is_folder(path) else path)
+        write_together(dict(zip(targets, self.to_png(), strict=True)))
+        return targets
+
+
+def _check_rising(rows: NDArray[np.int32], first: int, count: int, what: str) -> None:
+    """Check that each row of a list, from `first` on, is referred to once, in order."""
+    if len(rows) != count - first:
+        raise FormatError(f"{len(rows)} references to {count - first} {what} rows; each must have one; {REMEDY}")
+    wrong = rows != np.arange(first, count)
+    if wrong.any():
+        place = wrong.argmax()
+        raise FormatError(
+            f"reference {place} to {what} rows is to row {rows[place]}; in order it must be {first + place}; {REMEDY}"
+        )
+
+
+def pair_of(path: str | os.PathLike[str]) -> tuple[Path, Path]:
+    """Both files of a pair, from either of them, their common stem, or that stem with ``.png``.
+
+    Examples
+    --------
+    >>> [str(file) for file in pair_of("maps/delft.curves.png")]
+    ['maps/delft.quads.png', 'maps/delft.curves.png']
+    """
+    given = Path(path)
+    suffixes = (layout.QUADS_SUFFIX, layout.CURVES_SUFFIX, ".png")
+    suffix = next((suffix for suffix in suffixes if given.name.endswith(suffix) and given.name != suffix), "")
+    stem = given.name.removesuffix(suffix)
+    return given.parent / (stem + layout.QUADS_SUFFIX), given.parent / (stem + layout.CURVES_SUFFIX)
+
+
+def load(path: str | os.PathLike[str]) -> ThesisTexture:
+    """Read a pair of texture files.
+
+    Parameters
+    ----------
+    path : path
+        Either file of the pair, or their common stem, with or without ``.png``.
+
+    Raises
+    ------
+    FormatError
+        If a file is missing, damaged or not a texture, or if the two do not belong together.
+    DeviceError
+        If a file may not be read.
+    """
+    quads_path, curves_path = pair_of(path)
+    (quads, texts), (curves, other_texts) = (
+        read_png(read_file(file, layout.FILE_LIMIT, NOT_FOUND), width, str(file))
+        for file, width in ((quads_path, layout.QUAD_WIDTH), (curves_path, layout.CURVE_WIDTH))
+    )
+    try:
+        for key in (TEXT_VERSION, TEXT_ENCODING, layout.TEXT_TRANSFORM, layout.TEXT_CRS):
+            if texts.get(key) != other_texts.get(key):
+                raise FormatError(f"{key} differs from that of {curves_path.name}; {REMEDY}")
+        texture = ThesisTexture(
+            quads,
+            curves,
+            _read_transform(texts),
+            quads_path.name.removesuffix(layout.QUADS_SUFFIX),
+            texts.get(layout.TEXT_CRS),
+        )
+        texture.check()
+    except FormatError as error:
+        raise FormatError(f"{quads_path}: {error}") from None
+    return texture
+
+
+def _read_transform(texts: dict[str, str]) -> NDArray[np.float64]:
+    """Affine map to the source, (2, 3), after a check of the version and the encoding."""
+    for key, known in ((TEXT_VERSION, layout.FORMAT_VERSION), (TEXT_ENCODING, layout.ENCODING_THESIS)):
+        if texts.get(key) != known:
+            raise FormatError(f"{key} is {texts.get(key)!r}; this program reads {known!r}; update it or {REMEDY}")
+    text = texts.get(layout.TEXT_TRANSFORM, "")
+    try:
+        transform = np.array([float(number) for number in text.split()])
+    except ValueError:
+        transform = np.empty(0)
+    if transform.shape != (6,) or not np.isfinite(transform).all():
+        raise FormatError(f"{layout.TEXT_TRANSFORM} is {text[:80]!r}; it must be six finite numbers; {REMEDY}")
+    return transform.reshape(2, 3)

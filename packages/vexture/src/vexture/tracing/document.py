@@ -1,0 +1,138 @@
+"""The SVG of tones and their shares: in which order they are painted, and over what."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.errors import LimitError
+from vexture.tracing.colours import widened
+from vexture.tracing.mixture import Mixture
+from vexture.tracing.outline import outline
+from vexture.tracing.shading import Tone
+
+__all__ = ["MOST_CURVES", "document_of"]
+
+MOST_CURVES: Final = 60_000
+"""Most curves of a drawing; a page of dense text has 40,000."""
+
+SMALL: Final = 256
+"""Pixels on the longer side. A picture up to this size is traced four times enlarged, a larger one twice."""
+
+TOP: Final = 1_000
+"""Depth of what is opaque, above everything translucent."""
+
+MEETING: Final = 0.2
+"""Share from which a tone extends under others where tones pass into one another: of several, none may have a half."""
+
+LEAST_OPACITY: Final = 2.0
+BEYOND: Final = 3.0
+"""Levels. A colour is painted over another one if what makes one of the other has at least this opacity, and would need
+channels out of their range by no more than this."""
+
+
+MOSTLY: Final = 0.6
+"""Share of the borders with less opaque colours that is with the one that a colour is painted over. Where colours meet
+in all directions, outlines that almost coincide would cross one another."""
+
+
+@dataclass(frozen=True, slots=True)
+class Painted:
+    """A tone as it is painted: over `depth` others, and below those in `above`, under which it extends."""
+
+    number: int
+    tone: Tone
+    depth: int
+    above: frozenset[int] = frozenset()
+
+
+def document_of(tones: Sequence[Tone], parts: Mixture, first: int, speckle: int) -> tuple[bytes, tuple[int, int]]:
+    """SVG of all tones but the background, and its size in pixels of the enlarged picture.
+
+    Those that are translucent are painted first, and extend under the others; of those that are alike, large areas are.
+    """
+    height, width = parts.first.shape
+    factor = 4 if max(height, width) <= SMALL else 2
+    area = [parts.of(number).sum() for number in range(len(tones))]
+    painted = over_one_another(tones, parts, first)
+    order = sorted(painted, key=lambda one: (one.depth, -area[one.number]))
+    lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {factor * width} {factor * height}">']
+    curves = 0
+    above = np.zeros((height, width), np.float32)
+    for one in reversed(order):
+        own = parts.of(one.number)
+        mask = parts.of(one.number, *one.above) + above * widened(own >= np.where(parts.soft, MEETING, 0.5))
+        if tones[one.number].is_opaque:
+            above += own  # nothing extends under a translucent colour, which would show it
+        paths = outline(mask, factor, factor * speckle)
+        curves += paths.count("C")
+        if curves > MOST_CURVES:
+            raise LimitError(f"becomes more than {MOST_CURVES:,} curves, the limit; smooth it, or scale it down")
+        lines.insert(1, f"{_group(one.tone, one.number, factor)}{paths}</g>")
+    return "\n".join([*lines, "</svg>"]).encode(), (factor * width, factor * height)
+
+
+def _group(tone: Tone, number: int, factor: int) -> str:
+    """Begin of a group with the paint of a tone."""
+    if tone.fade is not None:
+        return f'{tone.fade.svg(f"fade{number}", factor)}<g fill="url(#fade{number})">'
+    opacity = 1.0 if tone.is_opaque else float(tone.colour[3]) / 255.0
+    plain = np.clip(255.0 * tone.colour[:3] / max(float(tone.colour[3]), 1.0), 0.0, 255.0)
+    red, green, blue = np.rint(plain).astype(int).tolist()
+    return f'<g fill="#{red:02x}{green:02x}{blue:02x}" fill-opacity="{opacity}">'
+
+
+def over_one_another(tones: Sequence[Tone], parts: Mixture, first: int) -> list[Painted]:
+    """Tones with what they are painted over.
+
+    Translucent colours beside one another leave a light or dark line between them, since no two outlines are quite the
+    same. Where one is more opaque, such as towards the middle of a shadow, the other extends under all of it, and is
+    painted over by what makes one of the other.
+    """
+    kinds = range(first, len(tones))
+    soft = sorted((n for n in kinds if _is_soft(tones[n])), key=lambda n: float(tones[n].colour[3]))
+    contact = _contacts(parts.first, len(tones))
+    lower: dict[int, int] = {}
+    paint = {n: tones[n] for n in kinds}
+    for place, number in enumerate(soft):
+        beside = [n for n in soft[:place] if contact[n, number]]
+        below = max(beside, key=lambda n: contact[n, number], default=number)
+        over = _over(tones[number].colour, tones[below].colour)
+        if over is not None and contact[below, number] > MOSTLY * contact[beside, number].sum():
+            lower[number], paint[number] = below, Tone(over)
+    above: dict[int, set[int]] = {n: set() for n in kinds}
+    depth = {n: TOP if tones[n].is_opaque else 0 for n in kinds}
+    for number in soft:
+        below = number
+        while below in lower:
+            below = lower[below]
+            above[below].add(number)
+            depth[number] += 1
+    return [Painted(n, paint[n], depth[n], frozenset(above[n])) for n in kinds]
+
+
+def _is_soft(tone: Tone) -> bool:
+    """Whether a tone is a translucent colour."""
+    return tone.fade is None and not tone.is_opaque
+
+
+def _over(colour: NDArray[np.float32], below: NDArray[np.float32]) -> NDArray[np.float32] | None:
+    """Premultiplied colour that, painted over one colour, makes another one of it; None if there is none."""
+    opacity = float(colour[3] - below[3]) / max(1.0 - float(below[3]) / 255.0, 1e-9)
+    if opacity < LEAST_OPACITY:
+        return None
+    over = colour - (1.0 - opacity / 255.0) * below
+    if over[:3].min() < -BEYOND or over[:3].max() > opacity + BEYOND:
+        return None
+    return np.asarray([*np.clip(over[:3], 0.0, opacity), opacity], np.float32)
+
+
+def _contacts(number: NDArray[np.int16], count: int) -> NDArray[np.intp]:
+    """How many pixels of each two numbers are beside one another, (count, count)."""
+    found = np.zeros(count * count, np.intp)
+    for a, b in ((number[1:], number[:-1]), (number[:, 1:], number[:, :-1])):
+        found += np.bincount((a.astype(np.intp) * count + b).ravel(), minlength=count * count)
+    square = found.reshape(count, count)
+    return square + square.T

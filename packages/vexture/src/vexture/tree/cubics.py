@@ -1,0 +1,94 @@
+"""The cubics of a drawing in one array."""
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.drawing.contours import Closed, joined, together
+from vexture.drawing.drawing import Drawing, FillRule
+
+__all__ = ["gather", "owned"]
+
+MIXED: Final = 0.7548776662466927
+"""Factor that makes one number of several."""
+
+
+def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+    """Cubics of a drawing (n, 4, 2), the path of each (n,), and the paths' fill rules (paths,).
+
+    A path that repeats an earlier one bit for bit adds nothing to the silhouette and is left out, and so are copies of
+    a contour that do not change where its path is filled.
+    """
+    of_paths = [path.contours for path in drawing.paths]
+    if _all_differ(together(of_paths)):
+        return (*owned(of_paths), np.array([int(path.fill_rule) for path in drawing.paths], dtype=np.int64))
+    different: dict[tuple[Any, ...], list[NDArray[np.float64]]] = {}
+    names = _names([contour for path in drawing.paths for contour in path.contours])
+    for path in drawing.paths:
+        bits = list(islice(names, len(path.contours)))
+        if (path.fill_rule, *bits) not in different:
+            different[path.fill_rule, *bits] = [path.contours[k] for k in _needed(path.fill_rule, bits)]
+    rules = np.array([int(rule) for rule, *_ in different], dtype=np.int64)
+    return (*owned([*different.values()]), rules)
+
+
+def owned(of_paths: Sequence[Sequence[NDArray[np.float64]]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Cubics of some paths, and the path of each."""
+    lengths = [sum(map(len, contours)) for contours in of_paths]
+    return joined(together(of_paths)), np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
+
+
+def _all_differ(contours: Sequence[NDArray[np.float64]]) -> bool:
+    """Whether contours that are parts of one array are certainly no copies: their first handles differ.
+
+    Alike handles give the same number, which is rounded in the same way for each.
+    """
+    if not isinstance(contours, Closed):
+        return False
+    lengths = np.fromiter(map(len, contours), np.int64, len(contours))
+    handles = contours.whole[np.cumsum(lengths) - lengths]
+    numbers = np.zeros(len(handles))
+    for point in range(2):
+        for axis in range(2):
+            numbers = MIXED * numbers + handles[:, point, axis]
+    return len(np.unique(numbers)) == len(numbers)
+
+
+def _names(contours: Sequence[NDArray[np.float64]]) -> Iterator[bytes]:
+    """A name of each contour, alike for copies alone: length and first handle, or all its bits if others share those.
+
+    So a coast is not copied once more to find that it has no copies.
+    """
+    short = [b"%d " % len(contour) + contour[0, :2].tobytes() for contour in contours]
+    shared = Counter(short)
+    for contour, name in zip(contours, short, strict=True):
+        yield name if shared[name] == 1 else contour.tobytes()
+
+
+def _needed(rule: FillRule, contours: list[bytes]) -> Iterable[int]:
+    """Places of the contours that decide where a path is filled.
+
+    Under the even-odd rule two copies cancel. Under the nonzero rule all winding numbers may be divided by a common
+    factor.
+
+    Examples
+    --------
+    >>> list(_needed(FillRule.NONZERO, [b"a", b"a", b"b", b"b"])), list(_needed(FillRule.EVENODD, [b"a", b"a", b"b"]))
+    ([0, 2], [2])
+    """
+    copies = Counter(contours)
+    if len(copies) == len(contours):
+        return range(len(contours))
+    common = math.gcd(*copies.values())
+    left = {bits: count % 2 if rule is FillRule.EVENODD else count // common for bits, count in copies.items()}
+    needed = []
+    for place, bits in enumerate(contours):
+        if left[bits]:
+            left[bits] -= 1
+            needed.append(place)
+    return needed

@@ -1,0 +1,302 @@
+"""The packed leaf: a few monotone pieces on the leaf's lattice, between which the winding number is 0 or 1.
+
+In the cells of most drawings pieces touch only at their ends. Then the sides of each piece follow by counting
+(`separate.py`), and the piece is kept, reversed or dropped. All other cells are resolved (`boundary.py`). In both cases
+horizontal pieces are dropped, because they change no winding, except those that end on the left edge where the rule of
+windings needs an end.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.kernels import kernel
+from vexture.base.layout import LATTICE, MOST_CURVES
+from vexture.bezier.roots import solve_monotone
+from vexture.bezier.split import copy_curve, subcubic
+from vexture.tree.boundary import MOST_RESOLVED, Boundary, cell_paths, crowded_area, quantise_piece, resolve
+from vexture.tree.coincide import match, may_coincide
+from vexture.tree.divide import PiecePool
+from vexture.tree.left_edge import corner_winding
+from vexture.tree.merge import MOST_MERGED, follows, merge_chains
+from vexture.tree.separate import UNSURE, CellPieces, all_separate, clean_pieces
+from vexture.tree.winding import winding_area
+
+__all__ = ["DIVIDE", "SPARE", "Leaf", "keep_run", "leaf_of", "new_workspace", "round_controls"]
+
+DIVIDE = -1
+"""`Leaf.size` of a cell that must be divided."""
+
+SPARE = 12
+"""Pieces above the capacity that a cell may have before it is resolved: horizontal ones and overlaps vanish."""
+
+LONG_HANDLE = 512.0
+"""Lattice units, of a handle that rounding turns by too little to be seen."""
+
+MOST_RUNS = 1000
+"""Runs of resolved pieces that are kept to measure a cell's area."""
+
+
+class Leaf(NamedTuple):
+    """What a leaf stores of a cell."""
+
+    size: int  # number of pieces, or `DIVIDE`
+    winding: int  # corner winding, 0 without pieces
+    coverage: float  # filled part of the cell
+    distance: float  # by which merging moved the outline at most, in unit-square units
+    resolved: bool  # False if the cell, at the depth limit, holds more than a leaf can store
+
+
+class Workspace(NamedTuple):
+    """Arrays that are reused from cell to cell: making them would cost more than most cells."""
+
+    cell: CellPieces
+    path: NDArray[np.int64]
+    merged_path: NDArray[np.int64]
+    out: NDArray[np.float64]
+
+
+@kernel(allocates=False)
+def round_controls(curves: NDArray[np.float64], count: int) -> None:
+    """Round inner control points to the lattice, within the range of the format, and keep directions at the ends."""
+    for i in range(count):
+        for end, control in ((0, 1), (3, 2)):
+            _aim(curves[i], end, control)
+        for k in (1, 2):
+            for axis in range(2):
+                curves[i, k, axis] = min(max(np.rint(curves[i, k, axis]), -0.5 * LATTICE), 1.5 * LATTICE - 1.0)
+
+
+@kernel(allocates=False)
+def _aim(curve: NDArray[np.float64], end: int, control: int) -> None:
+    """Lengthen or shorten a handle of a short piece to where rounding turns it least: its direction is seen at the end.
+
+    Such a piece bends little, so that the length of a handle hardly matters: it must not move the curve by half a unit.
+    """
+    x, y = curve[control, 0] - curve[end, 0], curve[control, 1] - curve[end, 1]
+    far_x, far_y = curve[3 - control, 0] - curve[end, 0], curve[3 - control, 1] - curve[end, 1]
+    length = max(abs(x), abs(y))
+    if length > LONG_HANDLE or length < 1.0:
+        return
+    chord_x, chord_y = curve[3, 0] - curve[0, 0], curve[3, 1] - curve[0, 1]
+    chord = np.sqrt(chord_x * chord_x + chord_y * chord_y)
+    across = abs(x * chord_y - y * chord_x) / chord if chord > 0.0 else length
+    best, least = 1.0, np.inf
+    for k in range(int(length)):
+        change = -(k + 1) // 2 if k % 2 == 1 else k // 2  # units, to and fro
+        share = (length + change) / length
+        if abs(share - 1.0) * across > 0.5:
+            break
+        if change > 0 and (abs(share * x) > abs(far_x) or abs(share * y) > abs(far_y)):
+            continue  # it stays before the other handle, so that the piece stays monotone
+        to_x, to_y = np.rint(share * x), np.rint(share * y)
+        turn = abs(to_x * y - to_y * x) / max(np.sqrt(to_x * to_x + to_y * to_y), 0.5)
+        if turn < 0.9 * least:
+            best, least = share, turn
+            if turn == 0.0:
+                break
+    curve[control, 0], curve[control, 1] = curve[end, 0] + best * x, curve[end, 1] + best * y
+
+
+@kernel(allocates=False)
+def keep_run(curve: NDArray[np.float64], role: int, low: float, high: float, out: NDArray[np.float64]) -> None:
+    """Write the part of a piece between two heights, with the filled side on its left."""
+    start, stop = (high, low) if role == 1 else (low, high)
+    u0 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], start)
+    u1 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], stop)
+    subcubic(curve, u0, u1, out)
+    for end, control, u, y in ((0, 1, u0, start), (3, 2, u1, stop)):
+        inner = u != 0.0 and u != 1.0
+        x = max(np.rint(out[end, 0]), 1.0) if inner else np.rint(out[end, 0])
+        out[control, 0] += x - out[end, 0]
+        out[control, 1] += y - out[end, 1]
+        out[end, 0], out[end, 1] = x, y
+
+
+@kernel(allocates=False)
+def _resolved_pieces(curves: NDArray[np.float64], boundary: Boundary, out: NDArray[np.float64]) -> int:
+    """Write the runs of a resolved boundary as pieces; return how many."""
+    count = min(len(boundary.run_piece), len(out) - 2 * MOST_RESOLVED)
+    for r in range(count):
+        curve = curves[boundary.run_piece[r]]
+        keep_run(curve, boundary.run_role[r], boundary.run_y[r, 0], boundary.run_y[r, 1], out[r])
+    return count
+
+
+@kernel(allocates=False)
+def _meet(out: NDArray[np.float64], count: int) -> bool:
+    """Whether all pieces have an end at one point, so that dividing the cell does not separate them there."""
+    for end in (0, 3):
+        x, y = out[0, end, 0], out[0, end, 1]
+        meeting = 0
+        for k in range(count):
+            at_start, at_stop = out[k, 0, 0] == x and out[k, 0, 1] == y, out[k, 3, 0] == x and out[k, 3, 1] == y
+            meeting += 1 if at_start or at_stop else 0
+        if meeting == count:
+            return True
+    return False
+
+
+@kernel(allocates=False)
+def _write_chains(out: NDArray[np.float64], count: int, target: NDArray[np.float64]) -> None:
+    """Copy pieces, each behind the one that ends where it starts: files with points side by side compress better."""
+    for k in range(count):
+        best, rank = k, 0
+        for j in range(k, count):
+            first = True
+            for i in range(k, count):
+                if follows(out, j, i):
+                    first = False
+                    break
+            next_one = k > 0 and follows(out, j, k - 1)
+            if 2 * next_one + first > rank:
+                best, rank = j, 2 * next_one + first
+        copy_curve(out[best], target[k])
+        copy_curve(out[k], out[best])
+        copy_curve(target[k], out[k])
+
+
+@kernel(allocates=False)
+def _upright(curves: NDArray[np.float64]) -> int:
+    """Number of pieces that are not horizontal."""
+    count = 0
+    for i in range(len(curves)):
+        count += 1 if curves[i, 0, 1] != curves[i, 3, 1] else 0
+    return count
+
+
+@kernel
+def new_workspace(paths: int) -> Workspace:
+    """Arrays for any cell that may be resolved, of a drawing of so many paths: copies that cancel leave no pieces."""
+    return Workspace(
+        CellPieces(
+            np.empty((MOST_RESOLVED, 4, 2)),
+            np.empty(MOST_RESOLVED, np.int64),
+            np.empty(MOST_RESOLVED, np.int64),
+            np.empty(paths, np.int64),
+            np.empty(paths, np.int64),
+            np.empty(paths, np.int64),
+        ),
+        np.empty(MOST_RESOLVED, np.int64),
+        np.empty(MOST_RESOLVED, np.int64),
+        np.empty((MOST_RUNS + 2 * MOST_RESOLVED, 4, 2)),
+    )
+
+
+@kernel
+def _crowded_area(
+    pool: PiecePool,
+    first: int,
+    last: int,
+    present: NDArray[np.int64],
+    rules: NDArray[np.int64],
+    x0: float,
+    y0: float,
+    size: float,
+) -> float:
+    """Filled part of a cell at the depth limit that holds too many pieces to resolve."""
+    n = last - first
+    points, path = np.empty((n, 4, 2)), np.empty(n, np.int64)
+    for k in range(n):
+        i = pool.numbers[first + k]
+        copy_curve(pool.points[i], points[k])
+        path[k] = pool.path[i]
+    return crowded_area(points, path, present, rules, x0, y0, size)
+
+
+@kernel
+def _resolve_cell(cell: CellPieces, out: NDArray[np.float64]) -> int:
+    """Write the pieces of a cell's boundary after its overlaps and crossings are resolved; return how many.
+
+    There are at most twice as many runs as pieces and crossings. Runs beyond the room of `out` are left out; such cells
+    hold far more than a leaf can store.
+    """
+    boundary = resolve(cell.curves, cell.owner, cell.multiplicity, cell.corner, cell.rules)
+    return _resolved_pieces(cell.curves, boundary, out)
+
+
+@kernel(allocates=False)
+def leaf_of(
+    pool: PiecePool,
+    first: int,
+    last: int,
+    present: NDArray[np.int64],
+    rules: NDArray[np.int64],
+    x0: float,
+    y0: float,
+    size: float,
+    capacity: int,
+    tolerance: float,
+    near: float,
+    at_limit: bool,
+    workspace: Workspace,
+    target: NDArray[np.float64],
+) -> Leaf:
+    """Leaf of a cell, whose pieces are the pool's numbers first..last-1; the leaf's pieces are written to `target`.
+
+    `capacity` is the number of pieces in a leaf; more are allowed only at the depth limit, or where dividing would not
+    separate them. `tolerance` bounds the distance by which merging moves the outline, in unit-square units; 0 merges
+    nothing. With `at_limit` the cell may not be divided, and the result is always a leaf. `target` (MOST_CURVES, 4, 2)
+    is in lattice units.
+    """
+    n, paths = last - first, len(present)
+    room, out, distance = workspace.cell, workspace.out, 0.0
+    most = capacity + SPARE
+    matched, upright = -1, 0
+    if n > most and may_coincide(pool, first, last, x0, y0, size):
+        matched, upright = match(pool, first, last, x0, y0, size, near, present, rules, room, workspace.path)
+    if matched >= 0:
+        n = matched
+    elif n > MOST_RESOLVED and at_limit:
+        return Leaf(0, 0, _crowded_area(pool, first, last, present, rules, x0, y0, size), 0.0, False)
+    elif n > (MOST_MERGED if tolerance > 0.0 else 2 * MOST_CURVES) and not at_limit:
+        return Leaf(DIVIDE, 0, 0.0, 0.0, True)
+    else:
+        points, paths_of, numbers, curves, path = (
+            pool.points,
+            pool.path,
+            pool.numbers,
+            room.curves[:n],
+            workspace.path[:n],
+        )
+        for k in range(n):
+            i = numbers[first + k]
+            quantise_piece(points[i], x0, y0, size, curves[k])
+            path[k] = paths_of[i]
+        if tolerance > 0.0 and 1 < n <= MOST_MERGED:
+            n, distance = merge_chains(
+                room.curves[:n],
+                workspace.path[:n],
+                tolerance * LATTICE / size,
+                n if at_limit else max(most, MOST_CURVES),
+                out,
+                workspace.merged_path,
+            )
+            for k in range(n):
+                copy_curve(out[k], room.curves[k])
+                workspace.path[k] = workspace.merged_path[k]
+        upright = _upright(room.curves[:n])
+        room.multiplicity[:n] = 1
+    curves = room.curves[:n]
+    if not at_limit and upright > most and (upright > MOST_CURVES or not _meet(curves, n)):
+        return Leaf(DIVIDE, 0, 0.0, 0.0, True)
+    cell = CellPieces(
+        curves, room.owner[:n], room.multiplicity[:n], room.corner[:paths], room.rules[:paths], room.windings[:paths]
+    )
+    if matched < 0:
+        cell_paths(workspace.path[:n], present, rules, cell.owner, cell.corner, cell.rules)
+    round_controls(curves, n)
+    count = clean_pieces(cell, out) if all_separate(curves) else UNSURE
+    if count == UNSURE:
+        count = _resolve_cell(cell, out)
+    count, winding = corner_winding(cell, out, count)
+    round_controls(out, count)
+    area = min(max(winding_area(out[:count], winding, LATTICE), 0.0), 1.0)
+    distance *= size / LATTICE
+    if count == 0:
+        return Leaf(0, 0, area, distance, True)
+    if count > capacity and not (count <= MOST_CURVES and (at_limit or _meet(out, count))):
+        return Leaf(0 if at_limit else DIVIDE, 0, area, distance, False)
+    _write_chains(out, count, target)
+    return Leaf(count, winding, area, distance, True)

@@ -1,0 +1,378 @@
+"""Building a `PlanarMap` from a drawing: cells are divided depth first until each is a leaf.
+
+A cell keeps the paths that change in it, with their winding numbers at its corner. A path that covers the cell and is
+opaque hides all below it, pieces included. One that covers the cell below all that change there is composited into the
+cell's *ground*, the face from which it starts. So hundreds of layers are short lists in small cells.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.deadline import check_time
+from vexture.base.errors import LimitError, SourceError
+from vexture.base.kernels import kernel
+from vexture.base.layout import LATTICE, MOST_PAINTS, PAINT_ONE
+from vexture.base.tolerance import CLOSED
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import Gradient
+from vexture.tree.bounds import DEFAULT_DEPTH, Bounds, bounds_of, check_growth
+from vexture.tree.build import CELL, SLICE, new_growth
+from vexture.tree.cubics import owned
+from vexture.tree.divide import PARTS, divide
+from vexture.tree.growth import (
+    COUNT,
+    CURVES,
+    DEPTH,
+    FIRST,
+    FIRST_PATH,
+    IS_QUAD,
+    LAST,
+    LAST_PATH,
+    PIECES,
+    QUAD,
+    QUADS,
+    UNRESOLVED,
+    WAITING,
+    WHOLE,
+    first_of,
+    has_room,
+)
+from vexture.tree.leaf import DIVIDE
+from vexture.tree.parts import LARGE, usual_threads
+from vexture.tree.planar.borders import Cell, key_of
+from vexture.tree.planar.faces import Faces, face_of, new_faces, roomier_faces
+from vexture.tree.planar.growth import BASE, IS_MEAN, PlanarGrowth, State, planted, with_room
+from vexture.tree.planar.layers import Layers, Rows, layers_of, looks_of, rows_of
+from vexture.tree.planar.leaf import PlanarLeaf, Workspace, new_workspace, planar_leaf
+from vexture.tree.planar.map import PlanarMap, texels_of
+from vexture.tree.planar.means import add_programs, set_flat_mean
+from vexture.tree.planar.parts import grow_map_parts
+from vexture.tree.planar.programs import programs_of
+from vexture.tree.tree import MOST_QUADS, levels, runs
+from vexture.tree.winding import child_windings, inside
+
+__all__ = ["DEFAULT_MAP_CAPACITY", "build_map", "grow_map", "plant_map", "row_cubics"]
+
+
+class Work(NamedTuple):
+    """Arrays that are reused from cell to cell."""
+
+    counts: NDArray[np.int64]  # (5,): what the map had before a cell
+    row: NDArray[np.int64]  # (7,): the row of the stack of the cell
+    child_at: NDArray[np.int64]  # (9,): start of each child's list of pieces; see `divide`
+    windings: NDArray[np.int64]  # (paths, 8): what `child_windings` writes
+    leaf: Workspace
+
+
+SHORT_SLICE = SLICE // 8
+"""Work between two looks at the number of texels, where it is limited."""
+
+DEFAULT_MAP_CAPACITY = 12
+"""Pieces in a leaf of a map: in maps every border is cut by more cells than in a silhouette. With 14, maps take 4 to 7
+% fewer texels, and a pixel reads about one more."""
+
+
+@kernel(allocates=False)
+def _child_paths(
+    growth: PlanarGrowth,
+    rows: tuple[int, int],
+    child: int,
+    windings: NDArray[np.int64],
+    layers: Layers,
+    faces: Faces,
+    ground: int,
+    end: int,
+) -> tuple[int, int]:
+    """Append the paths of a child to the lists, with their windings; return the new end and the child's ground.
+
+    `rows` are the parent's first and last place in the lists, and `ground` is its ground.
+    """
+    present, here, folding = growth.tree.present, end, True
+    for k in range(rows[1] - rows[0]):
+        path, winding = present[rows[0] + k, 0], windings[k, child]
+        changes = windings[k, 4 + child] != 0
+        if not changes and not inside(winding, layers.rules[path]):
+            continue
+        alone = not changes and layers.group[path] < 0
+        if layers.covers[path] and not changes:
+            layers.hides[path] |= here > end or ground != 0
+            here, ground, folding = end, 0, True
+        if alone and folding:
+            present[here, 0], present[here, 1] = path, winding
+            one = present[here : here + 1]
+            ground = face_of(faces, layers, ground, one, one[:, 1], layers.keys[path])
+            continue
+        folding = False
+        present[here, 0], present[here, 1] = path, winding
+        here += 1
+    return here, ground
+
+
+@kernel(allocates=False)
+def _grow_quad(
+    growth: PlanarGrowth,
+    layers: Layers,
+    faces: Faces,
+    bounds: Bounds,
+    work: Work,
+) -> None:
+    """Divide the cell on top of the stack: each child becomes a leaf or is pushed onto the stack.
+
+    If the faces have no room, nothing has been done.
+    """
+    tree = growth.tree
+    pool, present, stack, corner, counts = tree.pool, tree.present, tree.stack, tree.corner, tree.counts
+    top = counts[WAITING] - 1
+    before, row, child_at, windings = work.counts, work.row, work.child_at, work.windings
+    x0, y0 = corner[top, 0], corner[top, 1]
+    for k in range(len(before)):
+        before[k] = counts[k]
+    for k in range(len(row)):
+        row[k] = stack[top, k]
+    quad, depth, under = row[QUAD], row[DEPTH], growth.ground[top]
+    rows, half = (row[FIRST_PATH], row[LAST_PATH]), 0.5 ** (row[DEPTH] + 1)
+    xm, ym = x0 + half, y0 + half
+    grain = 0.5 ** max(depth + 1, bounds.least_depth) / LATTICE
+    pieces = divide(pool, row[FIRST], row[LAST], xm, ym, grain, row[PIECES], False, child_at)
+    touching = present[rows[0] : rows[1]]
+    lists = (pool.points, pool.path, pool.numbers, pool.runs)
+    child_windings(lists, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
+    tree.first[quad, 0], tree.first[quad, 1] = counts[QUADS], counts[CURVES]
+    end_path = rows[1]
+    for child in range(4):
+        here, ground = _child_paths(growth, rows, child, windings, layers, faces, under, end_path)
+        first, last = child_at[child], child_at[child + 1]
+        while first < last and (here == end_path or pool.path[pool.numbers[first]] < present[end_path, 0]):
+            first += 1  # hidden by a path above
+        cell = Cell(x0 + half * (child & 1), y0 + half * (child >> 1), half, first, last)
+        leaf = _leaf(
+            growth, cell, quad, child, ground, present[end_path:here], layers, faces, depth + 1, bounds, work.leaf
+        )
+        if leaf.size == DIVIDE:
+            stack[top, QUAD], stack[top, DEPTH], stack[top, FIRST] = counts[QUADS], depth + 1, first
+            stack[top, LAST], stack[top, FIRST_PATH], stack[top, LAST_PATH] = last, end_path, here
+            stack[top, PIECES], corner[top, 0], corner[top, 1] = pieces, cell.x, cell.y
+            growth.ground[top] = ground
+            top, end_path = top + 1, here
+            counts[QUADS] += 1
+    counts[WAITING] = top
+    if faces.counts[1] != 0:
+        top = before[WAITING] - 1
+        for k in range(len(before)):
+            counts[k] = before[k]
+        for k in range(len(row)):
+            stack[top, k] = row[k]
+        corner[top, 0], corner[top, 1], growth.ground[top] = x0, y0, under
+
+
+@kernel(allocates=False)
+def _leaf(
+    growth: PlanarGrowth,
+    cell: Cell,
+    quad: int,
+    child: int,
+    ground: int,
+    present: NDArray[np.int64],
+    layers: Layers,
+    faces: Faces,
+    depth: int,
+    bounds: Bounds,
+    workspace: Workspace,
+) -> PlanarLeaf:
+    """Write a cell of a quad, and the pieces of its leaf, if it is one."""
+    tree, mean = growth.tree, growth.mean[quad, child]
+    if cell.first == cell.last:
+        face = face_of(faces, layers, ground, present, present[:, 1], key_of(layers, present, present[:, 1]))
+        leaf = PlanarLeaf(0, faces.paint[face], 0.0, True)
+        if set_flat_mean(workspace.pieces, 0, leaf.base, faces, mean):
+            add_programs(workspace.pieces, 0, leaf.base, cell, layers, faces, mean)
+    elif depth < bounds.least_depth:
+        leaf = PlanarLeaf(DIVIDE, 0, 0.0, True)
+    else:
+        leaf = planar_leaf(
+            tree.pool,
+            cell,
+            ground,
+            present,
+            layers,
+            faces,
+            bounds.capacity,
+            bounds.tolerance,
+            depth == bounds.max_depth,
+            workspace,
+            mean,
+        )
+    out = tree.cells[quad, child]
+    out[IS_QUAD], out[COUNT], out[BASE], out[IS_MEAN] = 0.0, 0.0, 0.0, 0.0
+    if leaf.size == DIVIDE:
+        out[IS_QUAD] = 1.0
+        return leaf
+    out[COUNT], out[BASE], out[IS_MEAN] = leaf.size, leaf.base, 0.0 if leaf.resolved else 1.0
+    for k in range(leaf.size):
+        at = tree.counts[CURVES] + k
+        for point in range(4):
+            for axis in range(2):
+                tree.curves[at, point, axis] = workspace.pieces.curves[k, point, axis]
+        for side in range(2):
+            growth.sides[at, side] = workspace.pieces.sides[k, side]
+    tree.counts[CURVES] += leaf.size
+    tree.deviation[0] = max(tree.deviation[0], leaf.distance)
+    tree.counts[UNRESOLVED] += 0 if leaf.resolved else 1
+    return leaf
+
+
+@kernel(allocates=False)
+def _means(growth: PlanarGrowth) -> None:
+    """Give each divided cell the mean colour of its quad; a quad comes after the quad that holds it."""
+    tree, mean = growth.tree, growth.mean
+    for quad in range(tree.counts[QUADS] - 1, -1, -1):
+        below = tree.first[quad, 0]
+        for k in range(4):
+            if tree.cells[quad, k, IS_QUAD] == 1.0:
+                for c in range(4):
+                    mean[quad, k, c] = 0.25 * (
+                        mean[below, 0, c] + mean[below, 1, c] + mean[below, 2, c] + mean[below, 3, c]
+                    )
+                below += 1
+
+
+@kernel(ahead=True, shares=True)
+def grow_map(growth: PlanarGrowth, layers: Layers, faces: Faces, bounds: Bounds, most_work: int, aside: int) -> None:
+    """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done.
+
+    It also ends before a cell whose list is no longer than `aside`, unless that is 0.
+    """
+    tree = growth.tree
+    stack, counts, paths, in_cell = tree.stack, tree.counts, len(layers.rules), 0
+    for k in range(counts[WAITING]):
+        in_cell = max(in_cell, PARTS * (stack[k, LAST] - stack[k, FIRST]))
+    row = np.empty(stack.shape[1], np.int64)
+    child_at, windings = np.empty(9, np.int64), np.empty((paths, 8), np.int64)
+    work = Work(np.empty(len(counts), np.int64), row, child_at, windings, new_workspace(paths, in_cell))
+    while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
+        top = counts[WAITING] - 1
+        listed = stack[top, LAST] - stack[top, FIRST]
+        if aside > 0 and listed <= aside:
+            return
+        most_work -= CELL + listed
+        _grow_quad(growth, layers, faces, bounds, work)
+        if faces.counts[1] != 0:
+            break
+    if counts[WAITING] == 0:
+        _means(growth)
+
+
+@kernel(ahead=True)
+def plant_map(cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: int) -> tuple[PlanarGrowth, float]:
+    """The unit square, to be divided, and how far the outline lies outside it."""
+    tree, outside = new_growth(cubics, owner, max_depth, False)
+    has_room(tree)  # says what the first cell needs
+    return PlanarGrowth(
+        tree,
+        np.zeros(len(tree.stack), np.int64),
+        np.zeros((len(tree.cells), 4, 4)),
+        np.zeros((len(tree.curves), 2), np.int64),
+    ), outside
+
+
+def row_cubics(rows: Rows) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Cubics of some rows, (n, 4, 2), and the number of the row of each, (n,)."""
+    return owned([path.contours for path in rows.paths])
+
+
+def build_map(
+    drawing: Drawing,
+    *,
+    tolerance: float = 0.0,
+    max_depth: int = DEFAULT_DEPTH,
+    capacity: int = DEFAULT_MAP_CAPACITY,
+    precision: float | None = None,
+    most_quads: int = MOST_QUADS,
+    most_texels: int | None = None,
+    restyle: bool = False,
+    threads: int | None = None,
+) -> PlanarMap | None:
+    """Planar map of a drawing in its colours; None if it needs more than `most_texels`.
+
+    With `restyle` faces of different elements keep a border where they have one colour. Large maps of crowded symbols
+    are then shared by so many `threads`, by default one for each processor; the map is the same with any number.
+
+    The other parameters and errors are those of `build_tree`.
+
+    Examples
+    --------
+    >>> from vexture.drawing.drawing import Path
+    >>> from vexture.drawing.paint import Paint
+    >>> left = Drawing.polygon([(0, 0), (0.5, 0), (0.5, 1), (0, 1)]).paths[0].contours
+    >>> right = Drawing.polygon([(0.5, 0), (1, 0), (1, 1), (0.5, 1)]).paths[0].contours
+    >>> planar = build_map(Drawing((Path(left, paint=Paint((1.0, 0.0, 0.0))), Path(right))))
+    >>> len(planar.count), planar.mean[0, 0], planar.mean[0, 1]
+    (1, array([1., 0., 0., 1.]), array([0., 0., 0., 1.]))
+    """
+    bounds = bounds_of(tolerance, max_depth, capacity, precision, most_quads, DEFAULT_MAP_CAPACITY)
+    rows = rows_of(drawing, restyle)
+    layers = layers_of(rows, drawing.groups, looks_of(drawing) if restyle else None)
+    check_time(drawing.name)
+    root, outside = plant_map(*row_cubics(rows), max_depth)
+    if not outside <= CLOSED:  # NaN counts as outside
+        raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
+
+    def step(state: State, aside: int) -> State:
+        growth, layers, faces = state
+        check_growth(int(growth.tree.counts[QUADS]), most_quads, drawing.name)
+        growth, faces = with_room(growth), roomier_faces(faces) if faces.counts[1] else faces
+        grow_map(growth, layers, faces, bounds, SLICE if most_texels is None else SHORT_SLICE, aside)
+        return State(growth, layers, faces)
+
+    def check(quads: int, curves: int) -> bool:
+        check_growth(quads, most_quads, drawing.name)
+        return most_texels is None or texels_of(quads, curves) <= most_texels
+
+    state = State(planted(*root), layers, new_faces())
+    # only drawings that lack what is hidden: parts number paints in an order of their own, and others keep their bytes
+    if restyle and layers.hides.any() and state.growth.tree.stack[0, LAST] > LARGE:
+        grown = grow_map_parts(state, step, usual_threads() if threads is None else threads, check)
+        return None if grown is None else _map_of(drawing.name, rows.gradients, grown)
+    while state.growth.tree.counts[WAITING] > 0:
+        state = step(state, 0)
+        if most_texels is not None and not check(*state.growth.tree.counts[[QUADS, CURVES]].tolist()):
+            return None
+    return _map_of(drawing.name, rows.gradients, state)
+
+
+def _map_of(name: str, gradients: tuple[Gradient, ...], state: State) -> PlanarMap:
+    """The map that has grown, numbered as a `Tree`, in its final types; paints are numbered as they were met."""
+    growth, layers, faces = state
+    tree, quads = growth.tree, growth.tree.counts[QUADS]
+    order = np.concatenate([*levels(tree.cells[:quads, :, IS_QUAD] == 1.0, tree.first[:, 0])])
+    cells = tree.cells[order]
+    is_quad, is_mean = cells[:, :, IS_QUAD] == 1.0, cells[:, :, IS_MEAN] == 1.0
+    below, pieces = is_quad.sum(axis=1), cells[:, :, COUNT].sum(axis=1).astype(np.int64)
+    curves = runs(tree.first[order, 1], pieces)
+    base = np.where(is_quad | is_mean, 0, cells[:, :, BASE]).astype(np.int64)
+    used, number = np.unique(np.concatenate([[0], base.ravel(), growth.sides[curves].ravel()]), return_inverse=True)
+    if len(used) > MOST_PAINTS:
+        raise LimitError(f"{name}: {len(used)} colours; the limit is {MOST_PAINTS}; use `split` paint")
+    begins, ends = faces.starts[used].tolist(), faces.starts[used + 1].tolist()
+    stacks = tuple(faces.paths[begin:end] for begin, end in zip(begins, ends, strict=True))
+    programs, flattened = programs_of(gradients, layers, stacks)
+    numbers: NDArray[np.int32] = number[1:].astype(np.int32)
+    return PlanarMap(
+        is_quad,
+        is_mean,
+        cells[:, :, COUNT].astype(np.uint8),
+        numbers[: base.size].reshape(base.shape),
+        first_of(below, 1),
+        first_of(pieces, 0),
+        growth.mean[order],
+        tree.curves[curves].astype(np.int32),
+        numbers[base.size :].reshape(-1, 2),
+        np.rint(PAINT_ONE * np.clip(faces.rgba[used], 0.0, 1.0)).astype(np.uint16),
+        programs,
+        stacks,
+        flattened,
+        float(tree.deviation[0]),
+        frozenset(np.flatnonzero(layers.hides).tolist()),
+    )

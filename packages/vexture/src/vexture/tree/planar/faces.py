@@ -1,0 +1,310 @@
+"""Faces: regions in which the same paths are inside, each of one paint.
+
+A face is found by the set of paths that are inside: the exclusive or of a random key of each. Crossing a border
+changes the key by the keys of the paths that begin or end there, whatever lies below and above them. What a face that
+is new looks like is composed once, path by path and group by group: a colour, or a program if it holds gradients.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.kernels import kernel
+from vexture.tree.planar.compose import ONE, Operations, compose, key_of_operations, new_operations
+from vexture.tree.planar.layers import Layers
+from vexture.tree.winding import inside
+
+__all__ = [
+    "Faces",
+    "add_faces",
+    "composite_stacks",
+    "face_of",
+    "faces_with",
+    "new_faces",
+    "operations_of",
+    "refill",
+    "roomier_faces",
+    "stack_of",
+    "trimmed",
+]
+
+FIRST_ROOM = 1024
+"""Faces for which a table has room at first."""
+
+
+class Faces(NamedTuple):
+    """Table of all faces. Face 0 is where nothing is painted."""
+
+    slots: NDArray[np.int64]  # (4 room,): face + 1 of each hash slot, or 0
+    paint_slots: NDArray[np.int64]  # (4 room,): the same by paint
+    keys: NDArray[np.int64]  # (room,)
+    rgba: NDArray[np.float64]  # (room, 4), premultiplied; 0 of programs
+    program: NDArray[np.int64]  # (room,): key of its operations, 0 of a colour
+    look: NDArray[np.int64]  # (room,): key of the stack's elements, in a map to be restyled, else 0
+    paint: NDArray[np.int64]  # (room,): the first face of the same colour or program, and look
+    starts: NDArray[np.int64]  # (room + 1,): where the stack of each face begins in `paths`
+    paths: NDArray[np.int32]  # numbers of the paths inside, from below; from the highest that covers all below it on
+    counts: NDArray[np.int64]  # (2,): faces; 1 if there was no room for another
+
+
+def new_faces(room: int = FIRST_ROOM, paths: int = FIRST_ROOM) -> Faces:
+    """A table that holds face 0; its room is a power of two."""
+    return _faces(room, paths)
+
+
+def faces_with(faces: Faces, face: int) -> Faces:
+    """A table that holds face 0 and one of others, which is face 1, unless it is face 0."""
+    start, end = faces.starts[face : face + 2]
+    out = new_faces(paths=max(FIRST_ROOM, int(end - start)))
+    if face:
+        for rows, given in zip(out[2:6], faces[2:6], strict=True):
+            rows[1] = given[face]
+        out.paint[1] = 0 if faces.paint[face] == 0 else 1
+        out.starts[2] = end - start
+        out.paths[: end - start] = faces.paths[start:end]
+        out.counts[0] = 2
+        refill(out)
+    return out
+
+
+def trimmed(faces: Faces) -> Faces:
+    """A table without its room and slots, in which nothing can be found or added."""
+    count = int(faces.counts[0])
+    none = np.zeros(0, np.int64)
+    starts = faces.starts[: count + 1].copy()
+    return Faces(
+        none,
+        none,
+        faces.keys[:count].copy(),
+        faces.rgba[:count].copy(),
+        faces.program[:count].copy(),
+        faces.look[:count].copy(),
+        faces.paint[:count].copy(),
+        starts,
+        faces.paths[: starts[-1]].copy(),
+        faces.counts.copy(),
+    )
+
+
+def _faces(room: int, paths: int) -> Faces:
+    faces = Faces(
+        np.zeros(4 * room, np.int64),
+        np.zeros(4 * room, np.int64),
+        np.zeros(room, np.int64),
+        np.zeros((room, 4)),
+        np.zeros(room, np.int64),
+        np.zeros(room, np.int64),
+        np.zeros(room, np.int64),
+        np.zeros(room + 1, np.int64),
+        np.zeros(paths, np.int32),
+        np.array([1, 0]),
+    )
+    faces.slots[0] = faces.paint_slots[0] = 1
+    return faces
+
+
+def roomier_faces(faces: Faces) -> Faces:
+    """A copy with twice the room of what is full."""
+    count, room = int(faces.counts[0]), len(faces.keys)
+    out = _faces(2 * room, len(faces.paths)) if count == room else _faces(room, 2 * len(faces.paths))
+    for rows, old in zip(out[2:7], faces[2:7], strict=True):
+        rows[:count] = old[:count]
+    out.starts[: count + 1] = faces.starts[: count + 1]
+    out.paths[: faces.starts[count]] = faces.paths[: faces.starts[count]]
+    out.counts[0] = count
+    refill(out)
+    return out
+
+
+@kernel(allocates=False, ahead=True)
+def refill(faces: Faces) -> None:
+    """Put all faces into the hash slots."""
+    for face in range(1, faces.counts[0]):
+        faces.slots[_free_slot(faces.slots, faces.keys[face])] = face + 1
+        if faces.paint[face] == face:
+            faces.paint_slots[_free_slot(faces.paint_slots, _paint_key(faces, face))] = face + 1
+
+
+@kernel(allocates=False, ahead=True)
+def add_faces(faces: Faces, more: Faces, first: int, last: int, number: NDArray[np.int64]) -> None:
+    """Add faces first..last-1 of another table to one that has room; write the number that each has there."""
+    for k in range(first, last):
+        slot = _slot_of(faces, more.keys[k]) if more.keys[k] != 0 else 0
+        if more.keys[k] == 0 or faces.slots[slot] != 0:
+            number[k] = faces.slots[slot] - 1 if more.keys[k] != 0 else 0
+            continue
+        face = faces.counts[0]
+        faces.counts[0], faces.slots[slot], number[k] = face + 1, face + 1, face
+        faces.keys[face], faces.program[face], faces.look[face] = more.keys[k], more.program[k], more.look[k]
+        for c in range(4):
+            faces.rgba[face, c] = more.rgba[k, c]
+        at = faces.starts[face]
+        for place in range(more.starts[k], more.starts[k + 1]):
+            faces.paths[at] = more.paths[place]
+            at += 1
+        faces.starts[face + 1] = at
+        _set_paint(faces, face)
+
+
+@kernel(allocates=False)
+def _free_slot(slots: NDArray[np.int64], key: int) -> int:
+    """First free slot for a key."""
+    slot = key & (len(slots) - 1)
+    while slots[slot] != 0:
+        slot = (slot + 1) & (len(slots) - 1)
+    return slot
+
+
+@kernel(allocates=False)
+def _paint_key(faces: Faces, face: int) -> int:
+    """Hash of a face's program or look, or else its colour in steps of 1/65535; 0 only of what is transparent."""
+    key = faces.program[face] ^ faces.look[face]
+    if key != 0:
+        return key
+    for c in range(4):
+        key = (key << 16) | int(np.rint(ONE * faces.rgba[face, c]))
+    key ^= key >> 31
+    key *= 0x5851F42D4C957F2D
+    return key ^ (key >> 29)
+
+
+@kernel(allocates=False)
+def _same_paint(faces: Faces, a: int, b: int) -> bool:
+    for c in range(4):
+        if np.rint(ONE * faces.rgba[a, c]) != np.rint(ONE * faces.rgba[b, c]):
+            return False
+    return faces.program[a] == faces.program[b] and faces.look[a] == faces.look[b]
+
+
+@kernel
+def stack_of(faces: Faces, face: int) -> NDArray[np.int32]:
+    """Numbers of the paths inside, from below."""
+    return faces.paths[faces.starts[face] : faces.starts[face + 1]]
+
+
+@kernel(ahead=True)
+def operations_of(layers: Layers, stack: NDArray[np.int32]) -> tuple[int, Operations, int]:
+    """Number of a stack's operations, these, and 1 if its gradients are their means: no paint can hold them; else 0."""
+    ops = new_operations(layers, stack)
+    count = compose(layers, stack, False, ops)
+    if count >= 0:
+        return count, ops, 0
+    return compose(layers, stack, True, ops), ops, 1
+
+
+@kernel(allocates=False)
+def _stack(
+    faces: Faces, layers: Layers, ground: int, present: NDArray[np.int64], windings: NDArray[np.int64], face: int
+) -> bool:
+    """Write the stack of a face, which is that of its ground and the paths inside; False if there is no room."""
+    start = faces.starts[face]
+    end, first = start, faces.starts[ground]
+    if start + faces.starts[ground + 1] - first + len(present) > len(faces.paths):
+        return False
+    for k in range(first, faces.starts[ground + 1]):
+        faces.paths[end] = faces.paths[k]
+        end += 1
+    for k in range(len(present)):
+        path = present[k, 0]
+        if inside(windings[k], layers.rules[path]):
+            if layers.covers[path] and end > start:
+                layers.hides[path], end = True, start
+            faces.paths[end] = path
+            end += 1
+    faces.starts[face + 1] = end
+    return True
+
+
+@kernel(allocates=False)
+def _look_of(layers: Layers, stack: NDArray[np.int32]) -> int:
+    """Hash of a stack's elements, in order; 0 of a map that is not to be restyled."""
+    key = 0
+    for k in range(len(stack)):
+        key = (key ^ layers.look[stack[k]]) * 0x5851F42D4C957F2D
+        key ^= key >> 29
+    return key
+
+
+@kernel
+def composite_stacks(
+    layers: Layers, starts: NDArray[np.int64], paths: NDArray[np.int32], out: NDArray[np.float64]
+) -> None:
+    """Write the colours (n, 4) of stacks, of which number k is `paths[starts[k] : starts[k + 1]]`."""
+    for k in range(len(out)):
+        stack = paths[starts[k] : starts[k + 1]]
+        ops = new_operations(layers, stack)
+        count = compose(layers, stack, True, ops)
+        for c in range(4):
+            out[k, c] = ops.rgba[0, c] if count > 0 else 0.0
+
+
+@kernel(allocates=False)
+def face_of(
+    faces: Faces, layers: Layers, ground: int, present: NDArray[np.int64], windings: NDArray[np.int64], key: int
+) -> int:
+    """The face above another one, `ground`, in which some paths are inside by their windings.
+
+    `present` (n, 2) lists paths in painting order, `windings` (n,) belongs to it. `key` is the exclusive or of the keys
+    of the paths that are inside. Without room for a new face, `faces.counts[1]` becomes 1 and the result is 0.
+    """
+    if key == 0:
+        return ground
+    key ^= faces.keys[ground]
+    slot = _slot_of(faces, key)
+    if faces.slots[slot] != 0:
+        return faces.slots[slot] - 1
+    return _new_face(faces, layers, ground, present, windings, key, slot)  # apart: what is rare slows what is not
+
+
+@kernel(allocates=False)
+def _slot_of(faces: Faces, key: int) -> int:
+    """The slot of the face with a key, or the free one where it belongs."""
+    mask = len(faces.slots) - 1
+    slot = key & mask
+    while faces.slots[slot] != 0 and faces.keys[faces.slots[slot] - 1] != key:
+        slot = (slot + 1) & mask
+    return slot
+
+
+@kernel
+def _new_face(
+    faces: Faces,
+    layers: Layers,
+    ground: int,
+    present: NDArray[np.int64],
+    windings: NDArray[np.int64],
+    key: int,
+    slot: int,
+) -> int:
+    """Add a face with a key to the table, and its paint, if that is new."""
+    face = faces.counts[0]
+    if face == len(faces.keys) or not _stack(faces, layers, ground, present, windings, face):
+        faces.counts[1] = 1
+        return 0
+    faces.slots[slot] = face + 1
+    faces.counts[0] = face + 1
+    faces.keys[face] = key
+    stack = stack_of(faces, face)
+    faces.look[face] = _look_of(layers, stack)
+    count, ops, _ = operations_of(layers, stack)
+    faces.program[face] = key_of_operations(ops, count)
+    for c in range(4):
+        faces.rgba[face, c] = ops.rgba[0, c] if faces.program[face] == 0 and count > 0 else 0.0
+    _set_paint(faces, face)
+    return face
+
+
+@kernel(allocates=False)
+def _set_paint(faces: Faces, face: int) -> None:
+    """Find the first face of the same paint as a new one, which may be the first."""
+    mask = len(faces.slots) - 1
+    slot = _paint_key(faces, face) & mask
+    while faces.paint_slots[slot] != 0:
+        other = faces.paint_slots[slot] - 1
+        if _same_paint(faces, other, face):
+            faces.paint[face] = other
+            return
+        slot = (slot + 1) & mask
+    faces.paint_slots[slot] = face + 1
+    faces.paint[face] = face

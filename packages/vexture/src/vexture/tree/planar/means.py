@@ -1,0 +1,184 @@
+"""Mean colours of leaves: exact areas of faces, of exact colours, or for gradients their means over sample points."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.kernels import kernel
+from vexture.base.layout import LATTICE
+from vexture.bezier.area import integral_x_dy
+from vexture.tree.boundary import sort_order
+from vexture.tree.crossings import x_at
+from vexture.tree.divide import PiecePool
+from vexture.tree.planar.borders import Cell, key_of
+from vexture.tree.planar.compose import colour_at
+from vexture.tree.planar.faces import Faces, face_of, operations_of, stack_of
+from vexture.tree.planar.layers import Layers
+from vexture.tree.planar.slabs import Pieces
+from vexture.tree.winding import inside
+
+__all__ = ["add_programs", "set_crowded_mean", "set_flat_mean"]
+
+SCANLINES = 64
+"""Heights at which a cell with too many pieces to resolve is measured."""
+
+GOLDEN = 0.6180339887498949
+"""Points (k / n, frac(k GOLDEN)) are spread evenly, and no line of a hard stop meets many of them (Niederreiter,
+"Random Number Generation and Quasi-Monte Carlo Methods", 3)."""
+
+MOST_POINTS, LEAST_POINTS = 1024, 32
+"""Points in a leaf of gradients: the most in the root's cells, a quarter of that two levels below, and so on."""
+
+
+@kernel(allocates=False)
+def _area(curve: NDArray[np.float64]) -> float:
+    """By how much a piece counts its left face more, and its right one less, over its leaf; of the leaf's area."""
+    area = (curve[0, 1] - curve[3, 1]) / LATTICE + integral_x_dy(curve) / LATTICE**2
+    area += 1.0 - curve[0, 1] / LATTICE if curve[0, 0] == 0.0 else 0.0
+    area -= 1.0 - curve[3, 1] / LATTICE if curve[3, 0] == 0.0 else 0.0
+    return area
+
+
+@kernel(allocates=False)
+def _counts(curve: NDArray[np.float64], x: float, y: float) -> int:
+    """The same at a point, in lattice units."""
+    by = 1 if curve[0, 0] == 0.0 and curve[0, 1] <= y else 0
+    by -= 1 if curve[3, 0] == 0.0 and curve[3, 1] <= y else 0
+    if curve[0, 1] <= y < curve[3, 1] and min(curve[0, 0], curve[3, 0]) <= x:
+        by -= 1 if max(curve[0, 0], curve[3, 0]) <= x or x_at(curve, y) <= x else 0
+    return by
+
+
+@kernel
+def _add_colour(
+    layers: Layers, faces: Faces, face: int, x: float, y: float, share: float, mean: NDArray[np.float64]
+) -> None:
+    """Add a share of a face's colour at a point to a mean."""
+    if faces.program[face] == 0:
+        for c in range(4):
+            mean[c] += share * faces.rgba[face, c]
+        return
+    count, ops, _ = operations_of(layers, stack_of(faces, face))
+    colour = np.empty(4)
+    colour_at(layers, ops, count, x, y, np.empty((count + 1, 4)), colour)
+    for c in range(4):
+        mean[c] += share * colour[c]
+
+
+@kernel(allocates=False)
+def set_flat_mean(pieces: Pieces, count: int, base: int, faces: Faces, mean: NDArray[np.float64]) -> bool:
+    """Write the mean colour of a leaf, without its programs; return whether it has any."""
+    holds_program = faces.program[base] != 0
+    for c in range(4):
+        mean[c] = faces.rgba[base, c]
+    for k in range(count):
+        area, left, right = _area(pieces.curves[k]), pieces.sides[k, 0], pieces.sides[k, 1]
+        holds_program = holds_program or faces.program[left] != 0 or faces.program[right] != 0
+        for c in range(4):
+            mean[c] += area * (faces.rgba[left, c] - faces.rgba[right, c])
+    if not holds_program:
+        _hold(mean)
+    return holds_program
+
+
+@kernel(allocates=False)
+def _hold(mean: NDArray[np.float64]) -> None:
+    """Bring a colour into 0..1."""
+    for c in range(4):
+        mean[c] = min(max(mean[c], 0.0), 1.0)
+
+
+@kernel
+def add_programs(
+    pieces: Pieces, count: int, base: int, cell: Cell, layers: Layers, faces: Faces, mean: NDArray[np.float64]
+) -> None:
+    """Add the means of a leaf's programs: of each the mean over the points in it, times its exact area."""
+    found, areas, n = np.full(2 * count + 1, -1), np.zeros(2 * count + 1), 0
+    for k in range(2 * count + 1):
+        side = k - 1
+        face = base if k == 0 else pieces.sides[side >> 1, side & 1]
+        if faces.program[face] != 0:
+            area = 1.0 if k == 0 else _area(pieces.curves[side >> 1]) * (1.0 if side & 1 == 0 else -1.0)
+            at = 0
+            while at < n and found[at] != face:
+                at += 1
+            n = max(n, at + 1)
+            found[at] = face
+            areas[at] += area
+    points = max(int(MOST_POINTS * cell.size), LEAST_POINTS)
+    inside_of = _faces_at(pieces, count, base, points)
+    colour, total = np.empty(4), np.empty(4)
+    for at in range(n):
+        operations, ops, _ = operations_of(layers, stack_of(faces, found[at]))
+        work, met = np.empty((operations + 1, 4)), 0
+        total[:] = 0.0
+        for k in range(points):
+            is_last_chance = k == points - 1 and met == 0  # a face between all points
+            if inside_of[k] == found[at] or is_last_chance:
+                x, y = cell.x + cell.size * (k + 0.5) / points, cell.y + cell.size * (k * GOLDEN % 1.0)
+                colour_at(layers, ops, operations, x, y, work, colour)
+                met += 1
+                for c in range(4):
+                    total[c] += colour[c]
+        for c in range(4):
+            mean[c] += areas[at] * total[c] / met
+    _hold(mean)
+
+
+@kernel
+def _faces_at(pieces: Pieces, count: int, base: int, points: int) -> NDArray[np.int64]:
+    """The face at each point of a leaf: as one is left of all that are counted, its number is their sum."""
+    found = np.full(points, base)
+    for k in range(points):
+        x, y = (k + 0.5) / points * LATTICE, k * GOLDEN % 1.0 * LATTICE
+        for i in range(count):
+            found[k] += _counts(pieces.curves[i], x, y) * (pieces.sides[i, 0] - pieces.sides[i, 1])
+    return found
+
+
+@kernel
+def set_crowded_mean(
+    pool: PiecePool,
+    cell: Cell,
+    ground: int,
+    present: NDArray[np.int64],
+    layers: Layers,
+    faces: Faces,
+    windings: NDArray[np.int64],
+    mean: NDArray[np.float64],
+) -> None:
+    """Write the mean colour of a cell with too many pieces to resolve: that of `SCANLINES` lines."""
+    n = cell.last - cell.first
+    crossing_x, crossing, owner = np.empty(n), np.empty(n, np.int64), np.empty(n, np.int64)
+    k = 0
+    for i in range(n):
+        while present[k, 0] != pool.path[pool.numbers[cell.first + i]]:
+            k += 1
+        owner[i] = k
+    mean[:4] = 0.0
+    for line in range(SCANLINES):
+        y, count = cell.y + cell.size * (line + 0.5) / SCANLINES, 0
+        for k in range(len(present)):
+            windings[k] = present[k, 1]
+        for i in range(n):
+            curve = pool.points[pool.numbers[cell.first + i]]
+            for end, event in ((0, 1), (3, -1)):
+                if curve[end, 0] == cell.x and curve[end, 1] <= y:
+                    windings[owner[i]] += event
+            if min(curve[0, 1], curve[3, 1]) <= y < max(curve[0, 1], curve[3, 1]):
+                crossing_x[count], crossing[count] = x_at(curve, y), i
+                count += 1
+        key, x, at = key_of(layers, present, windings), cell.x, 0
+        order = sort_order(crossing_x, count)
+        while at <= count:
+            end_x = cell.x + cell.size if at == count else crossing_x[order[at]]
+            if end_x > x:
+                face = face_of(faces, layers, ground, present, windings, key)
+                _add_colour(layers, faces, face, 0.5 * (x + end_x), y, (end_x - x) / (cell.size * SCANLINES), mean)
+                x = end_x
+            if at < count:
+                i = crossing[order[at]]
+                curve, path = pool.points[pool.numbers[cell.first + i]], present[owner[i], 0]
+                before = inside(windings[owner[i]], layers.rules[path])
+                windings[owner[i]] += -1 if curve[3, 1] > curve[0, 1] else 1
+                key ^= 0 if before == inside(windings[owner[i]], layers.rules[path]) else layers.keys[path]
+            at += 1

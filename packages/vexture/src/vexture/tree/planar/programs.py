@@ -1,0 +1,74 @@
+"""Programs: the paints of faces in which gradients are seen."""
+
+from collections.abc import Sequence
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.layout import MASKS, PAINT_ONE
+from vexture.drawing.group import Blend, Mask
+from vexture.drawing.paint import Gradient
+from vexture.tree.planar.compose import KEEP, SHADE, SOLID, Operations
+from vexture.tree.planar.faces import operations_of
+from vexture.tree.planar.layers import Layers
+
+__all__ = ["Keep", "Mix", "Operation", "Program", "Solid", "how_of", "number_of", "programs_of"]
+
+
+class Solid(NamedTuple):
+    """Paint a colour on what is there."""
+
+    rgba: tuple[int, int, int, int]  # premultiplied, in steps of 1/65535
+
+
+class Keep(NamedTuple):
+    """Begin a group: keep what is there, and start from nothing."""
+
+
+class Mix(NamedTuple):
+    """End a group: composite it on what was kept, or let it mask that."""
+
+    opacity: int  # in steps of 1/65535
+    how: Blend | Mask
+
+
+Operation: TypeAlias = Solid | Gradient | Keep | Mix
+"""What a program does, one after another; a gradient is painted on what is there."""
+
+Program: TypeAlias = tuple[Operation, ...]
+
+
+def programs_of(
+    gradients: Sequence[Gradient], layers: Layers, stacks: Sequence[NDArray[np.int32]]
+) -> tuple[dict[int, Program], int]:
+    """The programs of the stacks that need one, by their places; and of how many no paint can hold the gradients."""
+    programs: dict[int, Program] = {}
+    flattened = 0
+    for place, stack in enumerate(stacks if gradients else ()):
+        if (layers.shade[stack] >= 0).any():
+            count, ops, is_flat = operations_of(layers, stack)
+            ops, flattened = Operations(*ops), flattened + is_flat
+            if (ops.code[:count] != SOLID).any():
+                programs[place] = tuple(_operation(ops, k, gradients) for k in range(count))
+    return programs, flattened
+
+
+def _operation(ops: Operations, k: int, gradients: Sequence[Gradient]) -> Operation:
+    code, number = int(ops.code[k]), int(ops.number[k])
+    if code == SOLID:
+        red, green, blue, alpha = np.rint(PAINT_ONE * ops.rgba[k].clip(0.0, 1.0)).astype(int).tolist()
+        return Solid((red, green, blue, alpha))
+    if code == SHADE:
+        return gradients[number]
+    return Keep() if code == KEEP else Mix(number & PAINT_ONE, how_of(number >> 16))
+
+
+def how_of(number: int) -> Blend | Mask:
+    """How a group ends, by its number in a program."""
+    return Blend(number) if number < MASKS else Mask(number - MASKS)
+
+
+def number_of(how: Blend | Mask) -> int:
+    """Number in a program of how a group ends."""
+    return MASKS + how if isinstance(how, Mask) else int(how)

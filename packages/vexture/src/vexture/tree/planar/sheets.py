@@ -1,0 +1,190 @@
+"""Cutting a drawing of many layers into sheets, each a planar map, that are drawn one over the other.
+
+The texels of a planar map grow with the square of the number of outlines that cross or run beside one another: 800
+concentric translucent discs need a million, where their layers need ten thousand. So a map has a budget. A drawing that
+exceeds it is cut into sheets of consecutive layers, as many to a sheet as their share of the budget allows.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any, Final, NamedTuple
+
+from vexture.base.layout import MOST_KEPT
+from vexture.base.notes import Note
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.group import Blend
+from vexture.drawing.paint import Paint
+from vexture.tree.build import build_tree
+from vexture.tree.planar.build import build_map
+from vexture.tree.planar.map import PlanarMap
+from vexture.tree.tree import Tree
+
+__all__ = ["Sheet", "notes_of_sheets", "sheets_of"]
+
+FLATTENED: Final = (
+    f"gradients by their mean colours: too many on one another, or in more than {MOST_KEPT} groups in one another"
+)
+"""Message about faces of planar maps."""
+
+SEVERAL: Final = "so many crossing shapes are {} maps on one another; what is below shows through where they touch"
+"""Message about sheets."""
+
+LEAST_BUDGET: Final = 1 << 17
+"""Texels that any drawing may have: two megabytes. A coat of arms in a flag needs one, and is exact only as a whole."""
+
+BUDGET: Final = 2
+"""Texels of all sheets for each cubic and path: about twice those of the drawing's layers."""
+
+SPARED: Final = 8
+"""Part of a sheet's texels that it may do without: to find how many layers just fit takes as long again."""
+
+STEPS: Final = 4
+"""Numbers of layers that are tried between one and its double."""
+
+
+class Sheet(NamedTuple):
+    """Consecutive paths of a drawing, and their map; or one layer of it, and its tree."""
+
+    drawing: Drawing
+    tree: PlanarMap | Tree
+
+    @property
+    def paint(self) -> Paint | None:
+        """Paint of a layer."""
+        return self.drawing.paths[0].paint if isinstance(self.tree, Tree) else None
+
+    def named(self, name: str, number: int) -> "Sheet":
+        """The sheet, named as the layers of a drawing are."""
+        what = "faces" if self.paint is None else self.paint.hex
+        return Sheet(replace(self.drawing, name=f"{name}/{number}-{what}"), self.tree)
+
+
+def sheets_of(drawing: Drawing, restyle: bool = False, **parameters: Any) -> list[Sheet]:
+    """The sheets of a drawing, the lowest first: one, unless its map needs too many texels.
+
+    A drawing that is one layer of one colour needs no map, unless it is to be restyled. `parameters` and errors are
+    those of `build_map`. A `precision` cuts no drawing: its texels, like those of layers, grow with the length of
+    outlines, not with their crossings.
+    """
+    precision = parameters.pop("precision", None)
+    sheets = _within_budget(drawing, restyle, **parameters)
+    if precision is None:
+        return sheets
+    parameters["precision"] = precision
+    return [Sheet(one.drawing, _again(one, restyle, **parameters)) for one in sheets]
+
+
+def _again(sheet: Sheet, restyle: bool, **parameters: Any) -> PlanarMap | Tree:
+    """The map or tree of a sheet, with other parameters."""
+    if isinstance(sheet.tree, Tree):
+        return build_tree(sheet.drawing, **parameters)
+    planar = build_map(sheet.drawing, restyle=restyle, **parameters)
+    assert planar is not None
+    return planar
+
+
+def _within_budget(drawing: Drawing, restyle: bool, **parameters: Any) -> list[Sheet]:
+    """The sheets of a drawing, each within its share of the budget."""
+    layers = () if restyle or drawing.is_coloured else drawing.layers()
+    if len(layers) == 1:
+        return [Sheet(layers[0], build_tree(layers[0], **parameters))]
+    budget = max(BUDGET * (drawing.segments + len(drawing.paths)), LEAST_BUDGET)
+    whole = build_map(drawing, most_texels=budget, restyle=restyle, **parameters)
+    if whole is not None:
+        return [Sheet(drawing, whole)]
+    items = _items(drawing)
+
+    def tried(first: int, last: int) -> Sheet | None:
+        part = _part(drawing, items[first:last], len(items))
+        is_layer = last == first + 1 and len(items[first]) == 1 and part.paths[0].group < 0 and _is_flat(part.paths)
+        if is_layer and not restyle:
+            return Sheet(part, build_tree(part, **parameters))
+        share = budget * (last - first) // len(items) if last > first + 1 else None
+        planar = build_map(part, most_texels=share, restyle=restyle, **parameters)
+        return None if planar is None else Sheet(part, planar)
+
+    found = _greedy(len(items), budget / len(items), tried)
+    return [sheet.named(drawing.name, number) for number, sheet in enumerate(found, 1)]
+
+
+def _is_flat(paths: Sequence[Path]) -> bool:
+    """Whether no path has a gradient."""
+    return all(path.paint.gradient is None for path in paths)
+
+
+def notes_of_sheets(sheets: Sequence[Sheet]) -> tuple[Note, ...]:
+    """Notes of the faces that have the means of gradients instead of these, and of several sheets."""
+    count = sum(sheet.tree.flattened for sheet in sheets if isinstance(sheet.tree, PlanarMap))
+    notes = [Note("simplified", FLATTENED, count)] if count else []
+    if len(sheets) > 1:
+        notes.append(Note("simplified", SEVERAL.format(len(sheets))))
+    return tuple(notes)
+
+
+def _greedy(count: int, share: float, tried: Callable[[int, int], Sheet | None]) -> list[Sheet]:
+    """Sheets of so many items, each of about as many as fit.
+
+    A sheet fills its share but for an eighth, or does not hold one step of items more. `tried` makes a sheet of the
+    items first..last-1, or none if they need too many texels; of one it always does. `share` are the texels of one
+    item. The search begins at the number of items in the sheet below, and goes in steps that double, then halve.
+    """
+    sheets: list[Sheet] = []
+    first = below = 0
+    while first < count:
+        sizes = _sizes(count - first)
+        fitting, failing, at, step = -1, len(sizes), min(below, len(sizes) - 1), 1
+        best: Sheet | None = None
+        while failing - fitting > 1:
+            made = tried(first, first + sizes[at])
+            if made is None:
+                failing = at
+            else:
+                best, fitting = made, at
+                if SPARED * made.tree.texels >= (SPARED - 1) * share * sizes[at]:
+                    break
+            if fitting >= 0 and failing < len(sizes):
+                at = (fitting + failing) // 2
+            else:
+                at = min(max(at + (step if made else -step), 0), len(sizes) - 1)
+                step *= 2
+        assert best is not None
+        sheets.append(best)
+        first, below = first + sizes[fitting], fitting
+    return sheets
+
+
+def _sizes(most: int) -> list[int]:
+    """Numbers of items that are tried, up to `most`.
+
+    Examples
+    --------
+    >>> _sizes(13)
+    [1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 13]
+    """
+    sizes, step = [*range(1, 2 * STEPS)], 2
+    while sizes[-1] < most:
+        sizes += [step * (STEPS + k) for k in range(STEPS)]
+        step *= 2
+    return [size for size in sizes if size < most] + [most]
+
+
+def _items(drawing: Drawing) -> list[list[Path]]:
+    """The paths of a drawing in runs that cannot be cut: those of an outermost group, with all that it blends with."""
+    items: list[list[Path]] = []
+    before = -1
+    for path in drawing.paths:
+        around = drawing.around(path.group)
+        outermost = around[0] if around else -1
+        if outermost >= 0 and outermost == before:
+            items[-1].append(path)
+        elif outermost >= 0 and drawing.groups[outermost].blend is not Blend.NORMAL:
+            items = [[*(below for item in items for below in item), path]]
+        else:
+            items.append([path])
+        before = outermost
+    return items
+
+
+def _part(drawing: Drawing, items: Sequence[list[Path]], count: int) -> Drawing:
+    """A drawing of some of the items."""
+    return replace(drawing, paths=tuple(path for item in items for path in item)) if len(items) < count else drawing

@@ -1,0 +1,139 @@
+"""What of a planar map can be restyled: the elements of its drawing, and which of them each paint is composited of."""
+
+from dataclasses import dataclass, replace
+from itertools import chain, pairwise
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.errors import LimitError
+from vexture.base.notes import Note
+from vexture.drawing.drawing import Drawing, Path
+from vexture.drawing.group import Group, groups_around
+from vexture.drawing.paint import Paint
+
+__all__ = ["Style", "elements_of", "restylable", "rounded", "style_of"]
+
+DIGITS: Final = 6
+"""Decimals of an element's colour and opacity: finer than the steps of 1/65535 in which paints are stored."""
+
+MOST_NESTED: Final = 100
+"""Groups around one another: a file of very deep ones would take long to read."""
+
+SHADED: Final = "gradient, of its mean colour, as colours that can be changed are flat"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Style:
+    """The n elements of a planar map, in painting order, and what its p paints are made of.
+
+    An element is the paths that have one name, one paint and one group: they get a new colour together.
+
+    Parameters
+    ----------
+    names : tuple of str
+        As in `Path.element`; several elements may have one name, and many have none.
+    rgba : (n, 4) float64 array
+        Colours and opacities, not premultiplied, to six decimals.
+    group : (n,) int64 array
+        The innermost group around each, as a place in `groups`; -1 if there is none.
+    hides : (n,) bool array
+        Whether something below is not in the map, as nothing is seen through an opaque colour.
+    groups : tuple of Group
+        As in `Drawing.groups`.
+    starts : (p + 1,) int64 array
+    members : int32 array
+        Paint j is made of the elements `members[starts[j] : starts[j + 1]]`, from below; some may be there repeatedly.
+    """
+
+    names: tuple[str, ...]
+    rgba: NDArray[np.float64]
+    group: NDArray[np.int64]
+    hides: NDArray[np.bool_]
+    groups: tuple[Group, ...]
+    starts: NDArray[np.int64]
+    members: NDArray[np.int32]
+
+    @property
+    def top(self) -> NDArray[np.int64]:
+        """The topmost element that is seen in each paint, (p,); -1 without any."""
+        some = np.diff(self.starts) > 0
+        top = np.full(len(some), -1)
+        top[some] = self.members[self.starts[1:][some] - 1]
+        if any(group.mask for group in self.groups):
+            for paint, (start, end) in enumerate(pairwise(self.starts.tolist())):
+                seen = self._unmasked(self.members[start:end].tolist())
+                top[paint] = seen[-1] if seen else -1
+        return top
+
+    def _unmasked(self, stack: list[int]) -> list[int]:
+        """What of a stack is neither a mask nor hidden by one of which nothing is there."""
+        around = {element: groups_around(self.groups, int(self.group[element])) for element in set(stack)}
+        open_groups = {group for found in around.values() for group in found}
+        hidden = {g.outer for place, g in enumerate(self.groups) if g.mask and place not in open_groups}
+        hidden |= {place for place, group in enumerate(self.groups) if group.mask}
+        return [element for element in stack if hidden.isdisjoint(around[element])]
+
+    def check_groups(self) -> None:
+        """Raise a `LimitError` if groups are nested too deeply.
+
+        Raise a `SourceError` if they are not nested, or the elements of one do not follow one another.
+        """
+        depth: list[int] = []
+        for group in self.groups:
+            depth.append(depth[group.outer] + 1 if 0 <= group.outer < len(depth) else 1)
+        if max(depth, default=0) > MOST_NESTED:
+            raise LimitError(f"groups are {max(depth)} deep; the limit of what can be restyled is {MOST_NESTED}")
+        if self.groups or (self.group != -1).any():
+            Drawing(tuple(Path((), group=group) for group in self.group.tolist()), groups=self.groups)
+
+
+def rounded(rgba: Any) -> NDArray[np.float64]:
+    """Colours as a style has them."""
+    return np.round(np.asarray(rgba, np.float64).reshape(-1, 4), DIGITS)
+
+
+def restylable(drawing: Drawing) -> Drawing:
+    """The drawing with flat colours; a note says how many gradients had their means."""
+    shaded = sum(path.paint.gradient is not None for path in drawing.paths)
+    if not shaded:
+        return drawing
+    paths = tuple(replace(path, paint=Paint(path.paint.color, path.paint.opacity)) for path in drawing.paths)
+    return replace(drawing, paths=paths, notes=(*drawing.notes, Note("simplified", SHADED, shaded)))
+
+
+def elements_of(drawing: Drawing) -> tuple[list[Path], NDArray[np.int64]]:
+    """The first path of each element of a drawing, in order, and the number of each path's element."""
+    paints: dict[Paint, int] = {}
+    known: dict[int, int] = {}  # by identity: most paths share their paints, whose hashes take longer than the rest
+    places: dict[tuple[str, int, int], int] = {}
+    first: list[Path] = []
+    numbers: list[int] = []
+    for path in drawing.paths:
+        paint = known.get(id(path.paint))
+        if paint is None:
+            paint = known[id(path.paint)] = paints.setdefault(path.paint, len(paints))
+        place = places.setdefault((path.element, paint, path.group), len(places))
+        if place == len(first):
+            first.append(path)
+        numbers.append(place)
+    return first, np.array(numbers, np.int64)
+
+
+def style_of(drawing: Drawing, planar: Any) -> Style:
+    """The style of a drawing's `PlanarMap`, which was built to be restyled."""
+    first, number = elements_of(drawing)
+    hides = np.zeros(len(first), np.bool_)
+    hides[number[list(planar.hiding)]] = True
+    style = Style(
+        tuple(path.element for path in first),
+        rounded([(*path.paint.color, path.paint.opacity) for path in first]),
+        np.array([path.group for path in first], np.int64),
+        hides,
+        drawing.groups,
+        np.append(0, np.cumsum([len(stack) for stack in planar.stacks], dtype=np.int64)),
+        number[np.fromiter(chain.from_iterable(planar.stacks), np.int64)].astype(np.int32),
+    )
+    style.check_groups()
+    return style

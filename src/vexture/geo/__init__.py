@@ -1,1 +1,0 @@
-"""Geographic data: files to drawings, extents and depths, and their reference systems."""

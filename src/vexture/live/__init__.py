@@ -1,1 +1,0 @@
-"""Servers: textures that change while people look at them, and the viewer."""
