@@ -12,6 +12,9 @@ from typing import Final
 __all__ = ["bundled", "notices"]
 
 WEB: Final = Path(__file__).resolve().parents[1] / "web"
+OF_PAGES: Final = ("three",)
+"""Peers of the npm package that the pages hold."""
+
 HEADING: Final = "The pages of vexture hold code of these packages, each under its own licence.\n"
 
 
@@ -19,8 +22,7 @@ def bundled() -> list[str]:
     """Names of the packages that the pages hold."""
     locked = json.loads((WEB / "package-lock.json").read_text(encoding="utf-8"))["packages"]
     package = json.loads((WEB / "package.json").read_text(encoding="utf-8"))
-    optional = package.get("peerDependenciesMeta", {})  # of entries that no page has
-    peers = [name for name in package["peerDependencies"] if name not in optional]
+    peers = [name for name in package["peerDependencies"] if name in OF_PAGES]
     needed = [
         place.removeprefix("node_modules/")
         for place, entry in locked.items()

@@ -1,5 +1,4 @@
 // Which element of a drawing is seen at a point. Plain data, without three.js.
-import { VextureError } from './errors.js';
 import { mapParts } from './maps.js';
 
 /**
@@ -25,16 +24,4 @@ export function elementAt(data, first, count, u, v) {
     if (element) return { ...element, root };
   }
   return null;
-}
-
-/**
- * What of a map can get other colours.
- *
- * @param {import('./data.js').Root} root
- * @returns {import('./style.js').Style}
- * @throws {VextureError} if it is nothing
- */
-export function styleOf({ name, style }) {
-  if (!style) throw new VextureError(`"${name}" has no elements; convert the drawing with --restyle`, 'style');
-  return style;
 }

@@ -1,10 +1,9 @@
 // New colours for the elements of a planar map: another table of paints and other means, in place, for the same tree.
-import { styleOf } from './element-at.js';
 import { VextureError, line } from './errors.js';
 import { MapMeans, listed } from './map-means.js';
 import { readPaints, round } from './paints.js';
 import { sendRows } from './rows.js';
-import { nearNames } from './select-root.js';
+import { nearNames, styleOf } from './select-root.js';
 import { composited } from './style.js';
 
 /**

@@ -126,3 +126,15 @@ export function mapsAmong(shown, isAlone) {
   if (!shown.some(({ isMap }) => isMap)) return 'none';
   return isAlone && shown.every(({ isMap }) => isMap) ? 'all' : 'some';
 }
+
+/**
+ * What of a map can get other colours.
+ *
+ * @param {import('./data.js').Root} root
+ * @returns {import('./style.js').Style}
+ * @throws {VextureError} if it is nothing
+ */
+export function styleOf({ name, style }) {
+  if (!style) throw new VextureError(`"${name}" has no elements; convert the drawing with --restyle`, 'style');
+  return style;
+}

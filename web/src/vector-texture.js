@@ -1,9 +1,9 @@
 import { Color, EventDispatcher, LinearSRGBColorSpace, SRGBColorSpace } from 'three';
-import { elementAt, styleOf } from './element-at.js';
+import { elementAt } from './element-at.js';
 import { VextureError } from './errors.js';
 import { layersOf, layersTexture } from './layers.js';
 import { mapParts } from './maps.js';
-import { shapeIndex } from './select-root.js';
+import { shapeIndex, styleOf } from './select-root.js';
 import { wordTexture } from './upload.js';
 import { checkData, colorAt, contains } from './walk.js';
 
