@@ -13,7 +13,7 @@ INSTALL := $(BIN)/python -m pip install --quiet --no-compile
 TESTERS := $(shell $(PYTHON) -c 'import os; print(min(4, 1 + (os.cpu_count() or 1)))')
 PYTEST := $(BIN)/python -m pytest --quiet --numprocesses $(TESTERS) --dist worksteal
 SHAPES := examples/shapes
-COLOURS := tests/sources/fixtures/groups/nested.svg
+COLOURS := tests/core/svg/fixtures/groups/nested.svg
 BENCHMARKS := packed_fidelity colours wgsl speed gpu_cost packed_conversion size fidelity conversion icons live load
 WEB_BENCHMARKS := page_fidelity web_speed editing flood flood_water
 CORE := packages/vexture
@@ -189,7 +189,7 @@ kernels: .venv/for-test
 	@echo 'compiling the kernels once, before the tests run side by side ...'
 	@set -e; scratch=$$(mktemp -d); trap 'rm -rf "$$scratch"' EXIT; exec >"$$scratch/log"; \
 	( $(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact && \
-		$(BIN)/python -m pytest --quiet tests/bezier/test_known_curves.py && \
+		$(BIN)/python -m pytest --quiet tests/core/bezier/test_known_curves.py && \
 		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/thesis" --encoding thesis && \
 		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/sampled" --encoding thesis --strategy sampled && \
 		$(BIN)/vexture render "$$scratch/thesis/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu ) & thesis=$$!; \

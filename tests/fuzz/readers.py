@@ -351,7 +351,7 @@ TABLE = words(
 BINARY = (b"\0\0\0\0", b"\xff\xff\xff\xff", b"\0\0\x80\x7f", b"\0\0\xc0\x7f", b"\x7f\xf0\0\0\0\0\0\0", b"\x80")
 
 TARGETS = {
-    "svg": Target(drawing(".svg"), VALUES + MARKUP + CSS, text=True, other_seeds="tests/sources/fixtures/*/*.svg"),
+    "svg": Target(drawing(".svg"), VALUES + MARKUP + CSS, text=True, other_seeds="tests/core/svg/fixtures/*/*.svg"),
     "css": Target(read_css, VALUES + CSS, text=True),
     "path": Target(read_path, PATH, text=True, in_a_second=2000),
     "values": Target(read_values, VALUES, text=True, in_a_second=2000),

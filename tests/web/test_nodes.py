@@ -22,7 +22,7 @@ from vexture.texture.texture import Texture
 Picture = NDArray[np.float64]
 
 SHAPES = ROOT / "examples" / "shapes"
-FIXTURES = ROOT / "tests" / "sources" / "fixtures"
+FIXTURES = ROOT / "tests" / "core" / "svg" / "fixtures"
 PAGE = Path(__file__).parent / "pages" / "nodes.js"
 ATLAS = ("holes", "flame", "cake", "thumb")
 BACKENDS = ("webgpu", "webgl")

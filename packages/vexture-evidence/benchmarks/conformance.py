@@ -60,7 +60,7 @@ THUMBNAIL: Final = 96
 OUTCOMES: Final = ("right", "named", "silent", "refused", "unjudged")
 """Right; wrong, and a note says what differs; wrong without one; an error in one line; no reference draws it."""
 
-FIXTURES: Final = ROOT / "tests" / "sources" / "fixtures"
+FIXTURES: Final = ROOT / "tests" / "core" / "svg" / "fixtures"
 OTHER_FONT: Final = re.compile(r"font '.*' drawn in ")
 """Begin of a note that excuses nothing here, as the references have the same other font."""
 

@@ -21,7 +21,8 @@ from fontTools.ttLib import TTFont
 from numpy.typing import NDArray
 
 from vexture.base.errors import LimitError, SourceError, VextureError
-from vexture.drawing.drawing import Drawing, drawing
+from vexture.drawing import drawing
+from vexture.drawing.drawing import Drawing
 
 __all__ = [
     "ALPHANUMERICS",

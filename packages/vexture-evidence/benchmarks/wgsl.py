@@ -48,7 +48,7 @@ def pictures(source: Path) -> Iterator[tuple[str, Any, Any]]:
 
 def main() -> None:
     """Print the largest difference of each view, in 255ths."""
-    folders = (ROOT / "examples" / "shapes", ROOT / "tests" / "sources" / "fixtures")
+    folders = (ROOT / "examples" / "shapes", ROOT / "tests" / "core" / "svg" / "fixtures")
     files = [path for folder in folders for path in sorted(folder.rglob("*.svg"))][
         :: 20 if "--quick" in sys.argv else 1
     ]
