@@ -1,4 +1,4 @@
-"""A wheel installed in an environment of its own, with nothing beside it but what it requires."""
+"""Wheels installed in an environment of their own, with nothing beside them but what they require."""
 
 import subprocess
 import sys
@@ -10,30 +10,30 @@ from packaging.utils import canonicalize_name
 
 
 class Installed:
-    """A wheel's commands, run outside the checkout and without Node.js.
+    """The commands of wheels, run outside the checkout and without Node.js.
 
     Parameters
     ----------
     folder : path
         An empty folder: the environment is made in it, and the commands work in it.
-    wheel : path
+    wheels : path
     whole : bool
         Install all requirements from the registry, and compile kernels as on a new machine; else the requirements are
         those of the environment that runs the tests, and kernels run as they are written.
     """
 
-    def __init__(self, folder: Path, wheel: Path, *, whole: bool) -> None:
+    def __init__(self, folder: Path, *wheels: Path, whole: bool) -> None:
         self.bin, self.work = folder / "venv" / "bin", folder / "work"
         self.work.mkdir()
         subprocess.run([sys.executable, "-m", "venv", "--without-pip", self.bin.parent], check=True)
         self.environment = {"PATH": str(self.bin), "HOME": str(folder), "PYTHONWARNINGS": "error"}
         if whole:
-            self.pip("install", "--quiet", str(wheel))
+            self.pip("install", "--quiet", *map(str, wheels))
         else:
             self.environment["NUMBA_DISABLE_JIT"] = "1"
-            self.pip("install", "--quiet", "--no-index", "--no-deps", str(wheel))
-            (wheel_itself,) = distributions(name="vexture", path=[str(self.site)])
-            for needed in required(wheel_itself).values():
+            self.pip("install", "--quiet", "--no-index", "--no-deps", *map(str, wheels))
+            own = {canonicalize_name(one.name): one for one in distributions(path=[str(self.site)])}
+            for needed in required(own).values():
                 self._link(needed)
 
     @property
@@ -71,18 +71,18 @@ class Installed:
         return subprocess.run(command, cwd=self.work, env=everything, capture_output=True, text=True, check=False)
 
 
-def required(package: Distribution) -> dict[str, Distribution]:
-    """Packages that one requires, and those that they require, without extras but those that they name."""
+def required(own: dict[str, Distribution]) -> dict[str, Distribution]:
+    """Packages that some require, and those that they require, without extras but those that they name."""
     found: dict[str, Distribution] = {}
-    wanted = [(package, "")]
-    while wanted:
-        one, extra = wanted.pop()
+    waiting = [(package, "") for package in own.values()]
+    while waiting:
+        one, extra = waiting.pop()
         for requirement in map(Requirement, one.requires or ()):
             if requirement.marker and not requirement.marker.evaluate({"extra": extra}):
                 continue
             name = canonicalize_name(requirement.name)
-            if name not in found:
+            if name not in found and name not in own:
                 found[name] = distribution(name)
-                wanted.append((found[name], ""))
-            wanted += [(found[name], further) for further in requirement.extras]
+                waiting.append((found[name], ""))
+            waiting += [(own.get(name) or found[name], further) for further in requirement.extras]
     return found

@@ -13,17 +13,18 @@ from release import disagreements, notes, versions
 
 ROOT = Path(__file__).parents[2]
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
-NAMING = ["pyproject.toml", "web/package.json", "web/package-lock.json", "CHANGELOG.md"]
+OWNER = "packages/vexture/pyproject.toml"
+NAMING = [OWNER, "web/package.json", "web/package-lock.json", "CHANGELOG.md"]
 
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
     """Copy of the files that name the version, with a second distribution and a section of the changelog."""
     for name in NAMING:
-        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, tmp_path / name)
-    version = versions(ROOT)["pyproject.toml"]
-    second = tmp_path / "second" / "pyproject.toml"
+    version = versions(ROOT)[OWNER]
+    second = tmp_path / "packages" / "second" / "pyproject.toml"
     second.parent.mkdir()
     second.write_text(
         f'[project]\nname = "second"\nversion = "{version}"\ndependencies = ["vexture[gis]=={version}"]\n'
@@ -34,35 +35,37 @@ def project(tmp_path: Path) -> Path:
 
 def test_all_places_name_the_same_version() -> None:
     assert disagreements(ROOT) == []
-    assert {"pyproject.toml", *NAMING[:3]} <= versions(ROOT).keys()
+    assert {"packages/vexture-geo/pyproject.toml", "packages/vexture-evidence/pyproject.toml", *NAMING[:3]} <= set(
+        versions(ROOT)
+    )
 
 
 def test_a_release_of_one_version_is_right(project: Path) -> None:
-    assert len(versions(project)) == 6
-    assert disagreements(project, f"v{versions(project)['pyproject.toml']}") == []
+    assert len(versions(project)) == 10
+    assert disagreements(project, f"v{versions(project)[OWNER]}") == []
     assert notes(project) == "- New."
 
 
-@pytest.mark.parametrize("name", ["web/package.json", "web/package-lock.json", "second/pyproject.toml"])
+@pytest.mark.parametrize("name", ["web/package.json", "web/package-lock.json", "packages/second/pyproject.toml"])
 def test_a_place_that_differs_is_named(project: Path, name: str) -> None:
-    version = versions(project)["pyproject.toml"]
+    version = versions(project)[OWNER]
     path = project / name
     path.write_text(
         path.read_text().replace(f'version": "{version}', 'version": "9.9.9').replace(f"=={version}", "==9.9.9")
     )
     wrong = disagreements(project)
     assert wrong
-    assert all(line.startswith(name) and "says 9.9.9; pyproject.toml says" in line for line in wrong)
+    assert all(line.startswith(name) and f"says 9.9.9; {OWNER} says" in line for line in wrong)
 
 
 def test_a_tag_of_another_version_is_refused(project: Path) -> None:
     (wrong,) = disagreements(project, "v9.9.9")
-    assert wrong.startswith("the tag is v9.9.9; pyproject.toml says ")
+    assert wrong.startswith(f"the tag is v9.9.9; {OWNER} says ")
 
 
 def test_a_release_without_its_changes_is_refused(project: Path) -> None:
     (project / "CHANGELOG.md").write_text("# Changelog\n\n## [Unreleased]\n")
-    (wrong,) = disagreements(project, f"v{versions(project)['pyproject.toml']}")
+    (wrong,) = disagreements(project, f"v{versions(project)[OWNER]}")
     assert wrong.startswith("CHANGELOG.md has no section")
 
 
@@ -96,7 +99,7 @@ def test_the_workflows_are_there_and_try_what_they_build() -> None:
     continuous, release, sweep = (yaml.safe_load(path.read_text(encoding="utf-8"))["jobs"] for path in WORKFLOWS)
     assert {"run": "make test"} in continuous["test"]["steps"]
     assert {"run": "make sweep QUICK=--quick"} in sweep["sweep"]["steps"]
-    oldest = re.search(r'requires-python = ">=([\d.]+)"', (ROOT / "pyproject.toml").read_text())
+    oldest = re.search(r'requires-python = ">=([\d.]+)"', (ROOT / OWNER).read_text())
     assert oldest
     assert continuous["test"]["strategy"]["matrix"]["python"][0] == oldest[1]
     commands = [step["run"] for step in release["build"]["steps"] if "run" in step]
@@ -109,7 +112,7 @@ def test_the_workflows_are_there_and_try_what_they_build() -> None:
 
 def test_the_newest_python_of_the_matrix_is_the_newest_that_is_said_to_work() -> None:
     matrix = yaml.safe_load(WORKFLOWS[0].read_text(encoding="utf-8"))["jobs"]["test"]["strategy"]["matrix"]["python"]
-    said = re.findall(r'"Programming Language :: Python :: (3\.\d+)"', (ROOT / "pyproject.toml").read_text())
+    said = re.findall(r'"Programming Language :: Python :: (3\.\d+)"', (ROOT / OWNER).read_text())
     assert matrix == [said[0], said[-1]]
 
 

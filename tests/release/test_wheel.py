@@ -1,4 +1,6 @@
-"""A wheel as `make dist` builds it, installed outside the checkout, without Node.js, and used as a newcomer would.
+"""Wheels as `make dist` builds them, installed outside the checkout, without Node.js, and used as a newcomer would.
+
+The core is installed alone, with its 13 requirements, and with vexture-geo beside it.
 
 `make dist-check` tries the artefacts in dist/ so, with all that pip installs for them: the wheel for any platform,
 whose kernels are compiled anew, and the one for this platform, which brings them along.
@@ -32,7 +34,9 @@ from vexture.pages.page import VIEWER, built
 from vexture_geo.flood.bundle import FLOOD
 
 ROOT = Path(__file__).parents[2]
-SOURCES = ROOT / "src"
+PACKAGES = ROOT / "packages"
+SOURCES = PACKAGES / "vexture" / "src"
+GEO_SOURCES = PACKAGES / "vexture-geo" / "src"
 GIVEN = os.environ.get("VEXTURE_DIST")
 WHEELS = ("any", "platform") if GIVEN else ("any",)
 AHEAD = re.compile(r"^@kernel\(.*\bahead=True.*\)\ndef (\w+)", re.M)
@@ -42,7 +46,7 @@ LAKE = '{"type": "Polygon", "coordinates": [[[4, 52], [4.1, 52], [4.1, 52.1], [4
 
 @pytest.fixture(scope="module")
 def artefacts(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder with a wheel and an sdist."""
+    """Folder with the wheels and sdists of the core and of vexture-geo."""
     if GIVEN:
         return Path(GIVEN).resolve()
     try:
@@ -50,7 +54,8 @@ def artefacts(tmp_path_factory: pytest.TempPathFactory) -> Path:
     except DeviceError as error:
         pytest.skip(str(error))
     folder = tmp_path_factory.mktemp("dist")
-    build(ROOT, folder)
+    for name in ("vexture", "vexture-geo"):
+        build(PACKAGES / name, folder)
     return folder
 
 
@@ -62,11 +67,17 @@ def wheel(artefacts: Path, request: pytest.FixtureRequest) -> Path:
 
 
 @pytest.fixture(scope="module")
+def geo_wheel(artefacts: Path) -> Path:
+    (found,) = artefacts.glob("vexture_geo-*.whl")
+    return found
+
+
+@pytest.fixture(scope="module")
 def evidence(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Wheel of the second distribution."""
+    """Wheel of vexture-evidence."""
     folder = Path(GIVEN).resolve() if GIVEN else tmp_path_factory.mktemp("evidence")
     if not GIVEN:
-        build(ROOT / "evidence", folder)
+        build(PACKAGES / "vexture-evidence", folder)
     (found,) = folder.glob("vexture_evidence-*.whl")
     return found
 
@@ -84,7 +95,17 @@ def metadata_of(wheel: Path) -> Metadata:
 
 @pytest.fixture(scope="module")
 def vexture(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Installed:
-    installed = Installed(tmp_path_factory.mktemp("installed"), wheel, whole=bool(GIVEN))
+    return installed_in(tmp_path_factory.mktemp("installed"), wheel)
+
+
+@pytest.fixture(scope="module")
+def with_geo(wheel: Path, geo_wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Installed:
+    return installed_in(tmp_path_factory.mktemp("with_geo"), wheel, geo_wheel)
+
+
+def installed_in(folder: Path, *wheels: Path) -> Installed:
+    """Wheels in an environment of their own, with two files to work on."""
+    installed = Installed(folder, *wheels, whole=bool(GIVEN))
     (installed.work / "triangle.svg").write_text(DRAWING)
     (installed.work / "lake.geojson").write_text(LAKE)
     return installed
@@ -110,12 +131,12 @@ def test_the_wheel_holds_the_package_with_its_pages_and_nothing_else(wheel: Path
     with zipfile.ZipFile(wheel) as archive:
         names = {name for name in archive.namelist() if ".dist-info/" not in name}
         information = {name.partition("/")[2] for name in archive.namelist() if ".dist-info/" in name}
-        notices = archive.read("vexture/live/built/LICENSES.txt").decode()
+        notices = archive.read("vexture/pages/built/LICENSES.txt").decode()
     kernels = {name for name in names if name.startswith("vexture/compiled/")}
     assert names - kernels == belonging()
     for_any = wheel.stem.endswith("-none-any")
     assert {Path(name).name.partition("-")[0] for name in kernels} == (set() if for_any else compiled_ahead())
-    assert {f"vexture/live/built/{name}" for name in (*VIEWER, *FLOOD)} < names
+    assert {f"vexture/pages/built/{name}" for name in (VIEWER.script, VIEWER.style)} < names
     assert "three.js authors" in notices
     assert information == {
         "METADATA",
@@ -125,6 +146,15 @@ def test_the_wheel_holds_the_package_with_its_pages_and_nothing_else(wheel: Path
         "licenses/LICENSE",
         "top_level.txt",
     }
+
+
+def test_the_wheel_of_geographic_data_holds_its_package_with_its_page(geo_wheel: Path) -> None:
+    with zipfile.ZipFile(geo_wheel) as archive:
+        names = {name for name in archive.namelist() if ".dist-info/" not in name}
+        notices = archive.read("vexture_geo/flood/built/LICENSES.txt").decode()
+    assert names == belonging(GEO_SOURCES / "vexture_geo")
+    assert {f"vexture_geo/flood/built/{name}" for name in (FLOOD.script, FLOOD.style)} < names
+    assert "three.js authors" in notices
 
 
 def test_the_sdist_holds_what_the_wheel_is_built_from_and_nothing_else(artefacts: Path) -> None:
@@ -174,16 +204,30 @@ def test_its_metadata_are_complete(metadata: Metadata) -> None:
 
 def test_all_that_it_imports_is_required(wheel: Path, metadata: Metadata) -> None:
     others = imported_by(wheel) - {"vexture"}
-    assert {"numpy", "starlette", "rasterio"} < others
+    assert {"numpy", "starlette"} < others
     assert not_required(others, metadata) == set()
 
 
+def test_it_requires_few_packages(metadata: Metadata) -> None:
+    hard = [str(one) for one in metadata.requires_dist or () if one.marker is None]
+    assert len(hard) <= 13, hard
+
+
+def test_all_that_geographic_data_import_is_required(geo_wheel: Path, metadata: Metadata) -> None:
+    own = metadata_of(geo_wheel)
+    (core,) = (one for one in own.requires_dist or () if one.name == "vexture" and one.marker is None)
+    assert (str(core.specifier), core.extras) == (f"=={metadata.version}", {"server"})
+    others = imported_by(geo_wheel) - {"vexture", "vexture_geo"}
+    assert {"shapely", "rasterio"} < others
+    assert not_required(others, own, metadata) == set()
+
+
 @pytest.mark.slow
-def test_the_second_distribution_holds_its_package_and_adds_a_command(vexture: Installed, evidence: Path) -> None:
+def test_the_distribution_of_evidence_holds_its_package_and_adds_a_command(vexture: Installed, evidence: Path) -> None:
     """It is laid beside the installed wheel, where other tests do not see it, without what it only measures with."""
     with zipfile.ZipFile(evidence) as archive:
         names = {name for name in archive.namelist() if ".dist-info/" not in name}
-    assert names == belonging(ROOT / "evidence" / "src" / "vexture_evidence")
+    assert names == belonging(PACKAGES / "vexture-evidence" / "src" / "vexture_evidence")
     assert "report" not in vexture.run("--help").stdout
     beside = vexture.work.parent / "evidence"
     vexture.pip("install", "--quiet", "--no-index", "--no-deps", "--target", str(beside), str(evidence))
@@ -192,13 +236,16 @@ def test_the_second_distribution_holds_its_package_and_adds_a_command(vexture: I
     assert outcome.stdout.startswith("Usage: vexture report ")
 
 
-def test_all_that_the_second_distribution_imports_is_required(metadata: Metadata, evidence: Path) -> None:
+def test_all_that_the_distribution_of_evidence_imports_is_required(
+    metadata: Metadata, geo_wheel: Path, evidence: Path
+) -> None:
     own = metadata_of(evidence)
-    (vexture,) = (requirement for requirement in own.requires_dist or () if requirement.name == "vexture")
+    hard = [requirement for requirement in own.requires_dist or () if requirement.marker is None]
+    (vexture,) = (requirement for requirement in hard if requirement.name == "vexture")
     assert str(vexture.specifier) == f"=={metadata.version}"
-    others = imported_by(evidence) - {"vexture", "vexture_evidence"}
+    others = imported_by(evidence) - {"vexture", "vexture_evidence", "vexture_geo"}
     assert {"matplotlib", "numpy"} < others
-    assert not_required(others, own, metadata) == set()
+    assert not_required(others, own, metadata, metadata_of(geo_wheel)) == set()
 
 
 def imported_by(wheel: Path) -> set[str]:
@@ -207,7 +254,11 @@ def imported_by(wheel: Path) -> set[str]:
     with zipfile.ZipFile(wheel) as archive:
         for name in archive.namelist():
             if name.endswith(".py"):
-                for node in ast.walk(ast.parse(archive.read(name))):
+                tree = ast.parse(archive.read(name))
+                for node in ast.walk(tree):
+                    if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+                        node.body = []  # what only checkers of types import
+                for node in ast.walk(tree):
                     imported |= modules_of(node)
     return imported - set(sys.stdlib_module_names)
 
@@ -228,25 +279,42 @@ def modules_of(node: ast.AST) -> set[str]:
     return set()
 
 
-def test_requirements_agree(vexture: Installed) -> None:
-    assert vexture.pip("check").strip() == "No broken requirements found."
+def test_requirements_agree(vexture: Installed, with_geo: Installed) -> None:
+    for installed in (vexture, with_geo):
+        assert installed.pip("check").strip() == "No broken requirements found."
 
 
-def test_all_modules_import_without_extras(vexture: Installed) -> None:
-    """What an extra installs is imported where it is used; the wheel is the one that is imported.
+IMPORTS = """
+import importlib, pkgutil, {package}; print({package}.__file__)
+missing = set()
+for module in pkgutil.walk_packages({package}.__path__, "{package}."):
+    try:
+        importlib.import_module(module.name)
+    except ModuleNotFoundError as error:
+        missing.add((module.name.rpartition(".")[0], error.name.partition(".")[0]))
+print(sorted(missing))
+"""
 
-    Widgets are classes of an extra's: their modules are imported where they are used.
-    """
-    outcome = vexture.python(
-        "import importlib, pkgutil, vexture; print(vexture.__file__)\n"
-        "widgets = 'asked', 'flood', 'map_widget', 'shared', 'tip', 'traits', 'widget'\n"
-        "widgets = {'vexture.notebook.' + name for name in widgets}\n"
-        "names = {module.name for module in pkgutil.walk_packages(vexture.__path__, 'vexture.')}\n"
-        "assert widgets < names\n"
-        "for name in sorted(names - widgets): importlib.import_module(name)\n"
-    )
+
+def test_modules_of_the_core_import_without_extras(vexture: Installed) -> None:
+    """Servers and widgets are built on an extra's classes; their modules are imported where they are used."""
+    outcome = vexture.python(IMPORTS.format(package="vexture"))
     assert (outcome.returncode, outcome.stderr) == (0, "")
-    assert Path(outcome.stdout.strip()).is_relative_to(vexture.site)
+    place, missing = outcome.stdout.splitlines()
+    assert Path(place).is_relative_to(vexture.site)
+    homes = {home for home, _ in ast.literal_eval(missing)}
+    assert homes == {"vexture.notebook", "vexture.pages", "vexture.server"}
+    needed = {package for _, package in ast.literal_eval(missing)}
+    assert needed <= {"anywidget", "h11", "ipywidgets", "starlette", "traitlets", "uvicorn"}
+
+
+def test_modules_of_geographic_data_import_without_extras(with_geo: Installed) -> None:
+    outcome = with_geo.python(IMPORTS.format(package="vexture_geo"))
+    assert (outcome.returncode, outcome.stderr) == (0, "")
+    place, missing = outcome.stdout.splitlines()
+    assert Path(place).is_relative_to(with_geo.site)
+    needed = {package for _, package in ast.literal_eval(missing)}
+    assert needed <= {"anywidget", "ipywidgets", "traitlets"}
 
 
 def test_it_converts_describes_and_renders(vexture: Installed, wheel: Path) -> None:
@@ -275,10 +343,10 @@ def test_it_exports_a_page(vexture: Installed) -> None:
 
 
 @pytest.mark.slow
-def test_it_shows_a_drawing(vexture: Installed) -> None:
-    command = vexture.command("view", "triangle.svg", "--no-open")
+def test_it_shows_a_drawing(with_geo: Installed) -> None:
+    command = with_geo.command("view", "triangle.svg", "--no-open")
     with subprocess.Popen(
-        command, cwd=vexture.work, env=vexture.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        command, cwd=with_geo.work, env=with_geo.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as server:
         try:
             said = server.stdout.readline() if server.stdout else ""
@@ -293,12 +361,11 @@ def test_it_shows_a_drawing(vexture: Installed) -> None:
             server.terminate()
 
 
-def test_it_shows_a_flood(vexture: Installed) -> None:
-    outcome = vexture.run("flood", "--extent", "lake.geojson", "-o", "lake.html")
+def test_it_shows_a_flood(with_geo: Installed) -> None:
+    outcome = with_geo.run("flood", "--extent", "lake.geojson", "-o", "lake.html")
     assert outcome.returncode == 0, outcome.stderr
-    assert built(FLOOD.script, FLOOD.package).decode()[:1000] in (vexture.work / "lake.html").read_text(
-        encoding="utf-8"
-    )
+    page = (with_geo.work / "lake.html").read_text(encoding="utf-8")
+    assert built(FLOOD.script, FLOOD.package).decode()[:1000] in page
 
 
 def picture() -> bytes:
@@ -315,15 +382,51 @@ def picture() -> bytes:
     [
         ("depths.tif", b"II*\0", ["flood", "-o", "x.html", "--extent"], "gis"),
         ("wet.gpkg", b"SQLite format 3\0" + bytes(52) + b"GPKG", ["convert"], "gis"),
-        ("disc.png", picture, ["convert"], "trace"),
     ],
-    ids=["depths", "areas", "picture"],
+    ids=["depths", "areas"],
 )
-def test_what_needs_an_extra_names_it_in_one_line(
-    vexture: Installed, file: str, content: bytes | Callable[[], bytes], command: list[str], extra: str
+def test_geographic_data_that_need_an_extra_name_it_in_one_line(
+    with_geo: Installed, file: str, content: bytes, command: list[str], extra: str
+) -> None:
+    (with_geo.work / file).write_bytes(content)
+    outcome = with_geo.run(*command, file)
+    assert outcome.returncode == 1
+    assert len(outcome.stderr.splitlines()) == 1
+    assert outcome.stderr.endswith(f"pip install 'vexture[{extra}]'\n")
+
+
+@pytest.mark.parametrize(
+    ("file", "content", "command", "remedy"),
+    [
+        ("lake.geojson", LAKE.encode(), ["convert"], "'vexture[geo]', or 'vexture[gis]' for all formats"),
+        ("wet.gpkg", b"SQLite format 3\0" + bytes(52) + b"GPKG", ["convert"], "'vexture[gis]' for all formats"),
+        ("triangle.svg", DRAWING.encode(), ["view"], "'vexture[server]'"),
+        ("disc.png", picture, ["convert"], "'vexture[trace]'"),
+    ],
+    ids=["polygons", "areas", "view", "picture"],
+)
+def test_what_the_core_alone_lacks_is_named_in_one_line(
+    vexture: Installed, file: str, content: bytes | Callable[[], bytes], command: list[str], remedy: str
 ) -> None:
     (vexture.work / file).write_bytes(content if isinstance(content, bytes) else content())
     outcome = vexture.run(*command, file)
     assert outcome.returncode == 1
     assert len(outcome.stderr.splitlines()) == 1
-    assert outcome.stderr.endswith(f"pip install 'vexture[{extra}]'\n")
+    assert outcome.stderr.endswith(f"{remedy}\n")
+
+
+@pytest.mark.parametrize("name", ["map", "read_extent", "Extent", "flood_page"])
+def test_a_public_name_of_geographic_data_says_what_to_install(vexture: Installed, name: str) -> None:
+    outcome = vexture.python(f"import vexture\nvexture.{name}")
+    assert outcome.returncode == 1
+    expected = f"DeviceError: vexture.{name} needs the package vexture-geo: pip install 'vexture[geo]'"
+    assert outcome.stderr.splitlines()[-1].endswith(expected)
+
+
+@pytest.mark.parametrize("command", ["flood", "map", "tiles"])
+def test_a_command_of_geographic_data_says_what_to_install(vexture: Installed, command: str) -> None:
+    outcome = vexture.run(command)
+    assert outcome.returncode == 2
+    assert outcome.stderr.endswith("the package vexture-geo adds it: pip install 'vexture[geo]'\n")
+    listed = vexture.run("--help").stdout.split("Commands:\n")[1].splitlines()
+    assert command not in {line.split()[0] for line in listed}

@@ -9,7 +9,6 @@ import pytest
 import rasterio
 from floods import BOUNDS, CRS, geotiff
 from PIL import Image
-from vexture_geo.flood.views import viewpoint
 
 from vexture.base.errors import LimitError, SourceError
 from vexture.drawing.drawing import Drawing
@@ -18,6 +17,7 @@ from vexture_geo.flood.drawn_ground import DRAWN, drawn_ground
 from vexture_geo.flood.grids import shore_distance
 from vexture_geo.flood.ground import LARGEST_GROUND, encoded, ground_of
 from vexture_geo.flood.relief import relief_of
+from vexture_geo.flood.views import viewpoint
 
 FRAME = Frame(BOUNDS, CRS, (4000.0, 2000.0))
 GREEN = Image.new("RGB", (64, 32), (0, 200, 0))

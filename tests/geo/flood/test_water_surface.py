@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from floods import BOUNDS, CRS, depths, series
 from PIL import Image
-from vexture_geo.flood.views import viewpoint, views_of
 
 from vexture.drawing.drawing import Drawing
 from vexture_geo.base.extent import Extent, Frame, Step
@@ -18,6 +17,7 @@ from vexture_geo.flood.grids import coverage_over
 from vexture_geo.flood.open_water import calmed, open_water, openness_at
 from vexture_geo.flood.relief import Relief, beyond_of, relief_of
 from vexture_geo.flood.surface import WaterSurface, highest_of, surface_of
+from vexture_geo.flood.views import viewpoint, views_of
 from vexture_geo.readers import extent_of, read_extent
 
 FRAME = Frame(BOUNDS, CRS, (4000.0, 2000.0))

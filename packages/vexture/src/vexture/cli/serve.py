@@ -47,6 +47,9 @@ def serve(
     DIR is created if it does not exist. Shapes that are pushed are kept in .vexture inside it.
     """
     with one_line():
+        from vexture.server.packages import check_packages
+
+        check_packages()
         from vexture.pages.serve import serve as run
 
         limits = Limits(max_bytes=max_bytes, max_total=max_total, max_shapes=max_shapes, rate=rate)

@@ -32,6 +32,9 @@ def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening:
     """
     with one_line():
         from vexture.pages.view import view as serve
+        from vexture.server.packages import check_packages
+
+        check_packages()
 
         def show(where: str, shapes: int) -> None:
             echo(f"vexture: {where} shows {counted(shapes, 'shape')}; Ctrl-C ends it")
