@@ -1,10 +1,7 @@
 """The rules of the house (CONTRIBUTING.md), checked on the text of the modules and on what an import brings in."""
 
 import ast
-import json
 import re
-import subprocess
-import sys
 from collections import Counter
 from functools import cache
 from graphlib import TopologicalSorter
@@ -12,11 +9,9 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
-from click import Context
 
 import vexture
 from vexture.base import layout
-from vexture.cli.main import ADDED_SUMMARIES, COMMANDS, SUMMARIES, main
 from vexture.thesis import layout as thesis_layout
 
 ROOT = Path(__file__).parents[1]
@@ -95,45 +90,6 @@ LAYOUT_NUMBERS = {thesis_layout.CONTROL_MIN, thesis_layout.CONTROL_MAX, thesis_l
 """Numbers of the textures' layouts that mean nothing else anywhere."""
 
 SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump) \w+|[ib]?vec[234]\()|^#version", re.M)
-HEAVY = {
-    "PIL",
-    "anywidget",
-    "bidi",
-    "cmap",
-    "coloraide",
-    "cssselect2",
-    "fontTools",
-    "ipywidgets",
-    "llvmlite",
-    "lxml",
-    "moderngl",
-    "numba",
-    "pathops",
-    "png",
-    "scipy",
-    "tinycss2",
-} | {
-    "av",
-    "contourpy",
-    "duckdb",
-    "matplotlib",
-    "netCDF4",
-    "pandas",
-    "playwright",
-    "pyarrow",
-    "pyogrio",
-    "pyproj",
-    "rasterio",
-    "resvg",
-    "shapely",
-    "skia",
-    "starlette",
-    "uharfbuzz",
-    "uvicorn",
-    "vtracer",
-    "watchfiles",
-    "xarray",
-}
 
 
 def name_of(path):
@@ -322,105 +278,3 @@ def test_shader_names_are_each_defined_in_one_file(folder):
 def test_no_function_hides_a_package_of_its_name():
     packages = {path.name for path in PACKAGE.iterdir() if path.is_dir()} | {path.stem for path in PACKAGE.glob("*.py")}
     assert packages & set(vexture.__all__) == set()
-
-
-OF_SERVERS = {"asyncio", "multiprocessing", "ssl"}
-"""Modules of the standard library that take as long to import as all else of the command line."""
-
-HELP = """
-import contextlib, vexture.cli.main
-for words in [[], *([name] for name in vexture.cli.main.COMMANDS)]:
-    with contextlib.suppress(SystemExit):
-        vexture.cli.main.main([*words, '--help'])
-"""
-
-
-@pytest.mark.parametrize(
-    "statement", ["import vexture", "import vexture.cli.main", HELP], ids=["package", "cli", "help"]
-)
-def test_start_brings_in_nothing_heavy(statement):
-    code = f"{statement}\nimport json, sys\nprint(json.dumps([*sys.modules]))"
-    outcome = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    modules = json.loads(outcome.stdout.splitlines()[-1])
-    assert "vexture" in modules
-    assert {module.split(".")[0] for module in modules} & (HEAVY | OF_SERVERS) == set()
-
-
-LIST = """
-import contextlib, vexture.cli.main
-with contextlib.suppress(SystemExit):
-    vexture.cli.main.main(["--help"])
-"""
-
-OF_LIST = {"vexture", "vexture.base", "vexture.base.errors"} | {
-    f"vexture.cli{name}" for name in ("", ".interrupt", ".main", ".messages")
-}
-"""What the list of the commands takes, beside click and what adds commands: it is asked for most often."""
-
-
-def test_the_list_of_the_commands_brings_in_none_of_them():
-    code = f"{LIST}\nimport json, sys\nprint(json.dumps([*sys.modules]))"
-    outcome = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    modules = json.loads(outcome.stdout.splitlines()[-1])
-    assert {module for module in modules if module.split(".")[0] == "vexture"} == OF_LIST
-
-
-def test_the_list_of_the_commands_is_what_they_say_themselves():
-    context = Context(main)
-    commands = {name: main.get_command(context, name) for name in (*COMMANDS, *ADDED_SUMMARIES)}
-    said = {name: command.get_short_help_str(1000) for name, command in commands.items()}
-    assert said == SUMMARIES | ADDED_SUMMARIES
-
-
-SCRIPTS_MAY_IMPORT = {
-    "src": {"generated"},
-    "src/globe": {"src", "src/tiles"},
-    "src/gltf": {"generated", "src"},
-    "src/maplibre": {"src", "src/tiles"},
-    "src/react": {"src"},
-    "src/thesis": {"generated", "src"},
-    "src/tiles": {"generated", "src"},
-    "src/vite": {"src"},
-    "src/water": {"generated", "src"},
-    "src/webgpu": {"generated", "src"},
-    "viewer": {"generated", "src", "src/thesis"},
-    "flood": {"src", "src/water", "viewer"},
-    "notebook": {"src", "viewer"},
-}
-"""What the modules of each folder of web/ may import besides those of their own."""
-
-IMPORTED_SCRIPT = re.compile(
-    r"(?:^|\n)(?:import|export)\b[^;'\"]*?from\s+'(\.{1,2}/[^']+)'|(?:^|\n)import\s+'(\.{1,2}/[^']+)'"
-    r"|\bimport\('(\.{1,2}/[^']+)'\)"
-)
-COMMENT_OF_SCRIPT = re.compile(r"/\*.*?\*/|(?<!:)//[^\n]*", re.S)
-
-
-def scripts_imported():
-    """Modules of web/ that each imports, when it is loaded or later, without types in comments."""
-    web = ROOT / "web"
-    arrows = {}
-    for path in sorted(
-        path for folder in ("src", "viewer", "flood", "notebook") for path in (web / folder).rglob("*.js")
-    ):
-        text = COMMENT_OF_SCRIPT.sub("", path.read_text(encoding="utf-8"))
-        reached = ("".join(found) for found in IMPORTED_SCRIPT.findall(text))
-        arrows[path.relative_to(web).as_posix()] = {
-            (path.parent / name).resolve().relative_to(web).as_posix() for name in reached
-        }
-    return arrows
-
-
-def folder_of_script(name):
-    parts = name.split("/")
-    return "/".join(parts[:2]) if parts[0] == "src" and len(parts) > 2 else parts[0]
-
-
-def test_scripts_import_one_way_and_in_no_circle():
-    arrows = scripts_imported()
-    assert len(arrows["viewer/main.js"]) > 3  # imports are found
-    for name, reached in arrows.items():
-        folder = folder_of_script(name)
-        beyond = {folder_of_script(one) for one in reached} - {folder}
-        assert beyond <= SCRIPTS_MAY_IMPORT[folder], name
-    TopologicalSorter(arrows).prepare()  # raises CycleError, which names the circle

@@ -15,7 +15,7 @@ from guides import GUIDES, ROOT, Block, Reader, alike, blocks_of, free_port
 
 ELSEWHERE = {
     "from-svg-to-three": "web/test_guide_three.py",
-    "coastal-data": "flood/test_guide_coastal.py",
+    "coastal-data": "geo/flood/test_guide_coastal.py",
     "fonts": "web/test_guide_fonts.py",
     "web-maps": "web/test_guide_maps.py",
 }

@@ -43,7 +43,7 @@ def on_screen(page: Page, u: float, v: float) -> tuple[float, float]:
     x, z = ((u - u0) / (u1 - u0) - 0.5) * width, (0.5 - (v - v0) / (v1 - v0)) * depth
     seen = page.evaluate(
         """([x, z]) => {
-            const { camera, stage } = vexture_geo.flood;
+            const { camera, stage } = vexture.flood;
             camera.updateMatrixWorld();
             const at = camera.position.clone().set(x, 0, z).project(camera);
             if (Math.abs(at.z) > 1) return [-1, -1]; // behind the camera

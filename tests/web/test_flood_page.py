@@ -16,7 +16,7 @@ from waiting import drawn
 
 PRESETS = ("Plan", "Overview", "Coast", "Shore", "Beach")
 WATER_SEEN = """() => {
-    const { stage } = vexture_geo.flood;
+    const { stage } = vexture.flood;
     const gl = stage.renderer.getContext();
     window.seen = [];
     stage.addEventListener('frame', () => {
@@ -74,7 +74,7 @@ def test_no_picture_is_without_water_while_stepping(opened_flood: Callable[..., 
     assert before > 1000
     for fading in (False, True):
         page.get_by_role("checkbox", name="Cross-fade").set_checked(fading)
-        page.evaluate("async () => { const { player } = vexture_geo.flood; player.speed = 4; await player.go(0); }")
+        page.evaluate("async () => { const { player } = vexture.flood; player.speed = 4; await player.go(0); }")
         page.get_by_role("button", name="Play").click()
         page.wait_for_function("vexture.flood.player.index === 2 && !vexture.flood.player.playing")
     page.wait_for_function("vexture.flood.water.next === null || vexture.flood.water.fade === 1")
@@ -108,7 +108,7 @@ def test_steps_by_hand(opened_flood: Callable[..., Page]) -> None:
 def test_the_next_step_is_loaded_before_it_is_shown(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series")
     uploaded = """async (at) => {
-        const { player, stage } = vexture_geo.flood;
+        const { player, stage } = vexture.flood;
         await new Promise((go) => setTimeout(go, 200));
         const { texture } = await player.steps.open(player.names[at]);
         return stage.renderer.properties.has(texture.textures.texels);
@@ -214,7 +214,7 @@ def test_views_by_key_and_flight(opened_flood: Callable[..., Page]) -> None:
     page.keyboard.press("5")
     expect(page.get_by_role("button", name="Beach")).to_have_attribute("aria-pressed", "true")
     page.wait_for_function("""() => {
-        const { camera } = vexture_geo.flood;
+        const { camera } = vexture.flood;
         const { from } = vexture.flood.pose('Beach');
         return Math.hypot(camera.position.x - from.x, camera.position.y - from.y, camera.position.z - from.z) < 0.5;
     }""")
@@ -236,13 +236,13 @@ def test_views_by_key_and_flight(opened_flood: Callable[..., Page]) -> None:
 def test_the_camera_stays_above_the_ground(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series")
     page.evaluate("""() => {
-        const { stage } = vexture_geo.flood;
+        const { stage } = vexture.flood;
         stage.controls.target.set(0, 0, -24);
         stage.camera.position.set(0, -3, -27);
         stage.render();
     }""")
     y, ground = page.evaluate("""() => {
-        const { camera, stage } = vexture_geo.flood;
+        const { camera, stage } = vexture.flood;
         return [camera.position.y, stage.surface.height(camera.position.x, camera.position.z)];
     }""")
     assert ground > 0.5  # heights are real, so they are as they are
@@ -258,7 +258,7 @@ def test_less_motion(opened_flood: Callable[..., Page]) -> None:
     stands = page.evaluate("vexture.flood.stage.seconds")
     page.get_by_role("button", name="Coast").click()
     assert page.evaluate("""() => {
-        const { camera } = vexture_geo.flood;
+        const { camera } = vexture.flood;
         return camera.position.distanceTo(vexture.flood.pose('Coast').from);
     }""") == pytest.approx(0, abs=0.01)
     assert page.evaluate("vexture.flood.stage.seconds") == stands
@@ -272,7 +272,7 @@ def test_the_mirror_is_smooth(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series", WIDE)
     view(page, "Shore")
     size = page.evaluate("""() => {
-        const { stage, water, render } = vexture_geo.flood;
+        const { stage, water, render } = vexture.flood;
         const { renderTarget } = water.material.uniforms.mirrorSampler.value;
         stage.tray.group.visible = stage.land.sides.visible = stage.sea.walls.visible = false;
         Object.assign(stage.land.mesh.material, { map: null, needsUpdate: true }).color.set(0x000000);

@@ -47,9 +47,9 @@ WATCHED: Final = """
     last = wet;
     requestAnimationFrame(() => { window.seen.push([wet, performance.timeOrigin + performance.now()]); });
   });
-  vexture_geo.flood.relief(0);
-  vexture_geo.flood.flat(true);
-  vexture_geo.flood.view('Plan', { fly: false });
+  vexture.flood.relief(0);
+  vexture.flood.flat(true);
+  vexture.flood.view('Plan', { fly: false });
   vexture.flood.freeze(0);
 }
 """

@@ -240,7 +240,7 @@ def counts(browser: Any, name: str, folder: Path, keep: Path | None = None) -> I
             under = eroded(level - scene.bed > WET, 2 * reach_of(scene))
             ground = np.where(under[::-1, :, None], (255, 0, 255, 255), (*DRY, 255)).astype(np.uint8)
             rows, columns = ground.shape[:2]
-            shown.evaluate("(step) => vexture_geo.flood.step(step)", step)
+            shown.evaluate("(step) => vexture.flood.step(step)", step)
             shown.evaluate(PAINT, [base64.b64encode(ground.tobytes()).decode(), columns, rows])
             for view in views:
                 pictures = []

@@ -170,9 +170,9 @@ def opened(browser: Any, made: Made, step: int, *, flat: bool) -> Iterator[Any]:
     page.goto(f"{made.page.as_uri()}?bare")
     page.evaluate("vexture.flood.ready")
     page.evaluate("vexture.flood.freeze(0)")  # else its waves take the processor from all others
-    page.evaluate("(step) => vexture_geo.flood.step(step)", step)
+    page.evaluate("(step) => vexture.flood.step(step)", step)
     if flat:
-        page.evaluate("() => { vexture_geo.flood.relief(0); vexture_geo.flood.flat(true); }")
+        page.evaluate("() => { vexture.flood.relief(0); vexture.flood.flat(true); }")
     try:
         yield page
     finally:

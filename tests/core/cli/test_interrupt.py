@@ -91,7 +91,8 @@ pressed, sys.argv[1:] = sys.argv[1], ["map", "--help"]
 
 @pytest.mark.parametrize("module", ["vexture.cli.main", "click", "vexture_geo.cli.map"])
 def test_it_ends_while_its_modules_are_imported(module: str) -> None:
-    program = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())["project"]["scripts"]["vexture"]
+    file = Path(__file__).parents[3] / "packages" / "vexture" / "pyproject.toml"
+    program = tomllib.loads(file.read_text())["project"]["scripts"]["vexture"]
     home, function = program.split(":")
     for start in (f"from {home} import {function}; {function}()", "runpy.run_module('vexture', run_name='__main__')"):
         ended = subprocess.run(

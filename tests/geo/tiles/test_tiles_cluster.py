@@ -100,7 +100,8 @@ def guide():
 def test_the_file_for_docker_agrees_with_itself_and_with_the_guide(composed, guide):
     scheduler, worker = composed["scheduler"], composed["worker"]
     assert scheduler["image"] == worker["image"]
-    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    project = (ROOT / "packages" / "vexture" / "pyproject.toml").read_text(encoding="utf-8")
+    extras = tomllib.loads(project)["project"]["optional-dependencies"]
     wanted = re.findall(r"'vexture\[([a-z,]+)\]'", scheduler["build"]["dockerfile_inline"])
     assert wanted == re.findall(r"'vexture\[([a-z,]+)\]'", guide["pip install"])
     assert {name for one in wanted for name in one.split(",")} <= set(extras)

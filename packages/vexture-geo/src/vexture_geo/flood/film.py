@@ -35,7 +35,7 @@ DRIVERS: Final = (BY_EGL, SOFTWARE) if sys.platform == "linux" else (SOFTWARE,)
 READY_SECONDS: Final = 600.0
 """For the first picture: in software shaders take long to compile."""
 
-DRAW: Final = "([step, seconds, plain]) => vexture_geo.flood.frame(step, seconds, plain)"
+DRAW: Final = "([step, seconds, plain]) => vexture.flood.frame(step, seconds, plain)"
 
 
 @contextmanager
@@ -134,12 +134,12 @@ def _shown(page: Any, options: VideoOptions) -> Film:
         named = {view.casefold(): view for view in views}
         if options.view.casefold() not in named:
             raise ParameterError(f"`view` {options.view}: the page has no such view; choose {', '.join(views)}")
-        page.evaluate("(name) => vexture_geo.flood.view(name, { fly: false })", named[options.view.casefold()])
+        page.evaluate("(name) => vexture.flood.view(name, { fly: false })", named[options.view.casefold()])
     if options.colours is not None:
         offered = page.evaluate("vexture.flood.offered")
         if options.colours.lower() not in offered:
             raise ParameterError(
                 f"`colours` {options.colours}: the page has no such colours; choose {', '.join(offered)}"
             )
-        page.evaluate("(name) => vexture_geo.flood.colours(name)", options.colours.lower())
+        page.evaluate("(name) => vexture.flood.colours(name)", options.colours.lower())
     return Film(page, page.evaluate("vexture.flood.player.count"), options.plain)
