@@ -12,8 +12,8 @@ from PIL import Image
 import vexture
 from vexture_evidence.figures.cells import subdivision
 from vexture_evidence.figures.edges import edges
-from vexture_evidence.measures.rendered import at_edge
-from vexture_evidence.measures.shape import Shape
+from vexture_evidence.measures.renderings import at_edge
+from vexture_evidence.measures.shape import ConvertedDrawing
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "demo/06")
 folder.mkdir(parents=True, exist_ok=True)
@@ -26,7 +26,7 @@ texture = vexture.convert(folder / "heart.png")
 figures = {
     "texture": texture.plot(),  # in a notebook this line alone shows it
     "depths": subdivision(texture, shades="depth"),
-    "edges": edges(at_edge(Shape(folder / "heart.png"))),
+    "edges": edges(at_edge(ConvertedDrawing(folder / "heart.png"))),
 }
 for name, figure in figures.items():
     figure.savefig(folder / f"heart-{name}.png", dpi=150)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-__all__ = ["HERE", "cluster_of", "line_of", "scheduler_alone", "started", "workers_of"]
+__all__ = ["HERE", "cluster_of", "line_of", "scheduler_alone", "start_dask", "workers_of"]
 
 SECONDS = 60
 HERE = ("--host", "127.0.0.1", "--no-dashboard")
@@ -17,8 +17,8 @@ HERE = ("--host", "127.0.0.1", "--no-dashboard")
 
 
 @contextmanager
-def started(*words: str) -> "Iterator[subprocess.Popen[str]]":
-    """What `dask` does with some words, in a process of its own, which finds the work in this folder."""
+def start_dask(*words: str) -> "Iterator[subprocess.Popen[str]]":
+    """Run `dask` with these words, in a process of its own that finds the modules in this folder."""
     command = [sys.executable, "-m", "dask", *words]
     folders = filter(None, (str(Path(__file__).parent), os.environ.get("PYTHONPATH")))
     found = {**os.environ, "PYTHONPATH": os.pathsep.join(folders)}
@@ -41,7 +41,7 @@ def line_of(process: "subprocess.Popen[str]", says: str) -> str:
 @contextmanager
 def scheduler_alone() -> "Iterator[tuple[subprocess.Popen[str], str]]":
     """A scheduler's process, and its address."""
-    with started("scheduler", *HERE, "--port", "0") as scheduler:
+    with start_dask("scheduler", *HERE, "--port", "0") as scheduler:
         yield scheduler, line_of(scheduler, "Scheduler at:").split()[-1]
 
 
@@ -50,7 +50,7 @@ def workers_of(address: str, count: int) -> "Iterator[list[subprocess.Popen[str]
     """Processes of workers of a scheduler, which start side by side."""
     with ExitStack() as opened:
         words = ("worker", address, *HERE, "--nthreads", "1", "--no-nanny")
-        found = [opened.enter_context(started(*words)) for _ in range(count)]
+        found = [opened.enter_context(start_dask(*words)) for _ in range(count)]
         for worker in found:
             line_of(worker, "Registered to:")
         yield found

@@ -45,7 +45,7 @@ def made_once(tmp_path_factory, request):
     base = tmp_path_factory.getbasetemp()
     base = base.parent if hasattr(request.config, "workerinput") else base
 
-    def made(name, fill):
+    def make_folder(name, fill):
         with (base / f"{name}.lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             folder, unfinished = base / f"{name}-made", base / f"{name}-unfinished"
@@ -56,7 +56,7 @@ def made_once(tmp_path_factory, request):
                 unfinished.rename(folder)
             return folder
 
-    return made
+    return make_folder
 
 
 @pytest.fixture(scope="session")

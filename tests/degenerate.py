@@ -67,11 +67,11 @@ def _random_cubics(rng, n):
     return closed(rng.random((n, 2)) * 0.9 + 0.05, rng.random((n, 2, 2)) * 0.96 + 0.02)
 
 
-def _shifted(rng, contour):
+def _shift_contour(rng, contour):
     return np.clip(contour + rng.normal(size=2) * 10.0 ** -rng.integers(3, 14), 0, 1)
 
 
-def _jittered(rng, contour):
+def _jitter_contour(rng, contour):
     moved = np.clip(contour + rng.normal(size=contour.shape) * 10.0 ** -rng.integers(3, 14), 0, 1)
     moved[:, 3] = np.roll(moved[:, 0], -1, axis=0)
     return moved
@@ -100,9 +100,9 @@ def contours(rng):
             case 3:
                 contour = circle(rng.integers(3, 6, 2) / 8, rng.integers(1, 4) / 8)
             case 4:
-                contour = _shifted(rng, base)
+                contour = _shift_contour(rng, base)
             case 5:
-                contour = _jittered(rng, base)
+                contour = _jitter_contour(rng, base)
             case _:
                 contour = _bar(rng)
         contour = contour[(contour != contour[:, :1]).any(axis=(1, 2))]  # no cubic that is one point
@@ -173,14 +173,14 @@ def _nearly(rng, shape):
 OUTLINES = {"free": _free, "cusps": _cusps, "flat": _flat, "cells": _on_cells, "corner": _through_a_corner}
 
 
-def rolled(contour, copy):
-    """The contour from another start; every other time the other way round."""
+def roll_contour(contour, copy):
+    """Start a contour elsewhere; every other copy is reversed."""
     turned = np.roll(contour, copy, axis=0)
     return turned if copy % 2 == 0 else backwards(turned)
 
 
-def moved(contour, distance, rng):
-    """The contour with each vertex and control point moved."""
+def move_points(contour, distance, rng):
+    """Move each vertex and control point of a contour."""
     contour = contour.copy()
     contour[:, 0] += rng.uniform(-distance, distance, (len(contour), 2))
     contour[:, 3] = np.roll(contour[:, 0], -1, axis=0)
@@ -197,7 +197,7 @@ def heap(seed, counts, distance, rule, kind="free"):
         for copy in range(copies):
             start = rng.integers(len(contour))
             turned = np.roll(contour if rng.random() < 0.6 else backwards(contour), start, axis=0)
-            contours.append(moved(turned, distance, rng) if copy else contour)
+            contours.append(move_points(turned, distance, rng) if copy else contour)
     return Drawing((Path(tuple(contours), rule),) if seed % 2 else tuple(Path((each,), rule) for each in contours))
 
 

@@ -50,11 +50,11 @@ def glsl_program(source: str) -> Any:
     return gl.vertex_array(gl.program(vertex_shader=vertex_source(WEB), fragment_shader=source), [])
 
 
-def drawn_in_opengl(source: str, given: Given, size: tuple[int, int]) -> Picture:
+def drawn_in_opengl(source: str, values: Given, size: tuple[int, int]) -> Picture:
     with context() as gl:
         triangle = glsl_program(source)
         textures = []
-        for name, value in given.items():
+        for name, value in values.items():
             if name not in triangle.program:
                 continue  # a choice of numbers left nothing that reads it
             if isinstance(value, np.ndarray) and value.ndim == 3:
@@ -70,12 +70,12 @@ def drawn_in_opengl(source: str, given: Given, size: tuple[int, int]) -> Picture
     return picture
 
 
-def by_glsl(text: str, numbers: Numbers, given: Given, size: tuple[int, int]) -> Picture:
+def by_glsl(text: str, numbers: Numbers, values: Given, size: tuple[int, int]) -> Picture:
     """The picture by GLSL as it is."""
-    return drawn_in_opengl(head(numbers) + text + DRAWN.format(""), given, size)
+    return drawn_in_opengl(head(numbers) + text + DRAWN.format(""), values, size)
 
 
-def by_parameters(text: str, numbers: Numbers, given: Given, size: tuple[int, int]) -> Picture:
+def by_parameters(text: str, numbers: Numbers, values: Given, size: tuple[int, int]) -> Picture:
     """The picture by GLSL whose uniforms have other names outside."""
     _, reads = read_by(text)
     own = ""
@@ -84,7 +84,7 @@ def by_parameters(text: str, numbers: Numbers, given: Given, size: tuple[int, in
         precision = "" if element == "bool" else "highp "
         own += f"uniform {precision}{element} own_{name}{f'[{count}]' if count else ''};\n"
     source = head(numbers) + with_parameters(text) + own + DRAWN.format("".join(f"own_{name}, " for name in reads))
-    return drawn_in_opengl(source, {f"own_{name}": value for name, value in given.items()}, size)
+    return drawn_in_opengl(source, {f"own_{name}": value for name, value in values.items()}, size)
 
 
 @cache
@@ -96,7 +96,7 @@ def device() -> Any:
     return adapter.request_device_sync()
 
 
-def packed(values: list[tuple[str, Any]]) -> bytes:
+def pack_uniforms(values: list[tuple[str, Any]]) -> bytes:
     """Values of these types as a uniform buffer (WGSL 14.4.1, Alignment and Size)."""
     data = bytearray()
     for type_, value in values:
@@ -155,7 +155,7 @@ def by_wgsl(text: str, numbers: Numbers, given: Given, size: tuple[int, int]) ->
     import wgpu
 
     _, reads = read_by(text)
-    values = packed([(type_, given[name]) for name, type_ in reads.items() if type_ not in TEXTURES])
+    values = pack_uniforms([(type_, given[name]) for name, type_ in reads.items() if type_ not in TEXTURES])
     entries: list[dict[str, Any]] = []
     if values:
         buffer = gpu.create_buffer_with_data(data=values, usage=wgpu.BufferUsage.UNIFORM)

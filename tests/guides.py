@@ -15,7 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from warm import command
+from warm_process import command
 
 ROOT = Path(__file__).parents[1]
 GUIDES = ROOT / "docs" / "guides"
@@ -66,9 +66,9 @@ def build_site(folder: Path, target: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 
-def alike(said: str) -> str:
-    """An output without what differs from machine to machine."""
-    return MEASURED.sub("-", said).strip()
+def alike(output: str) -> str:
+    """Remove from an output what differs between machines."""
+    return MEASURED.sub("-", output).strip()
 
 
 def free_port() -> int:
@@ -126,8 +126,8 @@ class Reader:
                 os.killpg(process.pid, signal.SIGTERM)
             process.communicate(timeout=60)
 
-    def ported(self, text: str) -> str:
-        """Text with the ports that are free."""
+    def replace_ports(self, text: str) -> str:
+        """Replace ports in a text by free ones."""
         for port, free in self.ports.items():
             text = re.sub(rf"(?<=[: ]){port}\b", str(free), text)
         return text
@@ -137,11 +137,11 @@ class Reader:
         if block.title:
             path = self.folder / block.title
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(self.ported(block.text), encoding="utf-8")
+            path.write_text(self.replace_ports(block.text), encoding="utf-8")
         elif block.language == "sh":
             self._shell(block)
         elif block.language == "python":
-            with self._told() as said:
+            with self._capture_output() as said:
                 exec(compile(block.text, block.place, "exec"), self.names)  # the guide's own words are what is tested
             self.said = "".join(said)
         elif block.language == "text":
@@ -155,7 +155,7 @@ class Reader:
         self._run(block, "\n".join(before if stays else [*before, last]))
         if stays:
             process = subprocess.Popen(
-                ["bash", "-c", f"exec {re.sub('^vexture(?= )', STAYING, self.ported(last))}"],
+                ["bash", "-c", f"exec {re.sub('^vexture(?= )', STAYING, self.replace_ports(last))}"],
                 cwd=self.folder,
                 env=self.environment,
                 stdout=subprocess.PIPE,
@@ -172,7 +172,7 @@ class Reader:
     def _run(self, block: Block, commands: str) -> None:
         where = self.folder.parent / "where"
         outcome = subprocess.run(
-            ["bash", "-euo", "pipefail", "-c", f"{self.ported(commands)}\npwd > {shlex.quote(str(where))}"],
+            ["bash", "-euo", "pipefail", "-c", f"{self.replace_ports(commands)}\npwd > {shlex.quote(str(where))}"],
             cwd=self.folder,
             env=self.environment,
             capture_output=True,
@@ -187,8 +187,8 @@ class Reader:
         self.said, self.folder = outcome.stdout, Path(where.read_text().strip())
 
     @contextmanager
-    def _told(self) -> Iterator[list[str]]:
-        """Work in the folder, and what is printed there."""
+    def _capture_output(self) -> Iterator[list[str]]:
+        """Work in the folder, and capture what is printed there."""
         import contextlib
         import io
 

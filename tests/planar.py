@@ -30,7 +30,7 @@ def cell_at(planar: PlanarMap, point) -> tuple[int, int, NDArray[np.float64]]:
         quad = int(planar.first_quad[quad] + planar.is_quad[quad, :k].sum())
 
 
-def widened(texture: Texture) -> Texture:
+def widen_paints(texture: Texture) -> Texture:
     """A texture of maps without gradients, with so many more paints that their numbers take 32 bits."""
     maps = []
     for root in texture.roots:
@@ -109,7 +109,7 @@ def colours_at(drawing: Drawing, points, chords: int = 256) -> tuple[NDArray[np.
 
     masks = [sum(mask.outer == place for mask in drawing.groups if mask.mask) for place in range(len(drawing.groups))]
 
-    def painted(group: int, start: int) -> tuple[NDArray[np.float64], int]:
+    def paint_group(group: int, start: int) -> tuple[NDArray[np.float64], int]:
         """Colours of a group from a path on, masked, and the path after it."""
         below, k, left = np.zeros((len(points), 4)), start, np.ones((len(points), 1))
         missing = masks[group] if group >= 0 else 0
@@ -119,7 +119,7 @@ def colours_at(drawing: Drawing, points, chords: int = 256) -> tuple[NDArray[np.
                 break
             inner = around[around.index(group) + 1 :] if group >= 0 else around
             if inner:
-                above, k = painted(inner[0], k)
+                above, k = paint_group(inner[0], k)
                 of = drawing.groups[inner[0]]
                 if of.mask:
                     amount = above[:, 3] if of.mask is Mask.OPACITY else above[:, :3] @ (0.2125, 0.7154, 0.0721)
@@ -135,10 +135,10 @@ def colours_at(drawing: Drawing, points, chords: int = 256) -> tuple[NDArray[np.
             below, k = over(below, inside[:, None] * colour, Blend.NORMAL, 1.0), k + 1
         return below * left * (missing == 0), k
 
-    return painted(-1, 0)[0], distance
+    return paint_group(-1, 0)[0], distance
 
 
-def coloured(drawing: Drawing, rng, blends=(Blend.NORMAL, Blend.MULTIPLY, Blend.SCREEN)) -> Drawing:
+def colour_paths(drawing: Drawing, rng, blends=(Blend.NORMAL, Blend.MULTIPLY, Blend.SCREEN)) -> Drawing:
     """A drawing with random paints, some of them equal and some opaque, and random groups, some of them masks."""
     paths, groups = [], []
     around: list[int] = []
@@ -159,7 +159,7 @@ def coloured(drawing: Drawing, rng, blends=(Blend.NORMAL, Blend.MULTIPLY, Blend.
 MOST_LAYERS = 30
 
 
-def layered(seed: int) -> Drawing:
+def layered_drawing(seed: int) -> Drawing:
     """Up to 30 random layers, degenerate and coincident ones among them, in groups, with masks and all blend modes."""
     rng = np.random.default_rng(seed)
     paths: tuple[Path, ...] = ()
@@ -168,10 +168,10 @@ def layered(seed: int) -> Drawing:
     if seed % 3 == 0:
         distance = 10.0 ** -int(rng.integers(3, 12))
         paths += degenerate.heap(seed, [1, 2, 1], distance, FillRule(seed // 2 % 2)).paths
-    return coloured(Drawing(paths[:MOST_LAYERS]), rng, list(Blend))
+    return colour_paths(Drawing(paths[:MOST_LAYERS]), rng, list(Blend))
 
 
-def sampled(drawing: Drawing, size: int, samples: int = 32) -> NDArray[np.float64]:
+def sample_picture(drawing: Drawing, size: int, samples: int = 32) -> NDArray[np.float64]:
     """Picture of a drawing, (size, size, 4), by samples x samples points in a pixel."""
     at = (np.arange(size * samples) + 0.5) / (size * samples)
     rows = [colours_at(drawing, np.column_stack([at, np.full(len(at), y)]), 24)[0] for y in at[::-1]]

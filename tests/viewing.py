@@ -38,7 +38,7 @@ class Viewing:
     def events(self):
         """Iterator of what clients are told: kind and data."""
         with httpx.stream("GET", f"{self.url}events", timeout=PATIENCE) as answer:
-            yield told(answer.iter_lines())
+            yield parse_events(answer.iter_lines())
 
     def stop(self):
         """End it as a person does; return its exit code."""
@@ -46,7 +46,7 @@ class Viewing:
         return self.process.wait(PATIENCE)
 
 
-def told(lines):
+def parse_events(lines):
     kind = None
     for line in lines:
         if line.startswith("event:"):

@@ -60,7 +60,7 @@ def named_counties(file: str, *, quick: bool) -> dict[str, Any]:
 
     A city that is no part of the county of its name is told from it.
     """
-    topology: dict[str, Any] = json.loads((COUNTIES.installed() / file).read_text(encoding="utf-8"))
+    topology: dict[str, Any] = json.loads((COUNTIES.installed_folder() / file).read_text(encoding="utf-8"))
     states = {one["id"]: one["properties"]["name"] for one in topology["objects"]["states"]["geometries"]}
     found = [one for one in topology["objects"]["counties"]["geometries"] if not quick or one["id"].startswith("06")]
     names = [f"{one['properties']['name']}, {states[one['id'][:2]]}" for one in found]
@@ -97,7 +97,9 @@ def counties_in_degrees(folder: Path, *, quick: bool) -> None:
 
 def countries(folder: Path, *, quick: bool) -> None:
     """Copy the countries of the world."""
-    shutil.copyfile(WORLD.installed() / f"countries-{'110m' if quick else '50m'}.json", folder / "countries.json")
+    shutil.copyfile(
+        WORLD.installed_folder() / f"countries-{'110m' if quick else '50m'}.json", folder / "countries.json"
+    )
 
 
 def unrolled(ring: Any) -> list[Any]:
@@ -119,7 +121,7 @@ def unrolled(ring: Any) -> list[Any]:
 def land(folder: Path, *, quick: bool) -> None:
     """Write the land of the earth as SVG: degrees, in a frame of all of them."""
     file = "land-110m.json" if quick else "land-50m.json"
-    topology = json.loads((WORLD.installed() / file).read_text(encoding="utf-8"))
+    topology = json.loads((WORLD.installed_folder() / file).read_text(encoding="utf-8"))
     path = []
     for geometry in topology["objects"]["land"]["geometries"]:
         rings = [ring for polygon in rings_of(topology, geometry) for ring in polygon]

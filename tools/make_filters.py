@@ -26,7 +26,7 @@ EMOJI: Final = ("mx-claus-medium", "loudspeaker", "snowflake", "test-tube")
 
 def main() -> None:
     """Write the picture."""
-    folder = corpora.FLUENT_MODERN.installed() / corpora.FLUENT_MODERN.folder
+    folder = corpora.FLUENT_MODERN.installed_folder() / corpora.FLUENT_MODERN.folder
     looks = [Look(name.replace("-", " "), folder / f"{name}.svg", PANEL) for name in EMOJI]
     with chromium() as browser:
         page = browser.new_page()

@@ -291,7 +291,9 @@ def write_licences(folder: Path, shown: list[Example]) -> None:
     }
     for package, made in data.items():
         if made & sources:
-            parts.append(f"{package.name}\n\n{(package.installed() / 'LICENSE').read_text(encoding='utf-8').strip()}\n")
+            parts.append(
+                f"{package.name}\n\n{(package.installed_folder() / 'LICENSE').read_text(encoding='utf-8').strip()}\n"
+            )
     (folder / "lib" / "LICENSES.txt").write_text("\n".join(parts), encoding="utf-8")
 
 

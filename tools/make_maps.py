@@ -59,8 +59,8 @@ def picture(source: Any, crs: str, scale: Scale) -> Image.Image:
 
 def main() -> None:
     """Write the picture."""
-    world = areas(WORLD.installed() / "countries-50m.json", "countries")
-    counties = areas(COUNTIES.installed() / "counties-10m.json", "counties")
+    world = areas(WORLD.installed_folder() / "countries-50m.json", "countries")
+    counties = areas(COUNTIES.installed_folder() / "counties-10m.json", "counties")
     contiguous = counties[~counties["id"].str[:2].isin(FAR_STATES)]
     by_size = Scale("area", BREAKS)
     maps = [

@@ -13,12 +13,12 @@ from fontTools.pens.recordingPen import RecordingPen
 from fontTools.svgLib.path import parse_path
 from lxml import etree
 
-from vexture_evidence.measures import printed
+from vexture_evidence.measures import thesis_numbers
 
 ROOT = Path(__file__).parents[2]
 SHAPES = ROOT / "examples" / "shapes"
 
-TABLE_5_1 = {name: row.segments for name, row in printed.TABLE_5_1.items()}
+TABLE_5_1 = {name: row.segments for name, row in thesis_numbers.TABLE_5_1.items()}
 HARD = {"crossings": 10, "holes": 32, "cusp": 4, "loop": 4, "hairline": 4}
 SEGMENTS = TABLE_5_1 | HARD
 LICENCES = {  # of those that are not wholly ours

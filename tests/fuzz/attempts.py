@@ -24,10 +24,10 @@ def attempt(target: Target, data: bytes) -> str:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             warnings.simplefilter("ignore", SourceWarning)
-            return f"reads {masked(target.read(data))}"
+            return f"reads {mask_words(target.read(data))}"
     except EXPECTED as error:
         check_line(str(error))
-        return f"{type(error).__name__} {masked(str(error))}"
+        return f"{type(error).__name__} {mask_words(str(error))}"
     except FindingError:
         raise
     except (KeyboardInterrupt, SystemExit):
@@ -36,7 +36,7 @@ def attempt(target: Target, data: bytes) -> str:
         raise FindingError(f"{signature(error)}\n{''.join(traceback.format_exception(error))}") from None
 
 
-def masked(text: str) -> str:
+def mask_words(text: str) -> str:
     """The first words of a text without what varies with every input."""
     return " ".join(VARYING.sub("#", text).split()[:WORDS])
 
@@ -52,7 +52,7 @@ def signature(error: BaseException) -> str:
 
 def kind_of_finding(finding: FindingError) -> str:
     """First line of a finding without numbers and quotations: one fault, however many inputs show it."""
-    return masked(str(finding).partition("\n")[0])
+    return mask_words(str(finding).partition("\n")[0])
 
 
 def shrunk(target: Target, data: bytes, most: int = 400) -> bytes:

@@ -21,7 +21,7 @@ from javascript import NODE
 from readers import TARGETS
 from worker import LIVE, SECONDS, SHARED_BYTES
 
-__all__ = ["Result", "run_target", "watched"]
+__all__ = ["Result", "run_target", "run_worker"]
 
 FINDINGS = Path("fuzz-findings")
 """Folder in the working directory."""
@@ -44,8 +44,8 @@ class Result:
     findings: list[tuple[str, bytes]] = field(default_factory=list)
 
 
-def watched(names: Sequence[str], seed: str, until: float, runs: str) -> Iterator[tuple[str, Result]]:
-    """Run a worker to its end, natural or not: what is known of each target that it began."""
+def run_worker(names: Sequence[str], seed: str, until: float, runs: str) -> Iterator[tuple[str, Result]]:
+    """Run a worker to its end, natural or not; yield the result of each target that it began."""
     with tempfile.NamedTemporaryFile() as shared:
         shared.truncate(SHARED_BYTES)
         worker = Path(__file__).with_name("worker.py")
@@ -62,12 +62,12 @@ def watched(names: Sequence[str], seed: str, until: float, runs: str) -> Iterato
             last_words = errors.read().decode(errors="replace")[-4000:]
         count, length = LIVE.unpack(shared.read(LIVE.size))
         last = shared.read(length)
-    yield from told(
+    yield from results_of(
         [json.loads(line) for line in said.splitlines()], names, process.returncode, count, last, last_words
     )
 
 
-def told(
+def results_of(
     lines: list[dict[str, Any]], names: Sequence[str], code: int, count: int, last: bytes, last_words: str
 ) -> Iterator[tuple[str, Result]]:
     """Results from a worker's lines; the target that it died of gets a finding."""
@@ -98,7 +98,7 @@ def run_target(name: str, seed: str, seconds: float) -> Result:
     """Fuzz one target for a time; a worker that dies is followed by another one."""
     total, until, part = Result(), time.time() + seconds, 0
     while time.time() < until:
-        for _, result in watched([name], f"{seed} {part}", until, str(10**9)):
+        for _, result in run_worker([name], f"{seed} {part}", until, str(10**9)):
             total.runs += result.runs
             total.answers = max(total.answers, result.answers)
             known = {finding.partition("\n")[0] for finding, _ in total.findings}
@@ -109,7 +109,7 @@ def run_target(name: str, seed: str, seconds: float) -> Result:
     return total
 
 
-def kept(name: str, text: str, data: bytes) -> Path:
+def save_finding(name: str, text: str, data: bytes) -> Path:
     """Write an input and what it shows into the folder of findings."""
     FINDINGS.mkdir(exist_ok=True)
     path = FINDINGS / f"{name}-{sha1(data).hexdigest()[:10]}"
@@ -133,9 +133,9 @@ def main() -> int:
             flush=True,
         )
         if result.slowest > SECONDS * TARGETS[name].patience / 10:
-            print(f"  slow: {kept(name, f'{result.slowest:.1f} s', result.slow_input)}")
+            print(f"  slow: {save_finding(name, f'{result.slowest:.1f} s', result.slow_input)}")
         for text, data in result.findings:
-            print(f"  {kept(name, text, data)}: {text.partition(chr(10))[0]}", flush=True)
+            print(f"  {save_finding(name, text, data)}: {text.partition(chr(10))[0]}", flush=True)
         found += len(result.findings)
     return found > 0
 

@@ -6,7 +6,7 @@ from time import process_time
 
 from lxml import etree
 
-__all__ = ["minimised"]
+__all__ = ["minimise_svg"]
 
 COMMAND = re.compile(r"(?=[A-Za-z])")
 NUMBER = re.compile(r"-?\d+\.\d+")
@@ -14,17 +14,17 @@ SECONDS = 60.0
 """Of the processor, for one drawing."""
 
 
-def minimised(svg: str, shows: Callable[[str], bool], seconds: float = SECONDS) -> str:
+def minimise_svg(svg: str, shows: Callable[[str], bool], seconds: float = SECONDS) -> str:
     """Leave out all that `shows` does without, as far as the time allows."""
     until, before = process_time() + seconds, ""
     while before != svg:
         before = svg
         for smaller in (without_elements, without_groups, without_attributes, with_shorter_values):
-            svg = reduced(svg, smaller, shows, until)
+            svg = reduce_svg(svg, smaller, shows, until)
     return svg
 
 
-def reduced(
+def reduce_svg(
     svg: str, smaller: Callable[[etree._Element, int], bool | None], shows: Callable[[str], bool], until: float
 ) -> str:
     """Try one kind of change at place after place; where it shows, the next change starts from it."""

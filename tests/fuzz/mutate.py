@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from random import Random
 
-__all__ = ["MOST_BYTES", "mutated", "png_repaired", "zip_repaired"]
+__all__ = ["MOST_BYTES", "mutate_seed", "png_repaired", "zip_repaired"]
 
 MOST_BYTES = 1 << 17
 """Of an input: faults of reading show in small files, and small files are read more often in a second."""
@@ -76,7 +76,7 @@ BINARY: tuple[Change, ...] = (_flip, _flip, _word, _word, _word, _token, _remove
 TEXT: tuple[Change, ...] = (_flip, _token, _token, _token, _number, _number, _remove, _repeat, _splice, _cut)
 
 
-def mutated(rng: Random, seeds: Sequence[bytes], tokens: Sequence[bytes], text: bool) -> bytes:
+def mutate_seed(rng: Random, seeds: Sequence[bytes], tokens: Sequence[bytes], text: bool) -> bytes:
     """One of the seeds with one to eight random changes."""
     data = bytearray(rng.choice(seeds))
     for _ in range(rng.choice((1, 1, 2, 3, 5, 8))):

@@ -22,11 +22,11 @@ from typing import Any
 
 from comparison import MOST, SHARE, Case, SlowError, case_of, compare
 from crew import answers
-from minimise import minimised
+from minimise import minimise_svg
 
 from vexture.base.errors import EXPECTED
 
-__all__ = ["Figures", "described", "examined", "finding_of", "smallest"]
+__all__ = ["Figures", "describe_finding", "examine_seed", "finding_of", "smallest"]
 
 FOLDER = Path("fuzz-findings") / "pictures"
 BOUNDS = (0.25, 0.5, 1.0, 2.0, 5.0, 20.0, 100.0)
@@ -52,8 +52,8 @@ FEATURES = {
 }
 
 
-def examined(job: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """What a process of the crew tells about a seed: the comparison, and then the finding, if it is one."""
+def examine_seed(job: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield the facts about a seed: the comparison, and then the finding, if it is one."""
     try:
         case = case_of(job["seed"], job["gradients"])
         if case is None:
@@ -83,7 +83,7 @@ def smallest(case: Case, gap: float, renderer: str = "cpu", seconds: float = 60.
         except (SlowError, *EXPECTED):
             return False
 
-    return Case(minimised(case.svg, shows, seconds), case.sight)
+    return Case(minimise_svg(case.svg, shows, seconds), case.sight)
 
 
 def finding_of(case: Case, renderer: str = "cpu") -> dict[str, Any]:
@@ -95,7 +95,7 @@ def finding_of(case: Case, renderer: str = "cpu") -> dict[str, Any]:
     return {"kinds": kinds, "view": case.sight.name, **asdict(found)}
 
 
-def described(finding: dict[str, Any], size: int) -> str:
+def describe_finding(finding: dict[str, Any], size: int) -> str:
     """One line: what differs, where, and by how much."""
     return (
         f"{', '.join(finding['kinds']) or 'plain'} ({finding['view']}): {finding['gap']:.1f}/255 at {finding['place']} "
@@ -113,17 +113,17 @@ class Figures:
     seconds: Counter[str] = field(default_factory=Counter)
     kinds: Counter[str] = field(default_factory=Counter)
 
-    def add(self, seed: str, told: dict[str, Any]) -> None:
-        """Count what was told about a seed."""
-        if "sight" in told:
-            if told["gap"] >= max(self.gaps, default=0.0):
-                self.worst = f"seed {seed}, {told['sight']}"
-            self.gaps.append(told["gap"])
-            self.seconds.update(told["seconds"])
-        elif "kinds" in told:
-            self.kinds[f"{', '.join(told['kinds']) or 'plain'} ({told['view']})"] += 1
+    def add(self, seed: str, facts: dict[str, Any]) -> None:
+        """Count the facts about a seed."""
+        if "sight" in facts:
+            if facts["gap"] >= max(self.gaps, default=0.0):
+                self.worst = f"seed {seed}, {facts['sight']}"
+            self.gaps.append(facts["gap"])
+            self.seconds.update(facts["seconds"])
+        elif "kinds" in facts:
+            self.kinds[f"{', '.join(facts['kinds']) or 'plain'} ({facts['view']})"] += 1
         else:
-            self.failures[next(iter(told))] += 1
+            self.failures[next(iter(facts))] += 1
 
     def text(self, name: str) -> str:
         """Lines of a summary."""
@@ -142,16 +142,16 @@ class Figures:
         return "\n".join(lines + [f"  {number} of {kind}" for kind, number in self.kinds.most_common()])
 
 
-def keep(name: str, told: dict[str, Any]) -> str:
+def keep(name: str, facts: dict[str, Any]) -> str:
     """Write a finding, or a view that ended its process; the line that tells of it."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     path = FOLDER / f"{name}.svg"
-    file = told.pop("minimised", None) or told.pop("file")
+    file = facts.pop("minimised", None) or facts.pop("file")
     path.write_text(file, encoding="utf-8")
-    if "kinds" not in told:
-        return f"{path}: {told['gap']:.1f}/255 ({told['sight']})"
-    line = described(told, Case.parsed(file.encode()).sight.size)
-    path.with_suffix(".txt").write_text(f"{line}\n{json.dumps(told)}\n", encoding="utf-8")
+    if "kinds" not in facts:
+        return f"{path}: {facts['gap']:.1f}/255 ({facts['sight']})"
+    line = describe_finding(facts, Case.parsed(file.encode()).sight.size)
+    path.with_suffix(".txt").write_text(f"{line}\n{json.dumps(facts)}\n", encoding="utf-8")
     return f"{path}: {line}"
 
 
@@ -165,13 +165,13 @@ def campaign(options: argparse.Namespace) -> int:
         for kind in wanted
     )
     start = time()
-    for job, told in answers("pictures", jobs, options.processes, options.limit):
+    for job, facts in answers("pictures", jobs, options.processes, options.limit):
         name, figure = f"{job['seed']}{'-gradients' if job['gradients'] else ''}", figures[job["gradients"]]
-        figure.add(job["seed"], told)
-        if "file" in told or "minimised" in told:
-            print(keep(name, told), flush=True)
-        elif "gap" not in told and "empty" not in told:
-            print(f"{name}: {told}", flush=True)
+        figure.add(job["seed"], facts)
+        if "file" in facts or "minimised" in facts:
+            print(keep(name, facts), flush=True)
+        elif "gap" not in facts and "empty" not in facts:
+            print(f"{name}: {facts}", flush=True)
     took, count = time() - start, sum(len(figure.gaps) for figure in figures.values())
     for kind, figure in figures.items():
         print(figure.text("with gradients" if kind else "without gradients"))
@@ -179,13 +179,13 @@ def campaign(options: argparse.Namespace) -> int:
     return sum(gap > MOST for figure in figures.values() for gap in figure.gaps)
 
 
-def again(files: list[str], renderer: str) -> int:
-    """Compare files of findings; the number of those that are findings."""
+def compare_again(files: list[str], renderer: str) -> int:
+    """Compare files of findings again; return the number that still are findings."""
     found = 0
     for file in files:
         case = Case.parsed(Path(file).read_bytes())
         finding = finding_of(case, renderer)
-        print(f"{file}: {described(finding, case.sight.size)}", flush=True)
+        print(f"{file}: {describe_finding(finding, case.sight.size)}", flush=True)
         found += finding["gap"] > MOST
     return found
 
@@ -202,7 +202,7 @@ def main() -> int:
     parser.add_argument("--limit", type=float, default=30.0, help="seconds of the processor for a view")
     parser.add_argument("--minimise", type=float, default=60.0, help="seconds of the processor for a finding; 0: none")
     options = parser.parse_args()
-    return (again(options.files, options.renderer) if options.files else campaign(options)) > 0
+    return (compare_again(options.files, options.renderer) if options.files else campaign(options)) > 0
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ from javascript import loader
 from lxml import etree
 from map_files import SEEDS, read_floats, read_map
 from mutate import png_repaired, zip_repaired
-from pictures import described, finding_of, smallest
+from pictures import describe_finding, finding_of, smallest
 
 from degenerate import OUTLINES, heap
 from vexture.base.errors import EXPECTED, SourceWarning
@@ -148,10 +148,10 @@ def read_values(data: bytes) -> str:
     part = fraction(text)
     if part is not None and not 0.0 <= part <= 1.0:
         raise FindingError(f"fraction {part}")
-    return str([parsed(parse, text) for parse in PARSERS])
+    return str([parse_text(parse, text) for parse in PARSERS])
 
 
-def parsed(parse: Callable[[str], object], text: str) -> str:
+def parse_text(parse: Callable[[str], object], text: str) -> str:
     try:
         return str(parse(text) is not None)
     except EXPECTED as error:
@@ -260,19 +260,19 @@ def read_picture(data: bytes) -> str:
     except SlowError:
         return "slow"
     if not found["gap"] <= MOST:
-        raise FindingError(described(found, case.sight.size))
+        raise FindingError(describe_finding(found, case.sight.size))
     return case.sight.name
 
 
 def make_picture(has_gradients: bool) -> Callable[[Random], bytes]:
     """Random drawings in random views, as `read_picture` takes them."""
 
-    def made(rng: Random) -> bytes:
+    def make_input(rng: Random) -> bytes:
         while (case := case_of(str(rng.randrange(10**9)), has_gradients)) is None:
             pass
         return case.file()
 
-    return made
+    return make_input
 
 
 def shrink_picture(data: bytes) -> bytes:

@@ -3,7 +3,7 @@
 import time
 
 import pytest
-from campaign import watched
+from campaign import run_worker
 from javascript import NODE
 from readers import TARGETS
 
@@ -18,7 +18,7 @@ def test_damaged_files_are_read_or_refused_in_one_line(language):
     if language == "javascript" and not NODE:
         pytest.skip("node or the packages of web/ are missing")
     names = [name for name in TARGETS if name.endswith("-js") == (language == "javascript")]
-    results = dict(watched(names, SEED, time.time() + LIMIT, "second"))
+    results = dict(run_worker(names, SEED, time.time() + LIMIT, "second"))
     assert [finding for result in results.values() for finding in result.findings] == []
     assert {name: result.runs for name, result in results.items()} == {
         name: TARGETS[name].in_a_second for name in names

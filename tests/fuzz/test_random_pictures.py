@@ -3,7 +3,7 @@
 import pytest
 from comparison import MOST, Case, SlowError, case_of, compare
 from drawings import drawing_of
-from minimise import minimised
+from minimise import minimise_svg
 
 PLAIN = range(30)
 WITH_GRADIENTS = (1, 2, 3, 4, 7, 8, 9, 12, 14, 16, 18, 22, 24, 30, 32, 35, 39, 41, 44, 46, 47, 50, 51, 52, 56, 59)
@@ -48,4 +48,4 @@ def test_a_case_is_the_file_that_it_is_written_to() -> None:
 
 def test_a_drawing_is_minimised_to_what_shows_the_same() -> None:
     svg = '<svg><g opacity=".5"><path d="M0 0L1 1L2.345 3z" fill="red"/><circle r="1.25"/></g><text>a</text></svg>'
-    assert minimised(svg, lambda smaller: "path" in smaller and "L2" in smaller) == '<svg><path d="M0 0L2 3"/></svg>'
+    assert minimise_svg(svg, lambda smaller: "path" in smaller and "L2" in smaller) == '<svg><path d="M0 0L2 3"/></svg>'

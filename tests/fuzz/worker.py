@@ -16,7 +16,7 @@ from pathlib import Path
 from random import Random
 
 from attempts import attempt, kind_of_finding, shrunk
-from mutate import MOST_BYTES, mutated
+from mutate import MOST_BYTES, mutate_seed
 from readers import TARGETS, FindingError
 
 __all__ = ["LIVE", "SECONDS", "SHARED_BYTES"]
@@ -54,7 +54,7 @@ def run(name: str, seed: str, until: float, most: int, shared: mmap.mmap) -> dic
         announce(shared, 0, data)
         met.add(attempt(target, data))
     while count < most and time.time() < until:
-        data = target.make(rng) if target.make else mutated(rng, seeds, target.tokens, target.text)
+        data = target.make(rng) if target.make else mutate_seed(rng, seeds, target.tokens, target.text)
         if target.repair and rng.random() < 0.7:
             data = target.repair(data)
         data, count = data[:MOST_BYTES], count + 1

@@ -40,7 +40,7 @@ def written(path, shapes, crs="EPSG:32610", driver=None, kind="Unknown", layer=N
     return path
 
 
-def zipped(path):
+def zip_shapefile(path):
     """Zip a shapefile and its siblings, and return the path of the zip."""
     archive = path.with_suffix(".zip")
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:
@@ -64,7 +64,7 @@ def land(drawing):
 
 def file(folder, name, shapes=(LAKE, POND), crs=UTM, **options):
     if name.endswith(".zip"):
-        return zipped(written((folder / name).with_suffix(".shp"), shapes, crs, **options))
+        return zip_shapefile(written((folder / name).with_suffix(".shp"), shapes, crs, **options))
     return written(folder / name, shapes, crs, **options)
 
 

@@ -10,16 +10,16 @@ import pytest
 from floods import flood, series
 
 from clusters import cluster_of, scheduler_alone, workers_of
+from shared_work import fail_late, forget_once, kill_worker, slow_power
 from vexture import DeviceError
 from vexture.base import workers
 from vexture.base.workers import Cluster, Here, Processes
 from vexture_geo.flood.options import FloodOptions
 from vexture_geo.flood.server import make
-from work import dies, is_forgotten, slow, waits
 
 
 def test_results_are_in_order_from_several_processes():
-    found = list(Processes(2).map(slow, (os.getpid(), 3), iter(range(12)), 12))
+    found = list(Processes(2).map(slow_power, (os.getpid(), 3), iter(range(12)), 12))
     assert [value for _, value in found] == [3**k for k in range(12)]
     workers = {number for number, _ in found}
     assert os.getpid() in workers
@@ -27,14 +27,14 @@ def test_results_are_in_order_from_several_processes():
 
 
 def test_short_work_is_done_here():
-    found = list(Processes(2).map(slow, (0, 3), range(12), 12))
+    found = list(Processes(2).map(slow_power, (0, 3), range(12), 12))
     assert found == [(os.getpid(), 3**k) for k in range(12)]
 
 
 def test_few_items_are_taken_before_their_results():
     taken = []
     items = (taken.append(k) or k for k in range(1000))
-    found = Processes(2).map(slow, (os.getpid(), 1), items, 1000)
+    found = Processes(2).map(slow_power, (os.getpid(), 1), items, 1000)
     for _ in range(10):
         next(found)
     assert len(taken) < 20
@@ -42,13 +42,13 @@ def test_few_items_are_taken_before_their_results():
 
 
 def test_what_a_process_had_in_hand_when_it_died_is_done_again(tmp_path):
-    assert list(Processes(2).map(dies, (tmp_path / "died", False), range(12), 12)) == [k * k for k in range(12)]
+    assert list(Processes(2).map(kill_worker, (tmp_path / "died", False), range(12), 12)) == [k * k for k in range(12)]
     assert (tmp_path / "died").exists()
 
 
 def test_work_that_kills_every_process_ends(tmp_path):
     with pytest.raises(DeviceError, match="3 processes died at the same work"):
-        list(Processes(2).map(dies, (tmp_path / "died", True), range(12), 12))
+        list(Processes(2).map(kill_worker, (tmp_path / "died", True), range(12), 12))
 
 
 def test_steps_of_a_flood_are_the_same_from_several_processes(tmp_path, monkeypatch):
@@ -89,18 +89,20 @@ def test_a_cluster_makes_the_same_page(cluster, tmp_path):
 
 def test_what_a_scheduler_forgot_is_done_again(cluster, tmp_path):
     """As it does when a worker dies while its result is fetched."""
-    assert list(Cluster(cluster).map(is_forgotten, tmp_path / "once", range(6), 6)) == [k * k for k in range(6)]
+    assert list(Cluster(cluster).map(forget_once, tmp_path / "once", range(6), 6)) == [k * k for k in range(6)]
     assert (tmp_path / "once").exists()
 
 
 def test_an_error_of_the_work_is_not_one_of_the_scheduler(cluster):
     with pytest.raises(FileNotFoundError, match="lost"):
-        list(Cluster(cluster).map(waits, 2, range(4), 4))
+        list(Cluster(cluster).map(fail_late, 2, range(4), 4))
 
 
 def test_what_a_worker_of_a_cluster_had_in_hand_when_it_died_is_done_again(cluster, tmp_path):
     """The last test with these workers: one of them dies."""
-    assert list(Cluster(cluster).map(dies, (tmp_path / "died", False), range(12), 12)) == [k * k for k in range(12)]
+    assert list(Cluster(cluster).map(kill_worker, (tmp_path / "died", False), range(12), 12)) == [
+        k * k for k in range(12)
+    ]
     assert (tmp_path / "died").exists()
 
 
@@ -110,7 +112,7 @@ def test_a_cluster_that_dies_at_work_is_named_and_dask_is_silent(dead, state, mo
     with ExitStack() as opened:
         scheduler, address = opened.enter_context(scheduler_alone())
         found = opened.enter_context(workers_of(address, 1))
-        results = Cluster(address).map(waits, None, range(12), 12)
+        results = Cluster(address).map(fail_late, None, range(12), 12)
         assert [next(results), next(results)] == [0, 1]
         for process in [scheduler] if dead == "scheduler" else found:
             process.kill()

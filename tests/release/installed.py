@@ -33,7 +33,7 @@ class Installed:
             self.environment["NUMBA_DISABLE_JIT"] = "1"
             self.pip("install", "--quiet", "--no-index", "--no-deps", *map(str, wheels))
             own = {canonicalize_name(one.name): one for one in distributions(path=[str(self.site)])}
-            for needed in required(own).values():
+            for needed in requirements_of(own).values():
                 self._link(needed)
 
     @property
@@ -71,7 +71,7 @@ class Installed:
         return subprocess.run(command, cwd=self.work, env=everything, capture_output=True, text=True, check=False)
 
 
-def required(own: dict[str, Distribution]) -> dict[str, Distribution]:
+def requirements_of(own: dict[str, Distribution]) -> dict[str, Distribution]:
     """Packages that some require, and those that they require, without extras but those that they name."""
     found: dict[str, Distribution] = {}
     waiting = [(package, "") for package in own.values()]

@@ -41,7 +41,7 @@ def open_page(page_pool: PagePool) -> Iterator[Callable[..., Any]]:
     """
     taken, checked = [], []
 
-    def opened(
+    def open_address(
         url: str, size: tuple[int, int] = (512, 512), *, errors: bool = False, keep: bool = False, **options: Any
     ) -> Any:
         page = page_pool.take(size, options, url if keep else "")
@@ -52,7 +52,7 @@ def open_page(page_pool: PagePool) -> Iterator[Callable[..., Any]]:
             page.goto(url)
         return page
 
-    yield opened
+    yield open_address
     found = [error for page in checked for error in page.errors]
     for page in taken:
         page_pool.give_back(page)
@@ -63,36 +63,36 @@ def open_page(page_pool: PagePool) -> Iterator[Callable[..., Any]]:
 def screenshot(request: pytest.FixtureRequest) -> Callable[..., Path]:
     """Keep a picture of a page, or of an element of it, where people can look at it."""
 
-    def taken(target: Any, label: str = "") -> Path:
+    def save_picture(target: Any, label: str = "") -> Path:
         SCREENSHOTS.mkdir(exist_ok=True)
         name = request.node.name.replace("/", "_") + (f"-{label}" if label else "")
         path = SCREENSHOTS / f"{name}.png"
         target.screenshot(path=path)
         return path
 
-    return taken
+    return save_picture
 
 
 @pytest.fixture(scope="session")
 def viewer_pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Any]]:
     """The viewer's pages with a silhouette, with a drawing in colours, with both."""
-    from browser import served
+    from browser import serve_folder
     from viewed import write_pages
 
     folder = tmp_path_factory.mktemp("viewer")
-    with served(folder) as url:
+    with serve_folder(folder) as url:
         yield write_pages(folder, url)
 
 
 @pytest.fixture(scope="session")
 def overlay_pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, dict[str, Any]]]:
     """Address of the viewer's pages with one texture each, and the textures by name."""
-    from browser import served
+    from browser import serve_folder
     from overlay_page import write_pages
 
     folder = tmp_path_factory.mktemp("overlays")
     textures = write_pages(folder)
-    with served(folder) as address:
+    with serve_folder(folder) as address:
         yield address, textures
 
 
@@ -165,7 +165,7 @@ def map_address(map_folder: Path) -> Iterator[str]:
     """Its address."""
     import tile_pyramid
 
-    with tile_pyramid.served(map_folder) as url:
+    with tile_pyramid.serve_tiles(map_folder) as url:
         yield url
 
 

@@ -260,14 +260,14 @@ def built() -> tuple[str, str]:
     return script, style
 
 
-def write_page(path: Path, what: dict[str, Any], *, policy: bool = True) -> Path:
+def write_page(path: Path, scene: dict[str, Any], *, policy: bool = True) -> Path:
     """Write the page of a scene, with the policy that exported pages have."""
     script, css = built()
     script = script.replace("</script", "<\\/script").replace("<!--", "<\\x21--")
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     rules = EXPORTED_POLICY.format(script=f"'sha256-{digest}'")
     meta = f'<meta http-equiv="Content-Security-Policy" content="{html.escape(rules)}">' if policy else ""
-    text = json.dumps(what).replace("<", "\\u003c")
-    title = html.escape(what["flood"]["title"])
+    text = json.dumps(scene).replace("<", "\\u003c")
+    title = html.escape(scene["flood"]["title"])
     path.write_text(PAGE.format(policy=meta, css=css, scene=text, script=script, title=title), encoding="utf-8")
     return path

@@ -77,9 +77,9 @@ def jupyter_lab(folder: Path, notebook: str) -> Iterator[str]:
         try:
             _until_it_answers(f"{address}/api/status?token={token}", folder / "server.log", server)
             session = {"path": notebook, "name": notebook, "type": "notebook", "kernel": {"name": KERNEL["name"]}}
-            kernel = _asked(f"{address}/api/sessions?token={token}", session)["kernel"]["id"]
+            kernel = _request(f"{address}/api/sessions?token={token}", session)["kernel"]["id"]
             yield f"{address}/lab/tree/{notebook}?token={token}"
-            _asked(f"{address}/api/kernels/{kernel}?token={token}", method="DELETE")
+            _request(f"{address}/api/kernels/{kernel}?token={token}", method="DELETE")
         finally:
             server.kill()
             server.wait()
@@ -99,7 +99,7 @@ def _until_it_answers(address: str, log: Path, server: subprocess.Popen[bytes]) 
     end = time.monotonic() + PATIENCE
     while True:
         try:
-            _asked(address)
+            _request(address)
         except urllib.error.URLError:
             assert server.poll() is None, log.read_text()
             assert time.monotonic() < end, log.read_text()
@@ -108,7 +108,7 @@ def _until_it_answers(address: str, log: Path, server: subprocess.Popen[bytes]) 
             return
 
 
-def _asked(address: str, content: Any = None, method: str | None = None) -> Any:
+def _request(address: str, content: Any = None, method: str | None = None) -> Any:
     data = None if content is None else json.dumps(content).encode()
     with urllib.request.urlopen(urllib.request.Request(address, data, method=method), timeout=PATIENCE) as answer:
         return json.loads(answer.read() or "null")

@@ -20,7 +20,7 @@ STEPS: Final = 200
 """Parts of a view's side, in which a border on a sphere is straight."""
 
 
-def seen(size: int, project: Callable[[Any], Any], unproject: Callable[[Any], Any], *, is_curved: bool) -> Any:
+def draw_exactly(size: int, project: Callable[[Any], Any], unproject: Callable[[Any], Any], *, is_curved: bool) -> Any:
     """The exact picture on white of a view that the map fills; `project` and `unproject` take lists of pairs."""
     along = np.linspace(-RIM, size + RIM, 33)
     low, high = np.full_like(along, -RIM), np.full_like(along, size + RIM)

@@ -69,7 +69,7 @@ def prepare(folder: Path) -> None:
     elements().save(folder / "elements.ktx2")
     sheets().save(folder / "sheets.ktx2")
     vexture.atlas([SHAPES / f"{name}.svg" for name in ATLAS]).save(folder / "atlas.ktx2")
-    inks = [_inked(name, *ink) for name, ink in INKS.items()]
+    inks = [_ink_shape(name, *ink) for name, ink in INKS.items()]
     vexture.convert(inks[0]).save(folder / "ink.ktx2")
     vexture.atlas(inks).save(folder / "inks.ktx2")
     vexture.convert(drawing("duck"), encoding="thesis").save(folder / "thesis")
@@ -81,7 +81,7 @@ def prepare(folder: Path) -> None:
         )
 
 
-def _inked(name: str, shape: str, color: int) -> Drawing:
+def _ink_shape(name: str, shape: str, color: int) -> Drawing:
     paint = Paint(((color >> 16) / 255, (color >> 8 & 255) / 255, (color & 255) / 255))
     return Drawing(tuple(replace(path, paint=paint) for path in drawing(shape).paths), name=name)
 
@@ -140,7 +140,7 @@ def exact(name: str, size: int = 512, to_unit: ArrayLike | None = None) -> Pictu
     return _exact(name, size, None if to_unit is None else tuple(np.ravel(to_unit).tolist()))
 
 
-def tiled(name: str, size: int, to_unit: ArrayLike, tiles: range) -> Picture:
+def tiled_coverage(name: str, size: int, to_unit: ArrayLike, tiles: range) -> Picture:
     """Exact coverage by a drawing that is repeated."""
     pictures = []
     for x in tiles:
@@ -157,7 +157,7 @@ def linear(encoded: ArrayLike) -> Picture:
     return np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
 
 
-def encoded(value: ArrayLike) -> Picture:
+def encode_srgb(value: ArrayLike) -> Picture:
     """To sRGB."""
     value = np.asarray(value, float)
     return np.where(value <= 0.0031308, 12.92 * value, 1.055 * np.maximum(value, 1e-9) ** (1 / 2.4) - 0.055)

@@ -20,15 +20,15 @@ class PagePool:
         self._browser = browser
         self._idle: dict[str, list[Any]] = defaultdict(list)
 
-    def take(self, size: tuple[int, int], options: dict[str, Any], kept: str = "") -> Any:
-        """Page of a size; ``page.errors`` is the list of the errors of its scripts. `kept` is the address of a page."""
-        key = repr((kept, sorted(options.items())))
-        page = self._idle[key].pop() if self._idle[key] else self._new(key, kept, options)
+    def take(self, size: tuple[int, int], options: dict[str, Any], address: str = "") -> Any:
+        """Page of a size; ``page.errors`` is the list of the errors of its scripts. `address` is that of a page."""
+        key = repr((address, sorted(options.items())))
+        page = self._idle[key].pop() if self._idle[key] else self._new(key, address, options)
         page.set_viewport_size({"width": size[0], "height": size[1]})
         page.set_default_timeout(PATIENCE)
         page.emulate_media(color_scheme="light")
         page.context.clear_cookies()
-        if not kept:
+        if not address:
             page.session.send("Network.clearBrowserCache")
         return page
 
@@ -40,13 +40,13 @@ class PagePool:
             page.errors = []
             self._idle[page.key].append(page)
 
-    def _new(self, key: str, kept: str, options: dict[str, Any]) -> Any:
+    def _new(self, key: str, address: str, options: dict[str, Any]) -> Any:
         context = self._browser.new_context(device_scale_factor=1, **options)
         page = context.new_page()
-        page.key, page.kept, page.errors = key, bool(kept), []
+        page.key, page.kept, page.errors = key, bool(address), []
         page.session = context.new_cdp_session(page)
         page.on("pageerror", lambda error: page.errors.append(str(error)))
         page.on("console", lambda message: page.errors.append(message.text) if message.type == "error" else None)
-        if kept:
-            page.goto(kept)
+        if address:
+            page.goto(address)
         return page

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import ROOT, WEB, served
+from browser import ROOT, WEB, serve_folder
 from PIL import Image
 
 from vexture.base.errors import VextureError
@@ -47,7 +47,7 @@ def package(name: str) -> Path:
     """Where a package lies that the example uses and web/ does not, in the version of the example."""
     version = json.loads((EXAMPLE / "package.json").read_text(encoding="utf-8"))["devDependencies"][name]
     try:
-        return Path(corpora.Package(name, version, "").installed())
+        return Path(corpora.Package(name, version, "").installed_folder())
     except VextureError as error:
         pytest.skip(str(error))
 
@@ -86,7 +86,7 @@ def test_counties_are_coloured_anew_hovered_and_picked(
     topology = tmp_path / "topology.json"
     topology.write_text(json.dumps(four_counties()), encoding="utf-8")
     west, east = (240, 300), (400, 180)
-    with served(built(tmp_path, topology)) as address:
+    with serve_folder(built(tmp_path, topology)) as address:
         page = open_page(f"{address}/index.html", SIZE, reduced_motion="reduce")
         page.wait_for_function("window.counties")
         assert page.locator("#play").text_content() == "Play"
@@ -109,7 +109,7 @@ def test_counties_are_coloured_anew_hovered_and_picked(
 
 @pytest.mark.slow  # converts all counties of us-atlas
 def test_all_counties(tmp_path: Path, chromium: Any, open_page: Callable[..., Any]) -> None:
-    with served(built(tmp_path, packages=("topojson-client", "us-atlas"))) as address:
+    with serve_folder(built(tmp_path, packages=("topojson-client", "us-atlas"))) as address:
         page = open_page(f"{address}/index.html", SIZE, reduced_motion="reduce")
         page.wait_for_function("window.counties")
         assert page.evaluate("counties.texture.roots[0].style.elements.length") == 3139

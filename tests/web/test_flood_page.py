@@ -8,7 +8,7 @@ from typing import Any
 import flood_page
 import numpy as np
 import pytest
-from browser import served
+from browser import serve_folder
 from flood_seen import DEEP, PATIENCE, SMALL, WIDE, flat, on_screen, view
 from PIL import Image
 from playwright.sync_api import Page, expect
@@ -335,7 +335,7 @@ def test_new_steps_of_a_server_become_steps(open_page: Callable[..., Any], tmp_p
     shapes.mkdir()
     site = tmp_path / "site"
     site.mkdir()
-    with serving(shapes) as server, served(site) as address:
+    with serving(shapes) as server, serve_folder(site) as address:
         for name in ("flood%2F00", "flood%2F01"):
             assert server.put(name, texture(0.0))[0] in (200, 201)
         scene = flood_page.scene(1)

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import served
+from browser import serve_folder
 from mask_page import NEWEST, decode, drawing
 
 import vexture
-from folded import Numbers, errors
+from fold_reference import Numbers, errors
 from vexture.fold.fold import Fold, Kind
 from vexture.fold.shore import shore_fold
 from vexture.texture.texture import Texture
@@ -39,7 +39,7 @@ def address(chromium: Any, mask_folder: Path, tmp_path_factory: pytest.TempPathF
         (folder / file.name).symlink_to(file)
     for name, fold in folds().items():
         (folder / f"{name}.fold.ktx2").write_bytes(fold.to_ktx2())
-    with served(folder) as url:
+    with serve_folder(folder) as url:
         yield url
 
 

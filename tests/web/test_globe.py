@@ -36,7 +36,7 @@ def folder(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def address(folder: Path) -> Iterator[str]:
-    with tile_pyramid.served(folder) as url:
+    with tile_pyramid.serve_tiles(folder) as url:
         yield url
 
 
@@ -105,7 +105,7 @@ def test_edges_are_exact(height: float, page: Any) -> None:
     })"""
     unproject = """some => some.map(([x, y]) =>
         globe.placeUnder({ x: 2 * x / innerWidth - 1, y: 1 - 2 * y / innerHeight }, camera))"""
-    truth = map_truth.seen(
+    truth = map_truth.draw_exactly(
         SIZE, lambda some: page.evaluate(project, some), lambda some: page.evaluate(unproject, some), is_curved=True
     )
     assert map_truth.edges(picture, truth) < 0.3
@@ -120,7 +120,7 @@ def test_no_frame_is_blank_once_the_parent_is_there(folder: Path, open_page: Cal
         ]
         for k in range(24)
     ]
-    with tile_pyramid.served(folder, iter(lambda: float(chance.uniform(0.0, 0.2)), None)) as url:
+    with tile_pyramid.serve_tiles(folder, iter(lambda: float(chance.uniform(0.0, 0.2)), None)) as url:
         page = open_page(f"{url}/page.html?tiles.json", (SIZE, SIZE))
         page.wait_for_function("window.globe")
         blank, waited, last = page.evaluate(

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import bundle, served
+from browser import bundle, serve_folder
 from click.testing import CliRunner
 from mask_page import NEWEST, THREES, decode, distance
 
 import vexture
-from room import glb, room
+from room_model import glb_content, make_room
 from vexture.cli.main import main
 
 HALF_STEP = 0.6  # of 255: an 8-bit framebuffer rounds
@@ -35,13 +35,13 @@ INK = 0xC03020
 
 def unlit(**attributes: int) -> bytes:
     """The model with materials that no light falls on; `attributes` are those of its floor."""
-    document, binary = room(extensionsUsed=["KHR_materials_unlit"])
+    document, binary = make_room(extensionsUsed=["KHR_materials_unlit"])
     for material in document["materials"]:
         material["extensions"] = {"KHR_materials_unlit": {}}
     document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = [*linear(), 1]
     if attributes:
         document["meshes"][0]["primitives"][0]["attributes"] = attributes
-    return glb(document, binary)
+    return glb_content(document, binary)
 
 
 def linear() -> list[float]:
@@ -64,7 +64,17 @@ def prepare(folder: Path) -> None:
     vexture.convert(folder / "red.svg").save(folder / "red.ktx2")
     for suffix in ("svg", "ktx2"):
         source, target = folder / f"red.{suffix}", folder / f"of-{suffix}.glb"
-        arguments = ["gltf", folder / "room.glb", "--material", "Sign", "--drawing", source, *painted[4:], "-o", target]
+        arguments = [
+            "gltf",
+            folder / "room.glb",
+            "--material",
+            "Sign",
+            "--drawing",
+            source,
+            *painted[4:],
+            "-o",
+            target,
+        ]
         outcome = CliRunner().invoke(main, list(map(str, arguments)))
         assert outcome.exit_code == 0, outcome.output
     second = vexture.read_model(unlit(POSITION=0, NORMAL=1, TEXCOORD_1=2))
@@ -83,7 +93,7 @@ def folder(made_once: Callable[..., Path]) -> Path:
 
 @pytest.fixture(scope="module")
 def address(chromium: Any, folder: Path) -> Iterator[str]:
-    with served(folder) as url:
+    with serve_folder(folder) as url:
         yield url
 
 

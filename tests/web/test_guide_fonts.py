@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import bundle, served
+from browser import bundle, serve_folder
 from PIL import Image
 
 import vexture
@@ -48,7 +48,7 @@ def test_the_guide_to_fonts_does_what_it_says(tmp_path: Path, open_page: Callabl
         program.write(LACKING)
     bundle(folder / "text.js", folder / "bundle.js")
     (folder / "index.html").write_text(PAGE, encoding="utf-8")
-    with served(folder) as address:
+    with serve_folder(folder) as address:
         page = open_page(f"{address}/index.html", SIZE)
         page.wait_for_selector("canvas")
         shown = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("L")) / 255.0

@@ -45,7 +45,7 @@ def _linked(folder: Path, names: list[str]) -> None:
     (modules / ".bin" / "esbuild").symlink_to(WEB / "node_modules" / ".bin" / "esbuild")
     for name in names:
         try:
-            elsewhere = {"vexture": lambda: WEB, "world-atlas": corpora["Package"](name, "2.0.2", "").installed}
+            elsewhere = {"vexture": lambda: WEB, "world-atlas": corpora["Package"](name, "2.0.2", "").installed_folder}
             found = elsewhere.get(name, lambda name=name: WEB / "node_modules" / name)()
         except VextureError as error:
             pytest.skip(str(error))

@@ -146,7 +146,7 @@ def test_the_guide_to_three_js_does_what_it_says(
 
         for block in blocks:
             if block.language == "js" and block.title is None:
-                (reader.folder / "main.js").write_text(main + reader.ported(block.text), encoding="utf-8")
+                (reader.folder / "main.js").write_text(main + reader.replace_ports(block.text), encoding="utf-8")
                 page = show(block.section)
                 continue
             reader.take(block)

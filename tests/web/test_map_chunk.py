@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from browser import bundle, served
+from browser import bundle, serve_folder
 
 import vexture
 from vexture.drawing.drawing import Drawing
@@ -27,7 +27,7 @@ def address(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator
     bundle(PAGE, folder / "page.js", is_split=True)
     text = '<!doctype html><link rel="icon" href="data:,"><body><script type="module" src="page.js"></script>'
     (folder / "page.html").write_text(text, encoding="utf-8")
-    with served(folder) as url:
+    with serve_folder(folder) as url:
         yield url
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import served
+from browser import serve_folder
 from mask_page import (
     NEWEST,
     SHADES,
@@ -17,7 +17,7 @@ from mask_page import (
     draw,
     drawing,
     elements,
-    encoded,
+    encode_srgb,
     linear,
     parts,
 )
@@ -36,7 +36,7 @@ SHADED: dict[str, Any] = ALONE | {"texture": "shades"}
 
 @pytest.fixture(scope="module")
 def address(chromium: Any, mask_folder: Path) -> Iterator[str]:
-    with served(mask_folder) as url:
+    with serve_folder(mask_folder) as url:
         yield url
 
 
@@ -111,7 +111,7 @@ def test_light_mixes_on_lit_surfaces(page: Any, screenshot: Callable[..., Path])
     alpha = exact()[..., 3:]
     straight = linear(exact()[..., :3] / np.maximum(alpha, 1e-6))
     averaged = linear(np.array([0x40, 0x80, 0xA0]) / 255) * (1.0 - alpha) + straight * alpha
-    wanted = {True: encoded(mixed), False: encoded(averaged), None: encoded(averaged)}
+    wanted = {True: encode_srgb(mixed), False: encode_srgb(averaged), None: encode_srgb(averaged)}
     differ = np.abs(wanted[True] - wanted[False]).max(axis=2) > 0.05
     assert differ.sum() > 100
     for chosen, expected in wanted.items():

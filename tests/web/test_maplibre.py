@@ -20,7 +20,7 @@ EXACT = 0.3
 @pytest.fixture(scope="module")
 def slow_address(map_folder: Path) -> Iterator[str]:
     chance = np.random.default_rng(20)
-    with tile_pyramid.served(map_folder, iter(lambda: float(chance.uniform(0.0, 0.2)), None)) as url:
+    with tile_pyramid.serve_tiles(map_folder, iter(lambda: float(chance.uniform(0.0, 0.2)), None)) as url:
         yield url
 
 
@@ -71,7 +71,7 @@ def test_a_tilted_map_and_a_globe_have_exact_edges(
 
     project = asked("const { x, y } = map.project(one); return [x, y];")
     unproject = asked("const { lng, lat } = map.unproject(one); return [lng, lat];")
-    truth = map_truth.seen(SIZE[0], project, unproject, is_curved="projection" in view)
+    truth = map_truth.draw_exactly(SIZE[0], project, unproject, is_curved="projection" in view)
     assert map_truth.edges(pixels(page), truth) < EXACT
 
 

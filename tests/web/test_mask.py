@@ -6,8 +6,21 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import served
-from mask_page import ATLAS, INKS, NEWEST, THREES, decode, distance, draw, drawing, encoded, exact, linear, tiled
+from browser import serve_folder
+from mask_page import (
+    ATLAS,
+    INKS,
+    NEWEST,
+    THREES,
+    decode,
+    distance,
+    draw,
+    drawing,
+    encode_srgb,
+    exact,
+    linear,
+    tiled_coverage,
+)
 
 import vexture
 
@@ -29,7 +42,7 @@ MATERIALS = {
 
 @pytest.fixture(scope="module")
 def address(chromium: Any, mask_folder: Path) -> Iterator[str]:
-    with served(mask_folder) as url:
+    with serve_folder(mask_folder) as url:
         yield url
 
 
@@ -101,12 +114,12 @@ def test_inside_is_another_colour_or_map(page: Any, screenshot: Callable[..., Pa
     coverage = exact("duck")
     colors = draw(page, parameters={"color": 0x102060}, mask={"mode": "mix", "color": 0xF0E000})
     expected = linear(np.array([16, 32, 96]) / 255) * (1 - coverage) + linear(np.array([240, 224, 0]) / 255) * coverage
-    assert distance(colors, encoded(expected)) <= HALF_STEP
+    assert distance(colors, encode_srgb(expected)) <= HALF_STEP
     lit = {"material": "MeshStandardMaterial"}
     outside, inside = (draw(page, parameters={"map": seed}, **lit) for seed in (3, 7))
     mixed = draw(page, parameters={"map": 3}, mask={"mode": "mix", "map": 7}, **lit)
     screenshot(page.locator("canvas"))
-    assert distance(mixed, encoded(linear(outside) * (1 - coverage) + linear(inside) * coverage)) <= 2 * HALF_STEP
+    assert distance(mixed, encode_srgb(linear(outside) * (1 - coverage) + linear(inside) * coverage)) <= 2 * HALF_STEP
 
 
 def test_a_drawing_is_painted_in_its_colours(page: Any, screenshot: Callable[..., Path]) -> None:
@@ -127,7 +140,7 @@ def test_a_drawing_is_painted_in_its_colours(page: Any, screenshot: Callable[...
     alpha = layers[..., 3:].astype(float)
     straight = linear(layers[..., :3] / np.maximum(alpha, 1e-6))
     expected = linear(np.array([0x40, 0x80, 0xA0]) / 255) * (1 - alpha) + straight * alpha
-    assert distance(own, encoded(expected)) <= HALF_STEP
+    assert distance(own, encode_srgb(expected)) <= HALF_STEP
     lit = draw(page, material="MeshStandardMaterial", mask={"mode": "paint"}, texture="paint")
     screenshot(page.locator("canvas"), "lit")
     plain = draw(page, material="MeshStandardMaterial")
@@ -169,7 +182,7 @@ def test_a_repeated_shape_has_no_seams(page: Any, screenshot: Callable[..., Path
         assert full.max() <= 1 / 255
         repeated = draw(page, parameters=ink, mask=mask, texture="border")
         screenshot(page.locator("canvas"), f"{scale}")
-        assert distance(repeated, 1.0 - tiled("border", 512, view, tiles)) <= HALF_STEP
+        assert distance(repeated, 1.0 - tiled_coverage("border", 512, view, tiles)) <= HALF_STEP
     tiny = draw(page, parameters=ink, mask={"wrap": "repeat", "transform": [900, 0, 0, 0, 900, 0, 0, 0, 1]})
     assert distance(tiny, np.full_like(tiny, 1.0 - exact("duck").mean())) <= 1.0
     magnified = [0.0001, 0, 0.99995, 0, 0.0001, 0.99995, 0, 0, 1]
@@ -230,7 +243,9 @@ def test_a_click_on_a_hole_misses(page: Any) -> None:
     check_hits(page.evaluate("config => page.rays(config, 64)", inverted), 1.0 - exact("holes"))
     repeated = {"texture": "border", "mask": {"wrap": "repeat", "transform": [2, 0, 0.3, 0, 2, 0.7, 0, 0, 1]}}
     view = np.array([[2, 0, 0.3], [0, 2, 0.7]]) @ np.vstack([FIT, [0, 0, 1]])
-    check_hits(page.evaluate("config => page.rays(config, 64)", repeated), tiled("border", 512, view, range(4)))
+    check_hits(
+        page.evaluate("config => page.rays(config, 64)", repeated), tiled_coverage("border", 512, view, range(4))
+    )
     surface = {"texture": "duck", "mask": {"mode": "mix"}}
     assert set(page.evaluate("config => page.rays(config, 8)", surface)) == {1}
     painted = {"texture": "paint", "material": "VectorMaterial", "parameters": {"mode": "paint"}}

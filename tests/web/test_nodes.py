@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import ROOT, bundle, served
+from browser import ROOT, bundle, serve_folder
 from numpy.typing import NDArray
 
 import vexture
-from folded import errors
+from fold_reference import errors
 from vexture.fold.fold import Fold
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.cpu import render_cpu
@@ -69,7 +69,7 @@ def address(chromium: Any, made_once: Callable[..., Path]) -> Iterator[str]:
         icon = '<!doctype html><link rel="icon" href="data:,"><body>'
         (folder / "nodes.html").write_text(f'{icon}<script type="module" src="nodes.js"></script>', encoding="utf-8")
 
-    with served(made_once("nodes", fill)) as url:
+    with serve_folder(made_once("nodes", fill)) as url:
         yield url
 
 

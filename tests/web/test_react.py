@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import WEB, bundle, served
+from browser import WEB, bundle, serve_folder
 from mask_page import Picture, decode, distance, exact
 
 import vexture
@@ -34,7 +34,7 @@ def prepare(folder: Path) -> None:
 
 @pytest.fixture(scope="module")
 def address(chromium: Any, made_once: Callable[..., Path]) -> Iterator[str]:
-    with served(made_once("react", prepare)) as url:
+    with serve_folder(made_once("react", prepare)) as url:
         yield url
 
 

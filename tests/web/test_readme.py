@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import ROOT, bundle, served
+from browser import ROOT, bundle, serve_folder
 from PIL import Image
 
 import vexture
@@ -50,7 +50,7 @@ def test_the_readme_draws_a_duck(
         '<!doctype html><link rel="icon" href="data:,"><body><script type="module" src="bundle.js"></script>'
     )
     vexture.convert(ROOT / "examples" / "shapes" / "duck.svg").save(tmp_path / "duck.ktx2")
-    with served(tmp_path) as address:
+    with serve_folder(tmp_path) as address:
         page = open_page(address)
         page.wait_for_selector("canvas")
         # it turns: once in a while its edge is all that is seen

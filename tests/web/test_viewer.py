@@ -29,7 +29,7 @@ def test_pixels_are_those_of_exact_coverage(
     page = ready(open_page, viewed.url + "?bare")
     center = (0.5, 0.5) if zoom == 1 else point_on_outline(viewed.drawing)
     show(page, center=center, zoom=zoom)
-    expected = viewed.expected(view_matrix(center, zoom, SIZE))
+    expected = viewed.expected_picture(view_matrix(center, zoom, SIZE))
     assert np.ptp(expected) > 20, "nothing is to be seen there"
     error = pixels(page) - expected
     mean, largest = np.abs(error).mean(), np.abs(error).max()
@@ -54,7 +54,7 @@ def test_pixels_of_a_fine_screen(viewer_pages: dict[str, Viewed], chromium: Any)
     page = context.new_page()
     page.goto(viewer_pages["duck"].url + "?bare")
     page.evaluate("vexture.viewer.ready")
-    error = pixels(page) - viewer_pages["duck"].expected(view_matrix((0.5, 0.5), 1, SIZE))
+    error = pixels(page) - viewer_pages["duck"].expected_picture(view_matrix((0.5, 0.5), 1, SIZE))
     context.close()
     assert np.abs(error).mean() <= 0.6
     assert np.abs(error).max() <= 4
@@ -179,7 +179,7 @@ def test_rivals_stand_in_step_with_the_picture(
         own = 255.0 * np.array(viewed.drawing.paths[0].paint.color)  # that of the drawing beside it
         expected = 255.0 + cover[..., None] * (own - 255.0)
     else:
-        expected = viewed.expected(matrix, (width, height))
+        expected = viewed.expected_picture(matrix, (width, height))
     expected = expected[60 : height - 60, width // 2 + 30 : width]
     assert np.ptp(expected) > 200
     print(f"\n{rival} {zoom}x: {np.abs(seen - expected).mean():.3f}")
@@ -228,7 +228,7 @@ def test_raster_of_equal_bytes(
     drawn(page)
     screenshot(page)
     width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
-    exact = viewer_pages["duck"].expected(view_matrix((0.5, 0.5), 1, (width, height)), (width, height))
+    exact = viewer_pages["duck"].expected_picture(view_matrix((0.5, 0.5), 1, (width, height)), (width, height))
     error = np.abs(pixels(page)[60 : height - 60, :width] - exact[60 : height - 60])
     left, right = error[:, : width // 2 - 30].mean(), error[:, width // 2 + 30 :].mean()
     assert left <= 0.1

@@ -262,7 +262,7 @@ def test_copy_picture_gives_the_canvas_as_png(viewer_pages: dict[str, Viewed], o
     )
     picture = np.asarray(Image.open(io.BytesIO(bytes(content))).convert("RGB")).astype(np.float64)
     height, width = picture.shape[:2]
-    expected = viewer_pages["flag"].expected(view_matrix((0.5, 0.5), 1.7, (width, height)), (width, height))
+    expected = viewer_pages["flag"].expected_picture(view_matrix((0.5, 0.5), 1.7, (width, height)), (width, height))
     assert np.abs(picture - expected).mean() <= 0.6
 
 
@@ -313,7 +313,7 @@ def test_shapes_are_chosen_from_a_list(
     drawn(page)
     screenshot(page)
     width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
-    expected = viewer_pages["flag"].expected(view_matrix((0.5, 0.5), 1, (width, height)), (width, height))
+    expected = viewer_pages["flag"].expected_picture(view_matrix((0.5, 0.5), 1, (width, height)), (width, height))
     assert np.abs(pixels(page)[:500, :width] - expected[:500]).mean() <= 0.6
 
 
@@ -331,7 +331,7 @@ def test_a_lost_context_is_said_and_restored(viewer_pages: dict[str, Viewed], op
     page.wait_for_function("document.querySelector('.notes').textContent === ''")
     drawn(page)
     width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
-    expected = viewer_pages["duck"].expected(view_matrix((0.5, 0.5), 2, (width, height)), (width, height))
+    expected = viewer_pages["duck"].expected_picture(view_matrix((0.5, 0.5), 2, (width, height)), (width, height))
     assert np.ptp(expected[:380, :500]) > 200
     assert np.abs(pixels(page)[:380, :500] - expected[:380, :500]).mean() <= 0.6
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import httpx
 import pytest
-from browser import ROOT, WEB, served
+from browser import ROOT, WEB, serve_folder
 
 import vexture
 from guides import free_port
@@ -182,7 +182,7 @@ def test_a_drawing_of_one_colour_is_drawn_in_it(project: Project, open_page: Cal
     (texture,) = project.built()
     (root,) = vexture.load(texture).roots
     assert (root.is_map, root.paint and root.paint.hex) == (False, "#ff0000")
-    with served(project.folder / "dist") as address:
+    with serve_folder(project.folder / "dist") as address:
         shown = open_page(address)
         shown.wait_for_function("window.colors")
         assert shown.evaluate("colors") == [[255, 0, 0, 255], [255, 255, 255, 255]]

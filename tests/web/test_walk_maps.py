@@ -13,7 +13,7 @@ from walk_node import by_node, found_at, points
 
 import vexture
 from degenerate import drawing
-from planar import coloured, widened
+from planar import colour_paths, widen_paints
 from vexture.base.errors import FormatError
 from vexture.drawing.drawing import Drawing
 from vexture.texture.texture import Texture
@@ -28,7 +28,7 @@ def samples() -> Iterator[Drawing]:
     """Drawings in colours: an example, and outlines that coincide, touch and cross."""
     yield vexture.read_svg(ROOT / "web" / "test" / "fixtures" / "badge.svg")
     for seed in (3, 8):
-        yield coloured(Drawing(drawing(seed).paths + drawing(seed + 100).paths), np.random.default_rng(seed))
+        yield colour_paths(Drawing(drawing(seed).paths + drawing(seed + 100).paths), np.random.default_rng(seed))
 
 
 def named(part: int, of: Drawing) -> Drawing:
@@ -39,7 +39,7 @@ def named(part: int, of: Drawing) -> Drawing:
 def test_the_same_paints_are_found(tmp_path: Path, is_wide: bool) -> None:
     """Of three drawings; or of the last one, with numbers of 32 bits."""
     texture = vexture.atlas([named(*one) for one in enumerate(samples())][2 * is_wide :], split="faces")
-    texture = widened(texture) if is_wide else texture
+    texture = widen_paints(texture) if is_wide else texture
     path, at = texture.save(tmp_path / "maps.ktx2"), points()
     _, _, maps = map_decoder.read_maps(path.read_bytes())
     for planar, found in zip(maps, found_at(path, at, tmp_path), strict=True):

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import bundle, served
+from browser import bundle, serve_folder
 from mask_page import NEWEST, THREES, decode, distance
 
 import vexture
-from folded import errors
+from fold_reference import errors
 from vexture.drawing.drawing import Drawing
 from vexture.fold.fold import Fold
 from vexture.fold.shore import shore_fold
@@ -66,7 +66,7 @@ def address(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator
         bundle(PAGE, folder / f"{three}.js", three)
         text = f'<!doctype html><link rel="icon" href="data:,"><script type="module" src="{three}.js"></script>'
         (folder / f"{three}.html").write_text(text, encoding="utf-8")
-    with served(folder) as url:
+    with serve_folder(folder) as url:
         yield url
 
 

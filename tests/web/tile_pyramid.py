@@ -176,7 +176,7 @@ class _Ranges(http.server.SimpleHTTPRequestHandler):
 
 
 @contextmanager
-def served(folder: Path, delays: Iterator[float] | None = None) -> Iterator[str]:
+def serve_tiles(folder: Path, delays: Iterator[float] | None = None) -> Iterator[str]:
     """Address of a folder, with ranges; `delays` are the seconds after which each tile is sent."""
     slow = type("_Slow", (_Ranges,), {"delays": delays or repeat(0.0)})
     handler = functools.partial(slow, directory=str(folder))

@@ -34,7 +34,7 @@ class Viewed:
     def __init__(self, drawing: Any, texture: Any, url: str) -> None:
         self.drawing, self.texture, self.url = drawing, texture, url
 
-    def expected(self, matrix: NDArray[np.float64], size: tuple[int, int] = SIZE) -> NDArray[np.float64]:
+    def expected_picture(self, matrix: NDArray[np.float64], size: tuple[int, int] = SIZE) -> NDArray[np.float64]:
         """Picture on white in 0..255, from the drawing itself."""
         if self.texture.roots[0].is_map:
             exact = render_exact_colours(self.drawing, size, matrix).astype(np.float64)

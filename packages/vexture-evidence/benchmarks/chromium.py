@@ -1,4 +1,4 @@
-"""A real browser with WebGL 2 on Mesa's llvmpipe, pages that are served to it, and bundles of JavaScript for them."""
+"""A real browser with WebGL 2 on Mesa's llvmpipe, a server for its pages, and bundles of JavaScript for them."""
 
 import functools
 import http.server
@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-__all__ = ["CHROMIUM", "FLAGS", "ROOT", "WEB", "bundle", "chromium", "served"]
+__all__ = ["CHROMIUM", "FLAGS", "ROOT", "WEB", "bundle", "chromium", "serve_folder"]
 
 ROOT: Final = Path(__file__).parents[3]
 WEB: Final = ROOT / "web"
@@ -37,7 +37,7 @@ ENTRIES: Final = ("globe", "gltf", "maplibre", "react", "thesis", "water", "webg
 
 @contextmanager
 def chromium(*flags: str) -> Iterator[Any]:
-    """The browser, while it runs, with more flags."""
+    """Run the browser, with further flags, and yield it."""
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as started:
@@ -52,12 +52,12 @@ class _Quiet(http.server.SimpleHTTPRequestHandler):
     extensions_map = {**http.server.SimpleHTTPRequestHandler.extensions_map, ".js": "text/javascript"}  # noqa: RUF012
 
     def log_message(self, *arguments: object) -> None:
-        """Say nothing."""
+        """Log nothing."""
 
 
 @contextmanager
-def served(folder: Path) -> Iterator[str]:
-    """Address of a folder, without a slash at its end, while it is served."""
+def serve_folder(folder: Path) -> Iterator[str]:
+    """Serve a folder, and yield its address without a slash at the end."""
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(_Quiet, directory=str(folder)))
     thread = threading.Thread(target=server.serve_forever, daemon=True)
     thread.start()

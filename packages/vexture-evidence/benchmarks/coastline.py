@@ -1,4 +1,4 @@
-"""How fast the whole shoreline of the world becomes one packed texture, and how much memory that takes.
+"""Time and memory to convert the whole shoreline of the world to one packed texture.
 
     python packages/vexture-evidence/benchmarks/coastline.py --data FOLDER [--tolerance 2e-5] [--repeat 3]
 
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from packed_conversion import peak_memory
 from report import table, write_json
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture.drawing.contours import ring_contours
 from vexture.drawing.drawing import Drawing, FillRule
 from vexture.drawing.drawing import Path as Shape
@@ -112,9 +112,9 @@ def main() -> None:
         raise SystemExit("two runs gave different files")
     machine = machine_facts()
     print(table(("stage", "seconds"), [[name, f"{middle[name]:.2f}"] for name in (*STAGES, "seconds")]))
-    print("\n".join(["", judgement(reached), "", machine_line(machine)]))
+    print("\n".join(["", target_table(reached), "", machine_line(machine)]))
     given = {"tolerance": arguments.tolerance, "repeat": arguments.repeat}
-    print(write_json("coastline", {"machine": machine, **given, "runs": runs, "targets": judged(reached)}))
+    print(write_json("coastline", {"machine": machine, **given, "runs": runs, "targets": target_facts(reached)}))
 
 
 if __name__ == "__main__":

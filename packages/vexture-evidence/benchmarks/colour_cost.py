@@ -1,4 +1,4 @@
-"""What a pixel of a planar map costs beside stacked layers: texels read, and time of the shader.
+"""The cost of a pixel in a planar map beside stacked layers: texels read, and time of the shader.
 
     python packages/vexture-evidence/benchmarks/colour_cost.py [--quick] [--seed 1]
 
@@ -21,7 +21,7 @@ import corpora
 from colours import choropleth, clip_art, discs
 from report import cell, table, write_json
 from speed import TEXT, draws_for
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture.base.errors import SourceWarning
 from vexture.base.tolerance import ROUND, UNSEEN
 from vexture.bezier.convert import ellipse_cubics
@@ -30,14 +30,14 @@ from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Paint
 from vexture.svg.read import read_svg
 from vexture.tree.planar.sheets import sheets_of
-from vexture_evidence.measures.colour_fetches import Sheets, layer_boxes, pixel_fetches
+from vexture_evidence.measures.colour_fetches import SheetStack, layer_boxes, pixel_fetches
 from vexture_evidence.measures.colour_programs import color_target, map_source, sheets_program, silhouette_program
 from vexture_evidence.measures.gpu_compiler import ToolchainError, toolchain
 from vexture_evidence.measures.gpu_model import FAMILIES
 from vexture_evidence.measures.machine import machine_facts, machine_line
 from vexture_evidence.measures.programs import Program, driver, seconds
 
-__all__ = ["Set"]
+__all__ = ["CostSet"]
 
 READ_AT: Final = 256
 """Pixels across the picture whose texels are counted."""
@@ -57,7 +57,7 @@ LARGE_MAP: Final = "Voronoi 20,000"
 DENSE: Final = ("300 discs", "800 rings", "hatching", "hairlines")
 
 
-class Set(NamedTuple):
+class CostSet(NamedTuple):
     """Drawings that share a row."""
 
     name: str
@@ -92,32 +92,32 @@ def svg(files: Sequence[Any]) -> list[Drawing]:
         return [read_svg(file) for file in files]
 
 
-def sets(quick: bool, seed: int) -> Iterator[Set]:
-    """Everything that is measured."""
+def sets(quick: bool, seed: int) -> Iterator[CostSet]:
+    """All sets that are measured."""
     red, green, blue = (Paint(tuple(row)) for row in np.eye(3).tolist())
     part = 5 if quick else 1
-    yield Set(EMOJI, svg(corpora.emoji(30 // part, seed)))
-    yield Set(COAT, svg([corpora.coat_of_arms()]))
-    yield Set(GLYPHS, corpora.glyphs(corpora.dejavu_sans(), TEXT))
-    yield Set(CLIP_ART, clip_art(30 // part, seed))
-    yield Set(DENSE[0], [discs(300 // part, seed)])
-    yield Set(DENSE[1], [rings(800 // part)])
+    yield CostSet(EMOJI, svg(corpora.emoji(30 // part, seed)))
+    yield CostSet(COAT, svg([corpora.coat_of_arms()]))
+    yield CostSet(GLYPHS, corpora.glyphs(corpora.dejavu_sans(), TEXT))
+    yield CostSet(CLIP_ART, clip_art(30 // part, seed))
+    yield CostSet(DENSE[0], [discs(300 // part, seed)])
+    yield CostSet(DENSE[1], [rings(800 // part)])
     crossing = [(np.cos(a), np.sin(a)) for a in (0.5, 2.1)]
-    yield Set(DENSE[2], [strokes(100 // part, crossing, 0.002, [Paint((0.0, 0.0, 0.0), 0.5)])])
-    yield Set(DENSE[3], [strokes(1000 // part, [(1.0, 0.0)], 0.0003, [red, green, blue])])
-    yield Set(LARGE_MAP, [choropleth(20_000 // part, seed)], has_layers=False)
+    yield CostSet(DENSE[2], [strokes(100 // part, crossing, 0.002, [Paint((0.0, 0.0, 0.0), 0.5)])])
+    yield CostSet(DENSE[3], [strokes(1000 // part, [(1.0, 0.0)], 0.0003, [red, green, blue])])
+    yield CostSet(LARGE_MAP, [choropleth(20_000 // part, seed)], has_layers=False)
 
 
-def converted(drawing: Drawing, one: Set) -> dict[str, Sheets]:
-    """The map or sheets of a drawing, and its layers."""
+def convert_both(drawing: Drawing, one: CostSet) -> dict[str, SheetStack]:
+    """Convert a drawing to its map or sheets, and to layers."""
     made = run(drawing, split="faces", restyle=one.name == GLYPHS)
     parts = [drawing] if len(made.trees) == 1 else [sheet.drawing for sheet in sheets_of(drawing, tolerance=UNSEEN)]
-    found = {"map": Sheets(made.texture, layer_boxes(parts))}
+    found = {"map": SheetStack(made.texture, layer_boxes(parts))}
     if one.name == GLYPHS:
-        found["layers"] = Sheets(run(drawing, split=None).texture, layer_boxes([drawing]))
+        found["layers"] = SheetStack(run(drawing, split=None).texture, layer_boxes([drawing]))
     elif one.has_layers:
         layers = run(drawing, split="paint")
-        found["layers"] = Sheets(layers.texture, layer_boxes(layers.drawing.layers()))
+        found["layers"] = SheetStack(layers.texture, layer_boxes(layers.drawing.layers()))
     return found
 
 
@@ -137,19 +137,19 @@ def times(programs: dict[str, Program], turns: int) -> dict[str, float]:
     return {name: median(taken) for name, taken in found.items()}
 
 
-def programs_of(one: Set, made: dict[str, Sheets]) -> dict[str, Program]:
-    """The programs that draw what was made."""
-    found = {"map": sheets_program(made["map"], is_flat=True)}
+def programs_of(one: CostSet, sheets: dict[str, SheetStack]) -> dict[str, Program]:
+    """The programs that draw these sheets."""
+    found = {"map": sheets_program(sheets["map"], is_flat=True)}
     if one.name == GLYPHS:
-        found["layers"] = silhouette_program(made["layers"].texture, is_flat=True)
+        found["layers"] = silhouette_program(sheets["layers"].texture, is_flat=True)
     elif one.has_layers:
-        found["layers"] = sheets_program(made["layers"], is_flat=True)
+        found["layers"] = sheets_program(sheets["layers"], is_flat=True)
     return found
 
 
-def set_facts(one: Set, turns: int, seed: int) -> dict[str, Any]:
+def set_facts(one: CostSet, turns: int, seed: int) -> dict[str, Any]:
     """All figures of a set, of maps and of layers."""
-    made = [converted(drawing, one) for drawing in one.drawings]
+    made = [convert_both(drawing, one) for drawing in one.drawings]
     kinds = list(made[0])
     timed = [times(programs_of(one, pair), turns) for pair in made]
     return {
@@ -164,9 +164,9 @@ def set_facts(one: Set, turns: int, seed: int) -> dict[str, Any]:
     }
 
 
-def over(one: dict[str, Any], what: str) -> float | None:
-    """Map over layers."""
-    return one[what]["map"] / one[what]["layers"] if "layers" in one[what] else None
+def map_over_layers(one: dict[str, Any], figure: str) -> float | None:
+    """Ratio of the map's figure to the layers'; None without layers."""
+    return one[figure]["map"] / one[figure]["layers"] if "layers" in one[figure] else None
 
 
 def cost_table(facts: Sequence[dict[str, Any]]) -> str:
@@ -176,35 +176,35 @@ def cost_table(facts: Sequence[dict[str, Any]]) -> str:
         for what, digits in (("texels", 0), ("fetches", 1), ("ns", 1)):
             layers = one[what].get("layers")
             row += [cell(float(one[what]["map"]), digits), cell(None if layers is None else float(layers), digits)]
-            row.append(cell(over(one, what), 3))
+            row.append(cell(map_over_layers(one, what), 3))
         rows.append(row)
     head = ("set", "drawings", "maps", "texels", "layers", "ratio", "read", "layers", "ratio", "ns", "layers", "ratio")
     return table(head, rows)
 
 
 def targets(facts: Sequence[dict[str, Any]]) -> list[Target]:
-    """What the issue asks of a pixel in colours."""
+    """Targets for a pixel in colours."""
     by_name = {one["name"]: one for one in facts}
     emoji, coat, art, large = (by_name[name] for name in (EMOJI, COAT, CLIP_ART, LARGE_MAP))
     found = [
         Target("texels read at 256 px, Voronoi 20,000", large["fetches"]["map"], 25.0, 15.0),
         Target("texels read at 256 px, coat of arms", coat["fetches"]["map"], 25.0, 10.0),
         Target("texels read at 256 px, gradients", art["fetches"]["map"], 20.0, 12.0),
-        Target("texels over layers, emoji", over(emoji, "texels"), 1.3, 0.9),
-        Target("time over layers, emoji", over(emoji, "ns"), 0.9, 0.5),
-        Target("time over layers, coat of arms", over(coat, "ns"), 0.1, 0.05),
-        Target("time of one colour over its coverage", over(by_name[GLYPHS], "ns"), 1.15, 1.0),
+        Target("texels over layers, emoji", map_over_layers(emoji, "texels"), 1.3, 0.9),
+        Target("time over layers, emoji", map_over_layers(emoji, "ns"), 0.9, 0.5),
+        Target("time over layers, coat of arms", map_over_layers(coat, "ns"), 0.1, 0.05),
+        Target("time of one colour over its coverage", map_over_layers(by_name[GLYPHS], "ns"), 1.15, 1.0),
     ]
     for name in DENSE:
         one = by_name[name]
         budget = max(2 * one["texels"]["layers"], LEAST_TEXELS)
-        found.append(Target(f"texels read over layers, {name}", over(one, "fetches"), 0.5, 0.25))
+        found.append(Target(f"texels read over layers, {name}", map_over_layers(one, "fetches"), 0.5, 0.25))
         found.append(Target(f"texels of their budget, {name}", one["texels"]["map"] / budget, 1.0, 1.0))
     return found
 
 
 def compiled_table() -> tuple[str, dict[str, Any]]:
-    """Instructions and registers of the map's shader, on GPUs that need not be there."""
+    """Instructions and registers of the map's shader, on GPUs that this machine need not have."""
     rows, facts = [], {}
     try:
         with toolchain() as tools:
@@ -213,7 +213,7 @@ def compiled_table() -> tuple[str, dict[str, Any]]:
                     for shaded in (False, True):
                         name = f"{'flat' if is_flat else 'any'}{', gradients' if shaded else ''}"
                         text = map_source(is_flat=is_flat, has_gradients=shaded)
-                        made = tools.compiled(name.replace(", ", "-"), text, family.name).statistics
+                        made = tools.compile_shader(name.replace(", ", "-"), text, family.name).statistics
                         facts[f"{kind}, {name}"] = dict(made)
                         shown = (made["Instructions"], made["VGPRs"], family.waves(made["VGPRs"]))
                         rows.append([kind, name, *map(str, shown)])
@@ -231,9 +231,9 @@ def main() -> None:
     turns = 1 if arguments.quick else TURNS
     facts = [set_facts(one, turns, arguments.seed) for one in sets(arguments.quick, arguments.seed)]
     reached, machine, (compiled, statistics) = targets(facts), machine_facts(), compiled_table()
-    print("\n\n".join([cost_table(facts), judgement(reached), compiled, driver() + "\n" + machine_line(machine)]))
+    print("\n\n".join([cost_table(facts), target_table(reached), compiled, driver() + "\n" + machine_line(machine)]))
     found = {"machine": machine, "driver": driver(), **vars(arguments), "sets": facts, "compiled": statistics}
-    print(write_json("colour_cost", {**found, "targets": judged(reached)}))
+    print(write_json("colour_cost", {**found, "targets": target_facts(reached)}))
 
 
 if __name__ == "__main__":

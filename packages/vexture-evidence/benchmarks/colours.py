@@ -1,4 +1,4 @@
-"""How exact planar maps are, beside stacked layers, and what they cost.
+"""The accuracy and cost of planar maps beside stacked layers.
 
     python packages/vexture-evidence/benchmarks/colours.py [--quick] [--seed 1]
 
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 import corpora
 from report import cell, table, write_json
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture import window
 from vexture.base.errors import SourceError, SourceWarning
 from vexture.base.tolerance import ROUND
@@ -35,7 +35,7 @@ from vexture.renderers.view import ViewLike
 from vexture.svg.read import read_svg, svg_drawing
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["Set", "checkerboard", "choropleth", "discs", "flags"]
+__all__ = ["ColourSet", "checkerboard", "choropleth", "discs", "flags"]
 
 FLAGS: Final = 30
 TURNS: Final = 5
@@ -53,7 +53,7 @@ LARGE: Final = 100
 """Pixels across the largest picture of a large map: its truth takes minutes."""
 
 
-class Set(NamedTuple):
+class ColourSet(NamedTuple):
     """Drawings that share a row."""
 
     name: str
@@ -61,15 +61,15 @@ class Set(NamedTuple):
     is_large: bool = False
 
 
-class Case(NamedTuple):
-    """A picture: pixels across, and how it looks at the drawing."""
+class ViewCase(NamedTuple):
+    """A picture of a drawing: its pixels across, and its view."""
 
     name: str
     size: int
     view: Callable[[int], ViewLike]
 
 
-def sheared(size: int) -> NDArray[np.float64]:
+def sheared_pixels(size: int) -> NDArray[np.float64]:
     """Pixels of the same area as upright ones, six times as long as wide, at 45 degrees."""
     long, short = 6.0**0.5 / size / 2.0**0.5, 6.0**-0.5 / size / 2.0**0.5
     steps = np.array([[long, -short], [long, short]])
@@ -77,9 +77,9 @@ def sheared(size: int) -> NDArray[np.float64]:
 
 
 CASES: Final = (
-    *(Case(f"{size} px", size, lambda _: None) for size in (4, 16, 64, 256, 20, 100)),
-    Case("64 px, turned", 64, lambda _: window(0.0, 0.0, 1.0, 1.0, 30.0)),
-    Case("64 px, sheared", 64, sheared),
+    *(ViewCase(f"{size} px", size, lambda _: None) for size in (4, 16, 64, 256, 20, 100)),
+    ViewCase("64 px, turned", 64, lambda _: window(0.0, 0.0, 1.0, 1.0, 30.0)),
+    ViewCase("64 px, sheared", 64, sheared_pixels),
 )
 IN_STEP: Final = ("16 px", "64 px", "256 px")
 """Pictures whose pixels are cells; the others are not."""
@@ -100,7 +100,7 @@ def choropleth(cells: int, seed: int) -> Drawing:
 
 
 def checkerboard(squares: int = 7) -> Drawing:
-    """Squares of both colours; seven are not in step with cells."""
+    """Squares of two colours; the borders of seven do not coincide with those of cells."""
     corners = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
     places = [(x, y) for x in range(squares) for y in range(squares)]
     paths = (polygon((corners + place) / squares, Paint((sum(place) % 2,) * 3)) for place in places)
@@ -144,15 +144,19 @@ def random_gradient(rng: np.random.Generator, middle: NDArray[np.float64], radiu
 
 
 def clip_art(count: int, seed: int) -> list[Drawing]:
-    """Drawings with gradients, of which nothing is left out: a third each of devicon, tango and openclipart."""
-    devicons = sorted((corpora.DEVICON.installed() / corpora.DEVICON.folder).rglob("*.svg"))
+    """Drawings with gradients and without notes: a third each of devicon, tango and openclipart."""
+    devicons = sorted((corpora.DEVICON.installed_folder() / corpora.DEVICON.folder).rglob("*.svg"))
     sources = (devicons, corpora.TANGO.files("*.svg"), corpora.OPENCLIPART.files("*.svg"))
     shares = np.diff(np.linspace(0, count, len(sources) + 1).round().astype(int)).tolist()
-    return [drawing for files, share in zip(sources, shares, strict=True) for drawing in shaded(files, share, seed)]
+    return [
+        drawing
+        for files, share in zip(sources, shares, strict=True)
+        for drawing in gradient_drawings(files, share, seed)
+    ]
 
 
-def shaded(files: Sequence[File], count: int, seed: int) -> list[Drawing]:
-    """So many drawings of some files, at random."""
+def gradient_drawings(files: Sequence[File], count: int, seed: int) -> list[Drawing]:
+    """Choose `count` drawings with gradients at random from files."""
     found: list[Drawing] = []
     for file in np.random.default_rng(seed).permutation(files).tolist():
         if len(found) == count:
@@ -180,19 +184,19 @@ def flags(count: int, seed: int) -> list[Drawing]:
         return [read_svg(file) for file in corpora.flags(count, seed)]
 
 
-def sets(quick: bool, seed: int) -> Iterator[Set]:
-    """Everything that is measured."""
+def sets(quick: bool, seed: int) -> Iterator[ColourSet]:
+    """All sets that are measured."""
     chosen = flags(3 if quick else FLAGS, seed)
-    yield Set("flags", [flag for flag in chosen if is_flat(flag)])
+    yield ColourSet("flags", [flag for flag in chosen if is_flat(flag)])
     if not quick:
-        yield Set(SHADED_FLAGS, [flag for flag in chosen if not is_flat(flag)])
-    yield Set("checkerboard", [checkerboard()])
-    yield Set("discs", [discs(40 if quick else 300, seed)])
-    yield Set(SPHERES, [spheres(4 if quick else 12, seed + k) for k in range(1 if quick else 8)])
-    yield Set(CLIP_ART, clip_art(5 if quick else CLIP_ARTS, seed), is_large=True)
-    yield Set("Voronoi 2,000", [choropleth(100 if quick else 2000, seed)])
+        yield ColourSet(SHADED_FLAGS, [flag for flag in chosen if not is_flat(flag)])
+    yield ColourSet("checkerboard", [checkerboard()])
+    yield ColourSet("discs", [discs(40 if quick else 300, seed)])
+    yield ColourSet(SPHERES, [spheres(4 if quick else 12, seed + k) for k in range(1 if quick else 8)])
+    yield ColourSet(CLIP_ART, clip_art(5 if quick else CLIP_ARTS, seed), is_large=True)
+    yield ColourSet("Voronoi 2,000", [choropleth(100 if quick else 2000, seed)])
     if not quick:
-        yield Set("Voronoi 20,000", [choropleth(20_000, seed)], is_large=True)
+        yield ColourSet("Voronoi 20,000", [choropleth(20_000, seed)], is_large=True)
 
 
 def turn(drawing: Drawing, split: str) -> tuple[float, Conversion[Any]]:
@@ -202,7 +206,7 @@ def turn(drawing: Drawing, split: str) -> tuple[float, Conversion[Any]]:
     return time.process_time() - start, made
 
 
-def errors(texture: Any, drawing: Drawing, case: Case) -> tuple[float, float, bool]:
+def errors(texture: Any, drawing: Drawing, case: ViewCase) -> tuple[float, float, bool]:
     """Mean and largest error of a picture, in 1/255, and whether it is wrong: too many pixels are far off."""
     view = case.view(case.size)
     error = 255.0 * abs(texture.render(case.size, view) - render_exact_colours(drawing, case.size, view))
@@ -210,7 +214,7 @@ def errors(texture: Any, drawing: Drawing, case: Case) -> tuple[float, float, bo
     return float(error.mean()), float(error.max()), bool(is_wrong)
 
 
-def set_facts(one: Set, turns: int) -> dict[str, Any]:
+def set_facts(one: ColourSet, turns: int) -> dict[str, Any]:
     """All figures of a set."""
     seconds: dict[str, list[float]] = {"faces": [], "paint": []}
     made: dict[str, list[Any]] = {}
@@ -266,7 +270,7 @@ def cost_table(facts: Sequence[dict[str, Any]]) -> str:
 
 
 def targets(facts: Sequence[dict[str, Any]]) -> list[Target]:
-    """What planar maps must reach."""
+    """Targets for planar maps."""
     flat = [
         (case, found["faces"])
         for one in facts
@@ -277,8 +281,8 @@ def targets(facts: Sequence[dict[str, Any]]) -> list[Target]:
     others = [found for case, found in flat if case not in IN_STEP]
     shaded = {case: found["faces"] for one in facts if one["name"] == CLIP_ART for case, found in one["errors"].items()}
 
-    def ratio(name: str, what: str) -> float | None:
-        found = [one[what] for one in facts if one["name"].startswith(name)]
+    def ratio(name: str, figure: str) -> float | None:
+        found = [one[figure] for one in facts if one["name"].startswith(name)]
         return sum(each["faces"] for each in found) / sum(each["paint"] for each in found) if found else None
 
     return [
@@ -307,8 +311,10 @@ def main() -> None:
     run(checkerboard(), split="paint")
     facts = [set_facts(one, 1 if arguments.quick else TURNS) for one in sets(arguments.quick, arguments.seed)]
     reached, machine = targets(facts), machine_facts()
-    print("\n\n".join([error_table(facts), cost_table(facts), judgement(reached), machine_line(machine)]))
-    print(write_json("colours", {"machine": machine, **vars(arguments), "sets": facts, "targets": judged(reached)}))
+    print("\n\n".join([error_table(facts), cost_table(facts), target_table(reached), machine_line(machine)]))
+    print(
+        write_json("colours", {"machine": machine, **vars(arguments), "sets": facts, "targets": target_facts(reached)})
+    )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What of SVG is right: one-issue fixtures of this repository, and the tests of librsvg, W3C's of SVG 1.1 among them.
+"""Conformance to SVG: one-issue fixtures of this repository, and the tests of librsvg, including W3C's of SVG 1.1.
 
     python packages/vexture-evidence/benchmarks/conformance.py [--only TEXT] [--folder FOLDER]
 
@@ -32,10 +32,10 @@ from PIL import Image
 import corpora
 import vexture
 from chromium import ROOT
-from judge import FIRST, Case, Facts, enlarged
+from judge import FIRST, Case, Facts, enlarge
 from report import RESULTS
 from same_fonts import gather, only_these, options_of_resvg
-from sweep import judged, known_issues
+from sweep import judge_cases, known_issues
 from vexture.base.errors import VextureError
 from vexture.base.notes import line_of
 from vexture.conversion.reading import read_drawing
@@ -81,7 +81,7 @@ figcaption { font-size: 12px } .silent { color: #b00020 } .named { color: #80500
 Pixels = NDArray[np.int16]
 
 
-def share_off(ours: Pixels, theirs: Pixels) -> float:
+def share_off(ours: Pixels, reference: Pixels) -> float:
     """Part of the pixels, (height, width, 3), of which a channel is off by more than `FAR`.
 
     Examples
@@ -90,7 +90,7 @@ def share_off(ours: Pixels, theirs: Pixels) -> float:
     >>> share_off(black, black), share_off(black, white)
     (0.0, 1.0)
     """
-    return float((np.abs(ours - theirs).max(axis=2) > FAR).mean())
+    return float((np.abs(ours - reference).max(axis=2) > FAR).mean())
 
 
 def outcome_of(facts: Facts) -> str:
@@ -110,8 +110,8 @@ def outcome_of(facts: Facts) -> str:
     return "right"
 
 
-def found(case: Case, fonts: Path) -> Iterator[Facts]:
-    """What is found of a case, in a child process; `case.same` is a picture of librsvg, or a plainer SVG."""
+def case_facts(case: Case, fonts: Path) -> Iterator[Facts]:
+    """Judge a case, in a child process; `case.same` is a picture of librsvg, or a plainer SVG."""
     try:
         drawing = read_drawing(case.content, name=case.name, fonts=[fonts])
         losses = [note for note in drawing.notes if note.is_loss and not OTHER_FONT.match(note.message)]
@@ -120,40 +120,40 @@ def found(case: Case, fonts: Path) -> Iterator[Facts]:
         yield {"refused": str(error)}
         return
     try:
-        yield from compared(case, drawing, fonts)
+        yield from comparison_facts(case, drawing, fonts)
     except Exception as error:  # of the references, which refuse what we read
         yield {"unjudged": str(error) or type(error).__name__}
 
 
-def compared(case: Case, drawing: vexture.Drawing, fonts: Path) -> Iterator[Facts]:
-    """Pictures of a case, and how far they are from one another."""
+def comparison_facts(case: Case, drawing: vexture.Drawing, fonts: Path) -> Iterator[Facts]:
+    """Draw the pictures of a case, and compare them."""
     picture = case.same is not None and case.same.startswith(b"\x89PNG")
     source = case.content if picture or case.same is None else case.same
-    text, size = enlarged(source, drawing, SIDE * FINER)
+    text, size = enlarge(source, drawing, SIDE * FINER)
     sides = max(1, round(size[0] / FINER)), max(1, round(size[1] / FINER))
-    ours = drawn(drawing, sides)
-    yield {"ours": shown(ours)}
+    ours = draw_on_white(drawing, sides)
+    yield {"ours": data_url(ours)}
     if picture:
-        yield from against_picture(drawing, case.same or b"")
+        yield from picture_facts(drawing, case.same or b"")
     tree = resvg.usvg.Tree.from_str(text.decode(), options_of_resvg(fonts))
     image = Image.open(io.BytesIO(bytes(resvg.render(tree, (1, 0, 0, 0, 1, 0)))))
     theirs = on_white(image).resize(sides, Image.Resampling.BOX)
     off = share_off(ours, np.asarray(theirs, np.int16))
-    yield {"resvg": off, "theirs": shown(np.asarray(theirs, np.int16))}
+    yield {"resvg": off, "theirs": data_url(np.asarray(theirs, np.int16))}
 
 
-def against_picture(drawing: vexture.Drawing, content: bytes) -> Iterator[Facts]:
-    """What is found by librsvg's own picture, which has other sides."""
+def picture_facts(drawing: vexture.Drawing, content: bytes) -> Iterator[Facts]:
+    """Compare with librsvg's own picture, which has another size."""
     image = on_white(Image.open(io.BytesIO(content)))
     scale = min(1.0, SIDE / max(image.size))
     image = image.resize(
         (max(1, round(image.width * scale)), max(1, round(image.height * scale))), Image.Resampling.BOX
     )
     theirs = np.asarray(image, np.int16)
-    yield {"own_off": share_off(drawn(drawing, image.size), theirs), "theirs": shown(theirs)}
+    yield {"own_off": share_off(draw_on_white(drawing, image.size), theirs), "theirs": data_url(theirs)}
 
 
-def drawn(drawing: vexture.Drawing, sides: tuple[int, int]) -> Pixels:
+def draw_on_white(drawing: vexture.Drawing, sides: tuple[int, int]) -> Pixels:
     """Our picture on white, from the drawing's texture."""
     width, height = sides
     side = max(sides)
@@ -168,7 +168,7 @@ def on_white(image: Image.Image) -> Image.Image:
     return Image.alpha_composite(Image.new("RGBA", rgba.size, "white"), rgba).convert("RGB")
 
 
-def shown(pixels: Pixels) -> str:
+def data_url(pixels: Pixels) -> str:
     """Data URL of a small picture."""
     image = Image.fromarray(pixels.astype(np.uint8))
     image.thumbnail((THUMBNAIL, THUMBNAIL))
@@ -179,8 +179,8 @@ def shown(pixels: Pixels) -> str:
 
 def fixtures() -> Iterator[tuple[str, Case]]:
     """Our fixtures by topic, that of their folder."""
-    plainer = sayer("plainer.py", "plainer")
-    of_text = sayer("plainer_texts.py", "plainer_text")
+    plainer = load_plainer("plainer.py", "plainer")
+    of_text = load_plainer("plainer_texts.py", "plainer_text")
     for path in sorted(FIXTURES.glob("*/*.svg")):
         topic = path.parent.name
         said = of_text(path.stem) if topic == TEXTS else plainer(f"{topic}/{path.stem}")
@@ -188,8 +188,8 @@ def fixtures() -> Iterator[tuple[str, Case]]:
             yield topic, Case("fixtures", path.name, path.read_bytes(), said and said.encode())
 
 
-def sayer(file: str, name: str) -> Callable[[str], str | None]:
-    """A function of the tests, which says a fixture in plainer words."""
+def load_plainer(file: str, name: str) -> Callable[[str], str | None]:
+    """Load a function of the tests that rewrites a fixture as plainer SVG."""
     sys.path.append(str(FIXTURES.parent))  # one of them imports another
     function: Callable[[str], str | None] = runpy.run_path(str(FIXTURES.parent / file))[name]
     return function
@@ -219,7 +219,7 @@ def files_in(folder: Path) -> Iterator[tuple[str, Case]]:
 
 
 def table_of(found_of: Sequence[tuple[str, Case, Facts]]) -> str:
-    """How many cases of each topic have each outcome, as a table of Markdown."""
+    """Count the cases of each topic by outcome, as a table of Markdown."""
     topics = dict.fromkeys(topic for topic, _, _ in found_of)
     head = ("topic", "tests", *OUTCOMES)
     rows = []
@@ -230,7 +230,7 @@ def table_of(found_of: Sequence[tuple[str, Case, Facts]]) -> str:
     return "\n".join("| " + " | ".join(map(str, row)) + " |" for row in (head, ["---"] * len(head), *rows))
 
 
-def written(found_of: Sequence[tuple[str, Case, Facts]]) -> None:
+def write_results(found_of: Sequence[tuple[str, Case, Facts]]) -> None:
     """Write the table into the documentation, and the page of all pictures."""
     topics = dict.fromkeys(topic for topic, _, _ in found_of)
     PAGE.write_text(TABLE.sub(f"\n{table_of(found_of)}\n\n", PAGE.read_text()))
@@ -244,7 +244,7 @@ def written(found_of: Sequence[tuple[str, Case, Facts]]) -> None:
 
 
 def figure(case: Case, facts: Facts) -> str:
-    """Two pictures of a case, and what is to be said of them."""
+    """Two pictures of a case, with their caption."""
     said = facts.get("refused") or facts.get("known") or facts.get("notes") or ""
     pictures = "".join(
         f'<img loading="lazy" alt="{name}" src="{facts[key]}">'
@@ -258,7 +258,7 @@ def figure(case: Case, facts: Facts) -> str:
 
 
 def complete(case: Case, facts: Facts) -> Facts:
-    """Facts with the outcome, and the reason if it is known."""
+    """Add the outcome to facts, and the reason if it is known."""
     gaps = [facts[key] for key in ("resvg", "own_off") if key in facts]
     whole = facts | ({"off": min(gaps)} if gaps else {})
     known = known_issues().get((case.corpus, case.name))
@@ -277,9 +277,9 @@ def main() -> None:
     chosen = [(topic, case) for topic, case in sources if only in f"{topic}/{case.name}"]
     with tempfile.TemporaryDirectory() as folder:
         os.environ["FONTCONFIG_FILE"] = str(only_these(Path(folder)))
-        find = partial(found, fonts=gather(Path(folder)))
+        find = partial(case_facts, fonts=gather(Path(folder)))
         list(find(Case("", "first.svg", FIRST)))  # compiles the kernels, which the time of no case includes
-        facts = judged([case for _, case in chosen], find)
+        facts = judge_cases([case for _, case in chosen], find)
         every = [(topic, case, complete(case, one)) for (topic, case), one in zip(chosen, facts, strict=True)]
     for topic, case, one in every:
         if only or one["outcome"] == "silent" or (folder_of_files and one["outcome"] != "right"):
@@ -290,7 +290,7 @@ def main() -> None:
     if not only:
         print(table_of(every))
         if not folder_of_files:
-            written(every)
+            write_results(every)
 
 
 if __name__ == "__main__":

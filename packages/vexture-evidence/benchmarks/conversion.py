@@ -1,4 +1,4 @@
-"""How small and how fast the conversion of the thesis's examples is, beside what its Table 5.1 says.
+"""Sizes and times of the conversion of the thesis's examples, beside its Table 5.1.
 
     python packages/vexture-evidence/benchmarks/conversion.py [--repeat 50] [--quick]
 
@@ -24,7 +24,7 @@ from vexture.svg.read import read_svg
 from vexture.thesis.build import build
 from vexture.thesis.encode import quantisation_step
 from vexture_evidence.measures.machine import machine_facts, machine_line
-from vexture_evidence.measures.printed import TABLE_5_1
+from vexture_evidence.measures.thesis_numbers import TABLE_5_1
 from vexture_evidence.measures.timing import median_seconds
 
 __all__ = ["SHAPES", "Check", "path_bytes", "size_checks", "size_facts"]
@@ -51,7 +51,7 @@ class Check(NamedTuple):
 
     @property
     def met(self) -> bool:
-        """Whether no more shapes are beyond it than may be."""
+        """Whether at most `allowed` shapes are beyond the limit."""
         return len(self.missed) <= self.allowed
 
 
@@ -77,7 +77,7 @@ def median_ms(action: Callable[[], object], repeat: int) -> float:
 
 
 def size_facts(name: str) -> dict[str, Any]:
-    """Sizes of one drawing and of what it becomes, and what the thesis printed of its namesake."""
+    """Sizes of one drawing and of its textures, and the thesis's numbers for its namesake."""
     svg = SHAPES / f"{name}.svg"
     return {
         "shape": name,
@@ -120,32 +120,32 @@ def half_with_corners(facts: dict[str, Any]) -> bool:
 
 
 def size_checks(shapes: Sequence[dict[str, Any]]) -> list[Check]:
-    """What does not depend on the machine."""
+    """Checks that do not depend on the machine."""
 
-    def missed(met: Callable[[dict[str, Any]], bool]) -> list[str]:
+    def shapes_beyond(met: Callable[[dict[str, Any]], bool]) -> list[str]:
         return [facts["shape"] for facts in shapes if not met(facts)]
 
     return [
-        Check("segments as in Table 5.1", missed(lambda f: f["segments"] == f["thesis"]["segments"])),
-        Check(f"sampled: curves and quads of Table 5.1, within a factor of {ORDER:g}", missed(of_that_order)),
+        Check("segments as in Table 5.1", shapes_beyond(lambda f: f["segments"] == f["thesis"]["segments"])),
+        Check(f"sampled: curves and quads of Table 5.1, within a factor of {ORDER:g}", shapes_beyond(of_that_order)),
         Check(
             "direct: no more curves than sampled",
-            missed(lambda f: f["direct"]["curves"] <= f["sampled"]["curves"]),
+            shapes_beyond(lambda f: f["direct"]["curves"] <= f["sampled"]["curves"]),
         ),
         Check(
             f"direct: at most {SHARE_WITH_CORNERS:g} of sampled's curves, without {', '.join(CORNERLESS)}",
-            missed(half_with_corners),
+            shapes_beyond(half_with_corners),
         ),
         Check(
             f"8-bit pair no larger than the SVG, on {NO_LARGER} of {len(TABLE_5_1)}",
-            missed(lambda f: f["direct_8"]["bytes"] <= f["svg_bytes"]),
+            shapes_beyond(lambda f: f["direct_8"]["bytes"] <= f["svg_bytes"]),
             len(TABLE_5_1) - NO_LARGER,
         ),
     ]
 
 
 def time_checks(shapes: Sequence[dict[str, Any]]) -> list[Check]:
-    """What does."""
+    """Checks that depend on the machine."""
     return [
         Check(f"files: at most {FILES_MS:g} ms", [f["shape"] for f in shapes if f["files_ms"] > FILES_MS]),
         Check(f"tree: at most {TREE_MS:g} ms", [f["shape"] for f in shapes if f["tree_ms"] > TREE_MS]),

@@ -1,4 +1,4 @@
-"""What the benchmarks and tests work on: real SVG files, glyphs of real fonts, a coastline of any size, a KTX2 reader.
+"""Input of the benchmarks and tests: real SVG files, glyphs of real fonts, a coastline of any size, a KTX2 reader.
 
 SVG files and the reader come from npm packages of pinned versions, and from Debian packages of any version, unpacked on
 first use into the folder named by the environment variable VEXTURE_CORPORA, by default `~/.cache/vexture/corpora`.
@@ -56,7 +56,7 @@ class Package:
 
     def all(self) -> list[Path]:
         """Return its SVG files, sorted."""
-        return sorted((self.installed() / self.folder).glob("*.svg"))
+        return sorted((self.installed_folder() / self.folder).glob("*.svg"))
 
     def files(self, count: int, seed: int) -> list[Path]:
         """Return `count` of its SVG files, drawn at random without repetition."""
@@ -65,7 +65,7 @@ class Package:
             raise LimitError(f"{count} files asked of {self.name}, which has {len(available)}; ask for fewer")
         return random.Random(seed).sample(available, count)
 
-    def installed(self) -> Path:
+    def installed_folder(self) -> Path:
         """Return the package's folder, installed first if it is missing."""
         home = cache() / f"{self.name.replace('/', '-')}-{self.version}"
         if not home.exists():
@@ -78,7 +78,7 @@ class Package:
         return home / "node_modules" / self.name
 
     def install(self, npm: str, prefix: Path) -> None:
-        """Let npm fetch the package; none of its scripts is run."""
+        """Let npm fetch the package, without running its scripts."""
         prefix.mkdir()
         wanted = f"{self.name}@{self.version}"
         command = [npm, "install", "--prefix", str(prefix), "--ignore-scripts", "--no-save", "--no-audit", wanted]
@@ -90,7 +90,7 @@ class Package:
 
 @dataclass(frozen=True, slots=True)
 class DebianPackage:
-    """A package of Debian and the folder in it; nothing of it is installed on the system."""
+    """A package of Debian and a folder in it; it is unpacked, not installed on the system."""
 
     name: str
     folder: str
@@ -98,13 +98,13 @@ class DebianPackage:
     @property
     def home(self) -> Path:
         """Return the folder, with the package fetched first if it is missing."""
-        return self.unpacked() / self.folder
+        return self.unpacked_folder() / self.folder
 
     def files(self, pattern: str) -> list[Path]:
         """Return its files that match, sorted."""
         return sorted(self.home.rglob(pattern))
 
-    def unpacked(self) -> Path:
+    def unpacked_folder(self) -> Path:
         """Return the package's root, fetched and unpacked first if it is missing."""
         home = cache() / f"debian-{self.name}"
         if not home.exists():
@@ -133,7 +133,7 @@ def cache() -> Path:
 
 
 def fill(home: Path, make: Callable[[Path], None]) -> None:
-    """Make a folder of the cache, complete or not at all."""
+    """Make a folder of the cache, completely or not at all."""
     home.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=home.parent) as scratch:
         make(Path(scratch) / "prefix")
@@ -184,7 +184,7 @@ def flags(count: int, seed: int) -> list[Path]:
 
 def coat_of_arms() -> Path:
     """Return the flag of flag-icons with the most paths but for two: 578, of a coat of arms and its supporters."""
-    return FLAG_ICONS.installed() / FLAG_ICONS.folder / "es.svg"
+    return FLAG_ICONS.installed_folder() / FLAG_ICONS.folder / "es.svg"
 
 
 def emoji(count: int, seed: int) -> list[Path]:
@@ -194,7 +194,7 @@ def emoji(count: int, seed: int) -> list[Path]:
 
 def ktx_parse() -> Path:
     """Return the folder of ktx-parse (MIT), a KTX2 reader in JavaScript that shares nothing with ours."""
-    return KTX_PARSE.installed()
+    return KTX_PARSE.installed_folder()
 
 
 def dejavu_sans() -> Path:

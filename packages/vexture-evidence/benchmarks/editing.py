@@ -1,4 +1,4 @@
-"""How soon a saved drawing is on the screen, and how soon an exported page shows its picture.
+"""The time until a saved drawing is on the screen, and until an exported page shows its picture.
 
     python packages/vexture-evidence/benchmarks/editing.py [--quick] [--repeat 100] [--pages 10]
 
@@ -24,12 +24,12 @@ from typing import Any, Final
 
 from chromium import CHROMIUM, FLAGS, ROOT
 from report import cell, table, write_json
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture.base.errors import DeviceError, VextureError
 from vexture.pages.page import SCRIPT, built
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["exported", "percentile", "saved"]
+__all__ = ["percentile", "time_exports", "time_saves"]
 
 SHAPES: Final = ROOT / "examples" / "shapes"
 COLOR: Final = "#e8b100"
@@ -110,8 +110,8 @@ def viewer(drawing: Path) -> Iterator[str]:
         process.wait()
 
 
-def saved(browser: Any, folder: Path, repeat: int) -> list[float]:
-    """Milliseconds from saves to their pixels on the screen."""
+def time_saves(browser: Any, folder: Path, repeat: int) -> list[float]:
+    """Measure the milliseconds from saves to their pixels on the screen."""
     text = (SHAPES / "duck.svg").read_text()
     drawing, beside = folder / "duck.svg", folder / "duck.svg.new"
     drawing.write_text(text)
@@ -134,8 +134,8 @@ def saved(browser: Any, folder: Path, repeat: int) -> list[float]:
     return taken[1:]  # the first loads what the others find
 
 
-def exported(browser: Any, folder: Path, pages: int) -> tuple[int, list[float]]:
-    """Size of the exported duck, and milliseconds from navigations to its picture."""
+def time_exports(browser: Any, folder: Path, pages: int) -> tuple[int, list[float]]:
+    """Export the duck; return its size, and the milliseconds from navigations to its picture."""
     target = folder / "duck.html"
     subprocess.run([*VEXTURE, "export", str(SHAPES / "duck.svg"), "-o", str(target)], check=True, capture_output=True)
     taken = []
@@ -162,8 +162,8 @@ def main() -> None:
         print(f"not measured: {error}")
         return
     with tempfile.TemporaryDirectory() as scratch, chromium() as browser:
-        saves = saved(browser, Path(scratch), repeat)
-        size, opened = exported(browser, Path(scratch), pages)
+        saves = time_saves(browser, Path(scratch), repeat)
+        size, opened = time_exports(browser, Path(scratch), pages)
     rows = [
         [what, cell(median(times), 0), cell(percentile(times, 0.95), 0), cell(max(times), 0), str(len(times))]
         for what, times in (("save to pixels", saves), ("exported page to picture", opened))
@@ -175,9 +175,9 @@ def main() -> None:
     ]
     machine = machine_facts()
     print(table(("milliseconds", "median", "95%", "most", "of"), rows))
-    print("\n".join(["", judgement(reached), "", machine_line(machine)]))
+    print("\n".join(["", target_table(reached), "", machine_line(machine)]))
     facts = {"machine": machine, **vars(arguments), "saves": saves, "opened": opened, "bytes": size}
-    print(write_json("editing", {**facts, "targets": judged(reached)}))
+    print(write_json("editing", {**facts, "targets": target_facts(reached)}))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""How well textures show the example drawings: every renderer against the exact coverage.
+"""Errors of the example drawings' textures: every renderer against the exact coverage.
 
     python packages/vexture-evidence/benchmarks/fidelity.py [--sizes 61 250 1000] [--shifts 8] [--seed 1] [--quick]
 
@@ -34,8 +34,8 @@ __all__ = [
     "area_error",
     "cut_pixels",
     "has_gpu",
-    "met",
-    "parsed",
+    "meets_limits",
+    "parse_options",
     "shifted_views",
     "size_facts",
 ]
@@ -57,25 +57,25 @@ NOT_GATED = ("hairline",)
 """Reported only: the cut at quads smaller than a pixel alone costs so thin a stroke 20 to 50."""
 
 
-class View(NamedTuple):
+class SquareView(NamedTuple):
     """A square picture of the unit square, shifted by a part of a pixel."""
 
     size: int
     to_unit: NDArray[np.float64]
 
 
-def shifted_views(name: str, size: int, arguments: argparse.Namespace) -> list[View]:
+def shifted_views(name: str, size: int, arguments: argparse.Namespace) -> list[SquareView]:
     """The whole unit square, moved by up to a pixel to the left and up, by a seed and a drawing's name."""
     rng = np.random.default_rng([arguments.seed, *name.encode()])
     shift = np.eye(3)
     views = []
     for shift[:2, 2] in rng.random((arguments.shifts, 2)):
-        views.append(View(size, fit((size, size)) @ shift))
+        views.append(SquareView(size, fit((size, size)) @ shift))
     return views
 
 
 def has_gpu() -> bool:
-    """Whether there is an OpenGL context; says why not."""
+    """Whether there is an OpenGL context; prints the reason if not."""
     from vexture.renderers.device import context
 
     try:
@@ -86,7 +86,7 @@ def has_gpu() -> bool:
     return True
 
 
-def render(shape: Drawing | ThesisTexture, views: Sequence[View], renderer: str) -> NDArray[np.float32]:
+def render(shape: Drawing | ThesisTexture, views: Sequence[SquareView], renderer: str) -> NDArray[np.float32]:
     """Pictures of a shape, (views, size, size)."""
     return np.stack([vexture.coverage(shape, (view.size, view.size), view.to_unit, renderer) for view in views])
 
@@ -97,7 +97,7 @@ def area_error(drawing: Drawing, tree: CellTree) -> float:
     return LEVELS * abs(float(tree.quad_coverage[0]) - float(area))
 
 
-def cut_pixels(cells: tuple[NDArray[np.float64], ...], view: View) -> NDArray[np.bool_]:
+def cut_pixels(cells: tuple[NDArray[np.float64], ...], view: SquareView) -> NDArray[np.bool_]:
     """Pixels in which a quad is smaller than a pixel."""
     x, y, side = (values[2.0 * cells[2] * view.size < 1.0] for values in cells)
     mask = np.zeros((view.size, view.size), np.bool_)
@@ -110,7 +110,7 @@ def cut_pixels(cells: tuple[NDArray[np.float64], ...], view: View) -> NDArray[np
 
 
 def size_facts(
-    drawing: Drawing, tree: CellTree, texture: ThesisTexture, views: Sequence[View], renderers: Sequence[str]
+    drawing: Drawing, tree: CellTree, texture: ThesisTexture, views: Sequence[SquareView], renderers: Sequence[str]
 ) -> dict[str, Any]:
     """Errors of a texture's pictures of one size by some renderers, and how far these differ from one another."""
     truth = render(drawing, views, "exact")
@@ -128,18 +128,18 @@ def size_facts(
         }
     apart = LEVELS * np.ptp(list(images.values()), axis=0)
     facts["apart"] = {"mean": float(apart.mean()), "max": float(apart.max())}
-    facts["met"] = met(facts, renderers)
+    facts["met"] = meets_limits(facts, renderers)
     return facts
 
 
-def met(facts: dict[str, Any], renderers: Sequence[str]) -> bool:
-    """Whether the pictures of one size are within the limits; a ratio that cannot be told is."""
+def meets_limits(facts: dict[str, Any], renderers: Sequence[str]) -> bool:
+    """Whether the pictures of one size are within the limits; an unknown ratio counts as within."""
     return all(
         facts[renderer]["mae"] <= MEAN_LIMIT and not facts[renderer]["border"] > BORDER_LIMIT for renderer in renderers
     )
 
 
-def mean_error(drawing: Drawing, views: Sequence[View], **parameters: Any) -> float | None:
+def mean_error(drawing: Drawing, views: Sequence[SquareView], **parameters: Any) -> float | None:
     """Mean error, on the CPU, of another conversion; None if the drawing is too much for it."""
     try:
         texture = run(drawing, encoding="thesis", **parameters).texture
@@ -149,7 +149,7 @@ def mean_error(drawing: Drawing, views: Sequence[View], **parameters: Any) -> fl
 
 
 def shape_facts(path: Path, arguments: argparse.Namespace, renderers: Sequence[str]) -> dict[str, Any]:
-    """Everything measured of one drawing."""
+    """All measurements of one drawing."""
     conversion = run(path, encoding="thesis")
     drawing, tree, texture = conversion.drawing, conversion.tree, conversion.texture
     sizes = []
@@ -196,8 +196,8 @@ def lines(facts: dict[str, Any]) -> Iterator[list[str]]:
         ]
 
 
-def parsed(parser: argparse.ArgumentParser, sizes: Sequence[int], shifts: int = SHIFTS) -> argparse.Namespace:
-    """Command line, with what the benchmarks of pictures share."""
+def parse_options(parser: argparse.ArgumentParser, sizes: Sequence[int], shifts: int = SHIFTS) -> argparse.Namespace:
+    """Parse the command line, with the options that the benchmarks of pictures share."""
     parser.add_argument("--sizes", type=int, nargs="+", default=sizes, help="sides of the pictures, in pixels")
     parser.add_argument("--shifts", type=int, default=shifts, help="pictures of each size")
     parser.add_argument("--seed", type=int, default=1)
@@ -210,7 +210,7 @@ def parsed(parser: argparse.ArgumentParser, sizes: Sequence[int], shifts: int = 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Errors of the example drawings' pictures.")
-    arguments = parsed(parser, SIZES)
+    arguments = parse_options(parser, SIZES)
     renderers = ("cpu", "gpu") if has_gpu() else ("cpu",)
     shapes = [shape_facts(path, arguments, renderers) for path in sorted(SHAPES.glob("*.svg"))]
     print(table(HEAD, [line for facts in shapes for line in lines(facts)]))

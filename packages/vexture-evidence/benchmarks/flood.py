@@ -1,4 +1,4 @@
-"""The flood's page against what it must reach: its edge, its motion, its bytes, its times.
+"""The flood's page against its targets: its edge, its motion, its bytes, its times.
 
     python packages/vexture-evidence/benchmarks/flood.py [--quick] [--seed 1] [--only edges,raster,reading,live,page]
 
@@ -24,11 +24,22 @@ from PIL import Image
 from chromium import chromium
 from editing import percentile
 from flood_edges import edge_errors, exact_shore, inside, water_to_unit
-from flood_live import VIEWERS, pushed
+from flood_live import VIEWERS, time_pushes
 from flood_reading import VERTICES, island_files, reading_times
 from report import RESULTS, cell, table, write_json
-from santa_cruz_page import PRESETS, SIZE, Made, first_picture, frame_times, look, made, mask_of, opened, rastered
-from targets import Target, judged, judgement
+from santa_cruz_page import (
+    PRESETS,
+    SIZE,
+    ExportedFlood,
+    capture_view,
+    export_page,
+    first_picture,
+    frame_times,
+    mask_of,
+    open_page,
+    show_raster,
+)
+from targets import Target, target_facts, target_table
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
 __all__ = ["edges", "motion"]
@@ -43,36 +54,38 @@ MOST_SAMPLES: Final = 16
 Facts = dict[str, Any]
 
 
-def errors_of(page: Any, made: Made, step: int, preset: str, seconds: float, fold: Any) -> NDArray[np.float64]:
+def errors_of(
+    page: Any, flood: ExportedFlood, step: int, preset: str, seconds: float, fold: Any
+) -> NDArray[np.float64]:
     """Errors at the pixels of the edge."""
-    picture, camera = look(page, preset, seconds)
-    to_unit = water_to_unit(camera, made.box, SIZE)
-    truth = exact_shore(made.drawings[step], SIZE, to_unit, fold, seconds)
-    return edge_errors(picture, truth, inside(to_unit, made.box, SIZE))
+    picture, camera = capture_view(page, preset, seconds)
+    to_unit = water_to_unit(camera, flood.box, SIZE)
+    truth = exact_shore(flood.drawings[step], SIZE, to_unit, fold, seconds)
+    return edge_errors(picture, truth, inside(to_unit, flood.box, SIZE))
 
 
-def edges(page: Any, made: Made, step: int) -> dict[str, float | None]:
+def edges(page: Any, flood: ExportedFlood, step: int) -> dict[str, float | None]:
     """Mean error at the edge by view, at the time 0."""
-    found = {preset: errors_of(page, made, step, preset, 0.0, made.fold) for preset in PRESETS}
+    found = {preset: errors_of(page, flood, step, preset, 0.0, flood.fold) for preset in PRESETS}
     return {preset: float(values.mean()) if len(values) else None for preset, values in found.items()}
 
 
-def motion(page: Any, made: Made, step: int, presets: Sequence[str], frames: int) -> Facts:
-    """Of ten seconds of motion by view: mean, 99th percentile and most of the error over frames and edge pixels."""
+def motion(page: Any, flood: ExportedFlood, step: int, presets: Sequence[str], frames: int) -> Facts:
+    """Errors in ten seconds of motion by view: mean, 99th percentile and most over frames and edge pixels."""
     found = {}
     for preset in presets:
         times = np.linspace(0.0, SECONDS, frames)
-        values = np.concatenate([errors_of(page, made, step, preset, float(t), made.fold) for t in times])
+        values = np.concatenate([errors_of(page, flood, step, preset, float(t), flood.fold) for t in times])
         shares = {"mean": values.mean(), "p99": np.percentile(values, 99), "most": values.max(), "pixels": len(values)}
         found[preset] = {name: float(value) for name, value in shares.items()} if len(values) else None
     return found
 
 
-def edge_part(browser: Any, made: Made, quick: bool) -> tuple[list[Target], Facts, list[list[str]]]:
+def edge_part(browser: Any, flood: ExportedFlood, quick: bool) -> tuple[list[Target], Facts, list[list[str]]]:
     presets, frames = (PRESETS[::2], 4) if quick else (PRESETS, 40)
-    with opened(browser, made, STEP, flat=True) as page:
-        rest = edges(page, made, STEP)
-        moving = motion(page, made, STEP, presets, frames)
+    with open_page(browser, flood, STEP, flat=True) as page:
+        rest = edges(page, flood, STEP)
+        moving = motion(page, flood, STEP, presets, frames)
     known = [one for one in moving.values() if one]
     reached = [Target(f"edge at rest, MAE of {preset}, 1/255", value, 1.0, 0.3) for preset, value in rest.items()]
     reached += [
@@ -90,30 +103,30 @@ def edge_part(browser: Any, made: Made, quick: bool) -> tuple[list[Target], Fact
 def save_side_by_side(kind: str, *pages: Any) -> None:
     """Save what pages show, beside one another, from each view."""
     for preset in PRESETS:
-        pictures = [look(page, preset, 0.0)[0] for page in pages]
+        pictures = [capture_view(page, preset, 0.0)[0] for page in pages]
         Image.fromarray(np.hstack(pictures)).save(RESULTS / f"flood-{preset.lower()}{kind}.png")
 
 
-def raster_part(browser: Any, made: Made, quick: bool) -> tuple[list[Target], Facts]:
+def raster_part(browser: Any, flood: ExportedFlood, quick: bool) -> tuple[list[Target], Facts]:
     frames, turns = (3, 1) if quick else (6, 3)
-    mask, mask_bytes = mask_of(made.drawings[STEP])
-    ours_bytes = len(made.textures[STEP])
+    mask, mask_bytes = mask_of(flood.drawings[STEP])
+    ours_bytes = len(flood.textures[STEP])
     facts: Facts = {"bytes": {"ours": ours_bytes, "raster": mask_bytes}, "ms": {}, "edge": {}}
     RESULTS.mkdir(exist_ok=True)
-    with opened(browser, made, STEP, flat=False) as ours, opened(browser, made, STEP, flat=False) as theirs:
-        rastered(theirs, mask, 1)
+    with open_page(browser, flood, STEP, flat=False) as ours, open_page(browser, flood, STEP, flat=False) as theirs:
+        show_raster(theirs, mask, 1)
         for preset in PRESETS:
             times: tuple[list[float], list[float]] = ([], [])
-            for _ in range(turns):  # by turns, so that the machine's moods meet both
+            for _ in range(turns):  # alternately, so that other work on the machine affects both
                 for taken, page in zip(times, (ours, theirs), strict=True):
                     taken += frame_times(page, preset, frames)[1:]
             facts["ms"][preset] = {"ours": median(times[0]), "raster": median(times[1])}
-    with opened(browser, made, STEP, flat=True) as ours, opened(browser, made, STEP, flat=True) as theirs:
-        rastered(theirs, mask, MOST_SAMPLES)
+    with open_page(browser, flood, STEP, flat=True) as ours, open_page(browser, flood, STEP, flat=True) as theirs:
+        show_raster(theirs, mask, MOST_SAMPLES)
         save_side_by_side("-flat", ours, theirs)
-        facts["edge"] = {"ours": edges(ours, made, STEP), "raster": edges(theirs, made, STEP)}
-    with opened(browser, made, STEP, flat=False) as ours, opened(browser, made, STEP, flat=False) as theirs:
-        rastered(theirs, mask, MOST_SAMPLES)
+        facts["edge"] = {"ours": edges(ours, flood, STEP), "raster": edges(theirs, flood, STEP)}
+    with open_page(browser, flood, STEP, flat=False) as ours, open_page(browser, flood, STEP, flat=False) as theirs:
+        show_raster(theirs, mask, MOST_SAMPLES)
         save_side_by_side("", ours, theirs)
     ratio = max(one["ours"] / one["raster"] for one in facts["ms"].values())
     return [
@@ -137,19 +150,19 @@ def reading_part(folder: Path, quick: bool, seed: int) -> tuple[list[Target], Fa
 
 
 def live_part(browser: Any, folder: Path, quick: bool, seed: int) -> tuple[list[Target], Facts]:
-    raw, pixels = pushed(browser, folder, 6 if quick else 30, seed)
+    raw, pixels = time_pushes(browser, folder, 6 if quick else 30, seed)
     return [
         Target(f"push to pixels, 95% of {VIEWERS} viewers (ms)", percentile(raw + pixels, 0.95), 400.0, 200.0),
         Target("push to pixels, 95% of the one real page (ms)", percentile(pixels, 0.95), 400.0, 200.0),
     ], {"raw": raw, "page": pixels}
 
 
-def page_part(browser: Any, made: Made, quick: bool) -> tuple[list[Target], Facts]:
-    times = first_picture(browser, made.page, 2 if quick else 8)
-    textures, depths = (sum(map(len, files)) for files in (made.textures, made.depths))
-    size = made.page.stat().st_size
+def page_part(browser: Any, flood: ExportedFlood, quick: bool) -> tuple[list[Target], Facts]:
+    times = first_picture(browser, flood.page, 2 if quick else 8)
+    textures, depths = (sum(map(len, files)) for files in (flood.textures, flood.depths))
+    size = flood.page.stat().st_size
     return [
-        Target(f"{len(made.textures)} steps, textures and depths (kB)", (textures + depths) / 1000, 600.0, 300.0),
+        Target(f"{len(flood.textures)} steps, textures and depths (kB)", (textures + depths) / 1000, 600.0, 300.0),
         Target("exported page with its ground (kB)", size / 1000, 2500.0, 1800.0),
         Target("exported page to its picture, median (ms)", median(times), 5000.0, 2000.0),
     ], {"textures": textures, "depths": depths, "page": size, "opened": times}
@@ -166,7 +179,7 @@ def main() -> None:
     reached: list[Target] = []
     with tempfile.TemporaryDirectory() as scratch, chromium() as browser:
         folder = Path(scratch)
-        exported = made(folder) if {"edges", "raster", "page"} & set(parts) else None
+        exported = export_page(folder) if {"edges", "raster", "page"} & set(parts) else None
         if "edges" in parts and exported:
             found, facts["edges"], rows = edge_part(browser, exported, quick)
             reached += found
@@ -185,8 +198,8 @@ def main() -> None:
                 found, facts[name] = measure()
                 reached += found
     machine = machine_facts()
-    print("\n".join([judgement(reached), "", machine_line(machine)]))
-    print(write_json("flood", {"machine": machine, **vars(arguments), **facts, "targets": judged(reached)}))
+    print("\n".join([target_table(reached), "", machine_line(machine)]))
+    print(write_json("flood", {"machine": machine, **vars(arguments), **facts, "targets": target_facts(reached)}))
 
 
 def print_raster(facts: Facts) -> None:

@@ -1,7 +1,7 @@
 """Exactly filtered pictures of a shore on a plane in perspective, at rest and folded, to judge a page's pixels by.
 
-A fold moves the places at which a shape is looked up. So what is seen is the shape's outline moved the other way: its
-points are put where the fold takes them back to the outline, and what they enclose is filtered exactly.
+A fold moves the places at which a shape is looked up, so the visible outline is moved the other way: its points are
+where the fold takes them back to the outline, and the area that they enclose is filtered exactly.
 """
 
 from collections.abc import Sequence
@@ -144,14 +144,14 @@ def exact_shore(
     return np.float64(render_exact(drawing, size, to_unit))
 
 
-def edge_errors(picture: NDArray[np.uint8], truth: Array, seen: NDArray[np.bool_]) -> Array:
+def edge_errors(picture: NDArray[np.uint8], truth: Array, visible: NDArray[np.bool_]) -> Array:
     """Differences in 1/255 at the pixels that the edge passes, of a picture in two flat colours, (height, width, 3).
 
-    The colours are those of pixels that are all water and all land; a page that shows neither has no errors to tell.
+    The colours are those of pixels that are all water and all land; a page that does not show both has no errors.
     """
     colors = np.float64(picture)
-    full, empty = seen & (truth == 1.0), seen & (truth == 0.0)
-    edge = seen & (truth > 1 / 512) & (truth < 1 - 1 / 512)
+    full, empty = visible & (truth == 1.0), visible & (truth == 0.0)
+    edge = visible & (truth > 1 / 512) & (truth < 1 - 1 / 512)
     if not (full.any() and empty.any() and edge.any()):
         return np.empty(0)
     water, land = np.median(colors[full], axis=0), np.median(colors[empty], axis=0)

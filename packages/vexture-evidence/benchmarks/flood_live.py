@@ -1,4 +1,4 @@
-"""From the push of a newer extent to the pixels of those who watch: a real page, and raw clients beside it.
+"""The time from the push of a newer extent to the viewers' pixels: a real page, and raw clients beside it.
 
 Everything is real: `vexture flood --serve` in a process of its own; one page in Chromium; 49 clients on sockets that
 listen to the stream of changes and then fetch manifest and texture, as the page does. The clock runs from just before
@@ -23,7 +23,7 @@ import numpy as np
 from flood_reading import CRS, PLACE, VERTICES, geojson, island
 from vexture.base.errors import DeviceError
 
-__all__ = ["VIEWERS", "pushed"]
+__all__ = ["VIEWERS", "time_pushes"]
 
 VIEWERS: Final = 50
 SIZE: Final = {"width": 900, "height": 600}
@@ -58,7 +58,7 @@ would keep a renderer in software busy all the time."""
 
 
 def extents(count: int, seed: int) -> list[tuple[bytes, bool]]:
-    """Extents of 20,000 vertices, and whether their middle is wet: by turns with a hole there and without."""
+    """Extents of 20,000 vertices, and whether their middle is wet: alternately without and with a hole there."""
     ring = island(VERTICES, seed, CRS["GeoJSON"])
     x, y, across, up = PLACE[CRS["GeoJSON"]]
     found = []
@@ -73,7 +73,7 @@ def extents(count: int, seed: int) -> list[tuple[bytes, bool]]:
 
 @contextmanager
 def serving(folder: Path, extent: bytes) -> Iterator[str]:
-    """Address of a server that shows an extent."""
+    """Start a server that shows an extent, and yield its address."""
     first, token = folder / "first.geojson", folder / "token"
     first.write_bytes(extent)
     token.write_text(TOKEN)
@@ -94,7 +94,7 @@ def serving(folder: Path, extent: bytes) -> Iterator[str]:
         process.wait()
 
 
-class Client:
+class FloodViewer:
     """A viewer without a picture: it listens, then fetches what is new."""
 
     def __init__(self, address: str) -> None:
@@ -126,18 +126,18 @@ class Client:
             raise ConnectionError(head.decode())
         return body
 
-    async def updated(self) -> float:
-        """When the next texture is here."""
+    async def wait_for_texture(self) -> float:
+        """Wait for the next texture; return the time of its arrival."""
         await self.until(b"event: shape")
         manifest = urljoin(self.address, "shapes/flood")
-        told = json.loads(await self.get(manifest))
-        texture = await self.get(urljoin(manifest, told["texture"]))
-        if len(texture) != told["bytes"]:
+        facts = json.loads(await self.get(manifest))
+        texture = await self.get(urljoin(manifest, facts["texture"]))
+        if len(texture) != facts["bytes"]:
             raise ConnectionError("a texture is not whole")
         return time.time()
 
 
-async def put(address: str, body: bytes) -> None:
+async def publish_extent(address: str, body: bytes) -> None:
     """Publish an extent."""
     host, port = urlsplit(address).hostname, urlsplit(address).port
     reader, writer = await asyncio.open_connection(host, port)
@@ -150,16 +150,16 @@ async def put(address: str, body: bytes) -> None:
         raise ConnectionError(answer[-500:].decode())
 
 
-async def rounds(address: str, bodies: list[bytes]) -> list[tuple[float, list[float]]]:
-    """Of each push when it began, and the milliseconds of all raw clients."""
-    clients = [Client(address) for _ in range(VIEWERS - 1)]
+async def push_rounds(address: str, bodies: list[bytes]) -> list[tuple[float, list[float]]]:
+    """Push extents; return the start of each push, and the milliseconds of all raw clients."""
+    clients = [FloodViewer(address) for _ in range(VIEWERS - 1)]
     await asyncio.gather(*(client.listen() for client in clients))
     found = []
     for body in bodies:
-        waiting = [asyncio.create_task(client.updated()) for client in clients]
+        waiting = [asyncio.create_task(client.wait_for_texture()) for client in clients]
         await asyncio.sleep(PAUSE)
         start = time.time()
-        await put(address, body)
+        await publish_extent(address, body)
         ends = await asyncio.wait_for(asyncio.gather(*waiting), PATIENCE)
         found.append((start, [1000 * (end - start) for end in ends]))
     await asyncio.sleep(PAUSE)
@@ -168,8 +168,8 @@ async def rounds(address: str, bodies: list[bytes]) -> list[tuple[float, list[fl
     return found
 
 
-def pushed(browser: Any, folder: Path, pushes: int, seed: int) -> tuple[list[float], list[float]]:
-    """Milliseconds of the raw clients, and those of the page."""
+def time_pushes(browser: Any, folder: Path, pushes: int, seed: int) -> tuple[list[float], list[float]]:
+    """Measure the milliseconds of the raw clients, and those of the page."""
     bodies = extents(pushes + 3, seed)
     with serving(folder, bodies[0][0]) as address:
         page = browser.new_page(viewport=SIZE)
@@ -179,7 +179,7 @@ def pushed(browser: Any, folder: Path, pushes: int, seed: int) -> tuple[list[flo
         from concurrent.futures import ThreadPoolExecutor
 
         with ThreadPoolExecutor(1) as thread:
-            running = thread.submit(asyncio.run, rounds(address, [body for body, _ in bodies[1:]]))
+            running = thread.submit(asyncio.run, push_rounds(address, [body for body, _ in bodies[1:]]))
             while not running.done():
                 page.wait_for_timeout(100)
             found = running.result()
@@ -187,7 +187,7 @@ def pushed(browser: Any, folder: Path, pushes: int, seed: int) -> tuple[list[flo
         seen = page.evaluate("window.seen")
         page.close()
     raw, pixels = [], []
-    for (start, times), (_, wet) in list(zip(found, bodies[1:], strict=True))[2:]:  # the first find nothing warm
+    for (start, times), (_, wet) in list(zip(found, bodies[1:], strict=True))[2:]:  # the first include compilation
         raw += times
         moments = [moment for is_wet, moment in seen if is_wet == wet and moment > 1000 * start]
         if not moments:

@@ -1,4 +1,4 @@
-"""An extent of 20,000 vertices as files of several kinds, and how long it takes from file to texture."""
+"""An extent of 20,000 vertices as files of several kinds, and the time from file to texture."""
 
 import json
 import time
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vexture.conversion.pipeline import convert
 from vexture_geo.flood.conversion import WATER_PARAMETERS
 
-__all__ = ["KINDS", "VERTICES", "Taken", "island", "island_files", "reading_times"]
+__all__ = ["KINDS", "VERTICES", "ReadingTimes", "island", "island_files", "reading_times"]
 
 VERTICES: Final = 20_000
 KINDS: Final = ("GeoJSON", "FlatGeobuf", "GPKG")
@@ -62,8 +62,8 @@ def island_files(folder: Path, seed: int) -> dict[str, Path]:
     return files
 
 
-class Taken(NamedTuple):
-    """Milliseconds of the ways from a file, one for each turn, and the bytes at their end."""
+class ReadingTimes(NamedTuple):
+    """Milliseconds from a file to each stage, one for each turn, and the bytes of the texture's file."""
 
     drawing: list[float]
     texture: list[float]
@@ -71,12 +71,12 @@ class Taken(NamedTuple):
     size: int
 
 
-def reading_times(path: Path, repeat: int) -> Taken:
+def reading_times(path: Path, repeat: int) -> ReadingTimes:
     """Milliseconds from a file to its drawing, to its texture in memory, to the bytes of its texture's file."""
     from vexture_geo.readers import read_extent
 
-    taken = Taken([], [], [], 0)
-    for _ in range(repeat + 2):  # the first two find nothing warm
+    taken = ReadingTimes([], [], [], 0)
+    for _ in range(repeat + 2):  # the first two include compilation
         start = time.perf_counter()
         extent = read_extent(path, path.name)
         taken.drawing.append(1000 * (time.perf_counter() - start))
@@ -84,4 +84,4 @@ def reading_times(path: Path, repeat: int) -> Taken:
         taken.texture.append(1000 * (time.perf_counter() - start))
         size = len(texture.to_ktx2())
         taken.file.append(1000 * (time.perf_counter() - start))
-    return Taken(taken.drawing[2:], taken.texture[2:], taken.file[2:], size)
+    return ReadingTimes(taken.drawing[2:], taken.texture[2:], taken.file[2:], size)

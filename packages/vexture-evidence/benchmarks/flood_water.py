@@ -1,4 +1,4 @@
-"""Whether the water of a flood's page is water: pixels of bed, sky or shards where the data say that water is seen.
+"""Gaps in the water of a flood's page: pixels of bed, sky or shards where water is visible according to the data.
 
     python packages/vexture-evidence/benchmarks/flood_water.py [SCENE ...] [--quick]
 
@@ -28,10 +28,10 @@ from PIL import Image
 from chromium import ROOT, chromium
 from report import RESULTS, table, write_json
 from santa_cruz_page import PATIENCE, content, scene_of
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["SCENES", "Count", "counts"]
+__all__ = ["SCENES", "ViewCount", "count_views"]
 
 Grid = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -98,7 +98,7 @@ LOOK: Final = """([view, flat]) => {
 }"""
 
 
-class Count(NamedTuple):
+class ViewCount(NamedTuple):
     """Pixels of a view at a step: those that must be water, and how many of them are not."""
 
     scene: str
@@ -110,12 +110,12 @@ class Count(NamedTuple):
 
     @property
     def share(self) -> float:
-        """Of all that must be water, what is not."""
+        """Part of the pixels that must be water and are not."""
         return (self.holes + self.bed) / self.water if self.water else 0.0
 
 
 def scene_named(name: str) -> Any:
-    """A scene of the examples, at first, at its highest and on the way down."""
+    """A scene of the examples at three steps: the first, the highest water, and one on the way down."""
     sys.path.insert(0, str(ROOT / "examples"))
     from four_floods.make_floods import SCENES as ALL
 
@@ -126,7 +126,7 @@ def scene_named(name: str) -> Any:
 
 
 def page_of(scene: Any, folder: Path) -> tuple[Path, dict[str, Any]]:
-    """The page of a scene with a ground of its own, and its data."""
+    """Export the page of a scene over a plain ground; return it and its data."""
     from four_floods.make_floods import write
 
     from vexture_geo.flood.options import FloodOptions
@@ -140,8 +140,8 @@ def page_of(scene: Any, folder: Path) -> tuple[Path, dict[str, Any]]:
 
 
 @contextmanager
-def opened(browser: Any, page: Path) -> Iterator[Any]:
-    """A page of a flood, bare and without waves."""
+def open_page(browser: Any, page: Path) -> Iterator[Any]:
+    """Open a flood's page, bare and without waves."""
     shown = browser.new_page(viewport=dict(zip(("width", "height"), SIZE, strict=True)), color_scheme="light")
     shown.set_default_timeout(PATIENCE)
     shown.goto(f"{page.as_uri()}?bare")
@@ -154,7 +154,7 @@ def opened(browser: Any, page: Path) -> Iterator[Any]:
 
 
 def rays(camera: dict[str, Any]) -> tuple[Grid, Grid]:
-    """Begin and end of the rays of a camera, (rows, columns, 3), from its nearest to its farthest plane."""
+    """Starts and ends of the rays of a camera, (rows, columns, 3), from its nearest to its farthest plane."""
     projection, seen = (np.array(camera[name]).reshape(4, 4).T for name in ("projection", "seen"))
     back = np.linalg.inv(projection @ seen)
     x = (np.arange(0, SIZE[0], EACH) + 0.5) / SIZE[0] * 2.0 - 1.0
@@ -179,7 +179,7 @@ def at(grid: NDArray[Any], s: Grid, t: Grid) -> Grid:
 
 
 def must_be_water(scene: Any, step: int, camera: dict[str, Any]) -> Mask:
-    """Which rays meet the water's surface, well away from any shore."""
+    """Mask of the rays that meet the water's surface, well away from any shore."""
     level, bed = scene.levels[step], scene.bed
     wet = level - bed > WET
     tops = (np.where(wet, level, bed) - camera["still"]) * camera["rise"]
@@ -213,16 +213,16 @@ def must_be_water(scene: Any, step: int, camera: dict[str, Any]) -> Mask:
         low, high = np.where(over, middle, low), np.where(over, high, middle)
     place = begin + along * high[..., None]
     s, t = place[..., 0] / camera["width"] + 0.5, 0.5 - place[..., 2] / camera["depth"]
-    return eroded(met & (at(eroded(wet, reach_of(scene)).astype(float), s, t) > 0.999), BESIDE)
+    return erode(met & (at(erode(wet, reach_of(scene)).astype(float), s, t) > 0.999), BESIDE)
 
 
 def reach_of(scene: Any) -> int:
-    """Cells around each place that must be wet, too."""
+    """Number of cells around each place that must also be wet."""
     return max(1, round(AWAY * max(scene.bed.shape) / SAMPLES))
 
 
-def eroded(mask: Mask, reach: int) -> Mask:
-    """What has only its like within a reach along both axes; beyond the border is more of the same."""
+def erode(mask: Mask, reach: int) -> Mask:
+    """Keep what is set within a reach along both axes; values at the border continue beyond it."""
     for axis in (0, 1):
         padded = np.pad(mask, [(reach, reach) if one == axis else (0, 0) for one in (0, 1)], mode="edge")
         windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis)
@@ -230,14 +230,14 @@ def eroded(mask: Mask, reach: int) -> Mask:
     return mask
 
 
-def counts(browser: Any, name: str, folder: Path, keep: Path | None = None) -> Iterator[Count]:
-    """What all views of a scene show at each step; `keep` is a folder for pictures of what is wrong."""
+def count_views(browser: Any, name: str, folder: Path, keep: Path | None = None) -> Iterator[ViewCount]:
+    """Count the wrong pixels in all views of a scene at each step; `keep` is a folder for pictures of them."""
     scene = scene_named(name)
-    page, told = page_of(scene, folder)
-    views = ["Plan", "Overview", *(view["name"] for view in told["views"])]
-    with opened(browser, page) as shown:
+    page, data = page_of(scene, folder)
+    views = ["Plan", "Overview", *(view["name"] for view in data["views"])]
+    with open_page(browser, page) as shown:
         for step, level in enumerate(scene.levels):
-            under = eroded(level - scene.bed > WET, 2 * reach_of(scene))
+            under = erode(level - scene.bed > WET, 2 * reach_of(scene))
             ground = np.where(under[::-1, :, None], (255, 0, 255, 255), (*DRY, 255)).astype(np.uint8)
             rows, columns = ground.shape[:2]
             shown.evaluate("(step) => vexture.flood.step(step)", step)
@@ -257,7 +257,7 @@ def counts(browser: Any, name: str, folder: Path, keep: Path | None = None) -> I
                     marked[holes], marked[bed] = (255, 0, 0), (255, 255, 0)
                     both = np.hstack([flat_one, real, marked]).astype(np.uint8)
                     Image.fromarray(both).save(keep / f"{name}-{view.lower().replace(' ', '-')}-{step}.png")
-                yield Count(name, view, step, int(water.sum()), int(holes.sum()), int(bed.sum()))
+                yield ViewCount(name, view, step, int(water.sum()), int(holes.sum()), int(bed.sum()))
 
 
 def main() -> None:
@@ -265,12 +265,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", default=SCENES, metavar="SCENE", help=", ".join(SCENES))
     parser.add_argument("--quick", action="store_true", help="one scene")
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     keep = RESULTS / "flood-water"
     keep.mkdir(parents=True, exist_ok=True)
     with chromium() as browser, tempfile.TemporaryDirectory() as folder:
-        names = asked.scenes[:1] if asked.quick else asked.scenes
-        found = [one for name in names for one in counts(browser, name, Path(folder), keep)]
+        names = arguments.scenes[:1] if arguments.quick else arguments.scenes
+        found = [one for name in names for one in count_views(browser, name, Path(folder), keep)]
     rows = [
         [f"{one.scene}, {one.view}", str(one.step), str(one.water), str(one.holes), str(one.bed), f"{one.share:.3%}"]
         for one in found
@@ -281,11 +281,11 @@ def main() -> None:
         Target("pixels of bed, sky or shard where water must be, all views, %", 100.0 * total, 0.5, 0.05),
         Target("the same in the worst view, %", 100.0 * max(one.share for one in found), 0.5, 0.05),
     ]
-    print(judgement(targets))
+    print(target_table(targets))
     facts = machine_facts()
     print(machine_line(facts))
     print(write_json("flood_water", {"machine": facts, "views": [one._asdict() for one in found],
-                                     "targets": judged(targets)}))  # fmt: skip
+                                     "targets": target_facts(targets)}))  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What the shaders cost on GPUs that need not be there: instructions, registers, waves, modelled cycles.
+"""The shaders' cost on GPUs that this machine need not have: instructions, registers, waves, modelled cycles.
 
     python packages/vexture-evidence/benchmarks/gpu_cost.py [--quick] [--waves 256] [--seed 1]
 
@@ -16,12 +16,20 @@ from typing import Final
 import corpora
 from report import cell, table, write_json
 from speed import TEXT, views_of
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture.drawing.drawing import Drawing
 from vexture.thesis.shader_text import FOLD_HEIGHT, TextureSizes
 from vexture_evidence.measures.bands import BANDS, band_texture
-from vexture_evidence.measures.gpu_compiler import Compiled, Toolchain, ToolchainError, toolchain
-from vexture_evidence.measures.gpu_model import FAMILIES, ONCE, Cycles, Program, Shape, per_pixel, program
+from vexture_evidence.measures.gpu_compiler import CompiledShader, Toolchain, ToolchainError, toolchain
+from vexture_evidence.measures.gpu_model import (
+    FAMILIES,
+    ONCE,
+    Cycles,
+    ScopedProgram,
+    ScopeShape,
+    per_pixel,
+    read_program,
+)
 from vexture_evidence.measures.gpu_turns import SIDE, Turns, band_lane, packed_lane, run_waves
 from vexture_evidence.measures.machine import machine_facts, machine_line
 from vexture_evidence.measures.programs import (
@@ -46,9 +54,9 @@ SOURCES: Final = {
 }
 
 SHAPES: Final = {
-    "flat": Shape("cells*(descend(quads*?) quad? leaf?(pieces* close*(steps)))"),
-    "any": Shape("cells*(descend(quads*?) cut? quad? leaf?(pieces*(edge?) close*(steps parts)) more?)"),
-    "bands": Shape("inside*?(level*(level_ahead?(level_crossed?)) upright*(upright_ahead?(upright_crossed?)))"),
+    "flat": ScopeShape("cells*(descend(quads*?) quad? leaf?(pieces* close*(steps)))"),
+    "any": ScopeShape("cells*(descend(quads*?) cut? quad? leaf?(pieces*(edge?) close*(steps parts)) more?)"),
+    "bands": ScopeShape("inside*?(level*(level_ahead?(level_crossed?)) upright*(upright_ahead?(upright_crossed?)))"),
 }
 """Loops of the programs that are modelled."""
 
@@ -67,8 +75,8 @@ TIMES: Final = {
 }
 """Time over that of the bands there, by views: the program that draws the view, at least and aim."""
 
-Made = Mapping[str, Mapping[str, Compiled]]
-Counted = Mapping[str, Mapping[str, Turns]]
+ShadersByFamily = Mapping[str, Mapping[str, CompiledShader]]
+TurnsByView = Mapping[str, Mapping[str, Turns]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,19 +91,19 @@ class Cost:
 
     @property
     def most(self) -> float:
-        """If all else is hidden behind the largest."""
+        """Cycles if all else is hidden behind the largest part."""
         return max(self.cycles.values())
 
     @property
     def sum(self) -> float:
-        """If nothing is hidden."""
+        """Cycles if nothing is hidden."""
         return sum(self.cycles.values())
 
 
-def compiled(tools: Toolchain) -> dict[str, dict[str, Compiled]]:
-    """Every program, for every family."""
+def compile_programs(tools: Toolchain) -> dict[str, dict[str, CompiledShader]]:
+    """Compile every program for every family."""
     return {
-        kind: {name: tools.compiled(name, source, family.name) for name, source in SOURCES.items()}
+        kind: {name: tools.compile_shader(name, source, family.name) for name, source in SOURCES.items()}
         for kind, family in FAMILIES.items()
     }
 
@@ -121,8 +129,8 @@ def programs_of(view: str) -> list[str]:
     return [name for name in SHAPES if name != "flat" or TIMES[view][0] == "flat"]
 
 
-def counted(drawings: Sequence[Drawing], waves: int, seed: int) -> dict[str, dict[str, Turns]]:
-    """Turns of the loops of each program in each view."""
+def count_turns(drawings: Sequence[Drawing], waves: int, seed: int) -> dict[str, dict[str, Turns]]:
+    """Count the turns of the loops of each program in each view."""
     found = {view: {name: Turns(SHAPES[name]) for name in programs_of(view)} for view in TIMES}
     for drawing in drawings:
         packed, bands = packed_texture(drawing), band_texture(drawing, BANDS)
@@ -136,19 +144,21 @@ def counted(drawings: Sequence[Drawing], waves: int, seed: int) -> dict[str, dic
     return found
 
 
-def read(made: Made) -> dict[str, dict[str, Program]]:
-    """The programs that are modelled, for every family."""
+def read_programs(shaders: ShadersByFamily) -> dict[str, dict[str, ScopedProgram]]:
+    """Read the assembly of the modelled programs, for every family."""
     return {
-        kind: {name: program(name, of[name].assembly, shape) for name, shape in SHAPES.items()}
-        for kind, of in made.items()
+        kind: {name: read_program(name, of[name].assembly, shape) for name, shape in SHAPES.items()}
+        for kind, of in shaders.items()
     }
 
 
-def costs(made: Made, programs: Mapping[str, Mapping[str, Program]], found: Counted) -> list[Cost]:
+def program_costs(
+    shaders: ShadersByFamily, programs: Mapping[str, Mapping[str, ScopedProgram]], found: TurnsByView
+) -> list[Cost]:
     """Modelled cycles of each program in each view, on each family."""
     rows = []
     for kind, family in FAMILIES.items():
-        waves = {name: family.waves(made[kind][name].statistics["VGPRs"]) for name in SHAPES}
+        waves = {name: family.waves(shaders[kind][name].statistics["VGPRs"]) for name in SHAPES}
         for view, turns in found.items():
             for name, one in turns.items():
                 parts = programs[kind][name].cycles(one.per_wave(), family)
@@ -168,22 +178,22 @@ def ratios(rows: Sequence[Cost]) -> dict[tuple[str, str, str], tuple[float, floa
     }
 
 
-def targets(made: Made, rows: Sequence[Cost]) -> list[Target]:
-    """What the issue asks for."""
+def targets(shaders: ShadersByFamily, rows: Sequence[Cost]) -> list[Target]:
+    """Targets for sizes and times."""
     reached = []
     for name, limits in STATISTICS.items():
         for key, (least, aim) in zip(("Instructions", "VGPRs"), limits, strict=True):
-            reached.append(Target(f"{JUDGED}, {name}: {key}", made[JUDGED][name].statistics[key], least, aim))
+            reached.append(Target(f"{JUDGED}, {name}: {key}", shaders[JUDGED][name].statistics[key], least, aim))
     over = ratios(rows)
     for view, (name, least, aim) in TIMES.items():
         reached.append(Target(f"{JUDGED}, {view}: {name} over bands", mean(over[JUDGED, view, name]), least, aim))
     return reached
 
 
-def statistics_table(made: Made) -> str:
-    """What the driver says of the programs."""
+def statistics_table(shaders: ShadersByFamily) -> str:
+    """Table of the driver's statistics of the programs."""
     rows = []
-    for kind, programs in made.items():
+    for kind, programs in shaders.items():
         for name, one in programs.items():
             registers = one.statistics["VGPRs"]
             shown = (one.statistics["Instructions"], one.statistics["Code size"], registers)
@@ -191,8 +201,8 @@ def statistics_table(made: Made) -> str:
     return table(("GPU", "program", "instructions", "bytes", "VGPRs", "waves"), rows)
 
 
-def turns_table(found: Counted, names: Sequence[str], columns: Sequence[str]) -> str:
-    """How often loops turn."""
+def turns_table(found: TurnsByView, names: Sequence[str], columns: Sequence[str]) -> str:
+    """Table of the turns of loops."""
     rows = []
     for view, turns in found.items():
         for name in (name for name in names if name in turns):
@@ -202,7 +212,7 @@ def turns_table(found: Counted, names: Sequence[str], columns: Sequence[str]) ->
 
 
 def times_table(rows: Sequence[Cost]) -> str:
-    """Modelled cycles."""
+    """Table of the modelled cycles."""
     over = ratios(rows)
     shown = []
     for row in rows:
@@ -214,7 +224,7 @@ def times_table(rows: Sequence[Cost]) -> str:
 
 
 def shares_table(rows: Sequence[Cost]) -> str:
-    """Where the packed programs spend their cycles."""
+    """Table of the cycles of the packed programs by scope."""
     shown = []
     for row in (row for row in rows if row.program != "bands"):
         for kind, of in (("valu", "valu"), ("waiting", "alone")):
@@ -234,14 +244,14 @@ def main() -> None:
     arguments = parser.parse_args()
     try:
         with toolchain() as tools:
-            made = compiled(tools)
+            made = compile_programs(tools)
     except ToolchainError as error:
         print(f"skipped: {error}")
         return
-    programs = read(made)
+    programs = read_programs(made)
     text, waves = (TEXT[:3], arguments.waves // 4) if arguments.quick else (TEXT, arguments.waves)
-    found = counted(corpora.glyphs(corpora.dejavu_sans(), text), waves, arguments.seed)
-    rows = costs(made, programs, found)
+    found = count_turns(corpora.glyphs(corpora.dejavu_sans(), text), waves, arguments.seed)
+    rows = program_costs(made, programs, found)
     reached = targets(made, rows)
     machine, driver = machine_facts(), made[JUDGED]["any"].driver
     shown = (
@@ -250,7 +260,7 @@ def main() -> None:
         turns_table(found, ("bands",), tuple(SHAPES["bands"].parents)),
         times_table(rows),
         shares_table(rows),
-        judgement(reached),
+        target_table(reached),
         driver + "\n" + machine_line(machine),
     )
     print("\n\n".join(shown))
@@ -264,7 +274,7 @@ def main() -> None:
             for view, turns in found.items()
         },
         "costs": [asdict(row) for row in rows],
-        "targets": judged(reached),
+        "targets": target_facts(reached),
     }
     print(write_json("gpu_cost", facts))
 

@@ -1,4 +1,4 @@
-"""Whether every icon converts, and how well its pictures show it: 500 of Material Design, 200 of Simple Icons.
+"""Conversion and errors of many icons: 500 of Material Design, 200 of Simple Icons.
 
     python packages/vexture-evidence/benchmarks/icons.py [--mdi 500] [--simple 200] [--sizes 61 250] [--shifts 2]
         [--seed 1] [--quick]
@@ -18,7 +18,7 @@ from rich.console import Console
 from rich.progress import track
 
 import corpora
-from fidelity import AREA_LIMIT, BORDER_LIMIT, MEAN_LIMIT, area_error, has_gpu, parsed, shifted_views, size_facts
+from fidelity import AREA_LIMIT, BORDER_LIMIT, MEAN_LIMIT, area_error, has_gpu, parse_options, shifted_views, size_facts
 from report import cell, table, write_json
 from vexture.base.errors import SourceWarning, VextureError
 from vexture.conversion.pipeline import run
@@ -30,7 +30,7 @@ SHIFTS = 2
 
 
 def icon_facts(path: Path, arguments: argparse.Namespace, renderers: Sequence[str]) -> dict[str, Any]:
-    """Everything measured of one icon, or why it failed."""
+    """All measurements of one icon, or the reason of its failure."""
     facts: dict[str, Any] = {"icon": path.stem}
     try:
         with warnings.catch_warnings():
@@ -96,7 +96,7 @@ HEAD += ("unresolved", "ms", "missed")
 
 
 def worst_icons(icons: Sequence[dict[str, Any]], renderers: Sequence[str]) -> str:
-    """Table of the icons that come nearest to a limit, or exceed it."""
+    """Table of the icons that come closest to a limit, or exceed it."""
 
     def share(icon: dict[str, Any]) -> tuple[float, dict[str, Any], str]:
         of_limit = [(icon["area"] / AREA_LIMIT, icon["sizes"][-1], "area")]
@@ -127,7 +127,7 @@ def worst_icons(icons: Sequence[dict[str, Any]], renderers: Sequence[str]) -> st
     return table((*head, "segments", "curves", "unresolved"), rows)
 
 
-def measured(
+def measure_icons(
     name: str,
     choose: Callable[[int, int], list[Path]],
     count: int,
@@ -143,14 +143,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Errors of many icons' pictures.")
     parser.add_argument("--mdi", type=int, default=500)
     parser.add_argument("--simple", type=int, default=200)
-    arguments = parsed(parser, SIZES, SHIFTS)
+    arguments = parse_options(parser, SIZES, SHIFTS)
     if arguments.quick:
         arguments.mdi, arguments.simple = min(arguments.mdi, 20), min(arguments.simple, 10)
     renderers = ("cpu", "gpu") if has_gpu() else ("cpu",)
     start = time.perf_counter()
     sets = {
-        "mdi": measured("mdi", corpora.mdi, arguments.mdi, arguments, renderers),
-        "simple-icons": measured("simple-icons", corpora.simple_icons, arguments.simple, arguments, renderers),
+        "mdi": measure_icons("mdi", corpora.mdi, arguments.mdi, arguments, renderers),
+        "simple-icons": measure_icons("simple-icons", corpora.simple_icons, arguments.simple, arguments, renderers),
     }
     icons = [icon for found in sets.values() for icon in found]
     print(table(HEAD, [row for name, found in sets.items() for row in summary(name, found, renderers)]))

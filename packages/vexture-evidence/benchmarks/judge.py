@@ -1,4 +1,4 @@
-"""What the sweep finds of one file, in a child process: resvg and Skia crash on hostile SVG, and memory has a limit.
+"""Judging of one file by the sweep, in a child process: resvg and Skia crash on hostile SVG, and memory has a limit.
 
 The texture's silhouette is judged by exact coverage, and the reading by resvg's picture of the file, drawn larger and
 reduced. Where resvg differs, Skia's own reader is asked: a file is right if one of the two agrees.
@@ -36,7 +36,7 @@ from vexture.svg.document import parse_svg
 from vexture.svg.read import framed_drawing
 from vexture_evidence.measures.peers import paint_with_skia
 
-__all__ = ["FIRST", "READING_LIMIT", "TEXTURE_LIMIT", "Case", "Child", "Facts", "enlarged", "stages"]
+__all__ = ["FIRST", "READING_LIMIT", "TEXTURE_LIMIT", "Case", "Child", "Facts", "enlarge", "stages"]
 
 SIZE: Final = 100
 """Pixels across a compared picture."""
@@ -64,7 +64,7 @@ Facts = dict[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """One file of a corpus, and the SVG that says the same if it is no SVG itself."""
+    """One file of a corpus, and an SVG with the same content if it is no SVG itself."""
 
     corpus: str
     name: str
@@ -73,7 +73,7 @@ class Case:
 
 
 class Child:
-    """A process that judges cases, one at a time: `find` says what it finds of one, a stage at a time."""
+    """A process that judges cases, one at a time; `find` yields the facts of a case, a stage at a time."""
 
     def __init__(self, find: Callable[[Case], Iterator[Facts]]) -> None:
         context = multiprocessing.get_context("spawn")  # a fork would share the threads of the parent
@@ -83,7 +83,7 @@ class Child:
         theirs.close()
 
     def judge(self, case: Case) -> Facts:
-        """Return what is found of a case; ``died`` says how if the child dies of it, and is of no more use."""
+        """Return the facts of a case; ``died`` is the reason if the child died, which is then of no more use."""
         facts: Facts = {}
         try:
             self.pipe.send(case)
@@ -108,7 +108,7 @@ class Child:
 def serve(pipe: Connection, find: Callable[[Case], Iterator[Facts]]) -> None:
     """Judge what comes through a pipe; send the facts of each stage as soon as they are known."""
     warnings.simplefilter("ignore", SourceWarning)
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # of libraries that say what they think of a file
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # of libraries that print their complaints about a file
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     list(find(Case("", "first.svg", FIRST)))
     while True:
@@ -124,7 +124,7 @@ def serve(pipe: Connection, find: Callable[[Case], Iterator[Facts]]) -> None:
 def stages(case: Case) -> Iterator[Facts]:
     """Facts of a case, a stage at a time."""
     try:
-        drawing, texture, seconds = converted(case)
+        drawing, texture, seconds = convert_case(case)
         excuses = [note for note in drawing.notes if note.kind != "remark"]
         yield {"seconds": seconds, "notes": line_of(case.name, excuses)}
         yield {"texture": texture_gap(drawing, texture)}
@@ -141,8 +141,8 @@ def stages(case: Case) -> Iterator[Facts]:
     yield reading
 
 
-def converted(case: Case) -> tuple[Drawing, Any, float]:
-    """Drawing and texture of a case, and the processor's seconds from file to file."""
+def convert_case(case: Case) -> tuple[Drawing, Any, float]:
+    """Convert a case; return its drawing, its texture, and the processor's seconds from file to file."""
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / Path(case.name).name
         source.write_bytes(case.content)
@@ -160,11 +160,11 @@ def texture_gap(drawing: Drawing, texture: Any) -> float:
 
 
 @cache
-def with_fonts() -> resvg.usvg.Options:
-    """Options of resvg with the fonts that are ours too: those that fontconfig is told of (`same_fonts.py`), or all."""
-    told = os.environ.get("FONTCONFIG_FILE")
-    if told is not None:
-        return options_of_resvg(Path(told).parent)
+def resvg_options() -> resvg.usvg.Options:
+    """Options of resvg with the same fonts as ours: those of fontconfig's file (`same_fonts.py`), or all."""
+    file = os.environ.get("FONTCONFIG_FILE")
+    if file is not None:
+        return options_of_resvg(Path(file).parent)
     options = resvg.usvg.Options.default()
     options.load_system_fonts()
     return options
@@ -174,18 +174,18 @@ def reading_gaps(case: Case, drawing: Drawing) -> Facts:
     """Largest differences between the pictures of a drawing and the references' of its file."""
     gaps: Facts = {}
     for finer in FINER:
-        text, size = enlarged(case.same or case.content, drawing, SIZE * finer)
-        tree = resvg.usvg.Tree.from_str(text.decode(), with_fonts())
+        text, size = enlarge(case.same or case.content, drawing, SIZE * finer)
+        tree = resvg.usvg.Tree.from_str(text.decode(), resvg_options())
         theirs = np.asarray(Image.open(io.BytesIO(bytes(resvg.render(tree, (1, 0, 0, 0, 1, 0))))).convert("RGBA"))
-        ours = drawn(drawing, theirs.shape[:2], size)
+        ours = draw_with_skia(drawing, theirs.shape[:2], size)
         gaps = {"resvg": difference(ours, theirs, finer)}
         if gaps["resvg"] <= READING_LIMIT:
             return gaps
     return gaps | {"skia": difference(ours, skia_reading(text, theirs.shape[:2], size), finer)}
 
 
-def enlarged(content: bytes, drawing: Drawing, side: int) -> tuple[bytes, tuple[float, float]]:
-    """The same SVG with a longer side of so many pixels, and its size."""
+def enlarge(content: bytes, drawing: Drawing, side: int) -> tuple[bytes, tuple[float, float]]:
+    """Set the longer side of an SVG, in pixels; return the SVG and its size."""
     framed = framed_drawing(content, "")[1]
     root = parse_svg(decompressed(content))
     if framed is not None:
@@ -204,8 +204,8 @@ def enlarged(content: bytes, drawing: Drawing, side: int) -> tuple[bytes, tuple[
     return etree.tostring(root), shown
 
 
-def drawn(drawing: Drawing, shape: tuple[int, int], size: tuple[float, float]) -> NDArray[np.uint8]:
-    """What Skia draws of a drawing, the top left corner of its box in the corner of the picture."""
+def draw_with_skia(drawing: Drawing, shape: tuple[int, int], size: tuple[float, float]) -> NDArray[np.uint8]:
+    """Draw a drawing with Skia, the top left corner of its box in the corner of the picture."""
     pixels = np.zeros((*shape, 4), np.uint8)
     side = max(size)
     matrix = np.array([[side, 0.0, (size[0] - side) / 2], [0.0, -side, (size[1] + side) / 2], [0.0, 0.0, 1.0]])
@@ -215,7 +215,7 @@ def drawn(drawing: Drawing, shape: tuple[int, int], size: tuple[float, float]) -
 
 
 def skia_reading(text: bytes, shape: tuple[int, int], size: tuple[float, float]) -> NDArray[np.uint8]:
-    """What Skia's own reader of SVG draws."""
+    """Draw an SVG with Skia's own reader."""
     pixels = np.zeros((*shape, 4), np.uint8)
     with skia.Surface(pixels) as canvas:
         document = skia.SVGDOM.MakeFromStream(skia.MemoryStream(text))
@@ -224,16 +224,16 @@ def skia_reading(text: bytes, shape: tuple[int, int], size: tuple[float, float])
     return pixels
 
 
-def difference(ours: NDArray[np.uint8], theirs: NDArray[np.uint8], finer: int) -> float:
-    """Largest difference of opacity or of a premultiplied colour, of pixels that are so many times as large."""
-    gap = premultiplied(ours) - premultiplied(theirs)
+def difference(ours: NDArray[np.uint8], reference: NDArray[np.uint8], finer: int) -> float:
+    """Largest difference of opacity or of a premultiplied colour, of pixels `finer` times as large."""
+    gap = premultiply(ours) - premultiply(reference)
     rows, columns = (-length % finer for length in gap.shape[:2])
     gap = np.pad(gap, ((0, rows), (0, columns), (0, 0)))
     coarse = gap.reshape(gap.shape[0] // finer, finer, -1, finer, 4).mean(axis=(1, 3))
     return float(np.abs(coarse).max())
 
 
-def premultiplied(pixels: NDArray[np.uint8]) -> NDArray[np.float32]:
+def premultiply(pixels: NDArray[np.uint8]) -> NDArray[np.float32]:
     scaled = (pixels / 255.0).astype(np.float32)
     scaled[..., :3] *= scaled[..., 3:]
     return scaled

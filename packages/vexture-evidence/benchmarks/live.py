@@ -1,4 +1,4 @@
-"""What a live server costs: from an upload to a hundred clients, a thousand clients that wait, and the upload itself.
+"""Costs of a live server: from an upload to a hundred clients, a thousand clients that wait, and the upload itself.
 
 Everything is real: `vexture serve` in a process of its own, clients on sockets of this machine in another.
 """
@@ -27,14 +27,14 @@ DRAWING = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><path d="
 GOALS = {"event_ms_p95": 100.0, "idle_rss_mb": 200.0}
 
 
-class Client:
+class EventClient:
     """One connection that listens to the stream of changes."""
 
     def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         self.reader, self.writer = reader, writer
 
     @classmethod
-    async def connect(cls, port: int) -> "Client":
+    async def connect(cls, port: int) -> "EventClient":
         reader, writer = await asyncio.open_connection("127.0.0.1", port)
         writer.write(b"GET /events HTTP/1.1\r\nHost: 127.0.0.1\r\nAccept: text/event-stream\r\n\r\n")
         client = cls(reader, writer)
@@ -43,21 +43,21 @@ class Client:
         return client
 
     async def until(self, start: bytes) -> bytes:
-        """Next line that starts so."""
+        """Return the next line that starts with `start`."""
         while line := await self.reader.readline():
             if line.startswith(start):
                 return line
         raise ConnectionError("the server closed a stream")
 
     async def version(self) -> tuple[str, float]:
-        """Version that the next event of a shape tells, and when it came."""
+        """Version in the next event of a shape, and the time of its arrival."""
         await self.until(b"event: shape")
         line = await self.until(b"data: ")
         return json.loads(line[len(b"data: ") :])["version"], time.perf_counter()
 
 
-async def put(port: int, name: str, body: bytes) -> dict[str, Any]:
-    """Upload, with the time that its answer came."""
+async def upload(port: int, name: str, body: bytes) -> dict[str, Any]:
+    """Upload a drawing; return the answer."""
     reader, writer = await asyncio.open_connection("127.0.0.1", port)
     head = f"PUT /shapes/{name} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\nContent-Length: {len(body)}\r\n"
     writer.write(f"{head}Authorization: Bearer {TOKEN}\r\n\r\n".encode() + body)
@@ -69,10 +69,10 @@ async def put(port: int, name: str, body: bytes) -> dict[str, Any]:
     return json.loads(answer.partition(b"\r\n\r\n")[2])
 
 
-def memory(process: int, what: str = "VmRSS") -> float:
+def memory(process: int, field: str = "VmRSS") -> float:
     """Megabytes of a process."""
     for line in Path(f"/proc/{process}/status").read_text().splitlines():
-        if line.startswith(f"{what}:"):
+        if line.startswith(f"{field}:"):
             return int(line.split()[1]) / 1000
     return float("nan")
 
@@ -83,30 +83,30 @@ def percentile(values: list[float], part: float) -> float:
 
 
 async def events(port: int, clients: int, uploads: int) -> tuple[list[float], list[float], list[float]]:
-    """Milliseconds of uploads; from an upload to each client; from the first client that knows to each."""
-    listening = [await Client.connect(port) for _ in range(clients)]
-    asked, told, spread = [], [], []
+    """Milliseconds of uploads; from an upload to each client; from the first client to each."""
+    listening = [await EventClient.connect(port) for _ in range(clients)]
+    answered, delays, spread = [], [], []
     for number in range(uploads):
         waiting = [asyncio.create_task(client.version()) for client in listening]
         await asyncio.sleep(0.05)
         start = time.perf_counter()
-        published = await put(port, "moving", DRAWING.format(1 + number % 7).encode() + b"\n" * number)
-        asked.append(1000 * (time.perf_counter() - start))
+        published = await upload(port, "moving", DRAWING.format(1 + number % 7).encode() + b"\n" * number)
+        answered.append(1000 * (time.perf_counter() - start))
         heard = await asyncio.gather(*waiting)
         if {version for version, _ in heard} != {published["version"]}:
-            raise ConnectionError("a client was told of another version")
+            raise ConnectionError("a client received another version")
         first = min(moment for _, moment in heard)
-        told += [1000 * (moment - start) for _, moment in heard]
+        delays += [1000 * (moment - start) for _, moment in heard]
         spread += [1000 * (moment - first) for _, moment in heard]
     for client in listening:
         client.writer.close()
-    return asked, told, spread
+    return answered, delays, spread
 
 
-async def idle(port: int, process: int, clients: int) -> tuple[float, float]:
+async def idle_memory(port: int, process: int, clients: int) -> tuple[float, float]:
     """Megabytes of the server before and with clients that wait."""
     before = memory(process)
-    listening = [await Client.connect(port) for _ in range(clients)]
+    listening = [await EventClient.connect(port) for _ in range(clients)]
     await asyncio.sleep(2.0)
     after = memory(process)
     for client in listening:
@@ -125,18 +125,18 @@ def measure(arguments: argparse.Namespace) -> dict[str, Any]:
         try:
             assert server.stdout is not None
             port = urlsplit(server.stdout.readline().rpartition(" at ")[2].strip()).port or 0
-            asyncio.run(put(port, "moving", DRAWING.format(9).encode()))  # from here on the converter is warm
-            before, after = asyncio.run(idle(port, server.pid, arguments.idle))
-            asked, told, spread = asyncio.run(events(port, arguments.clients, arguments.uploads))
+            asyncio.run(upload(port, "moving", DRAWING.format(9).encode()))  # from here on the converter is warm
+            before, after = asyncio.run(idle_memory(port, server.pid, arguments.idle))
+            answered, delays, spread = asyncio.run(events(port, arguments.clients, arguments.uploads))
         finally:
             server.terminate()
             server.wait()
     return {
         "clients": arguments.clients,
         "uploads": arguments.uploads,
-        "put_ms_median": statistics.median(asked),
-        "put_ms_p95": percentile(asked, 0.95),
-        "put_to_event_ms_p95": percentile(told, 0.95),
+        "put_ms_median": statistics.median(answered),
+        "put_ms_p95": percentile(answered, 0.95),
+        "put_to_event_ms_p95": percentile(delays, 0.95),
         "event_ms_median": statistics.median(spread),
         "event_ms_p95": percentile(spread, 0.95),
         "idle_clients": arguments.idle,

@@ -1,10 +1,10 @@
-"""What a server bears: many streams of events and an update a second, beside peers that only cost.
+"""A server under load: many streams of events and an update a second, beside peers that only cost.
 
     python packages/vexture-evidence/benchmarks/load.py [--flood] [--streams 1000] [--idle 500] [--stuck 100]
         [--seconds 300] [--quick]
 
 Everything is real, as in `live.py`: `vexture serve`, or `vexture flood --serve`, whose updates are newer water. Idle
-peers connect and never ask; stuck ones ask for 9 MB and never read. Whoever the server cuts off comes again.
+peers connect and send no request; stuck ones request 9 MB and never read. A peer that is cut off connects again.
 """
 
 import argparse
@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flood_reading import geojson
-from live import DRAWING, SERVE, TOKEN, Client, memory, percentile, put
+from live import DRAWING, SERVE, TOKEN, EventClient, memory, percentile, upload
 from report import write_figures
 from vexture.server.limits import Limits
 from vexture_geo.flood.bundle import FLOOD
@@ -31,7 +31,7 @@ from vexture_geo.flood.bundle import FLOOD
 __all__ = ["main"]
 
 LARGE, TIMES = 9_000_000, 20
-"""Bytes of a drawing that is not read, and how often it is asked for: the script of a page is a tenth of it."""
+"""Bytes of a drawing that is not read, and how often it is requested: the script of a page is a tenth of it."""
 
 SETTLING = 5.0
 """Seconds from the first connections to the first update, and from the last update to the end."""
@@ -39,20 +39,20 @@ SETTLING = 5.0
 GOALS = {"events_lost": 0.0, "put_to_event_ms_p99": 250.0, "growth_mb": 10.0}
 
 Heard = dict[str, float]
-"""When a stream has told of each version."""
+"""Time at which a stream announced each version."""
 
 
 async def listener(port: int, heard: Heard) -> None:
     """One stream of events, until it is cancelled; if the server ends it, what follows is lost."""
-    client = await Client.connect(port)
+    client = await EventClient.connect(port)
     with suppress(ConnectionError):
         while True:
             version, moment = await client.version()
             heard[version] = moment
 
 
-async def idle(port: int) -> None:
-    """A peer that never asks."""
+async def idle_peer(port: int) -> None:
+    """A peer that sends no request."""
     while True:
         with suppress(OSError):
             reader, writer = await asyncio.open_connection("127.0.0.1", port)
@@ -61,7 +61,7 @@ async def idle(port: int) -> None:
         await asyncio.sleep(0.1)
 
 
-class Served(NamedTuple):
+class LoadSetup(NamedTuple):
     """A server: its command, the shape that changes, its content each time, and a file that is not read."""
 
     command: list[str]
@@ -81,18 +81,18 @@ def water(number: int) -> bytes:
     return geojson(np.array([(0, 0), (east, 0), (east, 0.04), (0, 0.04), (0, 0)]))
 
 
-def served(folder: Path, *, flood: bool) -> Served:
-    """Drawings, or a flood."""
+def load_setup(folder: Path, *, flood: bool) -> LoadSetup:
+    """The server of drawings, or of a flood."""
     if not flood:
-        return Served([*SERVE, f"{folder}/shapes"], "moving", drawing, None)
+        return LoadSetup([*SERVE, f"{folder}/shapes"], "moving", drawing, None)
     extent = folder / "sea.geojson"
     extent.write_bytes(water(0))
     command = [*SERVE[:-1], "flood", "--serve", "--extent", str(extent), "--bounds", "0,0,0.06,0.04"]
-    return Served(command, "flood", water, f"/{FLOOD.script}")
+    return LoadSetup(command, "flood", water, f"/{FLOOD.script}")
 
 
-async def stuck(port: int, path: str) -> None:
-    """A peer that never reads what it asks for, `TIMES` over, and asks again when it has been cut off."""
+async def stuck_peer(port: int, path: str) -> None:
+    """A peer that requests a path `TIMES` times, never reads, and connects again when it has been cut off."""
     loop = asyncio.get_running_loop()
     while True:
         with socket.socket() as peer, suppress(OSError):
@@ -103,25 +103,25 @@ async def stuck(port: int, path: str) -> None:
             await asyncio.sleep(Limits().stall_seconds + SETTLING)
 
 
-async def uploaded(port: int) -> str:
-    """Path of a large file of a server of drawings."""
-    large = await put(port, "large", DRAWING.format(9).encode() + b"<!--" + b" " * LARGE + b"-->")
+async def upload_large_drawing(port: int) -> str:
+    """Upload a large drawing; return its path."""
+    large = await upload(port, "large", DRAWING.format(9).encode() + b"<!--" + b" " * LARGE + b"-->")
     return str(large["views"]["svg"].removeprefix(".."))
 
 
-async def strained(port: int, process: int, what: Served, arguments: argparse.Namespace) -> dict[str, Any]:
-    """Figures of a server under load."""
-    path = what.path or await uploaded(port)
+async def measure_load(port: int, process: int, setup: LoadSetup, arguments: argparse.Namespace) -> dict[str, Any]:
+    """Measure a server under load."""
+    path = setup.path or await upload_large_drawing(port)
     before = memory(process)
     heard: list[Heard] = [{} for _ in range(arguments.streams)]
-    tasks = [asyncio.create_task(stuck(port, path)) for _ in range(arguments.stuck)]
-    tasks += [asyncio.create_task(idle(port)) for _ in range(arguments.idle)]
+    tasks = [asyncio.create_task(stuck_peer(port, path)) for _ in range(arguments.stuck)]
+    tasks += [asyncio.create_task(idle_peer(port)) for _ in range(arguments.idle)]
     tasks += [asyncio.create_task(listener(port, one)) for one in heard]
     await asyncio.sleep(SETTLING)
     loaded, sent = memory(process), {}
     for second in range(arguments.seconds):
         start = time.perf_counter()
-        sent[(await put(port, what.name, what.content(1 + second)))["version"]] = start
+        sent[(await upload(port, setup.name, setup.content(1 + second)))["version"]] = start
         await asyncio.sleep(max(0.0, start + 1.0 - time.perf_counter()))
     await asyncio.sleep(SETTLING)
     after = memory(process)
@@ -130,17 +130,17 @@ async def strained(port: int, process: int, what: Served, arguments: argparse.Na
         task.cancel()
     await asyncio.gather(*tasks, return_exceptions=True)
     firsts = {version: min((one[version] for one in heard if version in one), default=0.0) for version in sent}
-    told = [1000 * (one[version] - sent[version]) for one in heard for version in sent if version in one]
+    delays = [1000 * (one[version] - sent[version]) for one in heard for version in sent if version in one]
     spread = [1000 * (one[version] - firsts[version]) for one in heard for version in sent if version in one]
     return {
         "streams_ended": len(failed),
         "updates": len(sent),
         "events": len(sent) * len(heard),
-        "events_lost": len(sent) * len(heard) - len(told),
+        "events_lost": len(sent) * len(heard) - len(delays),
         "event_ms_p50": percentile(spread, 0.5),
         "event_ms_p99": percentile(spread, 0.99),
-        "put_to_event_ms_p50": percentile(told, 0.5),
-        "put_to_event_ms_p99": percentile(told, 0.99),
+        "put_to_event_ms_p50": percentile(delays, 0.5),
+        "put_to_event_ms_p99": percentile(delays, 0.99),
         "rss_mb": before,
         "loaded_rss_mb": loaded,
         "growth_mb": after - loaded,
@@ -153,14 +153,14 @@ def measure(arguments: argparse.Namespace) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as folder:
         token = Path(folder) / "token"
         token.write_text(TOKEN)
-        what = served(Path(folder), flood=arguments.flood)
+        what = load_setup(Path(folder), flood=arguments.flood)
         command = [*what.command, "--port", "0", "--token-file", str(token)]
         server = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         try:
             assert server.stdout is not None
             port = int(re.search(r"http://[^/]*:(\d+)/", server.stdout.readline())[1])
-            asyncio.run(put(port, what.name, what.content(0)))  # from here on the converter is warm
-            found = asyncio.run(strained(port, server.pid, what, arguments))
+            asyncio.run(upload(port, what.name, what.content(0)))  # from here on the converter is warm
+            found = asyncio.run(measure_load(port, server.pid, what, arguments))
         finally:
             server.terminate()
             _, errors = server.communicate()
@@ -172,7 +172,7 @@ def main() -> None:
     """Measure, print a table, write JSON."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--streams", type=int, default=1000)
-    parser.add_argument("--idle", type=int, default=500, help="peers that never ask")
+    parser.add_argument("--idle", type=int, default=500, help="peers that send no request")
     parser.add_argument("--stuck", type=int, default=100, help="peers that never read")
     parser.add_argument("--seconds", type=int, default=300, help="updates, one a second")
     parser.add_argument("--quick", action="store_true", help="a tenth of all: whether it works, not how well")

@@ -1,10 +1,10 @@
-"""A map of counties through 120 months in a browser: what a step costs the page, of its frame of 16.7 ms.
+"""A map of counties through 120 months in a browser: the cost of a step for the page, of its frame of 16.7 ms.
 
     python packages/vexture-evidence/benchmarks/map_time.py [--quick]
 
 3,231 counties of the npm package us-atlas, as a pyramid in MapLibre. A step is `setTime` and the layer's part of the
 frame after it: colours mixed between two months, tables of paints and means written and sent, and all drawn. Drawing
-itself is done in software here, and not counted: what a frame costs without a change is told beside it.
+itself is done in software here, and not counted: the cost of a frame without a change is printed beside it.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import corpora
-from chromium import WEB, bundle, chromium, served
+from chromium import WEB, bundle, chromium, serve_folder
 from report import write_figures
 
 GOALS = {"states_step_ms": 4.0, "country_step_ms": 4.0}
@@ -30,7 +30,7 @@ HTML = """<!doctype html><link rel="icon" href="data:,"><style>html, body, #map 
 
 def prepare(folder: Path) -> list[str]:
     """Write the page and its tiles, and return the ids of all counties."""
-    source = ATLAS.installed() / "counties-10m.json"
+    source = ATLAS.installed_folder() / "counties-10m.json"
     words = [sys.executable, "-m", "vexture", "tiles", str(source), "--layer", "counties", "--max-zoom", "8"]
     subprocess.run([*words, "-o", str(folder / "counties"), "-q"], check=True)
     shutil.copy(WEB / "node_modules" / "maplibre-gl" / "dist" / "maplibre-gl-worker.mjs", folder)
@@ -40,8 +40,8 @@ def prepare(folder: Path) -> list[str]:
     return [one["id"] for one in found]
 
 
-def measured(page: Any, name: str, ids: list[str], months: int) -> dict[str, float]:
-    """Milliseconds and rows of a view."""
+def measure_view(page: Any, name: str, ids: list[str], months: int) -> dict[str, float]:
+    """Measure the milliseconds and rows of a view."""
     found = page.evaluate("given => measured(...given)", [VIEWS[name], ids, months])
     return {
         f"{name}_tiles": found["shown"],
@@ -62,12 +62,12 @@ def main() -> None:
     figures: dict[str, float] = {}
     with tempfile.TemporaryDirectory() as name, chromium() as browser:
         ids = prepare(Path(name))
-        with served(Path(name)) as address:
+        with serve_folder(Path(name)) as address:
             for view in VIEWS:
                 page = browser.new_page(viewport={"width": 512, "height": 384})
                 page.goto(f"{address}/page.html")
                 page.wait_for_function("!!window.measured")
-                figures |= measured(page, view, ids, 12 if chosen.quick else MONTHS)
+                figures |= measure_view(page, view, ids, 12 if chosen.quick else MONTHS)
                 page.close()
     write_figures("map_time", figures, GOALS)
 

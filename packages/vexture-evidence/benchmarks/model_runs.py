@@ -51,7 +51,7 @@ class Mesh(NamedTuple):
 
 
 def estuary(faces: int, seed: int) -> Mesh:
-    """A mesh of about so many faces: a sea in the west, a channel that winds inland, flats with hollows and dikes."""
+    """A mesh of about `faces` faces: a sea in the west, a channel that winds inland, flats with hollows and dikes."""
     random = np.random.default_rng(seed)
     side = max(2, round(np.sqrt(faces / (1.0 + TRIANGLES))))
     row, column = np.mgrid[0 : side + 1, 0 : side + 1]
@@ -119,8 +119,8 @@ def write_run(path: Path, mesh: Mesh, steps: int, depth: bool = True, **more: ND
         system.epsg = EPSG
         for axis, name in enumerate("xy"):
             about = {"units": "m", "standard_name": f"projection_{name}_coordinate"}
-            _written(file, f"mesh2d_node_{name}", ("mesh2d_nNodes",), mesh.nodes[:, axis], about)
-            _written(file, f"mesh2d_face_{name}", ("mesh2d_nFaces",), middles[:, axis], about)
+            _write_variable(file, f"mesh2d_node_{name}", ("mesh2d_nNodes",), mesh.nodes[:, axis], about)
+            _write_variable(file, f"mesh2d_face_{name}", ("mesh2d_nFaces",), middles[:, axis], about)
         nodes = np.where(mesh.faces >= 0, mesh.faces + 1, FILL)
         corners = file.createVariable(
             "mesh2d_face_nodes", "i4", ("mesh2d_nFaces", "mesh2d_nMax_face_nodes"), fill_value=FILL
@@ -129,10 +129,10 @@ def write_run(path: Path, mesh: Mesh, steps: int, depth: bool = True, **more: ND
         corners[:] = nodes
         on_nodes, on_faces = ({"mesh": "mesh2d", "location": place} for place in ("node", "face"))
         bed = {"standard_name": "altitude", "units": "m"}
-        _written(file, "mesh2d_node_z", ("mesh2d_nNodes",), mesh.node_bed, {**bed, **on_nodes})
-        _written(file, "mesh2d_flowelem_bl", ("mesh2d_nFaces",), mesh.face_bed, {**bed, **on_faces})
+        _write_variable(file, "mesh2d_node_z", ("mesh2d_nNodes",), mesh.node_bed, {**bed, **on_nodes})
+        _write_variable(file, "mesh2d_flowelem_bl", ("mesh2d_nFaces",), mesh.face_bed, {**bed, **on_faces})
         for name, values in more.items():
-            _written(file, name, ("mesh2d_nFaces",), values.astype(np.int32), on_faces)
+            _write_variable(file, name, ("mesh2d_nFaces",), values.astype(np.int32), on_faces)
         when = file.createVariable("time", "f8", ("time",))
         when.units = "seconds since 2026-01-01 00:00:00 +00:00"
         when[:] = 600.0 * np.arange(steps)
@@ -145,7 +145,9 @@ def write_run(path: Path, mesh: Mesh, steps: int, depth: bool = True, **more: ND
     return path
 
 
-def _written(file: Any, name: str, dimensions: Sequence[str], values: NDArray[Any], about: dict[str, str]) -> None:
+def _write_variable(
+    file: Any, name: str, dimensions: Sequence[str], values: NDArray[Any], about: dict[str, str]
+) -> None:
     variable = file.createVariable(name, "i4" if values.dtype.kind == "i" else "f8", dimensions)
     variable.setncatts(about)
     variable[:] = values

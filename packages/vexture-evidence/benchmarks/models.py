@@ -3,7 +3,7 @@
     python packages/vexture-evidence/benchmarks/models.py [--faces 1000000] [--steps 12] [--turns 3] [--seed 1]
 
 The runs are those of `model_runs.py`, an estuary in a mesh of triangles with depths and a bed. Each page is made by the
-command `vexture flood` in a process of its own, all ways by turns. *Peak* is the resident memory of the largest one.
+command `vexture flood` in a process of its own, all ways in turn. *Peak* is the resident memory of the largest one.
 The workers of the cluster have one thread each, and are all on this machine. All pages must be the same bytes.
 """
 
@@ -28,8 +28,8 @@ CLUSTERS: Final = (1, 2, 4)
 COMMAND: Final = [sys.executable, "-c", "from vexture.cli.main import main; main()"]
 
 
-class Taken(NamedTuple):
-    """What one conversion took."""
+class PageCost(NamedTuple):
+    """Cost of one conversion, and its page."""
 
     seconds: float
     peak: int  # MB
@@ -37,7 +37,7 @@ class Taken(NamedTuple):
     size: int  # bytes
 
 
-def converted(run: Path, page: Path, *options: str) -> Taken:
+def make_page(run: Path, page: Path, *options: str) -> PageCost:
     """Make the page of a run."""
     command = [*COMMAND, "flood", "--extent", str(run), "-o", str(page), *options]
     start = time.perf_counter()
@@ -47,12 +47,12 @@ def converted(run: Path, page: Path, *options: str) -> Taken:
     if status:
         raise SystemExit(f"{' '.join(command[3:])} ended with {status}")
     content = page.read_bytes()
-    return Taken(seconds, used.ru_maxrss // 1024, hashlib.sha256(content).hexdigest(), len(content))
+    return PageCost(seconds, used.ru_maxrss // 1024, hashlib.sha256(content).hexdigest(), len(content))
 
 
 @contextmanager
-def started(part: str, *words: str, says: str) -> Iterator[str]:
-    """A part of Dask, once it says something; the line in which it does."""
+def start_dask(part: str, *words: str, says: str) -> Iterator[str]:
+    """Start a part of Dask; yield the line of its output that contains `says`."""
     command = [sys.executable, "-m", f"distributed.cli.{part}", *words, "--no-dashboard"]
     with subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as process:
         assert process.stderr is not None
@@ -64,13 +64,15 @@ def started(part: str, *words: str, says: str) -> Iterator[str]:
 
 @contextmanager
 def cluster(workers: int) -> Iterator[str]:
-    """Address of a scheduler with so many workers."""
+    """Start a scheduler with workers, and yield its address."""
     with ExitStack() as held:
-        line = held.enter_context(started("dask_scheduler", "--host", "127.0.0.1", "--port", "0", says="Scheduler at:"))
+        line = held.enter_context(
+            start_dask("dask_scheduler", "--host", "127.0.0.1", "--port", "0", says="Scheduler at:")
+        )
         address = line.split()[-1]
         for _ in range(workers):
             words = (address, "--host", "127.0.0.1", "--nthreads", "1", "--no-nanny")
-            held.enter_context(started("dask_worker", *words, says="Registered to:"))
+            held.enter_context(start_dask("dask_worker", *words, says="Registered to:"))
         yield address
 
 
@@ -80,25 +82,25 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=12)
     parser.add_argument("--turns", type=int, default=3)
     parser.add_argument("--seed", type=int, default=1)
-    asked = parser.parse_args()
-    taken: dict[str, list[Taken]] = {}
+    arguments = parser.parse_args()
+    taken: dict[str, list[PageCost]] = {}
     with tempfile.TemporaryDirectory() as scratch, ExitStack() as held:
         folder = Path(scratch)
-        run = write_run(folder / "run_map.nc", estuary(asked.faces, asked.seed), asked.steps)
+        run = write_run(folder / "run_map.nc", estuary(arguments.faces, arguments.seed), arguments.steps)
         ways = {"1 process": ("--workers", "1"), "2 processes": ("--workers", "2")}
         for count in CLUSTERS:
             address = held.enter_context(cluster(count))
             ways[f"Dask, {count} workers"] = ("--scheduler", address)
-        for _ in range(asked.turns):
+        for _ in range(arguments.turns):
             for way, options in ways.items():
-                taken.setdefault(way, []).append(converted(run, folder / "page.html", *options))
+                taken.setdefault(way, []).append(make_page(run, folder / "page.html", *options))
     pages = {one.page for each in taken.values() for one in each}
     rows = [
         [way, cell(median(one.seconds for one in each), 1), str(max(one.peak for one in each))]
         for way, each in taken.items()
     ]
     first = next(iter(taken.values()))[0]
-    print(f"{asked.faces} faces, {asked.steps} steps: a page of {first.size / 1e6:.2f} MB, ", end="")
+    print(f"{arguments.faces} faces, {arguments.steps} steps: a page of {first.size / 1e6:.2f} MB, ", end="")
     print("the same bytes in all ways" if len(pages) == 1 else f"{len(pages)} different pages", end="\n\n")
     print(table(("by", "seconds", "peak, MB"), rows), end="\n\n")
     print(machine_line(machine_facts()))

@@ -1,4 +1,4 @@
-"""A map of many polygons in a notebook: how long until the first picture and the texture, and how much is sent.
+"""A map of many polygons in a notebook: time until the first picture and the texture, and bytes that are sent.
 
     python packages/vexture-evidence/benchmarks/notebook_map.py [--polygons 200000] [--crs EPSG:3857] [--quick]
 
@@ -33,8 +33,8 @@ def cells(count: int, seed: int = 1) -> geopandas.GeoDataFrame:
     return geopandas.GeoDataFrame({"value": random.random(count), "half": words}, geometry=shapes, crs="EPSG:28992")
 
 
-def measured(frame: geopandas.GeoDataFrame, crs: str) -> dict[str, float]:
-    """Seconds since the call, and bytes."""
+def measure_map(frame: geopandas.GeoDataFrame, crs: str) -> dict[str, float]:
+    """Measure the seconds since the call, and bytes."""
     start = time.perf_counter()
     chart = vexture.map(frame, "value", crs=crs)
     chart._repr_mimebundle_()
@@ -69,8 +69,8 @@ def main() -> None:
     parser.add_argument("--crs", default="EPSG:3857")
     parser.add_argument("--quick", action="store_true", help="few polygons")
     chosen = parser.parse_args()
-    measured(cells(100), chosen.crs)
-    figures = measured(cells(2_000 if chosen.quick else chosen.polygons), chosen.crs)
+    measure_map(cells(100), chosen.crs)
+    figures = measure_map(cells(2_000 if chosen.quick else chosen.polygons), chosen.crs)
     write_figures("notebook_map", figures, GOALS)
 
 

@@ -1,4 +1,4 @@
-"""How fast drawings become packed textures, and how much memory that takes.
+"""Time and memory to convert drawings to packed textures.
 
     python packages/vexture-evidence/benchmarks/packed_conversion.py [--quick] [--repeat 15] [--seed 1]
 
@@ -24,7 +24,7 @@ from typing import Any, Final
 
 import corpora
 from report import cell, table, write_json
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture.base.errors import SourceWarning
 from vexture.drawing.drawing import Drawing
 from vexture.svg.read import read_svg
@@ -35,7 +35,7 @@ from vexture.tree.tree import Tree
 from vexture_evidence.measures.machine import machine_facts, machine_line
 from vexture_evidence.measures.timing import median_seconds
 
-__all__ = ["atlas", "batch_facts", "fresh_seconds", "joined", "peak_memory", "peak_of"]
+__all__ = ["atlas", "batch_facts", "fresh_seconds", "join_trees", "peak_memory", "peak_of"]
 
 EDGES: Final = (768, 12_288, 98_304)
 ICONS: Final = 150
@@ -59,11 +59,11 @@ print(packed_conversion.peak_memory() - before)
 def atlas(drawings: Sequence[Drawing], **parameters: Any) -> Texture:
     """One packed texture of some drawings; parameters of `build_tree`."""
     trees = [build_tree(drawing, **parameters) for drawing in drawings]
-    return joined(trees, drawings)
+    return join_trees(trees, drawings)
 
 
-def joined(trees: Sequence[Tree], drawings: Sequence[Drawing]) -> Texture:
-    """One packed texture of trees that are made already."""
+def join_trees(trees: Sequence[Tree], drawings: Sequence[Drawing]) -> Texture:
+    """Join trees in one packed texture."""
     return encode(trees, [Root(drawing.name) for drawing in drawings], name="atlas")
 
 
@@ -91,8 +91,8 @@ def icon_facts(name: str, paths: Sequence[Path], repeat: int) -> dict[str, Any]:
     return {**batch_facts(name, drawings, repeat), "file_ms": 1e3 * whole / len(paths)}
 
 
-def fresh(code: str, cache: str | None = None) -> str:
-    """What a process of its own prints, with a folder of its own for compiled kernels if one is given."""
+def run_fresh(code: str, cache: str | None = None) -> str:
+    """Run code in a fresh process, with a folder for compiled kernels if one is given; return its output."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, [Path(__file__).parent, *sys.path[1:]]))}
     if cache is not None:
         environment["VEXTURE_CACHE"] = cache
@@ -101,9 +101,9 @@ def fresh(code: str, cache: str | None = None) -> str:
 
 
 def fresh_seconds(code: str, cache: str | None = None) -> float:
-    """How long a process of its own takes, from its start to its end."""
+    """Seconds of a fresh process, from its start to its end."""
     start = time.perf_counter()
-    fresh(code, cache)
+    run_fresh(code, cache)
     return time.perf_counter() - start
 
 
@@ -116,10 +116,10 @@ def peak_memory(reset: bool = False) -> int:
 
 
 def peak_of(edges: int) -> float | None:
-    """Megabytes by which resident memory grows while a coastline is converted; None where the system does not tell."""
+    """Megabytes by which resident memory grows while a coastline is converted; None if that is unknown."""
     if not Path("/proc/self/clear_refs").exists():
         return None
-    return float(fresh(COASTLINE.format(edges=edges))) / 1024.0
+    return float(run_fresh(COASTLINE.format(edges=edges))) / 1024.0
 
 
 def start_facts(repeat: int) -> dict[str, float]:
@@ -151,7 +151,7 @@ def line(facts: dict[str, Any]) -> list[str]:
 
 
 def targets(batches: Sequence[dict[str, Any]]) -> list[Target]:
-    """What the issue asks."""
+    """Targets for times and memory."""
     glyphs = [facts["ms"] for facts in batches if "a-zA-Z0-9" in facts["batch"]]
     largest = max((facts for facts in batches if "peak_mb" in facts), key=lambda facts: facts["edges"])
     millions = largest["edges_per_second"] / 1e6
@@ -181,9 +181,9 @@ def main() -> None:
     print(table(HEAD, [line(facts) for facts in batches]))
     print()
     print(table(("a process that converts one glyph", "seconds"), [[name, cell(s)] for name, s in starts.items()]))
-    print("\n".join(["", judgement(reached), "", machine_line(machine)]))
+    print("\n".join(["", target_table(reached), "", machine_line(machine)]))
     facts = {"machine": machine, **vars(arguments), "batches": batches, "starts": starts}
-    print(write_json("packed_conversion", {**facts, "targets": judged(reached)}))
+    print(write_json("packed_conversion", {**facts, "targets": target_facts(reached)}))
 
 
 if __name__ == "__main__":

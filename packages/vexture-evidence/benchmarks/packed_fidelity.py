@@ -1,4 +1,4 @@
-"""How well the packed shader shows glyphs, shapes, icons and coastlines: against exact coverage.
+"""Errors of the packed shader for glyphs, shapes, icons and coastlines, against exact coverage.
 
     python packages/vexture-evidence/benchmarks/packed_fidelity.py [--quick] [--shifts 4] [--seed 1]
 
@@ -25,7 +25,7 @@ from rich.progress import track
 import corpora
 from report import cell, table, write_json
 from seams import seam_facts, seam_table, seam_targets
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture.base.errors import LimitError, SourceWarning
 from vexture.drawing.drawing import Drawing
 from vexture.renderers.cpu import render_cpu
@@ -36,9 +36,9 @@ from vexture_evidence.measures.bands import BANDS, COASTLINE_BANDS, band_texture
 from vexture_evidence.measures.machine import machine_facts, machine_line
 from vexture_evidence.measures.metrics import LEVELS, errors, ink_sd
 from vexture_evidence.measures.programs import Program, band_program, driver, packed_program, packed_texture
-from views import shifted
+from views import views_with_shifts
 
-__all__ = ["CASES", "Case", "case_facts"]
+__all__ = ["CASES", "ScaledCase", "case_facts"]
 
 SHAPES = Path(__file__).parents[3] / "examples" / "shapes"
 SIX: Final = "agR&8@"
@@ -53,8 +53,8 @@ COAST: Final = "coastline"
 Limits = tuple[float, float]
 
 
-class Case(NamedTuple):
-    """A view: pixels in an em, degrees of turn, how much longer a pixel is than wide."""
+class ScaledCase(NamedTuple):
+    """A view: pixels in an em, degrees of turn, and a pixel's length over its width."""
 
     pixels: int
     turn: float = 0.0
@@ -72,9 +72,9 @@ class Case(NamedTuple):
 
 
 CASES: Final = (
-    *(Case(pixels) for pixels in (64, 32, 16, 8, 4, 2)),
-    *(Case(pixels, 30.0) for pixels in (64, 16, 8)),
-    *(Case(pixels, 45.0, 8.0) for pixels in (64, 32)),
+    *(ScaledCase(pixels) for pixels in (64, 32, 16, 8, 4, 2)),
+    *(ScaledCase(pixels, 30.0) for pixels in (64, 16, 8)),
+    *(ScaledCase(pixels, 45.0, 8.0) for pixels in (64, 32)),
 )
 FEW: Final = tuple(case for case in CASES if case in {(64, 0, 1), (16, 0, 1), (4, 0, 1), (16, 30, 1), (64, 45, 8)})
 
@@ -82,7 +82,11 @@ MAE_LIMITS: Final = (0.04, 0.01)
 WORST_LIMITS: Final = (1.0, 0.25)
 """Of all drawings but coastlines, in every case: what is required and what is aimed at."""
 
-COAST_MAE_LIMITS: Final = {Case(64): (0.1, 0.03), Case(16): (0.4, 0.1), Case(64, 45.0, 8.0): (0.6, 0.1)}
+COAST_MAE_LIMITS: Final = {
+    ScaledCase(64): (0.1, 0.03),
+    ScaledCase(16): (0.4, 0.1),
+    ScaledCase(64, 45.0, 8.0): (0.6, 0.1),
+}
 COAST_WORST_LIMITS: Final = (8.0, 2.0)
 """Of coastlines, in these cases."""
 
@@ -90,12 +94,12 @@ INK_LIMITS: Final = (0.02, 0.02)
 APART_LIMITS: Final = (1.0, 1.0)
 
 
-class Set(NamedTuple):
+class FidelitySet(NamedTuple):
     """Drawings that share a row."""
 
     name: str
     drawings: Sequence[Drawing]
-    cases: Sequence[Case] = CASES
+    cases: Sequence[ScaledCase] = CASES
     bands: int = BANDS
 
 
@@ -106,20 +110,20 @@ def icons(choose: Callable[[int, int], list[Path]], count: int, seed: int) -> li
         return [read_svg(path) for path in choose(count, seed)]
 
 
-def sets(quick: bool, seed: int) -> Iterator[Set]:
-    """Everything that is measured."""
+def sets(quick: bool, seed: int) -> Iterator[FidelitySet]:
+    """All sets that are measured."""
     for name, font in (("DejaVu Sans", corpora.dejavu_sans()), ("STIX", corpora.stix())):
-        yield Set(f"{name} {SIX}", corpora.glyphs(font, SIX))
+        yield FidelitySet(f"{name} {SIX}", corpora.glyphs(font, SIX))
         if not quick:
-            yield Set(f"{name} a-zA-Z0-9", corpora.glyphs(font, corpora.ALPHANUMERICS), FEW)
-    yield Set("circles, S-curves", corpora.round_shapes())
-    yield Set("example shapes", [read_svg(path) for path in sorted(SHAPES.glob("*.svg"))], FEW)
+            yield FidelitySet(f"{name} a-zA-Z0-9", corpora.glyphs(font, corpora.ALPHANUMERICS), FEW)
+    yield FidelitySet("circles, S-curves", corpora.round_shapes())
+    yield FidelitySet("example shapes", [read_svg(path) for path in sorted(SHAPES.glob("*.svg"))], FEW)
     count = 10 if quick else ICONS
-    yield Set(f"mdi, {count}", icons(corpora.mdi, count, seed), FEW)
-    yield Set(f"simple-icons, {count}", icons(corpora.simple_icons, count, seed), FEW)
+    yield FidelitySet(f"mdi, {count}", icons(corpora.mdi, count, seed), FEW)
+    yield FidelitySet(f"simple-icons, {count}", icons(corpora.simple_icons, count, seed), FEW)
     edges = EDGES[:2] if quick else EDGES
     for island in (corpora.fractal_coastline(count, seed) for count in edges):
-        yield Set(island.name, [island], CASES, COASTLINE_BANDS)
+        yield FidelitySet(island.name, [island], CASES, COASTLINE_BANDS)
 
 
 def programs_for(drawing: Drawing, packed: Texture, bands: int) -> dict[str, Program]:
@@ -131,10 +135,10 @@ def programs_for(drawing: Drawing, packed: Texture, bands: int) -> dict[str, Pro
 
 
 def case_facts(
-    drawing: Drawing, packed: Texture, programs: Mapping[str, Program], case: Case, shifts: int, seed: int
+    drawing: Drawing, packed: Texture, programs: Mapping[str, Program], case: ScaledCase, shifts: int, seed: int
 ) -> dict[str, dict[str, float]]:
-    """Errors and ink of one drawing's pictures in one case, by program; of one, how far its mirror is from it."""
-    views = list(shifted(drawing, case.pixels, shifts, seed, turn=case.turn, stretch=case.stretch))
+    """Errors and ink of one drawing's pictures in one case, by program; for one also its distance from its mirror."""
+    views = list(views_with_shifts(drawing, case.pixels, shifts, seed, turn=case.turn, stretch=case.stretch))
     truths = [render_exact(drawing, *view) for view in views]
     facts = {}
     for name, program in programs.items():
@@ -148,8 +152,8 @@ def case_facts(
     return facts
 
 
-def set_facts(measured: Set, shifts: int, seed: int) -> dict[str, Any]:
-    """Everything of one set: by case, by drawing."""
+def set_facts(measured: FidelitySet, shifts: int, seed: int) -> dict[str, Any]:
+    """All measurements of one set: by case, by drawing."""
     shown = track(measured.drawings, measured.name, console=Console(stderr=True), transient=True)
     drawings = []
     for drawing in shown:
@@ -160,13 +164,13 @@ def set_facts(measured: Set, shifts: int, seed: int) -> dict[str, Any]:
     return {"set": measured.name, "drawings": drawings}
 
 
-def mean_of(facts: Mapping[str, Any], case: Case, program: str, figure: str) -> float | None:
+def mean_of(facts: Mapping[str, Any], case: ScaledCase, program: str, figure: str) -> float | None:
     """Mean of a figure over a set's drawings; None where nothing was measured."""
     found = list(values(facts, case, program, figure))
     return fmean(found) if found else None
 
 
-def values(facts: Mapping[str, Any], case: Case, program: str, figure: str) -> Iterator[float]:
+def values(facts: Mapping[str, Any], case: ScaledCase, program: str, figure: str) -> Iterator[float]:
     """A figure of each drawing of a set, where it was measured."""
     for drawing in facts["drawings"]:
         found = drawing["cases"].get(str(case), {}).get(program, {})
@@ -198,7 +202,7 @@ def lines(facts: Mapping[str, Any]) -> Iterator[list[str]]:
 
 
 def targets(found: Sequence[Mapping[str, Any]]) -> list[Target]:
-    """What the issue asks of the errors."""
+    """Targets for the errors."""
     coasts = [facts for facts in found if facts["set"].startswith(COAST)]
     others = [facts for facts in found if facts not in coasts]
     made = []
@@ -217,14 +221,14 @@ def targets(found: Sequence[Mapping[str, Any]]) -> list[Target]:
     return made
 
 
-def mean_target(found: Iterable[Mapping[str, Any]], cases: Sequence[Case], name: str, limits: Limits) -> Target:
+def mean_target(found: Iterable[Mapping[str, Any]], cases: Sequence[ScaledCase], name: str, limits: Limits) -> Target:
     """Target for the mean error of a set in a case, the largest of all."""
     means = [(mean_of(facts, case, name, "mae"), facts["set"], str(case)) for facts in found for case in cases]
     mean, worst, case = max((mean, *where) for mean, *where in means if mean is not None)
     return Target(f"{name}: MAE, worst: {worst}, {case}", mean, *limits)
 
 
-def worst_target(found: Iterable[Mapping[str, Any]], cases: Sequence[Case], name: str, limits: Limits) -> Target:
+def worst_target(found: Iterable[Mapping[str, Any]], cases: Sequence[ScaledCase], name: str, limits: Limits) -> Target:
     """Target for the error of a pixel, the largest of all."""
     errors_of = [(values(facts, case, name, "max"), facts["set"], str(case)) for facts in found for case in cases]
     most, worst, case = max((error, *where) for found_here, *where in errors_of for error in found_here)
@@ -244,10 +248,10 @@ def main() -> None:
     seams = seam_facts(arguments.seed, arguments.quick)
     reached = [*targets(found), *seam_targets(seams)]
     machine = machine_facts()
-    print("\n".join(["", seam_table(seams), "", judgement(reached), "", driver(), machine_line(machine)]))
+    print("\n".join(["", seam_table(seams), "", target_table(reached), "", driver(), machine_line(machine)]))
     constants = dict(packed_program(packed_texture(corpora.round_shapes()[0])).constants)
     facts = {"machine": machine, "driver": driver(), **vars(arguments), "constants": constants, "sets": found}
-    print(write_json("packed_fidelity", {**facts, "seams": seams, "targets": judged(reached)}))
+    print(write_json("packed_fidelity", {**facts, "seams": seams, "targets": target_facts(reached)}))
 
 
 if __name__ == "__main__":

@@ -22,10 +22,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from chromium import ROOT, bundle, chromium, served
+from chromium import ROOT, bundle, chromium, serve_folder
 from report import cell, table, write_json
 from seams import SIDE, crossings, displacements, is_straight, step_of
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture.conversion.pipeline import convert
 from vexture.drawing.drawing import Drawing
 from vexture.pages.page import exported_page
@@ -97,7 +97,7 @@ def plane_to_unit(matrix: Sequence[float], size: int) -> NDArray[np.float64]:
 
 @contextmanager
 def page_of(browser: Any, path: Path) -> Iterator[Any]:
-    """The viewer's page with one drawing, bare."""
+    """Open the viewer's page with one drawing, bare."""
     shape = shape_of(path.read_bytes(), path.name, path.stem, VIEWER_PARAMETERS)
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "page.html"
@@ -109,15 +109,15 @@ def page_of(browser: Any, path: Path) -> Iterator[Any]:
         page.close()
 
 
-def seen(page: Any, **look: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Picture of a view, and its map from pixels to the unit square."""
+def capture_view(page: Any, **look: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Capture a view; return the picture and the map from its pixels to the unit square."""
     corners = page.evaluate(SHOW, look)
     return gray(page.screenshot()), view_matrix(corners, PIXELS)
 
 
 def mean_error(page: Any, drawing: Drawing, **look: Any) -> float:
     """Mean of |page - truth| in 1/255."""
-    picture, to_unit = seen(page, **look)
+    picture, to_unit = capture_view(page, **look)
     truth = render_exact(drawing, (PIXELS, PIXELS), to_unit)
     return float(255.0 * np.abs(picture - truth).mean())
 
@@ -137,7 +137,7 @@ def borders(page: Any, drawing: Drawing, zoom: float, count: int, seed: int) -> 
     middle = slice((PIXELS - SIDE) // 2, (PIXELS + SIDE) // 2)
     for k in np.random.default_rng(seed).permutation(len(found))[:count]:
         crossing = found[k]
-        picture, to_unit = seen(page, center=crossing.point.tolist(), zoom=zoom)
+        picture, to_unit = capture_view(page, center=crossing.point.tolist(), zoom=zoom)
         truth = render_exact(drawing, (PIXELS, PIXELS), to_unit)
         if is_straight(truth[middle, middle], crossing):
             direction = (float(crossing.tangent[0]), float(-crossing.tangent[1]))
@@ -156,7 +156,7 @@ def drawing_facts(browser: Any, name: str, count: int, seed: int) -> dict[str, A
         facts["100x"] = max(mean_error(page, drawing, center=p, zoom=100) for p in points_of(drawing, POINTS, seed))
         for zoom in (1_000, 10_000):
             steps, moved = borders(page, drawing, zoom, count, seed)
-            _, to_unit = seen(page, zoom=zoom)
+            _, to_unit = capture_view(page, zoom=zoom)
             facts |= {f"steps {zoom}x": steps, f"moved {zoom}x": moved, f"pixel {zoom}x": float(to_unit[0, 0])}
     return facts
 
@@ -164,7 +164,7 @@ def drawing_facts(browser: Any, name: str, count: int, seed: int) -> dict[str, A
 def tilted_errors(browser: Any, names: Sequence[str]) -> dict[str, float]:
     """Mean of |page - truth| in 1/255 over the plane's pixels, by drawing."""
     found = {}
-    with tempfile.TemporaryDirectory() as folder, served(Path(folder)) as address:
+    with tempfile.TemporaryDirectory() as folder, serve_folder(Path(folder)) as address:
         bundle(Path(__file__).parent / "pages" / "plane.js", Path(folder) / "plane.js")
         (Path(folder) / "index.html").write_text('<!doctype html><script type="module" src="plane.js"></script>')
         page = browser.new_page()
@@ -221,9 +221,9 @@ def main() -> None:
             Target(f"largest displacement at {zoom}, px", moved, allowed + ROUNDED, allowed),
         ]
     machine = machine_facts()
-    print("\n".join(["", judgement(reached), "", machine_line(machine)]))
+    print("\n".join(["", target_table(reached), "", machine_line(machine)]))
     known = {"machine": machine, "seed": arguments.seed, "drawings": facts, "tilted": tilted}
-    print(write_json("page_fidelity", {**known, "targets": judged(reached)}))
+    print(write_json("page_fidelity", {**known, "targets": target_facts(reached)}))
 
 
 if __name__ == "__main__":

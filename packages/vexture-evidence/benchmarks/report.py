@@ -1,4 +1,4 @@
-"""How every benchmark reports: one table on the terminal, one JSON file in the folder `results` beside them."""
+"""Output of every benchmark: one table on the terminal, one JSON file in the folder `results` beside them."""
 
 import json
 import math
@@ -15,7 +15,7 @@ RESULTS = Path(__file__).parent / "results"
 
 
 def cell(value: Any, digits: int = 2) -> str:
-    """A value as a table shows it: nothing known is a dash."""
+    """Format a value for a table; an unknown value is a dash."""
     if value is None or (isinstance(value, float) and math.isnan(value)):
         return "-"
     return f"{value:.{digits}f}" if isinstance(value, float) else str(value)

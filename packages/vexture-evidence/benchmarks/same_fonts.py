@@ -1,4 +1,4 @@
-"""The fonts that vexture and resvg both get, so that their pictures of texts differ by nothing that fonts cause."""
+"""The same fonts for vexture and resvg, so that their pictures of texts do not differ because of fonts."""
 
 from functools import cache
 from pathlib import Path

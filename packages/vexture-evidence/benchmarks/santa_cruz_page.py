@@ -1,4 +1,4 @@
-"""The page of a flood in Chromium: Santa Cruz as it is exported, seen from its views, by our water or by a raster's."""
+"""The exported page of Santa Cruz's flood in Chromium: pictures from its views, with our water or a raster's."""
 
 import base64
 import io
@@ -20,8 +20,19 @@ from vexture.drawing.drawing import Drawing
 from vexture.renderers.exact import render_exact
 
 __all__ = [
-    "PATIENCE", "PRESETS", "SIZE", "Made", "content", "first_picture", "frame_times", "look", "made", "mask_of",
-    "opened", "rastered", "scene_of",
+    "PATIENCE",
+    "PRESETS",
+    "SIZE",
+    "ExportedFlood",
+    "capture_view",
+    "content",
+    "export_page",
+    "first_picture",
+    "frame_times",
+    "mask_of",
+    "open_page",
+    "scene_of",
+    "show_raster",
 ]  # fmt: skip
 
 SIZE: Final = (960, 540)
@@ -96,8 +107,8 @@ look();
 """
 
 
-class Made(NamedTuple):
-    """An exported page, and what it was made of."""
+class ExportedFlood(NamedTuple):
+    """An exported page, and its data and drawings."""
 
     page: Path
     scene: dict[str, Any]
@@ -105,12 +116,12 @@ class Made(NamedTuple):
 
     @property
     def box(self) -> list[float]:
-        """Of the frame in the unit square."""
+        """Box of the frame in the unit square."""
         return list(self.scene["frame"]["box"])
 
     @property
     def fold(self) -> Any:
-        """How the shore moves; None if it does not."""
+        """Motion of the shore; None if it does not move."""
         from vexture.fold.fold import fold_from
 
         address = self.scene["fold"]
@@ -123,7 +134,7 @@ class Made(NamedTuple):
 
     @property
     def depths(self) -> list[bytes]:
-        """Their pictures of depths."""
+        """Pictures of depths of the steps that have one."""
         return [content(step["views"]["depth"]) for step in self.scene["steps"] if "depth" in step["views"]]
 
 
@@ -141,7 +152,7 @@ def example() -> Any:
     return make_flood
 
 
-def made(folder: Path) -> Made:
+def export_page(folder: Path) -> ExportedFlood:
     """Export the example's page."""
     from vexture_geo.flood.options import FloodOptions
     from vexture_geo.flood.server import export
@@ -151,7 +162,7 @@ def made(folder: Path) -> Made:
     page = folder / "flood.html"
     export(FloodOptions(flood, time_dim="time", ground=ground, title="Santa Cruz"), page, None, lambda line: None, iter)
     extent = read_extent(flood, flood.name, time_dim="time")
-    return Made(page, scene_of(page), [step.drawing for step in extent.steps])
+    return ExportedFlood(page, scene_of(page), [step.drawing for step in extent.steps])
 
 
 def scene_of(page: Path) -> dict[str, Any]:
@@ -163,11 +174,11 @@ def scene_of(page: Path) -> dict[str, Any]:
 
 
 @contextmanager
-def opened(browser: Any, made: Made, step: int, *, flat: bool) -> Iterator[Any]:
-    """The page at one of its steps, bare; flat: relief 0, water white, all else black."""
+def open_page(browser: Any, flood: ExportedFlood, step: int, *, flat: bool) -> Iterator[Any]:
+    """Open the page at one of its steps, bare; flat: relief 0, water white, all else black."""
     page = browser.new_page(viewport=dict(zip(("width", "height"), SIZE, strict=True)), color_scheme="light")
     page.set_default_timeout(PATIENCE)
-    page.goto(f"{made.page.as_uri()}?bare")
+    page.goto(f"{flood.page.as_uri()}?bare")
     page.evaluate("vexture.flood.ready")
     page.evaluate("vexture.flood.freeze(0)")  # else its waves take the processor from all others
     page.evaluate("(step) => vexture.flood.step(step)", step)
@@ -179,8 +190,8 @@ def opened(browser: Any, made: Made, step: int, *, flat: bool) -> Iterator[Any]:
         page.close()
 
 
-def look(page: Any, preset: str, seconds: float) -> tuple[NDArray[np.uint8], dict[str, Any]]:
-    """Picture from a view at a time, and the camera's matrices."""
+def capture_view(page: Any, preset: str, seconds: float) -> tuple[NDArray[np.uint8], dict[str, Any]]:
+    """Capture a view at a time; return the picture and the camera's matrices."""
     camera = page.evaluate(LOOK, [preset, seconds])
     picture = np.asarray(Image.open(io.BytesIO(content(camera.pop("picture")))).convert("RGB"))
     assert picture.shape[1::-1] == SIZE
@@ -195,8 +206,8 @@ def mask_of(drawing: Drawing) -> tuple[NDArray[np.uint8], int]:
     return mask, len(file.getvalue())
 
 
-def rastered(page: Any, mask: NDArray[np.uint8], samples: int) -> None:
-    """Let the page's water be where a raster says, by so many samples of it along a footprint."""
+def show_raster(page: Any, mask: NDArray[np.uint8], samples: int) -> None:
+    """Show water where a raster has it, filtered by `samples` samples along a footprint."""
     texels = base64.b64encode(np.ascontiguousarray(mask[::-1]).tobytes()).decode()
     if not page.evaluate(RASTER, [texels, MASK, samples]):
         raise SystemExit(

@@ -1,4 +1,4 @@
-"""Whether an outline steps where it crosses from one cell into the next, under large magnification.
+"""Steps of an outline where it crosses from one cell into the next, under large magnification.
 
 An outline is stored piece by piece, each on its own cell's lattice. It may be displaced as a whole, by less than a
 lattice unit, and at these magnifications that is several pixels; what would show is a *step*: a displacement on one
@@ -27,7 +27,7 @@ from vexture.renderers.exact import render_exact
 from vexture.tree.build import build_tree
 from vexture.tree.tree import Tree
 from vexture_evidence.measures.programs import packed_program, packed_texture
-from views import View
+from views import PictureView
 
 __all__ = [
     "Crossing",
@@ -105,7 +105,7 @@ def smooth(along: NDArray[np.float64], low: float, high: float) -> NDArray[np.fl
 
 
 def displacements(difference: NDArray[np.floating[Any]], direction: tuple[float, float]) -> tuple[float, float, float]:
-    """How far an outline through the middle of a window is displaced, in pixels: before it, behind it, around it.
+    """Displacements, in pixels, of an outline through the middle of a window: before it, behind it, around it.
 
     Parameters
     ----------
@@ -130,12 +130,12 @@ def step_of(difference: NDArray[np.floating[Any]], direction: tuple[float, float
     return max(abs(behind - before), abs(around - 0.5 * (before + behind)))
 
 
-def window_at(point: NDArray[np.float64], magnification: float) -> View:
+def window_at(point: NDArray[np.float64], magnification: float) -> PictureView:
     """Window of pixels around a point."""
     pixel = 1.0 / (magnification * PIXELS)
     half = 0.5 * SIDE * pixel
     to_unit = np.array([[pixel, 0.0, point[0] - half], [0.0, -pixel, point[1] + half], [0.0, 0.0, 1.0]])
-    return View((SIDE, SIDE), to_unit)
+    return PictureView((SIDE, SIDE), to_unit)
 
 
 def is_straight(truth: NDArray[np.float32], crossing: Crossing) -> bool:
@@ -214,7 +214,7 @@ def seam_table(facts: Sequence[dict[str, Any]]) -> str:
 
 
 def seam_targets(facts: Sequence[dict[str, Any]]) -> list[Target]:
-    """What the issue asks of the steps."""
+    """Targets for the steps."""
     return [
         Target(f"largest step at {case['magnification']:,.0f}x, px", max(case["largest"].values()), *LIMITS)
         for case in facts

@@ -1,14 +1,14 @@
-"""How large packed textures are, beside the SVG source, the thesis's textures and the band layout.
+"""Sizes of packed textures, beside the SVG source, the thesis's textures and the band layout.
 
     python packages/vexture-evidence/benchmarks/size.py [--quick] [--seed 1]
 
 Bytes of whole sets: packed, a set is one texture; of the others, the sum over its drawings. *packed* counts 16 bytes
 for each quad and curve, *padded* is the texture in the device's memory, whose rows are full, *file* the KTX2 file;
-*raw* are the thesis's lists, *files* its pairs of PNG files. "-2" says that a form cannot hold 2 of the drawings. *SVG*
+*raw* are the thesis's lists, *files* its pairs of PNG files. "-2" means that 2 drawings do not fit in a form. *SVG*
 is the file, or for glyphs and coastlines the shortest we could write: one path, font units or six digits. *bands* is
 the published layout computed from its definition, equal lists written once; *unshared*, every list.
 
-The second table shows what a browser receives of the icons of Lucide, by the encoding of the server's answer.
+The second table shows the bytes that a browser receives for Lucide's icons, by the encoding of the server's answer.
 """
 
 import argparse
@@ -25,9 +25,9 @@ from fontTools.pens.svgPathPen import SVGPathPen
 from fontTools.ttLib import TTFont
 
 import corpora
-from packed_conversion import joined
+from packed_conversion import join_trees
 from report import cell, table, write_json
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture.base.errors import LimitError, SourceWarning
 from vexture.base.tolerance import UNSEEN
 from vexture.conversion.pipeline import run
@@ -38,7 +38,7 @@ from vexture.tree.build import build_tree
 from vexture_evidence.measures.bands import BANDS, COASTLINE_BANDS, band_texture
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["Set", "coastline_svg", "set_facts"]
+__all__ = ["SizeSet", "coastline_svg", "set_facts"]
 
 SHAPES = Path(__file__).parents[3] / "examples" / "shapes"
 EDGES: Final = (768, 12_288, 98_304)
@@ -57,7 +57,7 @@ process.stdout.write(zlib.brotliCompressSync(require('fs').readFileSync(0), { pa
 SVG: Final = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}"><path d="{path}"/></svg>'
 
 
-class Set(NamedTuple):
+class SizeSet(NamedTuple):
     """Drawings that share a row, and the bytes of their sources."""
 
     name: str
@@ -65,7 +65,7 @@ class Set(NamedTuple):
     svg: int
     bands: int = BANDS
     tolerance: float = UNSEEN
-    received: bool = False  # whether to measure what a browser receives, and not the other forms
+    received: bool = False  # whether to measure the bytes that a browser receives, and not the other forms
 
 
 def glyph_svg(font: Path, text: str) -> int:
@@ -93,33 +93,33 @@ def coastline_svg(drawing: Drawing) -> int:
     return len(SVG.format(box="0 0 1 1", path=path))
 
 
-def drawn(name: str, paths: Sequence[Path], received: bool = False) -> Set:
+def svg_set(name: str, paths: Sequence[Path], received: bool = False) -> SizeSet:
     """Set of SVG files."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SourceWarning)
-        return Set(
+        return SizeSet(
             name, [read_svg(path) for path in paths], sum(path.stat().st_size for path in paths), received=received
         )
 
 
-def sets(quick: bool, seed: int) -> Iterator[Set]:
-    """Everything that is measured."""
+def sets(quick: bool, seed: int) -> Iterator[SizeSet]:
+    """All sets that are measured."""
     for name, font in (("DejaVu Sans", corpora.dejavu_sans()), ("STIX", corpora.stix())):
         text = corpora.ALPHANUMERICS
-        yield Set(f"{name} a-zA-Z0-9", corpora.glyphs(font, text), glyph_svg(font, text))
-    yield drawn("example shapes", sorted(SHAPES.glob("*.svg")))
+        yield SizeSet(f"{name} a-zA-Z0-9", corpora.glyphs(font, text), glyph_svg(font, text))
+    yield svg_set("example shapes", sorted(SHAPES.glob("*.svg")))
     count = 10 if quick else ICONS
-    yield drawn(f"mdi, {count}", corpora.mdi(count, seed))
-    yield drawn(LUCIDE, corpora.lucide()[:: ICONS if quick else 1], received=True)
-    yield drawn(f"simple-icons, {count}", corpora.simple_icons(count, seed))
+    yield svg_set(f"mdi, {count}", corpora.mdi(count, seed))
+    yield svg_set(LUCIDE, corpora.lucide()[:: ICONS if quick else 1], received=True)
+    yield svg_set(f"simple-icons, {count}", corpora.simple_icons(count, seed))
     for island in (corpora.fractal_coastline(edges, seed) for edges in EDGES):
-        yield Set(island.name, [island], coastline_svg(island), COASTLINE_BANDS)
-    yield Set(f"{island.name}, lossless", [island], coastline_svg(island), COASTLINE_BANDS, 0.0)
-    yield Set(f"{island.name}, {TOLERANCE:g}", [island], coastline_svg(island), COASTLINE_BANDS, TOLERANCE)
+        yield SizeSet(island.name, [island], coastline_svg(island), COASTLINE_BANDS)
+    yield SizeSet(f"{island.name}, lossless", [island], coastline_svg(island), COASTLINE_BANDS, 0.0)
+    yield SizeSet(f"{island.name}, {TOLERANCE:g}", [island], coastline_svg(island), COASTLINE_BANDS, TOLERANCE)
 
 
 def thesis_facts(drawings: Sequence[Drawing], bits: int) -> dict[str, int]:
-    """Bytes of the thesis's textures, and how many drawings are too much for them."""
+    """Bytes of the thesis's textures, and how many drawings they cannot hold."""
     facts = {"raw": 0, "file": 0, "left_out": 0}
     for drawing in drawings:
         try:
@@ -146,30 +146,30 @@ def band_facts(drawings: Sequence[Drawing], bands: int) -> dict[str, int]:
     return facts
 
 
-def piped(data: bytes, *command: str) -> int:
-    """Bytes that a command makes of its input."""
+def piped_bytes(data: bytes, *command: str) -> int:
+    """Number of bytes that a command prints for its input."""
     return len(subprocess.run(command, input=data, stdout=subprocess.PIPE, check=True).stdout)
 
 
-def received(texture: Texture) -> dict[str, dict[str, int]]:
+def received_bytes(texture: Texture) -> dict[str, dict[str, int]]:
     """Bytes of a texture's file, plain and deflated, in each content encoding; those without a tool are left out."""
     facts = {}
     for name, deflate in (("plain", False), ("deflated", True)):
         data = texture.to_ktx2(deflate=deflate)
         facts[name] = {"identity": len(data), "gzip 9": len(gzip.compress(data, 9))}
         if shutil.which("node"):
-            facts[name] |= {f"brotli {level}": piped(data, "node", "-e", BROTLI, level) for level in ("5", "11")}
+            facts[name] |= {f"brotli {level}": piped_bytes(data, "node", "-e", BROTLI, level) for level in ("5", "11")}
         if shutil.which("zstd"):
-            facts[name] |= {f"zstd {level}": piped(data, "zstd", f"-{level}", "-c") for level in ("3", "19")}
+            facts[name] |= {f"zstd {level}": piped_bytes(data, "zstd", f"-{level}", "-c") for level in ("3", "19")}
     return facts
 
 
-def set_facts(measured: Set) -> dict[str, Any]:
+def set_facts(measured: SizeSet) -> dict[str, Any]:
     """Bytes of one set in every form."""
     trees = [build_tree(drawing, tolerance=measured.tolerance) for drawing in measured.drawings]
-    texture = joined(trees, measured.drawings)
+    texture = join_trees(trees, measured.drawings)
     texels = sum(len(tree.count) + len(tree.curves) for tree in trees)
-    # the others have their own idea of a tolerance
+    # the other forms define a tolerance differently
     compared = measured.tolerance == UNSEEN and not measured.received
     return {
         "set": measured.name,
@@ -179,7 +179,7 @@ def set_facts(measured: Set) -> dict[str, Any]:
         "packed": {"raw": TEXEL_BYTES * texels, "padded": texture.nbytes, "file": len(texture.to_ktx2())},
         "thesis_8": thesis_facts(measured.drawings, 8) if compared else None,
         "thesis_16": thesis_facts(measured.drawings, 16) if compared else None,
-        "received": received(texture) if measured.received else None,
+        "received": received_bytes(texture) if measured.received else None,
         "bands": band_facts(measured.drawings, measured.bands) if compared else None,
     }
 
@@ -192,11 +192,11 @@ def line(facts: dict[str, Any]) -> list[str]:
     """Row of one set."""
     raw = facts["packed"]["raw"]
 
-    def known(form: str, what: str) -> str:
+    def known_cell(form: str, form_figure: str) -> str:
         if facts[form] is None:
             return cell(None)
         left_out = facts[form].get("left_out", 0)
-        return cell(facts[form][what]) + (f" -{left_out}" if left_out else "")
+        return cell(facts[form][form_figure]) + (f" -{left_out}" if left_out else "")
 
     comparable = facts["bands"] and not facts["bands"]["left_out"]
 
@@ -208,17 +208,17 @@ def line(facts: dict[str, Any]) -> list[str]:
         str(raw),
         cell(raw / facts["drawings"], 0),
         cell(raw / facts["edges"], 1),
-        known("packed", "padded"),
-        known("packed", "file"),
-        *(known(form, what) for form in ("thesis_8", "thesis_16") for what in ("raw", "file")),
-        known("bands", "shared"),
-        known("bands", "unshared"),
+        known_cell("packed", "padded"),
+        known_cell("packed", "file"),
+        *(known_cell(form, what) for form in ("thesis_8", "thesis_16") for what in ("raw", "file")),
+        known_cell("bands", "shared"),
+        known_cell("bands", "unshared"),
         cell(raw / facts["bands"]["shared"] if comparable else None),
     ]
 
 
 def targets(found: Sequence[dict[str, Any]]) -> list[Target]:
-    """What the issue asks."""
+    """Targets for sizes."""
     by_name = {facts["set"]: facts for facts in found}
     made = []
     for name, least in (("DejaVu Sans a-zA-Z0-9", 0.65), ("STIX a-zA-Z0-9", 0.5)):
@@ -247,8 +247,8 @@ def main() -> None:
     for sizes in (facts["received"] for facts in found if facts["received"]):
         rows = [[name, *map(str, of_file.values())] for name, of_file in sizes.items()]
         print("\n" + table((LUCIDE, *next(iter(sizes.values()))), rows))
-    print("\n".join(["", judgement(reached), "", machine_line(machine)]))
-    facts = {"machine": machine, **vars(arguments), "sets": found, "targets": judged(reached)}
+    print("\n".join(["", target_table(reached), "", machine_line(machine)]))
+    facts = {"machine": machine, **vars(arguments), "sets": found, "targets": target_facts(reached)}
     print(write_json("size", facts))
 
 

@@ -17,7 +17,7 @@ import numpy as np
 
 import corpora
 from report import cell, table, write_json
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture.base.errors import LimitError
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing
@@ -28,13 +28,13 @@ from vexture_evidence.measures.programs import (
     band_program,
     driver,
     fetch_program,
+    framebuffer,
     packed_program,
     packed_texture,
     seconds,
-    target,
     thesis_program,
 )
-from views import View, square_view, tilted_view
+from views import PictureView, square_view, tilted_view
 
 __all__ = ["NAMES", "draws_for", "ratio", "views_of"]
 
@@ -62,7 +62,7 @@ def programs_for(drawing: Drawing, bands: int) -> dict[str, Program]:
     return {**made, "bands": band_program(band_texture(drawing, bands)), "fetch": fetch_program(drawing)}
 
 
-def views_of(drawing: Drawing, seed: int) -> dict[str, tuple[View, tuple[int, int]]]:
+def views_of(drawing: Drawing, seed: int) -> dict[str, tuple[PictureView, tuple[int, int]]]:
     """Every view of a drawing, and after how many pixels it repeats."""
     rng = np.random.default_rng([seed, *drawing.name.encode()])
     cubics = np.concatenate([contour for path in drawing.paths for contour in path.contours])
@@ -77,19 +77,19 @@ def views_of(drawing: Drawing, seed: int) -> dict[str, tuple[View, tuple[int, in
 
 
 def draws_for(once: float) -> int:
-    """How often to draw what takes some seconds once, for a measurement that the clock resolves."""
+    """Number of draws, each of `once` seconds, for a measurement that the clock resolves."""
     return max(1, math.ceil(LEAST_SECONDS / once))
 
 
-def times(shown: Mapping[str, tuple[Program, View, tuple[int, int]]], rounds: int) -> dict[str, list[float]]:
+def times(programs: Mapping[str, tuple[Program, PictureView, tuple[int, int]]], rounds: int) -> dict[str, list[float]]:
     """Nanoseconds per pixel of each program with its view and tile, one figure for each turn."""
-    drawn = target((SIDE, SIDE))
+    drawn = framebuffer((SIDE, SIDE))
     draws = {}
-    for name, (program, view, tile) in shown.items():
+    for name, (program, view, tile) in programs.items():
         draws[name] = draws_for(seconds(program, drawn, view.to_unit, tile, 1))
-    found: dict[str, list[float]] = {name: [] for name in shown}
+    found: dict[str, list[float]] = {name: [] for name in programs}
     for _ in range(rounds):
-        for name, (program, view, tile) in shown.items():
+        for name, (program, view, tile) in programs.items():
             taken = seconds(program, drawn, view.to_unit, tile, draws[name])
             found[name].append(1e9 * taken / draws[name] / SIDE**2)
     return found
@@ -157,7 +157,7 @@ def lines(name: str, facts: Sequence[Mapping[str, Any]]) -> list[list[str]]:
 
 
 def targets(glyphs: Sequence[dict[str, Any]], coastlines: Sequence[dict[str, Any]], grown: float) -> list[Target]:
-    """What the issue asks of the times."""
+    """Targets for the times."""
     by_edges = {one["segments"]: one for one in coastlines}
     coast = ratio([by_edges[12_288]], "packed", "bands")
     least, most = min(by_edges), max(by_edges)
@@ -195,7 +195,7 @@ def main() -> None:
     grown = growth(islands[0], islands[-1], rounds, arguments.seed)
     reached = targets(glyphs, coastlines, grown)
     machine = machine_facts()
-    print("\n".join(["", judgement(reached), "", constants_line(glyphs[0]), driver(), machine_line(machine)]))
+    print("\n".join(["", target_table(reached), "", constants_line(glyphs[0]), driver(), machine_line(machine)]))
     facts = {
         "machine": machine,
         "driver": driver(),
@@ -204,7 +204,7 @@ def main() -> None:
         "coastlines": coastlines,
         "growth": grown,
     }
-    print(write_json("speed", {**facts, "targets": judged(reached)}))
+    print(write_json("speed", {**facts, "targets": target_facts(reached)}))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Whether real drawings are read, converted and drawn right: tests of the W3C, clip art, icons, glyphs, coastlines.
+"""Correct reading, conversion and drawing of real files: tests of the W3C, clip art, icons, glyphs, coastlines.
 
     python packages/vexture-evidence/benchmarks/sweep.py [CORPUS ...] [--count N] [--seed 1] [--quick]
 
@@ -62,8 +62,8 @@ def outcome_of(facts: Facts) -> str:
     return "warned" if facts["notes"] else "silent"
 
 
-def judged(cases: Sequence[Case], find: Callable[[Case], Iterator[Facts]] = stages) -> Iterator[Facts]:
-    """Facts that are found of each case, in child processes; a new one takes the place of one that died."""
+def judge_cases(cases: Sequence[Case], find: Callable[[Case], Iterator[Facts]] = stages) -> Iterator[Facts]:
+    """Judge cases in child processes; a new process replaces one that died."""
     spare: SimpleQueue[Child] = SimpleQueue()
 
     def judge(case: Case) -> Facts:
@@ -115,14 +115,14 @@ def row(corpus: str, found: Sequence[Facts]) -> list[str]:
     return [corpus, str(len(found)), *counted, str(slow), f"{seconds:.2f}", Path(slowest["name"]).name]
 
 
-def swept(corpus: str, cases: Sequence[Case]) -> list[Facts]:
-    shown = track(judged(cases), corpus, total=len(cases), console=Console(stderr=True), transient=True)
+def sweep_corpus(corpus: str, cases: Sequence[Case]) -> list[Facts]:
+    shown = track(judge_cases(cases), corpus, total=len(cases), console=Console(stderr=True), transient=True)
     return [
         {"name": case.name, "outcome": outcome_of(facts), **facts} for case, facts in zip(cases, shown, strict=True)
     ]
 
 
-def parsed() -> argparse.Namespace:
+def parse_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="Whether real drawings are read, converted and drawn right.")
     parser.add_argument("corpus", nargs="*", choices=[*CORPORA, []], help="by default all")
     parser.add_argument("--count", type=int, help="files of each corpus")
@@ -135,12 +135,12 @@ def parsed() -> argparse.Namespace:
 
 
 def main() -> None:
-    arguments, sets, missing = parsed(), {}, []
+    arguments, sets, missing = parse_options(), {}, []
     with tempfile.TemporaryDirectory() as folder:
         os.environ["FONTCONFIG_FILE"] = str(only_these(gather(Path(folder))))  # the fonts of ours and of resvg
         for corpus in arguments.corpus or CORPORA:
             try:
-                sets[corpus] = swept(corpus, CORPORA[corpus](arguments.seed, arguments.count))
+                sets[corpus] = sweep_corpus(corpus, CORPORA[corpus](arguments.seed, arguments.count))
             except VextureError as error:
                 missing.append(f"{corpus} is missing: {error}")
     head = ("corpus", "files", *OUTCOMES, f"over {SLOW:g} s", "slowest, s", "its name")

@@ -30,7 +30,7 @@ STEPS: Final = 65535
 """Of a coordinate across a bin of GSHHG."""
 
 
-def sampled(files: list[Path], seed: int, count: int | None) -> list[Path]:
+def sample_files(files: list[Path], seed: int, count: int | None) -> list[Path]:
     return files if count is None or count >= len(files) else random.Random(seed).sample(files, count)
 
 
@@ -43,18 +43,18 @@ def w3c(seed: int, count: int | None) -> list[Case]:
     """W3C's tests of SVG 1.1 in the package of librsvg's tests."""
     folder = corpora.LIBRSVG_TESTS.home / "svg1.1"
     files = [file for file in sorted(folder.glob("*.svg")) if file.name.startswith(W3C_GROUPS)]
-    return svg_cases("w3c", folder, sampled(files, seed, count))
+    return svg_cases("w3c", folder, sample_files(files, seed, count))
 
 
 def librsvg(seed: int, count: int | None) -> list[Case]:
     """The other reference tests of librsvg, icons of Adwaita among them."""
     folder = corpora.LIBRSVG_TESTS.home
     files = [file for file in corpora.LIBRSVG_TESTS.files("*.svg") if file.parent.name != "svg1.1"]
-    return svg_cases("librsvg", folder, sampled(files, seed, count))
+    return svg_cases("librsvg", folder, sample_files(files, seed, count))
 
 
 def openclipart(seed: int, count: int | None) -> list[Case]:
-    files = sampled(corpora.OPENCLIPART.files("*.svg"), seed, DRAWN if count is None else count)
+    files = sample_files(corpora.OPENCLIPART.files("*.svg"), seed, DRAWN if count is None else count)
     return svg_cases("openclipart", corpora.OPENCLIPART.home, files)
 
 
@@ -62,8 +62,8 @@ def icons(name: str, package: corpora.Package) -> Callable[[int, int | None], li
     """All icons of an npm package."""
 
     def cases(seed: int, count: int | None) -> list[Case]:
-        folder = package.installed() / package.folder
-        return svg_cases(name, folder, sampled(sorted(folder.glob("*.svg")), seed, count))
+        folder = package.installed_folder() / package.folder
+        return svg_cases(name, folder, sample_files(sorted(folder.glob("*.svg")), seed, count))
 
     return cases
 

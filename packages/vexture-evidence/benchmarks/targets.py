@@ -1,4 +1,4 @@
-"""What a measure must reach and what it aims at, printed beside what it is."""
+"""Targets of measurements: the limit, the aim, and both printed beside the figure."""
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -6,7 +6,7 @@ from typing import Any
 
 from report import cell, table
 
-__all__ = ["Target", "judged", "judgement"]
+__all__ = ["Target", "target_facts", "target_table"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,11 +16,11 @@ class Target:
     Parameters
     ----------
     measure : str
-        What the figure is, unit included.
+        Name of the figure, with its unit.
     figure : float or None
-        What was measured; None if it could not be.
+        The measured value; None if it could not be measured.
     least, aim : float
-        What it must reach, and what would be good.
+        The limit that it must reach, and the aim.
     larger : bool
         Whether larger is better.
     """
@@ -44,17 +44,17 @@ class Target:
         return self.figure >= limit if self.larger else self.figure <= limit
 
 
-def judged(targets: Sequence[Target]) -> list[dict[str, Any]]:
-    """The same for a benchmark's JSON."""
+def target_facts(targets: Sequence[Target]) -> list[dict[str, Any]]:
+    """Targets as a benchmark's JSON, with whether each is met."""
     return [{**asdict(t), "met": t.reaches(t.least), "aim_met": t.reaches(t.aim)} for t in targets]
 
 
-def judgement(targets: Sequence[Target]) -> str:
+def target_table(targets: Sequence[Target]) -> str:
     """Table of all targets, the missed ones too.
 
     Examples
     --------
-    >>> print(judgement([Target("ms", 0.5, 1.0, 0.1)]))
+    >>> print(target_table([Target("ms", 0.5, 1.0, 0.1)]))
     target  figure  at least  so it is  aim  so it is
     -------------------------------------------------
     ms       0.500         1       met  0.1    missed

@@ -1,4 +1,4 @@
-"""Pyramids of tiles: how long, how large, how well shared, and whether a killed run ends with the same bytes.
+"""Pyramids of tiles: time, size, sharing between processes, and whether a killed run ends with the same bytes.
 
     python packages/vexture-evidence/benchmarks/tiles.py [--data FOLDER] [--resolution f] [--zoom 12] [--parcels 100000]
         [--parcel-zoom 14] [--kills 10] [--processes 2] [--quick]
@@ -94,15 +94,15 @@ def parcels(count: int, seed: int = 20) -> Iterator[tuple[list[Any], list[str]]]
         yield shapes, []
 
 
-class Source:
-    """Features of one of these, and how many edges they have."""
+class SyntheticFeatures:
+    """Features of one of these sources, and the number of their edges."""
 
-    def __init__(self, made: Any) -> None:
-        self._made = made
+    def __init__(self, make_batches: Any) -> None:
+        self._made = make_batches
         self.edges = 0
 
     def __call__(self, _source: Any, *, notes: Notes, **_options: Any) -> Iterator[Any]:
-        """Read them in batches."""
+        """Read the features in batches."""
         self.edges = first = 0
         for shapes, given in self._made():
             parts, owner = shapely.get_parts(np.asarray(shapes, object), return_index=True)
@@ -114,18 +114,18 @@ class Source:
 
 
 class _Batch:
-    """What tiles need of `Features`."""
+    """The attributes of `Features` that tiles use."""
 
     def __init__(self, rings: Any, ids: Any) -> None:
         self.rings, self.ids, self.crs = rings, ids, "EPSG:4326"
         self.lines, self.points = SimpleNamespace(ends=()), SimpleNamespace(points=())
 
 
-def measured(name: str, made: Any, zoom: int, processes: int, folder: Path) -> dict[str, float]:
-    """Seconds, bytes and tiles of a pyramid."""
+def measure_tiles(name: str, make_batches: Any, zoom: int, processes: int, folder: Path) -> dict[str, float]:
+    """Make a pyramid; return its seconds, bytes and tiles."""
     mark, output = folder / f"{name}.txt", folder / f"{name}.pmtiles"
     mark.write_text(name)
-    source = Source(made)
+    source = SyntheticFeatures(make_batches)
     start = time.perf_counter()
     found = make_tiles(mark, output, TileOptions(max_zoom=zoom, processes=processes, name=name), batches=source)
     seconds = time.perf_counter() - start
@@ -146,8 +146,8 @@ def measured(name: str, made: Any, zoom: int, processes: int, folder: Path) -> d
     }
 
 
-def killed(count: int, cells: int, folder: Path) -> int:
-    """Kill a run at random moments, so many times, and count outputs with other bytes than a run without: 0 or 1."""
+def kill_runs(count: int, cells: int, folder: Path) -> int:
+    """Kill a run at random moments, `count` times; return 1 if its bytes differ from an undisturbed run's, else 0."""
     shapes = [shape for batch, _ in parcels(cells) for shape in batch]
     features = [
         {"type": "Feature", "properties": {}, "geometry": shapely.geometry.mapping(shapely.segmentize(shape, 1e-5))}
@@ -190,12 +190,12 @@ def main() -> None:
         folder = Path(name)
         if chosen.data is not None:
             made = lambda: coast(chosen.data, chosen.resolution)  # noqa: E731
-            figures |= measured("coast", made, chosen.zoom, chosen.processes, folder)
-        figures |= measured("parcels", lambda: parcels(count), chosen.parcel_zoom, chosen.processes, folder)
-        alone = measured("alone", lambda: parcels(count), chosen.parcel_zoom, 1, folder)
+            figures |= measure_tiles("coast", made, chosen.zoom, chosen.processes, folder)
+        figures |= measure_tiles("parcels", lambda: parcels(count), chosen.parcel_zoom, chosen.processes, folder)
+        alone = measure_tiles("alone", lambda: parcels(count), chosen.parcel_zoom, 1, folder)
         figures["alone_seconds"] = alone["alone_seconds"]
         figures["efficiency"] = alone["alone_seconds"] / figures["parcels_seconds"] / chosen.processes
-        figures["other_bytes"] = killed(kills, min(count, 20_000), folder)
+        figures["other_bytes"] = kill_runs(kills, min(count, 20_000), folder)
     write_figures("tiles", figures, GOALS)
 
 

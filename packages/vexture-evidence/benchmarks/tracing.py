@@ -1,4 +1,4 @@
-"""Pictures of pixels, traced: how far the drawing is from the picture, and what it costs.
+"""Traced pictures of pixels: the drawing's error and cost.
 
     python packages/vexture-evidence/benchmarks/tracing.py [--only TEXT] [--pictures FOLDER]
 
@@ -27,7 +27,7 @@ from vexture.svg.read import svg_drawing
 from vexture.tracing.trace import embedded_image
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["PICTURES", "drawn", "main", "measured"]
+__all__ = ["PICTURES", "draw_exactly", "main", "measure_tracing"]
 
 Pixels = NDArray[np.uint8]
 
@@ -51,10 +51,10 @@ INKS_SHARE: Final = (0.4, 0.2, 0.15, 0.15, 0.1)
 def of_svg(body: str, box: tuple[int, int], width: int) -> Pixels:
     """Pixels of a drawing, exact in each."""
     text = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {box[0]} {box[1]}">{body}</svg>'
-    return straight(drawn(svg_drawing(text.encode(), "picture.svg"), (width, width * box[1] // box[0])))
+    return unpremultiply(draw_exactly(svg_drawing(text.encode(), "picture.svg"), (width, width * box[1] // box[0])))
 
 
-def drawn(drawing: Drawing, size: tuple[int, int]) -> NDArray[np.float64]:
+def draw_exactly(drawing: Drawing, size: tuple[int, int]) -> NDArray[np.float64]:
     """Premultiplied pixels of a drawing whose own coordinates are spread over a picture, 0..255."""
     width, height = size
     side = max(size)
@@ -62,14 +62,14 @@ def drawn(drawing: Drawing, size: tuple[int, int]) -> NDArray[np.float64]:
     return 255.0 * np.asarray(vexture.render(drawing, size, place, "exact"), float)
 
 
-def straight(premultiplied: NDArray[np.float64]) -> Pixels:
-    """8-bit pixels that are not premultiplied."""
+def unpremultiply(premultiplied: NDArray[np.float64]) -> Pixels:
+    """Divide colours by opacity; return 8-bit pixels."""
     opacity = np.maximum(premultiplied[..., 3:], 1e-6) / 255.0
     plain = np.concatenate([premultiplied[..., :3] / opacity, premultiplied[..., 3:]], axis=2)
     return np.rint(np.clip(plain, 0.0, 255.0)).astype(np.uint8)
 
 
-def premultiplied(pixels: Pixels) -> NDArray[np.float64]:
+def premultiply(pixels: Pixels) -> NDArray[np.float64]:
     values = pixels.astype(float)
     values[..., :3] *= values[..., 3:] / 255.0
     return values
@@ -185,8 +185,8 @@ PICTURES: Final[dict[str, Callable[[], Pixels]]] = {
 }
 
 
-def measured(pixels: Pixels) -> tuple[dict[str, Any], NDArray[np.float64] | None]:
-    """Figures of a picture, and the traced drawing's pixels."""
+def measure_tracing(pixels: Pixels) -> tuple[dict[str, Any], NDArray[np.float64] | None]:
+    """Trace a picture; return the figures, and the traced drawing's pixels."""
     file = io.BytesIO()
     Image.fromarray(pixels).save(file, "PNG")
     begun = time.process_time()
@@ -195,10 +195,10 @@ def measured(pixels: Pixels) -> tuple[dict[str, Any], NDArray[np.float64] | None
     except VextureError as error:
         return {"error": str(error)}, None
     seconds = time.process_time() - begun
-    back = drawn(drawing, pixels.shape[1::-1])
+    back = draw_exactly(drawing, pixels.shape[1::-1])
     with warnings.catch_warnings(action="ignore", category=SourceWarning):
         texels = vexture.convert(drawing).info()["texels"]
-    off = np.abs(back - premultiplied(pixels))
+    off = np.abs(back - premultiply(pixels))
     return {
         "error": float(off.mean()),
         "far off": float(100.0 * (off.max(axis=2) > 16.0).mean()),
@@ -219,12 +219,12 @@ def main() -> None:
     for name, make in PICTURES.items():
         if options.only in name:
             pixels = make()
-            one, back = measured(pixels)
+            one, back = measure_tracing(pixels)
             figures[name] = one
             rows.append((name, *(cell(one.get(key)) for key in ("error", "far off", *COUNTS))))
             if options.pictures is not None and back is not None:
                 options.pictures.mkdir(parents=True, exist_ok=True)
-                sides = np.concatenate([on_white(pixels), on_white(straight(back))], axis=1)
+                sides = np.concatenate([on_white(pixels), on_white(unpremultiply(back))], axis=1)
                 times = max(1, 500 // sides.shape[1])
                 shown = sides.repeat(times, axis=0).repeat(times, axis=1)
                 Image.fromarray(shown).save(options.pictures / f"{name.replace(' ', '-')}.png")

@@ -20,10 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import corpora
-from chromium import bundle, chromium, served
+from chromium import bundle, chromium, serve_folder
 from report import cell, table, write_json
 from speed import TEXT, ZOOM
-from targets import Target, judged, judgement
+from targets import Target, target_facts, target_table
 from vexture.conversion.pipeline import convert
 from vexture.drawing.drawing import Drawing
 from vexture_evidence.measures.bands import BANDS, COASTLINE_BANDS, ROW_BITS, band_shader, band_texture
@@ -55,7 +55,7 @@ def square_of(drawing: Drawing) -> NDArray[np.float64]:
 
 
 def shape_of(drawing: Drawing, bands: int) -> dict[str, Any]:
-    """What the page needs of one drawing."""
+    """Data of one drawing for the page."""
     lists = band_texture(drawing, bands)
     width = 1 << ROW_BITS
     return {
@@ -101,7 +101,7 @@ def frame_times(drawings: Sequence[Drawing], bands: int, rounds: int, seed: int,
     with tempfile.TemporaryDirectory() as folder, chromium() as browser:
         bundle(Path(__file__).parent / "pages" / "scene.js", Path(folder) / "scene.js")
         (Path(folder) / "index.html").write_text('<!doctype html><script type="module" src="scene.js"></script>')
-        with served(Path(folder)) as address:
+        with serve_folder(Path(folder)) as address:
             page = browser.new_page()
             page.goto(address)
             page.wait_for_function("() => window.measure !== undefined")
@@ -149,9 +149,9 @@ def main() -> None:
     ]
     machine = machine_facts()
     driver = f"{facts['glyphs']['driver']}, three.js r{facts['glyphs']['three']}"
-    print("\n".join(["", judgement(reached), "", driver, machine_line(machine)]))
+    print("\n".join(["", target_table(reached), "", driver, machine_line(machine)]))
     facts |= {"machine": machine, "rounds": rounds, "seed": arguments.seed}
-    print(write_json("web_speed", {**facts, "targets": judged(reached)}))
+    print(write_json("web_speed", {**facts, "targets": target_facts(reached)}))
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import vexture.base.apart as apart_module
-from typed import typed
+from typed_commands import run_command
 from vexture.base.apart import apart, each_apart
 from vexture.base.deadline import CLOCK, check_time, within
 from vexture.base.errors import LimitError, ParameterError, SourceError
@@ -55,7 +55,7 @@ def test_a_view_without_end_meets_the_limit_and_others_are_read(tmp_path: Path) 
     """It kept GDAL, and so the command, for ever: neither the limit nor Ctrl-C ended it."""
     endless, other = endless_view(tmp_path / "endless.gpkg"), tmp_path / "other.svg"
     other.write_text("<svg")
-    ended = typed("convert", endless, other, "-o", tmp_path / "out", "--max-seconds", "1", "-q")
+    ended = run_command("convert", endless, other, "-o", tmp_path / "out", "--max-seconds", "1", "-q")
     first, second, last = ended.stderr.splitlines()
     assert first == f"vexture: {endless}: converting takes longer than 1 s; simplify the drawing or raise --max-seconds"
     assert second.startswith(f"vexture: {other}: not well-formed XML"), "which is read all the same"
@@ -67,7 +67,7 @@ def test_a_view_without_end_meets_the_limit_and_others_are_read(tmp_path: Path) 
 def test_a_map_of_a_view_without_end_meets_the_limit(tmp_path: Path) -> None:
     endless = endless_view(tmp_path / "endless.gpkg")
     before = sorted(tmp_path.iterdir())
-    ended = typed("map", endless, "-o", tmp_path / "map.ktx2", "--max-seconds", "0.3")
+    ended = run_command("map", endless, "-o", tmp_path / "map.ktx2", "--max-seconds", "0.3")
     line = f"vexture: {endless}: converting takes longer than 0.3 s; simplify the drawing or raise --max-seconds\n"
     assert (ended.returncode, ended.stdout, ended.stderr) == (1, "", line)
     assert sorted(tmp_path.iterdir()) == before

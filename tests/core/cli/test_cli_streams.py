@@ -18,7 +18,7 @@ from vexture.base.kernels import kernel_cache
 from vexture.cli.main import main
 from vexture.conversion.reading import read_drawing
 from vexture.texture.load import texture_from
-from warm import command
+from warm_process import command
 
 LOGO = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 10"><rect width="10" height="10" fill="#f00"/>
 <rect x="10" width="10" height="5" fill="#00f" fill-opacity=".5"/>{}</svg>"""

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import vexture
-from folded import Numbers, errors, positions
+from fold_reference import Numbers, errors, positions
 from vexture.fold.blend import fold as folded
 from vexture.fold.fold import Fold
 from vexture.fold.shore import shore_fold

@@ -37,8 +37,8 @@ def disc(x, y, radius):
     return pen.glyph()
 
 
-def composed(*names):
-    """A glyph of others, each where it is in its own."""
+def composite_glyph(*names):
+    """Make a glyph of others, each where it is in its own."""
     glyph = Glyph()
     glyph.numberOfContours = -1
     glyph.xMin, glyph.yMin, glyph.xMax, glyph.yMax = 0, 0, 700, 700
@@ -50,8 +50,8 @@ def composed(*names):
     return glyph
 
 
-def recomposed(content, glyphs):
-    """Bytes of a font with other glyphs of some characters, which may be damaged."""
+def replace_glyphs(content, glyphs):
+    """Replace the glyphs of some characters, by damaged ones too; return the font's bytes."""
     font = TTFont(io.BytesIO(content), recalcBBoxes=False)
     for character, glyph in glyphs.items():
         font["glyf"].glyphs[f"u{ord(character):04X}"] = glyph
@@ -69,8 +69,8 @@ SHAPES = {
 """Glyphs that those in colour are painted of."""
 
 
-def packed(content, flavor="woff2"):
-    """Bytes of a font of the web."""
+def compress_font(content, flavor="woff2"):
+    """Compress a font for the web; return its bytes."""
     font, file = TTFont(io.BytesIO(content)), io.BytesIO()
     font.flavor = flavor
     font.save(file)
@@ -124,7 +124,7 @@ def solid(color, alpha=1.0):
     return {"Format": PaintFormat.PaintSolid, "PaletteIndex": color, "Alpha": alpha}
 
 
-def filled(shape, paint):
+def fill_shape(shape, paint):
     return {"Format": PaintFormat.PaintGlyph, "Glyph": shape, "Paint": paint}
 
 
@@ -148,7 +148,7 @@ def sweep(colors, x, y, start, end):
     return {"Format": PaintFormat.PaintSweepGradient, "ColorLine": colors, **angles}
 
 
-def transformed(paint, *matrix):
+def transform_paint(paint, *matrix):
     numbers = dict(zip(("xx", "yx", "xy", "yy", "dx", "dy"), matrix, strict=True))
     return {"Format": PaintFormat.PaintTransform, "Paint": paint, "Transform": numbers}
 
@@ -163,5 +163,5 @@ def composite(mode, source, backdrop):
     }
 
 
-def stacked(*paints):
+def stack_paints(*paints):
     return {"Format": PaintFormat.PaintColrLayers, "Layers": list(paints)}

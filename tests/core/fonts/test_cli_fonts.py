@@ -5,7 +5,7 @@ import os
 
 import pytest
 from click.testing import CliRunner
-from made import BLUE, RED, filled, made_font, solid, stacked
+from made import BLUE, RED, fill_shape, made_font, solid, stack_paints
 
 import vexture
 from vexture.cli.main import main
@@ -14,7 +14,7 @@ from vexture.cli.main import main
 @pytest.fixture(scope="module")
 def font(tmp_path_factory):
     file = tmp_path_factory.mktemp("cli") / "made.ttf"
-    paint = stacked(filled("square", solid(RED)), filled("tall", solid(BLUE)))
+    paint = stack_paints(fill_shape("square", solid(RED)), fill_shape("tall", solid(BLUE)))
     file.write_bytes(made_font({"A": "left", "V": "disc", "é": "left", "C": "square"}, {"C": paint}))
     return file
 

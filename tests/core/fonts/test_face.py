@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from fontTools.pens.areaPen import AreaPen
 from fontTools.ttLib import TTCollection, TTFont
-from made import disc, made_font, packed
+from made import compress_font, disc, made_font
 
 from vexture.base.errors import DeviceError, SourceError
 from vexture.bezier.area import integral_x_dy
@@ -57,18 +57,18 @@ def test_variable_face_takes_the_nearest_style_that_it_has(default_faces):
 
 
 def test_woff_is_the_font_in_it():
-    (plain,), (woff,) = faces_in(PLAIN), faces_in(packed(PLAIN, "woff"))
+    (plain,), (woff,) = faces_in(PLAIN), faces_in(compress_font(PLAIN, "woff"))
     assert [contour.tolist() for contour in woff.outline(5)] == [contour.tolist() for contour in plain.outline(5)]
 
 
 def test_woff2_is_the_font_in_it_or_names_what_it_needs():
     pytest.importorskip("brotli", reason="brotli is not installed: pip install 'vexture[text]'")
-    assert faces_in(packed(PLAIN, "woff2"))[0].family == "Made"
+    assert faces_in(compress_font(PLAIN, "woff2"))[0].family == "Made"
 
 
 def test_damaged_outlines_of_a_web_font_are_met_when_they_are_used_and_name_the_file(tmp_path):
     brotli = pytest.importorskip("brotli", reason="brotli is not installed: pip install 'vexture[text]'")
-    content, file = packed(PLAIN), tmp_path / "damaged.woff2"
+    content, file = compress_font(PLAIN), tmp_path / "damaged.woff2"
     reader = TTFont(io.BytesIO(content)).reader
     tables = bytearray(reader.transformBuffer.getvalue())
     head = bytearray(content[: content.index(brotli.compress(bytes(tables), mode=brotli.MODE_FONT))])

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from made import BLUE, RED, box, filled, made_font, packed, solid, stacked
+from made import BLUE, RED, box, compress_font, fill_shape, made_font, solid, stack_paints
 
 import vexture
 from vexture.base.notes import Notes
@@ -17,7 +17,7 @@ from vexture.fonts.text import TextOptions, text_drawing
 @pytest.fixture(scope="module")
 def font(tmp_path_factory):
     file = tmp_path_factory.mktemp("atlas") / "made.ttf"
-    paints = {"C": stacked(filled("square", solid(RED)), filled("tall", solid(BLUE)))}
+    paints = {"C": stack_paints(fill_shape("square", solid(RED)), fill_shape("tall", solid(BLUE)))}
     letters = {"A": "left", "V": "disc", "C": "square"}
     file.write_bytes(
         made_font(letters, paints, kerning=[("u0041", "u0056", -80), ("u0056", "u0041", 30)], alike={"Α": "A"})
@@ -122,7 +122,7 @@ def web_fonts(tmp_path_factory):
             shapes = dict.fromkeys(letters, box(100, 0, 100 + weight // 2, 700))
             kerning = [("u0041", "u0056", -weight // 10)] if "V" in letters else None
             content = made_font(shapes, family=family, weight=weight, style=style, kerning=kerning)
-            (folder / f"made-{subset}-{weight}.woff2").write_bytes(packed(content))
+            (folder / f"made-{subset}-{weight}.woff2").write_bytes(compress_font(content))
     return folder
 
 

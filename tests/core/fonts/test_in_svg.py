@@ -3,7 +3,7 @@
 import base64
 
 import pytest
-from made import OWN, RED, composed, filled, made_font, recomposed, solid, stacked
+from made import OWN, RED, composite_glyph, fill_shape, made_font, replace_glyphs, solid, stack_paints
 
 import vexture
 from vexture.base.errors import SourceError, SourceWarning
@@ -18,7 +18,7 @@ def drawn(body, *fonts):
 
 def test_glyphs_in_colour_are_painted_where_they_stand(tmp_path):
     file = tmp_path / "made.ttf"
-    layers = stacked(filled("square", solid(RED)), filled("disc", solid(OWN)))
+    layers = stack_paints(fill_shape("square", solid(RED)), fill_shape("disc", solid(OWN)))
     file.write_bytes(made_font({"a": "square", "b": "left"}, {"a": layers}))
     body = '<text id="t" x="10" y="50" font-size="20" font-family="Made" fill="blue" fill-opacity="0.5">ba</text>'
     drawing = drawn(body, file)
@@ -41,23 +41,23 @@ def test_generic_families_are_those_of_the_given_fonts_first(tmp_path):
 @pytest.mark.parametrize(
     "glyphs",
     [
-        {"a": composed("u0061")},
-        {"a": composed("u0062"), "b": composed("u0061")},
-        {"a": composed(*["u0062"] * 3000), "b": composed(*["square"] * 3000)},
+        {"a": composite_glyph("u0061")},
+        {"a": composite_glyph("u0062"), "b": composite_glyph("u0061")},
+        {"a": composite_glyph(*["u0062"] * 3000), "b": composite_glyph(*["square"] * 3000)},
     ],
     ids=["itself", "circle", "huge"],
 )
 def test_glyphs_that_cannot_be_composed_are_named(tmp_path, glyphs):
     file = tmp_path / "made.ttf"
     content = made_font({"a": "square", "b": "square", "c": "disc"})
-    file.write_bytes(recomposed(content, glyphs))
+    file.write_bytes(replace_glyphs(content, glyphs))
     said = "left out: glyph 6 of font 'Made', which is composed of itself or of too many others"
     with pytest.warns(SourceWarning, match=said):
         word = vexture.text("c a", font=file)
     for drawing in (drawn('<text id="t" y="50" font-family="Made">c a</text>', file), word):
         assert [f"{note.kind}: {note.message}" for note in drawing.notes] == [said]
         assert len(drawing.paths) == 1
-    file.write_bytes(recomposed(content, {"a": composed("square", "disc")}))
+    file.write_bytes(replace_glyphs(content, {"a": composite_glyph("square", "disc")}))
     assert not drawn('<text y="50" font-family="Made">c a</text>', file).notes
 
 

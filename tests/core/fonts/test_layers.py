@@ -17,15 +17,15 @@ from made import (
     PALETTE,
     RED,
     composite,
-    filled,
+    fill_shape,
     line,
     linear,
     made_font,
     radial,
     solid,
-    stacked,
+    stack_paints,
     sweep,
-    transformed,
+    transform_paint,
 )
 
 import vexture
@@ -75,7 +75,7 @@ def close(found, expected):
 
 
 def test_layers_of_both_versions_are_paths_in_their_order():
-    found = layers_of(stacked(filled("square", solid(RED)), filled("disc", solid(BLUE, 0.5))))
+    found = layers_of(stack_paints(fill_shape("square", solid(RED)), fill_shape("disc", solid(BLUE, 0.5))))
     assert (len(found.paths), found.groups, found.notes) == (2, (), ())
     inside, outside = colour_at(found, (405, 405), (105, 605))
     close(inside, over(premultiplied(BLUE, 0.5), premultiplied(RED)))
@@ -105,7 +105,7 @@ def ramp(first, last, part):
 def test_linear_gradient_is_straightened_and_goes_on_beyond_its_stops(extend, part):
     """The stops are at 0.25 and 0.75, and p2 slants the gradient."""
     colors = line((0.25, RED, 1), (0.75, BLUE, 1), extend=extend)
-    found = layers_of(filled("square", linear(colors, 100, 0, 500, 400, 100, 500)))  # by x only, from 100 to 500
+    found = layers_of(fill_shape("square", linear(colors, 100, 0, 500, 400, 100, 500)))  # by x only, from 100 to 500
     middle, beyond = colour_at(found, (305, 305), (455, 105))
     close(middle, ramp(RED, BLUE, 0.525))
     close(beyond, ramp(RED, BLUE, part))
@@ -115,14 +115,14 @@ def test_linear_gradient_is_straightened_and_goes_on_beyond_its_stops(extend, pa
 def test_a_ramp_without_length_that_repeats_is_its_last_colour(extend):
     colors = line((0.5, RED, 1), (0.5, BLUE, 1), extend=extend)
     for gradient in (linear(colors, 100, 0, 500, 0, 100, 500), radial(colors, 300, 300, 50, 300, 300, 200)):
-        (path,) = layers_of(filled("square", gradient)).paths
+        (path,) = layers_of(fill_shape("square", gradient)).paths
         assert path.paint.gradient is None
         close(path.paint.color, PALETTE[BLUE][:3])
 
 
 def test_radial_gradient_between_two_circles():
     colors = line((0, GREEN, 1), (1, BLUE, 1))
-    found = layers_of(filled("square", radial(colors, 405, 305, 100, 405, 305, 300)))
+    found = layers_of(fill_shape("square", radial(colors, 405, 305, 100, 405, 305, 300)))
     centre, ring = colour_at(found, (405, 305), (605, 305))
     close(centre, premultiplied(GREEN))
     close(ring, ramp(GREEN, BLUE, 0.5))
@@ -130,10 +130,10 @@ def test_radial_gradient_between_two_circles():
 
 def test_radial_gradient_from_below_radius_zero_and_to_zero():
     below = line((-1, GREEN, 1), (1, BLUE, 1))  # radius 0 is a quarter of the way between the stops
-    found = layers_of(filled("square", radial(below, 405, 305, 100, 405, 305, 300)))
+    found = layers_of(fill_shape("square", radial(below, 405, 305, 100, 405, 305, 300)))
     close(colour_at(found, (705, 305))[0], premultiplied(BLUE))
     close(colour_at(found, (605, 305))[0], ramp(GREEN, BLUE, 0.75))
-    inwards = layers_of(filled("square", radial(line((0, GREEN, 1), (1, BLUE, 1)), 405, 305, 300, 405, 305, 0)))
+    inwards = layers_of(fill_shape("square", radial(line((0, GREEN, 1), (1, BLUE, 1)), 405, 305, 300, 405, 305, 0)))
     close(
         colour_at(inwards, (405, 305))[0], ramp(GREEN, BLUE, 1.0 - 3.8 / 300)
     )  # the mean distance in its pixel is 3.8
@@ -142,24 +142,24 @@ def test_radial_gradient_from_below_radius_zero_and_to_zero():
 
 @pytest.mark.parametrize("points", [(100, 0, 500, 0, 700, 0), (100, 0, 500, 0, 100, 0)])
 def test_a_gradient_without_direction_shows_nothing(points):
-    assert layers_of(filled("square", linear(line((0, RED, 1), (1, BLUE, 1)), *points))).paths == ()
+    assert layers_of(fill_shape("square", linear(line((0, RED, 1), (1, BLUE, 1)), *points))).paths == ()
 
 
 def test_sweep_gradient_is_named():
-    found = layers_of(filled("disc", sweep(line((0, RED, 1), (1, BLUE, 1)), 550, 450, 0, 180)))
+    found = layers_of(fill_shape("disc", sweep(line((0, RED, 1), (1, BLUE, 1)), 550, 450, 0, 180)))
     assert [str(note) for note in found.notes] == ["sweep gradient shown as its mean colour"]
     assert found.paths[0].paint.gradient is None
 
 
 def test_a_transform_moves_outline_and_gradient():
-    inner = filled("left", linear(line((0, RED, 1), (1, BLUE, 1)), 100, 0, 500, 0, 100, 500))
-    found = layers_of(transformed(inner, 0.5, 0, 0, 0.5, 300, 200))
+    inner = fill_shape("left", linear(line((0, RED, 1), (1, BLUE, 1)), 100, 0, 500, 0, 100, 500))
+    found = layers_of(transform_paint(inner, 0.5, 0, 0, 0.5, 300, 200))
     assert found.paths[0].box.tolist() == [[350.0, 200.0], [550.0, 550.0]]
     close(colour_at(found, (455, 305))[0], ramp(RED, BLUE, 0.525))
 
 
 def test_a_glyph_in_a_glyph_is_their_intersection():
-    found = layers_of(filled("square", filled("tall", solid(RED))))
+    found = layers_of(fill_shape("square", fill_shape("tall", solid(RED))))
     inside, above, beside = colour_at(found, (405, 305), (405, 755), (205, 305))
     close(inside, premultiplied(RED))
     assert not above.any()
@@ -169,7 +169,7 @@ def test_a_glyph_in_a_glyph_is_their_intersection():
 @pytest.mark.parametrize("mode", [*PORTER_DUFF, "SRC_OVER", "DEST_OVER", "PLUS", "MULTIPLY", "HSL_HUE"])
 def test_composite_modes_are_those_of_the_compositing_specification(mode):
     """Above a half transparent square, below an almost opaque one; where both, one and none of them are."""
-    found = layers_of(composite(mode, filled("tall", solid(HALF)), filled("left", solid(BLUE, 0.75))))
+    found = layers_of(composite(mode, fill_shape("tall", solid(HALF)), fill_shape("left", solid(BLUE, 0.75))))
     above, below = premultiplied(HALF), premultiplied(BLUE, 0.75)
     nothing = np.zeros(4)
     points = ((405, 305), (555, 305), (205, 305), (805, 305))
@@ -223,14 +223,14 @@ def hue_of(source, backdrop):
 
 
 def test_a_glyph_clips_what_is_within_its_box():
-    found = layers_of(filled("disc", transformed(filled("square", solid(RED)), 0.2, 0, 0, 0.2, 190, 105)))
+    found = layers_of(fill_shape("disc", transform_paint(fill_shape("square", solid(RED)), 0.2, 0, 0, 0.2, 190, 105)))
     corner, inside = colour_at(found, (225, 125), (345, 235))
     assert not corner.any()
     close(inside, premultiplied(RED))
 
 
 def test_a_paint_without_a_glyph_is_within_what_it_is_combined_with():
-    found = layers_of(composite("SRC_IN", solid(RED), filled("left", solid(OWN))))
+    found = layers_of(composite("SRC_IN", solid(RED), fill_shape("left", solid(OWN))))
     inside, outside = colour_at(found, (205, 305), (605, 305))
     close(inside, premultiplied(RED))
     assert not outside.any()
@@ -238,9 +238,9 @@ def test_a_paint_without_a_glyph_is_within_what_it_is_combined_with():
 
 def test_groups_that_combine_each_other_many_times_are_refused(monkeypatch):
     monkeypatch.setattr(module, "MOST_PATHS", 20)
-    paint = filled("square", solid(RED, 0.5))
+    paint = fill_shape("square", solid(RED, 0.5))
     for _ in range(6):
-        paint = composite("XOR", paint, filled("disc", solid(CLEAR_RED)))
+        paint = composite("XOR", paint, fill_shape("disc", solid(CLEAR_RED)))
     with pytest.raises(SourceError, match="a glyph paints more than 20 paths and groups; use another font"):
         layers_of(paint)
 
@@ -260,10 +260,10 @@ def glyph_of(name):
 
 def test_glyphs_that_paint_each_other_end():
     """In a circle, and twice each to a depth of 16: HarfBuzz paints what its limits allow."""
-    last = filled("square", solid(RED))
-    circle = {"A": stacked(glyph_of("B"), last), "B": stacked(glyph_of("A"), last)}
+    last = fill_shape("square", solid(RED))
+    circle = {"A": stack_paints(glyph_of("B"), last), "B": stack_paints(glyph_of("A"), last)}
     names = "ABCDEFGHIJKLMNOPQ"
-    twice = {a: stacked(glyph_of(b), glyph_of(b)) for a, b in pairwise(names)} | {"Q": last}
+    twice = {a: stack_paints(glyph_of(b), glyph_of(b)) for a, b in pairwise(names)} | {"Q": last}
     for paints in (circle, twice):
         face = faces_in(made_font(dict.fromkeys(paints, "square"), paints))[0]
         assert 1 <= len(face.layers(face._font.get_nominal_glyph(ord("A"))).paths) <= 10_000
@@ -272,7 +272,9 @@ def test_glyphs_that_paint_each_other_end():
 def test_a_text_of_glyphs_of_many_paths_is_refused(monkeypatch, tmp_path):
     """100,000 characters of 10,000 paths each were a billion."""
     monkeypatch.setattr(texts, "MOST_PARTS", 1000)
-    (tmp_path / "a.ttf").write_bytes(made_font({"A": "square"}, {"A": stacked(*[filled("square", solid(RED))] * 99)}))
+    (tmp_path / "a.ttf").write_bytes(
+        made_font({"A": "square"}, {"A": stack_paints(*[fill_shape("square", solid(RED))] * 99)})
+    )
     assert len(vexture.text("AA", font=tmp_path / "a.ttf").paths) == 198
     with pytest.raises(LimitError, match="`text` has more than 1,000 segments and groups; draw it in parts"):
         vexture.text("AAA", font=tmp_path / "a.ttf")

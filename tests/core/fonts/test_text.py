@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from made import BLUE, RED, composite, filled, made_font, solid, stacked
+from made import BLUE, RED, composite, fill_shape, made_font, solid, stack_paints
 
 import vexture
 from vexture.base.errors import ParameterError, SourceError
@@ -19,8 +19,8 @@ def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("fonts")
     letters = dict.fromkeys("AVאב(", "square")
     (folder / "plain.ttf").write_bytes(made_font(letters, kerning=[("u0041", "u0056", -80)]))
-    paint = composite("XOR", filled("square", solid(RED)), filled("disc", solid(BLUE)))
-    paints = {"B": stacked(filled("square", solid(RED)), filled("tall", solid(BLUE))), "C": paint}
+    paint = composite("XOR", fill_shape("square", solid(RED)), fill_shape("disc", solid(BLUE)))
+    paints = {"B": stack_paints(fill_shape("square", solid(RED)), fill_shape("tall", solid(BLUE))), "C": paint}
     (folder / "colours.ttf").write_bytes(made_font(dict.fromkeys("BC", "square"), paints, family="Colours"))
     return folder
 

@@ -19,10 +19,10 @@ HATS = np.maximum(0, 1 - abs(2 * TIMES[:, None] - [0, 1, 2]))  # the same for co
 Texture = namedtuple("Texture", "child coverage first count corner lines on_left even_odd roots")
 
 
-def need(condition: object, what: str) -> None:
+def need(condition: object, fault: str) -> None:
     """Refuse the file if the condition does not hold."""
     if not condition:
-        raise ValueError(f"not a valid texture: {what}")
+        raise ValueError(f"not a valid texture: {fault}")
 
 
 @contextmanager

@@ -128,7 +128,7 @@ def whole(b: np.ndarray, s: np.ndarray, mode: int) -> np.ndarray:
         return np.where(high > 1, wanted + (c - wanted) * (1 - wanted) / (high - wanted), c)
 
 
-def blended(below: np.ndarray, above: np.ndarray, mode: int) -> np.ndarray:
+def blend(below: np.ndarray, above: np.ndarray, mode: int) -> np.ndarray:
     """Return one premultiplied colour over another, or masked by it (D.6, and the formulas of the W3C)."""
     if mode in (33, 34):
         return below * (above[:, 3:] if mode == 33 else above[:, :3] @ [[0.2125], [0.7154], [0.0721]])
@@ -157,13 +157,13 @@ def run(program: list, stops: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.nd
             kept.append(color)
             color = np.zeros_like(color)
         elif kind == 6:
-            color = blended(kept.pop(), color * int(texels[0, 0]) / 65535, int(texels[0, 1]))
+            color = blend(kept.pop(), color * int(texels[0, 0]) / 65535, int(texels[0, 1]))
         elif kind == 1:
             solid = np.array([word >> shift & 65535 for word in texels[0, :2].tolist() for shift in (0, 16)]) / 65535
-            color = blended(color, np.broadcast_to(solid, color.shape), 0)
+            color = blend(color, np.broadcast_to(solid, color.shape), 0)
         else:
             count = int(texels[0, 3]) >> 19 & 255
-            color = blended(color, gradient_color(kind, texels, stops[first : first + count], x, y), 0)
+            color = blend(color, gradient_color(kind, texels, stops[first : first + count], x, y), 0)
     return color
 
 
@@ -248,7 +248,7 @@ def read_style(root: dict, planar: Map) -> tuple[list[dict], list[list[int]]]:
     return elements, stacks
 
 
-def composited(elements: list[dict], stack: list[int]) -> np.ndarray:
+def composite(elements: list[dict], stack: list[int]) -> np.ndarray:
     """Return the colour of a stack in which no element is in a group (D.10)."""
     color = np.zeros(4)
     for place in stack:

@@ -10,8 +10,8 @@ import pytest
 
 import vexture
 from degenerate import drawing, points_near
-from planar import coloured
-from shaded import DRAWINGS, blended
+from gradient_drawings import DRAWINGS, blend_drawing
+from planar import colour_paths
 from vexture.conversion.pipeline import atlas, run
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.group import Blend
@@ -23,7 +23,7 @@ SIZE = 32
 
 
 def sample(seed: int) -> Drawing:
-    return coloured(Drawing(drawing(seed).paths + drawing(seed + 100).paths), np.random.default_rng(seed))
+    return colour_paths(Drawing(drawing(seed).paths + drawing(seed + 100).paths), np.random.default_rng(seed))
 
 
 @pytest.mark.parametrize("seed", [3, 7, 8, 12])
@@ -35,7 +35,7 @@ def test_it_draws_random_drawings(seed: int) -> None:
     assert error.max() < 0.15
 
 
-@pytest.mark.parametrize("of", [*DRAWINGS.values(), *map(blended, Blend)])
+@pytest.mark.parametrize("of", [*DRAWINGS.values(), *map(blend_drawing, Blend)])
 def test_it_runs_programs(of: Drawing) -> None:
     data = run(of, split="faces").texture.to_ktx2()
     _, _, (planar,) = map_decoder.read_maps(data)
@@ -67,7 +67,7 @@ def test_stacks_say_what_paints_are_made_of() -> None:
     texture = run(Drawing(tuple(paths)), split="faces", restyle=True).texture
     (root,), _, (planar,) = map_decoder.read_maps(texture.to_ktx2())
     elements, stacks = map_decoder.read_style(root, planar)
-    colors = [map_decoder.composited(elements, stack) for stack in stacks]
+    colors = [map_decoder.composite(elements, stack) for stack in stacks]
     np.testing.assert_allclose(colors, planar.paints, atol=2e-5)
     points = points_near(of, np.random.default_rng(1), 500)
     paints = map_decoder.paint_at(planar, *points.T)

@@ -6,9 +6,9 @@ import struct
 import pytest
 
 import vexture
-from room import glb, room
+from room_model import glb_content, make_room
 
-WHOLE = glb(*room())
+WHOLE = glb_content(*make_room())
 KITE = vexture.Drawing.polygon([(0.5, 0.1), (0.8, 0.6), (0.5, 0.9), (0.2, 0.6)])
 
 
@@ -30,14 +30,14 @@ DAMAGED = {
     "huge length": (patched(8, 2**32 - 1), "its header says 4294967295 bytes"),
     "huge chunk": (patched(12, 2**32 - 1), "its chunk at 20 says 4294967295 bytes"),
     "half a chunk": (
-        glb(*room(), (b"XTRA", b""))[:8] + struct.pack("<I", len(WHOLE) + 4) + WHOLE[12:] + bytes(4),
+        glb_content(*make_room(), (b"XTRA", b""))[:8] + struct.pack("<I", len(WHOLE) + 4) + WHOLE[12:] + bytes(4),
         "breaks off in the head of a chunk",
     ),
     "no chunk": (struct.pack("<4sII", b"glTF", 2, 12), "its first chunk is not JSON"),
-    "binary first": (glb({}, None)[:16] + b"BIN\0" + glb({}, None)[20:], "its first chunk is not JSON"),
-    "no JSON": (glb({})[:20] + b"{]  ", "its JSON cannot be read"),
+    "binary first": (glb_content({}, None)[:16] + b"BIN\0" + glb_content({}, None)[20:], "its first chunk is not JSON"),
+    "no JSON": (glb_content({})[:20] + b"{]  ", "its JSON cannot be read"),
     "no UTF-8": (b'{"asset": "\xff"}', "its JSON cannot be read"),
-    "no object": (glb([1]), "its JSON is no object"),
+    "no object": (glb_content([1]), "its JSON is no object"),
     "nested": (b'{"a":' * 200 + b"1" + b"}" * 200, "its JSON is nested deeper than 128 levels"),
     "nested further": (b'{"a":' + b"[" * 10**6, "its JSON cannot be read"),
     "no number": (text(a=float("nan")), "its JSON cannot be read (NaN is no number"),

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from PIL import Image
 
 import vexture
-from room import chunks_of, document_of, glb, room
+from room_model import chunks_of, document_of, glb_content, make_room
 from vexture.cli.main import main
 
 EXTENSION = "VEXTURE_vector_texture"
@@ -67,8 +67,8 @@ def bytes_of(content, index=0):
 
 def test_everything_else_in_a_glb_stays(kite, tmp_path):
     other = (b"XTRA", b"kept")
-    document, binary = room(extensionsUsed=["VENDOR_a"], extensions={"VENDOR_a": {"deep": [{"x": 0.1}]}})
-    before = glb(document, binary, other)
+    document, binary = make_room(extensionsUsed=["VENDOR_a"], extensions={"VENDOR_a": {"deep": [{"x": 0.1}]}})
+    before = glb_content(document, binary, other)
     model = vexture.read_model(before)
     after = model.with_drawing("Sign", kite, mode="cut", threshold=0.25).save(tmp_path / "after.glb").read_bytes()
     written = document_of(after)
@@ -91,7 +91,7 @@ def test_everything_else_in_a_glb_stays(kite, tmp_path):
 
 
 def test_materials_share_a_texture_and_a_new_one_takes_the_place_of_an_old_one(kite):
-    before = glb(*room())
+    before = glb_content(*make_room())
     both = vexture.read_model(before).with_drawing("Sign", kite).with_drawing("Wall", kite, mode="mix", color="red")
     (content,) = both.files("a.glb").values()
     materials = document_of(content)["materials"]
@@ -108,7 +108,7 @@ def test_materials_share_a_texture_and_a_new_one_takes_the_place_of_an_old_one(k
 
 @pytest.mark.parametrize("indent", [None, "\t", "  "])
 def test_a_gltf_has_its_texture_beside_it(kite, tmp_path, indent):
-    document, binary = room()
+    document, binary = make_room()
     (tmp_path / "room.bin").write_bytes(binary)
     document["buffers"][0]["uri"] = "room.bin"
     text = json.dumps(document, indent=indent, ensure_ascii=False, separators=None if indent else (",", ":"))
@@ -126,7 +126,7 @@ def test_a_gltf_has_its_texture_beside_it(kite, tmp_path, indent):
 def test_a_gltf_becomes_a_glb_with_all_that_is_beside_it(kite, tmp_path):
     picture = BytesIO()
     Image.new("RGB", (2, 2), "red").save(picture, "PNG")
-    document, binary = room(images=[{"uri": "a%20b.png"}, {"uri": "data:image/png;base64,AA=="}])
+    document, binary = make_room(images=[{"uri": "a%20b.png"}, {"uri": "data:image/png;base64,AA=="}])
     (tmp_path / "a b.png").write_bytes(picture.getvalue())
     (tmp_path / "parts").mkdir()
     (tmp_path / "parts" / "room.bin").write_bytes(binary)
@@ -149,12 +149,12 @@ def test_a_gltf_becomes_a_glb_with_all_that_is_beside_it(kite, tmp_path):
 
 
 def test_a_glb_becomes_a_gltf_with_its_bytes_beside_it(kite, tmp_path):
-    document, binary = room()
-    model = vexture.read_model(glb(document, binary)).with_drawing("Sign", kite)
+    document, binary = make_room()
+    model = vexture.read_model(glb_content(document, binary)).with_drawing("Sign", kite)
     written = json.loads(model.save(tmp_path / "my room.gltf").read_text())
     assert written["buffers"] == [{**document["buffers"][0], "uri": "my%20room.bin"}]
     assert digest((tmp_path / "my room.bin").read_bytes()) == digest(binary)
-    extra = vexture.read_model(glb(document, binary, (b"XTRA", b"kept")))
+    extra = vexture.read_model(glb_content(document, binary, (b"XTRA", b"kept")))
     with pytest.raises(vexture.ParameterError, match=r"only a \.glb can hold"):
         extra.files(tmp_path / "extra.gltf")
 
@@ -163,8 +163,8 @@ def test_a_glb_with_a_file_beside_it_takes_it_to_another_folder(kite, tmp_path):
     picture = BytesIO()
     Image.new("RGB", (2, 2), "red").save(picture, "PNG")
     (tmp_path / "a.png").write_bytes(picture.getvalue())
-    document, binary = room(images=[{"uri": "a.png"}])
-    (tmp_path / "room.glb").write_bytes(glb(document, binary))
+    document, binary = make_room(images=[{"uri": "a.png"}])
+    (tmp_path / "room.glb").write_bytes(glb_content(document, binary))
     model = vexture.read_model(tmp_path / "room.glb").with_drawing("Sign", kite)
     (same,) = model.files(tmp_path / "new.glb").values()
     (other,) = model.files(tmp_path / "elsewhere" / "new.glb").values()
@@ -179,13 +179,16 @@ def test_a_glb_with_a_file_beside_it_takes_it_to_another_folder(kite, tmp_path):
 
 
 def test_a_model_whose_bytes_are_elsewhere_holds_the_texture_as_an_address(kite):
-    for document in (room(buffers=[{"uri": "data:,", "byteLength": 0}])[0], room(buffers=[{"byteLength": 4}])[0]):
-        (content,) = vexture.read_model(glb(document)).with_drawing("Sign", kite).files("a.glb").values()
+    for document in (
+        make_room(buffers=[{"uri": "data:,", "byteLength": 0}])[0],
+        make_room(buffers=[{"byteLength": 4}])[0],
+    ):
+        (content,) = vexture.read_model(glb_content(document)).with_drawing("Sign", kite).files("a.glb").values()
         (texture,) = document_of(content)["extensions"][EXTENSION]["textures"]
         assert digest(b64decode(texture["uri"].removeprefix("data:image/ktx2;base64,"))) == digest(kite.to_ktx2())
         assert document_of(content)["buffers"] == document["buffers"]
     (content,) = (
-        vexture.read_model(glb({"asset": {"version": "2.0"}, "materials": [{}]}))
+        vexture.read_model(glb_content({"asset": {"version": "2.0"}, "materials": [{}]}))
         .with_drawing(0, kite)
         .files("a.glb")
         .values()
@@ -194,7 +197,7 @@ def test_a_model_whose_bytes_are_elsewhere_holds_the_texture_as_an_address(kite)
 
 
 def test_a_material_is_found_by_its_name_or_its_place():
-    document = room(materials=[{"name": "1"}, {}, {"name": "a"}, {"name": "a"}, {"name": 3}])[0]
+    document = make_room(materials=[{"name": "1"}, {}, {"name": "a"}, {"name": "a"}, {"name": 3}])[0]
     model = vexture.read_model(json.dumps(document).encode(), name="m")
     assert [model.place_of(one) for one in ("1", 1, "4", 3)] == [0, 1, 4, 3]
     for wanted, message in (
@@ -228,18 +231,18 @@ def test_a_material_is_found_by_its_name_or_its_place():
 )
 def test_an_appearance_that_cannot_be_is_refused(kite, given, message):
     with pytest.raises(vexture.ParameterError) as caught:
-        vexture.read_model(glb(*room())).with_drawing("Sign", kite, **given)
+        vexture.read_model(glb_content(*make_room())).with_drawing("Sign", kite, **given)
     assert str(caught.value).startswith(message)
 
 
 def test_a_mesh_that_cannot_show_the_drawing_is_named(kite):
-    model = vexture.read_model(glb(*room()), name="room")
+    model = vexture.read_model(glb_content(*make_room()), name="room")
     with pytest.warns(vexture.SourceWarning, match=r"^room: the mesh 'Box' has no texture coordinates 1, so"):
         model.with_drawing("Wall", kite, tex_coord=1)
 
 
 def test_the_command_puts_drawings_on_materials(drawing, tmp_path):
-    (tmp_path / "room.glb").write_bytes(glb(*room()))
+    (tmp_path / "room.glb").write_bytes(glb_content(*make_room()))
     assert run(tmp_path / "room.glb", "--list").stdout == "0 Sign\n1 Wall\n"
     vexture.atlas([drawing, KITE]).save(tmp_path / "icons.ktx2")
     pairs = ("--material", "Sign", "--drawing", drawing, "--material", "1", "--drawing", tmp_path / "icons.ktx2")
@@ -264,7 +267,7 @@ def test_the_command_puts_drawings_on_materials(drawing, tmp_path):
 
 def test_the_command_says_in_a_line_what_is_wrong(drawing, tmp_path):
     model = tmp_path / "room.glb"
-    model.write_bytes(glb(*room()))
+    model.write_bytes(glb_content(*make_room()))
     (tmp_path / "lossy.svg").write_text(SVG.replace("</svg>", "<foreignObject/></svg>"))
     right = ("--material", "Sign", "--drawing", drawing, "-o", tmp_path / "out.glb")
     for arguments, message in (
@@ -290,7 +293,9 @@ def test_the_command_says_in_a_line_what_is_wrong(drawing, tmp_path):
 def test_a_texture_takes_no_options_of_a_conversion(kite, tmp_path):
     file = kite.save(tmp_path / "kite.ktx2")
     with pytest.raises(vexture.ParameterError, match="`precision` is for drawings, and drawing is a texture already"):
-        vexture.read_model(glb(*room())).with_drawing("Sign", file, conversion={"precision": 1e-7})
+        vexture.read_model(glb_content(*make_room())).with_drawing("Sign", file, conversion={"precision": 1e-7})
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert vexture.read_model(glb(*room())).with_drawing("Sign", Path(file), mode="mix").textures.keys() == {0}
+        assert vexture.read_model(glb_content(*make_room())).with_drawing(
+            "Sign", Path(file), mode="mix"
+        ).textures.keys() == {0}

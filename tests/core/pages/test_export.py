@@ -8,7 +8,7 @@ import re
 
 import pytest
 
-from typed import typed
+from typed_commands import run_command
 from vexture.base.errors import DeviceError
 from vexture.pages.page import SCRIPT, STYLE, built, served_page
 from vexture.texture.load import texture_from
@@ -27,7 +27,7 @@ def page_is_built():
 
 
 def export(*arguments):
-    return typed("export", *arguments)
+    return run_command("export", *arguments)
 
 
 def scene(text):
@@ -80,7 +80,7 @@ def test_page_holds_what_convert_writes(tmp_path, options):
     drawing = tmp_path / "two.svg"
     drawing.write_text('<svg viewBox="0 0 9 9"><path fill="red" d="M0 0h9v9z"/><circle cx="4" cy="5" r="3"/></svg>')
     assert export(drawing, "-o", tmp_path / "page.html", "--tolerance", "1e-3", *options).returncode == 0
-    assert typed("convert", drawing, "-o", tmp_path / "two.ktx2", *options).returncode == 0
+    assert run_command("convert", drawing, "-o", tmp_path / "two.ktx2", *options).returncode == 0
     (shape,) = scene((tmp_path / "page.html").read_text(encoding="utf-8"))["shapes"]
     ours, theirs = content(shape["views"]["converted"])[1], (tmp_path / "two.ktx2").read_bytes()
     assert [hashlib.sha256(one).hexdigest() for one in (ours, theirs)] == [hashlib.sha256(theirs).hexdigest()] * 2
@@ -90,7 +90,7 @@ def test_page_holds_what_convert_writes(tmp_path, options):
 
 @pytest.mark.parametrize("command", ["view", "export"])
 def test_help_needs_no_history(command):
-    assert "thesis" not in typed(command, "--help").stdout.lower()
+    assert "thesis" not in run_command(command, "--help").stdout.lower()
 
 
 def test_page_fetches_nothing(tmp_path):

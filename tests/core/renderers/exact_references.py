@@ -103,15 +103,15 @@ def coverage_of_row(drawing, to_pixel, width, row, scanlines=SCANLINES):
 
 
 def colours_of_row(drawing, to_pixel, width, row, scanlines=SCANLINES):
-    """Colours of one row of pixels, (width, 4), as `coverage_of_row`; each face by `composited`."""
+    """Colours of one row of pixels, (width, 4), as `coverage_of_row`; each face by `composite`."""
     spans = spans_of_row(drawing, to_pixel, row, scanlines)
     numbers = spans.inside @ (1 << np.arange(len(drawing.paths)))
     _, some, which = np.unique(numbers, return_index=True, return_inverse=True)
-    colours = np.array([composited(drawing, spans.inside[k]) for k in some]).reshape(-1, 4)
+    colours = np.array([composite(drawing, spans.inside[k]) for k in some]).reshape(-1, 4)
     return integrals(spans, colours[which], width) / scanlines
 
 
-def composited(drawing, inside, group=-1):
+def composite(drawing, inside, group=-1):
     """Premultiplied colour of a group, or of the whole drawing, where some paths are inside: group by group."""
     colour, drawn = np.zeros(4), {-1}
     for path, is_inside in zip(drawing.paths, inside, strict=True):
@@ -121,30 +121,30 @@ def composited(drawing, inside, group=-1):
         inner = around[around.index(group) + 1]  # the group in this one that the path is in, or -1
         if inner not in drawn and not drawing.groups[inner].mask:
             of_group = drawing.groups[inner]
-            colour = mixed(of_group.opacity * composited(drawing, inside, inner), colour, of_group.blend)
+            colour = mix_colours(of_group.opacity * composite(drawing, inside, inner), colour, of_group.blend)
         elif inner == -1 and is_inside:
-            colour = mixed(np.multiply((*path.paint.color, 1.0), path.paint.opacity), colour, Blend.NORMAL)
+            colour = mix_colours(np.multiply((*path.paint.color, 1.0), path.paint.opacity), colour, Blend.NORMAL)
         drawn.add(inner)
     for place, mask in enumerate(drawing.groups):
         if mask.mask and mask.outer == group:
             luminance = (0.2125, 0.7154, 0.0721, 0.0) if mask.mask is Mask.LUMINANCE else (0.0, 0.0, 0.0, 1.0)
-            colour = colour * mask.opacity * np.dot(composited(drawing, inside, place), luminance)
+            colour = colour * mask.opacity * np.dot(composite(drawing, inside, place), luminance)
     return colour
 
 
-def mixed(source, backdrop, blend):
+def mix_colours(source, backdrop, blend):
     """The W3C's compositing, of premultiplied colours."""
     if blend == Blend.PLUS_LIGHTER:
         return np.minimum(source + backdrop, 1.0)
     over, under = source[3], backdrop[3]
     if over == 0.0 or under == 0.0:
         return source + backdrop
-    both = blended(blend, np.minimum(backdrop[:3] / under, 1.0), np.minimum(source[:3] / over, 1.0))
+    both = blend_colours(blend, np.minimum(backdrop[:3] / under, 1.0), np.minimum(source[:3] / over, 1.0))
     colour = (1 - under) * source[:3] + (1 - over) * backdrop[:3] + over * under * both
     return np.array([*colour, over + under - over * under])
 
 
-def blended(blend, cb, cs):
+def blend_colours(blend, cb, cs):
     """B(cb, cs) of straight colours, (3,), as the W3C writes it."""
     with np.errstate(divide="ignore", invalid="ignore"):
         hard = [np.where(s <= 0.5, b * 2 * s, b + (2 * s - 1) - b * (2 * s - 1)) for b, s in ((cb, cs), (cs, cb))]

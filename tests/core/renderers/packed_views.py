@@ -23,7 +23,7 @@ def texture_of(drawing: Drawing, **options: float) -> Texture:
     return encode([build_tree(drawing, **options)], [Root(drawing.name)], name=drawing.name)
 
 
-def turned(pixels: float, degrees: float, narrow: float = 1.0) -> View:
+def turned_view(pixels: float, degrees: float, narrow: float = 1.0) -> View:
     """The turned unit square at so many pixels to its side, `narrow` times fewer from top to bottom."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     ahead = np.array([[pixels * c, -pixels * s, 0.0], [pixels * s / narrow, pixels * c / narrow, 0.0], [0.0, 0.0, 1.0]])
@@ -33,18 +33,18 @@ def turned(pixels: float, degrees: float, narrow: float = 1.0) -> View:
     return (int(size[0]), int(size[1])), np.linalg.inv(ahead)
 
 
-def nudged(view: View) -> View:
+def nudged_view(view: View) -> View:
     """The view, turned by so little that nothing moves, but that the shader for any view must draw it."""
     size, matrix = view
     turn = np.array([[1.0, 1e-9, 0.0], [-1e-9, 1.0, 0.0], [0.0, 0.0, 1.0]])
     return size, matrix @ turn
 
 
-ENTRIES: Final = {"flat": lambda view: view, "any": nudged}
+ENTRIES: Final = {"flat": lambda view: view, "any": nudged_view}
 """Ways to draw an upright view: by `vextureFlatCoverage`, and by `vextureCoverage`."""
 
 
-def zoomed(drawing: Drawing, width: float, pixels: int) -> View:
+def zoomed_view(drawing: Drawing, width: float, pixels: int) -> View:
     """A window around a point of the drawing's outline."""
     cubic = drawing.paths[0].contours[0][0]
     x, y = np.array([0.25, 0.45, 0.24, 0.06]) @ cubic  # about t = 0.4
@@ -55,7 +55,7 @@ def views(drawing: Drawing) -> Iterator[tuple[str, View]]:
     """A drawing from far and near, upright, turned and tilted."""
     yield "64 pixels", ((64, 64), fit((64, 64)))
     yield "250 pixels", ((250, 250), fit((250, 250)))
-    yield "10 x", zoomed(drawing, 0.1, 100)
-    yield "turned by 30 degrees", turned(150, 30)
-    yield "45 degrees, 8:1", turned(150, 45, 8)
+    yield "10 x", zoomed_view(drawing, 0.1, 100)
+    yield "turned by 30 degrees", turned_view(150, 30)
+    yield "45 degrees, 8:1", turned_view(150, 45, 8)
     yield "a tilted plane", ((97, 64), TILTED)

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from hand import need_gpu
 from numpy.typing import NDArray
-from packed_views import ENTRIES, TILTED, View, nudged, turned, zoomed
+from packed_views import ENTRIES, TILTED, View, nudged_view, turned_view, zoomed_view
 
 import degenerate
+import gradient_drawings as shades
 import planar
-import shaded
 from vexture.base.layout import MAP_HEAD
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Paint, Spread
@@ -67,10 +67,10 @@ def flag() -> Drawing:
 
 
 DRAWINGS = {"flag": flag} | {
-    f"degenerate {seed}": lambda seed=seed: planar.coloured(degenerate.drawing(seed), np.random.default_rng(seed))
+    f"degenerate {seed}": lambda seed=seed: planar.colour_paths(degenerate.drawing(seed), np.random.default_rng(seed))
     for seed in (6, 7, 9, 13, 21, 28)
 }
-SHADED = {f"shaded {name}": lambda name=name: shaded.DRAWINGS[name] for name in shaded.DRAWINGS}
+SHADED = {f"shaded {name}": lambda name=name: shades.DRAWINGS[name] for name in shades.DRAWINGS}
 
 
 @cache
@@ -81,15 +81,15 @@ def made(name: str) -> tuple[Drawing, MapTexture]:
 
 def views(drawing: Drawing) -> dict[str, View]:
     upright = {f"{side} pixels": ((side, side), fit((side, side))) for side in (16, 20, 64, 100)}
-    deep = zoomed(drawing, 1e-5, 24)
+    deep = zoomed_view(drawing, 1e-5, 24)
     return {
         **upright,
-        **{f"{name}, any": nudged(view) for name, view in upright.items()},
-        "turned by 30 degrees": turned(50, 30),
-        "sheared 6:1": turned(90, 40, 6),
+        **{f"{name}, any": nudged_view(view) for name, view in upright.items()},
+        "turned by 30 degrees": turned_view(50, 30),
+        "sheared 6:1": turned_view(90, 40, 6),
         "a tilted plane": ((97, 64), TILTED),
         "deep": deep,
-        "deep, any": nudged(deep),
+        "deep, any": nudged_view(deep),
         "beyond the square": ((20, 20), window(-0.4, -0.3, 2, 2).matrix((20, 20))),
     }
 
@@ -116,12 +116,12 @@ def test_a_flat_view_is_any_view(name: str) -> None:
         assert np.abs(flat - any_view).max() < NEAR
 
 
-@pytest.mark.parametrize("name", shaded.DRAWINGS)
+@pytest.mark.parametrize("name", shades.DRAWINGS)
 def test_gradients_are_those_of_many_points(name: str) -> None:
     """Errors over 4 and 20 pixels, where a gradient is far from flat in a pixel; in 1/255."""
     drawing, texture = made(f"shaded {name}")
     for size, mean in ((4, 1.6), (20, 0.25)):
-        error = 255 * abs(render_cpu_colours(texture, (size, size)) - planar.sampled(drawing, size, 12))
+        error = 255 * abs(render_cpu_colours(texture, (size, size)) - planar.sample_picture(drawing, size, 12))
         assert error.mean() < mean, size
 
 
@@ -129,13 +129,13 @@ def test_gradients_are_those_of_many_points(name: str) -> None:
 @pytest.mark.parametrize("size", [20, 61])
 def test_a_gradient_is_averaged_over_its_part_of_a_pixel(size: int, entry: str) -> None:
     """A straight ramp at outlines needs the part's middle; one that jumps at a straight border, its ends."""
-    ramp, other = (shaded.linear(*ends, shaded.WARM[::2]) for ends in (((0, -1), (1, 2)), ((2, 0), (-1, 0.5))))
-    jumps = shaded.linear((0.2, 0), (0.3, 0), shaded.WARM[::2], Spread.REPEAT)  # at both of the border's upright sides
+    ramp, other = (shades.linear(*ends, shades.WARM[::2]) for ends in (((0, -1), (1, 2)), ((2, 0), (-1, 0.5))))
+    jumps = shades.linear((0.2, 0), (0.3, 0), shades.WARM[::2], Spread.REPEAT)  # at both of the border's upright sides
     border = degenerate.polygon([(0.2, 0.3), (0.7, 0.3), (0.7, 0.8), (0.2, 0.8)])
-    discs = (shaded.shaded(shaded.LENS, other), shaded.shaded(shaded.OTHER, Paint((0.1, 0.8, 0.3))))
+    discs = (shades.painted_path(shades.LENS, other), shades.painted_path(shades.OTHER, Paint((0.1, 0.8, 0.3))))
     for drawing in (
-        Drawing((shaded.shaded(shaded.SQUARE, ramp), *discs)),
-        Drawing((shaded.shaded(shaded.SQUARE, Paint((0, 0, 1))), shaded.shaded(border, jumps))),
+        Drawing((shades.painted_path(shades.SQUARE, ramp), *discs)),
+        Drawing((shades.painted_path(shades.SQUARE, Paint((0, 0, 1))), shades.painted_path(border, jumps))),
     ):
         image = render_cpu_colours(map_of(drawing), *ENTRIES[entry](((size, size), fit((size, size)))))
         assert abs(image - render_exact_colours(drawing, size)).max() < 1.5 / 255
@@ -155,18 +155,18 @@ def test_the_edge_of_a_cone_is_antialiased(size: int) -> None:
 def test_a_sliver_of_a_pixel_has_a_place_on_a_ramp_that_goes_on(spread: Spread, is_round: bool) -> None:
     """A cell's border cuts a pixel that it should only touch; all of the picture is opaque."""
     need_gpu()
-    stops = (shaded.WARM[0], shaded.WARM[2])
+    stops = (shades.WARM[0], shades.WARM[2])
     ramp = (
-        shaded.radial((0.1, 0.2), 0.05, stops, spread)
+        shades.radial((0.1, 0.2), 0.05, stops, spread)
         if is_round
-        else shaded.linear((0.0, 0.0), (0.13, 0.07), stops, spread)
+        else shades.linear((0.0, 0.0), (0.13, 0.07), stops, spread)
     )
-    texture = map_of(Drawing((shaded.shaded(shaded.SQUARE, ramp),)))
+    texture = map_of(Drawing((shades.painted_path(shades.SQUARE, ramp),)))
     assert render_gpu_colours(texture, (600, 600))[..., 3].min() > 0.999
 
 
 def test_hard_stops_are_exact() -> None:
-    stripes = Drawing((shaded.shaded(shaded.SQUARE, shaded.linear((0.1, 0.2), (0.9, 0.7), shaded.BANDS)),))
+    stripes = Drawing((shades.painted_path(shades.SQUARE, shades.linear((0.1, 0.2), (0.9, 0.7), shades.BANDS)),))
     error = 255 * abs(render_cpu_colours(map_of(stripes), (64, 64)) - render_exact_colours(stripes, 64))
     assert error.max() < 0.1  # stripes have edges, which are rounded like outlines
 

@@ -34,7 +34,7 @@ WINDOWS = {
 
 @cache
 def made(seed: int) -> tuple[Drawing, Texture]:
-    of = planar.coloured(
+    of = planar.colour_paths(
         Drawing(degenerate.drawing(seed).paths + degenerate.drawing(seed + 100).paths), np.random.default_rng(seed)
     )
     return of, run(of, split="faces", restyle=True).texture

@@ -9,7 +9,7 @@ import pytest
 from hand import need_gpu
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from packed_views import TILTED, View, turned
+from packed_views import TILTED, View, turned_view
 
 from vexture.base.layout import MOST_CURVES, MOST_DEPTH, MOST_PROGRAM, MOST_STOPS
 from vexture.renderers import cells, gpu
@@ -28,7 +28,7 @@ QUADS = 0x80808080
 VIEWS: dict[str, View] = {
     "all": ((9, 7), fit((9, 7))),
     "one pixel": ((1, 1), fit((1, 1))),
-    "turned and long": turned(12, 45, 8),
+    "turned and long": turned_view(12, 45, 8),
     "tilted": ((12, 8), TILTED * (8, 8, 1)),
     "deep": ((6, 6), window(0.5 - 2.0**-22, 0.25, 2.0**-21, 2.0**-21).matrix((6, 6))),
 }

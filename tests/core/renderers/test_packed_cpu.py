@@ -9,7 +9,7 @@ import pytest
 from hand import need_gpu
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from packed_views import ENTRIES, View, texture_of, turned, views, zoomed
+from packed_views import ENTRIES, View, texture_of, turned_view, views, zoomed_view
 
 import corpora
 import degenerate
@@ -87,13 +87,13 @@ def test_the_shader_draws_what_its_mirror_draws(name: str) -> None:
 @pytest.mark.parametrize("name", ["duck", "letter g"])
 def test_so_it_does_at_a_thousand_pixels(name: str) -> None:
     need_gpu()
-    assert difference(source(name)[1], turned(1000, 0)) < 0.05
+    assert difference(source(name)[1], turned_view(1000, 0)) < 0.05
 
 
 def test_so_it_does_in_deep_zoom() -> None:
     need_gpu()
     drawing = source("duck")[0]
-    assert difference(texture_of(drawing, precision=1e-7), zoomed(drawing, 2.0**-14, 100)) < 0.05
+    assert difference(texture_of(drawing, precision=1e-7), zoomed_view(drawing, 2.0**-14, 100)) < 0.05
 
 
 @pytest.mark.parametrize("zoom", [10, 12, 14])
@@ -153,7 +153,7 @@ angles = st.integers(0, 3600).map(lambda tenths: tenths / 10) | st.sampled_from(
 @settings(max_examples=60)
 @given(plain_drawings(), sizes, angles, st.floats(1.0, 12.0))
 def test_exact_is_the_footprints_exact_coverage(drawing: Drawing, pixels: float, degrees: float, narrow: float) -> None:
-    mean, largest, leaves = errors(drawing, turned(pixels, degrees, narrow))
+    mean, largest, leaves = errors(drawing, turned_view(pixels, degrees, narrow))
     assert mean < 0.3
     if leaves:
         assert largest < 1.0
@@ -166,7 +166,7 @@ def test_tilted_planes(drawing: Drawing, step: float, tilt: float) -> None:
     assert errors(drawing, view)[0] < 0.5
 
 
-@pytest.mark.parametrize("view", [turned(250, 0), turned(150, 30), turned(150, 45, 8)])
+@pytest.mark.parametrize("view", [turned_view(250, 0), turned_view(150, 30), turned_view(150, 45, 8)])
 def test_a_piece_on_a_leafs_left_edge_counts_once(view: View) -> None:
     box = Drawing.polygon([(0.25, 0.11), (0.75, 0.11), (0.75, 0.9163), (0.25, 0.9163)])
     assert errors(box, view)[1] < 0.5
@@ -174,7 +174,7 @@ def test_a_piece_on_a_leafs_left_edge_counts_once(view: View) -> None:
 
 @pytest.mark.parametrize(("pixels", "narrow"), [(60, 8), (130, 32)])
 def test_what_lies_beside_a_long_pixel_does_not_count(pixels: float, narrow: float) -> None:
-    assert errors(circles(64), turned(pixels, 45, narrow))[0] < 1.5
+    assert errors(circles(64), turned_view(pixels, 45, narrow))[0] < 1.5
 
 
 @pytest.mark.parametrize("entry", ENTRIES)
@@ -212,7 +212,7 @@ def test_a_drawing_of_few_quads_is_exact_where_pixels_cut_them(seed: int, pixels
 )
 def test_cells_that_a_pixel_cuts_count_by_the_part_in_it(pixels: float, degrees: float, narrow: float) -> None:
     """A coast with up to a hundred edges in a pixel, whose cells are divided far below those that the sum visits."""
-    mean, largest, leaves = errors(corpora.fractal_coastline(12_288, seed=1), turned(pixels, degrees, narrow))
+    mean, largest, leaves = errors(corpora.fractal_coastline(12_288, seed=1), turned_view(pixels, degrees, narrow))
     assert not leaves
     assert mean < 0.1
     assert largest < 4.0

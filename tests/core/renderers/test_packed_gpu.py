@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hand import need_gpu
 from numpy.typing import NDArray
-from packed_views import ENTRIES, texture_of, turned
+from packed_views import ENTRIES, texture_of, turned_view
 
 from vexture.base.errors import ParameterError
 from vexture.drawing.drawing import Drawing, Path
@@ -51,14 +51,14 @@ def mean_error(drawing: Drawing, size: tuple[int, int], view: NDArray[np.float64
 @pytest.mark.parametrize("pixels", [1, 4, 16, 90, 400])
 def test_upright_pixels_get_their_exact_coverage(pixels: float, entry: str) -> None:
     need_gpu()
-    assert mean_error(blob(), *ENTRIES[entry](turned(pixels, 0.0))) < 0.1
+    assert mean_error(blob(), *ENTRIES[entry](turned_view(pixels, 0.0))) < 0.1
 
 
 @pytest.mark.parametrize(("degrees", "narrow"), [(30, 1), (45, 8), (-70, 3)])
 @pytest.mark.parametrize("pixels", [12, 90])
 def test_exact_is_exact_at_every_tilt(pixels: float, degrees: float, narrow: float) -> None:
     need_gpu()
-    assert mean_error(blob(), *turned(pixels, degrees, narrow)) < 0.1
+    assert mean_error(blob(), *turned_view(pixels, degrees, narrow)) < 0.1
 
 
 def test_a_plane_to_the_horizon() -> None:

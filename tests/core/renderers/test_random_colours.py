@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planar import layered
+from planar import layered_drawing
 from vexture.renderers.exact import render_exact_colours
 from vexture.renderers.view import fit
 from vexture.texture.encode import encode
@@ -16,7 +16,7 @@ MOST = 2 / 255
 
 def check(seed: int) -> None:
     """Compare all pixels, also those on cells of which only the mean is known: at these sizes they are far smaller."""
-    drawing = layered(seed)
+    drawing = layered_drawing(seed)
     planar = build_map(drawing)
     assert planar is not None
     texture = encode([planar], [Root("layered")], name="layered")

@@ -25,8 +25,8 @@ def rest(peer):
     return b"".join(parts)
 
 
-def refused(answer):
-    """Status of an answer that says in JSON and in one line why not."""
+def refusal_status(answer):
+    """Status of an answer that refuses in JSON, with the reason in one line."""
     head, _, body = answer.partition(b"\r\n\r\n")
     line = json.loads(body)["error"]
     assert "\n" not in line

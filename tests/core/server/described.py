@@ -1,4 +1,4 @@
-"""What servers say of themselves in OpenAPI, and what the package says of them all."""
+"""OpenAPI descriptions: those that servers give of themselves, and the package's of them all."""
 
 import json
 from dataclasses import asdict
@@ -9,11 +9,11 @@ import httpx
 WHOLE = json.loads(files("vexture.server").joinpath("openapi.json").read_bytes())
 
 
-def requests_of(told, command=None):
+def requests_of(description, command=None):
     """Each request of a description; of a command only those that its server answers."""
     return {
         (path, method)
-        for path, item in told["paths"].items()
+        for path, item in description["paths"].items()
         for method in item.keys() - {"parameters"}
         if command in (None, *item[method]["tags"])
     }
@@ -21,6 +21,6 @@ def requests_of(told, command=None):
 
 def check_description(url, command, limits):
     """Whether a server describes just the requests that it answers, and its own limits."""
-    told = httpx.get(f"{url}openapi.json").json()
-    assert requests_of(told) == requests_of(WHOLE, command)
-    assert told["info"]["x-limits"] == asdict(limits)
+    description = httpx.get(f"{url}openapi.json").json()
+    assert requests_of(description) == requests_of(WHOLE, command)
+    assert description["info"]["x-limits"] == asdict(limits)

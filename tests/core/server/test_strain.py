@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from attacks import NO_REQUESTS, refused, rest
+from attacks import NO_REQUESTS, refusal_status, rest
 from floods import BOUNDS, FloodServer, geotiff, sea
 from loops import run
 from server import SECONDS, TOKEN, Server, Stream, serving, square
@@ -127,7 +127,7 @@ def test_connections_never_use_up_the_descriptors(served):
                 answers.append(b"")
         told = list(filter(None, answers))
         assert told
-        assert {refused(answer) for answer in told} == {503}
+        assert {refusal_status(answer) for answer in told} == {503}
         peers[0].sendall(b"GET /shapes HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n")
         assert rest(peers[0]).startswith(b"HTTP/1.1 200")
         assert server.stop()[2] == ""
@@ -153,11 +153,11 @@ def test_peers_that_do_not_ask_are_closed(served):
         with closing(server.peer()) as silent:
             assert rest(silent) == b""
         with closing(server.peer(whole[:20])) as half:
-            assert refused(rest(half)) == 408
+            assert refusal_status(rest(half)) == 408
         with closing(server.peer(whole + whole[:20])) as second:
             answers = rest(second)
             assert answers.startswith(b"HTTP/1.1 200")
-            assert refused(answers[answers.rindex(b"HTTP/1.1") :]) == 408
+            assert refusal_status(answers[answers.rindex(b"HTTP/1.1") :]) == 408
         stream.connection.sock.setblocking(False)
         with pytest.raises(BlockingIOError):  # nothing new, and no end
             stream.connection.sock.recv(1)
@@ -254,7 +254,7 @@ def test_what_is_no_request_is_told_so_though_more_is_sent(sent, status):
     with shelf() as server:
         for _ in range(5):
             with closing(server.peer(sent)) as peer:
-                assert refused(rest(peer)) == status
+                assert refusal_status(rest(peer)) == status
         assert server.stop()[2] == ""
 
 
@@ -262,7 +262,7 @@ def test_a_broken_body_breaks_only_its_own_request(served):
     head = b"PUT /shapes/a HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n"
     with served() as server:
         with closing(server.peer(head + b"\r\nxyz\r\n")) as peer:
-            assert refused(rest(peer)) in (400, 405)
+            assert refusal_status(rest(peer)) in (400, 405)
         with closing(server.peer(head.replace(b"PUT /shapes/a", b"GET /events") + b"\r\n")) as peer:
             assert peer.recv(20).startswith(b"HTTP/1.1 200")
             peer.sendall(b"xyz\r\n")

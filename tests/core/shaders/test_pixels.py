@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from either_language import Given, Numbers, by_glsl, by_parameters, by_wgsl, device
-from planar import widened
+from planar import widen_paints
 from vexture import atlas, convert
 from vexture.base.errors import DeviceError
 from vexture.base.layout import MOST_DEPTH
@@ -64,7 +64,7 @@ def texture(name: str) -> Texture:
     if name == "ring":
         return ring()
     if name.endswith(WIDENED):
-        return widened(texture(name.removesuffix(WIDENED)))
+        return widen_paints(texture(name.removesuffix(WIDENED)))
     path = SHAPES / f"{name}.svg"
     return convert(str(path if path.is_file() else FIXTURES / f"{name}.svg"))
 

@@ -25,19 +25,19 @@ PARTS = (
 EDGED = '<rect x="20" y="30" width="60" height="40" fill="#fc8" stroke="#2040e0" stroke-width="10"/>'
 
 
-def clipped(clip: str, shown: str) -> str:
-    """What a clip leaves of what is shown."""
-    return f'<clipPath id="c">{clip}</clipPath><g clip-path="url(#c)">{shown}</g>'
+def clip_content(clip: str, content: str) -> str:
+    """Clip content by shapes."""
+    return f'<clipPath id="c">{clip}</clipPath><g clip-path="url(#c)">{content}</g>'
 
 
-def marked(under: str, *places: tuple[float, float, float], scale: float = 0.9, arrow: str = ARROW) -> str:
-    """A shape, and over it what its markers show at places, each x, y and degrees."""
+def add_markers(under: str, *places: tuple[float, float, float], scale: float = 0.9, arrow: str = ARROW) -> str:
+    """Add the content of markers over a shape, at places of x, y and degrees."""
     turned = (f"translate({x} {y}) rotate({turn}) scale({scale}) translate(-5 -5)" for x, y, turn in places)
     return under + "".join(f'<g transform="{transform}">{arrow}</g>' for transform in turned)
 
 
-def graded(line: str, *stops: tuple[float, str], kind: str = "linear") -> str:
-    """A page that a gradient fills, and a disc on it."""
+def gradient_page(line: str, *stops: tuple[float, str], kind: str = "linear") -> str:
+    """Page that a gradient fills, and a disc on it."""
     ramp = "".join(f'<stop offset="{offset}" stop-color="{color}"/>' for offset, color in stops)
     return (
         f'<{kind}Gradient id="g" gradientUnits="userSpaceOnUse" {line}>{ramp}</{kind}Gradient>'
@@ -84,11 +84,11 @@ PLAINER = {
     "masks/clip-of-svg-in-its-units": '<clipPath id="c"><circle cx="60" cy="36.6667" r="26.6667"/></clipPath>'
     '<path clip-path="url(#c)" d="M20 10H100V90H20z"/>',
     # basic shapes of CSS, in the box around the stroke unless another is named (CSS Masking 1, 5; CSS Shapes 1, 3)
-    "masks/clip-by-css-circle": clipped(
+    "masks/clip-by-css-circle": clip_content(
         '<circle cx="50" cy="50" r="25"/>', EDGED.replace("/>", ' stroke-dasharray="9"/>')
     ),
-    "masks/clip-by-css-circle-in-box": clipped('<circle cx="70" cy="40" r="25.4951"/>', EDGED),
-    "masks/clip-by-css-ellipse": clipped(
+    "masks/clip-by-css-circle-in-box": clip_content('<circle cx="70" cy="40" r="25.4951"/>', EDGED),
+    "masks/clip-by-css-ellipse": clip_content(
         '<ellipse cx="10" cy="44" rx="60" ry="20"/>', '<rect x="10" y="20" width="60" height="60" fill="#208040"/>'
     ),
     # radii that overlap become less in one proportion (CSS Backgrounds 3, 4.5)
@@ -96,12 +96,14 @@ PLAINER = {
     'A11.6364 11.6364 0 0 1 26 54.3636A36.3636 36.3636 0 0 1 62.3636 18Z"/>',
     "masks/clip-by-css-rect": '<g fill="#208040"><rect x="18" y="15" width="52" height="35" rx="8"/>'
     '<rect x="20" y="65" width="40" height="15"/></g>',
-    "masks/clip-by-css-polygon": clipped(
+    "masks/clip-by-css-polygon": clip_content(
         '<path clip-rule="evenodd" d="M50 0L80 100L0 35L100 35L20 100z"/>',
         '<path fill="#208040" d="M10 10H90V90H10z"/>',
     ),
-    "masks/clip-by-css-path": clipped('<path d="M35 10H85V70z"/>', '<circle cx="55" cy="40" r="30" fill="#208040"/>'),
-    "masks/clip-by-css-box": clipped('<path d="M20 30h60v40h-60z"/>', EDGED),
+    "masks/clip-by-css-path": clip_content(
+        '<path d="M35 10H85V70z"/>', '<circle cx="55" cy="40" r="30" fill="#208040"/>'
+    ),
+    "masks/clip-by-css-box": clip_content('<path d="M20 30h60v40h-60z"/>', EDGED),
     "masks/clip-by-css-of-line": '<path d="M30 46h40v8h-40z" fill="#208040"/>',
     "masks/clip-by-css-under-rules": '<circle cx="50" cy="45" r="30" fill="#208040"/>',
     "masks/mask-shorthand": '<circle cx="50" cy="50" r="30"/>',
@@ -110,18 +112,18 @@ PLAINER = {
     "masks/with-prefixes": '<path d="M50 20a30 30 0 0 0 0 60z"/>',
     "style/escaped-link": '<path d="M10 10h30v30h-30z" fill="#208040"/><path d="M50 10h30v30h-30z" fill="#fc8"/>',
     "masks/mask-image": '<circle cx="50" cy="50" r="30"/>',
-    "background/gradient": graded('y1="0" x2="0" y2="100"', (0, "#fc8"), (1, "#8cf")),
-    "background/gradient-to-side": graded(
+    "background/gradient": gradient_page('y1="0" x2="0" y2="100"', (0, "#fc8"), (1, "#8cf")),
+    "background/gradient-to-side": gradient_page(
         'x2="100"', (0.2, "#fc8"), (0.6, "#8cf"), (0.6, "#404"), (0.8, "#404"), (1, "#484")
     ),
-    "background/gradient-repeats": graded(
+    "background/gradient-repeats": gradient_page(
         'y1="100" x2="14.142136" y2="85.857864" spreadMethod="repeat"',
         *((0, "#fc8"), (0.5, "#fc8"), (0.5, "#8cf"), (1, "#8cf")),
     ),
-    "background/gradient-radial": graded(
+    "background/gradient-radial": gradient_page(
         'cx="40" cy="30" r="30"', (0, "#fc8"), (0.5, "#8cf"), (1, "#404"), kind="radial"
     ),
-    "background/gradient-of-rings": graded(
+    "background/gradient-of-rings": gradient_page(
         'cx="0" cy="0" r="36" fr="4" spreadMethod="repeat" gradientTransform="translate(50 50) scale(1 0.5)"',
         *((0, "#fc8"), (0.625, "#8cf"), (1, "#fc8")),
         kind="radial",
@@ -146,43 +148,45 @@ PLAINER = {
     '<circle fill="blue" cx="60" cy="60" r="25"/></g>',
     # opacity, clips and masks apply to container elements, of which a marker is one (CSS Masking 1, 1.2)
     "markers/clip-of-marker": '<clipPath id="c"><circle cx="5" cy="5" r="3"/></clipPath>'
-    + marked(ROOF, *ROOF_TURNED, scale=2.4, arrow=f'<g clip-path="url(#c)">{ARROW}</g>'),
-    "markers/opacity-of-marker": marked(ROOF, *ROOF_UPRIGHT, scale=2.4, arrow=f'<g opacity="0.5">{ARROW}</g>'),
+    + add_markers(ROOF, *ROOF_TURNED, scale=2.4, arrow=f'<g clip-path="url(#c)">{ARROW}</g>'),
+    "markers/opacity-of-marker": add_markers(ROOF, *ROOF_UPRIGHT, scale=2.4, arrow=f'<g opacity="0.5">{ARROW}</g>'),
     # "bisecting the angle between the direction at the end of the incoming segment and the direction at the start of
     # the outgoing one", at the ends of a closed subpath, too (SVG 2, 13.7.4)
-    "markers/closed": marked(TRIANGLE, *TRIANGULAR, TRIANGULAR[0]),
-    "markers/closed-by-hand": marked(TRIANGLE, *TRIANGULAR, (20, 25, -118.6105), TRIANGULAR[0]),
-    "markers/on-polygon": marked(TRIANGLE.replace('"3"', '"4"'), *TRIANGULAR, TRIANGULAR[0], scale=1.2),
-    "markers/several-parts": marked(
+    "markers/closed": add_markers(TRIANGLE, *TRIANGULAR, TRIANGULAR[0]),
+    "markers/closed-by-hand": add_markers(TRIANGLE, *TRIANGULAR, (20, 25, -118.6105), TRIANGULAR[0]),
+    "markers/on-polygon": add_markers(TRIANGLE.replace('"3"', '"4"'), *TRIANGULAR, TRIANGULAR[0], scale=1.2),
+    "markers/several-parts": add_markers(
         '<path d="M10 20L40 20L40 40M60 20L90 20L75 45zM10 70L40 80L80 70" fill="none" stroke="blue"'
         ' stroke-width="3"/>',
         *((10, 20, 0), (40, 20, 45), (40, 40, 90)),
         *((60, 20, -60.482), (90, 20, 60.482), (75, 45, 180), (60, 20, -60.482)),
         *((10, 70, 18.435), (40, 80, 2.1995), (80, 70, -14.036)),
     ),
-    "markers/move-after-close": marked(
+    "markers/move-after-close": add_markers(
         '<path d="M20 20L60 20L60 50zL80 80" fill="none" stroke="blue" stroke-width="3"/>',
         *((20, 20, -71.565), (60, 20, 45), (60, 50, 153.435), (20, 20, -71.565), (80, 80, 45)),
     ),
     # "zero length and ... any preceding non-zero length segments: the same as the direction at the end of the closest"
     # one, and at its end as at the start of the closest one that follows (SVG 2, 9.4)
-    "markers/orient-zero-length": marked(
+    "markers/orient-zero-length": add_markers(
         '<path d="M20 70L50 30L80 70" fill="none" stroke="blue" stroke-width="3"/>',
         *((20, 70, -53.1301), (50, 30, -53.1301), (50, 30, 53.1301), (80, 70, 53.1301)),
     ),
-    "markers/orient-curve-without-arm": marked(
+    "markers/orient-curve-without-arm": add_markers(
         '<path d="M15 50C15 50 30 10 50 40C60 80 85 60 85 60" fill="none" stroke="blue" stroke-width="3"/>',
         *((15, 50, -69.444), (50, 40, 66.137), (85, 60, -38.66)),
     ),
     # resvg marks the curves of which it makes an arc
-    "markers/orient-arcs": marked(
+    "markers/orient-arcs": add_markers(
         '<path d="M10 50A20 20 0 0 1 50 50A30 30 0 0 1 80 80" fill="none" stroke="blue" stroke-width="3"/>',
         *((10, 50, -90), (50, 50, 45), (80, 80, 90)),
     ),
     # resvg knows no keywords: "0%, 50% and 100% of the viewBox width" (SVG 2, 13.7.1)
-    "markers/reference-keywords": marked(ROOF, *((x - 6, y, turn) for x, y, turn in ROOF_UPRIGHT), scale=1.2),
+    "markers/reference-keywords": add_markers(ROOF, *((x - 6, y, turn) for x, y, turn in ROOF_UPRIGHT), scale=1.2),
     # "the marker content is clipped to the marker's viewport" unless its overflow is visible
-    "markers/view-box-sliced": marked(ROOF, *ROOF_UPRIGHT, scale=2.4, arrow='<path d="M0 5H10L0 10z" fill="red"/>'),
+    "markers/view-box-sliced": add_markers(
+        ROOF, *ROOF_UPRIGHT, scale=2.4, arrow='<path d="M0 5H10L0 10z" fill="red"/>'
+    ),
     # as browsers do, and SVG 1.1: "drawn at the vertices of path, line, polyline or polygon elements"
     "markers/not-on-other-shapes": '<g fill="blue"><rect x="10" y="10" width="30" height="30"/>'
     '<circle cx="70" cy="30" r="15"/><ellipse cx="50" cy="70" rx="30" ry="10"/></g>',

@@ -75,14 +75,14 @@ def strike() -> float:
     return font()["OS/2"].yStrikeoutPosition * SIZE / 2048
 
 
-def beside(where: float, drawn: str, lying: str = "", symbols: int = 2) -> str:
+def beside(offset: float, drawn: str, lying: str = "", symbols: int = 2) -> str:
     """Vertical text that begins at (50, 10), with a line at a distance to the right of its middle."""
     over, under, _, thickness = heights()
     length = advance(lying) + symbols * (over + under)
-    return drawn + bar(50 + where - thickness / 2, 10, thickness, length)
+    return drawn + bar(50 + offset - thickness / 2, 10, thickness, length)
 
 
-def underlined(line: str) -> str:
+def underline_text(line: str) -> str:
     """A text with a line in the place of its underline, which a path draws in a middle at (0, 0)."""
     return f'<text x="10" y="50">ship</text><g transform="translate(10 {50 - heights()[2]})">{line}</g>'
 
@@ -99,12 +99,12 @@ def waves(count: int, width: float) -> str:
     return "M0 0" + "".join(f"c{half / 2} {down} {half / 2} {down} {half} 0" for down in ((4, -4) * count)[:count])
 
 
-def lowered() -> float:
-    """How far subscripts are below the baseline, in ems."""
+def subscript_drop() -> float:
+    """Distance of subscripts below the baseline, in ems."""
     return font()["OS/2"].ySubscriptYOffset / 2048
 
 
-def raised() -> float:
+def superscript_rise() -> float:
     return font()["OS/2"].ySuperscriptYOffset / 2048
 
 
@@ -129,12 +129,12 @@ PLAINER = {
     f'<text x="{10 + advance("a", 30)}" y="50" font-size="30" fill="red" style="mix-blend-mode: difference">bc</text>',
     # by the size of what is around (CSS Inline 3, 4.2.2)
     "baseline-shift-sub": '<text x="10" y="50">one</text>'
-    + letters("two", 10 + advance("one"), 50 + SIZE * lowered(), 10),
+    + letters("two", 10 + advance("one"), 50 + SIZE * subscript_drop(), 10),
     "baseline-shift-super": '<text x="10" y="50">one</text>'
-    + letters("two", 10 + advance("one"), 50 - SIZE * raised(), 10),
+    + letters("two", 10 + advance("one"), 50 - SIZE * superscript_rise(), 10),
     "baseline-shift-smaller": '<text x="10" y="50">a</text>'
-    + letters("b", 10 + advance("a"), 50 + SIZE * lowered(), 10)
-    + letters("c", 10 + advance("a") + advance("b", 10), 50 + SIZE * lowered() - 10 * raised(), 20),
+    + letters("b", 10 + advance("a"), 50 + SIZE * subscript_drop(), 10)
+    + letters("c", 10 + advance("a") + advance("b", 10), 50 + SIZE * subscript_drop() - 10 * superscript_rise(), 20),
     # "a collapsible space following another collapsible space is collapsed", also of another element, and no other
     "between-spaces": '<text x="5" y="50">a b c</text>',
     "spaces-default-in-preserved": '<text x="5" y="50" xml:space="preserve">a  b c d  e</text>',
@@ -204,17 +204,17 @@ PLAINER = {
         [bar(10, 50 - heights()[2] - heights()[3] / 2, advance("ship"), heights()[3], 'fill="red"'), ""]
     ),
     "decoration-current-color": '<text x="10" y="50" fill="blue" text-decoration="underline">ship</text>',
-    "decoration-thickness": underlined(bar(0, -0.8, advance("ship"), 1.6)),
-    "decoration-dashed": underlined(
+    "decoration-thickness": underline_text(bar(0, -0.8, advance("ship"), 1.6)),
+    "decoration-dashed": underline_text(
         f'<path d="M0 0h{advance("ship")}" stroke="black" stroke-width="2" stroke-dasharray="6 4"/>'
     ),
-    "decoration-dotted": underlined(
+    "decoration-dotted": underline_text(
         "".join(f'<circle cx="{2 + 8 * k}" r="2"/>' for k in range(int((advance("ship") + 2) / 8)))
     ),
     "decoration-double": double(30, heights()[2])
     + double(60, heights()[0] + 2 * heights()[3])
     + double(90, strike() + heights()[3]),
-    "decoration-wavy": underlined(
+    "decoration-wavy": underline_text(
         f'<path d="{waves(round(advance("ship") / 6), advance("ship"))}" fill="none" stroke="black" stroke-width="2"/>'
     ),
     "text-length-zero": '<text x="10" y="50">ship</text>',

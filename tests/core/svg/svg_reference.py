@@ -37,7 +37,7 @@ def render_file(text: str) -> np.ndarray:
     """What resvg draws, (height, width, 4), at the file's own size."""
     tree = resvg.usvg.Tree.from_str(text, options())
     png = bytes(resvg.render(tree, (1, 0, 0, 0, 1, 0)))
-    return premultiplied(np.array(Image.open(io.BytesIO(png)).convert("RGBA")))
+    return premultiply(np.array(Image.open(io.BytesIO(png)).convert("RGBA")))
 
 
 def render_drawing(drawing: Drawing, height: int, width: int) -> np.ndarray:
@@ -47,10 +47,10 @@ def render_drawing(drawing: Drawing, height: int, width: int) -> np.ndarray:
     with skia.Surface(pixels) as canvas:
         paint_with_skia(canvas, drawing, np.array([[size, 0, 0], [0, -size, size], [0, 0, 1]]))
     top, left = (size - height) // 2, (size - width) // 2
-    return premultiplied(pixels)[top : top + height, left : left + width]
+    return premultiply(pixels)[top : top + height, left : left + width]
 
 
-def premultiplied(pixels: np.ndarray) -> np.ndarray:
+def premultiply(pixels: np.ndarray) -> np.ndarray:
     scaled = pixels / 255.0
     scaled[..., :3] *= scaled[..., 3:]
     return scaled

@@ -11,9 +11,9 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-import decoded
+import decode_by_format as by_format
 import degenerate
-from either import decode, encode
+from both_encodings import decode, encode
 from vexture import read_svg
 from vexture.base.errors import LimitError, SourceError, VextureError
 from vexture.base.layout import LATTICE
@@ -47,7 +47,7 @@ class Converted(NamedTuple):
     drawing: Drawing
     tree: CellTree
     texture: ThesisTexture
-    walk: decoded.Walk
+    walk: by_format.Walk
     max_depth: int
     tolerance: object
 
@@ -66,13 +66,13 @@ class Converted(NamedTuple):
         promised = cell_tolerance(accuracy_of(self.tolerance, cubics, step), leaf.side)
         if self.unresolved(leaf):
             promised = max(promised, self.tree.deviation)
-        return promised + leaf.side * (self.quantum + JOINING + decoded.CHORD_SAGITTA) + SAGITTA
+        return promised + leaf.side * (self.quantum + JOINING + by_format.CHORD_SAGITTA) + SAGITTA
 
 
 def converted(drawing, bits, max_depth=DEFAULT_DEPTH, tolerance="auto"):
     conversion = run(drawing, encoding="thesis", bits=bits, max_depth=max_depth, tolerance=tolerance)
     texture = conversion.texture
-    return Converted(drawing, conversion.tree, texture, decoded.walk(texture), max_depth, tolerance)
+    return Converted(drawing, conversion.tree, texture, by_format.walk(texture), max_depth, tolerance)
 
 
 # --- the invariants ---------------------------------------------------------------------------------------------------
@@ -88,7 +88,7 @@ def rows_are_met_once_and_in_order(shape, rng):
 def curves_stay_in_their_cells(shape, rng):
     for leaf in shape.walk.leaves:
         if not leaf.is_constant:
-            line = decoded.line(shape.texture, leaf)
+            line = by_format.line(shape.texture, leaf)
             assert max(-line.min(), line.max() - 1.0) <= shape.distance(leaf) / leaf.side, leaf
 
 
@@ -101,7 +101,7 @@ def outlines_are_listed_where_they_are(shape, rng):
     along = s * s * (chosen[:, 1] - chosen[:, 0]) + t * t * (chosen[:, 3] - chosen[:, 2])
     along += 2 * s * t * (chosen[:, 2] - chosen[:, 1])
     normal = np.column_stack([-along[:, 1], along[:, 0]]) / np.maximum(np.hypot(*along.T), 1e-12)[:, None]
-    held = decoded.leaf_at(shape.walk.leaves, on)
+    held = by_format.leaf_at(shape.walk.leaves, on)
     on, normal, held = on[held >= 0], normal[held >= 0], held[held >= 0]
     leaves = [shape.walk.leaves[k] for k in held]
     reach = np.array([shape.distance(leaf) for leaf in leaves])
@@ -119,7 +119,7 @@ def outlines_are_listed_where_they_are(shape, rng):
         if shape.unresolved(leaf):
             continue
         assert not leaf.is_constant, (on[k], leaf)
-        line = (leaf.x, leaf.y) + leaf.side * decoded.line(shape.texture, leaf)
+        line = (leaf.x, leaf.y) + leaf.side * by_format.line(shape.texture, leaf)
         assert distance_to(line, on[k]) <= reach[k], (on[k], leaf)
 
 
@@ -140,11 +140,11 @@ def coverage_is_the_mean_of_the_cells(shape, rng):
         for child in shape.walk.children[quad]:
             mean += blue[child] / 4.0
         for leaf in shape.walk.leaves_of[quad]:
-            mean += decoded.area(shape.texture, leaf) / 4.0
+            mean += by_format.area(shape.texture, leaf) / 4.0
             slack += np.inf if shape.unresolved(leaf) else 0.0
             if not leaf.is_constant:
-                length = np.hypot(*np.diff(decoded.line(shape.texture, leaf), axis=0).T).sum()
-                slack += (length * shape.distance(leaf) / leaf.side + decoded.AREA_ERROR) / 4.0
+                length = np.hypot(*np.diff(by_format.line(shape.texture, leaf), axis=0).T).sum()
+                slack += (length * shape.distance(leaf) / leaf.side + by_format.AREA_ERROR) / 4.0
         assert abs(mean - blue[quad]) <= slack, quad
 
 
@@ -163,11 +163,11 @@ def points_are_inside_where_the_drawing_says(shape, rng):
     points = np.concatenate([degenerate.points_near(shape.drawing, rng, 300), in_leaves])
     windings, gap = degenerate.path_windings(shape.drawing, points, CHORDS)
     truth = degenerate.silhouette(shape.drawing, windings)
-    held = decoded.leaf_at(leaves, points)
+    held = by_format.leaf_at(leaves, points)
     wrong = set()
     for k in np.unique(held):
         of_leaf = held == k
-        answer = decoded.inside(shape.texture, leaves[k], points[of_leaf])
+        answer = by_format.inside(shape.texture, leaves[k], points[of_leaf])
         if (answer != truth[of_leaf])[gap[of_leaf] > shape.distance(leaves[k])].any():
             wrong.add(leaves[k])
     assert not wrong

@@ -16,7 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from either import decode, encode
+from both_encodings import decode, encode
 from strategies import cell_trees
 from vexture.base.errors import FormatError
 from vexture.texture.load import load_any as load

@@ -5,8 +5,8 @@ import pytest
 
 import vexture
 from degenerate import circle, drawing, polygon
-from planar import coloured, colours_at, widened
-from shaded import DRAWINGS, shaded
+from gradient_drawings import DRAWINGS, painted_path
+from planar import colour_paths, colours_at, widen_paints
 from vexture.base import layout
 from vexture.base.errors import FormatError, ParameterError
 from vexture.conversion.pipeline import atlas, run
@@ -24,7 +24,7 @@ RED, BLUE = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.0, 1.0), 0.5)
 
 
 def sample(seed: int) -> Drawing:
-    return coloured(Drawing(drawing(seed).paths + drawing(seed + 100).paths), np.random.default_rng(seed))
+    return colour_paths(Drawing(drawing(seed).paths + drawing(seed + 100).paths), np.random.default_rng(seed))
 
 
 def faces(of: Drawing) -> Texture:
@@ -119,7 +119,7 @@ def test_a_map_contains_what_it_paints(name: str) -> None:
 def test_a_cell_of_which_the_mean_is_known_contains_what_it_paints() -> None:
     lines = [polygon([(0.01, y), (0.45, 0.5 - y), (0.45, 0.502 - y)]) for y in np.linspace(0.05, 0.4, 90)]
     planar = build_map(
-        Drawing(tuple(shaded(line, Paint((k % 2, 0, 0), 0.5)) for k, line in enumerate(lines))), max_depth=2
+        Drawing(tuple(painted_path(line, Paint((k % 2, 0, 0), 0.5)) for k, line in enumerate(lines))), max_depth=2
     )
     assert planar.is_mean.any()
     texture = encode([planar], [Root("lines")], name="lines")
@@ -130,7 +130,7 @@ def test_numbers_of_paints_take_four_bytes() -> None:
     """Those of more paints than 16 bits can tell apart: all pictures are as those of few."""
     of = sample(5)
     few = faces(of)
-    many = widened(few)
+    many = widen_paints(few)
     for renderer in ("cpu", "gpu"):
         assert (few.render(61, turned(61), renderer=renderer) == many.render(61, turned(61), renderer=renderer)).all()
     points = np.random.default_rng(0).random((500, 2))

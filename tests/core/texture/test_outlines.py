@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import corpora
 import degenerate
-from either import encode
+from both_encodings import encode
 from strategies import packed_trees
 from vexture import read_svg
 from vexture.base.errors import ParameterError, VextureError

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from test_ktx2 import by_ktx_parse
 
-from either import decode, encode, info
+from both_encodings import decode, encode, info
 from strategies import packed_trees
 from vexture.base import layout
 from vexture.base.errors import FormatError, LimitError, ParameterError

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import degenerate
-from either import encode
+from both_encodings import encode
 from vexture.drawing.drawing import Drawing
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.texture import Root

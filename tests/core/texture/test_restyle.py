@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import vexture
 from degenerate import circle, drawing, heap, path_windings, points_near, polygon
-from planar import coloured
+from planar import colour_paths
 from vexture.base.errors import FormatError, ParameterError
 from vexture.base.layout import COVERAGE_ONE, MOST_STYLE_BYTES, TEXT_ROOTS, TEXT_STYLES
 from vexture.conversion.pipeline import atlas, run
@@ -43,7 +43,7 @@ def sample(seed: int) -> Drawing:
     paths = drawing(seed).paths + drawing(seed + 100).paths
     if seed % 2:
         paths += heap(seed, [1, 2, 1], 1e-9, FillRule(seed // 2 % 2)).paths
-    return named(coloured(Drawing(paths), rng), rng)
+    return named(colour_paths(Drawing(paths), rng), rng)
 
 
 def faces(of: Drawing, restyle: bool = True) -> vexture.Texture:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from either import decode, encode
+from both_encodings import decode, encode
 from strategies import cell_trees
 from vexture.thesis.tree import CellKind, CellTree
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from either import decode, encode, info
+from both_encodings import decode, encode, info
 from strategies import cell_trees
 from vexture.base.errors import LimitError, ParameterError
 from vexture.bezier.area import leaf_area

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import degenerate
 import vexture
-from degenerate import OUTLINES, heap, moved, rolled
+from degenerate import OUTLINES, heap, move_points, roll_contour
 from vexture.drawing.drawing import Drawing, FillRule
 from vexture.drawing.drawing import Path as Outline
 from vexture.renderers.exact import render_exact
@@ -36,7 +36,7 @@ def drawing_of(name, copies, how, rule):
 @pytest.mark.parametrize("copies", [2, 15, 16, 17, 200])
 @pytest.mark.parametrize("name", NAMES)
 def test_copies_take_the_texels_of_one(name, copies):
-    one = drawing_of(name, 1, rolled, FillRule.NONZERO)
+    one = drawing_of(name, 1, roll_contour, FillRule.NONZERO)
     texels = vexture.convert(one, tolerance=0).texels
     same = vexture.convert(drawing_of(name, copies, lambda contour, _: contour, FillRule.NONZERO), tolerance=0)
     np.testing.assert_array_equal(same.texels, texels)
@@ -53,7 +53,7 @@ def test_copies_take_the_texels_of_one(name, copies):
 @pytest.mark.parametrize("copies", [2, 16, 40])
 def test_copies_that_cancel_leave_nothing(rule, copies):
     """The even-odd rule cancels pairs; under the nonzero rule they cancel in opposite directions."""
-    tree = build_tree(drawing_of("duck", copies, rolled, rule))
+    tree = build_tree(drawing_of("duck", copies, roll_contour, rule))
     assert len(tree.curves) == 0
     assert tree.coverage.max() == 0.0
 
@@ -61,7 +61,7 @@ def test_copies_that_cancel_leave_nothing(rule, copies):
 def test_a_multiplicity_is_counted():
     """Twice forwards and once backwards is once: with a hole of winding -1 what is left is filled."""
     outer, inner = degenerate.circle((0.5, 0.5), 0.4), degenerate.circle((0.5, 0.5), 0.2)
-    contours = [rolled(outer, 2 * k) for k in range(20)] + [degenerate.backwards(inner)] * 19
+    contours = [roll_contour(outer, 2 * k) for k in range(20)] + [degenerate.backwards(inner)] * 19
     drawing = Drawing((Outline(tuple(contours), FillRule.NONZERO),))
     np.testing.assert_allclose(
         vexture.convert(drawing).coverage(SIZE), render_exact(drawing, SIZE), rtol=0, atol=1 / 255
@@ -75,7 +75,7 @@ def test_a_multiplicity_is_counted():
 @pytest.mark.parametrize("contour", [TRIANGLE, degenerate.circle((0.5, 0.5), 0.4)], ids=["triangle", "circle"])
 def test_copies_nearly_in_one_place_cost_little_more(contour, copies, distance):
     rng = np.random.default_rng(copies)
-    drawing = Drawing((Outline(tuple(moved(contour, distance, rng) for _ in range(copies)), FillRule.NONZERO),))
+    drawing = Drawing((Outline(tuple(move_points(contour, distance, rng) for _ in range(copies)), FillRule.NONZERO),))
     one = build_tree(Drawing((Outline((contour,)),)))
     paths = [Outline((copy,)) for copy in drawing.paths[0].contours]
     for many in (drawing, Drawing(tuple(paths))):
@@ -94,7 +94,7 @@ def test_what_two_paths_fill_differently_is_not_taken_for_one():
         Outline((around, outer, inner), FillRule.EVENODD),
         Outline((outer, degenerate.backwards(inner)), FillRule.NONZERO),
     ]
-    copies = [[moved(one, 1e-9, np.random.default_rng(k)) for one in (outer, inner)] for k in range(20)]
+    copies = [[move_points(one, 1e-9, np.random.default_rng(k)) for one in (outer, inner)] for k in range(20)]
     rings = [Outline(tuple(contours), FillRule.EVENODD) for contours in copies]
     for other in others:
         drawing = Drawing((*rings, other, *rings))

@@ -6,8 +6,20 @@ import numpy as np
 import pytest
 
 from degenerate import circle, polygon
-from planar import coloured, colours_at, gradient_colours, paints_at, sampled
-from shaded import BANDS, DRAWINGS, FADING, LENS, SQUARE, UPWARDS, WARM, blended, linear, radial, shaded
+from gradient_drawings import (
+    BANDS,
+    DRAWINGS,
+    FADING,
+    LENS,
+    SQUARE,
+    UPWARDS,
+    WARM,
+    blend_drawing,
+    linear,
+    painted_path,
+    radial,
+)
+from planar import colour_paths, colours_at, gradient_colours, paints_at, sample_picture
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.group import Blend, Group, Mask
@@ -44,47 +56,53 @@ def test_a_gradient_is_what_svg_says(focus: tuple[float, float] | None, spread: 
 
 def test_a_program_is_what_is_seen_from_below() -> None:
     up, glow = UPWARDS.paint.gradient, radial((0.4, 0.5), 0.3, WARM)
-    hidden = shaded(LENS, linear((0, 0), (1, 0), WARM))
-    red, grey = shaded(SQUARE, Paint((1, 0, 0))), shaded(SQUARE, HALF_GREY)
+    hidden = painted_path(LENS, linear((0, 0), (1, 0), WARM))
+    red, grey = painted_path(SQUARE, Paint((1, 0, 0))), painted_path(SQUARE, HALF_GREY)
     groups = (Group(opacity=0.6), Group(0, 0.5), Group(opacity=0.5, blend=Blend.SCREEN))
-    inside, centre = shaded(LENS, glow, 1), (0.4, 0.45)
+    inside, centre = painted_path(LENS, glow, 1), (0.4, 0.45)
     for paths, program in (
         ((red, UPWARDS), (up,)),
         ((hidden, UPWARDS, grey), (up, GREY)),
         ((UPWARDS, grey, grey), (up, Solid((24576, 24576, 24576, 49151)))),
-        ((UPWARDS, shaded(LENS, HALF_GREY, 0)), (up, Solid((9830, 9830, 9830, 19660)))),
-        ((UPWARDS, shaded(LENS, HALF_GREY, 2)), (up, Keep(), GREY, Mix(32768, Blend.SCREEN))),
+        ((UPWARDS, painted_path(LENS, HALF_GREY, 0)), (up, Solid((9830, 9830, 9830, 19660)))),
+        ((UPWARDS, painted_path(LENS, HALF_GREY, 2)), (up, Keep(), GREY, Mix(32768, Blend.SCREEN))),
         (
-            (UPWARDS, inside, shaded(LENS, HALF_GREY, 0)),
+            (UPWARDS, inside, painted_path(LENS, HALF_GREY, 0)),
             (up, Keep(), Keep(), glow, Mix(32768, Blend.NORMAL), GREY, Mix(39321, Blend.NORMAL)),
         ),
-        ((shaded(LENS, glow, 2), grey), (Keep(), glow, Mix(32768, Blend.NORMAL), GREY)),
+        ((painted_path(LENS, glow, 2), grey), (Keep(), glow, Mix(32768, Blend.NORMAL), GREY)),
     ):
         assert program_at(build_map(Drawing(paths, groups=groups)), centre) == program
     of = Drawing(
-        (UPWARDS, shaded(SQUARE, Paint((1, 0, 0)), 0), shaded(LENS, glow, 0), shaded(SQUARE, Paint(), 0)), groups=groups
+        (
+            UPWARDS,
+            painted_path(SQUARE, Paint((1, 0, 0)), 0),
+            painted_path(LENS, glow, 0),
+            painted_path(SQUARE, Paint(), 0),
+        ),
+        groups=groups,
     )
     assert program_at(build_map(of), centre) == (up, Solid((0, 0, 0, 39321)))  # black hides the group's others
 
 
 def test_a_mask_that_holds_a_gradient_comes_after_what_it_masks() -> None:
     up, fade = UPWARDS.paint.gradient, linear((0, 0), (1, 0), WARM)
-    red, solid = shaded(LENS, Paint((1, 0, 0)), 0), Solid((65535, 0, 0, 65535))
+    red, solid = painted_path(LENS, Paint((1, 0, 0)), 0), Solid((65535, 0, 0, 65535))
     above, below = Mix(65535, Mask.LUMINANCE), Mix(65535, Mask.OPACITY)
     out = Mix(65535, Blend.NORMAL)
     mask, half = Group(0, mask=Mask.LUMINANCE), Group(0, 0.5, mask=Mask.OPACITY)
-    inside, flat = shaded(SQUARE, fade, 1), shaded(SQUARE, Paint((1, 1, 1)), 2)
+    inside, flat = painted_path(SQUARE, fade, 1), painted_path(SQUARE, Paint((1, 1, 1)), 2)
     for paths, program in (
         ((UPWARDS, inside, red), (up, Keep(), solid, Keep(), fade, above, out)),
         ((UPWARDS, red, inside), (up, Keep(), solid, Keep(), fade, above, out)),
         ((inside, red), (solid, Keep(), fade, above)),
         ((UPWARDS, inside, red, flat), (up, Keep(), solid, Keep(), fade, above, Mix(32768, Blend.NORMAL))),
         ((UPWARDS, inside), (up,)),
-        ((UPWARDS, inside, red, shaded(SQUARE, fade, 0)), (up, Keep(), fade, Keep(), fade, above, out)),
+        ((UPWARDS, inside, red, painted_path(SQUARE, fade, 0)), (up, Keep(), fade, Keep(), fade, above, out)),
     ):
         groups = (Group(), mask, half)[: 3 if flat in paths else 2]
         assert program_at(build_map(Drawing(paths, groups=groups)), (0.4, 0.45)) == program
-    both = (UPWARDS, inside, shaded(SQUARE, fade, 2), red)
+    both = (UPWARDS, inside, painted_path(SQUARE, fade, 2), red)
     two = (Group(), mask, Group(0, mask=Mask.OPACITY))
     program = (up, Keep(), solid, Keep(), fade, above, Keep(), fade, below, out)
     assert program_at(build_map(Drawing(both, groups=two)), (0.4, 0.45)) == program
@@ -97,8 +115,8 @@ MOST_LAYERS = 7  # of more, groups may be too deep in one another
 def test_programs_of_random_groups_are_right(seed: int) -> None:
     """Gradients and flat colours in groups in one another, some of them masks, before or after what they mask."""
     rng = np.random.default_rng(seed)
-    layers = Drawing(tuple(shaded(SQUARE, Paint()) for _ in range(rng.integers(2, MOST_LAYERS))))
-    of = coloured(layers, rng)
+    layers = Drawing(tuple(painted_path(SQUARE, Paint()) for _ in range(rng.integers(2, MOST_LAYERS))))
+    of = colour_paths(layers, rng)
     shades = [linear(rng.random(2), rng.random(2), stops) for stops in (WARM, FADING, BANDS, FADING)]
     paints = [
         Paint.of(shades[k]) if k < len(shades) else path.paint
@@ -118,8 +136,10 @@ def test_programs_of_random_groups_are_right(seed: int) -> None:
 
 def test_faces_of_equal_programs_are_one_face() -> None:
     halves = [polygon([(x, 0.2), (x + 0.3, 0.2), (x + 0.3, 0.8), (x, 0.8)]) for x in (0.2, 0.5)]
-    planar = build_map(Drawing((UPWARDS, *(shaded(half, HALF_GREY) for half in halves))))
-    whole = build_map(Drawing((UPWARDS, shaded(polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)]), HALF_GREY))))
+    planar = build_map(Drawing((UPWARDS, *(painted_path(half, HALF_GREY) for half in halves))))
+    whole = build_map(
+        Drawing((UPWARDS, painted_path(polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)]), HALF_GREY)))
+    )
     assert len(planar.programs) == 2
     assert len(planar.curves) == len(whole.curves)
 
@@ -127,7 +147,7 @@ def test_faces_of_equal_programs_are_one_face() -> None:
 @pytest.mark.parametrize("name", DRAWINGS)
 def test_means_are_those_of_many_points(name: str) -> None:
     planar = build_map(DRAWINGS[name])
-    wanted = sampled(DRAWINGS[name], 2, 64)
+    wanted = sample_picture(DRAWINGS[name], 2, 64)
     np.testing.assert_allclose(planar.mean[0].reshape(2, 2, 4)[::-1], wanted, atol=1.5 / 255)
 
 
@@ -135,15 +155,17 @@ def test_a_crowded_cell_has_the_mean_of_its_gradients() -> None:
     rng = np.random.default_rng(7)
     lines = [polygon([(0.01, y), (0.99, 1 - y), (0.99, 1.004 - y)]) for y in rng.uniform(0.1, 0.9, 90)]
     ramp = linear((0, 0), (1, 0), WARM)
-    of = Drawing(tuple(shaded(line, Paint((0, 0, k % 2), 0.5) if k % 3 else ramp) for k, line in enumerate(lines)))
+    of = Drawing(
+        tuple(painted_path(line, Paint((0, 0, k % 2), 0.5) if k % 3 else ramp) for k, line in enumerate(lines))
+    )
     planar = build_map(of, max_depth=2)
     assert planar.unresolved > 0
-    np.testing.assert_allclose(planar.mean[0].reshape(2, 2, 4)[::-1], sampled(of, 2, 40), atol=0.02)
+    np.testing.assert_allclose(planar.mean[0].reshape(2, 2, 4)[::-1], sample_picture(of, 2, 40), atol=0.02)
 
 
 @pytest.mark.parametrize("blend", Blend)
 def test_programs_have_all_blend_modes(blend: Blend) -> None:
-    conversion = run(blended(blend), split="faces")
+    conversion = run(blend_drawing(blend), split="faces")
     assert not conversion.notes
     up, keep, _, mix = program_at(conversion.tree, (0.4, 0.45))
     assert (keep, mix) == (Keep(), Mix(52428, blend))
@@ -160,7 +182,7 @@ def test_programs_have_all_blend_modes(blend: Blend) -> None:
 
 def test_gradients_in_too_many_groups_are_flat_and_noted() -> None:
     groups = tuple(Group(k - 1, 0.9) for k in range(5))
-    paths = tuple(shaded(LENS, linear((0, 0), (1, 0), FADING), k - 1) for k in range(6))
+    paths = tuple(painted_path(LENS, linear((0, 0), (1, 0), FADING), k - 1) for k in range(6))
     for deep, flat in ((4, 0), (5, 1)):
         conversion = run(Drawing((UPWARDS, *paths[:deep]), groups=groups), split="faces")
         assert [note.count for note in conversion.notes] == [1] * flat
@@ -170,7 +192,9 @@ def test_gradients_in_too_many_groups_are_flat_and_noted() -> None:
 
 def test_too_many_gradients_on_one_another_are_flat() -> None:
     glow = [
-        shaded(circle((0.5, 0.5), 0.4 - 0.001 * k), linear((0, k / 99), (1, 0), (*WARM[:2], Stop(1, (0, 0, 0), 0.5))))
+        painted_path(
+            circle((0.5, 0.5), 0.4 - 0.001 * k), linear((0, k / 99), (1, 0), (*WARM[:2], Stop(1, (0, 0, 0), 0.5)))
+        )
         for k in range(70)
     ]
     conversion = run(Drawing((UPWARDS, *glow)), split="faces")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from degenerate import circle, drawing, heap, path_windings, points_near, polygon
-from planar import cell_at, coloured, colours_at, paints_at
+from planar import cell_at, colour_paths, colours_at, paints_at
 from vexture.base.errors import LimitError, SourceError
 from vexture.base.layout import PAINT_ONE
 from vexture.drawing.drawing import Drawing, FillRule, Path
@@ -39,13 +39,13 @@ def test_every_point_has_the_paint_that_compositing_gives(seed: int) -> None:
     paths = drawing(seed).paths + drawing(seed + 100).paths
     if seed % 2:
         paths += heap(seed, [1, 2, 1], 1e-9, FillRule(seed // 2 % 2)).paths
-    of = coloured(Drawing(paths), rng)
+    of = colour_paths(Drawing(paths), rng)
     assert check_points(of, build_map(of, tolerance=1e-6 * (seed % 3)), points_near(of, rng, 40)) > 5
 
 
 @pytest.mark.parametrize("seed", range(8))
 def test_means_are_exact(seed: int) -> None:
-    of = coloured(Drawing(drawing(seed).paths + drawing(seed + 100).paths), np.random.default_rng(seed))
+    of = colour_paths(Drawing(drawing(seed).paths + drawing(seed + 100).paths), np.random.default_rng(seed))
     means = build_map(of).mean[0].reshape(2, 2, 4)[::-1]
     np.testing.assert_allclose(means, render_exact_colours(of, 2), atol=2e-4)
 

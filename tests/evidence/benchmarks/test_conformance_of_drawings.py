@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from conformance import complete, figure, files_in, found, table_of
+from conformance import case_facts, complete, figure, files_in, table_of
 from judge import Case, Facts
 from same_fonts import gather
 
@@ -32,7 +32,7 @@ def fonts(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def facts_of(fonts: Path, body: str, same: bytes | None = None) -> Facts:
     case = Case("fixtures", "a.svg", SVG.format(body).encode(), same)
     facts: Facts = {}
-    for part in found(case, fonts):
+    for part in case_facts(case, fonts):
         facts |= part
     facts = complete(case, facts)
     assert facts["outcome"] in figure(case, facts)

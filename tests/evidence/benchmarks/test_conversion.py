@@ -5,7 +5,7 @@ from copy import deepcopy
 import pytest
 
 from conversion import Check, path_bytes, size_checks, size_facts
-from vexture_evidence.measures.printed import TABLE_5_1
+from vexture_evidence.measures.thesis_numbers import TABLE_5_1
 
 
 @pytest.fixture(scope="module")

@@ -24,7 +24,7 @@ def test_examples_in_the_docstrings():
 
 def test_cut_pixels_are_those_with_small_quads():
     cells = tuple(np.array(values) for values in ([0.5, 0.3, 0.71], [0.5, 0.9, 0.09], [0.25, 0.1, 0.01]))
-    view = fidelity.View(4, fit((4, 4)))
+    view = fidelity.SquareView(4, fit((4, 4)))
     assert np.argwhere(fidelity.cut_pixels(cells, view)).tolist() == [[0, 1], [3, 2]]
 
 
@@ -39,7 +39,7 @@ def test_area_error_is_in_255ths():
 )
 def test_limits(mean, border, within):
     good = {"mae": 1.0, "border": 1.0}
-    assert fidelity.met({"cpu": good, "gpu": {"mae": mean, "border": border}}, ["cpu", "gpu"]) == within
+    assert fidelity.meets_limits({"cpu": good, "gpu": {"mae": mean, "border": border}}, ["cpu", "gpu"]) == within
 
 
 def test_a_drawing_is_within_the_limits_and_a_wrong_picture_is_not():

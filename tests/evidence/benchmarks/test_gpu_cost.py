@@ -12,7 +12,7 @@ from vexture.drawing.drawing import Drawing
 from vexture.renderers import cpu
 from vexture_evidence.measures import gpu_compiler, gpu_turns, programs
 from vexture_evidence.measures.bands import BANDS, band_texture
-from vexture_evidence.measures.gpu_model import FAMILIES, LANES, ONCE, Shape, block_cycles, blocks_of, program
+from vexture_evidence.measures.gpu_model import FAMILIES, LANES, ONCE, ScopeShape, block_cycles, blocks_of, read_program
 from vexture_evidence.measures.gpu_turns import Turns, band_lane, packed_lane, run_waves
 
 PIXEL = 1.0 / 256.0
@@ -29,12 +29,13 @@ def test_the_driver_compiles_the_loops_that_are_counted(family):
     try:
         with gpu_compiler.toolchain() as tools:
             made = {
-                name: tools.compiled(name, gpu_cost.SOURCES[name], FAMILIES[family].name) for name in gpu_cost.SHAPES
+                name: tools.compile_shader(name, gpu_cost.SOURCES[name], FAMILIES[family].name)
+                for name in gpu_cost.SHAPES
             }
     except gpu_compiler.ToolchainError as error:
         pytest.skip(str(error))
     for name, shape in gpu_cost.SHAPES.items():
-        found = program(name, made[name].assembly, shape)
+        found = read_program(name, made[name].assembly, shape)
         assert sum(len(block.lines) for block in found.blocks) == made[name].statistics["Instructions"]
 
 
@@ -74,7 +75,9 @@ BB6:
 
 
 def test_a_loop_is_checked_once_more_than_it_turns():
-    found = program("loops", LOOPS, Shape("cells(quads*?)")).cycles({"cells": 5.0, "quads": 3.0}, FAMILIES["GCN5"])
+    found = read_program("loops", LOOPS, ScopeShape("cells(quads*?)")).cycles(
+        {"cells": 5.0, "quads": 3.0}, FAMILIES["GCN5"]
+    )
     valu = FAMILIES["GCN5"].valu
     assert {name: (one.valu, one.fetch) for name, one in found.items()} == {
         ONCE: (2 * valu, 0.0),
@@ -88,7 +91,7 @@ def test_a_loop_is_checked_once_more_than_it_turns():
 )
 def test_other_loops_are_named_and_not_assigned(expected):
     with pytest.raises(RuntimeError, match=r"loops: the compiler made loop\(if\*\); expected"):
-        program("loops", LOOPS, Shape(expected))
+        read_program("loops", LOOPS, ScopeShape(expected))
 
 
 @pytest.mark.parametrize(
@@ -159,7 +162,7 @@ def test_turns_of_a_deep_tree_are_those_that_its_fetches_tell(is_flat):
     view = np.array([[pixel, 0.0, 0.0], [0.0 if is_flat else pixel, pixel, 0.0], [0.0, 0.0, 1.0]])
     turns, fetched, beside = Turns(gpu_cost.SHAPES["flat" if is_flat else "any"]), [], []
     notes = {"texel": lambda found, *_: fetched.append(found), "is_beside": lambda found, *_: beside.append(found)}
-    coverage = gpu_turns.noted(cpu.view_coverage, notes, {})
+    coverage = gpu_turns.observe_kernel(cpu.view_coverage, notes, {})
     for lane in (
         packed_lane(turns, texture, view, is_flat),
         lambda pixel: coverage(texture.texels, is_flat, texture.roots[0].quad, (0, 0), view, pixel),

@@ -76,7 +76,7 @@ def test_shifted_views_show_the_whole_drawing():
     glyph = Drawing.polygon([(0.2, 0.3), (0.7, 0.3), (0.7, 0.9)])
     for case in packed_fidelity.CASES:
         area = 0.15 * (case.pixels**2 / case.stretch)
-        for view in views.shifted(glyph, case.pixels, 3, seed=1, turn=case.turn, stretch=case.stretch):
+        for view in views.views_with_shifts(glyph, case.pixels, 3, seed=1, turn=case.turn, stretch=case.stretch):
             picture = render_exact(glyph, *view)
             assert picture.sum() == pytest.approx(area, rel=1e-3)
 
@@ -92,14 +92,14 @@ def test_views_of_the_times_show_the_outline():
 def test_targets_are_never_met_by_what_was_not_measured():
     unknown = targets.Target("nothing", None, 1.0, 0.5)
     assert not unknown.reaches(unknown.least)
-    assert targets.judged([unknown])[0]["met"] is False
-    assert "missed" in targets.judgement([unknown])
+    assert targets.target_facts([unknown])[0]["met"] is False
+    assert "missed" in targets.target_table([unknown])
 
 
 def test_sizes_of_a_square_by_hand():
     """One quad and four pieces; five texels of 8 bytes, 32 heads and two lists of two entries for the bands."""
     square = Drawing.polygon([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])
-    facts = size.set_facts(size.Set("squares", [square, square], 100))
+    facts = size.set_facts(size.SizeSet("squares", [square, square], 100))
     tree = build_tree(square)
     assert facts["packed"]["raw"] == 2 * 16 * (len(tree.count) + len(tree.curves))
     assert facts["bands"] == {"shared": 2 * 184, "unshared": 2 * (40 + 128 + 256), "left_out": 0}
@@ -114,7 +114,7 @@ def test_a_form_that_cannot_hold_a_drawing_says_so():
 
 def test_within_a_tolerance_means_fewer_bytes():
     island = corpora.fractal_coastline(12_288, seed=1)
-    raw = [size.set_facts(size.Set("", [island], 0, 255, tolerance))["packed"]["raw"] for tolerance in (1e-9, 1e-3)]
+    raw = [size.set_facts(size.SizeSet("", [island], 0, 255, tolerance))["packed"]["raw"] for tolerance in (1e-9, 1e-3)]
     assert raw[1] < 0.5 * raw[0]
 
 
@@ -143,7 +143,7 @@ def test_a_case_tells_a_right_picture_from_a_wrong_one():
     circle, ribbon = corpora.round_shapes()[::2]
     packed = programs.packed_texture(circle)
     shaders = packed_fidelity.programs_for(circle, packed, 16)
-    case = packed_fidelity.Case(32, 30.0)
+    case = packed_fidelity.ScaledCase(32, 30.0)
     facts = packed_fidelity.case_facts(circle, packed, shaders, case, 2, seed=1)
     assert facts["any"]["mae"] < 0.3 < facts["bands"]["mae"]
     assert facts["any"]["apart"] < 1.0

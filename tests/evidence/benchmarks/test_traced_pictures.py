@@ -7,11 +7,11 @@ import tracing
 
 
 def test_pixels_of_a_drawing_come_back_as_they_are() -> None:
-    figures, back = tracing.measured(tracing.art())
+    figures, back = tracing.measure_tracing(tracing.art())
     assert figures["error"] < 0.01
     assert figures["far off"] == 0.0
     assert back is not None
-    np.testing.assert_allclose(back, tracing.premultiplied(tracing.art()), atol=0.05)
+    np.testing.assert_allclose(back, tracing.premultiply(tracing.art()), atol=0.05)
 
 
 @pytest.mark.parametrize("name", tracing.PICTURES)
@@ -23,5 +23,5 @@ def test_pictures_are_small_and_have_their_opacity(name: str) -> None:
 
 def test_colours_that_are_premultiplied_come_back() -> None:
     pixels = tracing.of_svg(tracing.LOGO, (120, 80), 120)
-    again = tracing.straight(tracing.premultiplied(pixels))
+    again = tracing.unpremultiply(tracing.premultiply(pixels))
     assert (again[pixels[..., 3] > 0] == pixels[pixels[..., 3] > 0]).all()

@@ -9,15 +9,15 @@ from vexture.renderers.exact import render_exact
 from vexture_evidence.figures.comparisons import CORNER, FLOOR, SHOWN, equal_bytes, error_over_bytes
 from vexture_evidence.measures.metrics import Errors
 from vexture_evidence.measures.rivals import (
-    Measured,
+    MeasuredRival,
     Rival,
     distance_rival,
-    judge,
+    measure_rival,
     raster_rival,
     scene_of,
     texture_rival,
 )
-from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.shape import ConvertedDrawing, example
 
 pytestmark = pytest.mark.slow  # test_report_is_whole draws these figures too
 
@@ -26,7 +26,7 @@ EMPTY = Drawing((), name="empty")
 
 @pytest.fixture(scope="module")
 def duck():
-    return Shape(example("duck"))
+    return ConvertedDrawing(example("duck"))
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def measured(duck):
     rivals = [raster_rival(duck.drawing, side) for side in (16, 64)]
     rivals += [distance_rival(duck.drawing, side, spread) for spread in (4.0, 1.0) for side in (16, 32)]
     rivals += [texture_rival(duck.way(way).texture, way) for way in ("packed", "direct", "sampled")]
-    return [judge(rival, scene) for rival in rivals]
+    return [measure_rival(rival, scene) for rival in rivals]
 
 
 def test_lines_hold_bytes_and_errors(measured):
@@ -54,7 +54,7 @@ def test_lines_hold_bytes_and_errors(measured):
 
 def test_ways_without_a_file_are_left_out_above_and_no_error_is_at_the_floor():
     nothing = Errors(0.0, 0.0, 0.0)
-    bands = Measured(Rival("bands", "bands", None, 100, lambda size, view: np.zeros(size[::-1])), *[nothing] * 3)
+    bands = MeasuredRival(Rival("bands", "bands", None, 100, lambda size, view: np.zeros(size[::-1])), *[nothing] * 3)
     figure = error_over_bytes([bands])
     assert not figure.axes[0].get_lines()
     assert figure.axes[3].get_lines()[0].get_xydata().tolist() == [[100, FLOOR]]
@@ -89,4 +89,4 @@ def test_long_numbers_do_not_run_into_one_another(duck):
 
 def test_an_empty_drawing_has_pictures_too():
     assert_legible(equal_bytes(EMPTY, [raster_rival(EMPTY, 16)]))
-    assert_legible(error_over_bytes([judge(raster_rival(EMPTY, side), scene_of(EMPTY)) for side in (16, 32)]))
+    assert_legible(error_over_bytes([measure_rival(raster_rival(EMPTY, side), scene_of(EMPTY)) for side in (16, 32)]))

@@ -15,9 +15,9 @@ from vexture_evidence.figures.discussion import (
     stored_value_errors,
     unneeded_divisions,
 )
-from vexture_evidence.measures.editing import edited
-from vexture_evidence.measures.shape import WAYS, Shape, example
-from vexture_evidence.measures.stored import stored_values
+from vexture_evidence.measures.editing import edit_texture
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, example
+from vexture_evidence.measures.stored_coverage import stored_values
 from vexture_evidence.measures.thesis_limits import Lengths, close_up, unnecessary_quads
 
 pytestmark = pytest.mark.slow  # test_report_is_whole draws these figures too
@@ -32,8 +32,8 @@ RINGS = Drawing.polygon(
 @pytest.fixture(scope="module", params=["duck", "hairline", "rings"])
 def shape(request):
     if request.param != "rings":
-        return Shape(example(request.param))
-    made = Shape(example("duck"))
+        return ConvertedDrawing(example(request.param))
+    made = ConvertedDrawing(example("duck"))
     made.drawing = RINGS
     return made
 
@@ -67,7 +67,7 @@ def test_density_looks_where_the_first_is_farthest_off(shape):
 
 
 def test_every_unneeded_quad_is_marked():
-    shield = Shape(example("simple-small"))
+    shield = ConvertedDrawing(example("simple-small"))
     textures = [shield.way(way).texture for way in ("sampled", "packed")]
     figure = unneeded_divisions(
         [(way, shield.drawing, texture) for way, texture in zip(("sampled", "packed"), textures, strict=True)]
@@ -99,7 +99,7 @@ def test_refused_copies_are_marked_and_not_drawn():
 
 def test_what_was_drawn_in_addition_is_coloured():
     drawing = RINGS
-    after = edited(drawing, run(drawing, **WAYS["packed"]).texture, '<circle cx="0.5" cy="-0.8" r="0.1"/>', 1)
+    after = edit_texture(drawing, run(drawing, **WAYS["packed"]).texture, '<circle cx="0.5" cy="-0.8" r="0.1"/>', 1)
     figure = edited_drawing(run(drawing, **WAYS["direct"]).texture, after, np.zeros((8, 8)))
     assert_legible(figure)
     colours = [{line.get_color() for line in axes.lines} for axes in figure.axes[1:3]]

@@ -9,12 +9,12 @@ from vexture.base.errors import DeviceError
 from vexture.renderers.device import context
 from vexture_evidence.figures.edges import edges
 from vexture_evidence.figures.plane import plane
-from vexture_evidence.figures.resolutions import FROM_LEAF, INSIDE, OUTSIDE, STORED, exaggerated, resolutions
+from vexture_evidence.figures.resolutions import FROM_LEAF, INSIDE, OUTSIDE, STORED, exaggerated_cut_off, resolutions
 from vexture_evidence.figures.solutions import solutions
 from vexture_evidence.figures.tolerances import tolerances
 from vexture_evidence.measures.plane import receding
-from vexture_evidence.measures.rendered import MIP, at_edge, at_sizes, cut_off_at, with_tolerances
-from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.renderings import MIP, at_edge, at_sizes, cut_off_at, with_tolerances
+from vexture_evidence.measures.shape import ConvertedDrawing, example
 from vexture_evidence.measures.solutions import SOLUTIONS, by_cpu, solve
 
 pytestmark = pytest.mark.slow  # test_report_is_whole draws these figures too
@@ -25,10 +25,10 @@ NOTHING = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 2"/>'
 @pytest.fixture(scope="module", params=["duck", "crossings", "hairline", "nothing"])
 def shape(request, tmp_path_factory):
     if request.param != "nothing":
-        return Shape(example(request.param))
+        return ConvertedDrawing(example(request.param))
     path = tmp_path_factory.mktemp("drawings") / "nothing.svg"
     path.write_text(NOTHING)
-    return Shape(path)
+    return ConvertedDrawing(path)
 
 
 def shown(axes):
@@ -55,7 +55,7 @@ def test_few_pixels_in_columns_of_sizes_and_rows_of_methods(shape):
 @pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_the_cut_off_tells_mip_values_from_leaves(shape):
     drawn = cut_off_at(shape, (20, 80))
-    figure = exaggerated(drawn)
+    figure = exaggerated_cut_off(drawn)
     assert_legible(figure)
     for axes, picture in zip(figure.axes, drawn, strict=True):
         image = shown(axes)

@@ -114,7 +114,7 @@ def test_its_errors_are_those_that_are_known_of_it(six, pixels, published):
     found = []
     for drawing in six:
         program = programs.band_program(bands.band_texture(drawing))
-        taken = list(views.shifted(drawing, pixels, 4, seed=1))
+        taken = list(views.views_with_shifts(drawing, pixels, 4, seed=1))
         images = np.stack([program.image(*view) for view in taken])
         found.append(errors(images, np.stack([render_exact(drawing, *view) for view in taken])).mae)
     assert 0.8 * published < np.mean(found) < 1.1 * published
@@ -125,7 +125,7 @@ def test_its_errors_are_those_that_are_known_of_it(six, pixels, published):
 def test_inside_is_one_and_outside_is_none(six, pixels):
     for drawing in [*six, *corpora.round_shapes(), corpora.fractal_coastline(768, seed=1)]:
         made = bands.band_texture(drawing)
-        (view,) = views.shifted(drawing, pixels, 1, seed=1)
+        (view,) = views.views_with_shifts(drawing, pixels, 1, seed=1)
         image, truth = programs.band_program(made).image(*view), render_exact(drawing, *view)
         around = np.pad(truth, 1, "edge")
         near = [

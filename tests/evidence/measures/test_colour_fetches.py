@@ -7,7 +7,7 @@ from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Gradient, Paint, Stop
 from vexture.renderers.view import ViewLike
-from vexture_evidence.measures.colour_fetches import Sheets, layer_boxes, pixel_fetches, spread_pixels
+from vexture_evidence.measures.colour_fetches import SheetStack, layer_boxes, pixel_fetches, spread_pixels
 
 RED, BLUE = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.0, 1.0))
 STOPS = Stop(0.0, (0.0, 0.0, 0.0), 1.0), Stop(1.0, (1.0, 1.0, 1.0), 1.0)
@@ -23,7 +23,7 @@ def box(low: float, high: float, paint: Paint) -> Path:
 def fetches(drawing: Drawing, split: str, side: int, view: ViewLike = None) -> float:
     made = run(drawing, split=split)
     parts = made.drawing.layers() if split == "paint" else (drawing,)
-    return pixel_fetches(Sheets(made.texture, layer_boxes(parts)), side, view, side, seed=1)
+    return pixel_fetches(SheetStack(made.texture, layer_boxes(parts)), side, view, side, seed=1)
 
 
 def test_a_cell_without_pieces_costs_its_quad_its_base_and_its_paint():

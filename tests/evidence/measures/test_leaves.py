@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import decoded
+import decode_by_format as by_format
 import packed_walk
 import vexture
 from vexture.base.errors import ParameterError
@@ -34,9 +34,9 @@ def test_packed_leaves_are_those_of_the_plain_walk(name):
 def test_thesis_leaves_are_those_that_the_pixels_say(name):
     texture = vexture.convert(example(name), encoding="thesis")
     found = leaves(texture)
-    squares = {leaf[:2]: leaf for leaf in decoded.walk(texture).leaves}
+    squares = {leaf[:2]: leaf for leaf in by_format.walk(texture).leaves}
     assert len(found.x) == len(squares)
-    lines = found.lines(decoded.CHORDS)
+    lines = found.lines(by_format.CHORDS)
     for k, (x, y) in enumerate(zip(found.x, found.y, strict=True)):
         leaf = squares[x, y]
         assert (found.side[k], found.depth[k]) == (leaf.side, leaf.depth)
@@ -44,11 +44,11 @@ def test_thesis_leaves_are_those_that_the_pixels_say(name):
         assert len(own) == (0 if leaf.is_constant else 1)
         if len(own) and leaf.is_corner:
             assert found.is_corner[own[0]]
-            expected = np.array((x, y)) + leaf.side * decoded.line(texture, leaf)
-            np.testing.assert_allclose(lines[own[0], [0, decoded.CHORDS // 2, -1]], expected, atol=1e-12)
+            expected = np.array((x, y)) + leaf.side * by_format.line(texture, leaf)
+            np.testing.assert_allclose(lines[own[0], [0, by_format.CHORDS // 2, -1]], expected, atol=1e-12)
         elif len(own):
             np.testing.assert_allclose(
-                lines[own[0]], np.array((x, y)) + leaf.side * decoded.line(texture, leaf), atol=1e-12
+                lines[own[0]], np.array((x, y)) + leaf.side * by_format.line(texture, leaf), atol=1e-12
             )
 
 

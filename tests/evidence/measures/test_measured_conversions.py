@@ -5,24 +5,24 @@ from pathlib import Path
 import pytest
 
 import vexture
-from either import decode
+from both_encodings import decode
 from vexture.base.errors import LimitError
-from vexture_evidence.measures.conversions import measured
-from vexture_evidence.measures.shape import WAYS, Shape, example
+from vexture_evidence.measures.conversions import measure_conversion
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, example
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><path d="{path}"/></svg>'
 
 
-def drawn(folder: Path, path: str) -> Shape:
+def drawn(folder: Path, path: str) -> ConvertedDrawing:
     file = folder / "drawn.svg"
     file.write_text(SVG.format(path=path))
-    return Shape(file)
+    return ConvertedDrawing(file)
 
 
 def test_a_pair_is_measured_at_8_and_at_16_bits():
-    shape = Shape(example("thumb"))
+    shape = ConvertedDrawing(example("thumb"))
     for way in ("sampled", "direct"):
-        found = measured(shape, way)
+        found = measure_conversion(shape, way)
         for bits, size in ((8, found.bytes_8), (16, found.bytes_16)):
             texture = vexture.convert(example("thumb"), encoding="thesis", strategy=way, bits=bits)
             assert size == sum(map(len, texture.to_png()))
@@ -33,7 +33,7 @@ def test_a_pair_is_measured_at_8_and_at_16_bits():
 
 
 def test_a_packed_texture_is_one_file():
-    found = measured(Shape(example("thumb")), "packed")
+    found = measure_conversion(ConvertedDrawing(example("thumb")), "packed")
     texture = vexture.convert(example("thumb"), split=None)
     tree = decode(texture)
     assert found.bytes_packed == pytest.approx(len(texture.to_ktx2()), abs=32)  # the source's name may be in it
@@ -44,7 +44,7 @@ def test_a_packed_texture_is_one_file():
 def test_what_8_bits_cannot_hold_has_16(tmp_path):
     teeth = "".join(f"L{x / 4} {60 if x % 2 else 40}" for x in range(401))
     shape = drawn(tmp_path, f"M0 100{teeth}L100 100Z")
-    found = measured(shape, "direct")
+    found = measure_conversion(shape, "direct")
     assert found.bytes_8 is None
     assert found.bytes_16 > 0
 
@@ -75,5 +75,5 @@ def test_what_would_take_minutes_is_refused(tmp_path):
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_an_empty_drawing_has_one_quad(tmp_path, way):
-    found = measured(drawn(tmp_path, ""), way)
+    found = measure_conversion(drawn(tmp_path, ""), way)
     assert (found.quads, found.curves, found.depth) == (1, 0, 1)

@@ -10,7 +10,7 @@ from vexture.drawing.drawing import Drawing
 from vexture.renderers.exact import render_exact
 from vexture.renderers.view import fit
 from vexture_evidence.measures.raster import RasterTexture, bilinear, footprint, mip_sides, raster_from
-from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.shape import ConvertedDrawing, example
 
 TRIANGLE = Drawing.polygon([(0.1, 0.2), (0.9, 0.3), (0.4, 0.8)])
 RECEDING = np.array([[0.01, 0.0, -0.1], [0.0, -0.01, 1.1], [0.0, 0.004, 1.0]])
@@ -61,7 +61,7 @@ def test_beyond_the_horizon_nothing_is_seen():
     horizon = np.array([[0.01, 0.0, 0.0], [0.0, -0.01, 0.9], [0.0, 0.02, -1.0]])  # rows above 50 look away
     texture = RasterTexture(np.full((4, 4), 255, np.uint8))
     assert not texture.sample((100, 100), horizon)[:50].any()
-    assert footprint((100, 100), horizon).seen[51:].all()
+    assert footprint((100, 100), horizon).visible[51:].all()
 
 
 def test_texels_are_exact_coverage_at_every_level():
@@ -95,7 +95,7 @@ def test_the_gpu_filters_alike(view):
     """Within what 8 fraction bits, approximate logarithms and the driver's own mip-map make of it."""
     from vexture_evidence.measures.programs import IMAGE_SIDE, fetch_program
 
-    duck = Shape(example("duck")).drawing
+    duck = ConvertedDrawing(example("duck")).drawing
     size = (100, 80)
     try:
         theirs = fetch_program(duck).image(size, fit(size) if view is None else view)

@@ -4,13 +4,13 @@ import pytest
 from vexture.base.errors import LimitError
 from vexture.base.tolerance import UNSEEN
 from vexture.renderers.exact import render_exact
-from vexture_evidence.measures.rendered import LOOSE, PACKED, at_edge, at_sizes, cut_off_at, with_tolerances
-from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.renderings import LOOSE, PACKED, at_edge, at_sizes, cut_off_at, with_tolerances
+from vexture_evidence.measures.shape import ConvertedDrawing, example
 
 pytestmark = pytest.mark.slow  # test_report_is_whole shows these measures too
 
 
-class Refused(Shape):
+class Refused(ConvertedDrawing):
     """A drawing that is too large for the thesis's encoding, without the minutes that making such a one takes."""
 
     def way(self, way, bits=None):
@@ -21,14 +21,14 @@ class Refused(Shape):
 
 @pytest.fixture(scope="module")
 def duck():
-    return Shape(example("duck"))
+    return ConvertedDrawing(example("duck"))
 
 
 @pytest.fixture(scope="module")
 def nothing(tmp_path_factory):
     path = tmp_path_factory.mktemp("drawings") / "nothing.svg"
     path.write_text('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 4"/>')
-    return Shape(path)
+    return ConvertedDrawing(path)
 
 
 def test_few_pixels_are_right_only_where_coverage_is_computed(duck):
@@ -46,7 +46,7 @@ def test_few_pixels_are_right_only_where_coverage_is_computed(duck):
 
 @pytest.mark.parametrize("name", ["duck", "holes", "hairline", "ocean"])
 def test_an_edge_is_in_the_picture(name):
-    view = at_edge(Shape(example(name)), 16)
+    view = at_edge(ConvertedDrawing(example(name)), 16)
     assert ((view.truth > 0.01) & (view.truth < 0.99)).any()
     assert view.errors[PACKED].mae < 0.2 < view.errors["16 samples"].mae < view.errors["centre of the pixel"].mae
 

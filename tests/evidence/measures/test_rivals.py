@@ -15,21 +15,21 @@ from vexture_evidence.measures.rivals import (
     Rival,
     bands_of,
     distance_rival,
-    judge,
+    measure_rival,
     raster_rival,
     scene_of,
     side_in_file,
     side_in_memory,
     texture_rival,
 )
-from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.shape import ConvertedDrawing, example
 
 SQUARE = ((0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75))
 
 
 @pytest.fixture(scope="module")
 def duck():
-    return Shape(example("duck"))
+    return ConvertedDrawing(example("duck"))
 
 
 def test_a_closeup_magnifies_about_its_place():
@@ -60,24 +60,24 @@ def test_an_empty_drawing_has_no_places():
     empty = Drawing(())
     assert outline_places(empty, 3).shape == (0, 2)
     assert sharpest_corner(empty).tolist() == [0.5, 0.5]
-    found = judge(raster_rival(empty, 8), scene_of(empty))
+    found = measure_rival(raster_rival(empty, 8), scene_of(empty))
     assert [shown.mae for shown in found[1:]] == [0.0, 0.0, 0.0]
 
 
 def test_the_truth_errs_nowhere(duck):
     scene = scene_of(duck.drawing)
     truth = Rival("truth", "truth", None, 0, lambda size, view: render_exact(duck.drawing, size, view))
-    assert [shown.max for shown in judge(truth, scene)[1:]] == [0.0, 0.0, 0.0]
+    assert [shown.max for shown in measure_rival(truth, scene)[1:]] == [0.0, 0.0, 0.0]
     moved = Rival("truth", "moved", None, 0, lambda size, view: render_exact(duck.drawing, size))
-    assert all(shown.mae > 1.0 for shown in judge(moved, scene)[1:])
+    assert all(shown.mae > 1.0 for shown in measure_rival(moved, scene)[1:])
 
 
 def test_rasters_get_better_with_texels_and_packed_needs_none(duck):
     scene = scene_of(duck.drawing)
-    outline = [judge(raster_rival(duck.drawing, side), scene).outline.mae for side in (32, 128, 512)]
+    outline = [measure_rival(raster_rival(duck.drawing, side), scene).outline.mae for side in (32, 128, 512)]
     assert outline == sorted(outline, reverse=True)
-    field = judge(distance_rival(duck.drawing, 128), scene).outline
-    packed = judge(texture_rival(duck.way("packed").texture, "packed"), scene).outline
+    field = measure_rival(distance_rival(duck.drawing, 128), scene).outline
+    packed = measure_rival(texture_rival(duck.way("packed").texture, "packed"), scene).outline
     assert outline[1] > 5 * field.mae > 50 * packed.mae
     assert field.max > 100 > 4.0 > packed.max
 

@@ -3,22 +3,22 @@
 import numpy as np
 import pytest
 
-from either import decode
+from both_encodings import decode
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.renderers.exact import render_exact
 from vexture.thesis.tree import CellKind
 from vexture_evidence.measures.leaves import leaves
 from vexture_evidence.measures.outline import first_samples, off_outline
-from vexture_evidence.measures.shape import WAYS, Shape, example
-from vexture_evidence.measures.stored import stored_values
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, example
+from vexture_evidence.measures.stored_coverage import stored_values
 from vexture_evidence.measures.thesis_limits import (
-    clamped,
+    clamp_curves,
     close_up,
     corner_cells,
     list_lengths,
     looping,
-    repeated,
+    repeat_drawing,
     sharp_corners,
     unnecessary_quads,
 )
@@ -29,7 +29,7 @@ CIRCLE = 0.5522847498
 
 @pytest.fixture(scope="module")
 def shield():
-    return Shape(example("simple-small"))
+    return ConvertedDrawing(example("simple-small"))
 
 
 def disc(radius=0.3):
@@ -43,7 +43,7 @@ def disc(radius=0.3):
 
 def test_clamp_moves_inner_points_along_the_chord_only():
     tree = run(looping(), **WAYS["direct"]).tree
-    kept, changed = clamped(tree)
+    kept, changed = clamp_curves(tree)
     assert changed == 4
     chord = tree.curves[:, 3] - tree.curves[:, 0]
     moved = kept.curves[:, 1:3] - tree.curves[:, 1:3]
@@ -56,7 +56,7 @@ def test_clamp_moves_inner_points_along_the_chord_only():
 
 def test_clamp_leaves_curves_in_range_and_corners_alone(shield):
     tree = shield.way("direct").tree
-    kept, changed = clamped(tree)
+    kept, changed = clamp_curves(tree)
     assert changed == 0
     assert (kept.curves == tree.curves).all()
 
@@ -64,7 +64,7 @@ def test_clamp_leaves_curves_in_range_and_corners_alone(shield):
 def test_clamp_leaves_straight_corners_alone():
     tree = run(QUARTER, **WAYS["direct"]).tree
     assert (tree.kind == CellKind.CORNER).any()
-    assert (clamped(tree, 0.4, 0.41)[0].curves == tree.curves)[tree.ref[tree.kind == CellKind.CORNER]].all()
+    assert (clamp_curves(tree, 0.4, 0.41)[0].curves == tree.curves)[tree.ref[tree.kind == CellKind.CORNER]].all()
 
 
 def test_looping_drawing_crosses_itself_in_each_quarter():
@@ -169,7 +169,7 @@ def test_sixteen_samples_know_areas_in_sixteenths(shield):
 
 
 def test_close_up_shows_the_thesis_lines_and_that_they_are_gone():
-    duck = Shape(example("duck"))
+    duck = ConvertedDrawing(example("duck"))
     close = close_up(duck.drawing, duck.way("direct").texture, duck.way("packed").texture, side=61, as_thesis=True)
     before, after = close.stray
     assert before > 5
@@ -179,7 +179,7 @@ def test_close_up_shows_the_thesis_lines_and_that_they_are_gone():
 
 
 def test_copies_cover_as_much_as_one():
-    assert render_exact(repeated(QUARTER, 3), (1, 1))[0, 0] == pytest.approx(0.3 * 0.25, abs=1e-5)
+    assert render_exact(repeat_drawing(QUARTER, 3), (1, 1))[0, 0] == pytest.approx(0.3 * 0.25, abs=1e-5)
 
 
 def test_lists_grow_until_they_are_refused():

@@ -7,7 +7,7 @@ from vexture.conversion.pipeline import convert
 from vexture.drawing.drawing import Drawing
 from vexture.renderers.view import window
 from vexture.thesis.cpu import render_thesis_cpu
-from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.shape import ConvertedDrawing, example
 from vexture_evidence.measures.thesis_ways import draw_as_thesis
 
 
@@ -18,7 +18,7 @@ def upright(*stripes):
 
 
 def duck():
-    return Shape(example("duck")).way("sampled").texture
+    return ConvertedDrawing(example("duck")).way("sampled").texture
 
 
 def test_a_level_grid_meets_an_upright_edge_four_points_at_once():

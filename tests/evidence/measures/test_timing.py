@@ -5,7 +5,7 @@ import time
 import pytest
 
 from vexture.base.errors import DeviceError
-from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.shape import ConvertedDrawing, example
 from vexture_evidence.measures.timing import frames_per_second, median_seconds
 
 
@@ -26,7 +26,7 @@ def test_a_rate_is_finite():
     from vexture_evidence.measures.programs import packed_program
 
     try:
-        program = packed_program(Shape(example("duck")).way("packed").texture)
+        program = packed_program(ConvertedDrawing(example("duck")).way("packed").texture)
     except DeviceError as error:
         pytest.skip(str(error))
     assert 0.0 < frames_per_second(program, (64, 64), 1) < float("inf")

@@ -3,7 +3,7 @@
 import pytest
 
 from vexture.base.errors import LimitError
-from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.shape import ConvertedDrawing, example
 from vexture_evidence.report import comparison
 from vexture_evidence.report.comparison import compare, pictures_part, section, shapes_part
 from vexture_evidence.report.page import json_text, page, pictures_of
@@ -13,7 +13,7 @@ from vexture_evidence.report.section import Material, Section
 pytestmark = pytest.mark.slow  # test_report_is_whole makes this section too
 
 
-class Refused(Shape):
+class Refused(ConvertedDrawing):
     """A drawing that an encoding cannot hold, without the minutes that making one takes."""
 
     def way(self, way, bits=None):
@@ -38,7 +38,7 @@ def tables_of(part):
 
 @pytest.fixture(scope="module")
 def duck():
-    return compare(Shape(example("duck")))
+    return compare(ConvertedDrawing(example("duck")))
 
 
 @pytest.fixture(scope="module")
@@ -69,7 +69,7 @@ def test_captions_say_what_was_measured(made):
 
 
 def test_renderers_are_timed_and_judged():
-    table = next(tables_of(renderers_part([Shape(example("duck")), Shape(example("ocean"))])))
+    table = next(tables_of(renderers_part([ConvertedDrawing(example("duck")), ConvertedDrawing(example("ocean"))])))
     duck = row(table, "duck")
     assert all(value > 0 for key, value in duck.items() if key.startswith("milliseconds"))
     assert duck["mean error: packed"] < 0.1 < min(duck["mean error: skia"], duck["mean error: resvg"])
@@ -122,7 +122,7 @@ def test_what_an_encoding_cannot_hold_is_dashes_and_a_reason(tmp_path, monkeypat
 
 
 def test_bytes_of_all_drawings_stand_beside_one_another(duck):
-    table = next(tables_of(shapes_part([duck, compare(Shape(example("simple-small")))])))
+    table = next(tables_of(shapes_part([duck, compare(ConvertedDrawing(example("simple-small")))])))
     assert [values[0] for values in table.rows] == ["duck", "simple-small"]
     assert all(len(values) == len(table.head) for values in table.rows)
     assert "on 2 of 2" in table.caption

@@ -4,8 +4,8 @@ import pytest
 from lxml import html
 
 from vexture.conversion.pipeline import convert
-from vexture_evidence.measures.printed import TABLE_5_1
-from vexture_evidence.measures.shape import WAYS, Shape, example, file_bytes
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, example, file_bytes
+from vexture_evidence.measures.thesis_numbers import TABLE_5_1
 from vexture_evidence.report import conversion, shapes, structure
 from vexture_evidence.report.page import json_text, page, pictures_of
 from vexture_evidence.report.section import Material, Printed, Section, Table
@@ -89,16 +89,16 @@ def test_table_5_1_has_the_thesis_beside_all_our_ways(examples):
 
 def test_what_an_encoding_cannot_hold_is_a_dash_and_a_reason(examples, monkeypatch):
     from vexture.base.errors import LimitError
-    from vexture_evidence.measures.shape import Shape
+    from vexture_evidence.measures.shape import ConvertedDrawing
 
-    way = Shape.way
+    way = ConvertedDrawing.way
 
     def refusing(self, name, bits=None):
         if name == "sampled":
             raise LimitError("70,000 quads; the limit is 65,000")
         return way(self, name, bits)
 
-    monkeypatch.setattr(Shape, "way", refusing)
+    monkeypatch.setattr(ConvertedDrawing, "way", refusing)
     section = conversion.section(examples)
     assert column(tables(section)["conversion"], "sampled: ms") == [None] * 3
     assert "70,000 quads" in tables(section)["conversion"].caption
@@ -128,7 +128,7 @@ def test_structure_counts_what_the_trees_hold(examples):
 
 
 def test_bytes_of_a_packed_file_are_those_that_the_command_writes(tmp_path):
-    shape = Shape(example("duck"))
+    shape = ConvertedDrawing(example("duck"))
     convert(shape.path).save(tmp_path / "duck.ktx2")
     assert file_bytes(shape.way("packed").texture) == (tmp_path / "duck.ktx2").stat().st_size
 

@@ -6,8 +6,8 @@ import re
 import pytest
 
 from vexture.base.errors import LimitError
-from vexture_evidence.measures.rendered import at_sizes
-from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.renderings import at_sizes
+from vexture_evidence.measures.shape import ConvertedDrawing, example
 from vexture_evidence.report.page import json_text, pictures_of
 from vexture_evidence.report.rendering import section
 from vexture_evidence.report.section import Material, Table
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.slow  # test_report_is_whole makes this section too
 FIGURES = ["3.13", "4.14", "4.15", "4.9, 4.10", "5.12", "2.7"]
 
 
-class Refused(Shape):
+class Refused(ConvertedDrawing):
     """A drawing that is too large for the thesis's encoding, without the minutes that making such a one takes."""
 
     def way(self, way, bits=None):

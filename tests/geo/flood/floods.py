@@ -10,7 +10,7 @@ import netCDF4
 import numpy as np
 from server import COMMAND, SECONDS, TOKEN, Server, serving
 
-from typed import typed
+from typed_commands import run_command
 
 BOUNDS = (500000.0, 4000000.0, 504000.0, 4002000.0)
 CRS = "EPSG:32610"
@@ -93,7 +93,7 @@ def series(path, edges, times=True, reverse=False):
 
 
 def flood(*arguments):
-    return typed("flood", *arguments)
+    return run_command("flood", *arguments)
 
 
 def scene_of(page):

@@ -12,8 +12,8 @@ WEST, SOUTH, EAST, NORTH = 500000.0, 4000000.0, 504000.0, 4002000.0
 COLUMNS, ROWS = 40, 20
 
 
-def opened(path, first_hour):
-    """A file without steps."""
+def open_run(path, first_hour):
+    """Create a file without steps."""
     import pyproj
 
     file = netCDF4.Dataset(path, "w")
@@ -40,17 +40,20 @@ def depths(edge):
 
 
 def run(path, lines):
-    """Do what the lines say, at once."""
-    list(obeyed(path, lines))
+    """Run the commands of these lines at once."""
+    list(run_commands(path, lines))
 
 
-def obeyed(path, lines):
-    """Each line after it is done: `open HOUR`, `time`, `depth EDGE` (of the last time), `step EDGE` (both), `close`."""
+def run_commands(path, lines):
+    """Run commands, and yield each afterwards.
+
+    They are `open HOUR`, `time`, `depth EDGE` (of the last time), `step EDGE` (both) and `close`.
+    """
     file = None
     for line in lines:
         command, *given = line.split()
         if command == "open":
-            file = opened(path, int(given[0]))
+            file = open_run(path, int(given[0]))
         elif command == "close":
             file.close()
         if command in ("time", "step"):
@@ -63,5 +66,5 @@ def obeyed(path, lines):
 
 
 if __name__ == "__main__":
-    for done in obeyed(sys.argv[1], sys.stdin):
+    for done in run_commands(sys.argv[1], sys.stdin):
         print(done, end="", flush=True)

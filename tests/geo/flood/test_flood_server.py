@@ -7,7 +7,7 @@ from contextlib import closing
 
 import numpy as np
 import pytest
-from attacks import NO_REQUESTS, refused, rest
+from attacks import NO_REQUESTS, refusal_status, rest
 from described import check_description
 from floods import BOUNDS, CRS, TOKEN, depths, flooding, geotiff, scene_of, sea, series
 from server import COMMAND, Stream
@@ -53,7 +53,7 @@ def written(path, share, **options):
 def test_what_is_no_request_is_told_so_and_newer_water_is_shown(server, tmp_path):
     for sent, status in NO_REQUESTS:
         with closing(server.peer(sent)) as peer:
-            assert refused(rest(peer)) == status
+            assert refusal_status(rest(peer)) == status
     assert server.put("flood", sea(tmp_path / "a.json").read_bytes())[0] == 200
 
 

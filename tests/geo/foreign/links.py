@@ -105,7 +105,7 @@ def netcdf(path, kind, link, group="", system="EPSG:28992"):
     return path
 
 
-def named(path, name):
+def name_crs(path, name):
     with h5py.File(netcdf(path, "plain", ""), "r+") as file:
         del file.attrs["crs"], file["crs"].attrs["spatial_ref"]
         file["crs"].attrs["geographic_crs_name"] = name
@@ -283,7 +283,7 @@ DEPTHS = {
     "NetCDF with an external link": lambda f, o: netcdf(f / "a.nc", "link", o["secret.h5"]),
     "NetCDF with an external link in a group": lambda f, o: netcdf(f / "a.nc", "link", o["secret.h5"], "one/two"),
     "NetCDF with a dimension elsewhere": lambda f, o: netcdf(f / "a.nc", "referred", o["secret.bin"]),
-    "NetCDF with a name in a list": lambda f, o: named(f / "a.nc", f"+init={o['secret.init']}:1"),
+    "NetCDF with a name in a list": lambda f, o: name_crs(f / "a.nc", f"+init={o['secret.init']}:1"),
     "a partition with external storage": lambda f, o: partition(f, o["secret.bin"]),
 }
 """Depths, which `read_extent` reads, and servers of floods."""
@@ -393,8 +393,8 @@ RELIEFS = {
 """Heights and pictures of the ground, which `vexture flood` reads."""
 
 
-def made(ways: dict[str, object], name: str, folder: Path, outside: Outside) -> Path:
-    """The source of a name, in a folder of its own beside that of the secrets."""
+def make_source(ways: dict[str, object], name: str, folder: Path, outside: Outside) -> Path:
+    """Make the source of a name, in a folder of its own beside that of the secrets."""
     path = ways[name](folder, outside)
-    outside.touched()  # by who made it
+    outside.take_accesses()  # by who made it
     return path

@@ -58,8 +58,8 @@ class Outside:
                 self._came.append(peer.recv(200).decode(errors="replace").partition("\r")[0])
                 peer.sendall(b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\nConnection: close\r\n\r\n")
 
-    def touched(self) -> list[str]:
-        """What was opened or asked for since the last call."""
+    def take_accesses(self) -> list[str]:
+        """Return what was opened or requested since the last call."""
         try:
             events = os.read(self._events, 1 << 20)
         except BlockingIOError:
@@ -78,8 +78,8 @@ class Outside:
         os.close(self._events)
 
 
-def told(work, *given, **options):
-    """What a reader says of a source: its error, or its notes."""
+def message_of(work, *given, **options):
+    """Message of a reader about a source: its error, or its notes."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:

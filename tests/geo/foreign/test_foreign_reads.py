@@ -11,8 +11,8 @@ import pyogrio
 import pytest
 from click.testing import CliRunner
 from floods import flooding, sea
-from links import ALONE, AREAS, DEPTHS, DRAWINGS, MODELS, RELIEFS, made, netcdf, plain, written
-from outside import one_line, raster, told
+from links import ALONE, AREAS, DEPTHS, DRAWINGS, MODELS, RELIEFS, make_source, netcdf, plain, written
+from outside import message_of, one_line, raster
 from server import serving
 
 import vexture
@@ -35,47 +35,47 @@ def test_the_watch_sees_a_file_and_a_request(outside):
     Path(outside["secret.csv"]).read_text()
     with pytest.raises(OSError, match="404"):
         urllib.request.build_opener(urllib.request.ProxyHandler({})).open(outside.url)
-    assert outside.touched() == ["secret.csv", "GET /secret HTTP/1.1"]
-    assert outside.touched() == []
+    assert outside.take_accesses() == ["secret.csv", "GET /secret HTTP/1.1"]
+    assert outside.take_accesses() == []
 
 
 @pytest.mark.parametrize("way", DEPTHS)
 def test_depths_lead_nowhere(way, folder, outside):
-    path = made(DEPTHS, way, folder, outside)
-    said = one_line(told(vexture.read_extent, path))
-    assert outside.touched() == []
+    path = make_source(DEPTHS, way, folder, outside)
+    said = one_line(message_of(vexture.read_extent, path))
+    assert outside.take_accesses() == []
     assert re.search(r"secret|is no TIFF", said)
-    one_line(told(vexture.read_extent, path.read_bytes(), path.name))
-    assert outside.touched() == []
+    one_line(message_of(vexture.read_extent, path.read_bytes(), path.name))
+    assert outside.take_accesses() == []
 
 
 @pytest.mark.parametrize("way", AREAS)
 def test_features_lead_nowhere(way, folder, outside):
-    path = made(AREAS, way, folder, outside)
-    said = one_line(told(read_features, path, notes=Notes()))
-    assert outside.touched() == []
+    path = make_source(AREAS, way, folder, outside)
+    said = one_line(message_of(read_features, path, notes=Notes()))
+    assert outside.take_accesses() == []
     named = way in ("GeoJSON with a file for a name", "a GeoPackage with a system in a file")  # names without a file
     assert named or re.search(r"secret|not recognized|no layers|no reference system", said)
-    one_line(told(lambda: [*feature_batches(path.read_bytes(), notes=Notes())]))
-    one_line(told(vexture.read, path))
-    assert outside.touched() == []
+    one_line(message_of(lambda: [*feature_batches(path.read_bytes(), notes=Notes())]))
+    one_line(message_of(vexture.read, path))
+    assert outside.take_accesses() == []
 
 
 @pytest.mark.parametrize("way", DRAWINGS)
 def test_drawings_lead_nowhere(way, folder, outside):
-    path = made(DRAWINGS, way, folder, outside)
+    path = make_source(DRAWINGS, way, folder, outside)
     for given in (path, path.read_bytes()):
-        said = one_line(told(vexture.read, given, trace_images=True))
-        assert outside.touched() == []
+        said = one_line(message_of(vexture.read, given, trace_images=True))
+        assert outside.take_accesses() == []
         assert (said == "READ ") == (way in UNSAID)
 
 
 @pytest.mark.parametrize("way", MODELS)
 def test_models_lead_nowhere(way, folder, outside):
-    path = made(MODELS, way, folder, outside)
+    path = make_source(MODELS, way, folder, outside)
     model = read_model(path)
-    said = one_line(told(model.save, folder / "out.glb"))
-    assert outside.touched() == []
+    said = one_line(message_of(model.save, folder / "out.glb"))
+    assert outside.take_accesses() == []
     assert "it refers to" in said
 
 
@@ -83,10 +83,12 @@ def test_models_lead_nowhere(way, folder, outside):
 def test_the_ground_leads_nowhere(way, folder, outside):
     from PIL import Image
 
-    path = made(RELIEFS, way, folder, outside)
-    assert re.search("secret|is no raster that can be read", one_line(told(_heights_of, path, FRAME, (8, 8), None)))
-    assert re.search("secret|damaged GeoTIFF", one_line(told(_warped, path, FRAME, Image.new("RGB", (8, 8)))))
-    assert outside.touched() == []
+    path = make_source(RELIEFS, way, folder, outside)
+    assert re.search(
+        "secret|is no raster that can be read", one_line(message_of(_heights_of, path, FRAME, (8, 8), None))
+    )
+    assert re.search("secret|damaged GeoTIFF", one_line(message_of(_warped, path, FRAME, Image.new("RGB", (8, 8)))))
+    assert outside.take_accesses() == []
 
 
 def sources(kinds, folder, outside):
@@ -95,7 +97,7 @@ def sources(kinds, folder, outside):
     for number, way in enumerate(kinds):
         place = folder / str(number)
         place.mkdir()
-        found.append(made(kinds, way, place, outside))
+        found.append(make_source(kinds, way, place, outside))
     return found
 
 
@@ -104,18 +106,18 @@ def test_command_line_leads_nowhere(outside, folder):
     outcome = CliRunner().invoke(main, ["convert", *given, "-o", str(folder / "out"), "--jobs", "1"])
     assert outcome.exit_code == 1, outcome.output
     assert "Traceback" not in outcome.output
-    assert outside.touched() == []
+    assert outside.take_accesses() == []
 
 
 @pytest.mark.parametrize(("command", "output"), [("map", "out.ktx2"), ("tiles", "out")])
 @pytest.mark.parametrize("way", ["GeoJSON with a link to its system", "JSON that is commands of GDAL"])
 def test_maps_on_the_command_line_lead_nowhere(command, output, way, outside, folder):
-    path = made(AREAS, way, folder, outside)
+    path = make_source(AREAS, way, folder, outside)
     outcome = CliRunner().invoke(main, [command, str(path), "-o", str(folder / output)])
     assert outcome.exit_code == 1, outcome.output
     assert str(path) in outcome.output
     assert "Traceback" not in outcome.output
-    assert outside.touched() == []
+    assert outside.take_accesses() == []
 
 
 def test_uploads_lead_nowhere(outside, folder):
@@ -124,7 +126,7 @@ def test_uploads_lead_nowhere(outside, folder):
     with serving(folder / "shapes") as server:
         for number, source in enumerate(given):
             server.put(f"a{number}", source.read_bytes())
-        assert outside.touched() == []
+        assert outside.take_accesses() == []
         assert server.ask("GET", "/")[0] == 200
 
 
@@ -134,8 +136,8 @@ def test_uploads_to_a_flood_lead_nowhere(outside, folder, page_is_built):
     with flooding(folder, "--extent", given) as server:
         for way in ALONE[::3]:  # a GeoTIFF, and NetCDF of two kinds
             (folder / way).mkdir()
-            status, answer = server.put("flood", made(DEPTHS, way, folder / way, outside).read_bytes())
-            assert (status, outside.touched()) == (422, []), answer
+            status, answer = server.put("flood", make_source(DEPTHS, way, folder / way, outside).read_bytes())
+            assert (status, outside.take_accesses()) == (422, []), answer
 
 
 def test_what_leads_nowhere_is_read(folder):
@@ -143,8 +145,8 @@ def test_what_leads_nowhere_is_read(folder):
     path = raster(folder / "b.tif", plain())
     raster(folder / "b.tif.ovr", plain()[::2, ::2], placed=False)
     (folder / "b.tif.aux.xml").write_text('<PAMDataset><Metadata><MDI key="a">1</MDI></Metadata></PAMDataset>')
-    assert told(vexture.read_extent, path).startswith("READ 2,200 x 2,200 cells are too many")
-    assert told(vexture.read_extent, netcdf(folder / "b.nc", "plain", ""), crs="EPSG:28992").startswith("READ")
+    assert message_of(vexture.read_extent, path).startswith("READ 2,200 x 2,200 cells are too many")
+    assert message_of(vexture.read_extent, netcdf(folder / "b.nc", "plain", ""), crs="EPSG:28992").startswith("READ")
     assert len(read_features(written(folder / "b.gpkg"), notes=Notes())) == 1
 
 

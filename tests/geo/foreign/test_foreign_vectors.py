@@ -5,10 +5,10 @@ import zipfile
 
 import pytest
 from click.testing import CliRunner
-from links import made
-from outside import one_line, told
+from links import make_source
+from outside import message_of, one_line
 from server import serving
-from vector_links import IGNORED, NOTED, REFUSED, geodatabase, gml, kml, zipped
+from vector_links import IGNORED, NOTED, REFUSED, geodatabase, gml, kml, zip_files
 
 import vexture
 from vexture.base.errors import SourceError
@@ -25,16 +25,16 @@ ALL = REFUSED | NOTED | IGNORED
 
 @pytest.mark.parametrize("way", ALL)
 def test_vectors_lead_nowhere(way, folder, outside):
-    path = made(ALL, way, folder, outside)
+    path = make_source(ALL, way, folder, outside)
     notes = Notes()
-    said = one_line(told(read_features, path, notes=notes))
-    assert outside.touched() == []
+    said = one_line(message_of(read_features, path, notes=notes))
+    assert outside.take_accesses() == []
     assert said.startswith("READ") == (way not in REFUSED), said
     assert any("is not read" in str(note) for note in notes.listed) == (way in NOTED)
-    one_line(told(lambda: [*feature_batches(path.read_bytes(), notes=Notes())]))
-    one_line(told(vexture.read, path))
-    one_line(told(vexture.read, path.read_bytes()))
-    assert outside.touched() == []
+    one_line(message_of(lambda: [*feature_batches(path.read_bytes(), notes=Notes())]))
+    one_line(message_of(vexture.read, path))
+    one_line(message_of(vexture.read, path.read_bytes()))
+    assert outside.take_accesses() == []
 
 
 def sources(folder, outside):
@@ -42,7 +42,7 @@ def sources(folder, outside):
     for number, way in enumerate(ALL):
         place = folder / str(number)
         place.mkdir()
-        found.append(made(ALL, way, place, outside))
+        found.append(make_source(ALL, way, place, outside))
     return found
 
 
@@ -51,12 +51,12 @@ def test_servers_and_the_command_line_are_led_nowhere(folder, outside):
     outcome = CliRunner().invoke(main, ["convert", *map(str, given), "-o", str(folder / "out"), "--jobs", "1"])
     assert outcome.exit_code == 1, outcome.output
     assert "Traceback" not in outcome.output
-    assert outside.touched() == []
+    assert outside.take_accesses() == []
     (folder / "shapes").mkdir()
     with serving(folder / "shapes") as server:
         for number, source in enumerate(given):
             server.put(f"a{number}", source.read_bytes())
-        assert outside.touched() == []
+        assert outside.take_accesses() == []
         assert server.ask("GET", "/openapi.json")[0] == 200
 
 
@@ -67,13 +67,13 @@ def test_a_geodatabase_leads_nowhere(part, folder, outside):
     secret = outside.folder / f"secret.{part}"
     (base / part).rename(secret)
     (base / part).symlink_to(secret)
-    outside.touched()
+    outside.take_accesses()
     for work in (lambda path: read_features(path, notes=Notes()), vexture.read, vexture.read_extent, content_of):
-        said = one_line(told(work, base))
+        said = one_line(message_of(work, base))
         assert f"its {part} is a link to another place, and no other file is read" in said
     outcome = CliRunner().invoke(main, ["map", str(base), "-o", str(folder / "a.ktx2")])
     assert "is a link to another place" in one_line(outcome.output.strip())
-    assert outside.touched() == []
+    assert outside.take_accesses() == []
 
 
 def test_links_within_a_geodatabase_and_to_one_are_followed(folder):
@@ -101,7 +101,7 @@ def test_what_is_beside_a_file_of_features_is_not_read(folder):
 
 def test_names_in_a_zip_are_no_places(folder, tmp_path):
     content = kml(folder, "").read_text()
-    archive = zipped(folder, **{"../out_kml": content})
+    archive = zip_files(folder, **{"../out_kml": content})
     assert len(read_features(archive, notes=Notes())) == 1
     with zipfile.ZipFile(folder / "b.zip", "w") as packed:
         packed.writestr("../up.gdb/a00000001.gdbtable", bytes(40))
@@ -113,7 +113,7 @@ def test_names_in_a_zip_are_no_places(folder, tmp_path):
 
 
 def test_a_file_without_a_name_in_a_zip_is_passed_over(folder):
-    archive = zipped(folder, a_kml=kml(folder, "").read_text(), b_kml="")
+    archive = zip_files(folder, a_kml=kml(folder, "").read_text(), b_kml="")
     content = archive.read_bytes()
     at = content.rindex(b"PK\x01\x02")
     assert content[at + 28 : at + 30] == b"\5\0"
@@ -122,7 +122,7 @@ def test_a_file_without_a_name_in_a_zip_is_passed_over(folder):
 
 
 def test_a_zip_that_says_too_much_is_refused(folder):
-    archive = zipped(folder, a_kml="<kml/>")
+    archive = zip_files(folder, a_kml="<kml/>")
     content = bytearray(archive.read_bytes())
     entry = content.index(b"PK\x01\x02")
     content[entry + 24 : entry + 28] = (2**31).to_bytes(4, "little")

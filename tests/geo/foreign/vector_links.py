@@ -28,7 +28,7 @@ def network_link(href):
     return f"<NetworkLink><Link><href>{href}</href></Link></NetworkLink>"
 
 
-def zipped(folder, **files):
+def zip_files(folder, **files):
     with zipfile.ZipFile(folder / "a.kmz", "w") as archive:
         for name, content in files.items():
             archive.writestr(name.replace("_", "."), content)
@@ -37,7 +37,7 @@ def zipped(folder, **files):
 
 def kmz(folder, href):
     main = kml(folder, network_link(href)).read_text()
-    return zipped(folder, doc_kml=main, other_kml=main)
+    return zip_files(folder, doc_kml=main, other_kml=main)
 
 
 def gpx(folder, body, before=""):
@@ -115,8 +115,8 @@ REFUSED = {
     "SpatiaLite with a system that is a pipeline": lambda f, o: spatialite(
         f, ("update spatial_ref_sys set srtext = ?", pipeline(o["secret.gsb"]))
     ),
-    "a zip of a virtual layer": lambda f, o: zipped(f, a_json=virtual_layer(o["secret.geojson"])),
-    "a zip of what has a DTD": lambda f, o: zipped(
+    "a zip of a virtual layer": lambda f, o: zip_files(f, a_json=virtual_layer(o["secret.geojson"])),
+    "a zip of what has a DTD": lambda f, o: zip_files(
         f, a_gpx=gpx(f, "", f'<!DOCTYPE gpx SYSTEM "{o["secret.dtd"]}">').read_text()
     ),
 }

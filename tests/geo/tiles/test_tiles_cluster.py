@@ -15,7 +15,7 @@ import pytest
 import yaml
 from tile_sources import write_many
 
-from clusters import HERE, cluster_of, line_of, started
+from clusters import HERE, cluster_of, line_of, start_dask
 from guides import GUIDES, ROOT, free_port
 from vexture_geo.tiles.build import make_tiles
 from vexture_geo.tiles.options import TileOptions
@@ -144,7 +144,7 @@ def test_the_commands_of_the_guide_and_of_docker_make_the_same_bytes(source, mad
         ):
             dask, *given = words(line)
             assert dask == "dask"
-            process = opened.enter_context(started(*given, *HERE))
+            process = opened.enter_context(start_dask(*given, *HERE))
             for _ in range(times):
                 assert re.search(says, line_of(process, says.partition(":")[0]))
         vexture, command, *given = words(guide["vexture tiles"])

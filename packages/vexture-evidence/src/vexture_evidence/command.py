@@ -35,5 +35,5 @@ def report(sources: tuple[Path, ...], output: Path) -> None:
         from vexture_evidence.report.assemble import assemble
 
         start = time.perf_counter()
-        made = assemble(sources, output, say=say)
+        made = assemble(sources, output, report=say)
         click.echo(f"{made}: {time.perf_counter() - start:.0f} s")

@@ -10,7 +10,7 @@ from vexture.texture.outlines import outlines
 from vexture.texture.texture import Texture
 from vexture.thesis.texture import ThesisTexture
 from vexture_evidence.figures.style import GRID, INK, MUTED, SMALL, panels, unit_axes
-from vexture_evidence.measures.leaves import Leaves, Tree, leaves
+from vexture_evidence.measures.leaves import LeafArrays, Tree, leaves
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,7 +40,7 @@ DEPTHS: Final = ("#fff7e0", "#fdd67e", "#ef8f3f", "#c2451e", "#6e0f1a")
 
 def draw_cells(
     axes: "Axes",
-    found: Leaves,
+    found: LeafArrays,
     *,
     shades: Literal["coverage", "depth"] = "coverage",
     curves: bool = True,
@@ -53,7 +53,7 @@ def draw_cells(
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    found : Leaves
+    found : LeafArrays
         Returned by `vexture_evidence.measures.leaves.leaves`.
     shades : str
         ``"coverage"`` shades every cell by how much of it is filled, ``"depth"`` by its depth in the tree.
@@ -110,7 +110,7 @@ def draw_level_lines(axes: "Axes", texture: Texture, root: str | int | None = No
     axes.plot(*points.T, color=colour, linewidth=0.9, linestyle=(0, (1, 1.5)), scalex=False, scaley=False)
 
 
-def curve_lines(found: Leaves, bounds: Sequence[float] = UNIT) -> NDArray[np.float64]:
+def curve_lines(found: LeafArrays, bounds: Sequence[float] = UNIT) -> NDArray[np.float64]:
     """Points along the curves of the visible leaves, with NaN after each curve, (n, 2).
 
     Curves in small leaves have fewer points, because a picture does not show more.
@@ -233,7 +233,7 @@ def _scale(shades: str, most: int) -> dict[str, Any]:
 
 
 def _means(
-    found: Leaves, values: NDArray[np.float64], small: NDArray[np.bool_], bounds: Sequence[float]
+    found: LeafArrays, values: NDArray[np.float64], small: NDArray[np.bool_], bounds: Sequence[float]
 ) -> NDArray[np.float64]:
     """Mean of the small leaves' values, weighted by area, in each pixel of the visible part; NaN if there are none."""
     x0, y0, x1, y1 = bounds

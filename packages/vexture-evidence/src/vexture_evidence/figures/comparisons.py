@@ -8,7 +8,7 @@ from vexture.renderers.view import fit
 from vexture_evidence.figures.style import COLOURS, GRID, INK, panels, show
 from vexture_evidence.measures.closeups import closeup, sharpest_corner
 from vexture_evidence.measures.metrics import errors
-from vexture_evidence.measures.rivals import MAGNIFICATION, NARROW, SMALL, WHOLE, Measured, Rival
+from vexture_evidence.measures.rivals import MAGNIFICATION, NARROW, SMALL, WHOLE, MeasuredRival, Rival
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,17 +36,17 @@ SCENES: Final = {
     "outline": f"outline, {MAGNIFICATION}× closer",
     "small": f"whole drawing, {SMALL} px",
 }
-"""Titles of the fields of `Measured`."""
+"""Titles of the fields of `MeasuredRival`."""
 
 FRAME: Final = COLOURS["sampled"]
 
 
-def error_over_bytes(measured: Sequence[Measured]) -> "Figure":
+def error_over_bytes(measured: Sequence[MeasuredRival]) -> "Figure":
     """Show mean errors over bytes, both logarithmic: bytes of files above, bytes on the GPU below.
 
     Parameters
     ----------
-    measured : sequence of Measured
+    measured : sequence of MeasuredRival
         Several measurements with the same label make a line; a single one makes a mark.
 
     Examples
@@ -70,14 +70,14 @@ def error_over_bytes(measured: Sequence[Measured]) -> "Figure":
     return figure
 
 
-def _curves(axes: "Axes", measured: Sequence[Measured], what: str, scene: str) -> None:
+def _curves(axes: "Axes", measured: Sequence[MeasuredRival], quantity: str, scene: str) -> None:
     labels = dict.fromkeys(one.rival.label for one in measured)
     for label in labels:
-        ones = [one for one in measured if one.rival.label == label and getattr(one.rival, what)]
+        ones = [one for one in measured if one.rival.label == label and getattr(one.rival, quantity)]
         if not ones:
             continue
         method = ones[0].rival.method
-        bytes_ = [getattr(one.rival, what) for one in ones]
+        bytes_ = [getattr(one.rival, quantity) for one in ones]
         wrong = [max(FLOOR, getattr(one, scene).mae) for one in ones]
         drawn = axes.plot(bytes_, wrong, color=COLOURS[method], label=label)[0]
         if len(ones) > 1:

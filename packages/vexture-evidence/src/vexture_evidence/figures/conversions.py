@@ -55,7 +55,7 @@ def conversions(names: Sequence[str], quantities: Mapping[str, Mapping[str, Sequ
         low, high = (min(some), max(some)) if some else (1.0, 1.0)
         panel.set_xlim(10.0 ** math.floor(math.log10(low) - 0.05), 10.0 ** math.ceil(math.log10(high) + 0.05))
         panel.set_ylim(max(1, len(names)) - 0.5, -0.5)
-        panel.set_yticks(rows, [shortened(name) for name in names] if panel is axes[0, 0] else [""] * len(names))
+        panel.set_yticks(rows, [shorten_name(name) for name in names] if panel is axes[0, 0] else [""] * len(names))
         panel.minorticks_off()
         panel.grid(color=GRID, linewidth=0.4)
         panel.set_axisbelow(True)
@@ -65,12 +65,12 @@ def conversions(names: Sequence[str], quantities: Mapping[str, Mapping[str, Sequ
     return figure
 
 
-def shortened(name: str) -> str:
+def shorten_name(name: str) -> str:
     """A drawing's name as shown beside its row.
 
     Examples
     --------
-    >>> shortened("duck"), shortened("a drawing with a long name")
+    >>> shorten_name("duck"), shortened("a drawing with a long name")
     ('duck', 'a drawing with a lo…')
     """
     return name if len(name) <= NAME else f"{name[: NAME - 1]}…"

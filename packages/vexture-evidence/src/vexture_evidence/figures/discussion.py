@@ -15,13 +15,13 @@ from vexture_evidence.figures.cells import UNIT, curve_lines, draw_cells
 from vexture_evidence.figures.outlines import draw_outline
 from vexture_evidence.figures.style import COLOURS, GRID, INK, MUTED, error_map, panels, show, unit_axes
 from vexture_evidence.figures.textures import draw_texture
-from vexture_evidence.measures.closeups import joined
-from vexture_evidence.measures.editing import Edited
-from vexture_evidence.measures.leaves import Leaves, Tree, leaves, quads
+from vexture_evidence.measures.closeups import all_cubics
+from vexture_evidence.measures.editing import EditedTexture
+from vexture_evidence.measures.leaves import LeafArrays, Tree, leaves, quads
 from vexture_evidence.measures.metrics import LEVELS
 from vexture_evidence.measures.outline import first_samples, off_outline
-from vexture_evidence.measures.stored import StoredValues
-from vexture_evidence.measures.thesis_limits import MOST_TEXELS, Close, Lengths, unnecessary_quads
+from vexture_evidence.measures.stored_coverage import StoredValues
+from vexture_evidence.measures.thesis_limits import MOST_TEXELS, BeforeAfter, Lengths, unnecessary_quads
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -47,12 +47,12 @@ SMALLEST: Final = 1e-9
 """Smallest distance shown, in unit-square units; smaller distances are drawn here."""
 
 
-def before_after(rows: Sequence[Close], labels: Sequence[tuple[str, str]]) -> "Figure":
+def before_after(rows: Sequence[BeforeAfter], labels: Sequence[tuple[str, str]]) -> "Figure":
     """Show rows of four panels: cells and picture before, cells and picture after.
 
     Parameters
     ----------
-    rows : sequence of Close
+    rows : sequence of BeforeAfter
         Returned by `vexture_evidence.measures.thesis_limits.close_up`.
     labels : sequence of two str
         Names of the two ways in each row, before and after.
@@ -71,7 +71,7 @@ def before_after(rows: Sequence[Close], labels: Sequence[tuple[str, str]]) -> "F
     titles = []
     for close, pair, names in zip(rows, found, labels, strict=True):
         for name, one, error in zip(names, pair, close.errors, strict=True):
-            titles += [f"{name}: {_seen(one, close.bounds):,} curves", f"error {_short(error.mae)}/255"]
+            titles += [f"{name}: {_visible_curves(one, close.bounds):,} curves", f"error {_short(error.mae)}/255"]
     figure, axes = panels(len(rows), 4, side=SIDE, titles=titles)
     for row, close, pair in zip(axes, rows, found, strict=True):
         for place, (one, image) in enumerate(zip(pair, close.images, strict=True)):
@@ -80,7 +80,7 @@ def before_after(rows: Sequence[Close], labels: Sequence[tuple[str, str]]) -> "F
     return figure
 
 
-def lines_at_borders(close: Close, labels: tuple[str, str]) -> "Figure":
+def lines_at_borders(close: BeforeAfter, labels: tuple[str, str]) -> "Figure":
     """Show the cells of a texture, and the errors of two pictures with the borders of these cells drawn over them.
 
     Examples
@@ -102,7 +102,7 @@ def lines_at_borders(close: Close, labels: tuple[str, str]) -> "Figure":
         _borders(panel, found)
         shown = show(panel, error, cmap=error_map(), vmin=0.0, vmax=top, extent=(x0, x1, y0, y1), zorder=0)
         unit_axes(panel, bounds=close.bounds)
-    _scale(figure, axes[0, 1:], shown, "error, in 1/255")
+    _add_scale(figure, axes[0, 1:], shown, "error, in 1/255")
     return figure
 
 
@@ -157,13 +157,13 @@ def density(drawing: Drawing, textures: Mapping[str, ThesisTexture | Texture]) -
 
 
 def unneeded_divisions(
-    shown: Sequence[tuple[str, Drawing, Tree | ThesisTexture | Texture]],
+    shapes: Sequence[tuple[str, Drawing, Tree | ThesisTexture | Texture]],
 ) -> "Figure":
     """Show the cells of shapes, and mark the quads that divide a square through which only one cubic passes, once.
 
     Parameters
     ----------
-    shown : sequence of str, Drawing and tree or texture
+    shapes : sequence of str, Drawing and tree or texture
         The name of each shape, its drawing, and what it was converted to.
 
     Examples
@@ -175,12 +175,12 @@ def unneeded_divisions(
     """
     from matplotlib.patches import Rectangle
 
-    marked = [unnecessary_quads(drawing, shape) for _, drawing, shape in shown]
+    marked = [unnecessary_quads(drawing, shape) for _, drawing, shape in shapes]
     titles = [
-        f"{label}: {int(which.sum())} of {len(which)}" for (label, _, _), which in zip(shown, marked, strict=True)
+        f"{label}: {int(which.sum())} of {len(which)}" for (label, _, _), which in zip(shapes, marked, strict=True)
     ]
-    figure, axes = panels(1, len(shown), side=SIDE, titles=titles)
-    for panel, (_, drawing, shape), which in zip(axes[0], shown, marked, strict=True):
+    figure, axes = panels(1, len(shapes), side=SIDE, titles=titles)
+    for panel, (_, drawing, shape), which in zip(axes[0], shapes, marked, strict=True):
         found = quads(shape)
         _cells(panel, leaves(shape), drawing)
         for x, y, side in zip(found.x[which], found.y[which], found.side[which], strict=True):
@@ -198,7 +198,7 @@ def stored_value_errors(stored: Mapping[str, StoredValues]) -> "Figure":
 
     Examples
     --------
-    >>> from vexture_evidence.measures.stored import stored_values
+    >>> from vexture_evidence.measures.stored_coverage import stored_values
     >>> from vexture.conversion.pipeline import run
     >>> half = Drawing.polygon([(0, 0), (1, 0), (1, 0.3), (0, 0.6)])
     >>> figure = stored_value_errors({"direct": stored_values(half, run(half, encoding="thesis").tree)})
@@ -209,9 +209,9 @@ def stored_value_errors(stored: Mapping[str, StoredValues]) -> "Figure":
     figure, axes = panels(1, len(titles), side=11.0 / len(titles), height=SIDE, titles=titles)
     top = max(1.0, *(LEVELS * float(values.off.max(initial=0.0)) for values in stored.values()))
     for panel, values in zip(axes[0], stored.values(), strict=False):
-        shown = _shaded(panel, values.found, LEVELS * values.off, top)
+        shown = _draw_errors(panel, values.found, LEVELS * values.off, top)
         unit_axes(panel)
-    _scale(figure, axes[0, :-1], shown, "error, in 1/255")
+    _add_scale(figure, axes[0, :-1], shown, "error, in 1/255")
     chart = axes[0, -1]
     for number, (label, values) in enumerate(stored.items()):
         depths = np.unique(values.quad_depth)
@@ -266,14 +266,14 @@ def list_growth(lengths: Mapping[str, Sequence[Lengths]], parts: Mapping[str, ND
     return figure
 
 
-def edited_drawing(before: ThesisTexture, after: Edited, image: NDArray[Any]) -> "Figure":
+def edited_drawing(before: ThesisTexture, after: EditedTexture, image: NDArray[Any]) -> "Figure":
     """Show what drawing programs see of a thesis texture and of ours, and the result of an edit.
 
     Parameters
     ----------
     before : ThesisTexture
-    after : Edited
-        Returned by `vexture_evidence.measures.editing.edited`.
+    after : EditedTexture
+        Returned by `vexture_evidence.measures.editing.edit_texture`.
     image : (height, width) array
         Picture of the texture that the edited file was converted to.
 
@@ -287,7 +287,7 @@ def edited_drawing(before: ThesisTexture, after: Edited, image: NDArray[Any]) ->
     >>> figure.axes[1].get_title(loc="left")
     'as SVG: 4 cubics'
     """
-    old, new = len(joined(after.exported)), len(joined(after.drawing))
+    old, new = len(all_cubics(after.exported)), len(all_cubics(after.drawing))
     again = f"converted again, {1000.0 * after.seconds:.1f} ms"
     titles = ("the thesis's textures", f"as SVG: {old:,} cubics", f"changed: {new:,} cubics", again)
     figure, axes = panels(1, 4, side=SIDE, titles=titles)
@@ -300,7 +300,7 @@ def edited_drawing(before: ThesisTexture, after: Edited, image: NDArray[Any]) ->
 
 def _editable(axes: "Axes", drawing: Drawing, old: int) -> None:
     """Draw an outline with its nodes and handles, as drawing programs do; mark the cubics after the first `old`."""
-    cubics = joined(drawing)
+    cubics = all_cubics(drawing)
     lines = points_along(cubics, np.linspace(0.0, 1.0, 33))
     for number, (cubic, line) in enumerate(zip(cubics, lines, strict=True)):
         colour = INK if number < old else MARK
@@ -311,7 +311,7 @@ def _editable(axes: "Axes", drawing: Drawing, old: int) -> None:
     unit_axes(axes)
 
 
-def _cells(axes: "Axes", found: Leaves, drawing: Drawing, bounds: Sequence[float] = UNIT) -> None:
+def _cells(axes: "Axes", found: LeafArrays, drawing: Drawing, bounds: Sequence[float] = UNIT) -> None:
     """Draw cells and curves over the drawing's outline, because packed leaves may omit its horizontal parts."""
     draw_outline(axes, drawing, bounds, color=MUTED, linewidth=0.7, linestyle=":", zorder=1.5)
     draw_cells(axes, found, bounds=bounds)
@@ -321,7 +321,7 @@ def _cells(axes: "Axes", found: Leaves, drawing: Drawing, bounds: Sequence[float
             axis.set_ticks(ticks, [f"{tick:.3f}" for tick in ticks])
 
 
-def _seen(found: Leaves, bounds: Sequence[float]) -> int:
+def _visible_curves(found: LeafArrays, bounds: Sequence[float]) -> int:
     """Number of curves in the visible leaves."""
     x0, y0, x1, y1 = bounds
     inside = (found.x < x1) & (found.x + found.side > x0) & (found.y < y1) & (found.y + found.side > y0)
@@ -332,10 +332,10 @@ def _short(value: float) -> str:
     return f"{value:.2g}" if value < 10.0 else f"{value:.0f}"
 
 
-def _scale(figure: "Figure", axes: Any, shown: Any, label: str) -> None:
+def _add_scale(figure: "Figure", axes: Any, image: Any, label: str) -> None:
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-    bar = figure.colorbar(shown, ax=list(axes), shrink=0.8, label=label)
+    bar = figure.colorbar(image, ax=list(axes), shrink=0.8, label=label)
     engine = figure.get_layout_engine()
     assert isinstance(engine, ConstrainedLayoutEngine)
     engine.set(rect=(0.006, 0.0, 0.988, 1.0))  # margins: square panels beside a colour bar reach the figure's edge
@@ -343,18 +343,18 @@ def _scale(figure: "Figure", axes: Any, shown: Any, label: str) -> None:
     bar.ax.tick_params(length=2)
 
 
-def _squares(found: Leaves) -> list[NDArray[np.float64]]:
+def _squares(found: LeafArrays) -> list[NDArray[np.float64]]:
     x, y, side = found.x, found.y, found.side
     return list(np.stack([x, y, x + side, y, x + side, y + side, x, y + side], axis=1).reshape(-1, 4, 2))
 
 
-def _borders(axes: "Axes", found: Leaves) -> None:
+def _borders(axes: "Axes", found: LeafArrays) -> None:
     from matplotlib.collections import PolyCollection
 
     axes.add_collection(PolyCollection(_squares(found), facecolors="none", edgecolors=MUTED, linewidths=0.4))
 
 
-def _shaded(axes: "Axes", found: Leaves, values: NDArray[np.float64], top: float) -> Any:
+def _draw_errors(axes: "Axes", found: LeafArrays, values: NDArray[np.float64], top: float) -> Any:
     """Draw cells in the colours of their errors."""
     from matplotlib.collections import PolyCollection
     from matplotlib.colors import Normalize

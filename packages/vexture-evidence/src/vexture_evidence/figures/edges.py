@@ -6,7 +6,7 @@ import numpy as np
 
 from vexture_evidence.figures.style import error_map, panels, show
 from vexture_evidence.measures.metrics import LEVELS
-from vexture_evidence.measures.rendered import Rendered
+from vexture_evidence.measures.renderings import Rendered
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,13 +23,13 @@ def edges(rendered: Rendered) -> "Figure":
     Parameters
     ----------
     rendered : Rendered
-        What `vexture_evidence.measures.rendered.at_edge` returns.
+        What `vexture_evidence.measures.renderings.at_edge` returns.
 
     Examples
     --------
-    >>> from vexture_evidence.measures.rendered import at_edge
+    >>> from vexture_evidence.measures.renderings import at_edge
     >>> from vexture_evidence.measures.shape import Shape, example
-    >>> figure = edges(at_edge(Shape(example("duck")), 8))
+    >>> figure = edges(at_edge(ConvertedDrawing(example("duck")), 8))
     >>> [panel.get_title(loc="left") for panel in figure.axes[:4]]
     ['centre of the pixel', '16 samples', 'packed', 'truth']
     """

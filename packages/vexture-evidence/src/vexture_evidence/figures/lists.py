@@ -9,7 +9,7 @@ from vexture.texture.texture import Texture
 from vexture.thesis.texture import ThesisTexture
 from vexture_evidence.figures.cells import draw_cells, draw_level_lines
 from vexture_evidence.figures.style import COLOURS, GRID, INK, MUTED, SMALL, panels, unit_axes
-from vexture_evidence.measures.leaves import Leaves, Quads, Tree, leaves, quads, tree_of
+from vexture_evidence.measures.leaves import LeafArrays, QuadArrays, Tree, leaves, quads, tree_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -180,7 +180,7 @@ def _squares(axes: "Axes", corners: NDArray[np.float64], side: float, **options:
 
 
 def _draw_quads(
-    axes: "Axes", above: Quads, found: Leaves, members: NDArray[np.int64], at: NDArray[np.float64], side: float
+    axes: "Axes", above: QuadArrays, found: LeafArrays, members: NDArray[np.int64], at: NDArray[np.float64], side: float
 ) -> None:
     """Draw quads as squares of four cells, y down: cells that refer to quads in grey, leaves with their curves."""
     at = at[: len(members)]
@@ -199,7 +199,7 @@ def _draw_quads(
     _plot(axes, points)
 
 
-def _draw_curves(axes: "Axes", found: Leaves, members: NDArray[np.int64], at: NDArray[np.float64]) -> None:
+def _draw_curves(axes: "Axes", found: LeafArrays, members: NDArray[np.int64], at: NDArray[np.float64]) -> None:
     """Draw every curve in the square of its cell, y down."""
     at = at[: len(members)]
     _squares(axes, at, 1.0, facecolors=CELL)
@@ -222,7 +222,7 @@ def _draw_values(axes: "Axes", values: NDArray[np.float64], at: NDArray[np.float
         axes.text(x + 0.5, y + 0.52, f"{100 * value:.0f}", fontsize=SMALL, color=INK, ha="center", va="center")
 
 
-def _draw_tree(axes: "Axes", above: Quads, found: Leaves) -> None:
+def _draw_tree(axes: "Axes", above: QuadArrays, found: LeafArrays) -> None:
     """Draw quads below the cells that refer to them, depth by depth."""
     depths = int(above.depth.max()) + 1
     most = min(MOST_ACROSS, int(np.bincount(above.depth).max()))

@@ -7,7 +7,7 @@ import numpy as np
 
 from vexture.bezier.points import points_along
 from vexture.drawing.drawing import Drawing
-from vexture_evidence.measures.closeups import joined
+from vexture_evidence.measures.closeups import all_cubics
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -41,7 +41,7 @@ def draw_outline(axes: "Axes", drawing: Drawing, bounds: Sequence[float] = (0.0,
     """
     x0, y0, x1, y1 = bounds
     t = np.linspace(0.0, 1.0, CHORDS + 1)
-    cubics = joined(drawing)
+    cubics = all_cubics(drawing)
     seen = (cubics.min(axis=1) <= (x1, y1)).all(axis=1) & (cubics.max(axis=1) >= (x0, y0)).all(axis=1)
     curves = points_along(cubics[seen], t)
     curves = np.pad(curves, ((0, 0), (0, 1), (0, 0)), constant_values=np.nan)  # a gap between curves

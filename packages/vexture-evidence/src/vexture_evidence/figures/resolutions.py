@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from vexture_evidence.figures.style import COLOURS, panels, show
-from vexture_evidence.measures.rendered import MIP, Rendered
+from vexture_evidence.measures.renderings import MIP, Rendered
 from vexture_evidence.measures.thesis_ways import AsThesis
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-__all__ = ["exaggerated", "resolutions"]
+__all__ = ["exaggerated_cut_off", "resolutions"]
 
 STORED: Final = "#8b94a3"
 FROM_LEAF: Final = COLOURS["bands"]
@@ -30,13 +30,13 @@ def resolutions(rendered: Sequence[Rendered]) -> "Figure":
     Parameters
     ----------
     rendered : sequence of Rendered
-        What `vexture_evidence.measures.rendered.at_sizes` returns.
+        What `vexture_evidence.measures.renderings.at_sizes` returns.
 
     Examples
     --------
-    >>> from vexture_evidence.measures.rendered import at_sizes
+    >>> from vexture_evidence.measures.renderings import at_sizes
     >>> from vexture_evidence.measures.shape import Shape, example
-    >>> figure = resolutions(at_sizes(Shape(example("duck")), (1, 2)))
+    >>> figure = resolutions(at_sizes(ConvertedDrawing(example("duck")), (1, 2)))
     >>> len(figure.axes)  # six rows of two
     12
     """
@@ -74,26 +74,26 @@ def _origin(view: Rendered) -> "NDArray[np.float64]":
     return np.where(view.from_mip[..., None], to_rgb(STORED), to_rgb(FROM_LEAF))
 
 
-def exaggerated(drawn: Sequence[AsThesis]) -> "Figure":
+def exaggerated_cut_off(pictures: Sequence[AsThesis]) -> "Figure":
     """Show where MIP values would be drawn if quads of many pixels counted as small (thesis 4.15).
 
     Parameters
     ----------
-    drawn : sequence of AsThesis
-        What `vexture_evidence.measures.rendered.cut_off_at` returns.
+    pictures : sequence of AsThesis
+        What `vexture_evidence.measures.renderings.cut_off_at` returns.
 
     Examples
     --------
-    >>> from vexture_evidence.measures.rendered import cut_off_at
+    >>> from vexture_evidence.measures.renderings import cut_off_at
     >>> from vexture_evidence.measures.shape import Shape, example
-    >>> len(exaggerated(cut_off_at(Shape(example("duck")), (8, 16))).axes)
+    >>> len(exaggerated_cut_off(cut_off_at(ConvertedDrawing(example("duck")), (8, 16))).axes)
     2
     """
     from matplotlib.colors import to_rgb
 
-    titles = [f"{len(picture.image)} × {len(picture.image)} px" for picture in drawn]
-    figure, axes = panels(1, len(drawn), side=11.2 / len(drawn), height=11.2 / len(drawn) + 0.5, titles=titles)
-    for panel, picture in zip(axes[0], drawn, strict=True):
+    titles = [f"{len(picture.image)} × {len(picture.image)} px" for picture in pictures]
+    figure, axes = panels(1, len(pictures), side=11.2 / len(pictures), height=11.2 / len(pictures) + 0.5, titles=titles)
+    for panel, picture in zip(axes[0], pictures, strict=True):
         stored = np.repeat(picture.image[..., None], 3, axis=2)  # lighter means fuller, as in the thesis
         leaf = np.where(picture.image[..., None] > 0.5, to_rgb(INSIDE), to_rgb(OUTSIDE))
         show(panel, np.where(picture.from_mip[..., None], 0.15 + 0.8 * stored, leaf), pixels=False)

@@ -136,7 +136,7 @@ def panels(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    class Picture(Figure):
+    class NotebookFigure(Figure):
         """A figure that notebooks display by themselves."""
 
         def _repr_png_(self) -> bytes:
@@ -145,7 +145,7 @@ def panels(
             return data.getvalue()
 
     with matplotlib.rc_context(FONT):
-        figure = Picture(figsize=(columns * side, rows * (height or side)), layout="constrained")
+        figure = NotebookFigure(figsize=(columns * side, rows * (height or side)), layout="constrained")
         FigureCanvasAgg(figure)
         axes = figure.subplots(rows, columns, squeeze=False)
         for panel, title in zip(axes.flat, titles, strict=False):

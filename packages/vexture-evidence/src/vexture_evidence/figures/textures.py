@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Strip", "draw_texture", "number", "texture_images", "textures"]
+__all__ = ["Strip", "count_text", "draw_texture", "texture_images", "textures"]
 
 BETWEEN: Final = 1.6
 """Height of the text above an image, in texels."""
@@ -57,10 +57,10 @@ def texture_images(texture: ThesisTexture | Texture) -> list[Strip]:
     if isinstance(texture, ThesisTexture):
         constants = len(texture.curves) - CONSTANT_ROWS
         return [
-            Strip(f"{number(len(texture.quads), 'quad')} of {QUAD_WIDTH} pixels", _turned(texture.quads)),
+            Strip(f"{count_text(len(texture.quads), 'quad')} of {QUAD_WIDTH} pixels", _turn_rows(texture.quads)),
             Strip(
-                f"{CONSTANT_ROWS} constants and {number(constants, 'curve')} of {CURVE_WIDTH} pixels",
-                _turned(texture.curves),
+                f"{CONSTANT_ROWS} constants and {count_text(constants, 'curve')} of {CURVE_WIDTH} pixels",
+                _turn_rows(texture.curves),
             ),
         ]
     used = int(np.flatnonzero(texture.flat.any(axis=1))[-1:].sum()) + 1
@@ -72,7 +72,7 @@ def texture_images(texture: ThesisTexture | Texture) -> list[Strip]:
     blue = np.broadcast_to(np.where(is_quad, KIND_OF_QUAD, 0.0), words.shape)
     pixels = np.stack([(words & mask) / mask, (words >> COORDINATE_BITS) / mask, blue], axis=2)
     many, curves = int(is_quad.sum()), used - int(is_quad.sum())
-    return [Strip(f"{number(many, 'quad')} and {number(curves, 'curve')} of 4 words", pixels)]
+    return [Strip(f"{count_text(many, 'quad')} and {count_text(curves, 'curve')} of 4 words", pixels)]
 
 
 def draw_texture(axes: "Axes", texture: ThesisTexture | Texture, *, columns: int | None = None) -> None:
@@ -99,12 +99,12 @@ def draw_texture(axes: "Axes", texture: ThesisTexture | Texture, *, columns: int
     axes.set_axis_off()
 
 
-def textures(shown: Mapping[str, ThesisTexture | Texture]) -> "Figure":
+def textures(by_title: Mapping[str, ThesisTexture | Texture]) -> "Figure":
     """Show textures as images, one below the other and at one scale.
 
     Parameters
     ----------
-    shown : mapping
+    by_title : mapping
         From titles to textures.
 
     Returns
@@ -119,28 +119,28 @@ def textures(shown: Mapping[str, ThesisTexture | Texture]) -> "Figure":
     >>> [axes.get_title(loc="left") for axes in textures({"a pair": pair}).axes]
     ['a pair']
     """
-    strips = [texture_images(texture) for texture in shown.values()]
+    strips = [texture_images(texture) for texture in by_title.values()]
     columns = max(strip.pixels.shape[1] for each in strips for strip in each)
     rows = [sum(BETWEEN + len(strip.pixels) for strip in each) for each in strips]
     height = 0.3 + 0.145 * sum(rows) / len(rows)
-    figure, axes = panels(len(shown), 1, side=11.2, height=height, titles=list(shown))
+    figure, axes = panels(len(by_title), 1, side=11.2, height=height, titles=list(by_title))
     axes[0, 0].get_gridspec().set_height_ratios(rows)
-    for panel, texture in zip(axes.flat, shown.values(), strict=True):
+    for panel, texture in zip(axes.flat, by_title.values(), strict=True):
         draw_texture(panel, texture, columns=columns)
     return figure
 
 
-def _turned(rows: NDArray[Any]) -> NDArray[np.float64]:
+def _turn_rows(rows: NDArray[Any]) -> NDArray[np.float64]:
     """Pixels as numbers in 0..1, turned by 90 degrees counter-clockwise, so that each row becomes a column."""
     return np.rot90(rows / np.iinfo(rows.dtype).max)
 
 
-def number(count: int, what: str) -> str:
+def count_text(count: int, noun: str) -> str:
     """Write a count with its noun, in the plural unless the count is 1.
 
     Examples
     --------
-    >>> number(1, "quad"), number(1200, "curve")
+    >>> count_text(1, "quad"), number(1200, "curve")
     ('1 quad', '1,200 curves')
     """
-    return f"{count:,} {what}{'' if count == 1 else 's'}"
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"

@@ -7,7 +7,7 @@ import numpy as np
 from vexture.drawing.drawing import Drawing
 from vexture_evidence.figures.outlines import draw_outline
 from vexture_evidence.figures.style import COLOURS, panels, show
-from vexture_evidence.measures.rendered import Rendered
+from vexture_evidence.measures.renderings import Rendered
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -24,14 +24,14 @@ def tolerances(drawing: Drawing, whole: Rendered, close: Rendered, square: tuple
     whole, close : Rendered
         Pictures of the whole shape and of the enlarged part.
     square : tuple of float
-        x, y and side of the enlarged part, in unit-square units. `vexture_evidence.measures.rendered.with_tolerances`
+        x, y and side of the enlarged part, in unit-square units. `vexture_evidence.measures.renderings.with_tolerances`
         returns these three arguments.
 
     Examples
     --------
-    >>> from vexture_evidence.measures.rendered import with_tolerances
+    >>> from vexture_evidence.measures.renderings import with_tolerances
     >>> from vexture_evidence.measures.shape import Shape, example
-    >>> duck = Shape(example("duck"))
+    >>> duck = ConvertedDrawing(example("duck"))
     >>> _, *pictures = with_tolerances(duck, 32)
     >>> [panel.get_title(loc="left") for panel in tolerances(duck.drawing, *pictures).axes[:3]]
     ['sampled', 'sampled, ten times too loose', 'packed']

@@ -163,7 +163,7 @@ def band_texture(drawing: Drawing, bands: int = BANDS) -> BandTexture:
         for across, along in ((1, 0), (0, 1))
         for members in members_of_bands(curves, across, along, (float(low[across]), float(density[across])), bands)
     ]
-    return BandTexture(bands, outlines, listed(groups, index, drawing.name), np.array([*low, *density]))
+    return BandTexture(bands, outlines, list_bands(groups, index, drawing.name), np.array([*low, *density]))
 
 
 def members_of_bands(
@@ -184,7 +184,7 @@ def members_of_bands(
     return np.split(member[by_band], np.searchsorted(band[by_band], np.arange(1, bands)))
 
 
-def listed(groups: Sequence[NDArray[np.int64]], index: NDArray[np.int64], name: str) -> NDArray[np.uint32]:
+def list_bands(groups: Sequence[NDArray[np.int64]], index: NDArray[np.int64], name: str) -> NDArray[np.uint32]:
     """Heads and lists; equal lists are written once."""
     heads, lists, at = [], [], len(groups)
     written: dict[bytes, int] = {}

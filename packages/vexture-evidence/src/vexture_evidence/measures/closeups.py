@@ -1,4 +1,4 @@
-"""Where to look closely at a drawing: along its outline, and at its sharpest corner."""
+"""Close-ups of a drawing: along its outline, and at its sharpest corner."""
 
 from typing import TYPE_CHECKING, Final
 
@@ -58,7 +58,7 @@ def outline_places(drawing: "Drawing", count: int) -> NDArray[np.float64]:
     array([[0.5  , 0.125],
            [0.   , 0.375]])
     """
-    cubics = joined(drawing)
+    cubics = all_cubics(drawing)
     if not len(cubics):
         return np.zeros((0, 2))
     ends = np.cumsum(np.linalg.norm(np.diff(cubics, axis=1), axis=2).sum(axis=1))
@@ -83,7 +83,7 @@ def sharpest_corner(drawing: "Drawing") -> NDArray[np.float64]:
     places, turns = [], []
     for contour in (contour for path in drawing.paths for contour in path.contours):
         back, out = directions(contour[:, ::-1]), directions(contour)
-        turns.append((back * np.roll(out, -1, axis=0)).sum(axis=1))  # 1 where it turns back, -1 where it goes on
+        turns.append((back * np.roll(out, -1, axis=0)).sum(axis=1))  # 1 where it turns back, -1 where it is straight
         places.append(contour[:, 3])
     if not places:
         return np.array([0.5, 0.5])
@@ -102,7 +102,7 @@ def directions(cubics: NDArray[np.float64]) -> NDArray[np.float64]:
     return found
 
 
-def joined(drawing: "Drawing") -> NDArray[np.float64]:
+def all_cubics(drawing: "Drawing") -> NDArray[np.float64]:
     """All cubics, (n, 4, 2)."""
     contours = [contour for path in drawing.paths for contour in path.contours]
     return np.concatenate(contours) if contours else np.zeros((0, 4, 2))

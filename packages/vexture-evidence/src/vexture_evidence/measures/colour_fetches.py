@@ -21,40 +21,40 @@ from vexture.renderers.method import BORDER, COVERED
 from vexture.renderers.uniforms import Uniforms, uniforms_of
 from vexture.renderers.view import ViewLike
 from vexture.texture.texture import Texture
-from vexture_evidence.measures.gpu_turns import noted
+from vexture_evidence.measures.gpu_turns import observe_kernel
 
-__all__ = ["Sheets", "layer_boxes", "pixel_fetches", "spread_pixels"]
+__all__ = ["SheetStack", "layer_boxes", "pixel_fetches", "spread_pixels"]
 
 BOX, HEAD = 1, 1
 """Texels with the box of a layer, and with its quad and paint."""
 
 
 class SecondLoop:
-    """Counts what the shader reads anew in its second loop over the pieces of a leaf: those not clear of the pixel."""
+    """Counts the texels read again in the second loop over the pieces of a leaf: those not clear of the pixel."""
 
     def __init__(self, found: list[int]) -> None:
         self.found, self.at = found, 0
         self.wanted: list[int] = []
 
     def piece(self, result: tuple[Texel, Leaf], *_: Any) -> None:
-        """The first loop reads a piece."""
+        """Record the piece that the first loop reads."""
         self.at = result[1].at
 
-    def look(self, seen: cpu.Look, *_: Any) -> None:
-        """It looks at that piece."""
-        if seen.crosses or seen.filled != 0.0:
+    def look(self, piece: cpu.Look, *_: Any) -> None:
+        """Record whether that piece is clear of the pixel."""
+        if piece.crosses or piece.filled != 0.0:
             self.wanted.append(self.at)
 
     def end(self, *_: Any) -> None:
-        """The leaf ends."""
+        """Count the reads of the second loop at the end of a leaf."""
         for at in self.wanted:
             self.found[0] += 1 if at != self.at else 0
             self.at = at
         self.wanted.clear()
 
 
-class Sheets(NamedTuple):
-    """What is composited: the shapes of a texture, the lowest first, and the boxes around them, (n, 2, 2)."""
+class SheetStack(NamedTuple):
+    """Shapes of a texture that are composited, the lowest first, and the boxes around them, (n, 2, 2)."""
 
     texture: Texture
     boxes: NDArray[np.float64]
@@ -77,14 +77,14 @@ def spread_pixels(side: int, most: int, seed: int) -> Iterator[tuple[float, floa
         yield float(x), float(y)
 
 
-def pixel_fetches(sheets: Sheets, side: int, view: ViewLike, most: int, seed: int) -> float:
+def pixel_fetches(sheets: SheetStack, side: int, view: ViewLike, most: int, seed: int) -> float:
     """Mean texels read for a pixel of a square picture, of `most` x `most` pixels that are spread over it."""
     count = _counter(sheets, side, view)
     return float(np.mean([count(pixel) for pixel in spread_pixels(side, most, seed)]))
 
 
-def _counter(sheets: Sheets, side: int, view: ViewLike) -> Callable[[tuple[float, float]], int]:
-    """Counts the texels read for a pixel."""
+def _counter(sheets: SheetStack, side: int, view: ViewLike) -> Callable[[tuple[float, float]], int]:
+    """Make a function that counts the texels read for a pixel."""
     texture, found = sheets.texture, [0]
     uniforms = [uniforms_of(texture, side, view, root) for root in range(len(texture.roots))]
     look = _opacity(texture, uniforms, found)
@@ -128,8 +128,8 @@ def _opacity(
     notes |= {"add_flat_cell": second.end, "add_cell": second.end}
     if is_plain:  # flat colours are read where they are named, and not when all are summed
         notes |= {"paint_words": adding(-1), "add_paint": adding(1)}
-    color = noted(colour.view_color, notes, {})
-    coverage = noted(cpu.view_coverage, {"texel": adding(1), "piece": adding(1)}, {})
+    color = observe_kernel(colour.view_color, notes, {})
+    coverage = observe_kernel(cpu.view_coverage, {"texel": adding(1), "piece": adding(1)}, {})
 
     def opacity(layer: int, pixel: tuple[float, float]) -> float:
         root, one = texture.roots[layer], uniforms[layer]

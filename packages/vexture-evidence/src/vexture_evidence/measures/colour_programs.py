@@ -9,8 +9,16 @@ from numpy.typing import NDArray
 from vexture.renderers.gpu import has_gradients
 from vexture.renderers.shader import WRAPS, shader_text
 from vexture.texture.texture import Texture
-from vexture_evidence.measures.colour_fetches import Sheets
-from vexture_evidence.measures.programs import MAIN, VERSION, Program, Target, compiled, current, nearest
+from vexture_evidence.measures.colour_fetches import SheetStack
+from vexture_evidence.measures.programs import (
+    MAIN,
+    VERSION,
+    Framebuffer,
+    Program,
+    compile_shader,
+    current_context,
+    nearest,
+)
 
 __all__ = ["color_target", "map_source", "sheets_program", "silhouette_program"]
 
@@ -36,30 +44,30 @@ def map_source(*, is_flat: bool, has_gradients: bool) -> str:
     return source("sheets.glsl", call, is_flat=is_flat, has_gradients=has_gradients)
 
 
-def sheets_program(sheets: Sheets, *, is_flat: bool) -> Program:
-    """Program of what a texture holds: one map, layers, or several maps and layers."""
+def sheets_program(sheets: SheetStack, *, is_flat: bool) -> Program:
+    """Program that draws one map, layers, or several maps and layers."""
     texture, count = sheets.texture, len(sheets.texture.roots)
     maps = [root.quad for root in texture.roots if root.is_map]
     shaded = any(has_gradients(texture, quad) for quad in maps)
     textures: dict[str, Any] = {"vextureTexels": nearest(texture.texels, "u4")}
     if count == 1 and maps:
         text = map_source(is_flat=is_flat, has_gradients=shaded)
-        return Program("map", {}, compiled(text), textures, {"root": maps[0]}, based=True)
+        return Program("map", {}, compile_shader(text), textures, {"root": maps[0]}, based=True)
     textures["vexturePaints"] = nearest(layers_image(sheets), "u4")
     file, name = ("sheets.glsl", "vextureSheets") if maps else ("layers.glsl", "vextureLayers")
     text = source(file, f"{name}(0, count, base, uv, dx, dy)", is_flat=is_flat, has_gradients=shaded)
-    return Program(name, {}, compiled(text), textures, {"count": count}, based=True)
+    return Program(name, {}, compile_shader(text), textures, {"count": count}, based=True)
 
 
 def silhouette_program(texture: Texture, *, is_flat: bool) -> Program:
     """Program of the coverage of a texture's first shape, in its four channels."""
     text = source("layers.glsl", "vec4(vextureWrapped(root, base, uv, dx, dy))", is_flat=is_flat)
     textures = {"vextureTexels": nearest(texture.texels, "u4")}
-    return Program("silhouette", {}, compiled(text), textures, {"root": texture.roots[0].quad}, based=True)
+    return Program("silhouette", {}, compile_shader(text), textures, {"root": texture.roots[0].quad}, based=True)
 
 
-def layers_image(sheets: Sheets) -> NDArray[np.uint32]:
-    """What ``vexturePaints`` holds of the layers, (n, 2, 4): quad, paint and kind, and the box of each."""
+def layers_image(sheets: SheetStack) -> NDArray[np.uint32]:
+    """Content of ``vexturePaints`` for layers, (n, 2, 4): quad, paint and kind, and the box of each."""
     rows = np.zeros((len(sheets.texture.roots), 2, 4), np.uint32)
     for row, root, (low, high) in zip(rows, sheets.texture.roots, sheets.boxes, strict=True):
         paint = (0.0, 0.0, 0.0, 1.0) if root.paint is None else (*root.paint.color, root.paint.opacity)
@@ -70,7 +78,7 @@ def layers_image(sheets: Sheets) -> NDArray[np.uint32]:
 
 
 @cache
-def color_target(size: tuple[int, int]) -> Target:
+def color_target(size: tuple[int, int]) -> Framebuffer:
     """Target with four float32 channels, cached for the next caller."""
-    gl = current()
-    return Target(size, gl.framebuffer([gl.texture(size, 4, dtype="f4")]))
+    gl = current_context()
+    return Framebuffer(size, gl.framebuffer([gl.texture(size, 4, dtype="f4")]))

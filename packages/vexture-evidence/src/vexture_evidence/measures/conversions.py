@@ -7,10 +7,10 @@ from vexture.base.errors import LimitError
 from vexture.conversion.pipeline import run
 from vexture.texture.texture import Texture
 from vexture.thesis.layout import LIST_LIMIT
-from vexture_evidence.measures.shape import WAYS, Made, Shape, file_bytes
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, Made, file_bytes
 from vexture_evidence.measures.timing import FRAME, frames_per_second, median_seconds
 
-__all__ = ["Measured", "frame_side", "measured"]
+__all__ = ["MeasuredConversion", "frame_side", "measure_conversion"]
 
 LONG: Final = 0.05
 """Seconds; a conversion that takes longer is timed once."""
@@ -26,7 +26,7 @@ FAST: Final = 1000.0
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class MeasuredConversion:
     """One conversion of one drawing.
 
     Parameters
@@ -55,7 +55,7 @@ class Measured:
     fps: float | None = field(default=None)
 
 
-def frame_side(shape: Shape) -> int:
+def frame_side(shape: ConvertedDrawing) -> int:
     """Side in pixels of the pictures that frame rates are measured with: smaller on a slow device.
 
     Raises
@@ -63,15 +63,15 @@ def frame_side(shape: Shape) -> int:
     DeviceError
         If there is no GPU.
     """
-    return FRAME[0] if _rate(shape.way("packed"), SLOW_SIDE) > FAST else SLOW_SIDE
+    return FRAME[0] if _frame_rate(shape.way("packed"), SLOW_SIDE) > FAST else SLOW_SIDE
 
 
-def measured(shape: Shape, way: str, side: int | None = None) -> Measured:
+def measure_conversion(shape: ConvertedDrawing, way: str, side: int | None = None) -> MeasuredConversion:
     """Convert a drawing and measure it.
 
     Parameters
     ----------
-    shape : Shape
+    shape : ConvertedDrawing
     way : str
         One of `WAYS`.
     side : int, optional
@@ -85,7 +85,7 @@ def measured(shape: Shape, way: str, side: int | None = None) -> Measured:
     Examples
     --------
     >>> from vexture_evidence.measures.shape import example
-    >>> found = measured(Shape(example("duck")), "direct")
+    >>> found = measure_conversion(ConvertedDrawing(example("duck")), "direct")
     >>> found.quads, found.curves, found.depth
     (16, 38, 5)
     """
@@ -95,14 +95,14 @@ def measured(shape: Shape, way: str, side: int | None = None) -> Measured:
     if seconds < LONG:
         given = WAYS[way]
         seconds = median_seconds(lambda: run(shape.drawing, **given), REPEAT)
-    fps = None if side is None else _rate(made, side)
+    fps = None if side is None else _frame_rate(made, side)
     sizes = len(tree.curves), len(tree.coverage), texture.depth + 1, 1e3 * seconds
     if isinstance(texture, Texture):
-        return Measured(*sizes, bytes_packed=file_bytes(texture), fps=fps)
-    return Measured(*sizes, bytes_8=_bytes_8(shape, way), bytes_16=file_bytes(texture), fps=fps)
+        return MeasuredConversion(*sizes, bytes_packed=file_bytes(texture), fps=fps)
+    return MeasuredConversion(*sizes, bytes_8=_bytes_8(shape, way), bytes_16=file_bytes(texture), fps=fps)
 
 
-def _bytes_8(shape: Shape, way: str) -> int | None:
+def _bytes_8(shape: ConvertedDrawing, way: str) -> int | None:
     """Size of the 8-bit files; they are not tried if the tree for 16 bits is far too large for them."""
     if len(shape.way(way).tree.coverage) > 2 * LIST_LIMIT[8]:
         return None
@@ -112,9 +112,9 @@ def _bytes_8(shape: Shape, way: str) -> int | None:
         return None
 
 
-def _rate(made: Made, side: int) -> float:
+def _frame_rate(conversion: Made, side: int) -> float:
     from vexture_evidence.measures.programs import packed_program, thesis_program
 
-    texture = made.texture
+    texture = conversion.texture
     program = packed_program(texture, is_flat=True) if isinstance(texture, Texture) else thesis_program(texture)
     return frames_per_second(program, (side, side))

@@ -11,14 +11,14 @@ from vexture.texture.texture import Texture
 from vexture_evidence.measures.metrics import Errors, errors
 from vexture_evidence.measures.timing import median_seconds
 
-__all__ = ["Edited", "edited"]
+__all__ = ["EditedTexture", "edit_texture"]
 
 SIDE = 256
 """Pixels along a side of the pictures that show whether the round trip changed the drawing."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Edited:
+class EditedTexture:
     """A texture that was exported for a drawing program, changed and converted again.
 
     Parameters
@@ -42,7 +42,7 @@ class Edited:
     seconds: float
 
 
-def edited(drawing: Drawing, texture: Texture, change: str, repeat: int = 5) -> Edited:
+def edit_texture(drawing: Drawing, texture: Texture, change: str, repeat: int = 5) -> EditedTexture:
     """Export a texture, change the exported file, and convert it.
 
     Parameters
@@ -60,7 +60,7 @@ def edited(drawing: Drawing, texture: Texture, change: str, repeat: int = 5) -> 
     --------
     >>> import vexture
     >>> half = Drawing.polygon([(0, 0), (1, 0), (1, 0.5), (0, 0.5)])
-    >>> after = edited(half, vexture.convert(half), '<circle cx="0.5" cy="-0.8" r="0.1"/>', 1)
+    >>> after = edit_texture(half, vexture.convert(half), '<circle cx="0.5" cy="-0.8" r="0.1"/>', 1)
     >>> after.drawing.segments, after.unchanged.mae < 0.1
     (12, True)
     """
@@ -81,4 +81,4 @@ def edited(drawing: Drawing, texture: Texture, change: str, repeat: int = 5) -> 
         seconds = median_seconds(convert, repeat)
     size = (SIDE, SIDE)
     unchanged = errors(*(coverage(shown, size, renderer="exact") for shown in (exported, drawing)))
-    return Edited(exported, unchanged, made.drawing, made.texture, seconds)
+    return EditedTexture(exported, unchanged, made.drawing, made.texture, seconds)

@@ -1,4 +1,4 @@
-"""Compiles fragment shaders for AMD's GPUs without one: by RADV, Mesa's Vulkan driver, whose texts are public."""
+"""Compiles fragment shaders for AMD's GPUs without having one: by RADV, Mesa's Vulkan driver."""
 
 import os
 import re
@@ -13,7 +13,7 @@ from typing import Final
 
 from vexture.renderers.shader import vertex_source
 
-__all__ = ["Compiled", "Toolchain", "ToolchainError", "toolchain"]
+__all__ = ["CompiledShader", "Toolchain", "ToolchainError", "toolchain"]
 
 PACKAGES: Final = {"cc": "gcc", "glslangValidator": "glslang-tools"}
 DRIVERS: Final = [Path(root) / "vulkan/icd.d" for root in ("/usr/share", "/usr/local/share", "/etc")]
@@ -24,12 +24,12 @@ KEYWORDS: Final = ("-Dshared=shared_",)
 
 
 class ToolchainError(Exception):
-    """What is not installed, in one line."""
+    """A tool or driver is not installed; the message names it in one line."""
 
 
 @dataclass(frozen=True, slots=True)
-class Compiled:
-    """What the driver says of a fragment shader.
+class CompiledShader:
+    """A compiled fragment shader, with the driver's statistics.
 
     Parameters
     ----------
@@ -53,26 +53,26 @@ class Toolchain:
     folder: Path
     driver: str
 
-    def compiled(self, name: str, fragment: str, gpu: str) -> Compiled:
-        """Compile a fragment shader of OpenGL for a GPU by RADV's name of it."""
+    def compile_shader(self, name: str, fragment: str, gpu: str) -> CompiledShader:
+        """Compile a fragment shader of OpenGL for a GPU, which has RADV's name."""
         stages = [self.spirv(f"{name}.vert", vertex_source("330")), self.spirv(f"{name}.frag", fragment)]
         settings = {"VK_ICD_FILENAMES": self.driver, "RADV_FORCE_FAMILY": gpu, "MESA_SHADER_CACHE_DISABLE": "true"}
-        printed = output([str(self.folder / "printer"), *stages], settings)
+        printed = run_command([str(self.folder / "printer"), *stages], settings)
         parts = re.split(r"^=== (.*)\n", printed, flags=re.MULTILINE)
         texts = dict(zip(parts[1::2], parts[2::2], strict=True))
         statistics = {key: int(value) for key, value in re.findall(r"^(.+)\t(\d+)$", texts["statistics"], re.MULTILINE)}
-        return Compiled(texts["driver"].strip(), statistics, texts["Assembly"])
+        return CompiledShader(texts["driver"].strip(), statistics, texts["Assembly"])
 
     def spirv(self, file: str, text: str) -> str:
-        """Translate a shader; `file` ends in its stage. Returned is the result's path."""
+        """Translate a shader, and return the result's path; the suffix of `file` is its stage."""
         path = self.folder / file
         path.write_text(text)
-        output([*GLSLANG, *KEYWORDS, str(path), "-o", f"{path}.spv"])
+        run_command([*GLSLANG, *KEYWORDS, str(path), "-o", f"{path}.spv"])
         return f"{path}.spv"
 
 
-def output(command: Sequence[str], settings: Mapping[str, str] | None = None) -> str:
-    """What a command prints. Raises `RuntimeError` with all of it if the command fails."""
+def run_command(command: Sequence[str], settings: Mapping[str, str] | None = None) -> str:
+    """Run a command; return its output. Raises `RuntimeError` with all of its output if it fails."""
     done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **(settings or {})})
     if done.returncode:
         raise RuntimeError(f"{' '.join(command)} ended with {done.returncode}: {done.stdout}{done.stderr}")
@@ -96,7 +96,7 @@ def toolchain() -> Iterator[Toolchain]:
         raise ToolchainError("there is no Vulkan driver radeon_icd*.json (Debian's package mesa-vulkan-drivers)")
     with TemporaryDirectory() as folder:
         try:
-            output(["cc", str(PRINTER), "-lvulkan", "-o", f"{folder}/printer"])
+            run_command(["cc", str(PRINTER), "-lvulkan", "-o", f"{folder}/printer"])
         except RuntimeError as error:
             why = str(error).splitlines()[0]
             raise ToolchainError(

@@ -1,8 +1,8 @@
 """Cycles of a compiled shader on a GPU: a model, from its assembly and from how often each loop turns.
 
-A *scope* is a loop, or a part that is jumped over if no lane of a wave wants it. A program's scopes are expected as a
-`Shape`; a compiler that makes others is an error. Times are those that ACO, the compiler of RADV, schedules with: an
-instruction issues once the one before it has and its operands are there; ``s_waitcnt`` waits for what was fetched.
+A *scope* is a loop, or a part that is jumped over if no lane of a wave needs it. A program's expected scopes are a
+`ScopeShape`; it is an error if the compiler makes others. Times are those that ACO, the compiler of RADV, schedules
+with: an instruction issues after the one before it, once its operands are ready; ``s_waitcnt`` waits for fetches.
 """
 
 import re
@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Final
 
-__all__ = ["FAMILIES", "LANES", "ONCE", "Cycles", "Family", "Program", "Shape", "per_pixel", "program"]
+__all__ = ["FAMILIES", "LANES", "ONCE", "Cycles", "Family", "ScopeShape", "ScopedProgram", "per_pixel", "read_program"]
 
 LANES: Final = 64
 """Of a wave."""
@@ -89,7 +89,7 @@ SCOPE: Final = re.compile(r"(\w+)(\*?)(\??)|[()]")
 
 @dataclass(frozen=True, slots=True)
 class Cycles:
-    """Of a wave: of its SIMD, of the unit for roots, of the texture unit; and all of them, alone on its SIMD."""
+    """Cycles of a wave: of its SIMD, of the unit for roots, of the texture unit; and all of them, alone on its SIMD."""
 
     valu: float = 0.0
     complex: float = 0.0
@@ -97,7 +97,7 @@ class Cycles:
     alone: float = 0.0
 
     def plus(self, other: "Cycles", times: float) -> "Cycles":
-        """Add others, some times."""
+        """Add other cycles, `times` times."""
         return Cycles(
             self.valu + times * other.valu,
             self.complex + times * other.complex,
@@ -107,12 +107,12 @@ class Cycles:
 
 
 @dataclass(frozen=True)
-class Shape:
+class ScopeShape:
     """The scopes of a program, as text: each with those in it, `?` for what may be jumped over, `*` if it fetches.
 
     Examples
     --------
-    >>> shape = Shape("cells*(descend(quads*?) leaf?)")
+    >>> shape = ScopeShape("cells*(descend(quads*?) leaf?)")
     >>> shape.parents
     {'cells': 'once', 'descend': 'cells', 'quads': 'descend', 'leaf': 'cells'}
     >>> shape.kinds
@@ -138,7 +138,7 @@ class Shape:
 
     @property
     def kinds(self) -> str:
-        """The same without names."""
+        """The scopes without names."""
         return SCOPE.sub(lambda m: ("if" if m[3] else "loop") + m[2] if m[1] else m[0], self.text)
 
 
@@ -166,7 +166,7 @@ class Scope:
     inner: list["Scope"] = field(default_factory=list)
 
     def blocks(self) -> Iterator[int]:
-        """Its own, without those of scopes in it."""
+        """The scope's blocks, without those of scopes in it."""
         held = {k for scope in self.inner for k in range(scope.first, scope.last + 1)}
         return (k for k in range(self.first, self.last + 1) if k not in held)
 
@@ -178,8 +178,8 @@ class Scope:
 
 
 @dataclass(frozen=True, slots=True)
-class Program:
-    """A compiled shader, its blocks told apart by scopes."""
+class ScopedProgram:
+    """A compiled shader, its blocks divided into scopes."""
 
     blocks: Sequence[Block]
     scopes: Mapping[str, Scope]
@@ -198,7 +198,7 @@ class Program:
         return found
 
 
-def program(name: str, assembly: str, shape: Shape) -> Program:
+def read_program(name: str, assembly: str, shape: ScopeShape) -> ScopedProgram:
     """Read a shader's assembly.
 
     Raises
@@ -207,12 +207,12 @@ def program(name: str, assembly: str, shape: Shape) -> Program:
         If its scopes are not those that are expected.
     """
     blocks = blocks_of(assembly)
-    whole = nested(scopes_of(blocks), len(blocks))
+    whole = nest_scopes(scopes_of(blocks), len(blocks))
     found = kinds_of(whole, blocks)
     if found != shape.kinds:
         raise RuntimeError(f"{name}: the compiler made {found or 'no scopes'}; expected {shape.kinds}: {shape.text}")
     scopes = {ONCE: whole, **dict(zip(shape.parents, whole.walk(), strict=True))}
-    return Program(blocks, scopes, shape.parents)
+    return ScopedProgram(blocks, scopes, shape.parents)
 
 
 def blocks_of(assembly: str) -> list[Block]:
@@ -228,7 +228,7 @@ def blocks_of(assembly: str) -> list[Block]:
 
 
 def scopes_of(blocks: Sequence[Block]) -> list[Scope]:
-    """Loops and what is jumped over, not nested yet."""
+    """Loops and parts that may be jumped over, not nested yet."""
     place = {block.number: k for k, block in enumerate(blocks)}
     jumps = [
         (k, place[int(match[2])], bool(match[1]))
@@ -254,8 +254,8 @@ def scopes_of(blocks: Sequence[Block]) -> list[Scope]:
     return found
 
 
-def nested(scopes: Sequence[Scope], count: int) -> Scope:
-    """The scopes within each other, in one around them all."""
+def nest_scopes(scopes: Sequence[Scope], count: int) -> Scope:
+    """Nest scopes within each other, in one around them all."""
     whole = Scope("once", 0, count - 1)
     around = [whole]
     for scope in sorted(scopes, key=lambda one: (one.first, -one.last)):
@@ -293,7 +293,7 @@ def registers(text: str) -> list[str]:
     return found
 
 
-class Clock:
+class WaveClock:
     """A wave alone on its SIMD, one instruction after the other."""
 
     def __init__(self, family: Family) -> None:
@@ -310,7 +310,7 @@ class Clock:
             self.now = max(self.now, self.loaded)
 
     def issue(self, name: str, operands: str) -> Cycles:
-        """Issue an instruction. Returned is what it occupies."""
+        """Issue an instruction, and return the cycles that it occupies."""
         family = self.family
         self.now = max([self.now, *(self.ready.get(one, 0.0) for one in registers(operands))])
         step, latency, spent = family.scalar, family.scalar + 1, Cycles()
@@ -334,7 +334,7 @@ class Clock:
 
 def block_cycles(block: Block, family: Family) -> Cycles:
     """Cycles of a block that all lanes enter at once; what it fetches is there at its end."""
-    clock, total = Clock(family), Cycles()
+    clock, total = WaveClock(family), Cycles()
     for line in block.lines:
         name, _, operands = line.partition(" ")
         if name == "s_waitcnt":

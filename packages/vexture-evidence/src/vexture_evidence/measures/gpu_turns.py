@@ -1,7 +1,8 @@
-"""How often waves of a GPU turn each loop of a shader, their lanes in lockstep.
+"""Turns of a shader's loops by the waves of a GPU, their lanes in lockstep.
 
 The packed shader's loops are counted by its mirror (`vexture.renderers.cpu`), whose functions run here with some of
-their calls noted. A wave runs a turn of a loop if any lane does: lanes count turns from each turn of the loop around.
+their calls observed. A wave runs a turn of a loop if any lane does: lanes count turns from each turn of the loop
+around it.
 """
 
 from collections import Counter
@@ -16,7 +17,7 @@ from vexture.base.kernels import Kernel
 from vexture.renderers import cells, cpu, flat
 from vexture.texture.texture import Texture
 from vexture_evidence.measures.bands import COUNT_BITS, BandTexture, eligible_roots
-from vexture_evidence.measures.gpu_model import LANES, ONCE, Shape
+from vexture_evidence.measures.gpu_model import LANES, ONCE, ScopeShape
 
 __all__ = ["SIDE", "Lane", "Turns", "band_lane", "packed_lane", "run_waves"]
 
@@ -26,7 +27,7 @@ SIDE = 8
 Lane = Callable[[tuple[float, float]], object]
 """Runs the shader for the pixel at a centre."""
 
-Note = Callable[..., None]
+Observer = Callable[..., None]
 
 
 class Turns:
@@ -34,7 +35,7 @@ class Turns:
 
     Examples
     --------
-    >>> turns = Turns(Shape("cells(pieces)"))
+    >>> turns = Turns(ScopeShape("cells(pieces)"))
     >>> for wave in ((1, 3), (2,)):
     ...     for pieces in wave:
     ...         turns.next_lane()
@@ -45,7 +46,7 @@ class Turns:
     ({'cells': 1.0, 'pieces': 2.5}, {'cells': 1.0, 'pieces': 2.0})
     """
 
-    def __init__(self, shape: Shape) -> None:
+    def __init__(self, shape: ScopeShape) -> None:
         self.parents = shape.parents
         self.inner = {one: [k for k, parent in self.parents.items() if parent == one] for one in (ONCE, *self.parents)}
         self.lanes: Counter[str] = Counter()
@@ -56,19 +57,19 @@ class Turns:
         self.done: dict[str, int] = {}
 
     def next_lane(self) -> None:
-        """The next turns are those of another lane of the wave."""
+        """Begin the turns of another lane of the wave."""
         self.counted["lanes"] += 1
         for name in self.inner[ONCE]:
             self.done[name] = 0
 
     def next_wave(self) -> None:
-        """All lanes of the wave are through."""
+        """End the wave, all of whose lanes have run."""
         self.counted["waves"] += 1
         self.waves.update(name for name, _ in self.ran)
         self.ran.clear()
 
     def turn(self, name: str, times: int = 1) -> None:
-        """The lane begins the next turns of a scope, within the present turn of the one around it."""
+        """Begin the lane's next turns of a scope, within the present turn of the one around it."""
         self.lanes[name] += times
         around = self.at[self.parents[name]]
         for _ in range(times):
@@ -96,34 +97,38 @@ def run_waves(turns: Turns, lane: Lane, corners: Iterable[tuple[int, int]]) -> N
         turns.next_wave()
 
 
-def noted(kernel: Any, notes: Mapping[str, Note], made: dict[str, Callable[..., Any]]) -> Callable[..., Any]:
-    """A kernel as a function of Python that calls others so; those in `notes` also call a note with their result.
+def observe_kernel(
+    kernel: Any, observers: Mapping[str, Observer], functions: dict[str, Callable[..., Any]]
+) -> Callable[..., Any]:
+    """Make a function of Python from a kernel and those that it calls; those in `observers` also call their observer.
 
-    `made` holds what has been made, by name.
+    `functions` collects the functions by name.
     """
     inner = kernel.py_func
     names = dict(inner.__globals__)
     function = FunctionType(inner.__code__, names, inner.__name__)
-    made[inner.__name__] = with_note(function, notes[inner.__name__]) if inner.__name__ in notes else function
+    functions[inner.__name__] = (
+        with_observer(function, observers[inner.__name__]) if inner.__name__ in observers else function
+    )
     for name in inner.__code__.co_names:
         if isinstance(names.get(name), Kernel):
-            names[name] = made.get(name) or noted(names[name], notes, made)
-    return made[inner.__name__]
+            names[name] = functions.get(name) or observe_kernel(names[name], observers, functions)
+    return functions[inner.__name__]
 
 
-def with_note(function: Callable[..., Any], note: Note) -> Callable[..., Any]:
-    """A function that then calls a note with its result and its arguments."""
+def with_observer(function: Callable[..., Any], observer: Observer) -> Callable[..., Any]:
+    """Make a function that also calls an observer, with its result and its arguments."""
 
     def result(*arguments: Any) -> Any:
         found = function(*arguments)
-        note(found, *arguments)
+        observer(found, *arguments)
         return found
 
     return result
 
 
-def packed_notes(turns: Turns, is_flat: bool) -> dict[str, Note]:
-    """What is noted of the mirror's functions: which of them tell of which scope."""
+def packed_observers(turns: Turns, is_flat: bool) -> dict[str, Observer]:
+    """Observers of the mirror's functions, each of which counts turns of a scope."""
 
     def descend(found: tuple[cells.Cell, cells.Top], texels: Any, top: cells.Top, *_: Any) -> None:
         turns.turn("cells")
@@ -147,10 +152,10 @@ def packed_notes(turns: Turns, is_flat: bool) -> dict[str, Note]:
             for scope in ("cells", "cut", "quad"):
                 turns.turn(scope)
 
-    def noting(scope: str) -> Note:
+    def noting(scope: str) -> Observer:
         return lambda *_: turns.turn(scope)
 
-    notes: dict[str, Note] = {
+    notes: dict[str, Observer] = {
         "descend": descend,
         "count": count,
         "better_t": better_t,
@@ -165,24 +170,24 @@ def packed_notes(turns: Turns, is_flat: bool) -> dict[str, Note]:
 
 
 def packed_lane(turns: Turns, texture: Texture, to_unit: NDArray[np.float64], is_flat: bool) -> Lane:
-    """The shader of a packed texture's first shape, with `vextureFlatCoverage` or with `vextureCoverage`.
+    """Lane of a packed texture's first shape, with `vextureFlatCoverage` or with `vextureCoverage`.
 
     Raises
     ------
     LookupError
         If the mirror no longer calls the functions by which turns are counted.
     """
-    notes = packed_notes(turns, is_flat)
+    notes = packed_observers(turns, is_flat)
     made: dict[str, Callable[..., Any]] = {}
-    noted(flat.flat_coverage if is_flat else cpu.coverage, notes, made)
+    observe_kernel(flat.flat_coverage if is_flat else cpu.coverage, notes, made)
     if missing := notes.keys() - made.keys():
         raise LookupError(f"the mirror does not call {', '.join(sorted(missing))}; count turns by what it calls")
-    coverage = noted(cpu.view_coverage, notes, made)
+    coverage = observe_kernel(cpu.view_coverage, notes, made)
     return lambda pixel: coverage(texture.texels, is_flat, texture.roots[0].quad, (0, 0), to_unit, pixel)
 
 
 def band_lane(turns: Turns, texture: BandTexture, to_unit: NDArray[np.float64]) -> Lane:
-    """The shader of the band method, ``shaders/bands.glsl``."""
+    """Lane of the band method, ``shaders/bands.glsl``."""
     eligible = eligible_roots()
     lists, outlines = texture.lists.tolist(), texture.outlines.astype(np.float64)
     curves = np.concatenate([outlines[:-1], outlines[1:, :2]], axis=1).reshape(-1, 3, 2)

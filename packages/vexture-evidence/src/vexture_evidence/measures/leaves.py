@@ -15,7 +15,7 @@ from vexture.thesis.tree import CellKind, CellTree
 from vexture.tree.tree import Tree as PackedTree
 from vexture_evidence.measures.thesis_decode import decode as decode_thesis
 
-__all__ = ["Leaves", "Quads", "Tree", "leaves", "quads", "tree_of"]
+__all__ = ["LeafArrays", "QuadArrays", "Tree", "leaves", "quads", "tree_of"]
 
 Tree = CellTree | PackedTree
 
@@ -24,7 +24,7 @@ HALVES = np.array([(0, 0), (1, 0), (0, 1), (1, 1)])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Quads:
+class QuadArrays:
     """The divided squares of a tree; quad 0 is the unit square.
 
     Parameters
@@ -48,7 +48,7 @@ class Quads:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Leaves:
+class LeafArrays:
     """The cells of a tree that are not divided, in the order of their quads and of the cells in each quad.
 
     Parameters
@@ -80,14 +80,14 @@ class Leaves:
     owner: NDArray[np.int64]
     is_corner: NDArray[np.bool_]
 
-    def lines(self, chords: int = 16, which: NDArray[Any] | slice = slice(None)) -> NDArray[np.float64]:
+    def lines(self, chords: int = 16, selection: NDArray[Any] | slice = slice(None)) -> NDArray[np.float64]:
         """Points along curves, ends included; on a corner, half of the points lie on each of its two lines.
 
         Parameters
         ----------
         chords : int
             An even number.
-        which : index or mask
+        selection : index or mask
             Curves to use; all by default.
 
         Returns
@@ -96,9 +96,9 @@ class Leaves:
         """
         t = np.linspace(0.0, 1.0, chords + 1)
         bent = np.stack([np.clip(1 - 2 * t, 0, 1), 1 - np.abs(2 * t - 1), np.zeros_like(t), np.clip(2 * t - 1, 0, 1)])
-        points = points_along(self.curves[which], t)
-        corners = self.is_corner[which]
-        points[corners] = np.einsum("kt,mkc->mtc", bent, self.curves[which][corners])
+        points = points_along(self.curves[selection], t)
+        corners = self.is_corner[selection]
+        points[corners] = np.einsum("kt,mkc->mtc", bent, self.curves[selection][corners])
         return points
 
 
@@ -109,7 +109,7 @@ def tree_of(shape: Tree | ThesisTexture | Texture, root: str | int | None = None
     return decode_thesis(shape) if isinstance(shape, ThesisTexture) else shape
 
 
-def leaves(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) -> Leaves:
+def leaves(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) -> LeafArrays:
     """All leaves of a tree, or of a texture's shape.
 
     Parameters
@@ -144,10 +144,10 @@ def leaves(shape: Tree | ThesisTexture | Texture, root: str | int | None = None)
     place = np.arange(len(owner)) - np.repeat(np.cumsum(number) - number, number)
     curves = low[owner][:, None] + side[owner][:, None, None] * (tree.curves[first[owner] + place] / scale)
     coverage, depth = tree.coverage[quad, cell], parents.depth[quad] + 1
-    return Leaves(low[:, 0], low[:, 1], side, coverage, depth, quad, cell, curves, owner, corners[owner])
+    return LeafArrays(low[:, 0], low[:, 1], side, coverage, depth, quad, cell, curves, owner, corners[owner])
 
 
-def quads(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) -> Quads:
+def quads(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) -> QuadArrays:
     """All quads of a tree, or of a texture's shape; parameters as in `leaves`.
 
     Examples
@@ -174,4 +174,4 @@ def quads(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) 
         depth[quad] = depth[parent] + 1
         low[quad] = low[parent] + HALVES[cell] * np.ldexp(1.0, -depth[quad])[:, None]
         level = quad
-    return Quads(low[:, 0], low[:, 1], np.ldexp(1.0, -depth), depth, tree.coverage.mean(axis=1), child)
+    return QuadArrays(low[:, 0], low[:, 1], np.ldexp(1.0, -depth), depth, tree.coverage.mean(axis=1), child)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vexture.bezier.points import points_along, points_at
 from vexture.drawing.drawing import Drawing
 from vexture.thesis.sample_and_fit import SAMPLES_ACROSS
-from vexture_evidence.measures.closeups import joined
+from vexture_evidence.measures.closeups import all_cubics
 
 __all__ = ["first_samples", "off_outline"]
 
@@ -30,7 +30,7 @@ STEPS: Final = 4
 
 def first_samples(drawing: Drawing) -> NDArray[np.float64]:
     """Points at which the thesis's method first samples the outline, (n, 2)."""
-    cubics = joined(drawing)
+    cubics = all_cubics(drawing)
     extent = np.hypot(*np.diff(cubics, axis=1).transpose(2, 0, 1)).sum(axis=1)
     density = np.maximum(np.ceil(extent * SAMPLES_ACROSS).astype(np.int64), 3)
     owner = np.repeat(np.arange(len(cubics)), density)
@@ -46,12 +46,12 @@ def off_outline(points: NDArray[np.float64], drawing: Drawing) -> NDArray[np.flo
     >>> off_outline(np.array([[0.5, 0.25]]), Drawing.polygon([(0, 0), (1, 0), (0, 1)])).round(9).tolist()
     [0.176776695]
     """
-    cubics = joined(drawing)
+    cubics = all_cubics(drawing)
     t = np.linspace(0.0, 1.0, CHORDS + 1)
     curve = points_along(cubics, t)
     chords = np.stack([curve[:, :-1], curve[:, 1:]], axis=2).reshape(-1, 2, 2)
     near, share = _nearest_chords(points, chords)
-    return _polished(points, cubics[near // CHORDS], (near % CHORDS + share) / CHORDS)
+    return _refined_distances(points, cubics[near // CHORDS], (near % CHORDS + share) / CHORDS)
 
 
 def _nearest_chords(
@@ -98,7 +98,9 @@ def _nearest_of(
     return near, share, off
 
 
-def _polished(points: NDArray[np.float64], cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
+def _refined_distances(
+    points: NDArray[np.float64], cubics: NDArray[np.float64], t: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Distances of points from their cubics, by Newton's method from approximate parameters."""
     hodograph = 3.0 * np.diff(cubics, axis=1)
     for _ in range(STEPS):

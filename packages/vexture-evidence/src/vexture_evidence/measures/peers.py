@@ -180,11 +180,15 @@ def paint_with_skia(canvas: Any, drawing: "Drawing", matrix: NDArray[np.float64]
 
 
 def _paint_group(
-    canvas: Any, drawing: "Drawing", matrix: NDArray[np.float64], items: dict[int, dict[tuple[str, int], None]], of: int
+    canvas: Any,
+    drawing: "Drawing",
+    matrix: NDArray[np.float64],
+    items: dict[int, dict[tuple[str, int], None]],
+    outer: int,
 ) -> None:
-    """Paint the paths and groups in a group, which `items` lists from below, then what masks it."""
+    """Paint the paths and groups in the group `outer`, which `items` lists from below, then its masks."""
     skia = _skia()
-    for kind, place in items.get(of, {}):
+    for kind, place in items.get(outer, {}):
         if kind == "path":
             path = drawing.paths[place]
             canvas.drawPath(skia_path(path, matrix), _skia_paint(path.paint, matrix))
@@ -194,7 +198,7 @@ def _paint_group(
             _paint_group(canvas, drawing, matrix, items, place)
             canvas.restore()
     for place, mask in enumerate(drawing.groups):
-        if mask.mask and mask.outer == of:
+        if mask.mask and mask.outer == outer:
             luma = skia.LumaColorFilter.Make() if mask.mask is Mask.LUMINANCE else None
             canvas.saveLayer(None, skia.Paint(Alphaf=mask.opacity, BlendMode=skia.BlendMode.kDstIn, ColorFilter=luma))
             _paint_group(canvas, drawing, matrix, items, place)

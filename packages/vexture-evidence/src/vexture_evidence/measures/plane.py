@@ -10,7 +10,7 @@ from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.renderers.exact import render_exact
 from vexture_evidence.measures.raster import raster_from
-from vexture_evidence.measures.rendered import Rendered
+from vexture_evidence.measures.renderings import Rendered
 from vexture_evidence.measures.rivals import side_in_memory, texture_rival
 from vexture_evidence.measures.shape import WAYS
 

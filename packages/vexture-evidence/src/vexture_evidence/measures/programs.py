@@ -32,21 +32,21 @@ from vexture_evidence.measures.bands import BandTexture, band_constants, band_sh
 __all__ = [
     "MAIN",
     "VERSION",
+    "Framebuffer",
     "Program",
-    "Target",
     "band_program",
     "band_source",
-    "compiled",
-    "current",
+    "compile_shader",
+    "current_context",
     "driver",
     "fetch_program",
     "fetch_source",
+    "framebuffer",
     "nearest",
     "packed_program",
     "packed_source",
     "packed_texture",
     "seconds",
-    "target",
     "thesis_program",
     "thesis_source",
 ]
@@ -76,7 +76,7 @@ void main() {
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Target:
+class Framebuffer:
     """A framebuffer to draw into."""
 
     size: tuple[int, ...]
@@ -134,8 +134,8 @@ class Program:
 
     def image(self, size: tuple[int, int], to_unit: NDArray[np.float64]) -> NDArray[np.float32]:
         """Draw one picture, (height, width)."""
-        current()
-        frame = target(tuple(-(-side // ROUND_SIDE) * ROUND_SIDE for side in size)).frame
+        current_context()
+        frame = framebuffer(tuple(-(-side // ROUND_SIDE) * ROUND_SIDE for side in size)).frame
         frame.viewport = (0, 0, *size)
         frame.use()
         self.prepare(to_unit, size)
@@ -144,29 +144,31 @@ class Program:
         return pixels.reshape(size[1], size[0]).copy()
 
 
-def current() -> Any:
-    """The OpenGL context, which is made current and stays current: these programs are for one thread."""
+def current_context() -> Any:
+    """Make the OpenGL context current and return it; it stays current: these programs are for one thread."""
     return context().__enter__()
 
 
 @cache
-def target(size: tuple[int, ...]) -> Target:
+def framebuffer(size: tuple[int, ...]) -> Framebuffer:
     """Target with one float32 channel, cached for the next caller."""
-    gl = current()
-    return Target(size, gl.framebuffer([gl.texture(size, 1, dtype="f4")]))
+    gl = current_context()
+    return Framebuffer(size, gl.framebuffer([gl.texture(size, 1, dtype="f4")]))
 
 
 def driver() -> str:
     """Name and version of the OpenGL driver."""
-    info = current().info
+    info = current_context().info
     return f"{info['GL_RENDERER']}, {info['GL_VERSION']}"
 
 
-def seconds(program: Program, drawn: Target, to_unit: NDArray[np.float64], tile: tuple[int, int], draws: int) -> float:
+def seconds(
+    program: Program, target: Framebuffer, to_unit: NDArray[np.float64], tile: tuple[int, int], draws: int
+) -> float:
     """Time of `draws` draws, from the first call until the device has finished the last."""
-    gl = current()
-    drawn.frame.viewport = (0, 0, *drawn.size)
-    drawn.frame.use()
+    gl = current_context()
+    target.frame.viewport = (0, 0, *target.size)
+    target.frame.use()
     program.prepare(to_unit, tile)
     gl.finish()
     start = time.perf_counter()
@@ -187,15 +189,17 @@ def fragment(text: str, call: str) -> str:
 
 
 @cache
-def compiled(source: str) -> Any:
+def compile_shader(source: str) -> Any:
     """Triangle with the program of a fragment shader, compiled once for each text."""
-    gl = current()
+    gl = current_context()
     return gl.vertex_array(gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=source), [])
 
 
 def nearest(pixels: NDArray[Any], kind: str) -> Any:
     """Texture of an array (rows, width, channels), without filtering."""
-    made = current().texture(pixels.shape[1::-1], pixels.shape[2], np.ascontiguousarray(pixels).tobytes(), dtype=kind)
+    made = current_context().texture(
+        pixels.shape[1::-1], pixels.shape[2], np.ascontiguousarray(pixels).tobytes(), dtype=kind
+    )
     made.filter = (0x2600, 0x2600)  # GL_NEAREST
     return made
 
@@ -220,7 +224,7 @@ def band_program(texture: BandTexture) -> Program:
     outlines = nearest(rows_of(texture.outlines, width), "f4")
     textures = {"band_lists": lists, "outlines": outlines}
     source = band_source(texture.bands)
-    return Program("bands", constants, compiled(source), textures, {"band_box": tuple(texture.box)})
+    return Program("bands", constants, compile_shader(source), textures, {"band_box": tuple(texture.box)})
 
 
 def packed_texture(drawing: Drawing, **parameters: Any) -> Texture:
@@ -242,7 +246,7 @@ def packed_program(texture: Texture, is_flat: bool = False, root: int = 0) -> Pr
     constants = {name: float(value) for name, value in re.findall(r"#define VEXTURE_(\w+) ([-.e\d]+)\n", source)}
     textures = {"vextureTexels": nearest(texture.texels, "u4")}
     uniforms = {"root": texture.roots[root].quad}
-    return Program("flat" if is_flat else "any", constants, compiled(source), textures, uniforms, True, is_flat)
+    return Program("flat" if is_flat else "any", constants, compile_shader(source), textures, uniforms, True, is_flat)
 
 
 def thesis_source(sizes: TextureSizes) -> str:
@@ -253,14 +257,14 @@ def thesis_source(sizes: TextureSizes) -> str:
 
 def thesis_program(texture: ThesisTexture) -> Program:
     """Program of the thesis's encoding for a texture."""
-    sizes = TextureSizes.of(texture, current().info["GL_MAX_TEXTURE_SIZE"])
+    sizes = TextureSizes.of(texture, current_context().info["GL_MAX_TEXTURE_SIZE"])
     textures = {
         name: nearest(fold(rows, sizes.fold_height), "f4")
         for name, rows in (("quads", texture.quads), ("curves", texture.curves))
     }
     lengths = {"list_lengths": (len(texture.quads), len(texture.curves))}
     constants = {"SAMPLES": method.SAMPLES, "bits": 8 * texture.quads.dtype.itemsize}
-    return Program("thesis", constants, compiled(thesis_source(sizes)), textures, lengths)
+    return Program("thesis", constants, compile_shader(thesis_source(sizes)), textures, lengths)
 
 
 def fetch_source() -> str:
@@ -272,7 +276,7 @@ def fetch_program(drawing: Drawing) -> Program:
     """Program of one trilinear fetch from a mip-mapped picture of the drawing: the upper limit of speed."""
     size = (IMAGE_SIDE, IMAGE_SIDE)
     pixels = np.rint(255.0 * render_exact(drawing, size)).astype(np.uint8)[::-1]
-    made = current().texture(size, 1, np.ascontiguousarray(pixels).tobytes())
+    made = current_context().texture(size, 1, np.ascontiguousarray(pixels).tobytes())
     made.build_mipmaps()
     made.filter = (0x2703, 0x2601)  # GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR
-    return Program("fetch", {"side": IMAGE_SIDE}, compiled(fetch_source()), {"image": made})
+    return Program("fetch", {"side": IMAGE_SIDE}, compile_shader(fetch_source()), {"image": made})

@@ -88,7 +88,7 @@ class MipMapped:
             If the size or the view is out of range.
         """
         place = footprint(size, to_unit)
-        return place.shown(self.coverage(place, mip=mip))
+        return place.image_of(self.coverage(place, mip=mip))
 
     def coverage(self, place: "Footprint", *, mip: bool) -> NDArray[np.float64]:
         """Coverage of each pixel, from the fetched values."""
@@ -128,18 +128,18 @@ class Footprint:
         Unit-square position of each pixel's centre.
     reach : (height, width) float64 array
         Length, in the unit square, of the longer of the two steps to the next pixel, right or down.
-    seen : (height, width) bool array
+    visible : (height, width) bool array
         False beyond the horizon.
     """
 
     u: NDArray[np.float64]
     v: NDArray[np.float64]
     reach: NDArray[np.float64]
-    seen: NDArray[np.bool_]
+    visible: NDArray[np.bool_]
 
-    def shown(self, coverage: NDArray[np.float64]) -> NDArray[np.float32]:
+    def image_of(self, coverage: NDArray[np.float64]) -> NDArray[np.float32]:
         """Coverage as an image, 0 beyond the horizon."""
-        return np.where(self.seen, coverage, 0.0).astype(np.float32)
+        return np.where(self.visible, coverage, 0.0).astype(np.float32)
 
 
 def footprint(size: tuple[int, int], to_unit: ArrayLike | None = None) -> Footprint:

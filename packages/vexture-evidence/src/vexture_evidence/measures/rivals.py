@@ -28,13 +28,13 @@ __all__ = [
     "NARROW",
     "SMALL",
     "WHOLE",
-    "Measured",
+    "MeasuredRival",
     "Rival",
-    "Scene",
+    "RivalScene",
     "Shot",
     "bands_of",
     "distance_rival",
-    "judge",
+    "measure_rival",
     "raster_rival",
     "scene_of",
     "side_in_file",
@@ -99,7 +99,7 @@ class Shot(NamedTuple):
     truth: NDArray[np.float32]
 
 
-class Scene(NamedTuple):
+class RivalScene(NamedTuple):
     """Views of one drawing: all of it, its outline magnified, and all of it in few pixels."""
 
     whole: Sequence[Shot]
@@ -107,7 +107,7 @@ class Scene(NamedTuple):
     small: Sequence[Shot]
 
 
-class Measured(NamedTuple):
+class MeasuredRival(NamedTuple):
     """A method with the errors of its pictures."""
 
     rival: Rival
@@ -121,7 +121,7 @@ def shot(drawing: "Drawing", size: tuple[int, int], to_unit: NDArray[np.float64]
     return Shot(size, to_unit, coverage(drawing, size, to_unit, "exact"))
 
 
-def scene_of(drawing: "Drawing") -> Scene:
+def scene_of(drawing: "Drawing") -> RivalScene:
     """Views in which methods are compared.
 
     Examples
@@ -132,32 +132,32 @@ def scene_of(drawing: "Drawing") -> Scene:
     """
     size = (CLOSEUP, CLOSEUP)
     views = [closeup(size, place, MAGNIFICATION) for place in outline_places(drawing, CLOSEUPS)]
-    return Scene(
-        [moved(drawing, WHOLE, SHIFTS[0])],
+    return RivalScene(
+        [shifted_shot(drawing, WHOLE, SHIFTS[0])],
         [shot(drawing, size, view) for view in views],
-        [moved(drawing, SMALL, shift) for shift in SHIFTS],
+        [shifted_shot(drawing, SMALL, shift) for shift in SHIFTS],
     )
 
 
-def moved(drawing: "Drawing", side: int, shift: tuple[float, float]) -> Shot:
+def shifted_shot(drawing: "Drawing", side: int, shift: tuple[float, float]) -> Shot:
     """The whole drawing, shifted to the left and up by some pixels."""
     by = np.eye(3)
     by[:2, 2] = shift
     return shot(drawing, (side, side), fit((side, side)) @ by)
 
 
-def judge(rival: Rival, scene: Scene) -> Measured:
-    """Errors of a method, over all pixels of each kind of view together.
+def measure_rival(rival: Rival, scene: RivalScene) -> MeasuredRival:
+    """Measure the errors of a method, over all pixels of each kind of view together.
 
     Examples
     --------
     >>> from vexture.drawing.drawing import Drawing
     >>> drawing = Drawing.polygon([(0, 0), (1, 0), (0, 1)])
-    >>> few, many = (judge(raster_rival(drawing, side), scene_of(drawing)) for side in (16, 64))
+    >>> few, many = (measure_rival(raster_rival(drawing, side), scene_of(drawing)) for side in (16, 64))
     >>> few.whole.mae > many.whole.mae > 0.0
     True
     """
-    return Measured(rival, *(_errors(rival.draw, shots) for shots in scene))
+    return MeasuredRival(rival, *(_errors(rival.draw, shots) for shots in scene))
 
 
 def _errors(draw: Draw, shots: Sequence[Shot]) -> Errors:

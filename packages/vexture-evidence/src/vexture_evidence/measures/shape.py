@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from vexture.texture.texture import Texture
     from vexture.thesis.texture import ThesisTexture
 
-__all__ = ["WAYS", "Made", "Shape", "example", "file_bytes"]
+__all__ = ["WAYS", "ConvertedDrawing", "Made", "example", "file_bytes"]
 
 Made: TypeAlias = "Conversion[Texture | ThesisTexture]"
 """A conversion by one of `WAYS`."""
@@ -57,14 +57,14 @@ def file_bytes(texture: "Texture | ThesisTexture") -> int:
 
     Examples
     --------
-    >>> texture = Shape(example("duck")).way("direct").texture
+    >>> texture = ConvertedDrawing(example("duck")).way("direct").texture
     >>> file_bytes(texture) == sum(map(len, texture.to_png()))
     True
     """
     return sum(map(len, texture.files().values()))
 
 
-class Shape:
+class ConvertedDrawing:
     """A drawing and its conversions.
 
     Parameters
@@ -76,7 +76,7 @@ class Shape:
 
     Examples
     --------
-    >>> duck = Shape(example("duck"))
+    >>> duck = ConvertedDrawing(example("duck"))
     >>> duck.name, duck.way("packed").texture.nbytes % 16
     ('duck', 0)
     """
@@ -114,7 +114,7 @@ class Shape:
             try:
                 if way == "sampled":
                     self._check_sampled()
-                self._ways[key] = self._as_saved(run(self.drawing, **given))
+                self._ways[key] = self._with_source(run(self.drawing, **given))
             except LimitError as error:
                 self._ways[key] = error
         made = self._ways[key]
@@ -122,13 +122,13 @@ class Shape:
             raise made
         return made
 
-    def _as_saved(self, made: Made) -> Made:
+    def _with_source(self, conversion: Made) -> Made:
         """Add the source's name to a packed texture, so that its file is as large as that of `vexture convert`."""
         from vexture.texture.texture import Texture
 
-        if not isinstance(made.texture, Texture):
-            return made
-        return replace(made, texture=replace(made.texture, source=self.path.name))
+        if not isinstance(conversion.texture, Texture):
+            return conversion
+        return replace(conversion, texture=replace(conversion.texture, source=self.path.name))
 
     def _check_sampled(self) -> None:
         """Raise a `LimitError` if a conversion by the thesis's own method would take minutes."""

@@ -25,7 +25,7 @@ from vexture.thesis.method import (
     TRIPLE,
 )
 from vexture.thesis.shader_text import compose
-from vexture_evidence.measures.programs import current
+from vexture_evidence.measures.programs import current_context
 
 __all__ = ["BOX", "SOLUTIONS", "Solution", "SolutionPath", "by_cpu", "by_gpu", "roots_by_gpu", "solve"]
 
@@ -174,14 +174,14 @@ def _solution(case: SolutionPath, roots: tuple[float, ...]) -> Solution:
 
 @cache
 def _program() -> Any:
-    gl = current()
+    gl = current_context()
     program = gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=compose(VERSION, "inside.glsl", MAIN))
     return gl.vertex_array(program, [])
 
 
 def _draw(case: SolutionPath, to_chord: NDArray[np.float64], side: int) -> NDArray[np.float32]:
     """Draw (side, side, 4): inside or not, then the roots in the solver's order, `NONE` where there is none."""
-    gl = current()
+    gl = current_context()
     triangle = _program()
     frame = gl.framebuffer([gl.texture((side, side), 4, dtype="f4")])
     frame.use()

@@ -67,10 +67,10 @@ def decode(texture: ThesisTexture) -> CellTree:
     return CellTree(kind, ref, _with_mean(coverage, of_quad), curves, deviation=0.0, unresolved=0)
 
 
-def _with_mean(coverage: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Scale each row towards 0 or 1 until it has the wanted mean; values in 0..1 stay in that range."""
+def _with_mean(coverage: NDArray[np.float64], means: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Scale each row towards 0 or 1 until it has its mean of `means`; values in 0..1 stay in that range."""
     mean = coverage.mean(axis=1)
-    down, up = mean > wanted, mean < wanted
-    coverage[down] *= (wanted[down] / mean[down])[:, None]
-    coverage[up] = 1.0 - (1.0 - coverage[up]) * ((1.0 - wanted[up]) / (1.0 - mean[up]))[:, None]
+    down, up = mean > means, mean < means
+    coverage[down] *= (means[down] / mean[down])[:, None]
+    coverage[up] = 1.0 - (1.0 - coverage[up]) * ((1.0 - means[up]) / (1.0 - mean[up]))[:, None]
     return coverage

@@ -20,19 +20,19 @@ from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellKind, CellTree
 from vexture_evidence.measures.closeups import directions
-from vexture_evidence.measures.leaves import Leaves, Tree, quads
+from vexture_evidence.measures.leaves import LeafArrays, Tree, quads
 from vexture_evidence.measures.metrics import LEVELS, TRUTH, Errors, errors
 
 __all__ = [
     "MOST_TEXELS",
-    "Close",
+    "BeforeAfter",
     "Lengths",
-    "clamped",
+    "clamp_curves",
     "close_up",
     "corner_cells",
     "list_lengths",
     "looping",
-    "repeated",
+    "repeat_drawing",
     "sharp_corners",
     "unnecessary_quads",
 ]
@@ -51,7 +51,7 @@ MOST_TEXELS: Final = MOST_ROWS << ROW_BITS
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Close:
+class BeforeAfter:
     """A part of a drawing, drawn from two textures.
 
     Parameters
@@ -94,7 +94,7 @@ def close_up(
     side: int = 128,
     *,
     as_thesis: bool = False,
-) -> Close:
+) -> BeforeAfter:
     """Draw a square part of a drawing from two textures.
 
     Parameters
@@ -126,8 +126,8 @@ def close_up(
         first = draw_as_thesis(before, size, view).image  # type: ignore[arg-type]
     else:
         first = coverage(before, size, view, "cpu")
-    return Close(drawing, before, after, (first, coverage(after, size, view, "cpu")), render_exact(drawing, size, view),
-                 (x0, y0, x1, y1))  # fmt: skip
+    images = first, coverage(after, size, view, "cpu")
+    return BeforeAfter(drawing, before, after, images, render_exact(drawing, size, view), (x0, y0, x1, y1))
 
 
 # --- 6.1.1: the range of the control points ---------------------------------------------------------------------------
@@ -149,7 +149,7 @@ def looping(name: str = "looping") -> Drawing:
     return Drawing((Path((cubics,), FillRule.EVENODD),), name=name)
 
 
-def clamped(tree: CellTree, low: float = 0.0, high: float = 1.0) -> tuple[CellTree, int]:
+def clamp_curves(tree: CellTree, low: float = 0.0, high: float = 1.0) -> tuple[CellTree, int]:
     """Restore the thesis's clamp of inner control points (6.1.1).
 
     Parameters
@@ -195,7 +195,7 @@ def sharp_corners(drawing: Drawing, least: float = TURN) -> NDArray[np.float64]:
     return np.concatenate(found) if found else np.zeros((0, 2))
 
 
-def corner_cells(found: Leaves, corners: NDArray[np.float64], beside: float = BESIDE) -> NDArray[np.int64]:
+def corner_cells(found: LeafArrays, corners: NDArray[np.float64], beside: float = BESIDE) -> NDArray[np.int64]:
     """Number of leaves with curves within a distance of each corner, (n,)."""
     drawn = np.unique(found.owner)
     low = np.stack([found.x, found.y], axis=1)[drawn]
@@ -260,12 +260,12 @@ class Lengths(NamedTuple):
     refused: str = ""
 
 
-def repeated(drawing: Drawing, across: int) -> Drawing:
+def repeat_drawing(drawing: Drawing, across: int) -> Drawing:
     """Return a drawing that repeats another on a grid of `across` by `across` copies.
 
     Examples
     --------
-    >>> repeated(Drawing.polygon([(0, 0), (1, 0), (0, 1)]), 3).segments
+    >>> repeat_drawing(Drawing.polygon([(0, 0), (1, 0), (0, 1)]), 3).segments
     27
     """
     paths = []
@@ -291,7 +291,7 @@ def list_lengths(drawing: Drawing, way: dict[str, str], across: Sequence[int]) -
     found: list[Lengths] = []
     for number in across:
         try:
-            texture = run(repeated(drawing, number), **way).texture
+            texture = run(repeat_drawing(drawing, number), **way).texture
         except LimitError as error:
             found.append(Lengths(number * number, None, refused=str(error)))
             break

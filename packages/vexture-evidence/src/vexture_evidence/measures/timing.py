@@ -72,9 +72,9 @@ def frames_per_second(program: "Program", size: tuple[int, int] = FRAME, repeat:
         If there is no GPU.
     """
     from vexture.renderers.view import fit
-    from vexture_evidence.measures.programs import seconds, target
+    from vexture_evidence.measures.programs import framebuffer, seconds
 
-    drawn, to_unit = target(size), fit(size)
+    drawn, to_unit = framebuffer(size), fit(size)
     seconds(program, drawn, to_unit, size, 1)  # drivers finish a program when it is first used
     once = seconds(program, drawn, to_unit, size, 1)
     draws = max(1, min(MOST_DRAWS, round(LONG_ENOUGH / max(once, LONG_ENOUGH / MOST_DRAWS))))

@@ -48,7 +48,7 @@ def assemble(
     folder: Path,
     *,
     only: Sequence[str] = SECTIONS,
-    say: Callable[[str], None] = lambda line: None,
+    report: Callable[[str], None] = lambda line: None,
 ) -> Path:
     """Write a report.
 
@@ -60,7 +60,7 @@ def assemble(
         Where ``index.html``, ``report.json`` and ``figures/`` are written.
     only : sequence of str
         Sections to make.
-    say : function
+    report : function
         Called with a line of progress before each section.
 
     Returns
@@ -82,7 +82,7 @@ def assemble(
     sections: list[Section] = []
     seconds = {}
     for name in only:
-        say(f"{name} ...")
+        report(f"{name} ...")
         start = time.perf_counter()
         sections.append(import_module(f"vexture_evidence.report.{name}").section(material))
         seconds[name] = time.perf_counter() - start

@@ -14,10 +14,10 @@ from vexture_evidence.measures.rivals import (
     SHIFTS,
     SMALL,
     WHOLE,
-    Measured,
+    MeasuredRival,
     Rival,
     distance_rival,
-    judge,
+    measure_rival,
     raster_rival,
     scene_of,
     side_in_file,
@@ -29,8 +29,8 @@ from vexture_evidence.report.section import Material, Picture, Section, Table
 
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
-    from vexture_evidence.measures.rivals import Scene
-    from vexture_evidence.measures.shape import Shape
+    from vexture_evidence.measures.rivals import RivalScene
+    from vexture_evidence.measures.shape import ConvertedDrawing
 
 __all__ = ["section"]
 
@@ -65,10 +65,10 @@ class Equal(NamedTuple):
 class Compared(NamedTuple):
     """A drawing's packed texture and rivals of equal bytes, or the reason why there is no packed texture."""
 
-    shape: "Shape"
-    scene: "Scene"
-    packed: Measured | None
-    equal: Sequence[Measured]
+    shape: "ConvertedDrawing"
+    scene: "RivalScene"
+    packed: MeasuredRival | None
+    equal: Sequence[MeasuredRival]
     why: str
 
 
@@ -96,14 +96,14 @@ def section(material: Material) -> Section:
     return Section("comparison", "Comparison with alternatives", text, parts)
 
 
-def compare(shape: "Shape") -> Compared:
+def compare(shape: "ConvertedDrawing") -> Compared:
     """Measure a drawing's packed texture, and the rivals of equal bytes."""
     drawing, scene = shape.drawing, scene_of(shape.drawing)
     try:
-        packed = judge(texture_rival(shape.way("packed").texture, "packed"), scene)
+        packed = measure_rival(texture_rival(shape.way("packed").texture, "packed"), scene)
     except LimitError as error:
         return Compared(shape, scene, None, (), str(error))
-    return Compared(shape, scene, packed, [judge(rival, scene) for rival in equals(drawing, packed.rival)], "")
+    return Compared(shape, scene, packed, [measure_rival(rival, scene) for rival in equals(drawing, packed.rival)], "")
 
 
 def equals(drawing: "Drawing", packed: Rival) -> Equal:
@@ -126,9 +126,11 @@ def equals(drawing: "Drawing", packed: Rival) -> Equal:
 def pictures_part(main: Compared) -> Section:
     """Raster textures and distance fields of one drawing, at many sizes and at equal bytes."""
     drawing, scene = main.shape.drawing, main.scene
-    rasters = [judge(raster_rival(drawing, side), scene) for side in RASTER_SIDES]
+    rasters = [measure_rival(raster_rival(drawing, side), scene) for side in RASTER_SIDES]
     fields = [
-        judge(distance_rival(drawing, side, spread), scene) for spread in (SPREAD, NARROW) for side in DISTANCE_SIDES
+        measure_rival(distance_rival(drawing, side, spread), scene)
+        for spread in (SPREAD, NARROW)
+        for side in DISTANCE_SIDES
     ]
     ours, missing = others_of_ours(main)
     whats = ("equal memory", "equal file", "equal memory", "equal file", "equal file")
@@ -152,7 +154,7 @@ def pictures_part(main: Compared) -> Section:
     return Section("raster-textures", "Raster textures and distance fields", (), items, facts)
 
 
-def others_of_ours(main: Compared) -> tuple[list[Measured], dict[str, str]]:
+def others_of_ours(main: Compared) -> tuple[list[MeasuredRival], dict[str, str]]:
     """The drawing measured in each of our encodings, and the reasons why some cannot hold it."""
     found, missing = [], {}
     if main.packed:
@@ -161,13 +163,13 @@ def others_of_ours(main: Compared) -> tuple[list[Measured], dict[str, str]]:
         missing["packed"] = main.why
     for way in ("direct", "sampled"):
         try:
-            found.append(judge(texture_rival(main.shape.way(way).texture, way), main.scene))
+            found.append(measure_rival(texture_rival(main.shape.way(way).texture, way), main.scene))
         except LimitError as error:
             missing[way] = str(error)
     return found, missing
 
 
-def row_of(label: str, found: Measured) -> Sequence[Any]:
+def row_of(label: str, found: MeasuredRival) -> Sequence[Any]:
     """One row of the table of textures."""
     rival = found.rival
     errors = (found.whole.mae, found.outline.mae, found.small.mae, found.outline.max)
@@ -208,7 +210,7 @@ def textures_caption(main: Compared, missing: dict[str, str]) -> str:
     return caption + dashes(missing.values())
 
 
-def bytes_caption(main: Compared, rasters: Sequence[Measured]) -> str:
+def bytes_caption(main: Compared, rasters: Sequence[MeasuredRival]) -> str:
     """Caption of the figure of errors over bytes."""
     caption = (
         "Mean error over bytes, both on logarithmic scales, for the same textures and for distance fields of "

@@ -10,9 +10,9 @@ from vexture.conversion.pipeline import run
 from vexture.conversion.reading import read_drawing
 from vexture.thesis.layout import LIST_LIMIT
 from vexture_evidence.figures.conversions import conversions
-from vexture_evidence.measures.conversions import Measured, frame_side, measured
-from vexture_evidence.measures.printed import TABLE_5_1, Row
-from vexture_evidence.measures.shape import WAYS, Shape
+from vexture_evidence.measures.conversions import MeasuredConversion, frame_side, measure_conversion
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing
+from vexture_evidence.measures.thesis_numbers import TABLE_5_1, Row
 from vexture_evidence.measures.timing import median_seconds
 from vexture_evidence.report.section import Material, Picture, Printed, Section, Table
 
@@ -21,7 +21,7 @@ __all__ = ["section"]
 READ_REPEAT: Final = 3
 """How often a file is read; the median time is reported."""
 
-Found = Mapping[str, Measured]
+Found = Mapping[str, MeasuredConversion]
 """Measurements of a drawing by way of conversion; ways that cannot hold the drawing are absent."""
 
 
@@ -39,13 +39,13 @@ def section(material: Material) -> Section:
     for given in WAYS.values():
         run(example.drawing, **given)  # loads and compiles everything, so that no measured time includes it
     side = None if material.device is None else frame_side(example)
-    found: list[dict[str, Measured]] = []
+    found: list[dict[str, MeasuredConversion]] = []
     refused: list[str] = []
     for shape in shapes:
         found.append({})
         for way in WAYS:
             try:
-                found[-1][way] = measured(shape, way, side)
+                found[-1][way] = measure_conversion(shape, way, side)
             except LimitError as error:
                 refused.append(f"{way}: {error}")
     printed = [None if material.own else TABLE_5_1.get(shape.name) for shape in shapes]
@@ -60,7 +60,7 @@ def section(material: Material) -> Section:
     return Section("conversion", "Conversion", _text(material, found), items, facts)
 
 
-def _text(material: Material, found: list[dict[str, Measured]]) -> list[str]:
+def _text(material: Material, found: list[dict[str, MeasuredConversion]]) -> list[str]:
     first = (
         "A drawing is read, divided into a quad-tree, and written as a texture. `sampled` samples the outline and fits "
         "curves to the samples, as the thesis does. `direct` makes leaves of the same kind from the drawing's own "
@@ -90,7 +90,7 @@ def _about(ratio: float) -> str:
     return f"{float(f'{ratio:.1g}'):,.0f}"
 
 
-def _medians(found: list[dict[str, Measured]]) -> dict[str, float]:
+def _medians(found: list[dict[str, MeasuredConversion]]) -> dict[str, float]:
     """Median ratios of our ways to the thesis's, over the drawings that all ways can hold."""
     whole = [each for each in found if len(each) == len(WAYS) and each["sampled"].curves]
     if not whole:
@@ -118,7 +118,7 @@ def _speed(side: int | None) -> str:
     )
 
 
-def _without_8_bits(found: list[dict[str, Measured]]) -> str:
+def _without_8_bits(found: list[dict[str, MeasuredConversion]]) -> str:
     """Why some columns of 8 bits contain dashes; empty if none does."""
     pairs = [one for each in found for way, one in each.items() if way != "packed"]
     if all(one.bytes_8 is not None for one in pairs):
@@ -127,7 +127,10 @@ def _without_8_bits(found: list[dict[str, Measured]]) -> str:
 
 
 def _conversion_table(
-    shapes: tuple[Shape, ...], printed: list[Row | None], found: list[dict[str, Measured]], missing: str
+    shapes: tuple[ConvertedDrawing, ...],
+    printed: list[Row | None],
+    found: list[dict[str, MeasuredConversion]],
+    missing: str,
 ) -> Table:
     compared = any(printed)
     head = ["drawing"]
@@ -136,10 +139,10 @@ def _conversion_table(
         head += [f"{method}: {what}" for what in ("ms", "curves", "quads")]
     rows = []
     for shape, row, each in zip(shapes, printed, found, strict=True):
-        cells: list[Any] = [shape.name, *[_printed(row and row.segments)] * compared, shape.drawing.segments]
+        cells: list[Any] = [shape.name, *[_as_printed(row and row.segments)] * compared, shape.drawing.segments]
         cells.append(1e3 * _reading_seconds(shape))
         if compared:
-            cells += [_printed(row and row.ms), _printed(row and row.curves), _printed(row and row.quads)]
+            cells += [_as_printed(row and row.ms), _as_printed(row and row.curves), _as_printed(row and row.quads)]
         for way in WAYS:
             one = each.get(way)
             cells += [None] * 3 if one is None else [one.ms, one.curves, one.quads]
@@ -153,7 +156,10 @@ def _conversion_table(
 
 
 def _size_table(
-    shapes: tuple[Shape, ...], printed: list[Row | None], found: list[dict[str, Measured]], notes: str
+    shapes: tuple[ConvertedDrawing, ...],
+    printed: list[Row | None],
+    found: list[dict[str, MeasuredConversion]],
+    notes: str,
 ) -> Table:
     compared = any(printed)
     head = ["drawing", "source: thesis", "source: ours"] if compared else ["drawing", "source"]
@@ -164,9 +170,9 @@ def _size_table(
         head += [f"{way}: {what}" for what in columns]
     rows = []
     for shape, row, each in zip(shapes, printed, found, strict=True):
-        cells: list[Any] = [shape.name, *[_printed(row and row.svg)] * compared, shape.path.stat().st_size]
+        cells: list[Any] = [shape.name, *[_as_printed(row and row.svg)] * compared, shape.path.stat().st_size]
         if compared:
-            cells += [_printed(row and row.bytes_8), _printed(row and row.bytes_16), _printed(row and row.fps)]
+            cells += [_as_printed(row and row.bytes_8), _as_printed(row and row.bytes_16), _as_printed(row and row.fps)]
         for way in WAYS:
             one = each.get(way)
             if way == "packed":
@@ -181,16 +187,19 @@ def _size_table(
     return Table("size-and-speed", caption, head, rows)
 
 
-def _reading_seconds(shape: Shape) -> float:
+def _reading_seconds(shape: ConvertedDrawing) -> float:
     return median_seconds(partial(read_drawing, shape.path), READ_REPEAT)
 
 
-def _printed(value: int | float | None) -> Printed | None:
+def _as_printed(value: int | float | None) -> Printed | None:
     return None if value is None else Printed(value)
 
 
 def _picture(
-    shapes: tuple[Shape, ...], printed: list[Row | None], found: list[dict[str, Measured]], side: int | None
+    shapes: tuple[ConvertedDrawing, ...],
+    printed: list[Row | None],
+    found: list[dict[str, MeasuredConversion]],
+    side: int | None,
 ) -> Picture:
     quantities: dict[str, dict[str, Any]] = {
         "milliseconds": {"printed": [row and row.ms for row in printed]},

@@ -5,16 +5,16 @@ from dataclasses import replace
 from typing import Final
 
 from vexture.base.errors import LimitError
-from vexture_evidence.measures.shape import Shape
-from vexture_evidence.report.discussed import Point, tree_of
-from vexture_evidence.report.discussed_conversion import (
+from vexture_evidence.measures.shape import ConvertedDrawing
+from vexture_evidence.report.discussion_of_conversion import (
     corners_point,
     density_point,
     divisions_point,
     loops_point,
     values_point,
 )
-from vexture_evidence.report.discussed_use import crossings_point, editing_point, lines_point, lists_point
+from vexture_evidence.report.discussion_of_use import crossings_point, editing_point, lines_point, lists_point
+from vexture_evidence.report.discussion_point import DiscussionPoint, tree_of
 from vexture_evidence.report.section import Material, Section, Table
 
 __all__ = ["section"]
@@ -24,7 +24,7 @@ DUCK = "duck"
 MOST_SEGMENTS: Final = 500
 """Limit on the user's drawing: with more segments repeated sampling takes too long, and the duck is shown instead."""
 
-POINTS: Final[tuple[Callable[[Material, Shape], Point], ...]] = (
+POINTS: Final[tuple[Callable[[Material, ConvertedDrawing], DiscussionPoint], ...]] = (
     loops_point,
     corners_point,
     density_point,
@@ -51,10 +51,10 @@ def section(material: Material) -> Section:
         "Every point of the thesis's chapter 6, and two of chapter 4, each with one measured quantity: before, by the "
         "thesis's own way (`sampled`) or with the thesis's rule restored, and after, by ours.",
         ("point", "measured", "before", "after"),
-        [(point.section.title, point.what, point.before, point.after) for point in points],
+        [(point.section.title, point.quantity, point.before, point.after) for point in points],
     )
     parts = [
-        replace(point.section, facts={"measured": point.what, "before": point.before, "after": point.after}
+        replace(point.section, facts={"measured": point.quantity, "before": point.before, "after": point.after}
                 | dict(point.section.facts))
         for point in points
     ]  # fmt: skip
@@ -70,7 +70,7 @@ def section(material: Material) -> Section:
     return Section("discussion", "Chapter 6, answered", text, [table, *parts])
 
 
-def _subject(material: Material) -> tuple[Shape, str]:
+def _subject(material: Material) -> tuple[ConvertedDrawing, str]:
     """The drawing for the points that any drawing shows: the report's main one, or the duck and the reason."""
     own, duck = material.main, material.example(DUCK)
     segments = own.drawing.segments

@@ -196,12 +196,12 @@ def _groups(groups: Sequence[str]) -> str:
 
 def _cell(value: Any) -> str:
     if isinstance(value, Printed):
-        return f'<td class="printed">{_shown(value.value)}</td>'
+        return f'<td class="printed">{_format_value(value.value)}</td>'
     kind = TEXT_CLASS if isinstance(value, str) else ""
-    return f"<td{kind}>{_shown(value)}</td>"
+    return f"<td{kind}>{_format_value(value)}</td>"
 
 
-def _shown(value: Any) -> str:
+def _format_value(value: Any) -> str:
     """Format a value for readers: three significant digits, thousands separated, a dash if there is no value."""
     value = _plain(value)
     if value is None or (isinstance(value, float) and not math.isfinite(value)):

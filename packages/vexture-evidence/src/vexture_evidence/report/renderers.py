@@ -17,7 +17,7 @@ from vexture_evidence.report.section import Section, Table
 
 if TYPE_CHECKING:
     from vexture_evidence.measures.programs import Program
-    from vexture_evidence.measures.shape import Shape
+    from vexture_evidence.measures.shape import ConvertedDrawing
 
 __all__ = ["bands_part", "dashes", "renderers_part"]
 
@@ -30,7 +30,7 @@ REPEAT: Final = 5
 Draw = Callable[[], NDArray[np.float32]]
 
 
-def renderers_part(shapes: Sequence["Shape"]) -> Section:
+def renderers_part(shapes: Sequence["ConvertedDrawing"]) -> Section:
     """Time and error of renderers on the CPU."""
     from vexture.drawing.drawing import Drawing
     from vexture_evidence.measures.peers import resvg_renderer
@@ -64,7 +64,7 @@ def renderers_part(shapes: Sequence["Shape"]) -> Section:
     return Section("cpu-renderers", "Renderers of vector graphics on the CPU", (), [table])
 
 
-def cpu_renderers(shape: "Shape") -> dict[str, Draw]:
+def cpu_renderers(shape: "ConvertedDrawing") -> dict[str, Draw]:
     """Functions that draw the whole drawing, by renderer, with everything prepared."""
     from vexture_evidence.measures.peers import resvg_renderer, skia_renderer
 
@@ -77,7 +77,7 @@ def cpu_renderers(shape: "Shape") -> dict[str, Draw]:
     }
 
 
-def bands_part(shapes: Sequence["Shape"], device: str) -> Section:
+def bands_part(shapes: Sequence["ConvertedDrawing"], device: str) -> Section:
     """Memory, error and time of the bands and of our textures on the GPU."""
     from vexture.renderers.view import fit
     from vexture_evidence.measures.programs import fetch_program
@@ -116,7 +116,7 @@ def dashes(reasons: Iterable[str]) -> str:
     return f" Dashes: {'; '.join(why)}." if why else ""
 
 
-def with_bands(shape: "Shape") -> "tuple[Program, int]":
+def with_bands(shape: "ConvertedDrawing") -> "tuple[Program, int]":
     """Program that draws the bands, and the bytes that they take."""
     from vexture_evidence.measures.programs import band_program
 
@@ -124,7 +124,7 @@ def with_bands(shape: "Shape") -> "tuple[Program, int]":
     return band_program(texture), texture.published_bytes
 
 
-def with_packed(shape: "Shape") -> "tuple[Program, int]":
+def with_packed(shape: "ConvertedDrawing") -> "tuple[Program, int]":
     """Program that draws the packed texture, and the bytes that it takes."""
     from vexture.texture.texture import Texture
     from vexture_evidence.measures.programs import packed_program
@@ -134,7 +134,7 @@ def with_packed(shape: "Shape") -> "tuple[Program, int]":
     return packed_program(texture, is_flat=True), texture.nbytes
 
 
-def with_direct(shape: "Shape") -> "tuple[Program, int]":
+def with_direct(shape: "ConvertedDrawing") -> "tuple[Program, int]":
     """Program that draws the thesis's pair of textures from our conversion, and the bytes that they take."""
     from vexture.thesis.texture import ThesisTexture
     from vexture_evidence.measures.programs import thesis_program

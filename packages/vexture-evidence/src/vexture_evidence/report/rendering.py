@@ -8,11 +8,11 @@ import numpy as np
 from vexture.base.errors import LimitError
 from vexture_evidence.figures.edges import edges
 from vexture_evidence.figures.plane import plane
-from vexture_evidence.figures.resolutions import exaggerated, resolutions
+from vexture_evidence.figures.resolutions import exaggerated_cut_off, resolutions
 from vexture_evidence.figures.solutions import solutions
 from vexture_evidence.figures.tolerances import tolerances
 from vexture_evidence.measures.plane import Receding, receding
-from vexture_evidence.measures.rendered import (
+from vexture_evidence.measures.renderings import (
     EXAGGERATED,
     GRID,
     PACKED,
@@ -82,7 +82,7 @@ def _sizes(material: Material) -> Section:
     )  # fmt: skip
     caption = (
         f"Thesis 3.13. The drawing `{material.main.name}` in pictures of few pixels.{stored} Mean errors at "
-        f"{len(last.truth)} x {len(last.truth)} pixels: {_listed(errors)}.{_refusal(material)}"
+        f"{len(last.truth)} x {len(last.truth)} pixels: {_format_errors(errors)}.{_refusal(material)}"
     )
     table = Table(
         "errors-at-sizes",
@@ -127,7 +127,9 @@ def _cut_off(material: Material) -> Section:
         f"side, the share of pixels with MIP values falls from {100 * drawn[0].from_mip.mean():.0f}% to "
         f"{100 * drawn[-1].from_mip.mean():.0f}%; they remain at the places with the finest detail."
     )
-    picture = Picture("cut-off", exaggerated(drawn), caption, "MIP values of large quads at five sizes of the picture")
+    picture = Picture(
+        "cut-off", exaggerated_cut_off(drawn), caption, "MIP values of large quads at five sizes of the picture"
+    )
     return Section("cut-off", "Where the descent ends", (), (picture,), {"share of MIP values": shares})
 
 
@@ -136,10 +138,19 @@ def _solutions(material: Material) -> Section:
     rows, facts = [], {}
     for number, case in enumerate(SOLUTIONS, 1):
         cpu = solve(case)
-        row: list[Any] = [f"{number} {case.name}", _several(cpu.t), None, _several(cpu.heights), None, None, None, None]
+        row: list[Any] = [
+            f"{number} {case.name}",
+            _format_roots(cpu.t),
+            None,
+            _format_roots(cpu.heights),
+            None,
+            None,
+            None,
+            None,
+        ]
         if gpu:
             found = roots_by_gpu(case)
-            row[2], row[4] = _several(found.t), _several(found.heights)
+            row[2], row[4] = _format_roots(found.t), _format_roots(found.heights)
             row[5:] = [_farthest(found.t, cpu.t), _farthest(found.heights, cpu.heights)]
             row.append(int((by_cpu(case, SIDE) != by_gpu(case, SIDE)).sum()))
         rows.append(row)
@@ -189,7 +200,7 @@ def _tolerance(material: Material) -> Section:
         f"Thesis 5.12. `{material.main.name}` by the thesis's way with a tolerance that suits its smallest detail, "
         "by the same way with a tolerance ten times as large, and by `packed`, which fits no curves and so needs no "
         "tolerance. Below: the marked square, where the errors are largest; the orange line is the drawing's own "
-        f"outline. Mean errors in that square: {_listed({name: error.mae for name, error in near.items()})}."
+        f"outline. Mean errors in that square: {_format_errors({name: error.mae for name, error in near.items()})}."
         f"{_refusal(material)}"
     )
     table = Table(
@@ -217,8 +228,8 @@ def _plane() -> Section:
         f"{found.raster_side} x {found.raster_side} texels, which with the mip-map take as much memory as the packed "
         "texture. The thesis's shader, as kept here (`sampled`), takes MIP values where a pixel's footprint is longer "
         "than a quad is wide. The shader of the packed texture integrates over the pixel's own footprint. Mean errors: "
-        f"{_listed({name: error.mae for name, error in errors.items()})}. In the far quarter of the picture: "
-        f"{_listed(far)}."
+        f"{_format_errors({name: error.mae for name, error in errors.items()})}. In the far quarter of the picture: "
+        f"{_format_errors(far)}."
     )
     table = Table(
         "plane-errors",
@@ -237,9 +248,9 @@ def _far(found: Receding) -> dict[str, float]:
     return {name: error.mae for name, error in Rendered(upper, found.rendered.truth[:rows]).errors.items()}
 
 
-def _listed(errors: dict[str, float]) -> str:
+def _format_errors(errors: dict[str, float]) -> str:
     return "; ".join(f"{name} {error:.3g}" for name, error in errors.items())
 
 
-def _several(values: tuple[float, ...]) -> str:
+def _format_roots(values: tuple[float, ...]) -> str:
     return ", ".join(f"{value:.4f}" for value in values) or "none"

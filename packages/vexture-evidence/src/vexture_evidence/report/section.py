@@ -6,7 +6,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.shape import ConvertedDrawing, example
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -104,22 +104,22 @@ class Material:
     """
 
     def __init__(self, sources: Sequence[Path]) -> None:
-        from vexture_evidence.measures.printed import TABLE_5_1
+        from vexture_evidence.measures.thesis_numbers import TABLE_5_1
 
-        self._examples: dict[str, Shape] = {}
+        self._examples: dict[str, ConvertedDrawing] = {}
         self.own = bool(sources)
         stems = [path.stem for path in sources]
         names = [None if stems.count(path.stem) == 1 else str(path) for path in sources]
-        self.shapes = tuple(map(Shape, sources, names)) or tuple(map(self.example, TABLE_5_1))
+        self.shapes = tuple(map(ConvertedDrawing, sources, names)) or tuple(map(self.example, TABLE_5_1))
 
     @property
-    def main(self) -> Shape:
+    def main(self) -> ConvertedDrawing:
         """The drawing for figures that show only one: the user's first drawing, or the duck, as in the thesis."""
         return self.shapes[0] if self.own else self.example("duck")
 
-    def example(self, name: str) -> Shape:
+    def example(self, name: str) -> ConvertedDrawing:
         """An example drawing, whatever the report is about."""
-        return self._examples.setdefault(name, Shape(example(name)))
+        return self._examples.setdefault(name, ConvertedDrawing(example(name)))
 
     @cached_property
     def device(self) -> str | None:

@@ -4,9 +4,9 @@ from vexture.base.errors import LimitError
 from vexture.texture.texture import Texture
 from vexture.thesis.texture import ThesisTexture
 from vexture_evidence.figures.overview import SIDE, overview
-from vexture_evidence.figures.textures import number
-from vexture_evidence.measures.printed import TABLE_5_1
-from vexture_evidence.measures.shape import WAYS, Shape
+from vexture_evidence.figures.textures import count_text
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing
+from vexture_evidence.measures.thesis_numbers import TABLE_5_1
 from vexture_evidence.report.section import Material, Picture, Section
 
 __all__ = ["section", "textures_of"]
@@ -34,13 +34,13 @@ def section(material: Material) -> Section:
     return Section("shapes", "Every drawing", text, items)
 
 
-def textures_of(shape: Shape) -> tuple[dict[str, ThesisTexture | Texture], list[str]]:
+def textures_of(shape: ConvertedDrawing) -> tuple[dict[str, ThesisTexture | Texture], list[str]]:
     """Textures of a drawing by way of conversion, and the reason for each way that cannot hold it.
 
     Examples
     --------
     >>> from vexture_evidence.measures.shape import example
-    >>> [*textures_of(Shape(example("duck")))[0]]
+    >>> [*textures_of(ConvertedDrawing(example("duck")))[0]]
     ['sampled', 'direct', 'packed']
     """
     made: dict[str, ThesisTexture | Texture] = {}
@@ -53,13 +53,13 @@ def textures_of(shape: Shape) -> tuple[dict[str, ThesisTexture | Texture], list[
     return made, refused
 
 
-def _picture(shape: Shape, place: int, own: bool) -> Picture:
+def _picture(shape: ConvertedDrawing, place: int, is_own: bool) -> Picture:
     made, refused = textures_of(shape)
-    row = None if own else TABLE_5_1.get(shape.name)
+    row = None if is_own else TABLE_5_1.get(shape.name)
     title = f"{shape.name}." if row is None else f"Thesis 5.{place}. {row.title}."
     parts = [
-        f"`{way}`: {number(len(shape.way(way).tree.coverage), 'quad')}, "
-        f"{number(len(shape.way(way).tree.curves), 'curve')}"
+        f"`{way}`: {count_text(len(shape.way(way).tree.coverage), 'quad')}, "
+        f"{count_text(len(shape.way(way).tree.curves), 'curve')}"
         for way in made
     ]
     printed = "" if row is None else f" The thesis's own drawing: ⟦{row.quads} quads, {row.curves} curves⟧."

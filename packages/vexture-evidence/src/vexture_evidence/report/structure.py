@@ -10,11 +10,11 @@ from vexture.texture.texture import Texture
 from vexture.thesis.texture import ThesisTexture
 from vexture_evidence.figures.cells import subdivisions
 from vexture_evidence.figures.lists import counts, hierarchy, lists
-from vexture_evidence.figures.textures import number, textures
+from vexture_evidence.figures.textures import count_text, textures
 from vexture_evidence.measures.leaves import leaves, quads
 from vexture_evidence.measures.metrics import LEVELS
-from vexture_evidence.measures.printed import STRUCTURE
-from vexture_evidence.measures.shape import WAYS, Shape, file_bytes
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, file_bytes
+from vexture_evidence.measures.thesis_numbers import STRUCTURE
 from vexture_evidence.report.section import Material, Picture, Printed, Section, Table
 from vexture_evidence.report.shapes import textures_of
 
@@ -47,14 +47,14 @@ def section(material: Material) -> Section:
     return Section("structure", "The tree and its lists", text, items)
 
 
-def _table(made: dict[str, ThesisTexture | Texture], own: bool, refused: list[str]) -> Table:
+def _table(textures_by_way: dict[str, ThesisTexture | Texture], is_own: bool, refused: list[str]) -> Table:
     rows: list[list[Any]] = []
-    if not own:
+    if not is_own:
         share = 100 * STRUCTURE.cells / STRUCTURE.grid
         rows.append(["thesis, printed", *map(Printed, (*STRUCTURE, round(share, 2)))])
     for way in WAYS:
-        if way in made:
-            found = counts(made[way])
+        if way in textures_by_way:
+            found = counts(textures_by_way[way])
             rows.append([way, *found, 100.0 * found.cells / found.grid])
         else:
             rows.append([way, *[None] * 5])
@@ -67,18 +67,18 @@ def _table(made: dict[str, ThesisTexture | Texture], own: bool, refused: list[st
     return Table("cells", caption, head, rows)
 
 
-def _hierarchy(way: str, made: dict[str, ThesisTexture | Texture], own: bool) -> Picture:
-    found = counts(made[way])
+def _hierarchy(way: str, textures_by_way: dict[str, ThesisTexture | Texture], is_own: bool) -> Picture:
+    found = counts(textures_by_way[way])
     printed = ""
-    if way == "sampled" and not own:
+    if way == "sampled" and not is_own:
         printed = (
             f" The thesis's own duck: ⟦{STRUCTURE.quads} quads, {STRUCTURE.curves} curves, {STRUCTURE.cells} cells, "
             f"{STRUCTURE.cells / STRUCTURE.grid:.2%} of {STRUCTURE.grid:,}⟧."
         )
     caption = (
         f"Thesis 3.10, `{way}`. Left: the cells, with their curves. Right: the quads by depth; a grey cell refers to "
-        f"the quad below it, and the other cells are leaves. {number(found.quads, 'quad')} and "
-        f"{number(found.curves, 'curve')} make {found.cells:,} cells"
+        f"the quad below it, and the other cells are leaves. {count_text(found.quads, 'quad')} and "
+        f"{count_text(found.curves, 'curve')} make {found.cells:,} cells"
     )
     if way == "packed":
         caption += (
@@ -88,11 +88,11 @@ def _hierarchy(way: str, made: dict[str, ThesisTexture | Texture], own: bool) ->
     else:
         caption += f", {found.cells / found.grid:.2%} of the grid's {found.grid:,}.{printed}"
     return Picture(
-        f"hierarchy-{way}", hierarchy(made[way]), caption, "The cells of a drawing and the tree of its quads"
+        f"hierarchy-{way}", hierarchy(textures_by_way[way]), caption, "The cells of a drawing and the tree of its quads"
     )
 
 
-def _lists(shape: Shape, way: str, texture: ThesisTexture | Texture) -> Picture:
+def _lists(shape: ConvertedDrawing, way: str, texture: ThesisTexture | Texture) -> Picture:
     area = float(render_exact(shape.drawing, (AREA_SIDE, AREA_SIDE)).mean(dtype=np.float64))
     root = float(quads(shape.way(way).tree).coverage[0])
     caption = (
@@ -105,27 +105,29 @@ def _lists(shape: Shape, way: str, texture: ThesisTexture | Texture) -> Picture:
     return Picture("lists", lists(texture), caption, "Quads and curves by depth, and how much of each is filled")
 
 
-def _depths(made: dict[str, ThesisTexture | Texture]) -> Picture:
-    deepest = {way: int(leaves(texture).depth.max()) for way, texture in made.items()}
+def _depths(textures_by_way: dict[str, ThesisTexture | Texture]) -> Picture:
+    deepest = {way: int(leaves(texture).depth.max()) for way, texture in textures_by_way.items()}
     said = ", ".join(f"{depth} for `{way}`" for way, depth in deepest.items())
     caption = (
         f"Thesis 4.13. The depth of the cells; darker is deeper. The largest depths are {said}: the most steps that a "
         "shader takes to find a pixel's curves. If a leaf holds only one curve, the deepest cells are at corners."
     )
-    return Picture("depths", subdivisions(made, shades="depth"), caption, "Cells of a drawing, coloured by depth")
+    return Picture(
+        "depths", subdivisions(textures_by_way, shades="depth"), caption, "Cells of a drawing, coloured by depth"
+    )
 
 
-def _files(shape: Shape, made: dict[str, ThesisTexture | Texture]) -> Picture:
+def _files(shape: ConvertedDrawing, textures_by_way: dict[str, ThesisTexture | Texture]) -> Picture:
     shown: dict[str, ThesisTexture | Texture] = {}
     note = ""
-    if "direct" in made:
+    if "direct" in textures_by_way:
         try:
             small = shape.way("direct", 8).texture
             shown[f"direct, 8 bits: {file_bytes(small):,} bytes"] = small
         except LimitError as error:
             note = f" 8 bits cannot hold it: {error}."
-        shown[f"direct, 16 bits: {file_bytes(made['direct']):,} bytes"] = made["direct"]
-    shown[f"packed: {file_bytes(made['packed']):,} bytes"] = made["packed"]
+        shown[f"direct, 16 bits: {file_bytes(textures_by_way['direct']):,} bytes"] = textures_by_way["direct"]
+    shown[f"packed: {file_bytes(textures_by_way['packed']):,} bytes"] = textures_by_way["packed"]
     caption = (
         "Thesis 4.16. The textures as images at one scale, turned by 90 degrees, so that each quad or curve is one "
         "column. The pixels of a pair are shown in their own colours. A texel of a packed texture is a column of four "

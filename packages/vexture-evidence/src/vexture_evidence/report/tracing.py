@@ -47,7 +47,7 @@ def section(material: Material) -> Section:
         return Section("tracing", "Pictures of pixels", (*TEXT, f"{drawing.name} shows no outline to trace."))
     try:
         rows = [_row(drawing, pictures[side]) for side in SIDES]
-        traced = _traced(_png(pictures[SHOWN]))
+        traced = _trace_picture(_png(pictures[SHOWN]))
     except DeviceError as error:
         return Section("tracing", "Pictures of pixels", (*TEXT, f"Not measured here: {error}."))
     table = Table(
@@ -71,8 +71,8 @@ def section(material: Material) -> Section:
 def _row(drawing: "Drawing", picture: "NDArray[np.float32]") -> list[Any]:
     side = len(picture)
     file = _png(picture)
-    traced = _traced(file)
-    seconds = median_seconds(lambda: _traced(file), 1)
+    traced = _trace_picture(file)
+    seconds = median_seconds(lambda: _trace_picture(file), 1)
     off = outline_distance(traced, drawing)
     packed = len(convert(traced, split=None).to_ktx2())
     return [str(side), len(file), 1e3 * seconds, traced.segments, packed, off * side, 1e3 * off]
@@ -87,7 +87,7 @@ def _png(picture: "NDArray[np.float32]") -> bytes:
     return data.getvalue()
 
 
-def _traced(file: bytes) -> "Drawing":
+def _trace_picture(file: bytes) -> "Drawing":
     from vexture.tracing.trace import read_image
 
     return read_image(file, "traced.png")

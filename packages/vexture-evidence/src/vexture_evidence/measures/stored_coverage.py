@@ -13,7 +13,7 @@ from vexture.thesis.layout import CONSTANT_ROWS
 from vexture.thesis.method import CURVE, SAMPLES
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellKind, CellTree
-from vexture_evidence.measures.leaves import Leaves, Tree, leaves, quads
+from vexture_evidence.measures.leaves import LeafArrays, Tree, leaves, quads
 
 __all__ = ["StoredValues", "stored_values"]
 
@@ -23,7 +23,7 @@ class StoredValues(NamedTuple):
 
     Attributes
     ----------
-    found : Leaves
+    found : LeafArrays
         The leaves, with their stored coverage.
     off : (n,) float64 array
         Absolute error of each leaf.
@@ -32,7 +32,7 @@ class StoredValues(NamedTuple):
         Absolute error of each quad's stored coverage, its MIP value.
     """
 
-    found: Leaves
+    found: LeafArrays
     off: NDArray[np.float64]
     quad_depth: NDArray[np.int64]
     quad_off: NDArray[np.float64]
@@ -67,13 +67,13 @@ def stored_values(drawing: Drawing, tree: Tree, texture: ThesisTexture | None = 
     }
     return StoredValues(
         found,
-        abs(found.coverage - _looked_up(truths, found.x, found.y, found.depth)),
+        abs(found.coverage - _exact_coverage(truths, found.x, found.y, found.depth)),
         above.depth,
-        abs(above.coverage - _looked_up(truths, above.x, above.y, above.depth)),
+        abs(above.coverage - _exact_coverage(truths, above.x, above.y, above.depth)),
     )
 
 
-def _looked_up(
+def _exact_coverage(
     truths: dict[int, NDArray[np.float32]], x: NDArray[np.float64], y: NDArray[np.float64], depth: NDArray[np.int64]
 ) -> NDArray[np.float64]:
     """Exact coverage of squares of side 0.5 ** depth; each is a pixel of the exact picture of its depth."""

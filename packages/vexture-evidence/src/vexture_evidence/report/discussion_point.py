@@ -6,10 +6,10 @@ from typing import Any, Final
 from vexture.texture.texture import Texture
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellTree
-from vexture_evidence.measures.shape import Shape
+from vexture_evidence.measures.shape import ConvertedDrawing
 from vexture_evidence.report.section import Section
 
-__all__ = ["LEFT_OUT", "Point", "packed_of", "pair_of", "tree_of"]
+__all__ = ["LEFT_OUT", "DiscussionPoint", "packed_of", "pair_of", "tree_of"]
 
 LEFT_OUT: Final = (
     "Dotted lines show the drawing's own outline where no curve covers it: packed leaves leave out horizontal parts, "
@@ -19,40 +19,40 @@ LEFT_OUT: Final = (
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Point:
+class DiscussionPoint:
     """One point of the chapter.
 
     Parameters
     ----------
     section : Section
-        What the thesis says, how it was before, how it is after, and a picture.
-    what : str
-        The quantity that is measured, with its unit.
+        The thesis's statement, the state before and after, and a picture.
+    quantity : str
+        What is measured, with its unit.
     before, after : float or int
         Its values by the thesis's way and by ours.
     """
 
     section: Section
-    what: str
+    quantity: str
     before: Any
     after: Any
 
 
-def tree_of(shape: Shape, way: str) -> CellTree:
+def tree_of(shape: ConvertedDrawing, way: str) -> CellTree:
     """Tree of a drawing by `way`, one of the two that make the thesis's leaves."""
     tree = shape.way(way).tree
     assert isinstance(tree, CellTree)
     return tree
 
 
-def pair_of(shape: Shape, way: str) -> ThesisTexture:
+def pair_of(shape: ConvertedDrawing, way: str) -> ThesisTexture:
     """Pair of textures of a drawing by `way`, one of the two that make the thesis's leaves."""
     texture = shape.way(way).texture
     assert isinstance(texture, ThesisTexture)
     return texture
 
 
-def packed_of(shape: Shape) -> Texture:
+def packed_of(shape: ConvertedDrawing) -> Texture:
     """Packed texture of a drawing."""
     texture = shape.way("packed").texture
     assert isinstance(texture, Texture)

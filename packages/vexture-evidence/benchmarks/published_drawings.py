@@ -1,10 +1,10 @@
-"""Drawings as they are published, against resvg's pictures: how many are right, by the rule of `conformance.py`.
+"""Published drawings against resvg's pictures: how many are right, by the rule of `conformance.py`.
 
-    python packages/vexture-evidence/benchmarks/published.py [--count 60] [--seed 3] [--only TEXT]
+    python packages/vexture-evidence/benchmarks/published_drawings.py [--count 60] [--seed 3] [--only TEXT]
 
-Of each collection so many drawings are taken at random. A drawing is drawn from its texture, 200 pixels wide, on white;
-resvg draws it four times as large. It is right if fewer than 0.5 % of the pixels are off by more than 40 of 255, else
-*named* if a note says what differs, or *silent*.
+From each collection, `--count` drawings are taken at random. A drawing is drawn from its texture, 200 pixels wide, on
+white; resvg draws it four times as large. It is right if fewer than 0.5 % of the pixels are off by more than 40 of 255,
+else *named* if a note says what differs, or *silent*.
 """
 
 import argparse
@@ -23,7 +23,7 @@ from PIL import Image
 import corpora
 import vexture
 from conformance import FINER, MOST_OFF, SIDE, on_white, share_off
-from judge import enlarged, with_fonts
+from judge import enlarge, resvg_options
 from report import cell, table
 from vexture.base.errors import SourceWarning
 from vexture.conversion.reading import read_drawing
@@ -51,8 +51,8 @@ COLLECTIONS: Final = {
 }
 
 
-class Judged(NamedTuple):
-    """What is found of a drawing: "right", "named" or "silent", and the processor's seconds to convert and draw it."""
+class Judgement(NamedTuple):
+    """Outcome of a drawing, "right", "named" or "silent", and the processor's seconds to convert and draw it."""
 
     outcome: str
     seconds: float
@@ -62,10 +62,10 @@ def files_of(collection: corpora.Package | corpora.DebianPackage) -> list[Path]:
     """All drawings of a collection, in any of its folders."""
     if isinstance(collection, corpora.DebianPackage):
         return collection.files("*.svg")
-    return sorted((collection.installed() / collection.folder).rglob("*.svg"))
+    return sorted((collection.installed_folder() / collection.folder).rglob("*.svg"))
 
 
-def picture(drawing: Drawing, sides: tuple[int, int], size: tuple[float, float]) -> NDArray[np.int16]:
+def draw_on_white(drawing: Drawing, sides: tuple[int, int], size: tuple[float, float]) -> NDArray[np.int16]:
     """Our picture on white, of whole pixels only; `size` is that of the drawing in pixels."""
     side = max(size)
     to_unit = [[1 / side, 0.0, 0.5 - 0.5 * size[0] / side], [0.0, -1 / side, 0.5 + 0.5 * size[1] / side]]
@@ -73,22 +73,22 @@ def picture(drawing: Drawing, sides: tuple[int, int], size: tuple[float, float])
     return np.rint(255.0 * (image[..., :3] + 1.0 - image[..., 3:])).astype(np.int16)
 
 
-def judged(file: Path) -> Judged | None:
-    """What is found of a drawing; None of one that is too large."""
+def judge_drawing(file: Path) -> Judgement | None:
+    """Judge a drawing; None if it is too large."""
     start = time.process_time()
     drawing = read_drawing(file.read_bytes(), name=file.name)
     if drawing.segments > MOST_SEGMENTS:
         return None
-    text, (width, height) = enlarged(file.read_bytes(), drawing, SIDE * FINER)
+    text, (width, height) = enlarge(file.read_bytes(), drawing, SIDE * FINER)
     sides = max(1, int(width / FINER)), max(1, int(height / FINER))
-    ours = picture(drawing, sides, (width / FINER, height / FINER))
+    ours = draw_on_white(drawing, sides, (width / FINER, height / FINER))
     seconds = time.process_time() - start
-    tree = resvg.usvg.Tree.from_str(text.decode(), with_fonts())
+    tree = resvg.usvg.Tree.from_str(text.decode(), resvg_options())
     theirs = on_white(Image.open(io.BytesIO(bytes(resvg.render(tree, (1, 0, 0, 0, 1, 0))))))
     theirs = theirs.crop((0, 0, FINER * sides[0], FINER * sides[1])).resize(sides, Image.Resampling.BOX)
     if share_off(ours, np.asarray(theirs, np.int16)) < MOST_OFF:
-        return Judged("right", seconds)
-    return Judged("named" if any(note.is_loss for note in drawing.notes) else "silent", seconds)
+        return Judgement("right", seconds)
+    return Judgement("named" if any(note.is_loss for note in drawing.notes) else "silent", seconds)
 
 
 def rows(names: Sequence[str], count: int, seed: int) -> Iterator[list[str]]:
@@ -96,7 +96,7 @@ def rows(names: Sequence[str], count: int, seed: int) -> Iterator[list[str]]:
     for name in names:
         files = files_of(COLLECTIONS[name])
         chosen = np.random.default_rng(seed).permutation(len(files))[:count].tolist()
-        found = [one for one in map(judged, [files[at] for at in chosen]) if one is not None]
+        found = [one for one in map(judge_drawing, [files[at] for at in chosen]) if one is not None]
         outcomes = [one.outcome for one in found]
         counts = [str(outcomes.count(outcome)) for outcome in ("right", "named", "silent")]
         seconds = np.percentile([one.seconds for one in found], (50, 99)).tolist()

@@ -1,6 +1,6 @@
-"""What a texture says, read from its pixels alone by FORMAT.md: its leaves, and in or out at points.
+"""Decoder of a texture from its pixels alone, by FORMAT.md: its leaves, and inside or outside at points.
 
-Shares no code with the package but the arrays of the texture.
+It shares no code with the package but the arrays of the texture.
 """
 
 from typing import NamedTuple
@@ -122,7 +122,7 @@ def inside(texture, leaf, points):
 def leaf_at(leaves, points):
     """Index of the leaf that holds each point, (n,)."""
     squares = np.array([leaf[:3] for leaf in leaves])
-    held = np.full(len(points), -1)
+    found = np.full(len(points), -1)
     for k, (x, y, side) in enumerate(squares):
-        held[((points >= (x, y)) & (points < (x + side, y + side))).all(axis=1)] = k
-    return held
+        found[((points >= (x, y)) & (points < (x + side, y + side))).all(axis=1)] = k
+    return found

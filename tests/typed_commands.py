@@ -1,4 +1,4 @@
-"""`vexture` as people type it, run in this process: starting another one takes longer than most commands do."""
+"""Commands of `vexture` as people type them, run in this process: starting another takes longer than most commands."""
 
 import os
 import subprocess
@@ -10,31 +10,31 @@ from pathlib import Path
 
 from vexture.cli.main import main
 
-__all__ = ["typed"]
+__all__ = ["run_command"]
 
 
 @contextmanager
-def written(descriptor: int, path: Path) -> Iterator[None]:
-    """Whatever is written to a descriptor goes into a file, by C libraries too."""
-    kept = os.dup(descriptor)
+def capture_descriptor(descriptor: int, path: Path) -> Iterator[None]:
+    """Write to a file what is written to a descriptor, by C libraries too."""
+    saved = os.dup(descriptor)
     with path.open("w") as file:
         os.dup2(file.fileno(), descriptor)
         try:
             yield
         finally:
-            os.dup2(kept, descriptor)
-            os.close(kept)
+            os.dup2(saved, descriptor)
+            os.close(saved)
 
 
-def typed(*arguments: object) -> "subprocess.CompletedProcess[str]":
-    """Exit code, standard output and standard error of a command."""
+def run_command(*arguments: object) -> "subprocess.CompletedProcess[str]":
+    """Run a command; return its exit code, standard output and standard error."""
     words = [str(argument) for argument in arguments]
     with tempfile.TemporaryDirectory() as folder:
         out, errors = Path(folder, "out"), Path(folder, "errors")
         with (
             warnings.catch_warnings(),
-            written(1, out),
-            written(2, errors),
+            capture_descriptor(1, out),
+            capture_descriptor(2, errors),
             out.open("a") as stdout,
             errors.open("a") as stderr,
             redirect_stdout(stdout),

@@ -12,17 +12,17 @@ __all__ = ["decode", "encode", "info"]
 
 
 def encode(tree, bits=16, *, to_source, name, crs=None):
-    """Texture of one tree."""
+    """Encode one tree as a texture."""
     if isinstance(tree, CellTree):
         return encode_thesis(tree, bits, to_source=to_source, name=name, crs=crs)
     return encode_packed([tree], [Root(name, 0, to_source, tree.deviation, crs)], name=name)
 
 
 def decode(texture, root=None):
-    """Tree of a texture."""
+    """Decode a texture to a tree."""
     return decode_thesis(texture) if isinstance(texture, ThesisTexture) else decode_packed(texture, root)
 
 
 def info(texture):
-    """What a texture says of itself."""
+    """Facts of a texture."""
     return texture.info()

@@ -12,17 +12,17 @@ from vexture_evidence.figures.discussion import before_after, density, stored_va
 from vexture_evidence.measures.leaves import leaves
 from vexture_evidence.measures.metrics import LEVELS
 from vexture_evidence.measures.outline import off_outline
-from vexture_evidence.measures.shape import WAYS, Shape
-from vexture_evidence.measures.stored import StoredValues, stored_values
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing
+from vexture_evidence.measures.stored_coverage import StoredValues, stored_values
 from vexture_evidence.measures.thesis_limits import (
-    clamped,
+    clamp_curves,
     close_up,
     corner_cells,
     looping,
     sharp_corners,
     unnecessary_quads,
 )
-from vexture_evidence.report.discussed import LEFT_OUT, Point, packed_of, pair_of, tree_of
+from vexture_evidence.report.discussion_point import LEFT_OUT, DiscussionPoint, packed_of, pair_of, tree_of
 from vexture_evidence.report.section import Material, Picture, Section
 
 __all__ = ["corners_point", "density_point", "divisions_point", "loops_point", "values_point"]
@@ -31,12 +31,12 @@ LOOPS, CORNERS, SMALL, LARGE = "loop", "flame", "simple-small", "simple-big"
 """Example drawings for the points that few drawings show, used in every report."""
 
 
-def loops_point(material: Material, subject: Shape) -> Point:
+def loops_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoint:
     """Control range and loops."""
     drawing = looping()
     direct, packed = run(drawing, **WAYS["direct"]), run(drawing, **WAYS["packed"])
     assert isinstance(direct.tree, CellTree)
-    tree, changed = clamped(direct.tree)
+    tree, changed = clamp_curves(direct.tree)
     texture = encode(tree, to_source=drawing.to_source, name=drawing.name, bits=16)
     shape = material.example(LOOPS)
     assert isinstance(direct.texture, ThesisTexture)
@@ -70,10 +70,10 @@ def loops_point(material: Material, subject: Shape) -> Point:
         "Shapes with loops: before, the loops are missing or wrong; after, they are there.",
     )
     part = Section("control-range", "Control range and loops (6.1.1)", text, [picture])
-    return Point(part, "error of a picture of four loops, 1/255", before.mae, whole.mae)
+    return DiscussionPoint(part, "error of a picture of four loops, 1/255", before.mae, whole.mae)
 
 
-def corners_point(material: Material, subject: Shape) -> Point:
+def corners_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoint:
     """Sharp corners."""
     shape = material.example(CORNERS)
     drawing, pair, packed = shape.drawing, pair_of(shape, "sampled"), packed_of(shape)
@@ -106,10 +106,10 @@ def corners_point(material: Material, subject: Shape) -> Point:
         "Subdivision and picture at sharp corners, before and after.",
     )
     part = Section("corners", "Sharp corners (6.1.2)", text, [picture])
-    return Point(part, f"cells at a sharp corner of {shape.name}", means["sampled"], means["packed"])
+    return DiscussionPoint(part, f"cells at a sharp corner of {shape.name}", means["sampled"], means["packed"])
 
 
-def density_point(material: Material, subject: Shape) -> Point:
+def density_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoint:
     """Interpolation density: how densely the outline is sampled."""
     textures = {way: subject.way(way).texture for way in WAYS}
     off = {way: off_outline(leaves(made).lines().reshape(-1, 2), subject.drawing) for way, made in textures.items()}
@@ -140,10 +140,10 @@ def density_point(material: Material, subject: Shape) -> Point:
     )  # fmt: skip
     part = Section("density", "Interpolation density (6.2.1)", text, [picture])
     what = f"largest distance from the outline of {subject.name}, in pixels of a picture 1,000 pixels wide"
-    return Point(part, what, worst["sampled"], worst["packed"])
+    return DiscussionPoint(part, what, worst["sampled"], worst["packed"])
 
 
-def divisions_point(material: Material, subject: Shape) -> Point:
+def divisions_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoint:
     """Cells that need not have been divided."""
     shapes = material.example(SMALL), material.example(LARGE)
     shown = [
@@ -172,10 +172,12 @@ def divisions_point(material: Material, subject: Shape) -> Point:
         "discussion-divisions", unneeded_divisions(shown), caption, "Cells of a shield in two sizes, before and after."
     )
     part = Section("divisions", "Unnecessary subdivisions (6.2.2)", text, [picture])
-    return Point(part, "quads around a single curve, both sizes", counts[0] + counts[1], counts[2] + counts[3])
+    return DiscussionPoint(
+        part, "quads around a single curve, both sizes", counts[0] + counts[1], counts[2] + counts[3]
+    )
 
 
-def values_point(material: Material, subject: Shape) -> Point:
+def values_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoint:
     """Accuracy of MIP values."""
     drawing, tree, texture = subject.drawing, tree_of(subject, "sampled"), pair_of(subject, "sampled")
     stored = {
@@ -209,7 +211,7 @@ def values_point(material: Material, subject: Shape) -> Point:
         "Cells coloured by the error of their stored coverage, and errors by depth.",
     )
     part = Section("mip-values", "Accuracy of MIP values (6.2.3)", text, [picture])
-    return Point(part, f"mean error of {subject.name}'s MIP values, 1/255", lines, ours)
+    return DiscussionPoint(part, f"mean error of {subject.name}'s MIP values, 1/255", lines, ours)
 
 
 def _most(values: StoredValues) -> float:

@@ -1,8 +1,8 @@
-"""`vexture` as a program that begins at once: a fork of a process that has imported it and loaded its kernels.
+"""`vexture` as a program that starts at once: a fork of a process that has imported it and loaded its kernels.
 
-A new process of Python takes a second of a processor for these, which is more than most commands take. As a script it
-is the process, until its standard input ends, or the program that asks it. That commands work in a process that is
-their own from the start is tested where they are: by their tests of pipes, signals and servers.
+A new process of Python takes a second of a processor for these, which is more than most commands take. Run as a script,
+this module is that process, until its standard input ends, or its client. Commands in a process of their own from the
+start are covered by their tests of pipes, signals and servers.
 """
 
 import json
@@ -29,14 +29,14 @@ PIPE = "/dev/fd/"
 """How shells name the pipe of `<(program)`."""
 
 LIBRARIES = ("pyogrio", "pyproj", "rasterio", "scipy.ndimage", "shapely", "xarray")
-"""That commands import for maps and floods, each in a second."""
+"""Libraries that commands import for maps and floods, each in a second."""
 
 DRAWING = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><circle cx="4" cy="4" r="3" fill="red"/></svg>'
 
 
 @cache
 def command() -> tuple[str, ...]:
-    """Words that run a program as `vexture`, in shells, too; a process of tests starts one that is asked by all."""
+    """Words that run `vexture`, in shells too; a process of tests starts one warm process for all its commands."""
     folder = tempfile.mkdtemp(prefix="vexture-warm-")
     address = os.path.join(folder, "socket")
     process = subprocess.Popen(
@@ -52,7 +52,7 @@ _started: list["subprocess.Popen[str]"] = []
 
 
 def serve(address: str) -> None:
-    """Import what commands need, and be forked by whoever asks."""
+    """Import what commands need, and fork for each request."""
     from vexture.cli.main import main
     from vexture.server.publish_file import load_kernels
 
@@ -82,22 +82,22 @@ def serve(address: str) -> None:
 
 
 def answer(connection: socket.socket) -> None:
-    """Run a command in a process of its own, and tell how it ended."""
+    """Run a command in a process of its own, and send its exit status."""
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-    told, descriptors, _, _ = socket.recv_fds(connection, MOST_WORDS, MOST_DESCRIPTORS)
-    asked = json.loads(told)
+    message, descriptors, _, _ = socket.recv_fds(connection, MOST_WORDS, MOST_DESCRIPTORS)
+    request = json.loads(message)
     process = os.fork()
     if process == 0:
         from vexture.cli.main import main
 
         connection.close()
-        for place, descriptor in zip(asked["descriptors"], descriptors, strict=True):
+        for place, descriptor in zip(request["descriptors"], descriptors, strict=True):
             os.dup2(descriptor, place)
             os.close(descriptor)
-        os.chdir(asked["folder"])
+        os.chdir(request["folder"])
         os.environ.clear()
-        os.environ.update(asked["environment"])
-        main(asked["words"], prog_name="vexture")
+        os.environ.update(request["environment"])
+        main(request["words"], prog_name="vexture")
     status = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
     connection.sendall(f"{status}".encode())
 
@@ -105,12 +105,12 @@ def answer(connection: socket.socket) -> None:
 def ask(address: str, *words: str) -> None:
     """Run a command with the streams, the folder and the environment of this process, and end as it does."""
     descriptors = [0, 1, 2, *(int(word.removeprefix(PIPE)) for word in words if word.startswith(PIPE))]
-    told = json.dumps(
+    message = json.dumps(
         {"words": words, "folder": os.getcwd(), "environment": dict(os.environ), "descriptors": descriptors}
     )
     with socket.socket(socket.AF_UNIX) as connection:
         connection.connect(address)
-        socket.send_fds(connection, [told.encode()], descriptors)
+        socket.send_fds(connection, [message.encode()], descriptors)
         status = int(connection.recv(16))
     sys.exit(status if status >= 0 else 128 - status)
 

@@ -6,10 +6,10 @@ from itertools import product
 
 import numpy as np
 
-__all__ = ["chunks_of", "document_of", "glb", "room"]
+__all__ = ["chunks_of", "document_of", "glb_content", "make_room"]
 
 CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))
-"""Of a square, with texture coordinates that go down, as those of glTF do."""
+"""Corners of a square, with texture coordinates that go down, as in glTF."""
 
 
 def square(center, right, down):
@@ -31,7 +31,7 @@ def box():
     return places, normals, coordinates, triangles + np.repeat(np.arange(6, dtype=np.uint16) * 4, 6)
 
 
-def room(**members):
+def make_room(**members):
     """Document and binary of a model: the floor, whose material is Sign, and the box, whose material is Wall."""
     binary, views, accessors, meshes = b"", [], [], []
     shapes = {"Floor": square((0, 0, 0), (1, 0, 0), (0, -1, 0)), "Box": box()}
@@ -68,7 +68,7 @@ def room(**members):
     return document | members, binary
 
 
-def glb(document, binary=None, *others):
+def glb_content(document, binary=None, *others):
     """Contents of a .glb."""
     text = json.dumps(document).encode()
     chunks = [(b"JSON", text + b" " * (-len(text) % 4))]

@@ -9,12 +9,12 @@ from vexture.conversion.pipeline import run
 from vexture.texture.texture import Texture
 from vexture.thesis.layout import LIST_LIMIT
 from vexture_evidence.figures.discussion import before_after, edited_drawing, lines_at_borders, list_growth
-from vexture_evidence.measures.closeups import closeup, joined
-from vexture_evidence.measures.editing import edited
-from vexture_evidence.measures.printed import TABLE_5_1
-from vexture_evidence.measures.shape import WAYS, Shape
-from vexture_evidence.measures.thesis_limits import Close, Lengths, close_up, list_lengths
-from vexture_evidence.report.discussed import LEFT_OUT, Point, packed_of, pair_of
+from vexture_evidence.measures.closeups import all_cubics, closeup
+from vexture_evidence.measures.editing import edit_texture
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing
+from vexture_evidence.measures.thesis_limits import BeforeAfter, Lengths, close_up, list_lengths
+from vexture_evidence.measures.thesis_numbers import TABLE_5_1
+from vexture_evidence.report.discussion_point import LEFT_OUT, DiscussionPoint, packed_of, pair_of
 from vexture_evidence.report.section import Material, Picture, Section
 
 __all__ = ["crossings_point", "editing_point", "lines_point", "lists_point"]
@@ -35,7 +35,7 @@ BALL: Final = '<circle cx="36" cy="40" r="24"/>'
 """The shape that is added beside the duck, in the units of the duck's file."""
 
 
-def lines_point(material: Material, subject: Shape) -> Point:
+def lines_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoint:
     """Lines along the borders of cells."""
     close = _as_thesis(subject)
     if not close.stray[0]:  # no pixel is wrong away from the outline, so this drawing does not show the point
@@ -68,14 +68,14 @@ def lines_point(material: Material, subject: Shape) -> Point:
         "Cells of a texture, and the errors of two pictures with the cells' borders drawn over them.",
     )
     part = Section("lines", "Lines along cells (6.3)", text, [picture])
-    return Point(part, f"pixels of {subject.name} that are wrong away from its outline", before, after)
+    return DiscussionPoint(part, f"pixels of {subject.name} that are wrong away from its outline", before, after)
 
 
-def _as_thesis(shape: Shape) -> Close:
+def _as_thesis(shape: ConvertedDrawing) -> BeforeAfter:
     return close_up(shape.drawing, pair_of(shape, "direct"), packed_of(shape), side=UNALIGNED, as_thesis=True)
 
 
-def crossings_point(material: Material, subject: Shape) -> Point:
+def crossings_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoint:
     """Paths that cross."""
     shape = material.example(CROSSED)
     drawing, pair, packed = shape.drawing, pair_of(shape, "sampled"), packed_of(shape)
@@ -103,10 +103,10 @@ def crossings_point(material: Material, subject: Shape) -> Point:
         "Two pentagrams and one of their crossings, before and after.",
     )
     part = Section("crossings", "Crossings (6.4)", text, [picture])
-    return Point(part, f"error of a picture of {shape.name}, 1/255", before.mae, after.mae)
+    return DiscussionPoint(part, f"error of a picture of {shape.name}, 1/255", before.mae, after.mae)
 
 
-def lists_point(material: Material, subject: Shape) -> Point:
+def lists_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoint:
     """List limits: how much one texture can hold."""
     drawing = material.example(SMALL).drawing
     lengths = {way: list_lengths(drawing, parameters, ACROSS[way]) for way, parameters in WAYS.items()}
@@ -120,7 +120,7 @@ def lists_point(material: Material, subject: Shape) -> Point:
         )
         for seen in (24, 4)
     }
-    held = {way: _held(found) for way, found in lengths.items()}
+    held = {way: _most_copies(found) for way, found in lengths.items()}
     refusal = next((length.refused for length in lengths["direct"] if length.refused), "")
     printed = [TABLE_5_1[name].curves for name in (SMALL, "simple-duo", "simple-quartet")]
     text = (
@@ -146,10 +146,12 @@ def lists_point(material: Material, subject: Shape) -> Point:
         "Growth of the lists, and a drawing of thousands of shapes.",
     )
     part = Section("list-limits", "List limits (4.3.1, 5.1)", text, [picture], {"lengths": _as_facts(lengths)})
-    return Point(part, "most copies of the simple shape held, of the numbers tried", held["direct"], held["packed"])
+    return DiscussionPoint(
+        part, "most copies of the simple shape held, of the numbers tried", held["direct"], held["packed"]
+    )
 
 
-def _held(found: list[Lengths]) -> int:
+def _most_copies(found: list[Lengths]) -> int:
     return max(length.copies for length in found if length.entries is not None)
 
 
@@ -158,10 +160,10 @@ def _as_facts(lengths: dict[str, list[Lengths]]) -> dict[str, Any]:
             for way, found in lengths.items()}  # fmt: skip
 
 
-def editing_point(material: Material, subject: Shape) -> Point:
+def editing_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoint:
     """Editing: what drawing programs can do with a texture."""
     shape = material.example(DUCK)
-    after = edited(shape.drawing, packed_of(shape), BALL)
+    after = edit_texture(shape.drawing, packed_of(shape), BALL)
     sampled = run(shape.drawing, **WAYS["sampled"])
     text = (
         "Thesis 4.2: “it would require a separate UI to create new shapes”, and 7: “The format’s current form is not "
@@ -178,7 +180,7 @@ def editing_point(material: Material, subject: Shape) -> Point:
     caption = (
         "Thesis 4.2. From the left: the thesis's textures of the duck as images; our texture of the duck exported as "
         "SVG, with the nodes and handles that a drawing program shows (the drawing has "
-        f"{len(joined(shape.drawing))} cubics, which the conversion cut at the borders of cells and where x or y "
+        f"{len(all_cubics(shape.drawing))} cubics, which the conversion cut at the borders of cells and where x or y "
         "turns); this file with a ball added beside the duck; a picture of the texture that the changed file became."
     )
     figure = edited_drawing(pair_of(shape, "sampled"), after, coverage(after.texture, (200, 200), renderer="cpu"))
@@ -186,4 +188,4 @@ def editing_point(material: Material, subject: Shape) -> Point:
         "discussion-editing", figure, caption, "A texture's pixels; its outlines with handles; a changed drawing."
     )
     part = Section("editing", "Editing with ordinary programs (4.2, 7)", text, [picture])
-    return Point(part, "time to convert the duck, ms", 1000.0 * sampled.seconds, 1000.0 * after.seconds)
+    return DiscussionPoint(part, "time to convert the duck, ms", 1000.0 * sampled.seconds, 1000.0 * after.seconds)

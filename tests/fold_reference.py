@@ -1,4 +1,4 @@
-"""What a folded shape looks like, by brute force: many points of each pixel, each folded exactly and looked up."""
+"""Coverage of a folded shape by brute force: many points of each pixel, each folded exactly and looked up."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ Numbers = NDArray[np.float64]
 
 
 def positions(to_unit: Numbers, pixels: Numbers) -> Numbers:
-    """Places of the unit square that points of a picture show."""
+    """Places of the unit square at points of a picture."""
     found = pixels @ to_unit[:, :2].T + to_unit[:, 2]
     return found[:, :2] / found[:, 2:]
 
@@ -31,7 +31,7 @@ def near_edges(picture: Numbers) -> NDArray[np.bool_]:
 def errors(
     picture: Numbers, texture: Texture, fold: Fold, to_unit: Numbers, seconds: float, *, wrap: str = "none"
 ) -> Numbers:
-    """Differences of a picture's edge pixels, in 1/255, from what the folded shape covers of them."""
+    """Differences of a picture's edge pixels, in 1/255, from the folded shape's coverage of them."""
     row, column = np.nonzero(near_edges(picture))
     points = (np.stack([column, row], axis=1)[:, None] + LATTICE).reshape(-1, 2)
     places, _ = fold.at(positions(to_unit, points), seconds, wrap=wrap)

@@ -21,7 +21,7 @@ from vexture.tree.cubics import gather
 from vexture_evidence.measures.closeups import outline_places
 from vexture_evidence.measures.metrics import Errors, errors
 from vexture_evidence.measures.rivals import texture_rival
-from vexture_evidence.measures.shape import WAYS, Made, Shape
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, Made
 from vexture_evidence.measures.thesis_ways import AsThesis, draw_as_thesis
 
 __all__ = [
@@ -107,12 +107,12 @@ class Fitted:
     nbytes: int
 
 
-def at_sizes(shape: Shape, sizes: Sequence[int] = (1, 2, 4, 8, 16)) -> tuple[Rendered, ...]:
+def at_sizes(shape: ConvertedDrawing, sizes: Sequence[int] = (1, 2, 4, 8, 16)) -> tuple[Rendered, ...]:
     """Draw the whole shape in few pixels, by each step of the thesis's method and by the packed one (thesis 3.13).
 
     Parameters
     ----------
-    shape : Shape
+    shape : ConvertedDrawing
         If the thesis's encoding cannot hold it, its pictures are left out.
     sizes : sequence of int
         Sides of the pictures in pixels.
@@ -120,7 +120,7 @@ def at_sizes(shape: Shape, sizes: Sequence[int] = (1, 2, 4, 8, 16)) -> tuple[Ren
     Examples
     --------
     >>> from vexture_evidence.measures.shape import example
-    >>> smallest, _ = at_sizes(Shape(example("duck")), (1, 2))
+    >>> smallest, _ = at_sizes(ConvertedDrawing(example("duck")), (1, 2))
     >>> list(smallest.images)
     ['centre of the pixel', 'with MIP values', 'MIP values, 16 samples', 'packed']
     """
@@ -128,12 +128,12 @@ def at_sizes(shape: Shape, sizes: Sequence[int] = (1, 2, 4, 8, 16)) -> tuple[Ren
                  for side in sizes)  # fmt: skip
 
 
-def at_edge(shape: Shape, side: int = 40, part: float = 1 / 16) -> Rendered:
+def at_edge(shape: ConvertedDrawing, side: int = 40, part: float = 1 / 16) -> Rendered:
     """Draw a magnified part of the outline (thesis 4.14), rotated so that edges cross the pixel grid at an angle.
 
     Parameters
     ----------
-    shape : Shape
+    shape : ConvertedDrawing
         If the thesis's encoding cannot hold it, its pictures are left out.
     side : int
         Pixels along a side.
@@ -146,7 +146,7 @@ def at_edge(shape: Shape, side: int = 40, part: float = 1 / 16) -> Rendered:
 
 
 def cut_off_at(
-    shape: Shape, sizes: Sequence[int] = (20, 40, 80, 160, 320), *, cut_off: float = EXAGGERATED
+    shape: ConvertedDrawing, sizes: Sequence[int] = (20, 40, 80, 160, 320), *, cut_off: float = EXAGGERATED
 ) -> tuple[AsThesis, ...]:
     """Draw the whole shape with MIP values for far larger quads than usual (thesis 4.15).
 
@@ -155,12 +155,12 @@ def cut_off_at(
     LimitError
         If the thesis's encoding cannot hold the drawing.
     """
-    texture = _sampled(shape)
+    texture = _sampled_texture(shape)
     return tuple(draw_as_thesis(texture, (side, side), samples=1, cut_off=cut_off) for side in sizes)
 
 
 def with_tolerances(
-    shape: Shape, side: int = 240, part: float = 1 / 8
+    shape: ConvertedDrawing, side: int = 240, part: float = 1 / 8
 ) -> tuple[tuple[Fitted, ...], Rendered, Rendered, tuple[float, float, float]]:
     """Convert with the right tolerance, with one ten times too large, and to a packed texture (thesis 5.12).
 
@@ -206,14 +206,14 @@ def with_tolerances(
     )
 
 
-def _sampled(shape: Shape) -> ThesisTexture:
+def _sampled_texture(shape: ConvertedDrawing) -> ThesisTexture:
     texture = shape.way("sampled").texture
     assert isinstance(texture, ThesisTexture)
     return texture
 
 
 def _in_view(
-    shape: Shape,
+    shape: ConvertedDrawing,
     size: tuple[int, int],
     to_unit: NDArray[np.float64] | None,
     ways: Mapping[str, tuple[int, float]],
@@ -225,7 +225,7 @@ def _in_view(
     """
     images, from_mip = {}, None
     with suppress(LimitError):
-        texture = _sampled(shape)
+        texture = _sampled_texture(shape)
         for name, (samples, cut_off) in ways.items():
             drawn = draw_as_thesis(texture, size, to_unit, samples=samples, cut_off=cut_off)
             images[name] = drawn.image
