@@ -20,7 +20,7 @@ from vexture.renderers.shader import VERSIONS, vertex_source
 from wgsl_generator import to_wgsl, with_parameters
 from wgsl_generator.facts import Facts, facts_of
 from wgsl_generator.kinds import TEXTURES, array_of, size_of, wgsl_type
-from wgsl_generator.parser import parsed
+from wgsl_generator.parser import parse
 
 Picture = NDArray[np.float32]
 Given = Mapping[str, Any]
@@ -40,7 +40,7 @@ def head(numbers: Numbers) -> str:
 
 def read_by(text: str) -> tuple[Facts, dict[str, str]]:
     """Uniforms of `shown` and their types."""
-    facts = facts_of(parsed(text))
+    facts = facts_of(parse(text))
     return facts, {name: facts.uniforms[name] for name in facts.forms["shown", 1].reads}
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from difflib import SequenceMatcher
 from typing import Final
 
-__all__ = ["both", "picked"]
+__all__ = ["both", "pick_language"]
 
 WORDS: Final = re.compile(r"\w+|[^\w]")
 DEFINITIONS: Final = re.compile(r"(?<=\n\}\n)|(?<=\n\};\n)")
@@ -22,12 +22,12 @@ def both(glsl: str, wgsl: str, bare: Callable[[str], str]) -> str:
     """Return both texts as one, each definition after it is made `bare`."""
     assert not re.search(r"[@$`]", bare(glsl + wgsl)), "signs that neither language has"
     parts = [[bare(part) for part in DEFINITIONS.split(text)] for text in (glsl, wgsl)]
-    text = "".join(joined(one, other) for one, other in zip(*parts, strict=True))
-    assert [picked(text, 1), picked(text, 2)] == ["".join(each) for each in parts]
+    text = "".join(merge_definition(one, other) for one, other in zip(*parts, strict=True))
+    assert [pick_language(text, 1), pick_language(text, 2)] == ["".join(each) for each in parts]
     return text
 
 
-def joined(one: str, other: str) -> str:
+def merge_definition(one: str, other: str) -> str:
     """Both of a definition."""
     left, right = WORDS.findall(one), WORDS.findall(other)
     text = ""
@@ -37,6 +37,6 @@ def joined(one: str, other: str) -> str:
     return text
 
 
-def picked(text: str, side: int) -> str:
+def pick_language(text: str, side: int) -> str:
     """Return the first language of a text, or the second."""
     return PAIR.sub(lambda pair: pair[side], text)

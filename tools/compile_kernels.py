@@ -25,10 +25,10 @@ import numpy as np
 from vexture import Drawing, convert, read_svg
 from vexture.base.kernels import Kernel, text_digest
 from vexture.base.layout import MAP_HEAD
-from vexture.base.machine_code import RELEASE, SHIPPED, Code, described, host, load
+from vexture.base.machine_code import RELEASE, SHIPPED, Code, argument_type, host, load
 from vexture.base.tolerance import ROUND
 from vexture.bezier.cover import DIRECTIONS, cover_cells, cut_outlines, find_reach
-from vexture.bezier.reduce import reduced
+from vexture.bezier.reduce import reduce_contour
 from vexture.renderers.colour import draw_colours
 from vexture.renderers.cpu import draw
 from vexture.texture.encode import texel_rows
@@ -38,8 +38,8 @@ from vexture.tree.build import SLICE, grow, grow_on
 from vexture.tree.cubics import gather
 from vexture.tree.growth import WAITING, Growth, tree_of, with_needed_room
 from vexture.tree.planar.build import build_map, grow_map, plant_map, row_cubics
-from vexture.tree.planar.faces import add_faces, new_faces, operations_of, refill, trimmed
-from vexture.tree.planar.growth import planted, with_room
+from vexture.tree.planar.faces import add_faces, new_faces, operations_of, refill, trim_faces
+from vexture.tree.planar.growth import growth_from_tuples, with_room
 from vexture.tree.planar.layers import layers_of, rows_of
 from vexture.tree.tree import MOST_QUADS
 
@@ -129,7 +129,7 @@ def calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
     for file in sorted(SHAPES.glob("*.svg")):
         drawing = read_svg(file)
         for path in drawing.paths[:1]:
-            yield from ((reduced, (contour, ROUND)) for contour in path.contours)
+            yield from ((reduce_contour, (contour, ROUND)) for contour in path.contours)
         for tolerance in (0.0, 0.001):
             outlines, bounds = gather(drawing), Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS)
             yield grow, (*outlines, bounds, SLICE, 0)
@@ -150,14 +150,14 @@ def map_calls(drawing: Drawing) -> Iterator[tuple[Any, tuple[Any, ...]]]:
     outlines, layers = row_cubics(rows), layers_of(rows, drawing.groups)
     yield plant_map, (*outlines, 16)
     for tolerance in (0.0, 0.001):
-        growth, faces = planted(*plant_map.dispatcher(*outlines, 16)[0]), new_faces()
+        growth, faces = growth_from_tuples(*plant_map.dispatcher(*outlines, 16)[0]), new_faces()
         growth.tree.needed[:] = ROOM
         yield (
             grow_map,
             (with_room(growth), layers, faces, Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS), SLICE, 0),
         )
     yield refill, (new_faces(),)
-    yield add_faces, (new_faces(), trimmed(new_faces()), 1, 1, np.zeros(1, np.int64))
+    yield add_faces, (new_faces(), trim_faces(new_faces()), 1, 1, np.zeros(1, np.int64))
     circles, top = np.zeros((1, 3)), np.zeros((1, 1), np.int32)
     reach, outlines = np.zeros((1, DIRECTIONS)), np.zeros((1, 1, 4, 2))
     yield cover_cells, (circles, top)
@@ -219,7 +219,7 @@ def write(
     if any(symbol.startswith(("NRT", "Py", "_Py", "numba")) for symbol in symbols):
         sys.exit(f"{kernel.__name__} calls {', '.join(symbols)}; write what is not the C library's into RUN_TIME")
     features = list(processor.features)
-    types = described(arguments), described(result)
+    types = argument_type(arguments), argument_type(result)
     file = folder / f"{kernel.__module__}.{kernel.__name__}-{processor.name}.code"
     Code(host()[0], features, symbols, digest, *types, entry).write(file, machine_code)
     print(f"{file}: {file.stat().st_size} bytes, calls {', '.join(symbols)}")
@@ -232,7 +232,7 @@ def is_growth(values: tuple[Any, ...]) -> bool:
 
 
 def bits(values: Any) -> Any:
-    """What is compared of arguments and results; of a tree that grows, only what it has grown."""
+    """Part of arguments and results that is compared; of a growing tree, only what it has grown."""
     if isinstance(values, tuple) and is_growth(values):
         tree = Growth(*values)
         values = (tree.counts,) if tree.counts[WAITING] else astuple(tree_of(tree))
@@ -252,7 +252,7 @@ def main() -> None:
             result = kernel.dispatcher(*arguments)
             if kernel not in made:
                 write(kernel, arguments, result, processor, SHIPPED, text_digest())
-                made[kernel] = load(kernel, text_digest(), described(arguments))
+                made[kernel] = load(kernel, text_digest(), argument_type(arguments))
             if bits((made[kernel](*again), again)) != bits((result, arguments)):
                 sys.exit(f"{kernel.__name__}: the code says something else than Numba")
 

@@ -87,7 +87,7 @@ def absolute_links(text: str, home: str, repository: str, version: str) -> str:
     return "".join(part if part.startswith("```") else LINK.sub(absolute, part) for part in parts)
 
 
-def _build_wheel(folder: Path, copy: Path, made: Path, repository: str | None) -> None:
+def _build_wheel(folder: Path, copy: Path, output: Path, repository: str | None) -> None:
     """Build sdist and wheel, the wheel from the sdist."""
     project = tomllib.loads((folder / "pyproject.toml").read_text(encoding="utf-8"))
     _copy(folder, copy, ["pyproject.toml", *project["tool"]["setuptools"]["packages"]["find"]["where"]])
@@ -95,7 +95,7 @@ def _build_wheel(folder: Path, copy: Path, made: Path, repository: str | None) -
     if repository:
         with (copy / "pyproject.toml").open("a", encoding="utf-8") as file:
             file.write(f"\n[project.urls]\n{_toml_urls(repository)}")
-    command = [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(made), str(copy)]
+    command = [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(output), str(copy)]
     _run(command, copy, SOURCE_DATE_EPOCH=str(epoch()))
     if (folder / COMPILED).is_dir():
         from compile_kernels import tag
@@ -103,8 +103,8 @@ def _build_wheel(folder: Path, copy: Path, made: Path, repository: str | None) -
         shutil.copytree(folder / COMPILED, copy / COMPILED)
         _set_modes(copy)
         command = [*command[:3], "--no-isolation", "--wheel", f"-C--build-option=--plat-name={tag()}"]
-        _run([*command, "--outdir", str(made), str(copy)], copy, SOURCE_DATE_EPOCH=str(epoch()))
-    for sdist in made.glob("*.tar.gz"):
+        _run([*command, "--outdir", str(output), str(copy)], copy, SOURCE_DATE_EPOCH=str(epoch()))
+    for sdist in output.glob("*.tar.gz"):
         _settle(sdist)
 
 
@@ -118,7 +118,7 @@ def _toml_urls(repository: str) -> str:
     return "".join(f'{name} = "{address}"\n' for name, address in pages.items())
 
 
-def _build_tarball(folder: Path, copy: Path, made: Path, repository: str | None) -> None:
+def _build_tarball(folder: Path, copy: Path, output: Path, repository: str | None) -> None:
     """Pack what package.json names, with its types built first."""
     package: dict[str, Any] = json.loads((folder / "package.json").read_text(encoding="utf-8"))
     _run(["npm", "run", "--silent", "prepack"], folder)
@@ -128,7 +128,7 @@ def _build_tarball(folder: Path, copy: Path, made: Path, repository: str | None)
         home = folder.relative_to(ROOT).as_posix()
         package["repository"] = {"type": "git", "url": f"git+{repository}.git", "directory": home}
     (copy / "package.json").write_text(json.dumps(package, indent=2) + "\n", encoding="utf-8")
-    _run(["npm", "pack", "--silent", "--ignore-scripts", "--pack-destination", str(made)], copy)
+    _run(["npm", "pack", "--silent", "--ignore-scripts", "--pack-destination", str(output)], copy)
 
 
 def _copy(folder: Path, copy: Path, names: list[str]) -> None:

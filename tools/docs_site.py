@@ -23,7 +23,7 @@ import js_model
 from js_pages import Book
 
 __all__ = ["HOMES", "command_line", "figures", "javascript", "modules", "on_config", "on_files", "on_page_markdown"]
-__all__ += ["relinked"]
+__all__ += ["rewrite_links"]
 
 ROOT: Final = Path(__file__).parents[1]
 
@@ -90,7 +90,7 @@ def on_files(files: Files, *, config: Any) -> Files:
     """Add the pages, and the files that they link to."""
     attached: set[str] = set()
     for home, page in HOMES.items():
-        text, linked = relinked(home)
+        text, linked = rewrite_links(home)
         attached |= linked
         files.append(File.generated(config, page, content=text))
     for path in sorted(attached):
@@ -153,7 +153,7 @@ def javascript() -> dict[str, str]:
     return {OVERVIEW: listed, **written}
 
 
-def relinked(home: str) -> tuple[str, set[str]]:
+def rewrite_links(home: str) -> tuple[str, set[str]]:
     """Text of a file with its relative links as they are from its page, and the files that come with it.
 
     Links to files that are pages go to the pages; other files come with the site, below ``files/``.
@@ -224,12 +224,14 @@ def modules() -> str:
     for package in PACKAGES:
         folders = [package, *sorted(path for path in package.rglob("*") if path.is_dir())]
         for folder in folders:
-            rows = [f"| `{path.name}` | {_described(path)} |" for path in sorted(folder.iterdir()) if _is_listed(path)]
+            rows = [
+                f"| `{path.name}` | {_describe_file(path)} |" for path in sorted(folder.iterdir()) if _is_listed(path)
+            ]
             if not rows:
                 continue
             parts.append(f"## {folder.relative_to(package.parent).as_posix()}/")
             if (folder / "__init__.py").is_file():
-                parts.append(_described(folder / "__init__.py"))
+                parts.append(_describe_file(folder / "__init__.py"))
             parts.append("\n".join(["| module | what it is |", "|---|---|", *rows]))
     return "\n\n".join(parts) + "\n"
 
@@ -238,7 +240,7 @@ def _is_listed(path: Path) -> bool:
     return path.suffix in (".py", ".glsl") and path.name != "__init__.py"
 
 
-def _described(path: Path) -> str:
+def _describe_file(path: Path) -> str:
     """Return the first paragraph of a module's docstring, or of the comment that a shader file begins with."""
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".py":

@@ -1,4 +1,4 @@
-"""What the examples of the gallery are converted from: drawings, maps, a model; written beside each example."""
+"""Sources of the gallery's examples: drawings, maps, a model; written beside each example."""
 
 import base64
 import json
@@ -102,7 +102,7 @@ def countries(folder: Path, *, quick: bool) -> None:
     )
 
 
-def unrolled(ring: Any) -> list[Any]:
+def unroll_ring(ring: Any) -> list[Any]:
     """A ring of the sphere, in degrees, as rings of the plane whose part from -180 to 180 is what the map shows.
 
     A ring that crosses the 180th meridian goes on beyond it, and comes again from the other side; one around a pole
@@ -125,7 +125,7 @@ def land(folder: Path, *, quick: bool) -> None:
     path = []
     for geometry in topology["objects"]["land"]["geometries"]:
         rings = [ring for polygon in rings_of(topology, geometry) for ring in polygon]
-        for ring in (one for whole in rings for one in unrolled(whole)):
+        for ring in (one for whole in rings for one in unroll_ring(whole)):
             path.append("M" + "L".join(f"{x:.3f} {-y:.3f}" for x, y in ring) + "Z")
     svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-180 -90 360 180"><path d="{"".join(path)}"/></svg>'
     (folder / "land.svg").write_text(svg, encoding="utf-8")
@@ -142,11 +142,11 @@ def icons(folder: Path, *, quick: bool) -> None:
 def drawing(name: str) -> Callable[..., None]:
     """Copy a drawing of the gallery or of examples/shapes."""
 
-    def copied(folder: Path, *, quick: bool) -> None:
+    def copy_file(folder: Path, *, quick: bool) -> None:
         found = [ROOT / "gallery" / "drawings" / name, ROOT / "examples" / "shapes" / name]
         shutil.copyfile(next(file for file in found if file.is_file()), folder / name)
 
-    return copied
+    return copy_file
 
 
 def postcard(folder: Path, *, quick: bool) -> None:

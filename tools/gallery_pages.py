@@ -108,7 +108,7 @@ def examples() -> list[Example]:
     ]
 
 
-def filled(template: str, **values: Any) -> str:
+def fill_template(template: str, **values: Any) -> str:
     """A template of gallery/pages with its places filled."""
     return Template((GALLERY / "pages" / template).read_text(encoding="utf-8")).substitute(values)
 
@@ -133,7 +133,7 @@ def write_page(folder: Path, example: Example, around: tuple[Example, Example], 
         "jsx": example.path.suffix == ".jsx",
     }
     before, after = around
-    text = filled(
+    text = fill_template(
         "example.html",
         title=html.escape(example.title),
         text=html.escape(example.text),
@@ -155,17 +155,17 @@ def write_page(folder: Path, example: Example, around: tuple[Example, Example], 
     (folder / example.name / "index.html").write_text(text, encoding="utf-8")
 
 
-def write_index(folder: Path, shown: list[Example], thumbnails: dict[str, str], credits: str) -> None:
+def write_index(folder: Path, examples: list[Example], thumbnails: dict[str, str], credits: str) -> None:
     """Write the page of all examples; `thumbnails` are the files of their pictures."""
     cards = []
-    for example in shown:
+    for example in examples:
         title, text = html.escape(example.title), html.escape(example.text)
         picture = (
             f'<img src="{example.name}/{thumbnails[example.name]}" alt="" width="640" height="400" loading="lazy">'
         )
         card = f'<a class="card" href="{example.name}/index.html">{picture}<h2>{title}</h2><p>{text}</p>'
         cards.append(f'{card}<p class="tags">{html.escape(example.tags)}</p></a>')
-    text = filled("index.html", cards="\n".join(cards), count=len(shown), credits=credits)
+    text = fill_template("index.html", cards="\n".join(cards), count=len(examples), credits=credits)
     (folder / "index.html").write_text(text, encoding="utf-8")
 
 

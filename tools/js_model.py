@@ -1,4 +1,4 @@
-"""What the npm package exports, as TypeDoc reads it from the sources' types."""
+"""Exports of the npm package, as TypeDoc reads them from the sources' types."""
 
 import hashlib
 import json
@@ -93,9 +93,9 @@ def _digest(web: Path) -> str:
     return digest.hexdigest()[:16]
 
 
-def _describe(web: Path, found: list[Entry], kept: Path) -> None:
+def _describe(web: Path, found: list[Entry], output: Path) -> None:
     """Let TypeDoc write its description to a file."""
-    with tempfile.TemporaryDirectory(dir=kept.parent) as scratch:
+    with tempfile.TemporaryDirectory(dir=output.parent) as scratch:
         written = Path(scratch, "model.json")
         command = ["node", str(TYPEDOC), "--json", str(written)]
         for entry in found:
@@ -103,4 +103,4 @@ def _describe(web: Path, found: list[Entry], kept: Path) -> None:
         outcome = subprocess.run(command, cwd=web, capture_output=True, text=True, check=False)
         if outcome.returncode or not written.is_file():
             raise RuntimeError(f"TypeDoc cannot read web/src: {(outcome.stderr + outcome.stdout).strip()}")
-        os.replace(written, kept)
+        os.replace(written, output)

@@ -8,7 +8,7 @@ from typing import Any, Final
 from js_model import MAIN
 from js_types import Model, Writer, plain
 
-__all__ = ["Book", "described", "is_overridden", "members", "names", "unlinked"]
+__all__ = ["Book", "description_of", "find_unlinked", "is_overridden", "members", "names"]
 
 CONSTRUCTOR, METHOD, ACCESSOR, REFERENCE = 512, 2048, 262144, 4194304
 VARIABLE, FUNCTION, CLASS = 32, 64, 128
@@ -49,7 +49,7 @@ def is_overridden(one: Model) -> bool:
     return bool(parts) and all("signatures" in part.get("declaration", {}) for part in parts)
 
 
-def described(one: Model) -> str:
+def description_of(one: Model) -> str:
     """Return what is said of a member: of what reads it, of what sets it, of itself."""
     sources = [one, *signatures(one), one.get("getSignature", {}), one.get("setSignature", {})]
     return next((text for text in map(words, sources) if text), "")
@@ -78,25 +78,25 @@ def symbol(one: Model) -> str:
     return KINDS.get(one["kind"], "type_alias")
 
 
-def is_ours(what: Model) -> bool:
+def is_ours(node: Model) -> bool:
     """Whether a type is one of the package, and no parameter of a type."""
-    target = what.get("target")
+    target = node.get("target")
     is_own = target.get("packageName") == MAIN if isinstance(target, dict) else target == -1
-    return is_own and what.get("package") == MAIN and not what.get("refersToTypeParameter")
+    return is_own and node.get("package") == MAIN and not node.get("refersToTypeParameter")
 
 
-def unlinked(model: dict[str, Model]) -> set[str]:
+def find_unlinked(model: dict[str, Model]) -> set[str]:
     """Names of the package's own types that something exported mentions, and no entry exports."""
     found: set[str] = set()
 
-    def look(what: Any) -> None:
-        if isinstance(what, list):
-            for one in what:
+    def look(node: Any) -> None:
+        if isinstance(node, list):
+            for one in node:
                 look(one)
-        elif isinstance(what, dict):
-            if what.get("type") == "reference" and is_ours(what):
-                found.add(what["name"])
-            for name, one in what.items():
+        elif isinstance(node, dict):
+            if node.get("type") == "reference" and is_ours(node):
+                found.add(node["name"])
+            for name, one in node.items():
                 if name not in ("inheritedFrom", "overwrites", "extendedTypes"):
                     look(one)
 
@@ -136,7 +136,7 @@ class Book:
         """Return the page of an entry."""
         module = self.model[entry]
         own = [one for one in module["children"] if one["kind"] != REFERENCE]
-        parts = [f"# {entry}", self._linked(described(module), entry, ""), *self._contents(own)]
+        parts = [f"# {entry}", self._add_links(description_of(module), entry, ""), *self._contents(own)]
         for kind in GROUPS:
             for one in own:
                 if symbol(one) == kind:
@@ -151,29 +151,29 @@ class Book:
             found = [
                 f"[`{names(one)}`]({self._address(one, '', '.md')})" for one in module["children"] if _is_code(one)
             ]
-            text = self._linked(described(module), "", "").replace("\n", " ")
+            text = self._add_links(description_of(module), "", "").replace("\n", " ")
             rows.append(f"| [`{entry}`]({_slug(entry)}.md) | {text} | {' '.join(found)} |")
         return "\n".join(["| entry | what it is for | classes and functions |", "|---|---|---|", *rows])
 
-    def undescribed(self) -> Iterator[str]:
+    def find_undescribed(self) -> Iterator[str]:
         """Find what has no sentence: entries, exports, members of classes and of types of options."""
         options = {anchor for _, anchor in self._homes.values() if anchor.startswith(f"{OPTIONS}.")}
         for entry, module in self.model.items():
-            if not described(module):
+            if not description_of(module):
                 yield entry
             for one in module["children"]:
-                if one["kind"] != REFERENCE and not described(one):
+                if one["kind"] != REFERENCE and not description_of(one):
                     yield f"{entry} {one['name']}"
                 # the sentence of a type that is made of others is of its members, too
                 for child in members(one) if "children" in one else []:
                     as_option = one["kind"] == CLASS and f"{OPTIONS}.{child['name']}" in options
-                    told = described(child) or as_option or is_overridden(child) or self._base(child)
+                    told = description_of(child) or as_option or is_overridden(child) or self._base(child)
                     if child["kind"] != CONSTRUCTOR and not told:
                         yield f"{entry} {one['name']}.{child['name']}"
 
-    def _contents(self, own: list[Model]) -> Iterator[str]:
+    def _contents(self, exports: list[Model]) -> Iterator[str]:
         for kind, title in GROUPS.items():
-            found = [f"[`{names(one)}`](#{one['name']})" for one in own if symbol(one) == kind]
+            found = [f"[`{names(one)}`](#{one['name']})" for one in exports if symbol(one) == kind]
             if found:
                 yield f"**{title}:** {', '.join(found)}\n{{ .js-contents }}"
 
@@ -191,23 +191,23 @@ class Book:
         return f"#{anchor}" if home == entry else f"{_slug(home)}{ending}#{anchor}"
 
     def _writer(self, entry: str) -> Writer:
-        def link(what: Model) -> str | None:
-            home, anchor = self._home(what, entry)
+        def link(node: Model) -> str | None:
+            home, anchor = self._home(node, entry)
             return None if not home else f"#{anchor}" if home == entry else f"{_slug(home)}.html#{anchor}"
 
         return Writer(link)
 
-    def _home(self, what: Model, entry: str) -> tuple[str, str]:
+    def _home(self, node: Model, entry: str) -> tuple[str, str]:
         """Return where a type is described; one that a module names again is found by its name."""
-        target = what.get("target")
+        target = node.get("target")
         if isinstance(target, int) and target in self._homes:
             return self._homes[target]
-        if not is_ours(what):
+        if not is_ours(node):
             return "", ""
-        places = [home for home in self._homes.values() if home[1] == what["name"]]
+        places = [home for home in self._homes.values() if home[1] == node["name"]]
         return next((home for home in places if home[0] == entry), places[0] if places else ("", ""))
 
-    def _linked(self, text: str, entry: str, within: str) -> str:
+    def _add_links(self, text: str, entry: str, within: str) -> str:
         """Return a text with links at the names of what is described elsewhere, of this entry first."""
         known = {anchor: home for home, anchor in reversed(self._homes.values())}
         known |= {anchor: home for home, anchor in self._homes.values() if home == entry}
@@ -228,14 +228,14 @@ class Book:
         """Write the section of an export."""
         kind, name = symbol(one), one["name"]
         yield heading(2, kind, names(one), name)
-        said: Callable[[str], str] = lambda text: self._linked(text, entry, name)  # noqa: E731
+        said: Callable[[str], str] = lambda text: self._add_links(text, entry, name)  # noqa: E731
         if kind == "class":
             yield from self._class(one, entry, said)
             return
         if kind == "function":
             for way in signatures(one):
                 yield self._signature(names(one), way, entry)
-                yield said(words(way) or described(one))
+                yield said(words(way) or description_of(one))
                 yield from self._call(way, entry, said)
             for child in one.get("children", []):
                 yield from self._method(child, name, entry, said)
@@ -243,31 +243,31 @@ class Book:
         writer = self._writer(entry)
         if "type" in one and not (one["type"]["type"] == "reflection" and members(one)):
             yield code(f"type {plain(name)}{writer.generics(one)} = {writer.type(one['type'])}")
-        yield said(described(one))
+        yield said(description_of(one))
         yield from self._properties(members(one), name, entry, said)
 
-    def _class(self, one: Model, entry: str, said: Callable[[str], str]) -> Iterator[str]:
+    def _class(self, one: Model, entry: str, link_text: Callable[[str], str]) -> Iterator[str]:
         writer, name = self._writer(entry), one["name"]
         built = next((child for child in one["children"] if child["kind"] == CONSTRUCTOR), None)
         bases = [writer.type(base) for base in one.get("extendedTypes", []) if _is_known(base)]
         extends = f" extends {', '.join(bases)}" if bases else ""
         yield code(f"class {plain(name)}{writer.generics(one)}{extends}")
-        yield said(described(one))
+        yield link_text(description_of(one))
         own = [child for child in one["children"] if not self._base(child)]
         if built and built in own:
             (way, *_) = built["signatures"]
             yield self._signature(f"new {name}", way, entry)
-            yield said(words(way))
-            yield from self._call({**way, "type": {"type": "intrinsic", "name": "void"}}, entry, said)
+            yield link_text(words(way))
+            yield from self._call({**way, "type": {"type": "intrinsic", "name": "void"}}, entry, link_text)
         yield from self._properties(
-            [child for child in own if not _is_method(child) and child != built], name, entry, said
+            [child for child in own if not _is_method(child) and child != built], name, entry, link_text
         )
         inherited = [child for child in one["children"] if self._base(child) and child["kind"] != CONSTRUCTOR]
         if inherited:
             yield "**Inherited:** " + self._links(inherited, entry) + "\n{ .js-contents }"
         for child in own:
             if _is_method(child):
-                yield from self._method(child, name, entry, said)
+                yield from self._method(child, name, entry, link_text)
 
     def _base(self, child: Model) -> tuple[str, str] | None:
         """Return the entry and the place that describe a member of a base class; None if it is the class's own."""
@@ -282,14 +282,14 @@ class Book:
             for child, (home, anchor) in targets
         )
 
-    def _method(self, child: Model, owner: str, entry: str, said: Callable[[str], str]) -> Iterator[str]:
+    def _method(self, child: Model, owner: str, entry: str, link_text: Callable[[str], str]) -> Iterator[str]:
         anchor = f"{owner}.{child['name']}"
         yield heading(3, "method", child["name"], anchor)
         for way in signatures(child):
             before = f"static {owner}." if child["flags"].get("isStatic") else ""
             yield self._signature(before + child["name"], way, entry)
-            yield said(words(way) or described(child))
-            yield from self._call(way, entry, said)
+            yield link_text(words(way) or description_of(child))
+            yield from self._call(way, entry, link_text)
 
     def _signature(self, name: str, way: Model, entry: str) -> str:
         writer = self._writer(entry)
@@ -301,26 +301,26 @@ class Book:
             line = f"{start}(\n  {indented},\n){returned}"
         return code(line)
 
-    def _call(self, way: Model, entry: str, said: Callable[[str], str]) -> Iterator[str]:
+    def _call(self, way: Model, entry: str, link_text: Callable[[str], str]) -> Iterator[str]:
         """Write what a function takes, returns and throws."""
         given = [one for one in way.get("parameters", []) if words(one) or "defaultValue" in one]
         if given:
             yield "**Parameters:**"
-            yield "\n".join(self._item(one, "", entry, said) for one in given)
+            yield "\n".join(self._item(one, "", entry, link_text) for one in given)
         if words(way, "@returns"):
             returned = words(way, "@returns")
-            yield f"**Returns:** <code>{self._writer(entry).type(way['type'])}</code> – {said(returned)}"
+            yield f"**Returns:** <code>{self._writer(entry).type(way['type'])}</code> – {link_text(returned)}"
         thrown = words(way, "@throws")
         if thrown:
             error = (
                 "[`VextureError`](vexture.md#VextureError) " if entry != MAIN else "[`VextureError`](#VextureError) "
             )
-            yield f"**Throws:** {error}{said(thrown)}"
+            yield f"**Throws:** {error}{link_text(thrown)}"
 
-    def _properties(self, found: list[Model], owner: str, entry: str, said: Callable[[str], str]) -> Iterator[str]:
+    def _properties(self, found: list[Model], owner: str, entry: str, link_text: Callable[[str], str]) -> Iterator[str]:
         """List properties; those that are options of a mask are told there."""
         options = {anchor for _, anchor in self._homes.values() if anchor.startswith(f"{OPTIONS}.")}
-        same = [one for one in found if not described(one) and f"{OPTIONS}.{one['name']}" in options]
+        same = [one for one in found if not description_of(one) and f"{OPTIONS}.{one['name']}" in options]
         if same:
             (home,) = {home for home, anchor in self._homes.values() if anchor == OPTIONS}
             page = "" if home == entry else f"{_slug(home)}.md"
@@ -329,9 +329,9 @@ class Book:
         others = [one for one in found if one not in same]
         if others:
             yield "**Properties:**"
-            yield "\n".join(self._item(one, f"{owner}.{one['name']}", entry, said) for one in others)
+            yield "\n".join(self._item(one, f"{owner}.{one['name']}", entry, link_text) for one in others)
 
-    def _item(self, one: Model, anchor: str, entry: str, said: Callable[[str], str]) -> str:
+    def _item(self, one: Model, anchor: str, entry: str, link_text: Callable[[str], str]) -> str:
         """Write a parameter or a property as an item of a list."""
         what = one.get("type") or one.get("getSignature", {}).get("type")
         if what is None and signatures(one):
@@ -345,7 +345,7 @@ class Book:
         elif one["flags"].get("isOptional") or default:
             notes.append("optional")
         place = f'<a id="{anchor}"></a>' if anchor else ""
-        text = said(described(one))
+        text = link_text(description_of(one))
         return f"- {place}**`{one['name']}`** ({', '.join(notes)})" + (f" – {text}" if text else "")
 
 

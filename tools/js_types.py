@@ -38,11 +38,11 @@ class Writer:
 
     link: Callable[[Model], str | None]
 
-    def type(self, what: Model | None) -> str:
+    def type(self, node: Model | None) -> str:
         """Return a type as HTML."""
-        if what is None:
+        if node is None:
             return "any"
-        written: str = getattr(self, f"_{what['type']}", self._other)(what)
+        written: str = getattr(self, f"_{node['type']}", self._other)(node)
         return written
 
     def parameters(self, signature: Model, separator: str = ", ") -> str:
@@ -63,56 +63,56 @@ class Writer:
         optional = "?" if one["flags"].get("isOptional") or _has_default(one) else ""
         return f"{rest}{plain(one['name'])}{optional}: {self.type(one['type'])}"
 
-    def _other(self, what: Model) -> str:
-        return plain(str(what.get("name", "unknown")))
+    def _other(self, node: Model) -> str:
+        return plain(str(node.get("name", "unknown")))
 
-    def _literal(self, what: Model) -> str:
-        value = what["value"]
+    def _literal(self, node: Model) -> str:
+        value = node["value"]
         return plain("null" if value is None else f"'{value}'" if isinstance(value, str) else str(value).lower())
 
-    def _reference(self, what: Model) -> str:
-        name, address = plain(what["name"]), self.link(what)
+    def _reference(self, node: Model) -> str:
+        name, address = plain(node["name"]), self.link(node)
         shown = f'<a href="{address}">{name}</a>' if address else name
-        given = [one for one in what.get("typeArguments", []) if one.get("name") not in TRIVIAL]
-        if what["name"] == "VectorTexture":
+        given = [one for one in node.get("typeArguments", []) if one.get("name") not in TRIVIAL]
+        if node["name"] == "VectorTexture":
             given = [one for one in given if one.get("name") != "PackedData"]  # its default
         return shown + (f"&lt;{', '.join(map(self.type, given))}&gt;" if given else "")
 
-    def _union(self, what: Model) -> str:
-        return plain(" | ").join(map(self._part, what["types"]))
+    def _union(self, node: Model) -> str:
+        return plain(" | ").join(map(self._part, node["types"]))
 
-    def _intersection(self, what: Model) -> str:
-        return " &amp; ".join(map(self._part, what["types"]))
+    def _intersection(self, node: Model) -> str:
+        return " &amp; ".join(map(self._part, node["types"]))
 
-    def _part(self, what: Model) -> str:
+    def _part(self, node: Model) -> str:
         """Return a type as part of another one."""
-        is_function = what["type"] == "reflection" and "signatures" in what["declaration"]
-        return f"({self.type(what)})" if is_function or what["type"] in COMPOUND else self.type(what)
+        is_function = node["type"] == "reflection" and "signatures" in node["declaration"]
+        return f"({self.type(node)})" if is_function or node["type"] in COMPOUND else self.type(node)
 
-    def _array(self, what: Model) -> str:
-        return self._part(what["elementType"]) + plain("[]")
+    def _array(self, node: Model) -> str:
+        return self._part(node["elementType"]) + plain("[]")
 
-    def _tuple(self, what: Model) -> str:
-        return plain("[") + ", ".join(map(self.type, what.get("elements", []))) + plain("]")
+    def _tuple(self, node: Model) -> str:
+        return plain("[") + ", ".join(map(self.type, node.get("elements", []))) + plain("]")
 
-    def _typeOperator(self, what: Model) -> str:  # noqa: N802 - the kinds are TypeDoc's
-        return f"{what['operator']} {self.type(what['target'])}"
+    def _typeOperator(self, node: Model) -> str:  # noqa: N802 - the kinds are TypeDoc's
+        return f"{node['operator']} {self.type(node['target'])}"
 
-    def _indexedAccess(self, what: Model) -> str:  # noqa: N802
-        return self.type(what["objectType"]) + plain("[") + self.type(what["indexType"]) + plain("]")
+    def _indexedAccess(self, node: Model) -> str:  # noqa: N802
+        return self.type(node["objectType"]) + plain("[") + self.type(node["indexType"]) + plain("]")
 
-    def _query(self, what: Model) -> str:
-        return f"typeof {self.type(what['queryType'])}"
+    def _query(self, node: Model) -> str:
+        return f"typeof {self.type(node['queryType'])}"
 
-    def _predicate(self, what: Model) -> str:
-        return f"{plain(what['name'])} is {self.type(what.get('targetType'))}"
+    def _predicate(self, node: Model) -> str:
+        return f"{plain(node['name'])} is {self.type(node.get('targetType'))}"
 
-    def _conditional(self, what: Model) -> str:
-        parts = (self.type(what[name]) for name in ("checkType", "extendsType", "trueType", "falseType"))
+    def _conditional(self, node: Model) -> str:
+        parts = (self.type(node[name]) for name in ("checkType", "extendsType", "trueType", "falseType"))
         return "{} extends {} ? {} : {}".format(*parts)
 
-    def _reflection(self, what: Model) -> str:
-        declared = what["declaration"]
+    def _reflection(self, node: Model) -> str:
+        declared = node["declaration"]
         if "signatures" in declared:
             (first, *_) = declared["signatures"]
             return f"({self.parameters(first)}) =&gt; {self.type(first['type'])}"

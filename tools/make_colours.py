@@ -43,7 +43,7 @@ ROWS: Final = ("vexture", "Chromium")
 
 
 class Look(NamedTuple):
-    """What a column shows of a drawing: so many pixels of a part, its lower left corner and side in unit squares."""
+    """Part of a drawing that a column shows: so many pixels of it, its lower left corner and side in unit squares."""
 
     title: str
     svg: Path
@@ -53,12 +53,12 @@ class Look(NamedTuple):
     side: float = 1.0
 
 
-def enlarged(picture: Image.Image) -> Image.Image:
+def enlarge(picture: Image.Image) -> Image.Image:
     """The picture as large as a panel, each pixel a square."""
     return picture.resize((PANEL, PANEL), Image.Resampling.NEAREST)
 
 
-def ours(look: Look) -> Image.Image:
+def draw_texture(look: Look) -> Image.Image:
     """A look, drawn from its texture, on white."""
     size = (look.pixels, look.pixels)
     view = window(look.x, look.y, look.side, look.side).matrix(size)
@@ -66,7 +66,7 @@ def ours(look: Look) -> Image.Image:
     return Image.fromarray(np.uint8(np.rint(255.0 * (colors[..., :3] + 1.0 - colors[..., 3:]))))
 
 
-def theirs(look: Look, page: Any) -> Image.Image:
+def draw_svg(look: Look, page: Any) -> Image.Image:
     """A look at the SVG itself; the drawing's longer side fills the picture."""
     whole = look.pixels / look.side
     left, top = -look.x * whole, -(1.0 - look.y - look.side) * whole
@@ -105,8 +105,10 @@ def main() -> None:
         )
         page = browser.new_page()
         rows = [
-            [(look.title if row == 0 else "", name, enlarged(draw(look))) for look in looks]
-            for row, (name, draw) in enumerate(zip(ROWS, (ours, lambda look: theirs(look, page)), strict=True))
+            [(look.title if row == 0 else "", name, enlarge(draw(look))) for look in looks]
+            for row, (name, draw) in enumerate(
+                zip(ROWS, (draw_texture, lambda look: draw_svg(look, page)), strict=True)
+            )
         ]
     sheet(rows).save(TARGET, optimize=True)
     print(TARGET)

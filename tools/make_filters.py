@@ -14,7 +14,7 @@ sys.path[:0] = [str(ROOT / "packages" / "vexture-evidence" / "benchmarks"), str(
 
 import corpora  # noqa: E402
 from chromium import chromium  # noqa: E402 - the browser of the tests
-from make_colours import ROWS, Look, ours, theirs  # noqa: E402
+from make_colours import ROWS, Look, draw_svg, draw_texture  # noqa: E402
 from make_pictures import PANEL, sheet  # noqa: E402
 
 __all__ = ["main"]
@@ -32,7 +32,9 @@ def main() -> None:
         page = browser.new_page()
         rows = [
             [(look.title if row == 0 else "", name, draw(look)) for look in looks]
-            for row, (name, draw) in enumerate(zip(ROWS, (ours, lambda look: theirs(look, page)), strict=True))
+            for row, (name, draw) in enumerate(
+                zip(ROWS, (draw_texture, lambda look: draw_svg(look, page)), strict=True)
+            )
         ]
     sheet(rows).save(TARGET, optimize=True)
     print(TARGET)

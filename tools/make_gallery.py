@@ -81,7 +81,7 @@ CREDITS: Final = (
 )
 
 
-def say(step: str) -> None:
+def report(step: str) -> None:
     """Print what is done now, at once: the whole takes minutes."""
     print(f"{step} ...", flush=True)
 
@@ -137,18 +137,18 @@ def digest_of_tools() -> str:
     return digest.hexdigest()
 
 
-def drop_old(folder: Path, shown: list[Example], *, quick: bool) -> None:
+def drop_old(folder: Path, examples: list[Example], *, quick: bool) -> None:
     """Empty the site's folder, but for the files of examples that would be made again as they are."""
     for path in folder.iterdir() if folder.is_dir() else ():
-        example = next((one for one in shown if one.name == path.name), None)
+        example = next((one for one in examples if one.name == path.name), None)
         if example and is_made(path, digest_of(example, quick=quick)):
             continue
         shutil.rmtree(path) if path.is_dir() else path.unlink()
 
 
-def is_made(own: Path, digest: str) -> bool:
+def is_made(folder: Path, digest: str) -> bool:
     """Whether an example's folder holds all files that were made of what has a digest."""
-    return (own / MADE).is_file() and (own / MADE).read_text() == digest
+    return (folder / MADE).is_file() and (folder / MADE).read_text() == digest
 
 
 def make_files(folder: Path, example: Example, *, quick: bool) -> None:
@@ -156,7 +156,7 @@ def make_files(folder: Path, example: Example, *, quick: bool) -> None:
     own = folder / example.name
     digest = digest_of(example, quick=quick)
     if is_made(own, digest):
-        say(f"{example.name}: its files are as they were")
+        report(f"{example.name}: its files are as they were")
     else:
         own.mkdir()
         _make_files(own, example, quick=quick)
@@ -164,25 +164,25 @@ def make_files(folder: Path, example: Example, *, quick: bool) -> None:
     shutil.copyfile(example.path, own / f"example{example.path.suffix}")
 
 
-def _make_files(own: Path, example: Example, *, quick: bool) -> None:
-    made = set(own.iterdir())
+def _make_files(folder: Path, example: Example, *, quick: bool) -> None:
+    made = set(folder.iterdir())
     for name in example.sources:
-        say(f"{example.name}: making {name}")
-        SOURCES[name](own, quick=quick)
-    unwanted = set(own.iterdir()) - made
+        report(f"{example.name}: making {name}")
+        SOURCES[name](folder, quick=quick)
+    unwanted = set(folder.iterdir()) - made
     for line in example.commands:
-        say(f"{example.name}: {line}")
-        run(line, own)
-    for path in unwanted - {own / name for name in example.files}:
+        report(f"{example.name}: {line}")
+        run(line, folder)
+    for path in unwanted - {folder / name for name in example.files}:
         shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
     if example.files:
-        contents = [(name, base64.b64encode((own / name).read_bytes()).decode()) for name in example.files]
+        contents = [(name, base64.b64encode((folder / name).read_bytes()).decode()) for name in example.files]
         lines = [f'"{name}": "data:application/octet-stream;base64,{text}"' for name, text in contents]
-        (own / "files.js").write_text(f"globalThis.galleryFiles = {{{', '.join(lines)}}};\n", encoding="utf-8")
+        (folder / "files.js").write_text(f"globalThis.galleryFiles = {{{', '.join(lines)}}};\n", encoding="utf-8")
 
 
-def measured(folder: Path, example: Example) -> str:
-    """What the page says of its texture, of the icons beside those of another project."""
+def icon_facts(folder: Path, example: Example) -> str:
+    """Sentence of the icons' page about its texture, compared with another project's icons."""
     if example.name != "icons":
         return ""
     texture = folder / "icons" / "lucide.ktx2"
@@ -233,7 +233,7 @@ def save_picture(folder: Path, example: Example, picture: Image.Image) -> None:
     (folder / example.name / PICTURED).write_text(digest_of_page(folder, example))
 
 
-def photographed(folder: Path, shown: list[Example]) -> bool:
+def take_thumbnails(folder: Path, examples: list[Example]) -> bool:
     """Take the thumbnails of pages that have changed by Chromium; returns whether there is one."""
     try:
         from chromium import CHROMIUM, chromium
@@ -243,8 +243,8 @@ def photographed(folder: Path, shown: list[Example]) -> bool:
         return False
     try:
         with chromium("--enable-unsafe-webgpu") as browser:
-            for example in (one for one in shown if not is_pictured(folder, one)):
-                say(f"{example.name}: taking its picture in Chromium")
+            for example in (one for one in examples if not is_pictured(folder, one)):
+                report(f"{example.name}: taking its picture in Chromium")
                 page = browser.new_page(viewport={"width": 1280, "height": 800}, device_scale_factor=1)
                 page.goto((folder / example.name / "index.html").as_uri())
                 page.add_style_tag(content="#stage { position: fixed !important; inset: 0; z-index: 9 }")
@@ -261,14 +261,14 @@ def photographed(folder: Path, shown: list[Example]) -> bool:
     return True
 
 
-def described(name: str) -> Any:
-    """What a package says of itself."""
+def read_package(name: str) -> Any:
+    """Read the package.json of a package."""
     return json.loads((WEB / "node_modules" / name / "package.json").read_text(encoding="utf-8"))
 
 
-def held() -> list[str]:
+def held_packages() -> list[str]:
     """Packages in those that hold others; types are not in them."""
-    names = {one for holder in HOLDS_OTHERS for one in described(holder)["dependencies"]}
+    names = {one for holder in HOLDS_OTHERS for one in read_package(holder)["dependencies"]}
     return sorted(name for name in names if not name.startswith("@types/"))
 
 
@@ -276,14 +276,14 @@ def licence_of(name: str) -> str:
     """The licence of a package of web/; or else the one kept here, or what it is called."""
     found = [*(WEB / "node_modules" / name).glob("LICENSE*"), *(GALLERY / "libraries").glob(f"{name}.LICENSE")]
     if not found:
-        return f"{described(name)['license']}, by {described(name)['author']}"
+        return f"{read_package(name)['license']}, by {read_package(name)['author']}"
     return found[0].read_text(encoding="utf-8").strip()
 
 
-def write_licences(folder: Path, shown: list[Example]) -> None:
+def write_licences(folder: Path, examples: list[Example]) -> None:
     """Write the licences of what is bundled and converted."""
-    parts = [f"{name}\n\n{licence_of(name)}\n" for name in [*LICENSED, *held()]]
-    sources = {source for one in shown for source in one.sources}
+    parts = [f"{name}\n\n{licence_of(name)}\n" for name in [*LICENSED, *held_packages()]]
+    sources = {source for one in examples for source in one.sources}
     data = {
         ICONS: {"lucide"},
         COUNTIES: {"counties.geojson", "counties.topojson"},
@@ -305,7 +305,7 @@ def build(folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), pict
     drop_old(folder, shown, quick=quick)
     (folder / "lib").mkdir(parents=True)
     for name in sorted({name for one in shown for name in one.libraries}):
-        say(f"bundling lib/{name}.js")
+        report(f"bundling lib/{name}.js")
         bundle(folder / "lib", name)
     for name in ("gallery.css", "page.js", "frame.js", "jsx.js"):
         shutil.copyfile(GALLERY / "pages" / name, folder / name)
@@ -314,10 +314,10 @@ def build(folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), pict
         make_files(folder, example, quick=quick)
     for place, example in enumerate(shown):
         around = shown[place - 1], shown[(place + 1) % len(shown)]
-        write_page(folder, example, around, measured(folder, example))
-    if not (pictures and photographed(folder, shown)):
+        write_page(folder, example, around, icon_facts(folder, example))
+    if not (pictures and take_thumbnails(folder, shown)):
         for example in shown:
-            say(f"{example.name}: drawing its picture")
+            report(f"{example.name}: drawing its picture")
             drawn_thumbnail(folder, example)
     write_index(folder, shown, {one.name: "thumbnail.jpg" for one in shown}, CREDITS)
 

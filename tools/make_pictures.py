@@ -46,7 +46,7 @@ CENTER = (206 / 240, 1 - 79 / 240)  # unit-square units: where the duck opens it
 Panel = tuple[str, str, Image.Image]
 
 
-def inked(coverage: NDArray[np.float32]) -> Image.Image:
+def draw_ink(coverage: NDArray[np.float32]) -> Image.Image:
     """Coverage as ink on paper."""
     mask = Image.fromarray(np.rint(255.0 * coverage).astype(np.uint8))
     return Image.composite(Image.new("RGB", mask.size, INK), Image.new("RGB", mask.size, PAPER), mask)
@@ -85,7 +85,7 @@ def texture_panel(texture: ThesisTexture) -> Image.Image:
 def sizes_panel(texture: ThesisTexture) -> Image.Image:
     """Small pictures, pixel by pixel, and the smallest ones enlarged."""
     image = Image.new("RGB", (PANEL, PANEL), PAPER)
-    smalls = [inked(vexture.coverage(texture, (size, size), renderer="cpu")) for size in SIZES]
+    smalls = [draw_ink(vexture.coverage(texture, (size, size), renderer="cpu")) for size in SIZES]
     space = (PANEL - sum(SIZES)) // (len(SIZES) + 1)
     left = space
     for small in smalls:
@@ -108,7 +108,7 @@ def view(zoom: int) -> NDArray[np.float64]:
 
 def zoom_panel(texture: ThesisTexture, zoom: int) -> Image.Image:
     """A magnified picture, and a frame around what the next one shows of it."""
-    image = inked(vexture.coverage(texture, (PANEL, PANEL), view(zoom), "cpu"))
+    image = draw_ink(vexture.coverage(texture, (PANEL, PANEL), view(zoom), "cpu"))
     for following in ZOOMS[ZOOMS.index(zoom) + 1 :][:1]:
         corners = view(following) @ np.array([(0, 0, 1), (PANEL, PANEL, 1)]).T
         (left, right), (top, bottom), _ = np.linalg.inv(view(zoom)) @ corners
@@ -140,7 +140,7 @@ def panels() -> list[list[Panel]]:
     assert isinstance(texture, ThesisTexture)
     tree = decode(texture)
     quads, curves, size = len(texture.quads), len(texture.curves), sum(map(len, texture.to_png()))
-    source = inked(vexture.coverage(drawing, (PANEL, PANEL), renderer="exact"))
+    source = draw_ink(vexture.coverage(drawing, (PANEL, PANEL), renderer="exact"))
     return [
         [
             ("A drawing", f"{drawing.segments} curves and lines", source),
@@ -156,7 +156,7 @@ def panels() -> list[list[Panel]]:
 
 
 def packed_panels() -> list[list[Panel]]:
-    """What the packed encoding adds: planes seen from the side, maps, deep zoom."""
+    """Pictures of the packed encoding: planes seen from the side, maps, deep zoom."""
     sys.path.insert(0, str(ROOT / "packages" / "vexture-evidence" / "benchmarks"))
     import corpora
 
@@ -168,14 +168,14 @@ def packed_panels() -> list[list[Panel]]:
         (
             "on a plane",
             f"{lettering.nbytes:,} bytes",
-            inked(vexture.coverage(lettering, (PANEL, PANEL), LEANING, "cpu")),
+            draw_ink(vexture.coverage(lettering, (PANEL, PANEL), LEANING, "cpu")),
         )
     ]
     for zoom in COAST_ZOOMS:
         side = 1.0 / zoom
         whole = window(0.0, 0.0, 1.0, 1.0).matrix((PANEL, PANEL))
         near = window(x - side / 2, y - side / 2, side, side).matrix((PANEL, PANEL))
-        image = inked(vexture.coverage(texture, (PANEL, PANEL), whole if zoom == 1 else near, "cpu"))
+        image = draw_ink(vexture.coverage(texture, (PANEL, PANEL), whole if zoom == 1 else near, "cpu"))
         title = f"{COAST_EDGES:,} edges" if zoom == 1 else f"{zoom:,} times"
         row.append((title, "", image))
     return [row]
@@ -190,7 +190,7 @@ def icons() -> Image.Image:
     out = Image.new("RGB", (columns * (ICON + GAP) + GAP, rows * (ICON + GAP) + GAP), PAPER)
     for place, file in enumerate(corpora.mdi(columns * rows, 1)):
         row, column = divmod(place, columns)
-        image = inked(vexture.coverage(vexture.convert(file), (ICON, ICON), renderer="cpu"))
+        image = draw_ink(vexture.coverage(vexture.convert(file), (ICON, ICON), renderer="cpu"))
         out.paste(image, (GAP + column * (ICON + GAP), GAP + row * (ICON + GAP)))
     return out
 

@@ -14,7 +14,7 @@ from typing import Final
 from both_languages import both
 from vexture.base import layout
 from vexture.fold import layout as fold_layout
-from vexture.renderers.shader import PARTS, WRAPS, included, shader_text
+from vexture.renderers.shader import PARTS, WRAPS, read_shader, shader_text
 from vexture.thesis import layout as thesis_layout
 from vexture.thesis import method as thesis_method
 from vexture.thesis.shader_text import FOLD_HEIGHT, PACKAGE, constants
@@ -86,7 +86,7 @@ def bare(text: str) -> str:
     return bared.lstrip("\n") + ("" if bared.endswith("\n") else "\n")
 
 
-def inlined(text: str) -> str:
+def inline_numbers(text: str) -> str:
     """Shader text with the values of its defined numbers in place of their names."""
     numbers = NUMBERS.match(text)
     assert numbers
@@ -108,7 +108,7 @@ def module_text(name: str, text: str, comment: str, before: str = "") -> str:
 
 def packed_text(file: str) -> str:
     """Text of a file that reads a packed texture, and of all that it includes."""
-    return bare(inlined(shader_text(file)))
+    return bare(inline_numbers(shader_text(file)))
 
 
 def shaders() -> str:
@@ -119,7 +119,7 @@ def shaders() -> str:
     alone = packed_text(OVERLAY).removeprefix(packed)
     parts.append(module_text("overlay", alone, f"{OVERLAY}, to stand after that or after {PLANAR}."))
     comment = "steps.glsl: what the derivatives of a position are, for pixels."
-    parts.append(module_text("steps", bare(included("steps.glsl")), comment))
+    parts.append(module_text("steps", bare(read_shader("steps.glsl")), comment))
     return "".join(parts)
 
 
@@ -135,7 +135,7 @@ def planar_module() -> str:
 
 def thesis_module() -> str:
     """Text of the module with the thesis's shader: apart, since most pages have no use for it."""
-    coverage = included("coverage.glsl", PACKAGE)
+    coverage = read_shader("coverage.glsl", PACKAGE)
     text = bare(apart(used(constants(thesis_layout) + constants(thesis_method), coverage) + coverage))
     comment = (
         "coverage.glsl; its names begin with thesis_, and const int thesis_LEVELS and thesis_FOLD_HEIGHT must\n"
@@ -156,13 +156,13 @@ def water_module() -> str:
     parts = [HEADER.format(owner="packages/vexture/src/vexture/shaders/")]
     for name in ("water", "shore", "depths"):
         comment = f"{name}.glsl; VEXTURE_WRAP and VEXTURE_FLAT may be defined before it."
-        parts.append(module_text(name, bare(inlined(shader_text(f"{name}.glsl"))), comment))
+        parts.append(module_text(name, bare(inline_numbers(shader_text(f"{name}.glsl"))), comment))
     return "".join(parts)
 
 
 def fold_module() -> str:
     """Text of the module with the shader of folds: apart, since a page without one has no use for it."""
-    text = bare(inlined(shader_text("fold.glsl", fold_layout)))
+    text = bare(inline_numbers(shader_text("fold.glsl", fold_layout)))
     comment = "fold.glsl; VEXTURE_WRAP may be defined before it."
     return HEADER.format(owner="packages/vexture/src/vexture/shaders/fold.glsl") + module_text("fold", text, comment)
 
@@ -198,9 +198,9 @@ def layout_module(owner: ModuleType, file: str) -> str:
 def main() -> int:
     """Write the files, or with --check compare them; the exit code."""
     stale = []
-    layers, sheets = (inlined(shader_text(file)) for file in (PACKED, PLANAR))
-    folded = inlined(shader_text("fold.glsl", fold_layout))
-    steps = included("steps.glsl")
+    layers, sheets = (inline_numbers(shader_text(file)) for file in (PACKED, PLANAR))
+    folded = inline_numbers(shader_text("fold.glsl", fold_layout))
+    steps = read_shader("steps.glsl")
     modules = {
         "coverage-nodes.js": nodes_module("coverage", f"layers.glsl and steps.glsl{BOTH}", steps + layers),
         "colour-nodes.js": nodes_module(

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
-__all__ = ["bundled", "notices"]
+__all__ = ["bundled_packages", "notices"]
 
 WEB: Final = Path(__file__).resolve().parents[1] / "web"
 OF_PAGES: Final = ("three",)
@@ -18,7 +18,7 @@ OF_PAGES: Final = ("three",)
 HEADING: Final = "The pages of vexture hold code of these packages, each under its own licence.\n"
 
 
-def bundled() -> list[str]:
+def bundled_packages() -> list[str]:
     """Names of the packages that the pages hold."""
     locked = json.loads((WEB / "package-lock.json").read_text(encoding="utf-8"))["packages"]
     package = json.loads((WEB / "package.json").read_text(encoding="utf-8"))
@@ -34,7 +34,7 @@ def bundled() -> list[str]:
 def notices() -> str:
     """Their licences, one after another."""
     parts = [HEADING]
-    for name in bundled():
+    for name in bundled_packages():
         folder = WEB / "node_modules" / name
         version = json.loads((folder / "package.json").read_text(encoding="utf-8"))["version"]
         (licence,) = folder.glob("LICENSE*")

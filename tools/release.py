@@ -52,7 +52,7 @@ def disagreements(root: Path, tag: str | None = None) -> list[str]:
 
 
 def notes(root: Path) -> str | None:
-    """What CHANGELOG.md says about the version, if it does."""
+    """Entry of CHANGELOG.md about the version, if there is one."""
     version = re.escape(versions(root)[OWNER])
     text = (root / "CHANGELOG.md").read_text(encoding="utf-8")
     section = re.search(rf"^## \[{version}\].*?\n(.*?)(?=^## |\Z)", text, re.M | re.S)

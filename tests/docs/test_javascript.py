@@ -77,11 +77,11 @@ def test_every_export_of_every_entry_has_its_place(pages: dict[str, Read]) -> No
 
 
 def test_everything_public_has_a_sentence(model: dict[str, js_pages.Model]) -> None:
-    assert list(js_pages.Book(model).undescribed()) == []
+    assert list(js_pages.Book(model).find_undescribed()) == []
 
 
 def test_every_type_that_is_named_is_described(model: dict[str, js_pages.Model]) -> None:
-    assert js_pages.unlinked(model) == set()
+    assert js_pages.find_unlinked(model) == set()
 
 
 def test_links_lead_to_places_that_are_there(site: Path, pages: dict[str, Read]) -> None:

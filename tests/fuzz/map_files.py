@@ -36,7 +36,7 @@ def read_map(data: bytes) -> str:
         found = read_features(data, crs=CRS, notes=notes)
     assert np.isfinite(found.rings.points).all(), "a corner is not finite"
     assert found.table.num_rows == len(found.ids) == len(set(found.ids)), "ids are not those of rows"
-    said = sorted({note.message for note in notes.listed})
+    said = sorted({note.message for note in notes.in_order})
     return (
         f"{len(found.rings.ends)} {len(found.lines.ends)} {len(found.points.points)} {found.table.schema.types} {said}"
     )

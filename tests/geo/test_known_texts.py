@@ -6,7 +6,7 @@ import pytest
 
 from vexture.base.content import about, known_kind
 from vexture.base.errors import SourceError
-from vexture.base.machine_code import described
+from vexture.base.machine_code import argument_type
 from vexture.base.notes import Note, Subject
 from vexture.cli.convert import convert
 from vexture.cli.messages import as_options
@@ -31,7 +31,7 @@ def test_what_is_left_out_is_noted() -> None:
 
 
 def test_types_of_arguments_are_described() -> None:
-    assert described((2, 0.5, np.zeros((3, 4), np.int64))) == ["tuple", "int", "float", ["<i8", 2, True]]
+    assert argument_type((2, 0.5, np.zeros((3, 4), np.int64))) == ["tuple", "int", "float", ["<i8", 2, True]]
 
 
 def test_parameters_in_messages_become_options() -> None:

@@ -13,7 +13,7 @@ from clusters import cluster_of, scheduler_alone, workers_of
 from shared_work import fail_late, forget_once, kill_worker, slow_power
 from vexture import DeviceError
 from vexture.base import workers
-from vexture.base.workers import Cluster, Here, Processes
+from vexture.base.workers import Cluster, InProcess, Processes
 from vexture_geo.flood.options import FloodOptions
 from vexture_geo.flood.server import make
 
@@ -136,6 +136,6 @@ def test_a_scheduler_that_is_not_there_is_named(tmp_path, address, monkeypatch):
 
 def test_who_does_the_work_is_as_asked(tmp_path):
     path = tmp_path / "run.nc"
-    assert isinstance(FloodOptions(path).who(), Here)
+    assert isinstance(FloodOptions(path).who(), InProcess)
     assert isinstance(FloodOptions(path, workers=2).who(), Processes)
     assert isinstance(FloodOptions(path, scheduler="tcp://x:1").who(), Cluster)

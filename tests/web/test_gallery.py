@@ -315,14 +315,14 @@ def test_a_phone_shows_the_picture_first(run: Callable[..., Any]) -> None:
 
 
 def test_land_goes_on_beyond_the_180th_meridian_and_around_a_pole() -> None:
-    east, west = gallery_data.unrolled([(170, 60), (-170, 60), (-175, 70), (170, 60)])[::-1]
+    east, west = gallery_data.unroll_ring([(170, 60), (-170, 60), (-175, 70), (170, 60)])[::-1]
     assert east.tolist() == [[170, 60], [190, 60], [185, 70], [170, 60]]
     assert np.array_equal(west, east - (360, 0))
-    (plain,) = gallery_data.unrolled([(0, 0), (20, 0), (0, 20), (0, 0)])
+    (plain,) = gallery_data.unroll_ring([(0, 0), (20, 0), (0, 20), (0, 0)])
     assert plain.tolist() == [[0, 0], [20, 0], [0, 20], [0, 0]]
     corners = [(-180, -70), (-60, -75), (60, -70), (-180, -70)]
     for ring in (corners, corners[::-1]):
-        around = gallery_data.unrolled(ring)
+        around = gallery_data.unroll_ring(ring)
         whole = [one for one in around if one[:, 0].min() <= -180 and one[:, 0].max() >= 180]
         assert len(whole) == 1
         assert sorted(whole[0][-2:].tolist()) == [[-180, -90], [180, -90]]

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 import vexture
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.exact import render_exact_colours
-from vexture.renderers.picture import stacked
+from vexture.renderers.picture import composite_pictures
 
 HALF_STEP = 0.6  # of 255: an 8-bit framebuffer rounds
 FIT = np.array([[1 / 512, 0, 0], [0, -1 / 512, 1]])  # the square in a picture of 512 pixels
@@ -131,7 +131,7 @@ def test_light_mixes_on_lit_surfaces(page: Any, screenshot: Callable[..., Path])
 
 
 def test_sheets_are_stacked(page: Any, screenshot: Callable[..., Path]) -> None:
-    expected = stacked((512, 512), (render_exact_colours(part, 512, FIT) for part in parts()))
+    expected = composite_pictures((512, 512), (render_exact_colours(part, 512, FIT) for part in parts()))
     for flat in (False, True):
         parameters = {"mode": "paint", "root": "glass", "flat": flat}
         sheets = draw(page, material="VectorMaterial", texture="sheets", parameters=parameters)

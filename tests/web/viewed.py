@@ -13,7 +13,7 @@ from viewer_page import data_url, manifest, thesis_view, write_page
 
 import vexture
 from vexture.renderers.exact import render_exact, render_exact_colours
-from vexture.renderers.picture import painted, stacked
+from vexture.renderers.picture import composite_pictures, paint_layer
 from vexture.server.publish_file import VIEWER_PARAMETERS, shape_of
 
 SIZE = (512, 512)
@@ -42,8 +42,10 @@ class Viewed:
         if self.texture.roots[0].paint is None:
             grey = 255.0 * (1.0 - vexture.coverage(self.drawing, size, matrix, renderer="exact").astype(np.float64))
             return np.repeat(grey[..., None], 3, axis=2)
-        layers = (painted(layer.paths[0].paint, render_exact(layer, size, matrix)) for layer in self.drawing.layers())
-        picture = stacked(size, layers).astype(np.float64)  # as the page draws them: one over the other
+        layers = (
+            paint_layer(layer.paths[0].paint, render_exact(layer, size, matrix)) for layer in self.drawing.layers()
+        )
+        picture = composite_pictures(size, layers).astype(np.float64)  # as the page draws them: one over the other
         return 255.0 * (picture[..., :3] + 1.0 - picture[..., 3:])
 
 

@@ -11,7 +11,7 @@ forms, the one that is given more ends in ``From`` in WGSL.
 """
 
 from wgsl_generator.parameters import with_parameters
-from wgsl_generator.parser import parsed
+from wgsl_generator.parser import parse
 from wgsl_generator.writer import written
 
 __all__ = ["to_wgsl", "with_parameters"]
@@ -37,4 +37,4 @@ def to_wgsl(text: str) -> str:
         return 0.5 * x;
     }
     """
-    return written(parsed(text))
+    return written(parse(text))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from vexture.renderers.shader_error import ShaderError
-from wgsl_generator.facts import Assumed, Facts, Form, walked
+from wgsl_generator.facts import Assumed, Facts, Form, walk
 from wgsl_generator.kinds import (
     COMPARISONS,
     COMPONENTWISE,
@@ -16,7 +16,7 @@ from wgsl_generator.kinds import (
     TO_FLOAT,
     array_of,
     component_of,
-    listed,
+    join_values,
     size_of,
     vector_of,
     wgsl_name,
@@ -104,11 +104,11 @@ class Expressions:
             case Index():
                 return self.index(node)
 
-    def as_type(self, node: Expression, wanted: str, what: str) -> Typed:
+    def as_type(self, node: Expression, type_: str, label: str) -> Typed:
         """Return an expression that must have a type."""
         found = self.of(node)
-        if found.type != wanted:
-            raise ShaderError(node.line, f"{what} is {wanted}, and is given {found.type}")
+        if found.type != type_:
+            raise ShaderError(node.line, f"{label} is {type_}, and is given {found.type}")
         return found
 
     # --- values
@@ -139,7 +139,7 @@ class Expressions:
         given = [self.as_type(one, element, "an element").text for one in node.given]
         if size != str(len(given)):
             raise ShaderError(node.line, f"{node.type} of {len(given)} elements")
-        return Typed(f"{wgsl_type(node.type)}({listed(given)})", node.type)
+        return Typed(f"{wgsl_type(node.type)}({join_values(given)})", node.type)
 
     def member(self, node: Member) -> Typed:
         """A field, or components."""
@@ -181,7 +181,7 @@ class Expressions:
 
     def choice(self, node: Choice) -> Typed:
         """``select`` computes both values: they may be of any cost, but not change anything."""
-        for call in walked((node.yes, node.no)):
+        for call in walk((node.yes, node.no)):
             form = self.facts.forms.get((call.name, len(call.given))) if isinstance(call, Call) else None
             if form and any(parameter.is_inout for parameter in form.parameters):
                 raise ShaderError(
@@ -193,7 +193,7 @@ class Expressions:
             raise ShaderError(
                 node.line, f"a choice between {yes.type} and {no.type}; both must be one scalar or vector type"
             )
-        return Typed(f"select({listed([no.text, yes.text, condition.text])})", yes.type)
+        return Typed(f"select({join_values([no.text, yes.text, condition.text])})", yes.type)
 
     def binary(self, node: Binary) -> Typed:
         """A sign between values."""
@@ -204,7 +204,7 @@ class Expressions:
         elif sign in BITWISE:
             left, right = spread(left, right.type), spread(right, left.type)
         written = "!=" if sign == "^^" else sign  # between truths they are the same
-        text = f"{held(left, written, is_right=False)} {written} {held(right, written, is_right=True)}"
+        text = f"{bracket(left, written, is_right=False)} {written} {bracket(right, written, is_right=True)}"
         if sign in ("==", "!=") and size_of(left.type) > 1:
             return Typed(f"{'all' if sign == '==' else 'any'}({text})", "bool")
         return Typed(text, type_, LEVEL[written], written)
@@ -264,7 +264,7 @@ class Expressions:
             texts.append(bare(value.text))
             if parameter.type == SAMPLED:
                 texts.append(f"{value.text}{SAMPLER}")
-        return Typed(f"{form.name}({listed(texts)})", form.returns)
+        return Typed(f"{form.name}({join_values(texts)})", form.returns)
 
     def handed(self, uniform: str) -> tuple[str, ...]:
         """A uniform as what a function is given."""
@@ -293,30 +293,30 @@ class Expressions:
             self.as_type(one, to.type, f"{node.name}.{to.name}").text
             for one, to in zip(node.given, wanted, strict=True)
         ]
-        return Typed(f"{node.name}({listed(texts)})", node.name)
+        return Typed(f"{node.name}({join_values(texts)})", node.name)
 
-    def constructor(self, node: Call, given: list[Typed]) -> Typed:
+    def constructor(self, node: Call, values: list[Typed]) -> Typed:
         """Of a vector or scalar; WGSL's convert whole vectors, but no scalars among others."""
         part, size = component_of(node.name), max(size_of(node.name), 3 * (node.name == "mat3"))
-        sizes = [size_of(one.type) for one in given]
+        sizes = [size_of(one.type) for one in values]
         is_filled = sum(sizes) == size * (3 if node.name == "mat3" else 1) or sizes == [1]
         if 0 in sizes or not is_filled or (size == 1 and sizes != [1]):
-            raise ShaderError(node.line, f"{node.name} of {', '.join(one.type for one in given)}")
-        if size == 1 and node.name == given[0].type:
-            return given[0]
+            raise ShaderError(node.line, f"{node.name} of {', '.join(one.type for one in values)}")
+        if size == 1 and node.name == values[0].type:
+            return values[0]
         part = "float" if node.name == "mat3" else part
         texts = []
-        for one in given:
+        for one in values:
             same = component_of(one.type) == part or size == 1 or size_of(one.type) == size
             texts.append(one.text if same else f"{wgsl_type(vector_of(part, size_of(one.type)))}({one.text})")
-        return Typed(f"{wgsl_type(node.name)}({listed(texts)})", node.name)
+        return Typed(f"{wgsl_type(node.name)}({join_values(texts)})", node.name)
 
-    def texture(self, node: Call, given: list[Typed]) -> Typed:
+    def texture(self, node: Call, values: list[Typed]) -> Typed:
         """A texture's texel, or its size."""
-        kind = given[0].type
+        kind = values[0].type
         if kind not in TEXTURES or not isinstance(node.given[0], Name):
             raise ShaderError(node.line, f"{node.name} of {kind}; it must be a texture's name")
-        texture, *others = (one.text for one in given)
+        texture, *others = (one.text for one in values)
         if node.name == "textureSize":
             return Typed(f"vec2i(textureDimensions({texture}, {others[0]}))", "ivec2")
         type_ = "uvec4" if kind == "usampler2D" else "vec4"
@@ -327,33 +327,33 @@ class Expressions:
         how = "textureSampleLevel" if node.name == "textureLod" else "textureSample"
         return Typed(f"{how}({texture}, {texture}{SAMPLER}, {', '.join(others)})", type_)
 
-    def builtin(self, node: Call, given: list[Typed]) -> Typed:
+    def builtin(self, node: Call, values: list[Typed]) -> Typed:
         """A function of the language."""
-        name, types = node.name, [one.type for one in given]
-        if not given:
+        name, types = node.name, [one.type for one in values]
+        if not values:
             raise ShaderError(node.line, f"{name} is not known")
         wrong = ShaderError(node.line, f"{name} of {', '.join(types)} is not in the subset")
         widest = max(types, key=size_of)
-        if name in COMPARISONS and len(given) == 2 and types[0] == types[1] and size_of(widest) > 1:
-            sides = (held(given[0], "<", is_right=False), held(given[1], "<", is_right=True))
+        if name in COMPARISONS and len(values) == 2 and types[0] == types[1] and size_of(widest) > 1:
+            sides = (bracket(values[0], "<", is_right=False), bracket(values[1], "<", is_right=True))
             text = f"{sides[0]} {COMPARISONS[name]} {sides[1]}"
             return Typed(text, vector_of("bool", size_of(widest)), LEVEL["<"], "<")
         if name in ("any", "all") and component_of(widest) == "bool":
-            return Typed(f"{name}({given[0].text})", "bool")
-        if name == "mix" and len(given) == 3 and component_of(types[2]) == "bool" and types[0] == types[1]:
-            return Typed(f"select({', '.join(one.text for one in given)})", types[0])
+            return Typed(f"{name}({values[0].text})", "bool")
+        if name == "mix" and len(values) == 3 and component_of(types[2]) == "bool" and types[0] == types[1]:
+            return Typed(f"select({', '.join(one.text for one in values)})", types[0])
         if name in COMPONENTWISE and all(type_ in (widest, component_of(widest)) for type_ in types):
-            texts = [spread(one, widest).text for one in given]
+            texts = [spread(one, widest).text for one in values]
             return Typed(f"{RENAMED.get(name, name)}({', '.join(texts)})", widest)
         if name in TO_FLOAT and set(types) == {widest} and component_of(widest) == "float":
-            return Typed(f"{name}({', '.join(one.text for one in given)})", "float")
+            return Typed(f"{name}({', '.join(one.text for one in values)})", "float")
         bits = {"floatBitsToInt": ("float", "int"), "floatBitsToUint": ("float", "uint")}
         bits |= {"uintBitsToFloat": ("uint", "float"), "intBitsToFloat": ("int", "float")}
-        if name in bits and component_of(widest) == bits[name][0] and len(given) == 1:
+        if name in bits and component_of(widest) == bits[name][0] and len(values) == 1:
             type_ = vector_of(bits[name][1], size_of(widest))
-            return Typed(f"bitcast<{wgsl_type(type_)}>({given[0].text})", type_)
+            return Typed(f"bitcast<{wgsl_type(type_)}>({values[0].text})", type_)
         if name == "unpackUnorm2x16" and types == ["uint"]:
-            return Typed(f"{RENAMED[name]}({given[0].text})", "vec2")
+            return Typed(f"{RENAMED[name]}({values[0].text})", "vec2")
         raise wrong
 
 
@@ -367,7 +367,7 @@ def held_before_dot(value: Typed) -> str:
     return value.text if value.level == CLOSED else f"({value.text})"
 
 
-def held(side: Typed, sign: str, *, is_right: bool) -> str:
+def bracket(side: Typed, sign: str, *, is_right: bool) -> str:
     """A value beside a sign, in brackets where GLSL or WGSL ask for them."""
     level = LEVEL[sign]
     is_loose = side.level < level or (is_right and side.level == level)

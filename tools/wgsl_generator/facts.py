@@ -26,7 +26,7 @@ from wgsl_generator.syntax import (
     Uniform,
 )
 
-__all__ = ["LONGER", "Assumed", "Facts", "Form", "assumed_in", "changed_in", "facts_of", "root_of", "walked"]
+__all__ = ["LONGER", "Assumed", "Facts", "Form", "assumed_in", "changed_in", "facts_of", "root_of", "walk"]
 
 LONGER: Final = "From"
 """Ends the name of that of a function's two forms that is given more, since WGSL has one function of a name."""
@@ -55,21 +55,21 @@ class Facts:
     forms: dict[tuple[str, int], Form] = field(default_factory=dict)
 
 
-def walked(node: Any) -> Iterator[Any]:
+def walk(node: Any) -> Iterator[Any]:
     """A node and all below it."""
     if isinstance(node, tuple):
         for one in node:
-            yield from walked(one)
+            yield from walk(one)
     elif is_dataclass(node):
         yield node
         for one in fields(node):
             value = getattr(node, one.name)
             if isinstance(value, tuple) or is_dataclass(value):
-                yield from walked(value)
+                yield from walk(value)
 
 
 def assumed_in(conditional: Conditional, above: Assumed = ()) -> Iterator[tuple[Any, Assumed]]:
-    """What stands in each branch, and what holds there."""
+    """Yield each item of the branches, and the conditions that hold there."""
     for branch in conditional.branches:
         here = (*above, (branch.condition, True)) if branch.condition else above
         for one in branch.body:
@@ -77,12 +77,12 @@ def assumed_in(conditional: Conditional, above: Assumed = ()) -> Iterator[tuple[
         above = (*above, (branch.condition or "", False))
 
 
-def flattened(tree: Iterable[Any], above: Assumed = ()) -> Iterator[tuple[Any, Assumed]]:
-    """All that stands in a list, in branches or not, and what holds there."""
+def flatten(tree: Iterable[Any], above: Assumed = ()) -> Iterator[tuple[Any, Assumed]]:
+    """Yield all items of a list, in branches or not, and the conditions that hold there."""
     for one in tree:
         if isinstance(one, Conditional):
             for inner, here in assumed_in(one, above):
-                yield from flattened((inner,), here)
+                yield from flatten((inner,), here)
         else:
             yield one, above
 
@@ -99,7 +99,7 @@ def root_of(target: Any) -> str:
 def changed_in(function: Function, forms: dict[tuple[str, int], Form]) -> set[str]:
     """Variables that a function changes after they are declared."""
     found = set()
-    for node in walked(function.body):
+    for node in walk(function.body):
         if isinstance(node, Assign | Step):
             found.add(root_of(node.target))
         elif isinstance(node, Call) and (node.name, len(node.given)) in forms:
@@ -112,7 +112,7 @@ def read_in(function: Function, facts: Facts) -> tuple[str, ...]:
     """Uniforms that a function reads, itself or by those that it calls, in the order of their declarations."""
     own = {parameter.name for parameter in function.parameters}
     found = set()
-    for node in walked(function.body):
+    for node in walk(function.body):
         if isinstance(node, Declare):
             own.add(node.name)
         elif isinstance(node, Name):
@@ -131,7 +131,7 @@ def facts_of(tree: tuple[Top | Conditional, ...]) -> Facts:
         If two forms of a function are given equally much.
     """
     facts = Facts()
-    everything = list(flattened(tree))
+    everything = list(flatten(tree))
     functions = {(one.name, len(one.parameters)) for one, _ in everything if isinstance(one, Function)}
     count = Counter(name for name, _ in functions)
     longest = {name: max(size for other, size in functions if other == name) for name in count}
@@ -144,7 +144,7 @@ def facts_of(tree: tuple[Top | Conditional, ...]) -> Facts:
             case Constant():
                 facts.values[one.name] = one.type
             case Struct():
-                facts.structures[one.name] = tuple(flattened(one.fields))
+                facts.structures[one.name] = tuple(flatten(one.fields))
             case Function():
                 size = len(one.parameters)
                 if count[one.name] > 2:

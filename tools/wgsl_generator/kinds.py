@@ -14,7 +14,7 @@ __all__ = [
     "TO_FLOAT",
     "array_of",
     "component_of",
-    "listed",
+    "join_values",
     "size_of",
     "type_of",
     "vector_of",
@@ -132,10 +132,10 @@ def wgsl_type(text: str) -> str:
     return SCALARS.get(text) or TEXTURES.get(text) or {"mat3": "mat3x3f"}.get(text) or text
 
 
-def listed(texts: list[str]) -> str:
+def join_values(texts: list[str]) -> str:
     """Values between commas; WGSL would read ``a < b, c > d`` as a template's arguments.
 
-    >>> listed(["a < b", "c > d"])
+    >>> join_values(["a < b", "c > d"])
     '(a < b), c > d'
     """
     later = [any(">" in text for text in texts[k + 1 :]) for k in range(len(texts))]

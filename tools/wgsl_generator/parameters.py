@@ -3,7 +3,7 @@
 from vexture.renderers.shader_error import ShaderError
 from wgsl_generator.facts import Facts, Form, facts_of
 from wgsl_generator.kinds import TEXTURES
-from wgsl_generator.parser import parsed
+from wgsl_generator.parser import parse
 from wgsl_generator.syntax import FRAGMENT
 from wgsl_generator.tokens import Token, tokens_of
 
@@ -28,7 +28,7 @@ def with_parameters(text: str) -> str:
     >>> print(with_parameters("uniform float size;\nfloat half_size() { return 0.5 * size; }"))
     float half_size(float size) { return 0.5 * size; }
     """
-    facts = facts_of(parsed(text))
+    facts = facts_of(parse(text))
     names = {name for name, _ in facts.forms}
     tokens = tokens_of(text)
     pieces, at, depth, k = [], 0, 0, 0
@@ -43,7 +43,7 @@ def with_parameters(text: str) -> str:
         elif token.text in names and tokens[k + 1].text == "(":
             form = form_at(facts, tokens, k)
             opening = tokens[k + 1].start + 1
-            pieces.append(text[at:opening] + handed(facts, form, is_declared=depth == 0))
+            pieces.append(text[at:opening] + uniform_parameters(facts, form, is_declared=depth == 0))
             at = opening
         k += 1
     return "".join(pieces) + text[at:]
@@ -63,7 +63,7 @@ def form_at(facts: Facts, tokens: list[Token], at: int) -> Form:
     return form
 
 
-def handed(facts: Facts, form: Form, *, is_declared: bool) -> str:
+def uniform_parameters(facts: Facts, form: Form, *, is_declared: bool) -> str:
     """The uniforms before a function's own parameters, or what it is given for these."""
     texts = []
     for name in form.reads:

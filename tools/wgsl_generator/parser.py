@@ -45,7 +45,7 @@ from wgsl_generator.syntax import (
 )
 from wgsl_generator.tokens import Token, tokens_of
 
-__all__ = ["LEVELS", "parsed"]
+__all__ = ["LEVELS", "parse"]
 
 LEVELS: Final = (
     ("||",),
@@ -69,7 +69,7 @@ WORDS: Final = {"do", "goto", "discard", "in", "out", "const", "struct", "unifor
 CONDITION: Final = re.compile(r"#(?:el)?if\s+(\w+(?: == [\w.]+)?)")
 
 
-def parsed(text: str) -> tuple[Top | Conditional, ...]:
+def parse(text: str) -> tuple[Top | Conditional, ...]:
     """Return the syntax tree of a text.
 
     Raises
@@ -113,9 +113,9 @@ class Parser:
         self.at += found
         return found
 
-    def refused(self, what: str) -> ShaderError:
+    def refused(self, message: str) -> ShaderError:
         """Error at the next token."""
-        return ShaderError(self.now.line, f"{self.now.text!r}: {what}")
+        return ShaderError(self.now.line, f"{self.now.text!r}: {message}")
 
     def is_type(self, token: Token) -> bool:
         """Whether a token names a type."""
@@ -134,7 +134,7 @@ class Parser:
         return self.take().text
 
     def size(self) -> str:
-        """What stands behind an array's name, ``[3]``; nothing behind others."""
+        """Parse the size behind an array's name, ``[3]``; empty behind others."""
         if not self.takes("["):
             return ""
         size = self.take().text
@@ -264,7 +264,7 @@ class Parser:
         first = self.now
         return Block(first.line, Remarks(first.lead, first.trail), self.braced())
 
-    def headed(self) -> tuple[Token, Expression, Token]:
+    def head(self) -> tuple[Token, Expression, Token]:
         """A word, a condition in brackets, and the brace behind it."""
         first = self.take()
         self.take("(")
@@ -273,7 +273,7 @@ class Parser:
         return first, condition, self.now
 
     def if_(self) -> If:
-        first, condition, opening = self.headed()
+        first, condition, opening = self.head()
         yes = self.braced()
         no: tuple[Item, ...] = ()
         if self.takes("else"):
@@ -281,7 +281,7 @@ class Parser:
         return If(first.line, Remarks(first.lead, opening.trail), condition, yes, no)
 
     def while_(self) -> While:
-        first, condition, opening = self.headed()
+        first, condition, opening = self.head()
         return While(first.line, Remarks(first.lead, opening.trail), condition, self.braced())
 
     def for_(self) -> For:
@@ -295,7 +295,7 @@ class Parser:
         return For(first.line, Remarks(first.lead, opening.trail), start, condition, step, self.braced())
 
     def switch(self) -> Switch:
-        first, value, opening = self.headed()
+        first, value, opening = self.head()
         self.take("{")
         cases: list[Case] = []
         while not self.takes("}"):

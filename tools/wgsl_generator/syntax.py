@@ -330,7 +330,7 @@ class Struct:
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """What a function is given, and may change for its caller if it is ``inout``."""
+    """A parameter of a function, which may change it for its caller if it is ``inout``."""
 
     type: str
     name: str
@@ -354,7 +354,7 @@ Top: TypeAlias = Define | Default | Uniform | Constant | Struct | Function
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """What stands under a condition, ``NAME`` or ``NAME == VALUE``; None for ``#else``."""
+    """Lines under a condition, ``NAME`` or ``NAME == VALUE``; None for ``#else``."""
 
     condition: str | None
     body: "tuple[Item | Top | Field, ...]"

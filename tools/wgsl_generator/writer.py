@@ -85,7 +85,7 @@ class Writer:
     def emit(self, text: str, remarks: Remarks | None = None) -> None:
         """Write a line, and the comments beside it; what is too long goes on behind a sign or a comma."""
         self.comment(remarks or Remarks())
-        *first, last = folded(text, WIDTH - len(INDENT) * self.depth)
+        *first, last = fold_lines(text, WIDTH - len(INDENT) * self.depth)
         trail = f"  {remarks.trail}" if remarks and remarks.trail else ""
         for k, line in enumerate((*first, last + trail)):
             self.lines.append(INDENT * (self.depth + (k > 0)) + line)
@@ -168,7 +168,7 @@ class Writer:
         self.expressions.pointers = {one.name for one in node.parameters if one.is_inout}
         copied = [one for one in node.parameters if one.name in self.changed and not one.is_inout]
         given = [self.declared(name, self.facts.uniforms[name]) for name in form.reads]
-        given += [self.given(one, one in copied) for one in node.parameters]
+        given += [self.parameter(one, one in copied) for one in node.parameters]
         result = "" if node.returns == "void" else f" -> {wgsl_type(node.returns)}"
         head = f"fn {form.name}({', '.join(given)}){result} {{"
         if len(head) <= WIDTH:
@@ -192,7 +192,7 @@ class Writer:
         text = f"{wgsl_name(name)}: {wgsl_type(type_)}"
         return f"{text}, {wgsl_name(name)}{SAMPLER}: sampler" if type_ == SAMPLED else text
 
-    def given(self, one: Parameter, is_copied: bool) -> str:
+    def parameter(self, one: Parameter, is_copied: bool) -> str:
         if one.is_inout:
             return f"{wgsl_name(one.name)}: ptr<function, {wgsl_type(one.type)}>"
         return f"{one.name}_given: {wgsl_type(one.type)}" if is_copied else self.declared(one.name, one.type)
@@ -334,7 +334,7 @@ class Writer:
         return f"{whole.text} = {wgsl_type(whole.type)}({', '.join([*before, new, *after])})"
 
 
-def folded(text: str, room: int) -> list[str]:
+def fold_lines(text: str, room: int) -> list[str]:
     """A statement as lines, cut where the fewest brackets are open."""
     if len(text) <= room or text.startswith("//"):
         return [text]
@@ -342,4 +342,4 @@ def folded(text: str, room: int) -> list[str]:
     if not cuts:
         return [text]
     cut = min(reversed(cuts), key=lambda at: text[:at].count("(") - text[:at].count(")"))
-    return [text[:cut].rstrip(), *folded(text[cut:].lstrip(), room - len(INDENT))]
+    return [text[:cut].rstrip(), *fold_lines(text[cut:].lstrip(), room - len(INDENT))]

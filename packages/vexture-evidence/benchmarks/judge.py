@@ -28,7 +28,7 @@ from PIL import Image
 
 import vexture
 from same_fonts import options_of_resvg
-from vexture.base.content import decompressed
+from vexture.base.content import decompress
 from vexture.base.errors import SourceWarning, VextureError
 from vexture.base.notes import line_of
 from vexture.drawing.drawing import Drawing
@@ -187,7 +187,7 @@ def reading_gaps(case: Case, drawing: Drawing) -> Facts:
 def enlarge(content: bytes, drawing: Drawing, side: int) -> tuple[bytes, tuple[float, float]]:
     """Set the longer side of an SVG, in pixels; return the SVG and its size."""
     framed = framed_drawing(content, "")[1]
-    root = parse_svg(decompressed(content))
+    root = parse_svg(decompress(content))
     if framed is not None:
         size, box = framed[0], (0.0, 0.0, *framed[0])
     else:  # as large as what it paints

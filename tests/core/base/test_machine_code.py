@@ -60,7 +60,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Kernel, Path]:
 
 def loaded(written: tuple[Kernel, Path], text: str = TEXT, arguments: Any = ARGUMENTS) -> Any:
     kernel, folder = written
-    return machine_code.load(kernel, text, machine_code.described(arguments), folder)
+    return machine_code.load(kernel, text, machine_code.argument_type(arguments), folder)
 
 
 def test_code_computes_what_numba_computes(written: tuple[Kernel, Path]) -> None:
@@ -113,7 +113,7 @@ def test_readonly_arrays_are_left_to_numba(written: tuple[Kernel, Path]) -> None
 def test_a_loaded_texture_is_drawn_by_the_code_of_a_converted_one() -> None:
     made = convert(Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.5, 0.8)]))
     loaded = texture_from(made.to_ktx2(), "loaded")
-    assert machine_code.described(loaded.texels) == machine_code.described(made.texels) == ["<u4", 3, True]
+    assert machine_code.argument_type(loaded.texels) == machine_code.argument_type(made.texels) == ["<u4", 3, True]
 
 
 def test_code_of_another_text_is_not_taken(written: tuple[Kernel, Path]) -> None:
@@ -131,7 +131,7 @@ def test_code_that_cannot_run_here_is_not_taken(
     (file,) = folder.iterdir()
     head, _, rest = file.read_bytes().partition(b"\n")
     (tmp_path / file.name).write_bytes(json.dumps(json.loads(head) | {field: value}).encode() + b"\n" + rest)
-    assert machine_code.load(kernel, TEXT, machine_code.described(ARGUMENTS), tmp_path) is None
+    assert machine_code.load(kernel, TEXT, machine_code.argument_type(ARGUMENTS), tmp_path) is None
 
 
 def test_code_runs_in_a_process_without_numba(written: tuple[Kernel, Path]) -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vexture.bezier.convert import ellipse_cubics, line_cubics
-from vexture.bezier.reduce import reduced
+from vexture.bezier.reduce import reduce_contour
 
 TOLERANCE = 1e-5
 FLAT = 1e-7
@@ -46,7 +46,7 @@ def circle(accuracy):
 @pytest.mark.parametrize("accuracy", [1e-7, 1e-9])
 def test_the_parts_of_a_circle_become_quarters(accuracy):
     many = circle(accuracy)
-    few = reduced(many, TOLERANCE)
+    few = reduce_contour(many, TOLERANCE)
     assert len(few) == 4 < len(many)
     assert is_closed(few)
     assert is_monotone(few)
@@ -56,7 +56,7 @@ def test_the_parts_of_a_circle_become_quarters(accuracy):
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-5, 1e-6])
 def test_an_arc_is_as_near_as_the_tolerance(tolerance):
     many = circle(1e-12)
-    few = reduced(many, tolerance)
+    few = reduce_contour(many, tolerance)
     assert 4 <= len(few) < len(many) / 2
     assert is_closed(few)
     assert is_monotone(few)
@@ -73,7 +73,7 @@ def test_corners_stay():
         ],
         axis=1,
     ).reshape(-1, 4, 2)
-    few = reduced(halves, TOLERANCE)
+    few = reduce_contour(halves, TOLERANCE)
     assert sorted(map(tuple, few[:, 0])) == sorted(map(tuple, corners))
     assert is_closed(few)
 
@@ -83,4 +83,4 @@ def test_steps_back_that_nobody_sees_end_no_run():
     at = many[5, 0]
     back = at - 0.05 * TOLERANCE
     jogged = np.concatenate([many[:5], line_cubics(at[None], back[None]), line_cubics(back[None], at[None]), many[5:]])
-    assert len(reduced(jogged, TOLERANCE)) == 4
+    assert len(reduce_contour(jogged, TOLERANCE)) == 4

@@ -134,7 +134,7 @@ CHOOSE = "choose another by `weight` and `style`, or give its file"
 def test_the_file_that_stands_in_for_a_weight_is_named_where_there_is_a_choice(weights, place, options, said):
     notes = Notes()
     TextOptions(weights / place, **options).choice(notes, "A")
-    found = [str(note) for note in notes.listed if note.kind == "remark"]
+    found = [str(note) for note in notes.in_order if note.kind == "remark"]
     assert found == ([] if said is None else [f"no face has {said}; {CHOOSE}"])
 
 

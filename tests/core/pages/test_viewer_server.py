@@ -267,6 +267,6 @@ def test_picture_of_the_browser_is_placed(tmp_path):
 
 def test_data_addresses_hold_what_was_served():
     from vexture.pages.page import data_address
-    from vexture.server.published import File
+    from vexture.server.published import PublishedFile
 
-    assert base64.b64decode(data_address(File(DUCK, "image/svg+xml", ".svg")).partition(",")[2]) == DUCK
+    assert base64.b64decode(data_address(PublishedFile(DUCK, "image/svg+xml", ".svg")).partition(",")[2]) == DUCK

@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from vexture import window
-from vexture.renderers.accumulate import Sides, accumulated
+from vexture.renderers.accumulate import Sides, render_sides
 from vexture_geo.base.rings import oriented, rings_of
 
 SIZE = (7, 5)
@@ -42,17 +42,17 @@ def test_each_pixel_has_the_colours_by_their_areas(view):
     cells[3] = shapely.difference(cells[3], shapely.buffer(shapely.centroid(cells[3]), 0.02))
     cells = cells[5:][~shapely.is_empty(cells[5:])]
     rgba = random.random((len(cells), 4))
-    picture = accumulated(sides_of(cells), rgba, SIZE, view)
+    picture = render_sides(sides_of(cells), rgba, SIZE, view)
     np.testing.assert_allclose(picture, measured(cells, rgba, SIZE, view), atol=ROUNDING)
 
 
 def test_borders_that_are_shared_show_nothing_between():
     cells = [shapely.box(k / 7.3, 0, (k + 1) / 7.3, 1) for k in range(-1, 9)]
-    picture = accumulated(sides_of(cells), np.tile([0.2, 0.4, 0.6, 1.0], (len(cells), 1)), (50, 50))
+    picture = render_sides(sides_of(cells), np.tile([0.2, 0.4, 0.6, 1.0], (len(cells), 1)), (50, 50))
     assert np.ptp(picture, axis=(0, 1)).max() < ROUNDING
 
 
 def test_what_overlaps_is_mixed_and_never_more_than_opaque():
     twice = [shapely.box(0, 0, 1, 1), shapely.box(0, 0, 0.5, 1)]
-    picture = accumulated(sides_of(twice), np.array([[1, 0, 0, 1.0], [0, 0, 1, 1.0]]), (2, 2))
+    picture = render_sides(sides_of(twice), np.array([[1, 0, 0, 1.0], [0, 0, 1, 1.0]]), (2, 2))
     np.testing.assert_allclose(picture[0], [[0.5, 0, 0.5, 1], [1, 0, 0, 1]], atol=ROUNDING)

@@ -10,7 +10,7 @@ import degenerate
 import planar
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing
-from vexture.renderers.device import ONE_AT_A_TIME, compiled, context, draw, upload
+from vexture.renderers.device import ONE_AT_A_TIME, compile_shader, context, draw, upload
 from vexture.renderers.feature import feature
 from vexture.renderers.shader import VERSIONS, shader_text, vertex_source
 from vexture.texture.texture import Texture
@@ -53,7 +53,7 @@ def on_cpu(texture: Texture, base: tuple[int, int], window: tuple[float, ...]) -
 
 def on_gpu(texture: Texture, base: tuple[int, int], window: tuple[float, ...]) -> np.ndarray:
     with ONE_AT_A_TIME, context() as gl:
-        triangle = compiled(VERSIONS["330"] + shader_text("feature.glsl") + MAIN)
+        triangle = compile_shader(VERSIONS["330"] + shader_text("feature.glsl") + MAIN)
         uploaded = upload(gl, texture.texels, 0, "u4")
         triangle.program["vextureTexels"] = 0
         triangle.program["root"] = texture.roots[0].quad

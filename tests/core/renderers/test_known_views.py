@@ -7,8 +7,8 @@ from vexture.drawing.paint import Paint
 from vexture.renderers.cpu import render_cpu
 from vexture.renderers.exact import render_exact
 from vexture.renderers.flatten import find_chords
-from vexture.renderers.picture import painted, stacked
-from vexture.renderers.shader import included
+from vexture.renderers.picture import composite_pictures, paint_layer
+from vexture.renderers.shader import read_shader
 from vexture.renderers.view import fit, size_of, view_base, view_matrix
 from vexture.texture.texture import Root, Texture
 
@@ -36,13 +36,15 @@ def test_chords_of_a_triangle_are_those_that_are_not_level() -> None:
 
 def test_a_translucent_layer_darkens_the_one_below() -> None:
     full = np.ones((1, 1), np.float32)
-    picture = stacked((1, 1), [painted(Paint((1.0, 0.0, 0.0)), full), painted(Paint(opacity=0.25), full)])
+    picture = composite_pictures(
+        (1, 1), [paint_layer(Paint((1.0, 0.0, 0.0)), full), paint_layer(Paint(opacity=0.25), full)]
+    )
     np.testing.assert_allclose(picture, [[(0.75, 0.0, 0.0, 1.0)]])
     assert picture.dtype == np.float32
 
 
 def test_a_shader_file_is_included_once() -> None:
-    assert included("coverage.glsl").count("VexturePlace vexture_place(") == 1
+    assert read_shader("coverage.glsl").count("VexturePlace vexture_place(") == 1
 
 
 def test_a_size_is_two_numbers_or_one() -> None:

@@ -16,7 +16,7 @@ from vexture.renderers import cells, gpu
 from vexture.renderers.cells import texel
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.cpu import render_cpu
-from vexture.renderers.device import VERSION, compiled, context
+from vexture.renderers.device import VERSION, compile_shader, context
 from vexture.renderers.gpu import render_gpu, render_gpu_colours
 from vexture.renderers.method import LONG, MOST_PARTS, MOST_RAMP_PARTS, STEPS
 from vexture.renderers.shader import color_source, view_source
@@ -103,7 +103,7 @@ def counting(source: str) -> Any:
     assert loops == len(re.findall(r"\b(?:for|while|do)\b *[({]", text)), "a loop that this test does not count"
     kept = r"\1 found = \3; \2 = \1(trips) + 0.0 * found; }"
     drawn = re.sub(r"out (\w+) (\w+);\nvoid main\(\) \{ \w+ = (.*); \}", r"out \1 \2;\nvoid main() { " + kept, text)
-    return compiled(drawn.replace("\n", "\nint trips = 0;\n", 1))
+    return compile_shader(drawn.replace("\n", "\nint trips = 0;\n", 1))
 
 
 @pytest.mark.parametrize("view", VIEWS)

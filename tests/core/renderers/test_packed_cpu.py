@@ -16,7 +16,7 @@ import degenerate
 from vexture.base.errors import ParameterError, VextureError
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.drawing import Path as Outline
-from vexture.renderers.cells import Place, finest_bit, first_square, next_square
+from vexture.renderers.cells import VexturePlace, finest_bit, first_square, next_square
 from vexture.renderers.cpu import render_cpu
 from vexture.renderers.exact import render_exact
 from vexture.renderers.gpu import render_gpu
@@ -225,7 +225,7 @@ def test_the_squares_of_a_walk_are_those_that_meet_the_box_each_once(seed: int, 
     side = 1 << finest
     low = rng.integers(0, 1 << 28, 2) if seed % 2 else rng.integers(0, 1 << 8, 2) << 20
     high = np.minimum(low + rng.integers(0, 12 * side, 2), (1 << 28) - 1)
-    place = Place((0, 0), (0.0, 0.0), tuple(map(int, low)), tuple(map(int, high)))
+    place = VexturePlace((0, 0), (0.0, 0.0), tuple(map(int, low)), tuple(map(int, high)))
     met = []
     square = first_square(place)
     smallest = min(finest, square.bit)  # the box may be smaller than a cell

@@ -10,7 +10,7 @@ from vexture.base.errors import FormatError
 from vexture.fold import blend as folding
 from vexture.renderers import blend, cells, colour, cpu, feature, flat, gradient, leaf, moment, paints, piece
 from vexture.renderers.device import context
-from vexture.renderers.shader import VERSIONS, included, vertex_source
+from vexture.renderers.shader import VERSIONS, read_shader, vertex_source
 from vexture.thesis import cpu as thesis_cpu
 from vexture.thesis import cubic, layout, method
 from vexture.thesis.shader_text import PACKAGE, TextureSizes, constants, view_source
@@ -87,13 +87,15 @@ PLAIN = {
     "vextureFold": "fold",
     "vextureFeature": "feature",
     "from": "start",
+    "Cell": "ThesisCell",
+    "VextureFolded": "Folded",
 }  # which Python would name otherwise, or not at all
 
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_the_shader_compiles_in_both_dialects(version: str) -> None:
     need_gpu()
-    fragment = view_source(version, TextureSizes.of(texture_of(TREE)))
+    fragment = view_source(version, TextureSizes.of_texture(texture_of(TREE)))
     assert fragment.startswith(f"#version {version}\n")
     with context() as gl:
         gl.program(vertex_shader=vertex_source(version), fragment_shader=fragment).release()
@@ -111,7 +113,7 @@ def test_a_file_defines_what_it_says_and_nothing_that_its_user_must(name: str) -
 
 
 def test_every_file_is_joined_once() -> None:
-    joined = included("view.glsl", PACKAGE)
+    joined = read_shader("view.glsl", PACKAGE)
     names = [match[0] for match in DEFINITION.findall(joined)]
     assert len(names) == len(set(names))
     assert "#include" not in joined
@@ -123,7 +125,7 @@ def test_every_file_is_joined_once() -> None:
 @pytest.mark.parametrize("name", ["nowhere.glsl", "../shaders.py"])
 def test_an_unknown_include_is_refused(name: str) -> None:
     with pytest.raises(FileNotFoundError, match=re.escape(name)):
-        included(name)
+        read_shader(name)
 
 
 def plain(name: str) -> str:
@@ -146,7 +148,7 @@ def test_the_mirror_has_the_same_structures() -> None:
     for file, text in MIRRORED.items():
         for name, body in STRUCT.findall(text):
             fields = tuple(re.findall(r"^ +\w+ (\w+);", body, re.MULTILINE))
-            assert fields == getattr(MIRROR[file], plain(name))._fields
+            assert fields == getattr(MIRROR[file], PLAIN.get(name, name))._fields
 
 
 @pytest.mark.parametrize("module", [layout, method])
@@ -160,10 +162,10 @@ def test_the_numbers_are_pythons(module: object) -> None:
 
 
 def test_the_bounds_of_the_loops_are_the_textures() -> None:
-    assert TextureSizes.of(texture_of([FULL, EMPTY, FULL, EMPTY])).levels == 1
-    assert TextureSizes.of(texture_of(TREE)).levels == 3
+    assert TextureSizes.of_texture(texture_of([FULL, EMPTY, FULL, EMPTY])).levels == 1
+    assert TextureSizes.of_texture(texture_of(TREE)).levels == 3
     assert "const int LEVELS = 3;\nconst int FOLD_HEIGHT = 100;\n" in view_source(
-        "330", TextureSizes.of(texture_of(TREE), 100)
+        "330", TextureSizes.of_texture(texture_of(TREE), 100)
     )
 
 
@@ -171,4 +173,4 @@ def test_a_quad_below_itself_is_refused() -> None:
     texture = texture_of([[FULL] * 4, FULL, FULL, FULL])
     texture.quads[1, 0] = 65535, 0, 0
     with pytest.raises(FormatError, match="below itself"):
-        TextureSizes.of(texture)
+        TextureSizes.of_texture(texture)

@@ -14,7 +14,7 @@ from vexture.pages.page_routes import MOST_NAME_LENGTH
 from vexture.server.description import description
 from vexture.server.limits import Limits
 from vexture.server.names import MOST_BYTES
-from vexture.server.routes import fixed
+from vexture.server.routes import fixed_route
 from viewing import viewing
 
 PROGRAM = [sys.executable, "-c", "from schemathesis.cli import schemathesis; schemathesis()", "--no-color"]
@@ -61,7 +61,7 @@ def served(command, folder):
 
 def test_a_route_without_a_description_is_not_served():
     with pytest.raises(KeyError, match="/more"):
-        description([fixed("/more", b"", "text/plain", {})], Limits())
+        description([fixed_route("/more", b"", "text/plain", {})], Limits())
 
 
 def test_the_description_has_the_limits_of_names():

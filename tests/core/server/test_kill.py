@@ -14,7 +14,7 @@ from vexture.base.errors import DeviceError
 from vexture.server.folder import STATE, Folder
 from vexture.server.limits import Limits
 from vexture.server.names import manifest_name
-from vexture.server.published import TEXTURE_TYPE, File, Shape
+from vexture.server.published import TEXTURE_TYPE, PublishedFile, PublishedShape
 from vexture.texture.load import texture_from
 
 LOST = (OSError, http.client.HTTPException, ValueError)
@@ -69,7 +69,12 @@ def test_kill_at_random_moments(tmp_path, rounds):
 
 @pytest.fixture
 def shape():
-    return Shape("duck", File(b"texture", TEXTURE_TYPE, ".ktx2"), {"segments": 1}, {"svg": File(b"s", "a/b", ".svg")})
+    return PublishedShape(
+        "duck",
+        PublishedFile(b"texture", TEXTURE_TYPE, ".ktx2"),
+        {"segments": 1},
+        {"svg": PublishedFile(b"s", "a/b", ".svg")},
+    )
 
 
 async def published(path, *shapes, say=pytest.fail):
@@ -101,7 +106,7 @@ def test_what_is_published_is_there_again(tmp_path, shape):
      json.dumps({"name": "duck", "texture": {"file": "", "type": "a"}, "views": {}, "facts": {}}).encode()],
 )  # fmt: skip
 def test_a_damaged_manifest_is_one_line_and_others_are_served(tmp_path, shape, damage):
-    other = Shape("other", File(b"x", TEXTURE_TYPE, ".ktx2"))
+    other = PublishedShape("other", PublishedFile(b"x", TEXTURE_TYPE, ".ktx2"))
     run(published(tmp_path, shape, other))
     (tmp_path / STATE / "shapes" / manifest_name("duck")).write_bytes(damage)
     folder, lines = reopened(tmp_path)
@@ -134,7 +139,7 @@ def test_what_a_crash_leaves_is_removed(tmp_path, shape):
 
 def test_the_disk_refuses(tmp_path, shape, monkeypatch):
     run(published(tmp_path, shape))
-    newer = Shape("duck", File(b"newer", TEXTURE_TYPE, ".ktx2"))
+    newer = PublishedShape("duck", PublishedFile(b"newer", TEXTURE_TYPE, ".ktx2"))
 
     def full(handle):
         raise OSError(28, "No space left on device")

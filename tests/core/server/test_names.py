@@ -11,7 +11,7 @@ from loops import run
 from vexture.base.errors import LimitError, ParameterError
 from vexture.server.limits import Limits, Pace
 from vexture.server.names import checked_name, manifest_name
-from vexture.server.published import TEXTURE_TYPE, File, Listener, Shape, Shelf
+from vexture.server.published import TEXTURE_TYPE, Listener, PublishedFile, PublishedShape, PublishedShapes
 
 HOSTILE = ["", ".", "..", "../x", "a//b", "/a", "a/", "a/../b", "a/.b", "a/ b", "a\\b", ".hidden", "a\0", "a\n", " a",
            "a ", "a" * 101, "é" * 51, "a\u202eb", "a\u2044b", "\uff0e\uff0e\uff0fx", "a\ud800", "a:b", "a%2fb", "a*",
@@ -45,11 +45,11 @@ def test_two_spellings_are_one_name():
 @given(st.lists(st.tuples(st.sampled_from("ab"), st.sampled_from(["put", "refuse", "remove"]), st.integers(0, 9))))
 def test_a_slow_client_is_told_the_newest_of_each_name_and_no_more(steps):
     async def told():
-        shelf = Shelf()
+        shelf = PublishedShapes()
         with shelf.events() as listener:
             for name, step, number in steps:
                 if step == "put":
-                    shelf.put(Shape(name, File(b"%d" % number, TEXTURE_TYPE, ".ktx2")))
+                    shelf.add(PublishedShape(name, PublishedFile(b"%d" % number, TEXTURE_TYPE, ".ktx2")))
                 elif step == "refuse":
                     shelf.refuse(name, str(number))
                 else:
@@ -85,13 +85,13 @@ def test_who_waits_is_woken():
 
 
 def test_a_replaced_file_is_served_a_moment_longer():
-    shelf = Shelf()
-    old, new = (File(content, TEXTURE_TYPE, ".ktx2") for content in (b"old", b"new"))
-    shelf.put(Shape("a", old))
-    shelf.put(Shape("b", old))
-    shelf.put(Shape("a", new))
+    shelf = PublishedShapes()
+    old, new = (PublishedFile(content, TEXTURE_TYPE, ".ktx2") for content in (b"old", b"new"))
+    shelf.add(PublishedShape("a", old))
+    shelf.add(PublishedShape("b", old))
+    shelf.add(PublishedShape("a", new))
     assert (shelf.owners(old.name), shelf.nbytes) == (1, 6)
-    shelf.put(Shape("b", new))
+    shelf.add(PublishedShape("b", new))
     assert (shelf.owners(old.name), shelf.owners(new.name), shelf.nbytes) == (0, 2, 3)
     assert shelf.file(old.name) == old
 

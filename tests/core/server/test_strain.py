@@ -39,7 +39,7 @@ files, shapes, size = (given.pop(key) for key in ("files", "shapes", "size"))
 resource.setrlimit(resource.RLIMIT_NOFILE, (files, files))
 shelf = Shelf()
 for number in range(shapes):
-    shelf.put(Shape(f"{number:0100}", File(bytes(size), TEXTURE_TYPE, ".ktx2")))
+    shelf.add(Shape(f"{number:0100}", File(bytes(size), TEXTURE_TYPE, ".ktx2")))
 taken = bind("127.0.0.1", 0)
 print("serving at", listen(taken), flush=True)
 limits = Limits(**given)
@@ -295,7 +295,7 @@ def test_clients_are_refused_until_all_is_ready():
 
 def test_a_dropped_file_that_does_not_arrive_is_refused(monkeypatch):
     monkeypatch.setattr(page_routes, "DROPPED", Limits(upload_seconds=0.01))
-    app = application(page_routes.dropping_routes(shelves.Shelf(), Parameters(), ()), page_routes.DROPPED)
+    app = application(page_routes.dropping_routes(shelves.PublishedShapes(), Parameters(), ()), page_routes.DROPPED)
     scope = {"type": "http", "method": "POST", "path": "/convert", "query_string": b"name=a.svg", "headers": []}
     answer = []
 

@@ -11,7 +11,7 @@ from loops import run
 
 from vexture.server import watch as watching
 from vexture.server.publish_file import VIEWER_PARAMETERS, shape_of
-from vexture.server.published import Shelf
+from vexture.server.published import PublishedShapes
 from viewing import SHAPES, until, viewing
 
 DUCK, CAKE = ((SHAPES / f"{name}.svg").read_bytes() for name in ("duck", "cake"))
@@ -133,8 +133,8 @@ def test_change_is_noticed_when_it_happens(tmp_path, monkeypatch):
         return shape_of(data, str(source.path), source.name, VIEWER_PARAMETERS)
 
     async def notice():
-        shelf = Shelf()
-        task = asyncio.create_task(watching.watch(shelf, watching.named([path]), convert, {"logo": DUCK}))
+        shelf = PublishedShapes()
+        task = asyncio.create_task(watching.watch(shelf, watching.name_files([path]), convert, {"logo": DUCK}))
         with shelf.events() as listener:
             for content in islice(cycle([CAKE, DUCK]), 20):  # the first may come before watching has begun
                 path.write_bytes(content)
@@ -155,6 +155,6 @@ def test_change_is_noticed_when_it_happens(tmp_path, monkeypatch):
 
 def test_one_name_each():
     names = [
-        source.name for source in watching.named([Path("a/b.svg"), Path("b.svg"), Path("b-2.svg"), Path("b.ktx2")])
+        source.name for source in watching.name_files([Path("a/b.svg"), Path("b.svg"), Path("b-2.svg"), Path("b.ktx2")])
     ]
     assert len(set(names)) == 4

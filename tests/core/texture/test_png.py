@@ -15,7 +15,7 @@ from PIL import Image
 
 from vexture.base.errors import FormatError
 from vexture.thesis.layout import FILE_LIMIT, LIST_LIMIT
-from vexture.thesis.png import _filtered, read_png, write_png
+from vexture.thesis.png import _filter_rows, read_png, write_png
 
 TEXTS = {"vexture.version": "1", "vexture.crs": "RD new é"}
 SHAPES = st.tuples(st.integers(1, 40), st.sampled_from([2, 4]), st.just(3))
@@ -80,7 +80,7 @@ def test_texts_beyond_latin_1() -> None:
 @given(PIXELS)
 def test_every_filter_says_the_same(pixels: NDArray[np.uint8]) -> None:
     height, width, _ = pixels.shape
-    for kind, raw in enumerate(_filtered(pixels)):
+    for kind, raw in enumerate(_filter_rows(pixels)):
         assert set(raw[:: len(raw) // height]) == {kind}
         found = read_png(image(header(width, height, 8 * pixels.itemsize), raw), width, "x")[0]
         np.testing.assert_array_equal(found, pixels)
@@ -97,7 +97,7 @@ def test_the_smallest_is_written(kind: str) -> None:
         "steps": random.integers(0, 2, rows.shape).cumsum(axis=0),
     }[kind]
     pixels = np.repeat((plane % 251).astype(np.uint8)[:, :, None], 3, axis=2)
-    others = [image(header(height=200), raw) for raw in _filtered(pixels)]
+    others = [image(header(height=200), raw) for raw in _filter_rows(pixels)]
     assert len(write_png(pixels, {})) <= min(map(len, others))
     for other in others:
         np.testing.assert_array_equal(read_png(other, 4, "x")[0], pixels)

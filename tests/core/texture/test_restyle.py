@@ -23,7 +23,7 @@ from vexture.renderers.exact import render_exact_colours
 from vexture.texture.ktx2 import read_value, write_ktx2
 from vexture.texture.load import texture_from
 from vexture.texture.planar import decode_map
-from vexture.texture.restyle import renew_means, restyled
+from vexture.texture.restyle import renew_means, restyle_texels
 from vexture.tree.planar import sheets
 
 CLEAR = 3e-5  # unit-square units; beyond them rounding moves no outline
@@ -306,7 +306,7 @@ def test_a_style_that_breaks_the_format_is_refused_in_a_line(style, message: str
 def test_two_roots_of_one_map_are_restyled_together() -> None:
     texture = faces(Drawing((Path((SQUARE,), paint=RED, element="a"),), name="one"))
     twin = replace(texture.roots[0], name="two")
-    _, roots = restyled(texture.flat, (*texture.roots, twin), [0], {"a": "blue"}, "both")
+    _, roots = restyle_texels(texture.flat, (*texture.roots, twin), [0], {"a": "blue"}, "both")
     assert [root.style.rgba.tolist() for root in roots] == [[[0, 0, 1, 1]]] * 2
 
 

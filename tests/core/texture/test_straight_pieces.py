@@ -53,7 +53,7 @@ def test_curves_of_leaves_read_back() -> None:
     assert len(texels) == 2 + 2 + 1 + 1
     np.testing.assert_array_equal(texels[[0, 1, 5]], curve_texels(curves[[0, 1, 6]]))
     assert not texels[[3, 4], 2:].any()
-    np.testing.assert_array_equal(leaf_points(texels, LeafCurves.of(count, straight)), curves)
+    np.testing.assert_array_equal(leaf_points(texels, LeafCurves.of_counts(count, straight)), curves)
     found = np.empty((4, 2))
     for i in range(3):
         read_leaf_curve(texels, 2, (3 << layout.COUNT_SHIFT) + layout.STRAIGHT, i, found)

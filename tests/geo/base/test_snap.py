@@ -47,7 +47,7 @@ def snap(rings, distance=None, size=1.0):
     notes = Notes()
     ends = np.cumsum([len(ring) for ring in rings])
     points, after = snapped(np.concatenate(rings), ends, size, distance, notes)
-    return np.split(points, after[:-1]), notes.listed
+    return np.split(points, after[:-1]), notes.in_order
 
 
 def texels(content, distance=None):

@@ -30,7 +30,7 @@ def test_vectors_lead_nowhere(way, folder, outside):
     said = one_line(message_of(read_features, path, notes=notes))
     assert outside.take_accesses() == []
     assert said.startswith("READ") == (way not in REFUSED), said
-    assert any("is not read" in str(note) for note in notes.listed) == (way in NOTED)
+    assert any("is not read" in str(note) for note in notes.in_order) == (way in NOTED)
     one_line(message_of(lambda: [*feature_batches(path.read_bytes(), notes=Notes())]))
     one_line(message_of(vexture.read, path))
     one_line(message_of(vexture.read, path.read_bytes()))

@@ -72,7 +72,7 @@ def test_ids_are_unique_and_say_what_they_were():
     frame = squares().assign(code=["x", "x", None, "x"])
     notes = Notes()
     assert read_features(frame, id="code", notes=notes).ids.tolist() == ["x", "x#2", "#2", "x#3"]
-    assert [str(note) for note in notes.listed] == [
+    assert [str(note) for note in notes.in_order] == [
         "a feature has no 'code': its id is # and its number (1: #2)",
         "a feature has an id that another had before: its own ends in #2, #3, ... (2: x#2, x#3)",
     ]
@@ -97,7 +97,7 @@ def test_lines_points_empty_and_broken_geometries():
     found = read_features(geopandas.GeoDataFrame(geometry=shapes, crs="EPSG:28992"), notes=notes)
     assert (found.lines.feature.tolist(), found.points.feature.tolist()) == ([0], [1, 1])
     assert shapely.area(found.rings.shapes).sum() == pytest.approx(2)
-    assert {str(note) for note in notes.listed} == {
+    assert {str(note) for note in notes.in_order} == {
         "feature without geometry (2: 3, 4)",
         "a polygon that crossed or overlapped itself is repaired (1: 2)",
     }
@@ -108,7 +108,7 @@ def test_a_repair_that_nobody_can_see_is_not_told():
     notes = Notes()
     found = read_features(geopandas.GeoDataFrame(geometry=[shapely.Polygon(loop)], crs="EPSG:28992"), notes=notes)
     assert shapely.is_valid(found.rings.shapes).all()
-    assert not notes.listed
+    assert not notes.in_order
 
 
 def test_a_source_without_a_reference_system_says_so(tmp_path):
@@ -129,7 +129,7 @@ def test_a_source_that_names_its_reference_system_keeps_it(tmp_path):
     notes = Notes()
     found = read_features(saved(squares(), tmp_path, "gpkg"), crs="EPSG:4326", notes=notes)
     assert found.crs == "EPSG:28992"
-    assert [str(note) for note in notes.listed] == [
+    assert [str(note) for note in notes.in_order] == [
         "it names its own reference system, EPSG:28992, so EPSG:4326 is not used for it"
     ]
     text = squares().set_crs(None, allow_override=True).to_json().encode()
@@ -144,7 +144,7 @@ def test_rings_of_two_corners_and_infinite_ids():
     text = json.dumps({"type": "FeatureCollection", "features": features}).encode()
     found = read_features(text, notes=notes)
     assert (len(found), found.feature.tolist()) == (2, [1])
-    assert [str(note) for note in notes.listed] == ["polygon with a ring of fewer than three corners"]
+    assert [str(note) for note in notes.in_order] == ["polygon with a ring of fewer than three corners"]
     frame = squares().assign(code=[1.0, np.inf, 2.5, 1e20])
     assert read_features(frame, id="code", notes=Notes()).ids.tolist() == ["1", "inf", "2.5", "100000000000000000000"]
 

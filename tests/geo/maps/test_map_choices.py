@@ -97,7 +97,7 @@ def test_a_column_without_a_value_has_the_colour_of_no_data(values, kind):
     rgba, legend = colours_of(pa.table({"v": values}), Scale("v", kind, no_data="red"), notes)
     assert rgba.tolist() == [[1.0, 0.0, 0.0, 1.0]] * 2
     assert (legend["entries"], legend["no_data"]["count"]) == ([], 2)
-    assert str(notes.listed[0]) == "no feature has a value in 'v', so all have the colour of no data"
+    assert str(notes.in_order[0]) == "no feature has a value in 'v', so all have the colour of no data"
 
 
 def test_what_is_no_number_is_no_category_and_lies_below():
@@ -153,9 +153,9 @@ def test_sixteen_categories_are_told_apart_with_any_colour_vision_as_well_as_sev
     rgba, legend = colours_of(values, Scale("v"), notes)
     assert len(np.unique(rgba, axis=0)) == len(legend["entries"]) == 16
     assert np.allclose(rgba[:7, :3], seven, atol=1e-3), "fewer categories look as before"
-    assert notes.listed == ()
+    assert notes.in_order == ()
     colours_of(pa.table({"v": [f"c{k:02}" for k in range(18)]}), Scale("v"), notes)
-    assert "18 categories of 'v', but 16 colours: the 2 least common ones share a grey" in str(notes.listed[0])
+    assert "18 categories of 'v', but 16 colours: the 2 least common ones share a grey" in str(notes.in_order[0])
 
 
 @pytest.mark.parametrize(
@@ -185,7 +185,7 @@ def test_common_categories_have_colours_in_their_order_and_the_others_a_grey_tha
 def test_an_infinite_value_and_a_palette_of_several_names(caplog):
     notes = Notes()
     colours_of(pa.table({"v": [1.0, np.inf, -np.inf]}), Scale("v", palette="coolwarm_r"), notes)
-    assert [str(note) for note in notes.listed] == ["a value of 'v' is infinite, and has the colour of no data (2)"]
+    assert [str(note) for note in notes.in_order] == ["a value of 'v' is infinite, and has the colour of no data (2)"]
     assert not caplog.records
 
 
@@ -249,13 +249,13 @@ def test_an_index_that_is_not_the_ids_says_why_and_is_an_attribute(index, why):
     found = read_features(squares(v=[1.0, 2.0, 3.0]).set_index(index), notes=notes)
     assert found.ids.tolist() == ["0", "1", "2"]
     assert found.table.column_names == ["id", "kind", "v"]
-    assert [str(note) for note in notes.listed] == [
+    assert [str(note) for note in notes.in_order] == [
         f"its index {why}, so ids are the numbers of rows; name a column of ids by `id`"
     ]
     for column, count in ((None, 1), ("v", 0)):
         source, later = squares(v=[1.0, 2.0, 3.0]).set_index(index), Notes()
         assert len(list(feature_batches(source, id=column, batch=1, notes=later))) == 3
-        assert [note.count for note in later.listed] == [1] * count
+        assert [note.count for note in later.in_order] == [1] * count
 
 
 def test_frames_without_a_reference_system_are_drawn_as_a_plane():

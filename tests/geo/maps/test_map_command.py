@@ -339,7 +339,7 @@ def test_rows_without_a_time_and_infinite_values_are_counted():
         notes, features = Notes(), read_features(cells(3), id="code", notes=Notes())
         table = pyarrow.table({"id": ["c0", "c1", "c2"], "time": times, "v": [np.inf, 1.0, 2.0]})
         assert len(with_steps(features, Times(table), notes)[1]) == 1
-        said = [str(note) for note in notes.listed]
+        said = [str(note) for note in notes.in_order]
         assert "a row of the table of times has no time, and does not count (2)" in said
     said = messages(stepped(cells(3), Times(table)))
     assert "a value of 'v' is infinite, and has the colour of no data" in said

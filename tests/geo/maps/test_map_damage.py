@@ -37,7 +37,7 @@ def test_empty_geometries_are_counted_with_those_that_are_none(kind, tmp_path):
         source = place
     notes, where = Notes(), "2, 3, 4" if kind == "gpkg" else "1, 2, 3"
     assert len(read_features(source, notes=notes).rings.outer) == 1
-    assert [str(note) for note in notes.listed] == [f"feature without geometry (3: {where})"]
+    assert [str(note) for note in notes.in_order] == [f"feature without geometry (3: {where})"]
 
 
 @pytest.mark.parametrize(("part", "most"), [("shp", 1 << 30), ("shx", 1 << 30), ("shp", 50)])
@@ -62,10 +62,10 @@ def topology(*arcs):
 def test_arcs_that_a_topology_does_not_have_are_said():
     notes = Notes()
     read_features(topology([[0]], [[7]], [[0], [-9]]), notes=notes)
-    assert "the file is damaged: a geometry refers to arcs that it does not have (2)" in map(str, notes.listed)
+    assert "the file is damaged: a geometry refers to arcs that it does not have (2)" in map(str, notes.in_order)
     whole = Notes()
     read_features(topology([[0]], [[-1]]), notes=whole)
-    assert whole.listed == ()
+    assert whole.in_order == ()
     (_, *later) = chunks_of(topology(*[[[0]]] * 3, [[7]]), Choice(), 2)
     assert [chunk.damaged for chunk in later] == [0]
 
@@ -84,7 +84,7 @@ def test_a_place_that_is_none_is_told_by_the_feature_and_its_coordinates():
     points = frame([shapely.Point(4, 52), shapely.Point(84000, 447000), shapely.Point(5, 53)], "EPSG:4326")
     notes = Notes()
     placed(read_features(points, notes=notes), "EPSG:3857", notes)
-    assert [str(note) for note in notes.listed] == [
+    assert [str(note) for note in notes.in_order] == [
         "point beyond the map",
         "a place such as 84000,447000 is no longitude and latitude; correct it, or name the system that all are in by "
         "`source_crs` (1: 1)",
@@ -98,7 +98,7 @@ def test_a_file_without_geometries_says_so_whether_or_not_it_names_a_system(tmp_
         convert_map([MapLayer(place)])
     notes = Notes()
     assert len(read_features(place, notes=notes)) == 2
-    assert [str(note) for note in notes.listed] == ["feature without geometry (2: 0, 1)"]
+    assert [str(note) for note in notes.in_order] == ["feature without geometry (2: 0, 1)"]
 
 
 def test_metres_that_are_said_to_be_degrees_name_the_option_of_the_source():

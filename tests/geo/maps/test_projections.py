@@ -25,7 +25,7 @@ def frame(shapes, crs=WORLD, **columns):
 def in_system(shapes, crs, source=WORLD):
     """Features of shapes in another system, and the notes."""
     notes = Notes()
-    return placed(read_features(frame(shapes, source), notes=notes), crs, notes), [str(note) for note in notes.listed]
+    return placed(read_features(frame(shapes, source), notes=notes), crs, notes), [str(note) for note in notes.in_order]
 
 
 RUSSIA = shapely.box(30, 50, 190, 75)

@@ -124,7 +124,7 @@ def test_a_geopackage_with_curves_is_read_by_maps_and_floods(tmp_path):
     pyogrio.raw.write(place, geometry=blobs, geometry_type="Unknown", **named)
     notes = Notes()
     features = read_features(place, notes=notes)
-    assert not notes.listed
+    assert not notes.in_order
     areas = np.bincount(features.feature, shapely.area(features.rings.shapes))
     assert areas == pytest.approx([2 * np.pi, 3 * np.pi], rel=1e-4)
     rings, _ = read_areas(place, "curves.gpkg", None, notes)

@@ -28,7 +28,7 @@ def collection(ids: list[Any], properties: list[dict[str, Any]] | None = None, k
 def read(content: bytes, **options: Any) -> tuple[Features, list[str]]:
     notes = Notes()
     found = read_features(content, notes=notes, **options)
-    return found, [note.message for note in notes.listed]
+    return found, [note.message for note in notes.in_order]
 
 
 AGAIN = "a feature has an id that another had before: its own ends in #2, #3, ..."

@@ -77,7 +77,7 @@ def test_a_part_of_the_rows_and_what_has_no_geometry(tmp_path):
     notes = Notes()
     some = read_features(place, where="n > 1", notes=notes)
     assert some.ids.tolist() == ["2", "3"]
-    assert [str(note) for note in notes.listed] == ["feature without geometry (1: 3)"]
+    assert [str(note) for note in notes.in_order] == ["feature without geometry (1: 3)"]
 
 
 def test_a_ring_of_two_corners_is_left_out_and_named(tmp_path):
@@ -86,8 +86,8 @@ def test_a_ring_of_two_corners_is_left_out_and_named(tmp_path):
     place = saved(tmp_path / "a.parquet", pa.array(rings), {"encoding": "polygon"})
     notes = Notes()
     assert read_features(place, notes=notes).feature.tolist() == [0, 2]
-    assert "geometry is damaged" in str(notes.listed[0])
-    assert str(notes.listed[0]).endswith("(1: 1)")
+    assert "geometry is damaged" in str(notes.in_order[0])
+    assert str(notes.in_order[0]).endswith("(1: 1)")
 
 
 @pytest.mark.parametrize(("encoding", "values"), [("polygon", [1.0]), ("point", [[1.0, 2.0]]), ("cube", [b""])])
@@ -135,7 +135,7 @@ def test_a_column_of_the_type_for_geometries_names_its_system(about, crs, said, 
         pytest.skip("this pyarrow has no type for geometries")
     notes = Notes()
     assert read_features(place, notes=notes).crs == crs
-    assert [str(note) for note in notes.listed] == said * [
+    assert [str(note) for note in notes.in_order] == said * [
         "its sides are great circles; they are drawn straight in longitude and latitude"
     ]
 
@@ -155,7 +155,7 @@ def test_texts_that_are_not_in_utf_8_are_damaged_geometries(tmp_path):
     notes = Notes()
     found = read_features(saved(tmp_path / "a.parquet", texts, name="WKT"), crs="EPSG:28992", notes=notes)
     assert found.feature.tolist() == [0]
-    assert any("damaged" in str(note) for note in notes.listed)
+    assert any("damaged" in str(note) for note in notes.in_order)
 
 
 def test_texts_of_geometries_are_read_and_said(tmp_path):
@@ -165,7 +165,7 @@ def test_texts_of_geometries_are_read_and_said(tmp_path):
         read_features(place, notes=Notes())
     notes = Notes()
     assert read_features(place, crs="EPSG:28992", notes=notes).feature.tolist() == [0, 1, 4]
-    said = [str(note) for note in notes.listed]
+    said = [str(note) for note in notes.in_order]
     assert "its geometries are texts in WKT" in said
     assert sum("damaged" in line and line.endswith("(2: 3, 5)") for line in said) == 1
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from vexture.base.content import FileKind, kind_of, start_of, unpacked
+from vexture.base.content import FileKind, kind_of, start_of, unpack_source
 from vexture.base.errors import LimitError, ParameterError, SourceError
 from vexture.base.notes import Note, warn_of
 from vexture.base.tolerance import HMIN
@@ -134,7 +134,7 @@ def extent_of(
     from vexture_geo.base.datasets import is_dataset
 
     if not is_dataset(source):
-        source = unpacked(source)
+        source = unpack_source(source)
         refuse_foreign(start_of(source), file_name)
     if is_dataset(source) or kind_of(start_of(source), file_name) is FileKind.DEPTHS:
         from vexture_geo.depth.depths import read_depths

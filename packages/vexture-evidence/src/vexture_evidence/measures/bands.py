@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from vexture.base.errors import LimitError
 from vexture.drawing.drawing import Drawing, FillRule
-from vexture.renderers.shader import included
+from vexture.renderers.shader import read_shader
 
 __all__ = ["BandTexture", "band_shader", "band_texture", "eligible_roots", "quadratic_contours"]
 
@@ -216,4 +216,4 @@ def band_shader(bands: int) -> str:
     """Declarations of the constants, followed by the text of `bands.glsl`."""
     constants = band_constants(bands)
     head = "".join(f"const {type(value).__name__} {name} = {value!r};\n" for name, value in constants.items())
-    return head + included("bands.glsl", "vexture_evidence")
+    return head + read_shader("bands.glsl", "vexture_evidence")

@@ -16,7 +16,7 @@ from vexture.drawing.drawing import Drawing
 from vexture.renderers import colour, cpu
 from vexture.renderers.cells import Texel
 from vexture.renderers.gpu import has_gradients
-from vexture.renderers.leaf import Leaf
+from vexture.renderers.leaf import VextureLeaf
 from vexture.renderers.method import BORDER, COVERED
 from vexture.renderers.uniforms import Uniforms, uniforms_of
 from vexture.renderers.view import ViewLike
@@ -36,11 +36,11 @@ class SecondLoop:
         self.found, self.at = found, 0
         self.wanted: list[int] = []
 
-    def piece(self, result: tuple[Texel, Leaf], *_: Any) -> None:
+    def piece(self, result: tuple[Texel, VextureLeaf], *_: Any) -> None:
         """Record the piece that the first loop reads."""
         self.at = result[1].at
 
-    def look(self, piece: cpu.Look, *_: Any) -> None:
+    def look(self, piece: cpu.VextureLook, *_: Any) -> None:
         """Record whether that piece is clear of the pixel."""
         if piece.crosses or piece.filled != 0.0:
             self.wanted.append(self.at)

@@ -130,7 +130,7 @@ def with_observer(function: Callable[..., Any], observer: Observer) -> Callable[
 def packed_observers(turns: Turns, is_flat: bool) -> dict[str, Observer]:
     """Observers of the mirror's functions, each of which counts turns of a scope."""
 
-    def descend(found: tuple[cells.Cell, cells.Top], texels: Any, top: cells.Top, *_: Any) -> None:
+    def descend(found: tuple[cells.VextureCell, cells.VextureTop], texels: Any, top: cells.VextureTop, *_: Any) -> None:
         turns.turn("cells")
         cell = found[0]
         levels = top.bit - cell.bit

@@ -257,7 +257,7 @@ def thesis_source(sizes: TextureSizes) -> str:
 
 def thesis_program(texture: ThesisTexture) -> Program:
     """Program of the thesis's encoding for a texture."""
-    sizes = TextureSizes.of(texture, current_context().info["GL_MAX_TEXTURE_SIZE"])
+    sizes = TextureSizes.of_texture(texture, current_context().info["GL_MAX_TEXTURE_SIZE"])
     textures = {
         name: nearest(fold(rows, sizes.fold_height), "f4")
         for name, rows in (("quads", texture.quads), ("curves", texture.curves))

@@ -8,7 +8,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from vexture.base.errors import SourceError, shortened
+from vexture.base.errors import SourceError, shorten_text
 from vexture_geo.base.lengths import metres_in
 
 __all__ = ["MOST_RANGES", "DepthRange", "has_flags", "ranges_of_flags", "shown_range", "wet_ranges"]
@@ -84,7 +84,7 @@ def ranges_of_flags(dataset: Any, name: str, metres: float) -> dict[float, Depth
         raise SourceError(f"{name!r} has {len(ranges):,} classes; the limit is {MOST_RANGES}; write depths in metres")
     wrong = _wrong(values, ranges, meanings)
     if wrong:
-        said = shortened(" ".join(meanings), LONGEST)
+        said = shorten_text(" ".join(meanings), LONGEST)
         raise SourceError(
             f"{name!r} holds flags ({said or 'without meanings'}) that are no ranges of depth: {wrong}; {HOW}, or name "
             "another `variable`"
@@ -100,7 +100,7 @@ def _wrong(values: list[float], ranges: list[DepthRange | None], meanings: list[
     if len(ranges) != len(values):
         return f"there are {len(values)} flag_values, and {len(ranges)} ranges for them"
     for at, one in enumerate(ranges):
-        said = shortened(meanings[at], LONGEST) if at < len(meanings) else str(at + 1)
+        said = shorten_text(meanings[at], LONGEST) if at < len(meanings) else str(at + 1)
         if one is None:
             return f"{said!r} is none"
         if not one.low < one.high:

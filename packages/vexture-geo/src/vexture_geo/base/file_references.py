@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator
 from typing import Any, Final, NoReturn
 
-from vexture.base.errors import SourceError, printable, shortened
+from vexture.base.errors import SourceError, printable, shorten_text
 
 __all__ = ["LINK_TYPES", "refuse_files_of_json", "refuse_files_of_system", "refuse_link"]
 
@@ -118,4 +118,4 @@ def _all_texts(value: Any) -> Iterator[str]:
 
 
 def _shown(text: str) -> str:
-    return printable(shortened(" ".join(text.split()).strip(" \"'@"), SHOWN))
+    return printable(shorten_text(" ".join(text.split()).strip(" \"'@"), SHOWN))

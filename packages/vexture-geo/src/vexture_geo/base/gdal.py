@@ -12,7 +12,7 @@ from threading import RLock
 from typing import TYPE_CHECKING, Final
 
 from vexture.base.content import ESRI_GRID, NETCDF, TIFF, start_of
-from vexture.base.errors import DeviceError, SourceError, printable, reason_of, shortened
+from vexture.base.errors import DeviceError, SourceError, printable, reason_of, shorten_text
 from vexture_geo.base.damage import damaged_netcdf
 from vexture_geo.base.file_references import refuse_files_of_system
 from vexture_geo.base.hdf5 import refuse_links_of_netcdf
@@ -256,7 +256,7 @@ def _refuse_systems_of_netcdf(path: Path) -> None:
 
 
 def _link(name: str, value: str) -> str:
-    shown = printable(shortened(" ".join(value.split()), SHOWN))
+    shown = printable(shorten_text(" ".join(value.split()), SHOWN))
     return f"its metadata name another file, {shown!r} ({name}), and no other file is read"
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from vexture.base.content import NETCDF, start_of
 from vexture.base.deadline import check_time
-from vexture.base.errors import LimitError, SourceError, printable, shortened
+from vexture.base.errors import LimitError, SourceError, printable, shorten_text
 from vexture_geo.base.damage import damaged_netcdf
 
 if TYPE_CHECKING:
@@ -157,4 +157,4 @@ def _refuse(name: str, how: str, link: str | bytes) -> None:
 
 
 def _shown(text: str) -> str:
-    return printable(shortened(text, SHOWN))
+    return printable(shorten_text(text, SHOWN))

@@ -108,7 +108,7 @@ def note_short_ways(steps: NDArray[np.float64], turn: float, notes: Notes) -> No
     --------
     >>> notes = Notes()
     >>> note_short_ways(np.array([200.0, 90.0, -359.0]), 360.0, notes)
-    >>> [note.count for note in notes.listed]
+    >>> [note.count for note in notes.in_order]
     [1]
     """
     length = np.abs(steps)

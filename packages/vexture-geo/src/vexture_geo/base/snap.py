@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.deadline import check_time
-from vexture.base.errors import ParameterError, counted
+from vexture.base.errors import ParameterError, format_count
 from vexture.base.notes import Notes
 
 __all__ = ["DEFAULT_SNAP", "MOST_SNAP", "snapped"]
@@ -119,7 +119,7 @@ def snapped(
     if farthest > told * size:
         part = f"{farthest / size:.1g} of the drawing's size"
         by = f"{farthest:.2g} {unit} ({part})" if unit else part
-        notes.remark(f"{counted(moved, 'corner')} snapped to borders beside them, by up to {by}")
+        notes.remark(f"{format_count(moved, 'corner')} snapped to borders beside them, by up to {by}")
     return corners.points[corners.ids], np.searchsorted(corners.ring, np.arange(len(ends)), side="right")
 
 

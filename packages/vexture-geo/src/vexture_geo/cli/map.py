@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.base.errors import ParameterError, counted
+from vexture.base.errors import ParameterError, format_count
 from vexture.base.notes import Note
 from vexture.cli.messages import echo, note_facts, one_line, say_notes
 from vexture.cli.options import PATH, streamed
@@ -94,7 +94,7 @@ def map(
         say_notes(output.name, notes)
         size = sum(len(content) for content in files.values())
         shown = ", ".join(facts["files"])
-        echo(f"{shown}: {counted(facts['features'], 'feature')}, {size} bytes, {perf_counter() - start:.1f} s")
+        echo(f"{shown}: {format_count(facts['features'], 'feature')}, {size} bytes, {perf_counter() - start:.1f} s")
 
 
 def _made(

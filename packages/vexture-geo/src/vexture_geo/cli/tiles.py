@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vexture.base.errors import counted
+from vexture.base.errors import format_count
 from vexture.cli.interrupt import INTERRUPTED
 from vexture.cli.messages import echo, one_line, say, say_notes
 from vexture.cli.options import PATH, refuse_stream
@@ -70,7 +70,7 @@ def tiles(source: Path, output: Path, **options: Any) -> None:
             sys.exit(INTERRUPTED)
         if not quiet:
             say_notes(source, made.notes)
-            found = f"{counted(made.features, 'feature')}, {counted(made.tiles, 'tile')}"
+            found = f"{format_count(made.features, 'feature')}, {format_count(made.tiles, 'tile')}"
             echo(f"{output}: {found}, {made.contents} of them different, {made.bytes} bytes")
 
 

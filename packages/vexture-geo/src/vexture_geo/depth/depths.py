@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.base.content import GRIB, NETCDF, TIFF, start_of, unpacked
+from vexture.base.content import GRIB, NETCDF, TIFF, start_of, unpack_source
 from vexture.base.errors import ParameterError, SourceError
 from vexture.base.notes import Note, Notes
 from vexture.base.tolerance import HMIN
-from vexture.base.workers import Here, Workers
+from vexture.base.workers import InProcess, Workers
 from vexture.drawing.drawing import Drawing
 from vexture_geo.base.coordinate_units import refuse_other_units
 from vexture_geo.base.crs import chosen_crs, frame_of, gis_packages, period
@@ -52,7 +52,7 @@ def read_depths(
         source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
         depths=depths,
     ) as placed:  # fmt: skip
-        return _extent(placed, workers or Here())
+        return _extent(placed, workers or InProcess())
 
 
 class DepthsInFrame:
@@ -81,7 +81,7 @@ class DepthsInFrame:
     @property
     def notes(self) -> tuple[Note, ...]:
         """What was left out, simplified or chosen until now."""
-        return self._notes.listed
+        return self._notes.in_order
 
     def values(self, number: int) -> Reading:
         """What the file says of a time, near the frame."""
@@ -155,7 +155,7 @@ def depths_in_frame(
         if not depth > hmin or not np.isfinite(depth):
             raise ParameterError(f"`depths` holds {depth:g} m; all must be above `hmin`, {hmin:g} m")
     notes = Notes()
-    with _opened(source if is_dataset(source) else unpacked(source), time_dim, variable, notes) as series:
+    with _opened(source if is_dataset(source) else unpack_source(source), time_dim, variable, notes) as series:
         system = chosen_crs(crs, series.crs)
         refuse_other_units(system, series.crs, series.unit, series.box, is_given=crs is not None)
         if frame is None:

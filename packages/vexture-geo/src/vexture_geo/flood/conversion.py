@@ -10,11 +10,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.base.content import VECTOR_FILES, FileKind, kind_of, start_of, unpacked
+from vexture.base.content import VECTOR_FILES, FileKind, kind_of, start_of, unpack_source
 from vexture.base.errors import LimitError, ParameterError, SourceError, VextureError
 from vexture.conversion.parameters import Parameters
-from vexture.server.publish_file import converted, load_kernels, texture_shape
-from vexture.server.published import File, Shape
+from vexture.server.publish_file import load_kernels, shape_of_drawing, texture_shape
+from vexture.server.published import PublishedFile, PublishedShape
 from vexture_geo.base.extent import Extent, Frame, Step
 from vexture_geo.flood.relief import Relief
 from vexture_geo.flood.scene import PREFIX, labels
@@ -55,28 +55,28 @@ class FloodConversion:
     depths: tuple[float, ...]  # metres from which the classes of depth begin
     bed: NDArray[np.float32] | None = None  # over the frame, if the data have it
 
-    def step(self, step: Step, surface: WaterSurface, name: str, label: str) -> Shape:
+    def step(self, step: Step, surface: WaterSurface, name: str, label: str) -> PublishedShape:
         """Shape of one step that is in this frame, with its surface; `label` is its time as people read it."""
         from vexture_geo.flood.depth_classes import class_drawing
         from vexture_geo.flood.depth_pictures import CODE, deepest, depth_png, ranges_as_json, ranks_png
         from vexture_geo.flood.hazard import UNIT, hazard_png
 
         load_kernels()
-        shape = converted(replace(step.drawing, name=name), name, WATER_PARAMETERS, time.perf_counter())
+        shape = shape_of_drawing(replace(step.drawing, name=name), name, WATER_PARAMETERS, time.perf_counter())
         most = None if step.depth is None else deepest(step.depth)
         views = {}
         if step.depth is not None and most:
-            views["depth"] = File(depth_png(step.depth), "image/png", ".png")
+            views["depth"] = PublishedFile(depth_png(step.depth), "image/png", ".png")
         if step.classes is not None:
-            views["ranks"] = File(ranks_png(step.classes), "image/png", ".png")
+            views["ranks"] = PublishedFile(ranks_png(step.classes), "image/png", ".png")
         classes = class_drawing(step, self.depths, self.hmin, name)
         if classes is not None:
-            views["classes"] = converted(classes, name, CLASS_PARAMETERS, time.perf_counter()).texture
+            views["classes"] = shape_of_drawing(classes, name, CLASS_PARAMETERS, time.perf_counter()).texture
         hazard = hazard_png(step, self.relief.heights.shape[::-1], self.hmin)
         if hazard is not None:
-            views["hazard"] = File(hazard, "image/png", ".png")
+            views["hazard"] = PublishedFile(hazard, "image/png", ".png")
         level, level_facts = surface.encoded()
-        views["level"] = File(level, "image/png", ".png")
+        views["level"] = PublishedFile(level, "image/png", ".png")
         facts = {
             **shape.facts,
             "milliseconds": None,  # else two pages of one flood would differ
@@ -92,17 +92,17 @@ class FloodConversion:
         }
         return replace(shape, facts=facts, views=views)
 
-    def converted(self, given: tuple[Step, WaterSurface, str, str]) -> Shape:
+    def converted(self, given: tuple[Step, WaterSurface, str, str]) -> PublishedShape:
         """Shape of one step, as `step` makes it."""
         return self.step(*given)
 
-    def shape_of(self, data: bytes, name: str) -> Shape:
+    def shape_of(self, data: bytes, name: str) -> PublishedShape:
         """Shape of an upload: a step in any format, or a texture that was made in this frame."""
         if name != PREFIX and not name.startswith(f"{PREFIX}/"):
             raise LimitError(f"{name}: this server shows {PREFIX} and {PREFIX}/NAME only; publish under such a name")
         if not data.strip():
             raise LimitError(f"{name}: the upload is empty; send {KINDS}")
-        kind = kind_of(start_of(unpacked(data)), name)
+        kind = kind_of(start_of(unpack_source(data)), name)
         if kind is FileKind.TEXTURE:
             return self._texture(data, name)
         if kind not in OPTIONS:
@@ -113,7 +113,7 @@ class FloodConversion:
         step = extent.steps[0]
         return self.later(step, extent.bed, name, labels([step.time])[0])
 
-    def later(self, step: Step, bed: NDArray[np.float32] | None, name: str, label: str) -> Shape:
+    def later(self, step: Step, bed: NDArray[np.float32] | None, name: str, label: str) -> PublishedShape:
         """Shape of a step that came later, in this frame; `bed` is its own bed over the frame, if it has one."""
         from vexture_geo.flood.surface import surface_of
 
@@ -148,7 +148,7 @@ class FloodConversion:
             self.shape_of(_small_tiff(self.frame), PREFIX)
         import h5py, xarray  # noqa: E401, F401, I001  # the rest of what NetCDF needs
 
-    def _texture(self, data: bytes, name: str) -> Shape:
+    def _texture(self, data: bytes, name: str) -> PublishedShape:
         """Shape of a texture that was made in this frame."""
         from vexture.texture.load import texture_from
 

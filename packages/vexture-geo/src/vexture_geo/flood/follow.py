@@ -10,9 +10,9 @@ from typing import Any, Final, NamedTuple, TypeAlias
 
 from vexture.base.content import about
 from vexture.base.errors import EXPECTED, SourceError, reason_of
-from vexture.server.limited_shapes import LimitedShelf
+from vexture.server.limited_shapes import LimitedShapes
 from vexture.server.publish_file import load_kernels
-from vexture.server.published import Shape
+from vexture.server.published import PublishedShape
 from vexture.server.worker import Worker
 from vexture_geo.base.crs import MissingReferenceError
 from vexture_geo.base.extent import Bounds, Extent
@@ -81,7 +81,7 @@ class _Found(NamedTuple):
     """Steps that were converted together; `is_whole` if there are no more."""
 
     started_over: bool
-    steps: list[tuple[int, Known, Shape]]
+    steps: list[tuple[int, Known, PublishedShape]]
     is_whole: bool
 
 
@@ -105,7 +105,12 @@ def first_steps(run: FollowedRun, bounds: Bounds | None, say: Say) -> Start:
 
 
 async def follow(
-    run: FollowedRun, start: Start, fresh: Sequence[Shape], conversion: FloodConversion, shelf: LimitedShelf, say: Say
+    run: FollowedRun,
+    start: Start,
+    fresh: Sequence[PublishedShape],
+    conversion: FloodConversion,
+    shelf: LimitedShapes,
+    say: Say,
 ) -> None:
     """Publish each new step of a run, and each that has changed; ends only when it is cancelled.
 
@@ -122,13 +127,19 @@ async def follow(
 
 class _Follower:
     def __init__(
-        self, run: FollowedRun, start: Start, conversion: FloodConversion, shelf: LimitedShelf, say: Say, worker: Worker
+        self,
+        run: FollowedRun,
+        start: Start,
+        conversion: FloodConversion,
+        shelf: LimitedShapes,
+        say: Say,
+        worker: Worker,
     ) -> None:
         self._run, self._conversion, self._shelf, self._worker = run, conversion, shelf, worker
         self._known, self._stamp = list(start.known), start.stamp
         self._say, self._said = say, set[str]()
 
-    async def keep(self, fresh: Sequence[Shape]) -> None:
+    async def keep(self, fresh: Sequence[PublishedShape]) -> None:
         """Keep the first steps, and none of an earlier run that had more."""
         try:
             for shape in fresh:
@@ -206,7 +217,7 @@ def _newer(run: FollowedRun, conversion: FloodConversion, known: Sequence[Known]
     """Convert what is new in a file, in the process; after some time the rest is left to another call."""
     load_kernels()
     begun = time.monotonic()
-    steps: list[tuple[int, Known, Shape]] = []
+    steps: list[tuple[int, Known, PublishedShape]] = []
     with growing(run.path, frame=conversion.frame, known=known, rewritten=rewritten, **run.options) as opened:
         for change in opened.changes():
             steps.append((change.number, change.known, _shape(change, opened, conversion)))
@@ -215,17 +226,17 @@ def _newer(run: FollowedRun, conversion: FloodConversion, known: Sequence[Known]
         return _Found(opened.started_over, steps, True)
 
 
-def _shape(change: Change, run: Run, conversion: FloodConversion) -> Shape:
+def _shape(change: Change, run: Run, conversion: FloodConversion) -> PublishedShape:
     label = labels(run.times[: change.number + 1])[-1]
     return marked(conversion.later(change.step, change.bed, NAMES[change.number], label), change.known)
 
 
-def marked(shape: Shape, known: Known) -> Shape:
+def marked(shape: PublishedShape, known: Known) -> PublishedShape:
     """A shape that says what it was made of."""
     return replace(shape, facts={**shape.facts, CONTENT: known.digest})
 
 
-def is_made_of(shape: Shape, known: Known) -> bool:
+def is_made_of(shape: PublishedShape, known: Known) -> bool:
     """Whether a shape says that it was made of these values, at this time."""
     time = None if known.time is None else known.time.isoformat()
     return (shape.facts.get(CONTENT), shape.facts.get("time")) == (known.digest, time)

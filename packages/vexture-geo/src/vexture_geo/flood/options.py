@@ -75,11 +75,11 @@ class FloodOptions:
 
     def who(self) -> "Workers":
         """Who converts the steps: the workers of a scheduler, several processes, or this one."""
-        from vexture.base.workers import Cluster, Here, Processes
+        from vexture.base.workers import Cluster, InProcess, Processes
 
         if self.scheduler is not None:
             return Cluster(self.scheduler)
-        return Processes(self.workers) if self.workers > 1 else Here()
+        return Processes(self.workers) if self.workers > 1 else InProcess()
 
     @property
     def reading(self) -> dict[str, Any]:

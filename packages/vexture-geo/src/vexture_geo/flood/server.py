@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.content import about
-from vexture.base.errors import ParameterError, SourceError, counted
+from vexture.base.errors import ParameterError, SourceError, format_count
 from vexture.base.notes import HEADINGS, Note, line_of
 from vexture.base.workers import Workers
 from vexture.drawing.drawing import Drawing
 from vexture.pages.page import built, check_output, data_address, served_page, whole_page
-from vexture.server.limited_shapes import LimitedShelf
+from vexture.server.limited_shapes import LimitedShapes
 from vexture.server.limits import Limits
-from vexture.server.published import TEXTURE_TYPE, File, Shape, manifest
+from vexture.server.published import TEXTURE_TYPE, PublishedFile, PublishedShape, manifest
 from vexture_geo.base.extent import Extent, Frame
 from vexture_geo.flood.bundle import FLOOD
 from vexture_geo.flood.conversion import FloodConversion
@@ -61,7 +61,7 @@ class Made(NamedTuple):
 
     flood: Flood
     conversion: FloodConversion
-    shapes: Sequence[Shape]
+    shapes: Sequence[PublishedShape]
 
     @property
     def texture_bytes(self) -> int:
@@ -73,7 +73,7 @@ class Made(NamedTuple):
         """One line about it."""
         count = len(self.shapes)
         dry = sum(bool(shape.facts["dry"]) for shape in self.shapes)
-        told = f"{counted(count, 'step')}, {self.texture_bytes} bytes of textures"
+        told = f"{format_count(count, 'step')}, {self.texture_bytes} bytes of textures"
         return told + (f", {'nothing' if dry == count else f'in {dry} nothing'} under water" if dry else "")
 
 
@@ -165,7 +165,7 @@ def _shapes(
     start: "Start | None",
     kept: "KeptWater | None",
     workers: Workers,
-) -> list[Shape]:
+) -> list[PublishedShape]:
     """Shapes of the steps; of a followed run those are not converted that are kept and have not changed."""
     from vexture_geo.flood.follow import NAMES, is_made_of, marked
 
@@ -272,8 +272,8 @@ def page_of(made: Made) -> bytes:
     told = scene(
         flood,
         [manifest(shape, None, {}, address=data_address) for shape in made.shapes],
-        data_address(File(flood.ground, GROUND_TYPE, "")),
-        None if flood.fold is None else data_address(File(flood.fold, TEXTURE_TYPE, "")),
+        data_address(PublishedFile(flood.ground, GROUND_TYPE, "")),
+        None if flood.fold is None else data_address(PublishedFile(flood.fold, TEXTURE_TYPE, "")),
     )
     return whole_page(FLOOD, {"flood": told}, flood.title)
 
@@ -316,15 +316,15 @@ def serve(asked: FloodOptions, how: Serving, *, say: Say, show: Callable[[str, M
         if how.keep is not None:
             kept = KeptWater(how.keep, limits, say)
             stack.callback(kept.release)
-        _serve(asked, how, token, taken, LimitedShelf(limits) if kept is None else kept, kept, say, show)
+        _serve(asked, how, token, taken, LimitedShapes(limits) if kept is None else kept, kept, say, show)
 
 
-def _put(shapes: Sequence[Shape], shelf: LimitedShelf, *, over: bool) -> list[Shape]:
+def _put(shapes: Sequence[PublishedShape], shelf: LimitedShapes, *, over: bool) -> list[PublishedShape]:
     """Put shapes on a shelf, over what is there or beside it: what was pushed is newer; those that were not there."""
     fresh = [shape for shape in shapes if shelf.shape(shape.name) is not shape]
     for shape in fresh:
         if over or shelf.shape(shape.name) is None:
-            shelf.put(shape)
+            shelf.add(shape)
     return fresh
 
 
@@ -333,7 +333,7 @@ def _serve(
     how: Serving,
     token: str | None,
     taken: "socket",
-    shelf: LimitedShelf,
+    shelf: LimitedShapes,
     kept: "KeptWater | None",
     say: Say,
     show: Callable[[str, Made], None],
@@ -341,7 +341,7 @@ def _serve(
     from vexture.pages.page_routes import page_routes
     from vexture.server.converter import BusyError, Converter
     from vexture.server.listen import background, listen, serve_until_stopped
-    from vexture.server.routes import NO_SNIFFING, application, fixed, routes
+    from vexture.server.routes import NO_SNIFFING, application, fixed_route, routes
     from vexture.server.uploads import publishing_routes
     from vexture_geo.flood.follow import FollowedRun, first_steps, follow
     from vexture_geo.flood.ground import GROUND_TYPE
@@ -350,7 +350,7 @@ def _serve(
     start = first_steps(run, asked.bounds, say) if how.follows else None
     made = make(asked, say, start, kept)
     if shelf.names:
-        say(f"{how.keep}: {counted(len(shelf.names), 'step')} from before")
+        say(f"{how.keep}: {format_count(len(shelf.names), 'step')} from before")
     fresh = _put(made.shapes, shelf, over=start is not None)
     flood, limits = made.flood, Limits()
     converter = Converter(limits, made.conversion)
@@ -375,8 +375,8 @@ def _serve(
     app = application(
         [
             *page_routes(FLOOD, lambda: page(tuple(shelf.names))),
-            fixed(f"/{GROUND_NAME}", flood.ground, GROUND_TYPE, plain),
-            *([fixed(f"/{FOLD_NAME}", flood.fold, TEXTURE_TYPE, plain)] if flood.fold else []),
+            fixed_route(f"/{GROUND_NAME}", flood.ground, GROUND_TYPE, plain),
+            *([fixed_route(f"/{FOLD_NAME}", flood.fold, TEXTURE_TYPE, plain)] if flood.fold else []),
             *routes(shelf),
             *publishing_routes(shelf, converter, limits, token),
         ],

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from vexture.base.errors import DeviceError, ParameterError, reason_of, shortened
+from vexture.base.errors import DeviceError, ParameterError, reason_of, shorten_text
 from vexture.server.folder import STATE, Folder
 from vexture.server.limits import Limits
 from vexture.texture.files import replace_files
@@ -70,7 +70,7 @@ class KeptWater(Folder):
             raise self._damaged(RECORD, error) from None
         for what, name in NAMED.items():
             if before.get(what) != facts[what]:
-                there, here = (shortened(_shown(one), MOST_SHOWN) for one in (before.get(what), facts[what]))
+                there, here = (shorten_text(_shown(one), MOST_SHOWN) for one in (before.get(what), facts[what]))
                 line = f"holds water of another flood: its {name} is {there}, here it is {here}; {REMEDY}"
                 raise ParameterError(f"`keep` {self._path}: {line}")
         return self._read_relief()

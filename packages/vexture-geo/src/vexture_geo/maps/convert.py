@@ -104,7 +104,7 @@ def converted(
         with within(max_seconds):
             drawing = _drawing(ready, snap)
             _check_count(drawing, restyle)
-        done = run(replace(drawing, notes=ready.notes.listed), split="faces", max_seconds=max_seconds, **given)
+        done = run(replace(drawing, notes=ready.notes.in_order), split="faces", max_seconds=max_seconds, **given)
     return Map(done, ready.table, ready.legends, _times(ready, done.texture.roots))
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.base.errors import LimitError, ParameterError, SourceError, counted, shortened
+from vexture.base.errors import LimitError, ParameterError, SourceError, format_count, shorten_text
 from vexture.base.labels import texts_of
 from vexture.base.notes import Notes
 from vexture_geo.maps.colours import Scale, colours_of, hex_of
@@ -166,7 +166,7 @@ def with_steps(features: Features, times: Times, notes: Notes) -> tuple[Features
         )
     labels = found if times.labels is None else times.labels
     if len(labels) != len(names):
-        count = f"{counted(len(labels), 'name')} for {counted(len(names), 'step')}"
+        count = f"{format_count(len(labels), 'name')} for {format_count(len(names), 'step')}"
         raise ParameterError(f"`labels` has {count}; give as many names as steps")
     return features, names, labels, title
 
@@ -218,13 +218,13 @@ def _joined(features: Features, source: Any, notes: Notes) -> tuple[dict[str, An
         raise SourceError(f"no id of the table of `times` is that of a feature, such as {features.ids[0]}; choose `id`")
     lost = [str(texts[code]) for code in np.unique(codes[(rows < 0) & (codes >= 0)]).tolist()]
     if lost:
-        told = shortened(lost[0], 40)
-        notes.remark(f"no feature has {counted(len(lost), 'id')} of the table of times, such as {told}")
+        told = shorten_text(lost[0], 40)
+        notes.remark(f"no feature has {format_count(len(lost), 'id')} of the table of times, such as {told}")
     place = np.full((len(labels), len(features)), -1, np.int64)
     place[steps[known], rows[known]] = np.flatnonzero(known)
     if again := int(known.sum() - (place >= 0).sum()):
         notes.remark(
-            f"the table of times has {counted(again, 'row')} with the id and the time of a later one, which counts"
+            f"the table of times has {format_count(again, 'row')} with the id and the time of a later one, which counts"
         )
     values, columns = table.column(others[0]).combine_chunks(), dict[str, Any]()
     for label, one in zip(labels, place, strict=True):
@@ -306,10 +306,12 @@ def _table(source: Any) -> "pyarrow.Table":
 
         return feather.read_table(BytesIO(content))
     except OSError as error:
-        reason = error.strerror or shortened(str(error), 120)
+        reason = error.strerror or shorten_text(str(error), 120)
         raise SourceError(f"{path}: cannot be read as a table ({reason}); give Parquet, Arrow or CSV") from None
     except pa.ArrowInvalid as error:
-        raise SourceError(f"{path}: cannot be read as a table ({shortened(str(error), 120)}); save it again") from None
+        raise SourceError(
+            f"{path}: cannot be read as a table ({shorten_text(str(error), 120)}); save it again"
+        ) from None
 
 
 def _of_frame(frame: Any) -> "pyarrow.Table":

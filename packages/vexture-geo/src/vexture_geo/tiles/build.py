@@ -164,7 +164,7 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
         notes.remark("a line or point is left out, as tiles have polygons only: vexture map draws them", others)
     facts: dict[str, Any] = {"parts": [[*part.tile, part.weight] for part in parts], "bounds": box, "features": count}
     facts |= {"legends": legends, "others": others}
-    facts["notes"] = [[note.kind, note.message, note.count] for note in notes.listed]
+    facts["notes"] = [[note.kind, note.message, note.count] for note in notes.in_order]
     store.write_parts(facts)
     return facts
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
-from vexture.base.content import decompressed
-from vexture.base.errors import DeviceError, FormatError, SourceError, counted, reason_of
+from vexture.base.content import decompress
+from vexture.base.errors import DeviceError, FormatError, SourceError, format_count, reason_of
 from vexture.base.layout import PACKED_SUFFIX
 from vexture_geo.tiles.archive import ARCHIVE, LISTED
 
@@ -150,7 +150,7 @@ def _of_archive(path: Path) -> tuple[dict[str, Any], list[float], Tiles]:
                     kind = header["tile_type"].name
                     raise FormatError(f"{path}: its tiles are {kind}, not textures; give a pyramid of vexture tiles")
                 text = read(header["metadata_offset"], header["metadata_length"])
-                text = decompressed(text) if header["internal_compression"] is Compression.GZIP else text
+                text = decompress(text) if header["internal_compression"] is Compression.GZIP else text
                 about = _checked(path, json.loads(text))
                 found = _counted(header, read, size)
             except SpecVersionUnsupported:
@@ -264,10 +264,10 @@ def lines_of(facts: dict[str, Any]) -> Iterator[str]:
     told = {"name": facts["name"], "attribution": facts["attribution"], "zooms": zooms, "bounds": bounds}
     told |= {"tiles": f"{facts['tiles']}, {facts['contents']} of them different", "size": f"{facts['bytes']} bytes"}
     for level in facts["levels"]:
-        told[f"zoom {level['zoom']}"] = f"{counted(level['tiles'], 'tile')}, {level['bytes']} bytes"
+        told[f"zoom {level['zoom']}"] = f"{format_count(level['tiles'], 'tile')}, {level['bytes']} bytes"
     told |= {"largest": largest, "table": facts["table"], "features": facts["features"], "columns": columns}
     yield from (f"{name:<12}{value}" for name, value in told.items() if value is not None)
     for legend in facts["legends"]:
         of = f"{legend['layer']}, " if len(facts["legends"]) > 1 else ""
         entries = len(legend["entries"])
-        yield f"{'legend':<12}{of}{legend['column']}: {legend['scale']}, {counted(entries, 'colour')}"
+        yield f"{'legend':<12}{of}{legend['column']}: {legend['scale']}, {format_count(entries, 'colour')}"

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.errors import ParameterError, SourceError
-from vexture.base.workers import Cluster, Here, Processes, Workers
+from vexture.base.workers import Cluster, InProcess, Processes, Workers
 from vexture_geo.tiles.attributes import Look
 from vexture_geo.tiles.grid import check_zooms, coarse, zooms_of
 from vexture_geo.tiles.subtree import Pyramid
@@ -100,7 +100,7 @@ class TileOptions:
         """Who does the work."""
         if self.scheduler is not None:
             return Cluster(self.scheduler)
-        return Processes(self.processes) if self.processes > 1 else Here()
+        return Processes(self.processes) if self.processes > 1 else InProcess()
 
 
 def digest_of(source: Path) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.content import ARROW, PARQUET, Header, header_of, read_bytes, start_of
-from vexture.base.errors import SourceError, shortened
+from vexture.base.errors import SourceError, shorten_text
 from vexture_geo.vector.curves import BROKEN
 from vexture_geo.vector.decimal_commas import with_decimal_commas
 from vexture_geo.vector.geojson import WORLD
@@ -147,7 +147,7 @@ def _refuse_other_encodings(content: bytes) -> None:
         content.decode()
     except UnicodeDecodeError as error:
         first = content.rfind(b"\n", 0, error.start) + 1
-        shown = shortened(content[first:].partition(b"\n")[0].decode("cp1252", "replace").strip(), SHOWN)
+        shown = shorten_text(content[first:].partition(b"\n")[0].decode("cp1252", "replace").strip(), SHOWN)
         line = content.count(b"\n", 0, error.start) + 1
         raise SourceError(
             f"its line {line} is no text in UTF-8, but in another encoding, such as Windows-1252 (where it is "
@@ -193,7 +193,7 @@ def _from_texts(column: Any, name: str) -> NDArray[Any]:
     found = wkb_of_texts(texts)
     for row, shape in enumerate(found):
         if shape is BROKEN:
-            shown = shortened(" ".join(str(texts[row]).split()), SHOWN)
+            shown = shorten_text(" ".join(str(texts[row]).split()), SHOWN)
             raise SourceError(f"row {row + 1} has no WKT in the column {name!r}, but {shown!r}; correct it")
     return found
 
@@ -208,7 +208,7 @@ def _from_numbers(*columns: tuple[Any, str]) -> NDArray[Any]:
         try:
             places.append(column.cast(pa.float64()).to_numpy())
         except (pa.ArrowInvalid, pa.ArrowNotImplementedError) as error:
-            reason = shortened(" ".join(str(error).split()), SHOWN)
+            reason = shorten_text(" ".join(str(error).split()), SHOWN)
             raise SourceError(f"its column {name!r} has a value that is no number ({reason}); correct it") from None
     across, up = (np.asarray(place, np.float64) for place in places)
     found = np.full(len(across), None, object)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final
 
 from vexture.base.deadline import check_time
-from vexture.base.errors import SourceError, printable, reason_of, shortened
+from vexture.base.errors import SourceError, printable, reason_of, shorten_text
 from vexture_geo.base.file_references import refuse_files_of_system
 
 __all__ = ["GEOPACKAGE", "SPATIALITE", "as_geopackage", "refuse_links_of_database"]
@@ -120,7 +120,7 @@ def _refuse_statement(kind: str, name: str, sql: str) -> None:
 
 
 def _shown(text: str) -> str:
-    return printable(shortened(" ".join(text.split()), SHOWN))
+    return printable(shorten_text(" ".join(text.split()), SHOWN))
 
 
 def _text(value: object) -> str:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.base.content import VECTOR_FILES, unpacked
-from vexture.base.errors import ParameterError, SourceError, shortened
+from vexture.base.content import VECTOR_FILES, unpack_source
+from vexture.base.errors import ParameterError, SourceError, shorten_text
 from vexture_geo.base.damage import missing_arcs
 from vexture_geo.base.extent import Bounds
 from vexture_geo.vector.archives import unzipped
@@ -112,7 +112,7 @@ def chunks_of(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]
         return
     if not isinstance(source, str | bytes | os.PathLike):
         raise ParameterError(f"`source` is a {type(source).__name__}; {READ}, or a GeoDataFrame")
-    source = unzipped(unpacked(source))
+    source = unzipped(unpack_source(source))
     if is_table(source):
         yield from _parquet(source, choice, batch)
         return
@@ -240,7 +240,7 @@ def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
             numbers = np.concatenate([np.empty(0, np.int64), *(each for _, each in kept)])
             yield _parquet_chunk(pa.concat_tables(tables), numbers, geometry, columns, choice)
     except (pa.ArrowInvalid, pa.ArrowNotImplementedError, OSError, UnicodeDecodeError) as error:  # of a column's name
-        raise SourceError(f"the table cannot be read ({shortened(str(error), 120)}); save it again") from None
+        raise SourceError(f"the table cannot be read ({shorten_text(str(error), 120)}); save it again") from None
 
 
 def _parquet_chunk(

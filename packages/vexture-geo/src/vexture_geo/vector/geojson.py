@@ -12,7 +12,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.base.content import BYTE_ORDER_MARK, READABLE, about, decompressed, read_bytes
+from vexture.base.content import BYTE_ORDER_MARK, READABLE, about, decompress, read_bytes
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes, line_of, warn_of
 from vexture.bezier.convert import line_cubics
@@ -122,7 +122,7 @@ def read_geojson(
 def geojson_drawing(content: bytes, name: str, *, names: str | None = None, snap: float | None = None) -> Drawing:
     """Read GeoJSON, plain or gzipped, as `read_geojson` does, but without a warning: all notes are in the drawing."""
     notes = Notes()
-    value = _parsed(one_json(decompressed(content)))
+    value = _parsed(one_json(decompress(content)))
     reader = _Reader(notes, names)
     areas = list(reader.areas(value))
     if not areas:
@@ -140,7 +140,7 @@ def geojson_drawing(content: bytes, name: str, *, names: str | None = None, snap
     if not drawing.paths:
         raise SourceError("its polygons enclose no area; correct their coordinates")
     turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source takes y down; no -0.0
-    return replace(drawing, to_source=turned, crs=_crs(value.get("crs")), notes=notes.listed)
+    return replace(drawing, to_source=turned, crs=_crs(value.get("crs")), notes=notes.in_order)
 
 
 def _snapped(areas: list[Area], size: float, snap: float | None, notes: Notes) -> list[list[Ring]]:
@@ -159,7 +159,7 @@ def areas_of(content: bytes, notes: Notes) -> tuple[list[Area], str]:
 
 def met(notes: Notes) -> str:
     """What was left out, in parentheses, for the message that no polygon is left."""
-    line = line_of("met", notes.listed).removeprefix("met: ")
+    line = line_of("met", notes.in_order).removeprefix("met: ")
     return f" ({line})" if line else ""
 
 

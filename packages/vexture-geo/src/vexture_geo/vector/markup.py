@@ -6,7 +6,7 @@ from typing import Final
 from xml.parsers import expat
 
 from vexture.base.deadline import check_time
-from vexture.base.errors import SourceError, printable, shortened
+from vexture.base.errors import SourceError, printable, shorten_text
 
 __all__ = ["links_of_markup"]
 
@@ -38,7 +38,7 @@ def links_of_markup(content: bytes, beside: Collection[str] = ()) -> Mapping[str
     path: list[str] = []
 
     def refuse_dtd(name: str, system: str | None, public: str | None, has_subset: bool) -> None:
-        shown = printable(shortened(" ".join((system or public or name).split()), SHOWN))
+        shown = printable(shorten_text(" ".join((system or public or name).split()), SHOWN))
         raise SourceError(f"its DTD, {shown!r}, is not read; save it without a DOCTYPE")
 
     def start(name: str, attributes: dict[str, str]) -> None:
@@ -65,5 +65,5 @@ def links_of_markup(content: bytes, beside: Collection[str] = ()) -> Mapping[str
             parser.Parse(content[first : first + PIECE])
         parser.Parse(b"", True)
     except (expat.ExpatError, LookupError, ValueError) as error:  # the last two of an encoding
-        raise SourceError(f"the XML is damaged ({shortened(str(error), SHOWN)}); save it again") from None
+        raise SourceError(f"the XML is damaged ({shorten_text(str(error), SHOWN)}); save it again") from None
     return found

@@ -7,7 +7,7 @@ from pathlib import Path as FilePath
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.base.content import VECTOR_FILES, FileKind, is_geodatabase, kind_of, start_of, unpacked
+from vexture.base.content import VECTOR_FILES, FileKind, is_geodatabase, kind_of, start_of, unpack_source
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
 from vexture.base.tolerance import CLOSED
@@ -77,7 +77,7 @@ def read_polygons(
         refuse_other_units(own, said, "", rings.box, is_given=crs is not None)
         rings = repaired(rings, notes)
     # features without geometry are an empty flood; anything else without polygons is a mistake
-    if not len(rings.ends) and any(note.message != UNLOCATED for note in notes.listed):
+    if not len(rings.ends) and any(note.message != UNLOCATED for note in notes.in_order):
         raise SourceError(f"it holds no polygon{met(notes)}; give polygons of what is under water")
     if frame is None:
         if bounds is None and not len(rings.ends):
@@ -85,14 +85,14 @@ def read_polygons(
         frame = frame_of(bounds, bounds or rings.box, own)
     rings = shared(_placed(rings, own, frame), float(np.abs(frame.to_source[:, :2]).max()), snap, notes)
     drawing = _drawn(rings, frame, FilePath(file_name).stem)
-    return Extent(frame, (Step(replace(drawing, notes=notes.listed)),), notes=notes.listed)
+    return Extent(frame, (Step(replace(drawing, notes=notes.in_order)),), notes=notes.in_order)
 
 
 def _areas(
     source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, notes: Notes
 ) -> tuple[Rings, str | None]:
     """Polygons of any file, in its own coordinates, and the reference system that it names."""
-    source = unzipped(unpacked(source))
+    source = unzipped(unpack_source(source))
     if not is_table(source):
         if not is_geodatabase(source) and kind_of(start_of(source), file_name) is FileKind.SVG:  # by no other sign
             raise SourceError(

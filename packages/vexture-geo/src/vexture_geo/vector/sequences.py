@@ -5,7 +5,7 @@ import re
 from typing import Any, Final
 
 from vexture.base.content import BYTE_ORDER_MARK, RECORD
-from vexture.base.errors import SourceError, shortened
+from vexture.base.errors import SourceError, shorten_text
 
 __all__ = ["one_json"]
 
@@ -86,4 +86,4 @@ def _check_feature(value: Any, number: int) -> None:
 
 
 def _no_json(error: Exception, number: int) -> SourceError:
-    return SourceError(f"record {number} is no JSON ({shortened(str(error), SHOWN)}); save it again")
+    return SourceError(f"record {number} is no JSON ({shorten_text(str(error), SHOWN)}); save it again")

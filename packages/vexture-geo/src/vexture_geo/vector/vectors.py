@@ -15,7 +15,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.base.content import FileKind, decompressed, is_geodatabase, kind_of, read_bytes, start_of
+from vexture.base.content import FileKind, decompress, is_geodatabase, kind_of, read_bytes, start_of
 from vexture.base.errors import LimitError, ParameterError, SourceError
 from vexture.base.notes import Notes
 from vexture_geo.base.gdal import vector_formats
@@ -86,7 +86,7 @@ def read_areas(
 
     `LimitError` if it has several layers and `layer` is None, `ParameterError` if it has no such layer.
     """
-    source = unzipped(decompressed(source) if isinstance(source, bytes) else source)
+    source = unzipped(decompress(source) if isinstance(source, bytes) else source)
     kind = FileKind.AREAS if is_geodatabase(source) else kind_of(start_of(source) or read_bytes(source), file_name)
     if kind is FileKind.TEXTURE:
         raise SourceError("is a texture already; give the data that it was made from")

@@ -1,1 +1,1 @@
-"""What every part stands on: errors, notes, limits of time, kernels, and the bits of a texture."""
+"""The base of every part: errors, notes, time limits, kernels, and the bits of a texture."""

@@ -112,7 +112,7 @@ class _Raised:
 
 
 class _ClockChange(NamedTuple):
-    """What a process sends when the clock of its limits stops or goes on."""
+    """Message of a process that the clock of its limits has stopped or resumed."""
 
     is_stopped: bool
 
@@ -158,7 +158,7 @@ class _Worker:
             self.until = time.monotonic() + self.left
 
     def result(self, name: str, seconds: float) -> Any:
-        """What its work has given, or a `_Raised`."""
+        """Return the result of its work, or a `_Raised`."""
         about = f"{name}: " if name else ""
         if self.answer:
             return self.answer[0]

@@ -38,7 +38,7 @@ __all__ = [
     "FileKind",
     "Header",
     "about",
-    "decompressed",
+    "decompress",
     "header_of",
     "is_geodatabase",
     "is_stream",
@@ -49,7 +49,7 @@ __all__ = [
     "read_bytes",
     "renaming",
     "start_of",
-    "unpacked",
+    "unpack_source",
 ]
 
 LARGEST_FILE: Final = 256 * 2**20
@@ -122,7 +122,7 @@ TEXTS: Final = ("wkt", "geom_wkt", "wkt_geom", "geometry", "geom", "the_geom")
 
 
 class FileKind(StrEnum):
-    """What a file holds, which decides how it is read."""
+    """Kind of a file's content, which decides how it is read."""
 
     TEXTURE = "texture"
     PICTURE = "picture"
@@ -186,7 +186,7 @@ def known_kind(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind
 
 
 def markup_of(start: bytes) -> str:
-    """Which XML of features a file is by its first bytes, ``kml``, ``gpx`` or ``gml``; empty if none of them.
+    """Return the feature XML a file is by its first bytes, ``kml``, ``gpx`` or ``gml``; empty if it is none of them.
 
     Examples
     --------
@@ -249,8 +249,8 @@ def header_of(start: bytes) -> Header:
     return Header(names, delimiter, _first(known, TEXTS), across, up)
 
 
-def _first(known: Mapping[str, str], wanted: tuple[str, ...]) -> str | None:
-    return next((known[name] for name in wanted if name in known), None)
+def _first(known: Mapping[str, str], names: tuple[str, ...]) -> str | None:
+    return next((known[name] for name in names if name in known), None)
 
 
 def is_geodatabase(source: str | os.PathLike[str] | bytes) -> bool:
@@ -262,7 +262,7 @@ def is_geodatabase(source: str | os.PathLike[str] | bytes) -> bool:
 
 
 def picture_size(content: bytes) -> tuple[str, int, int] | None:
-    """What a picture is, its width and its height in pixels, as it declares them; None if it is no picture."""
+    """Format of a picture and the width and height in pixels that it declares; None if it is no picture."""
     if kind_of(start_of(content)) is not FileKind.PICTURE:
         return None
     from PIL import Image
@@ -296,8 +296,8 @@ def is_stream(source: str | os.PathLike[str] | bytes) -> bool:
     return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
 
 
-def unpacked(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | bytes:
-    """Return the source itself or, of a gzipped file or a stream, its content; raises as `read_bytes` does."""
+def unpack_source(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | bytes:
+    """Return the source itself or the content of a gzipped file or a stream; raises as `read_bytes` does."""
     if is_stream(source):
         return read_bytes(source)
     return read_bytes(source) if start_of(source).startswith(GZIP) else source
@@ -309,7 +309,7 @@ def read_bytes(source: str | os.PathLike[str] | bytes) -> bytes:
     Raises a `SourceError` if it cannot be read, is damaged or too large.
     """
     if isinstance(source, bytes):
-        return decompressed(source)
+        return decompress(source)
     try:
         with Path(source).open("rb") as file:
             content = file.read(LARGEST_FILE + 1)
@@ -318,11 +318,11 @@ def read_bytes(source: str | os.PathLike[str] | bytes) -> bytes:
             raise SourceError("is a folder, and no FileGDB; name a file in it") from None
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise SourceError(f"cannot be read: {reason}; check the file's name and permissions") from None
-    return decompressed(content)
+    return decompress(content)
 
 
-def decompressed(content: bytes) -> bytes:
-    """Content that may be gzip, as it is or decompressed; raises as `read_bytes` does."""
+def decompress(content: bytes) -> bytes:
+    """Decompress content if it is gzip, else return it as it is; raises as `read_bytes` does."""
     if content.startswith(GZIP):
         stream = zlib.decompressobj(wbits=zlib.MAX_WBITS | 16)
         try:

@@ -27,9 +27,9 @@ class Clock:
     def __init__(self) -> None:
         self.start()
 
-    def start(self, tell: Callable[[bool], None] = lambda is_stopped: None) -> None:
-        """Start anew, as a forked process must; `tell` is called when the clock stops (True) and goes on (False)."""
-        self._lock, self._tell = threading.Lock(), tell
+    def start(self, on_change: Callable[[bool], None] = lambda is_stopped: None) -> None:
+        """Restart, as a forked process must; `on_change` is called when the clock stops (True) or resumes (False)."""
+        self._lock, self._on_change = threading.Lock(), on_change
         self._stops, self._stopped_at, self._stood = 0, 0.0, 0.0
 
     def seconds(self) -> float:
@@ -51,7 +51,7 @@ class Clock:
             self._stops += 1
             if self._stops == 1:
                 self._stopped_at = time.monotonic()
-                self._tell(True)
+                self._on_change(True)
 
     def go_on(self) -> None:
         """Undo one call of `stop`."""
@@ -59,7 +59,7 @@ class Clock:
             self._stops -= 1
             if self._stops == 0:
                 self._stood += time.monotonic() - self._stopped_at
-                self._tell(False)
+                self._on_change(False)
 
 
 CLOCK = Clock()

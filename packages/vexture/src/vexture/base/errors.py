@@ -18,10 +18,10 @@ __all__ = [
     "SourceError",
     "SourceWarning",
     "VextureError",
-    "counted",
+    "format_count",
     "printable",
     "reason_of",
-    "shortened",
+    "shorten_text",
 ]
 
 
@@ -74,23 +74,23 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
-def counted(count: int, noun: str) -> str:
-    """A number of things, in the plural unless it is one.
+def format_count(count: int, noun: str) -> str:
+    """Write a number of things, in the plural unless it is one.
 
     Examples
     --------
-    >>> counted(1, "shape"), counted(0, "shape"), counted(2, "shape")
+    >>> format_count(1, "shape"), counted(0, "shape"), counted(2, "shape")
     ('1 shape', '0 shapes', '2 shapes')
     """
     return f"{count} {noun}{'s' * (count != 1)}"
 
 
-def shortened(text: str, most: int) -> str:
-    """Text of at most so many characters, as a line shows it.
+def shorten_text(text: str, most: int) -> str:
+    """Shorten a text to at most `most` characters.
 
     Examples
     --------
-    >>> shortened("a long name", 8), shortened("a name", 8)
+    >>> shorten_text("a long name", 8), shortened("a name", 8)
     ('a lon...', 'a name')
     """
     return text if len(text) <= most else text[: most - 3] + "..."
@@ -102,4 +102,4 @@ def reason_of(error: Exception, most: int = 120, hidden: str = "") -> str:
     `hidden` is the name of a temporary file, which means nothing to the user.
     """
     text = " ".join((str(error).replace(hidden, "the file") if hidden else str(error)).split())
-    return shortened(text, most) or type(error).__name__
+    return shorten_text(text, most) or type(error).__name__

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast, overload
 
 from vexture.base.deadline import CLOCK
-from vexture.base.machine_code import Compiled, described, load
+from vexture.base.machine_code import Compiled, argument_type, load
 
 __all__ = ["Kernel", "kernel", "text_digest"]
 
@@ -121,7 +121,7 @@ class _KeptCode:
         return f"{self._start}.{hashlib.sha256(repr(key).encode()).hexdigest()[:16]}.code"
 
     def load(self, key: Any) -> Any:
-        """What was saved under a key; None if it is not there, damaged or old."""
+        """Return the code saved under a key; None if it is missing, damaged or old."""
         try:
             content = Path(self._place(key)).read_bytes()
         except OSError:
@@ -188,7 +188,7 @@ class Kernel:
     def __call__(self, *arguments: Any) -> Any:
         """Run code that was compiled ahead of time for arguments of these types, or else what Numba compiles."""
         if self._ahead:
-            types = described(arguments)
+            types = argument_type(arguments)
             if self._code is None or self._code.code.arguments != types:
                 self._code = load(self, text_digest(), types)
                 self._ahead = self._code is not None
@@ -231,7 +231,7 @@ def kernel(
     0.5
     """
 
-    def compiled(function: F) -> F:
+    def decorate(function: F) -> F:
         return cast("F", Kernel(function, allocates, ahead, shares))
 
-    return compiled if function is None else compiled(function)
+    return decorate if function is None else decorate(function)

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-__all__ = ["SHIPPED", "Code", "Compiled", "described", "host", "load"]
+__all__ = ["SHIPPED", "Code", "Compiled", "argument_type", "host", "load"]
 
 SHIPPED = Path(__file__).parents[1] / "compiled"
 """Folder of the code files in a wheel."""
@@ -33,7 +33,7 @@ MEMORY, OWNER, COUNT, ITEM_SIZE, DATA, SHAPE = range(6)
 RELEASE = "NRT_decref"
 """Function that releases an array of a kernel."""
 
-Described = Any
+TypeDescription = Any
 """Type of a value: "int", "float", [dtype, dimensions, writable] of an array, a list with "tuple" first, or None."""
 
 
@@ -44,8 +44,8 @@ class Code(NamedTuple):
     features: list[str]  # required of the processor
     symbols: list[str]  # required of the C library
     text: str  # digest of the kernels' text
-    arguments: Described
-    result: Described
+    arguments: TypeDescription
+    result: TypeDescription
     entry: str  # name of the function in the object file
 
     def write(self, file: Path, machine_code: bytes) -> None:
@@ -53,7 +53,7 @@ class Code(NamedTuple):
         file.write_bytes(json.dumps(self._asdict()).encode() + b"\n" + machine_code)
 
 
-def described(value: Any) -> Described:
+def argument_type(value: Any) -> TypeDescription:
     """Type of an argument or a result for which a kernel is specialised; "" if there is never code for it."""
     if value is None:
         return None
@@ -62,7 +62,7 @@ def described(value: Any) -> Described:
     if type(value) is float:
         return "float"
     if isinstance(value, tuple):
-        parts = [described(part) for part in value]
+        parts = [argument_type(part) for part in value]
         return "" if "" in parts else ["tuple", *parts]
     if isinstance(value, np.ndarray) and value.flags.c_contiguous and value.flags.aligned:
         return [value.dtype.str, value.ndim, value.flags.writeable]
@@ -79,7 +79,7 @@ def _words(value: Any) -> list[Any]:
     return [ctypes.c_double(value) if isinstance(value, float) else ctypes.c_int64(value)]
 
 
-def _layout(result: Described) -> Any:
+def _layout(result: TypeDescription) -> Any:
     """Structure that holds a result."""
     if result is None:
         return ctypes.c_void_p
@@ -91,18 +91,18 @@ def _layout(result: Described) -> Any:
     return ctypes.c_int64 * (SHAPE + 2 * result[1])
 
 
-def _value(result: Described, held: Any, release: Callable[[int], None]) -> Any:
+def _value(result: TypeDescription, storage: Any, release: Callable[[int], None]) -> Any:
     """The Python value of a result; arrays are not copied, but released with their last reference."""
     if result is None:
         return None
     if isinstance(result, str):
-        return held
+        return storage
     if result[0] == "tuple":
-        return tuple(_value(part, getattr(held, f"part_{k}"), release) for k, part in enumerate(result[1:]))
+        return tuple(_value(part, getattr(storage, f"part_{k}"), release) for k, part in enumerate(result[1:]))
     dtype, dimensions, _ = result
-    shape = tuple(held[SHAPE : SHAPE + dimensions])
-    memory = (ctypes.c_char * (held[COUNT] * held[ITEM_SIZE])).from_address(held[DATA])
-    weakref.finalize(memory, release, held[MEMORY]).atexit = False
+    shape = tuple(storage[SHAPE : SHAPE + dimensions])
+    memory = (ctypes.c_char * (storage[COUNT] * storage[ITEM_SIZE])).from_address(storage[DATA])
+    weakref.finalize(memory, release, storage[MEMORY]).atexit = False
     return np.ndarray(shape, dtype, memory)
 
 
@@ -149,7 +149,7 @@ def host() -> tuple[str, frozenset[str]]:
     return llvm.get_process_triple(), frozenset(name for name, has in features.items() if has)
 
 
-def _found(symbols: list[str]) -> bool:
+def _add_symbols(symbols: list[str]) -> bool:
     """Tell LLVM the addresses of C functions; False if one is missing, at which LLVM would end the process."""
     import llvmlite.binding as llvm
 
@@ -162,8 +162,8 @@ def _found(symbols: list[str]) -> bool:
     return True
 
 
-def load(kernel: Any, text: str, arguments: Described, folder: Path = SHIPPED) -> Compiled | None:
-    """Code of a kernel for arguments of these types (from `described`), if this machine can run it.
+def load(kernel: Any, text: str, arguments: TypeDescription, folder: Path = SHIPPED) -> Compiled | None:
+    """Code of a kernel for arguments of these types (from `argument_type`), if this machine can run it.
 
     A file is named after the kernel's module and name; `text` is the digest of the kernels' text.
     """
@@ -173,6 +173,6 @@ def load(kernel: Any, text: str, arguments: Described, folder: Path = SHIPPED) -
         if code.text != text or code.arguments != arguments:
             continue
         platform, features = host()
-        if code.platform == platform and features.issuperset(code.features) and _found(code.symbols):
+        if code.platform == platform and features.issuperset(code.features) and _add_symbols(code.symbols):
             return Compiled(code, machine_code, kernel.shares)
     return None

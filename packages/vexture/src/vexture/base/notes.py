@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any, Final, Literal, NamedTuple
 
-from vexture.base.errors import SourceError, SourceWarning, printable, shortened
+from vexture.base.errors import SourceError, SourceWarning, printable, shorten_text
 
 __all__ = [
     "MOST_SUBJECTS",
@@ -20,8 +20,8 @@ __all__ = [
     "Note",
     "Notes",
     "Subject",
-    "called",
     "check_losses",
+    "format_character",
     "line_of",
     "place_of_caller",
     "warn_at",
@@ -36,7 +36,7 @@ HEADINGS: Final[dict[Kind, str]] = {
     "invalid": "invalid and ignored: ",
     "remark": "",
 }
-"""What a line says before the notes of each kind, in this order."""
+"""Text of a line before the notes of each kind, in this order."""
 
 MOST_NAMED: Final = 8
 """Notes of one kind that a line names; the others are counted."""
@@ -77,7 +77,7 @@ class Note:
     elements : tuple of Subject
         The first 32 elements that it is about, where the reader knows them.
     is_named : bool
-        Whether a line names the first of the elements: they are features, and their names the user's ids.
+        Whether a line names the first elements: they are features, and their names are the user's ids.
     has_remedy : bool
         Whether the message says what to do, where nothing else is in the source.
 
@@ -98,7 +98,7 @@ class Note:
 
     def __str__(self) -> str:
         if self.is_named and self.elements:
-            first = [shortened(printable(subject.name), MOST_LETTERS) for subject in self.elements[:MOST_IDS]]
+            first = [shorten_text(printable(subject.name), MOST_LETTERS) for subject in self.elements[:MOST_IDS]]
             more = ", ..." if self.count > len(first) else ""
             return f"{self.message} ({self.count}: {', '.join(first)}{more})"
         return f"{self.message} ({self.count})" if self.count > 1 else self.message
@@ -127,9 +127,9 @@ class Notes:
     --------
     >>> notes = Notes()
     >>> notes.left_out("Point"); notes.left_out("Point"); notes.remark("it has 3 bands, of which the first is read")
-    >>> str(notes.listed[0])
+    >>> str(notes.in_order[0])
     'Point (2)'
-    >>> line_of("a.gpkg", notes.listed)
+    >>> line_of("a.gpkg", notes.in_order)
     'a.gpkg: left out: Point (2); it has 3 bands, of which the first is read'
     """
 
@@ -138,46 +138,46 @@ class Notes:
         self._boxed: dict[str, int] = {}  # characters that no font has
         self._named: dict[tuple[Kind, str], dict[str, None]] = {}  # the first ids of features of each note
 
-    def left_out(self, what: str) -> None:
+    def left_out(self, message: str) -> None:
         """Note something that is not supported, and so paints nothing or has no effect."""
-        self.count("left out", what)
+        self.count("left out", message)
 
-    def features(self, kind: Kind, what: str, ids: Iterable[object]) -> None:
+    def features(self, kind: Kind, message: str, ids: Iterable[object]) -> None:
         """Note something about the feature of each id, of several equal ones once.
 
         Examples
         --------
         >>> notes = Notes()
         >>> notes.features("remark", "a polygon is repaired", ["07", "12"])
-        >>> line_of("a.gpkg", notes.listed)
+        >>> line_of("a.gpkg", notes.in_order)
         'a.gpkg: a polygon is repaired (2: 07, 12)'
         """
         names = list(dict.fromkeys(map(str, ids)))
-        self._add(kind, what, len(names))
+        self._add(kind, message, len(names))
         if names:
-            known = self._named.setdefault((kind, printable(what)), {})
+            known = self._named.setdefault((kind, printable(message)), {})
             known.update(dict.fromkeys(names[: MOST_SUBJECTS - len(known)]))
 
-    def simplified(self, what: str) -> None:
+    def simplification(self, message: str) -> None:
         """Note something that is in the result, but not as it should be."""
-        self.count("simplified", what)
+        self.count("simplified", message)
 
     def remark(self, sentence: str, times: int = 1) -> None:
         """Note a sentence about the whole, or about so many of its parts."""
         self._add("remark", sentence, times)
 
-    def boxed(self, character: str) -> None:
+    def missing_character(self, character: str) -> None:
         """Note a character that no font has; all of them become one note."""
         self._boxed[character] = self._boxed.get(character, 0) + 1
 
-    def count(self, kind: Kind, what: str) -> None:
+    def count(self, kind: Kind, message: str) -> None:
         """Note something once more."""
-        self._add(kind, what, 1)
+        self._add(kind, message, 1)
 
-    def _add(self, kind: Kind, what: str, times: int) -> None:
+    def _add(self, kind: Kind, message: str, times: int) -> None:
         if times:
-            what = printable(what)
-            self._counts[kind][what] = self._counts[kind].get(what, 0) + times
+            message = printable(message)
+            self._counts[kind][message] = self._counts[kind].get(message, 0) + times
 
     @property
     def boxes(self) -> frozenset[str]:
@@ -187,7 +187,7 @@ class Notes:
     @property
     def of_boxes(self) -> tuple[Note, ...]:
         """The note about characters that no font has, if there are any."""
-        shown = [called(character) for character in islice(self._boxed, MOST_NAMED)]
+        shown = [format_character(character) for character in islice(self._boxed, MOST_NAMED)]
         if len(self._boxed) > MOST_NAMED:
             shown.append(f"and {len(self._boxed) - MOST_NAMED} more")
         if not shown:
@@ -198,7 +198,7 @@ class Notes:
         return (Note("simplified", f"{len(self._boxed)} characters that no font has, as boxes: {' '.join(shown)}"),)
 
     @property
-    def listed(self) -> tuple[Note, ...]:
+    def in_order(self) -> tuple[Note, ...]:
         """All notes by kind, each kind in the order of their first occurrence."""
         found = list[Note]()
         for kind, things in self._counts.items():
@@ -209,12 +209,12 @@ class Notes:
         return (*found[:at], *self.of_boxes, *found[at:])
 
 
-def called(character: str) -> str:
-    r"""A character as a message names it.
+def format_character(character: str) -> str:
+    r"""Write a character as messages name it.
 
     Examples
     --------
-    >>> called("é"), called("\ue000")
+    >>> format_character("é"), called("\ue000")
     ("'é' (U+00E9)", '(U+E000)')
     """
     shown = f"'{character}' " if character.isprintable() else ""
@@ -222,7 +222,7 @@ def called(character: str) -> str:
 
 
 def line_of(source: str, notes: Sequence[Note]) -> str:
-    """All notes about a source in one line; empty if there are none."""
+    """Write all notes about a source in one line; empty if there are none."""
     parts = []
     for kind, heading in HEADINGS.items():
         named = [str(note) for note in notes if note.kind == kind]

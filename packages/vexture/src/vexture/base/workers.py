@@ -19,7 +19,7 @@ from typing import Any, Final, Protocol, TypeVar
 
 from vexture.base.errors import DeviceError
 
-__all__ = ["Cluster", "Here", "Processes", "Workers"]
+__all__ = ["Cluster", "InProcess", "Processes", "Workers"]
 
 Shared = TypeVar("Shared")
 Item = TypeVar("Item")
@@ -38,17 +38,17 @@ PATIENCE: Final = "5s"
 """For a scheduler's first answer."""
 
 NO_WORKERS: Final = "No valid workers"
-"""In what Dask says of a scheduler without any."""
+"""Part of Dask's message about a scheduler without workers."""
 
 TALKATIVE: Final = ("distributed.client", "distributed.batched", "distributed.core")
-"""Logs of Dask that tell tracebacks of lost connections, of which an error says one line."""
+"""Loggers of Dask that print tracebacks of lost connections, about which an error says one line."""
 
 FRESH: Final = 2.0
 """Seconds for which the number of a cluster's workers is believed: each question costs an answer's time."""
 
 
 class Workers(Protocol):
-    """Who does the work."""
+    """A way to do pieces of work: in this process, in several, or on a cluster."""
 
     def map(
         self, work: Callable[[Shared, Item], Result], shared: Shared, items: Iterable[Item], count: int
@@ -60,12 +60,12 @@ class Workers(Protocol):
         ...
 
 
-class Here:
-    """One piece of work after the other, in the process that asks.
+class InProcess:
+    """Does one piece of work after the other, in the calling process.
 
     Examples
     --------
-    >>> list(Here().map(max, 2, [1, 3], 2))
+    >>> list(InProcess().map(max, 2, [1, 3], 2))
     [2, 3]
     """
 
@@ -77,7 +77,7 @@ class Here:
 
 
 class Processes:
-    """So many processes on this machine, if the work is long enough that starting them pays."""
+    """Several processes on this machine, if the work is long enough that starting them pays."""
 
     def __init__(self, processes: int) -> None:
         self._processes = processes
@@ -109,7 +109,7 @@ class Processes:
                         item = next(items)
                     except StopIteration:
                         break
-                    waiting.append((item, _submitted(pool, item)))
+                    waiting.append((item, _submit_to_pool(pool, item)))
                 if not waiting:
                     return
                 try:
@@ -123,7 +123,7 @@ class Processes:
                         ) from None
                     pool.shutdown(wait=False)
                     pool = self._pool(work, shared)
-                    waiting = deque((item, _submitted(pool, item)) for item, _ in waiting)
+                    waiting = deque((item, _submit_to_pool(pool, item)) for item, _ in waiting)
                     continue
                 deaths = 0
                 waiting.popleft()
@@ -137,8 +137,8 @@ class Processes:
         return ProcessPoolExecutor(self._processes, context, _share, (work, shared))
 
 
-def _submitted(pool: ProcessPoolExecutor, item: Any) -> "Future[Any]":
-    """Future of a piece of work; broken if the pool is."""
+def _submit_to_pool(pool: ProcessPoolExecutor, item: Any) -> "Future[Any]":
+    """Submit a piece of work; its future is broken if the pool is."""
     try:
         return pool.submit(_work, item)
     except BrokenProcessPool as error:
@@ -172,30 +172,30 @@ class Cluster:
     ) -> Iterator[Result]:
         """Results; Dask does the work of a worker that dies again."""
         with self._client() as client:
-            held = self._asked(client.scatter, shared, broadcast=True, hash=False)
+            held = self._call_scheduler(client.scatter, shared, broadcast=True, hash=False)
 
-            def submitted(item: Item) -> Any:
-                return self._asked(client.submit, work, held, item, pure=False)
+            def submit(item: Item) -> Any:
+                return self._call_scheduler(client.submit, work, held, item, pure=False)
 
-            def again(item: Item) -> Any:
+            def resubmit(item: Item) -> Any:
                 nonlocal held  # what all share may be lost with the worker, too
-                held = self._asked(client.scatter, shared, broadcast=True, hash=False)
-                return submitted(item)
+                held = self._call_scheduler(client.scatter, shared, broadcast=True, hash=False)
+                return submit(item)
 
-            def first() -> Any:
+            def next_result() -> Any:
                 item, future = waiting.popleft()
-                return self._result(future, lambda: again(item))
+                return self._result(future, lambda: resubmit(item))
 
             waiting: deque[tuple[Item, Any]] = deque()
             room, asked = 0, -FRESH
             for item in items:
-                waiting.append((item, submitted(item)))
+                waiting.append((item, submit(item)))
                 if time.monotonic() - asked >= FRESH:
-                    room, asked = AHEAD * max(1, sum(self._asked(client.nthreads).values())), time.monotonic()
+                    room, asked = AHEAD * max(1, sum(self._call_scheduler(client.nthreads).values())), time.monotonic()
                 if len(waiting) >= room:
-                    yield first()
+                    yield next_result()
             while waiting:
-                yield first()
+                yield next_result()
 
     def check(self) -> None:
         """Raise a `DeviceError` if it does not answer, or has no workers."""
@@ -204,19 +204,19 @@ class Cluster:
 
     @contextmanager
     def _client(self) -> Iterator[Any]:
-        """A client, which says nothing by itself."""
+        """Connect a client that logs nothing."""
         logs = [logging.getLogger(name) for name in TALKATIVE]
         before = [log.disabled for log in logs]
         for log in logs:
             log.disabled = True  # their level is set when Dask is imported
         try:
-            with self._connected() as client:
+            with self._connect() as client:
                 yield client
         finally:
             for log, disabled in zip(logs, before, strict=True):
                 log.disabled = disabled
 
-    def _connected(self) -> Any:
+    def _connect(self) -> Any:
         try:
             import dask
             from distributed import Client
@@ -238,20 +238,20 @@ class Cluster:
             )
         return client
 
-    def _asked(self, what: Callable[..., Any], *words: Any, **named: Any) -> Any:
-        """The scheduler's answer; it may have died, or all of its workers."""
+    def _call_scheduler(self, function: Callable[..., Any], *words: Any, **named: Any) -> Any:
+        """Call the scheduler; raise a `DeviceError` if it has died, or all of its workers."""
         try:
-            return what(*words, **named)
+            return function(*words, **named)
         except OSError as error:  # so are those of connections, and of time
-            raise self._gone(error) from None
+            raise self._scheduler_error(error) from None
 
-    def _gone(self, error: OSError) -> DeviceError:
+    def _scheduler_error(self, error: OSError) -> DeviceError:
         state = "has no workers left" if NO_WORKERS in str(error) else "no longer answers"
         return DeviceError(
             f"`scheduler` {self._address}: it {state}; start it again, with workers, then type the command again"
         )
 
-    def _result(self, future: Any, again: Callable[[], Any]) -> Any:
+    def _result(self, future: Any, resubmit: Callable[[], Any]) -> Any:
         """Result of work; a scheduler may forget that of a worker that dies as it is fetched: then it is done again."""
         from distributed import KilledWorker
 
@@ -261,10 +261,10 @@ class Cluster:
             except OSError as error:
                 if future.status == "error":
                     raise  # the work's own
-                raise self._gone(error) from None
+                raise self._scheduler_error(error) from None
             except CancelledError as error:
                 why: Exception = error
-                future = again()
+                future = resubmit()
             except KilledWorker as error:
                 why = error
                 break

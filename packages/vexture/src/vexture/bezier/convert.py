@@ -46,7 +46,7 @@ def write_lines(start: NDArray[np.float64], end: NDArray[np.float64], cubics: ND
 
 
 def straight(cubics: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which cubics are lines in the sense of `line_cubics`, (n, 4, 2) -> (n,)."""
+    """Mark the cubics that are lines in the sense of `line_cubics`, (n, 4, 2) -> (n,)."""
     ideal = line_cubics(cubics[..., 0, :], cubics[..., 3, :])
     scale = np.abs(cubics).max(axis=(-2, -1))
     near: NDArray[np.bool_] = np.abs(cubics - ideal).max(axis=(-2, -1)) <= STRAIGHT * scale

@@ -1,4 +1,4 @@
-"""What of convex outlines is hidden below later ones, on a grid of cells: conservative, so that nothing seen is lost.
+"""Find convex outlines hidden below later ones, on a grid of cells: conservative, so that nothing visible is lost.
 
 An outline covers the cells within a circle in it, and touches those that meet a circle around it. What it touches of
 cells that a later one covers is hidden. Outlines are cut where straight lines part what is seen of them from the rest.

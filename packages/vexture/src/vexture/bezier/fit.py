@@ -206,13 +206,13 @@ def _project_all(
 
 
 @kernel(allocates=False)
-def _keep(
-    curve: NDArray[np.float64], t: NDArray[np.float64], kept: NDArray[np.float64], kept_t: NDArray[np.float64]
+def _copy_fit(
+    curve: NDArray[np.float64], t: NDArray[np.float64], best: NDArray[np.float64], best_t: NDArray[np.float64]
 ) -> None:
     """Copy a curve and its parameters."""
-    copy_curve(curve, kept)
+    copy_curve(curve, best)
     for i in range(len(t)):
-        kept_t[i] = t[i]
+        best_t[i] = t[i]
 
 
 @kernel
@@ -242,9 +242,9 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
         slow += 1 if worst > SLOW * best else 0
         if worst < best:
             best = worst
-            _keep(curve, t, best_curve, best_t)
+            _copy_fit(curve, t, best_curve, best_t)
         else:
-            _keep(best_curve, best_t, curve, t)
+            _copy_fit(best_curve, best_t, curve, t)
             along *= 10.0
         if best <= tolerance or slow == SLOW_ROUNDS or (done == FAR_ROUND and best > FAR * tolerance):
             break

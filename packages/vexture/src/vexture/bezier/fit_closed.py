@@ -1,8 +1,8 @@
 """Few cubics along a closed chain of points: smooth where the chain is smooth, with corners where it turns.
 
-The chain is sampled evenly (`_sampled`), corners are found (`_cornered`), stairs of a raster are measured (`_stairs`),
-the samples are smoothed (`smooth_chain`), and each cubic replaces as many samples as the tolerance allows
-(`fit_samples`).
+The chain is sampled evenly (`_sample_contour`), corners are restored (`_restore_corners`), stairs of a raster are
+measured (`_stairs`), the samples are smoothed (`smooth_chain`), and each cubic replaces as many samples as the
+tolerance allows (`fit_samples`).
 """
 
 from itertools import pairwise
@@ -200,10 +200,10 @@ def fit_closed(
     radius = float(np.sqrt(size / np.pi))
     tolerance = min(tolerance, radius / 2.0, size / length)
     allowed = MOST_ALONE + MOST_BETWEEN * len(points)
-    samples, sharp = _sampled(points, kept, max(min(tolerance, length / FEWEST), length / allowed))
+    samples, sharp = _sample_contour(points, kept, max(min(tolerance, length / FEWEST), length / allowed))
     if len(samples) < 3:
         return line_cubics(points, np.roll(points, -1, axis=0))
-    samples, sharp = _cornered(samples, sharp, tolerance, corner)
+    samples, sharp = _restore_corners(samples, sharp, tolerance, corner)
     stairs = _stairs(samples, sharp)
     most = SHRINKING * (radius * len(samples) / length) ** 4
     bending = np.minimum(most, BENDING[1] * (BENDING[0] / BENDING[1]) ** stairs)
@@ -213,13 +213,13 @@ def fit_closed(
     return cubics
 
 
-def _sampled(
-    points: NDArray[np.float64], kept: NDArray[np.bool_], step: float
+def _sample_contour(
+    points: NDArray[np.float64], fixed: NDArray[np.bool_], step: float
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Samples at equal distances between the points that are kept, and which of the samples those are."""
-    first = int(np.argmax(kept))
+    """Sample a contour at equal distances between its fixed points; mark the samples at those points."""
+    first = int(np.argmax(fixed))
     closed = np.roll(points, -first, axis=0)
-    stops = np.append(np.flatnonzero(np.roll(kept, -first)), len(points))
+    stops = np.append(np.flatnonzero(np.roll(fixed, -first)), len(points))
     closed = np.concatenate([closed, closed[:1]])
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(closed, axis=0).T))])
     if stops[0] != 0:
@@ -229,16 +229,16 @@ def _sampled(
         for a, b in pairwise(stops)
     ]
     sharp = np.zeros(sum(map(len, places)), np.bool_)
-    if kept.any():
+    if fixed.any():
         sharp[np.cumsum([0, *map(len, places[:-1])])] = True
     joined = np.concatenate(places)
     return np.column_stack([np.interp(joined, along, closed[:, axis]) for axis in range(2)]), sharp
 
 
-def _cornered(
+def _restore_corners(
     points: NDArray[np.float64], sharp: NDArray[np.bool_], tolerance: float, corner: float
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Samples after those between two straight stretches have moved to the corner, and which samples are corners."""
+    """Move samples between two straight stretches to the corner; mark the samples that are corners."""
     n = len(points)
     points, sharp = points.copy(), sharp.copy()
     if n < 4 * REACH:

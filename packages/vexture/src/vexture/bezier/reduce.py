@@ -8,7 +8,7 @@ from vexture.bezier.fit import fit_run
 from vexture.bezier.monotone import monotone_pieces
 from vexture.bezier.split import copy_curve
 
-__all__ = ["reduced"]
+__all__ = ["reduce_contour"]
 
 UNSEEN = 0.1
 """Share of the tolerance. A step back that is shorter ends no run: strokers leave such steps at joins."""
@@ -25,7 +25,7 @@ def _turns_between(before: NDArray[np.float64], after: NDArray[np.float64], unse
 
 
 @kernel(ahead=True)
-def reduced(contour: NDArray[np.float64], tolerance: float) -> NDArray[np.float64]:
+def reduce_contour(contour: NDArray[np.float64], tolerance: float) -> NDArray[np.float64]:
     """Monotone cubics, as few as follow a closed contour (n, 4, 2) within a tolerance -> (m, 4, 2), closed bit for bit.
 
     Runs end where x or y turns, where a quad-tree cuts anyway; each cubic is as long as the tolerance allows.

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.base.deadline import DEFAULT_SECONDS
-from vexture.base.errors import EXPECTED, ParameterError, SourceError, VextureError, counted
+from vexture.base.errors import EXPECTED, ParameterError, SourceError, VextureError, format_count
 from vexture.base.layout import PACKED_SUFFIX
 from vexture.cli.messages import echo, one_line, say
 from vexture.cli.options import (
@@ -369,4 +369,4 @@ def _write_atlas(outcomes: list[Outcome], atlas: Path, stored: dict[str, Any], *
     else:
         texture.save(atlas, **stored)
     if not silent:
-        echo(f"{atlas}: {counted(len(texture.roots), 'shape')}, {len(data)} bytes", err=to_pipe)
+        echo(f"{atlas}: {format_count(len(texture.roots), 'shape')}, {len(data)} bytes", err=to_pipe)

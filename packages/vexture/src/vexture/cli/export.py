@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from vexture.base.errors import counted
+from vexture.base.errors import format_count
 from vexture.cli.messages import echo, one_line, say
 from vexture.cli.options import PATH, conversion_options, strict_option, viewer_parameters
 
@@ -29,4 +29,4 @@ def export(files: tuple[Path, ...], output: Path, title: str | None, strict: boo
         from vexture.pages.view import export as write
 
         size = write(files, output, title, viewer_parameters(**conversion), say, strict=strict)
-        echo(f"{output}: {counted(len(files), 'file')}, {size} bytes")
+        echo(f"{output}: {format_count(len(files), 'file')}, {size} bytes")

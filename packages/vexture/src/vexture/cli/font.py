@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import click
 
 from vexture.base.deadline import DEFAULT_SECONDS
-from vexture.base.errors import ParameterError, counted
+from vexture.base.errors import ParameterError, format_count
 from vexture.base.layout import PACKED_SUFFIX
 from vexture.base.notes import Note
 from vexture.cli.convert import check_places, given_options, options_of_convert
@@ -76,7 +76,7 @@ def font(
         if not quiet:
             say_notes(made.about, made.notes)
             target, metrics = made.files
-            counts = f"{counted(made.characters, 'character')}, {counted(made.shapes, 'shape')}"
+            counts = f"{format_count(made.characters, 'character')}, {format_count(made.shapes, 'shape')}"
             echo(f"{target}: {counts}, {len(made.files[target])} bytes; {metrics}")
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from vexture.base.errors import ParameterError, counted
+from vexture.base.errors import ParameterError, format_count
 from vexture.base.layout import PACKED_SUFFIX
 from vexture.cli.messages import echo, one_line
 from vexture.cli.options import PATH
@@ -48,4 +48,4 @@ def restyle(texture: Path, paints: tuple[str, ...], output: Path, root: str | No
             raise ParameterError(f"`output` {output}: it holds {texture.name} itself; name a file, or another folder")
         wanted = {name: colour for name, _, colour in (text.rpartition("=") for text in paints)}
         target = load(texture).with_paints(wanted, root=root).save(place)
-        echo(f"{target}: {counted(len(wanted), 'element')} in other colours, {target.stat().st_size} bytes")
+        echo(f"{target}: {format_count(len(wanted), 'element')} in other colours, {target.stat().st_size} bytes")

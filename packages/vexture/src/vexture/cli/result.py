@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vexture.base.errors import VextureError, counted
+from vexture.base.errors import VextureError, format_count
 from vexture.base.layout import PACKED_SUFFIX
 from vexture.cli.messages import as_options, echo, note_facts, say
 from vexture.cli.options import STANDARD, write_output
@@ -102,7 +102,7 @@ def say_outcome(outcome: Outcome, level: int, *, quiet: bool, to_pipe: bool) -> 
         echo(line_of_facts(outcome.facts), err=to_pipe)
     if level == VERBOSE and not quiet:
         for place, shape in enumerate(outcome.facts["shapes"]):
-            parts = ", ".join(counted(shape[name], name[:-1]) for name in ("quads", "curves"))
+            parts = ", ".join(format_count(shape[name], name[:-1]) for name in ("quads", "curves"))
             echo(f"  shape {place}: {parts}", err=to_pipe)
         for file in outcome.facts.get("files", ()):
             echo(f"  {file}", err=to_pipe)
@@ -111,12 +111,12 @@ def say_outcome(outcome: Outcome, level: int, *, quiet: bool, to_pipe: bool) -> 
 def line_of_facts(facts: dict[str, Any]) -> str:
     """One line about a source."""
     named = [name for name in ("segments", "layers", "quads", "curves", "bytes") if name != "layers" or facts[name] > 1]
-    counts = ", ".join(counted(facts[name], name.removesuffix("s")) for name in named)
+    counts = ", ".join(format_count(facts[name], name.removesuffix("s")) for name in named)
     line = (
         f"{facts['name']}: {counts}, {facts['milliseconds']:.1f} ms, "
         f"distance {facts['deviation']:.1e} + {facts['rounding']:.1e}"
     )
-    return line + (f", {counted(facts['unresolved'], 'cell')} at the depth limit" if facts["unresolved"] else "")
+    return line + (f", {format_count(facts['unresolved'], 'cell')} at the depth limit" if facts["unresolved"] else "")
 
 
 def facts_of(outcome: Outcome) -> dict[str, Any]:

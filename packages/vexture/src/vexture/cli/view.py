@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from vexture.base.errors import counted
+from vexture.base.errors import format_count
 from vexture.cli.messages import echo, one_line, say
 from vexture.cli.options import PATH, conversion_options, viewer_parameters
 
@@ -37,7 +37,7 @@ def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening:
         check_packages()
 
         def show(where: str, shapes: int) -> None:
-            echo(f"vexture: {where} shows {counted(shapes, 'shape')}; Ctrl-C ends it")
+            echo(f"vexture: {where} shows {format_count(shapes, 'shape')}; Ctrl-C ends it")
 
         serve(
             files,
@@ -46,6 +46,6 @@ def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening:
             port=port,
             watching=watching,
             opening=opening,
-            say=say,
+            report=say,
             show=show,
         )

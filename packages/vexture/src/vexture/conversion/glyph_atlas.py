@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from vexture.base.deadline import DEFAULT_SECONDS, check_time, within
-from vexture.base.errors import LimitError, ParameterError, SourceError, counted
+from vexture.base.errors import LimitError, ParameterError, SourceError, format_count
 from vexture.base.notes import Note, Notes, warn_of
 from vexture.conversion.pipeline import atlas
 from vexture.drawing.drawing import Drawing
@@ -161,7 +161,7 @@ def made_atlas(
         for character in missing:
             notes.left_out(f"{named(character)}, which {face.family} lacks")
         if not found:
-            number = counted(len(given) + len(ranged), "character")
+            number = format_count(len(given) + len(ranged), "character")
             raise SourceError(f"{face.family} has none of what is asked for ({number}); give others as `characters`")
         glyphs = {character: shape(of, character, features=PLAIN)[0] for character, of in found.items()}
         box = missing_glyph(face)
@@ -183,7 +183,7 @@ def made_atlas(
         "kerning": pairs,
         "missing": missing,
     }
-    return FontAtlas(texture, metrics, notes.listed)
+    return FontAtlas(texture, metrics, notes.in_order)
 
 
 def faces_of_characters(choice: Choice, characters: Iterable[str]) -> dict[str, Face]:

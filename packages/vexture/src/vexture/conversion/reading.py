@@ -18,7 +18,7 @@ from vexture.base.content import (
     known_kind,
     read_bytes,
     start_of,
-    unpacked,
+    unpack_source,
 )
 from vexture.base.errors import ParameterError, SourceError
 from vexture.base.notes import warn_of
@@ -144,7 +144,9 @@ def read_drawing(
     if not isinstance(trace_images, bool):
         raise ParameterError(f"`trace_images` is {trace_images!r:.80}; it must be True or False")
     with about(shown):
-        given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
+        given = unpack_source(
+            source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1)
+        )
         kind = FileKind.AREAS
         if not is_geodatabase(given):
             if not _is_drawing(given) and (reader := find_geographic_reader()) is not None:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vexture.base.content import FileKind, is_stream, known_kind, read_bytes, start_of, unpacked
+from vexture.base.content import FileKind, is_stream, known_kind, read_bytes, start_of, unpack_source
 from vexture.conversion.reading import Place, images_of, name_of, read_drawing
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def read_drawings(source: Place | bytes, *, name: str | None = None, **reading: 
     shown = name_of(source, name)
     given = read_bytes(source) if is_stream(source) else source
     drawing = read_drawing(given, name=shown, **reading)
-    plain = b"" if drawing.paths or reading.get("select") is not None else unpacked(given)
+    plain = b"" if drawing.paths or reading.get("select") is not None else unpack_source(given)
     if not plain or known_kind(start_of(plain), shown) is not FileKind.SVG:
         yield shown, drawing
         return

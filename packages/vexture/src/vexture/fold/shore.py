@@ -128,7 +128,7 @@ def fold_of_shore(
     begin = np.rint(np.rint(phase * MOMENTS) * ticks / MOMENTS) % ticks / FOLD_TICKS
     begin[~displacement.any(axis=2)] = 0.0
     seconds = ticks / FOLD_TICKS
-    return Fold(displacement, Kind.PERIODIC, begin, seconds, seconds, notes.listed)  # type: ignore[arg-type]
+    return Fold(displacement, Kind.PERIODIC, begin, seconds, seconds, notes.in_order)  # type: ignore[arg-type]
 
 
 def _middles(size: int) -> NDArray[np.float64]:

@@ -89,7 +89,7 @@ def radial(line: Any, circles: tuple[float, ...], foreground: Color, notes: Note
     low, high = 0.0, 1.0
     if min(begins[2], ends[2]) < 0.0:
         if spread_of(line) is not Spread.PAD:
-            notes.simplified("radial gradient that repeats from below radius 0, shown as its mean colour")
+            notes.simplification("radial gradient that repeats from below radius 0, shown as its mean colour")
             return mean(stops)
         zero = begins[2] / (begins[2] - ends[2])
         low, high = (zero, 1.0) if begins[2] < 0.0 else (0.0, zero)
@@ -148,5 +148,5 @@ def swept(line: Any, foreground: Color, notes: Notes) -> Paint | None:
     found = line_of(line, foreground)
     if found is None:
         return None
-    notes.simplified("sweep gradient shown as its mean colour")
+    notes.simplification("sweep gradient shown as its mean colour")
     return mean(found[2])

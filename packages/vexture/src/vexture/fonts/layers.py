@@ -78,14 +78,14 @@ def glyph_layers(font: Any, glyph: int, outline: Callable[[int], Contours], fore
         tree = paint_tree(font, glyph, outline, foreground, notes)
         layers = Stack(bounds_of(tree.children))
         layers.paint(tree.children, -1)
-        return Layers(tuple(layers.paths), tuple(layers.groups), notes.listed)
+        return Layers(tuple(layers.paths), tuple(layers.groups), notes.in_order)
     kind = other_kind(font, glyph)
     if kind is None:
         return None
     shown = outline(glyph)
     message = f"glyphs that are {kind}"
-    (notes.simplified if shown else notes.left_out)(f"{message}, shown as outlines" if shown else message)
-    return Layers((Path(shown, paint=Paint(foreground)),) if shown else (), (), notes.listed)
+    (notes.simplification if shown else notes.left_out)(f"{message}, shown as outlines" if shown else message)
+    return Layers((Path(shown, paint=Paint(foreground)),) if shown else (), (), notes.in_order)
 
 
 def other_kind(font: Any, glyph: int) -> str | None:

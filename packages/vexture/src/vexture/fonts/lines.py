@@ -8,7 +8,7 @@ from unicodedata import category
 
 from vexture.base.deadline import check_time
 from vexture.base.errors import SourceError
-from vexture.base.notes import Notes, called
+from vexture.base.notes import Notes, format_character
 from vexture.fonts.face import Face
 from vexture.fonts.levels import levels, reordered, scripts
 from vexture.fonts.shaping import Glyph, shape
@@ -72,10 +72,10 @@ class Choice:
             if face.has(ord(character)):
                 if self.is_asked and not self.is_first(face) and not character.isspace():
                     example = self.others.setdefault(face.family, named(character))
-                    self.notes.simplified(f"{example}, which {self.first.family} lacks, and such in {face.family}")
+                    self.notes.simplification(f"{example}, which {self.first.family} lacks, and such in {face.family}")
                 return face
         if is_seen(character):
-            self.notes.boxed(character)
+            self.notes.missing_character(character)
         return last or self.first
 
     def subsets(self) -> Iterator[Face]:
@@ -111,7 +111,7 @@ def is_seen(character: str) -> bool:
 
 def named(character: str) -> str:
     """A character as a message names it."""
-    return f"character {called(character)}"
+    return f"character {format_character(character)}"
 
 
 def line_of_glyphs(text: str, choice: Choice, setting: Typesetting) -> tuple[list[Placed], float]:

@@ -9,7 +9,7 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 
 from vexture.base.deadline import check_time
-from vexture.base.errors import LimitError, ParameterError, SourceError, shortened
+from vexture.base.errors import LimitError, ParameterError, SourceError, shorten_text
 from vexture.base.notes import Note, Notes, warn_of
 from vexture.bezier.bounds import bounds
 from vexture.drawing.drawing import Drawing, Path
@@ -99,9 +99,9 @@ class TextOptions:
         face = choice.first
         first = next(iter(self.families), face.family)
         if first.lower() not in GENERIC and first.casefold() not in {name.casefold() for name in face.names}:
-            notes.simplified(f"font {first!r} drawn in {face.family}")
+            notes.simplification(f"font {first!r} drawn in {face.family}")
         if self.style != "normal" and face.style == "normal":
-            notes.simplified(f"{self.style} style, which {face.family} lacks, drawn upright")
+            notes.simplification(f"{self.style} style, which {face.family} lacks, drawn upright")
         if file := fonts.substitute(*wanted):
             asked = style_of(round(self.weight), self.style, self.stretch)
             taken = f"{face.family}, {style_of(face.weight, face.style, face.stretch)}"
@@ -224,7 +224,7 @@ def text_drawing(text: str, options: TextOptions) -> Drawing:
     setting = Typesetting(base, options.language, options.features)
     lines = [line_of_glyphs(line.translate(BLANKS), choice, setting) for line in text.splitlines() or [""]]
     if (seen := [*dict.fromkeys(filter(is_seen, text))]) and notes.boxes.issuperset(seen):
-        missing = shortened("".join(seen), LONGEST_NAME)
+        missing = shorten_text("".join(seen), LONGEST_NAME)
         raise SourceError(f"no font has any of the characters {missing!r}; give a `font` that has them")
     face, widest = choice.first, max(width for _, width in lines)
     high, low, gap = (part / face.units_per_em for part in (face.ascender, face.descender, face.line_gap))
@@ -235,7 +235,7 @@ def text_drawing(text: str, options: TextOptions) -> Drawing:
         for placed in glyphs:
             canvas.draw(placed, part * (widest - width), -row * leading)
     box = (0.0, -high * options.size, widest * options.size, ((len(lines) - 1) * leading - low) * options.size)
-    return canvas.drawing(box, options.name or shortened(" ".join(text.split()), LONGEST_NAME) or "text")
+    return canvas.drawing(box, options.name or shorten_text(" ".join(text.split()), LONGEST_NAME) or "text")
 
 
 def base_level(text: str, direction: str) -> int:
@@ -306,8 +306,8 @@ class Canvas:
     def drawing(self, box: Box, name: str) -> Drawing:
         """The drawing, as large as a box (left, top, right, bottom) in units of the source and what is painted."""
         if not self.paths:
-            return Drawing((), name=name, notes=(*self.notes.listed, Note("remark", "nothing in it is painted")))
+            return Drawing((), name=name, notes=(*self.notes.in_order, Note("remark", "nothing in it is painted")))
         left, top = (min(pair) for pair in zip(box[:2], self.painted[:2], strict=True))
         right, bottom = (max(pair) for pair in zip(box[2:], self.painted[2:], strict=True))
         drawing = Drawing.from_source(self.paths, (left, top, right - left, bottom - top), name, tuple(self.groups))
-        return replace(drawing, notes=self.notes.listed)
+        return replace(drawing, notes=self.notes.in_order)

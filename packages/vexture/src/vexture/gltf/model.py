@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import quote
 
 from vexture.base.content import FileKind, about, kind_of, read_bytes, start_of
-from vexture.base.errors import ParameterError, SourceError, SourceWarning, counted
+from vexture.base.errors import ParameterError, SourceError, SourceWarning, format_count
 from vexture.base.layout import PACKED_SUFFIX
 from vexture.gltf.appearance import HALF, WHITE, Appearance, Background, Mode, Wrap
 from vexture.gltf.container import REMEDY, Container, listed, parse, to_glb, to_gltf
@@ -48,7 +48,7 @@ class Model:
     """Files of the textures that it got, by their places in the list of the extension."""
 
     def __repr__(self) -> str:
-        return f"<Model {self.name}: {counted(len(self.materials), 'material')}>"
+        return f"<Model {self.name}: {format_count(len(self.materials), 'material')}>"
 
     @property
     def materials(self) -> tuple[str, ...]:

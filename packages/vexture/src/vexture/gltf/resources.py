@@ -10,7 +10,7 @@ from typing import Any, Final
 from urllib.parse import unquote
 
 from vexture.base.content import LARGEST_FILE, picture_size
-from vexture.base.errors import SourceError, printable, shortened
+from vexture.base.errors import SourceError, printable, shorten_text
 from vexture.gltf.container import REMEDY, Container, listed, padded, values
 
 __all__ = ["KTX2_TYPE", "content_at", "data_uri", "files_beside", "missed", "packed", "with_view"]
@@ -136,4 +136,4 @@ def missed(container: Container, folder: Path | None, target: Path) -> str:
 
 
 def _named(uri: str) -> str:
-    return printable(shortened(os.fspath(uri), SHOWN))
+    return printable(shorten_text(os.fspath(uri), SHOWN))

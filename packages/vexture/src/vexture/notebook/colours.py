@@ -1,4 +1,4 @@
-"""Colours that a widget gives: to elements of planar maps, and to shapes that are none, by their names."""
+"""Colours that a widget sets by name: of elements of planar maps, and of shapes that are no maps."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -9,32 +9,32 @@ from vexture.drawing.paint import Paint
 from vexture.texture.restyle import Colour, checked_colours, components
 from vexture.texture.select_root import layers_of
 from vexture.texture.texture import Texture
-from vexture.tree.planar.style import rounded
+from vexture.tree.planar.style import round_colours
 
-__all__ = ["coloured", "components_of"]
+__all__ = ["components_of", "recolour_texture"]
 
 
 def components_of(texture: Texture, colours: Mapping[str, Colour], root: str | int | None) -> dict[str, list[float]]:
-    """Red, green, blue and opacity of each colour, in 0..1, for JSON; refuses what `coloured` cannot show."""
-    shapes, elements = _parted(texture, colours, root)
+    """Red, green, blue and opacity of each colour, in 0..1, for JSON; refuses what `recolour_texture` cannot show."""
+    shapes, elements = _split_colours(texture, colours, root)
     if elements:
         checked_colours(texture.roots, layers_of(texture.roots, root, texture.name), elements, texture.name)
     given: Any = {**shapes, **elements}
-    parts = rounded([components(name, colour) for name, colour in given.items()]).tolist()
+    parts = round_colours([components(name, colour) for name, colour in given.items()]).tolist()
     return dict(zip(given, parts, strict=True))
 
 
-def coloured(texture: Texture, colours: Mapping[str, Colour], root: str | int | None) -> Texture:
+def recolour_texture(texture: Texture, colours: Mapping[str, Colour], root: str | int | None) -> Texture:
     """The texture with other colours of some elements and shapes of a drawing.
 
     Examples
     --------
     >>> import vexture
     >>> kite = vexture.convert(vexture.Drawing.polygon([(0.5, 0.1), (0.8, 0.6), (0.5, 0.9), (0.2, 0.6)]))
-    >>> coloured(kite, {"drawing": "gold"}, None).roots[0].paint.hex
+    >>> recolour_texture(kite, {"drawing": "gold"}, None).roots[0].paint.hex
     '#ffd700'
     """
-    shapes, elements = _parted(texture, colours, root)
+    shapes, elements = _split_colours(texture, colours, root)
     if shapes:
         paints = {name: components(name, colour) for name, colour in shapes.items()}
         drawn = layers_of(texture.roots, root, texture.name)
@@ -46,10 +46,10 @@ def coloured(texture: Texture, colours: Mapping[str, Colour], root: str | int | 
     return texture.with_paints(elements, root=root) if elements else texture
 
 
-def _parted(
+def _split_colours(
     texture: Texture, colours: Mapping[str, Colour], root: str | int | None
 ) -> tuple[dict[str, Colour], dict[str, Colour]]:
-    """Colours of shapes that are no maps, and of elements."""
+    """Split colours into those of shapes that are no maps, and those of elements."""
     if not isinstance(colours, Mapping) or not all(isinstance(name, str) for name in colours):
         raise ParameterError("the colours are no mapping of names, such as {'sun': 'red'}")
     drawn = [texture.roots[place] for place in layers_of(texture.roots, root, texture.name)]

@@ -1,4 +1,4 @@
-"""What a widget shows as an array or a PNG: for a page without a kernel, for paper, and for GitHub."""
+"""A widget's view as an array or a PNG: for a page without a kernel, for paper, and for GitHub."""
 
 from io import BytesIO
 from typing import Final, Literal, TypeAlias
@@ -10,7 +10,7 @@ from vexture.drawing.colors import Color, parse_color
 from vexture.renderers.view import Size, window
 from vexture.texture.texture import Texture
 
-__all__ = ["MARGIN", "MODES", "Mode", "Rect", "home_of", "png_of", "seen"]
+__all__ = ["MARGIN", "MODES", "Mode", "Rect", "home_of", "png_of", "render_view"]
 
 Mode: TypeAlias = Literal["paint", "silhouette"]
 MODES: Final = ("paint", "silhouette")
@@ -45,7 +45,7 @@ def home_of(texture: Texture, root: str | int | None) -> Rect:
     return left - margin, bottom - margin, right - left + 2 * margin, top - bottom + 2 * margin
 
 
-def seen(texture: Texture, size: Size, view: Rect, mode: Mode, root: str | int | None) -> NDArray[np.float32]:
+def render_view(texture: Texture, size: Size, view: Rect, mode: Mode, root: str | int | None) -> NDArray[np.float32]:
     """Premultiplied sRGB and opacity of each pixel, (height, width, 4), top row first."""
     picture = texture.render(size, window(*view), root=root)
     if mode == "silhouette":

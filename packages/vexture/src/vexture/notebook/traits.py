@@ -1,4 +1,4 @@
-"""Traits of widgets that take what users write, such as a number of numpy, and refuse other values in a line."""
+"""Traits of widgets that accept what users write, such as numbers of numpy, and refuse other values with one line."""
 
 from collections.abc import Mapping
 from typing import Any, ClassVar, Final
@@ -6,27 +6,37 @@ from typing import Any, ClassVar, Final
 import numpy as np
 import traitlets
 
-from vexture.base.errors import ParameterError, shortened
+from vexture.base.errors import ParameterError, shorten_text
 from vexture.base.labels import texts_of
 
-__all__ = ["Background", "Choice", "Colours", "Label", "Number", "Pixels", "Rectangle", "pixels", "told"]
+__all__ = [
+    "BackgroundTrait",
+    "ChoiceTrait",
+    "ColoursTrait",
+    "LabelTrait",
+    "NumberTrait",
+    "PixelsTrait",
+    "RectangleTrait",
+    "format_value",
+    "pixels",
+]
 
 PIXELS: Final = "give a whole number of pixels, 1 or more"
 LONGEST: Final = 60
 """Letters of a value in a message."""
 
 
-def told(value: Any) -> str:
-    """A value as a message has it; of many values, their type only.
+def format_value(value: Any) -> str:
+    """Write a value for a message; of an array, only its type.
 
     Examples
     --------
-    >>> told("100%"), told(np.arange(9))
+    >>> format_value("100%"), told(np.arange(9))
     ("'100%'", 'a ndarray')
     """
     if getattr(value, "shape", ()):
         return f"a {type(value).__name__}"
-    return shortened(" ".join(repr(value).split()), LONGEST)
+    return shorten_text(" ".join(repr(value).split()), LONGEST)
 
 
 def pixels(name: str, value: Any) -> int:
@@ -41,7 +51,7 @@ def pixels(name: str, value: Any) -> int:
     vexture.base.errors.ParameterError: `width` is '100%'; give a whole number of pixels, 1 or more
     """
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 1:
-        raise ParameterError(f"`{name}` is {told(value)}; {PIXELS}")
+        raise ParameterError(f"`{name}` is {format_value(value)}; {PIXELS}")
     return int(value)
 
 
@@ -56,45 +66,45 @@ def text_of(label: Any) -> str:
     return str(texts_of([label])[0])
 
 
-class _Told(traitlets.TraitType[Any, Any]):
-    """A trait that says what to give."""
+class _CheckedTrait(traitlets.TraitType[Any, Any]):
+    """A trait whose error says what to give."""
 
     remedy: ClassVar[str]
 
-    def _coerced(self, value: Any) -> Any:
-        """The value as the trait has it, if it is of that kind."""
+    def _coerce(self, value: Any) -> Any:
+        """Convert a value to the trait's kind."""
         return value
 
     def validate(self, obj: Any, value: Any) -> Any:
         try:
-            return super().validate(obj, self._coerced(value))  # type: ignore[misc]
+            return super().validate(obj, self._coerce(value))  # type: ignore[misc]
         except (traitlets.TraitError, TypeError, ValueError) as error:
             if isinstance(error, ParameterError):
                 raise
-            raise ParameterError(f"`{self.name}` is {told(value)}; {self.remedy}") from None
+            raise ParameterError(f"`{self.name}` is {format_value(value)}; {self.remedy}") from None
 
 
-class Pixels(_Told, traitlets.Int):  # type: ignore[type-arg]
+class PixelsTrait(_CheckedTrait, traitlets.Int):  # type: ignore[type-arg]
     """A number of pixels."""
 
     remedy = PIXELS
 
-    def _coerced(self, value: Any) -> int:
+    def _coerce(self, value: Any) -> int:
         return pixels(str(self.name), value)
 
 
-class Label(_Told, traitlets.Unicode):  # type: ignore[type-arg]
+class LabelTrait(_CheckedTrait, traitlets.Unicode):  # type: ignore[type-arg]
     """A name, which may be given as a number: ids and names of columns are texts."""
 
     remedy = "give one name, as of a feature or a column"
 
-    def _coerced(self, value: Any) -> str:
+    def _coerce(self, value: Any) -> str:
         if not np.isscalar(value) and not hasattr(value, "isoformat"):
             raise TypeError
         return text_of(value)
 
 
-class Choice(_Told, traitlets.Enum):  # type: ignore[type-arg]
+class ChoiceTrait(_CheckedTrait, traitlets.Enum):  # type: ignore[type-arg]
     """One of some words."""
 
     @property
@@ -103,19 +113,19 @@ class Choice(_Told, traitlets.Enum):  # type: ignore[type-arg]
         return f"give {' or '.join(map(repr, self.values or ()))}"
 
 
-class Number(_Told, traitlets.CFloat):  # type: ignore[type-arg]
+class NumberTrait(_CheckedTrait, traitlets.CFloat):  # type: ignore[type-arg]
     """A number."""
 
     remedy = "give a number"
 
 
-class Background(_Told, traitlets.Unicode):  # type: ignore[type-arg]
+class BackgroundTrait(_CheckedTrait, traitlets.Unicode):  # type: ignore[type-arg]
     """A colour of a page."""
 
     remedy = "give a CSS colour, such as 'white' or 'transparent'"
 
 
-class Rectangle(_Told, traitlets.Tuple):
+class RectangleTrait(_CheckedTrait, traitlets.Tuple):
     """Left, bottom, width and height."""
 
     remedy = "give four numbers: left, bottom, width and height"
@@ -123,16 +133,16 @@ class Rectangle(_Told, traitlets.Tuple):
     def __init__(self, **options: Any) -> None:
         super().__init__(*(traitlets.CFloat() for _ in range(4)), **options)
 
-    def _coerced(self, value: Any) -> Any:
+    def _coerce(self, value: Any) -> Any:
         return tuple(value)
 
 
-class Colours(_Told, traitlets.Dict):
+class ColoursTrait(_CheckedTrait, traitlets.Dict):
     """Colours by names."""
 
     remedy = "give a mapping of names, such as {'sun': 'red'}"
 
-    def _coerced(self, value: Any) -> dict[str, Any]:
+    def _coerce(self, value: Any) -> dict[str, Any]:
         if not isinstance(value, Mapping):
             raise TypeError
         return {text_of(name): colour for name, colour in value.items()}

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 
 from vexture.base.errors import ParameterError
 from vexture.drawing.colors import Color, parse_color
-from vexture.notebook.colours import coloured, components_of
-from vexture.notebook.picture import MODES, Mode, home_of, png_of, seen
-from vexture.notebook.shared import Shared, shared
-from vexture.notebook.traits import Background, Choice, Colours, Pixels, Rectangle
+from vexture.notebook.colours import components_of, recolour_texture
+from vexture.notebook.picture import MODES, Mode, home_of, png_of, render_view
+from vexture.notebook.shared_content import SharedContent, share_content
+from vexture.notebook.traits import BackgroundTrait, ChoiceTrait, ColoursTrait, PixelsTrait, RectangleTrait
 from vexture.pages.page import Bundle, built, check_output, data_address, whole_page
 from vexture.renderers.view import Size, window
-from vexture.server.published import TEXTURE_TYPE, File
+from vexture.server.published import TEXTURE_TYPE, PublishedFile
 from vexture.texture.files import write_together
 from vexture.texture.select_root import layers_of
 from vexture.texture.texture import Texture
@@ -83,17 +83,17 @@ class VectorWidget(anywidget.AnyWidget):
     """Traits of a subclass that a saved page has, too."""
 
     _esm = traitlets.Unicode().tag(sync=True)
-    _engine = traitlets.Instance(Shared).tag(sync=True, **widget_serialization)
-    _source = traitlets.Instance(Shared, allow_none=True).tag(sync=True, **widget_serialization)
-    _home = Rectangle().tag(sync=True)
+    _engine = traitlets.Instance(SharedContent).tag(sync=True, **widget_serialization)
+    _source = traitlets.Instance(SharedContent, allow_none=True).tag(sync=True, **widget_serialization)
+    _home = RectangleTrait().tag(sync=True)
     _name = traitlets.Unicode().tag(sync=True)
-    view = Rectangle().tag(sync=True)
+    view = RectangleTrait().tag(sync=True)
     root = traitlets.Union([traitlets.Int(), traitlets.Unicode()], allow_none=True, default_value=None).tag(sync=True)
-    mode = Choice(MODES, MODES[0]).tag(sync=True)
-    colors = Colours().tag(sync=True, to_json=_colours_to_json)
-    background = Background("white").tag(sync=True)
-    width = Pixels(None, allow_none=True).tag(sync=True)
-    height = Pixels(HEIGHT).tag(sync=True)
+    mode = ChoiceTrait(MODES, MODES[0]).tag(sync=True)
+    colors = ColoursTrait().tag(sync=True, to_json=_colours_to_json)
+    background = BackgroundTrait("white").tag(sync=True)
+    width = PixelsTrait(None, allow_none=True).tag(sync=True)
+    height = PixelsTrait(HEIGHT).tag(sync=True)
     picked = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     hovered = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
 
@@ -101,9 +101,9 @@ class VectorWidget(anywidget.AnyWidget):
         self._texture = texture
         if texture is not None:  # else it comes later
             traits |= {"_home": home_of(texture, traits.get("root")), "_name": texture.name}
-            traits["_source"] = shared(texture.to_ktx2())
+            traits["_source"] = share_content(texture.to_ktx2())
         traits.setdefault("view", traits["_home"])
-        super().__init__(_engine=shared(built(PAGE.script)), **traits)
+        super().__init__(_engine=share_content(built(PAGE.script)), **traits)
 
     def __repr__(self) -> str:
         """Name and view."""
@@ -111,7 +111,7 @@ class VectorWidget(anywidget.AnyWidget):
 
     @property
     def texture(self) -> Texture:
-        """What is shown; for another one make another widget."""
+        """Texture that the widget shows; make another widget for another one."""
         assert self._texture is not None
         return self._texture
 
@@ -124,7 +124,7 @@ class VectorWidget(anywidget.AnyWidget):
         super().close()
 
     def render(self, size: Size | None = None) -> NDArray[np.float32]:
-        """What the widget shows, drawn by the renderer on the CPU, without its background.
+        """Draw the widget's view with the CPU renderer, without its background.
 
         Parameters
         ----------
@@ -138,7 +138,7 @@ class VectorWidget(anywidget.AnyWidget):
         """
         shown = self.coloured()
         mode: Mode = self.mode
-        return seen(shown, size or (self.width or PICTURE_WIDTH, self.height), self.view, mode, self.root)
+        return render_view(shown, size or (self.width or PICTURE_WIDTH, self.height), self.view, mode, self.root)
 
     def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
         """Red, green, blue and opacity of colours by their names; refuses what cannot be shown."""
@@ -146,10 +146,10 @@ class VectorWidget(anywidget.AnyWidget):
 
     def coloured(self) -> Texture:
         """The texture in the colours that the widget shows."""
-        return coloured(self.texture, self.colors, self.root)
+        return recolour_texture(self.texture, self.colors, self.root)
 
     def only_saved(self) -> dict[str, Any]:
-        """What a saved page has in place of the kernel."""
+        """State that a saved page has in place of the kernel."""
         return {}
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -173,7 +173,7 @@ class VectorWidget(anywidget.AnyWidget):
             "height": None,
         }
         assert self._source is not None
-        texture = data_address(File(self._source.content, TEXTURE_TYPE, ".ktx2"))
+        texture = data_address(PublishedFile(self._source.content, TEXTURE_TYPE, ".ktx2"))
         return write_together({target: whole_page(PAGE, {"state": state, "texture": texture}, self.texture.name)})
 
     @traitlets.default("_esm")

@@ -11,7 +11,7 @@ from typing import Any, Final, NamedTuple
 
 from vexture.base.errors import DeviceError, ParameterError, VextureError
 from vexture.server.publish_file import THESIS_BITS, thesis_pair
-from vexture.server.published import File, Shape, manifest
+from vexture.server.published import PublishedFile, PublishedShape, manifest
 
 __all__ = [
     "SCRIPT",
@@ -110,7 +110,7 @@ def served_page(bundle: Bundle = VIEWER, scene: Mapping[str, Any] = SERVED_SCENE
     )
 
 
-def exported_page(shapes: Sequence[Shape], title: str) -> bytes:
+def exported_page(shapes: Sequence[PublishedShape], title: str) -> bytes:
     """Return the viewer's page with textures, sources and both thesis encodings of the shapes in it."""
     manifests = [manifest(shape, None, _embedded_pairs(shape), address=data_address) for shape in shapes]
     return whole_page(VIEWER, {"shapes": manifests}, title)
@@ -133,25 +133,25 @@ def whole_page(bundle: Bundle, scene: Mapping[str, Any], title: str) -> bytes:
     )
 
 
-def data_address(file: File) -> str:
+def data_address(file: PublishedFile) -> str:
     """Data URL of a file.
 
     Examples
     --------
-    >>> data_address(File(b"a", "text/plain", ".txt"))
+    >>> data_address(PublishedFile(b"a", "text/plain", ".txt"))
     'data:text/plain;base64,YQ=='
     """
     return f"data:{file.media_type};base64,{base64.b64encode(file.data).decode()}"
 
 
-def _embedded_pairs(shape: Shape) -> dict[str, Any]:
+def _embedded_pairs(shape: PublishedShape) -> dict[str, Any]:
     """Thesis encodings of a shape, or why there are none; nothing for a texture without its drawing."""
     if "svg" not in shape.views:
         return {}
     pairs: dict[str, Any] = {}
     for view, bits in THESIS_BITS.items():
         try:
-            pairs[view] = [data_address(File(data, PNG_TYPE, ".png")) for data in thesis_pair(shape, bits)]
+            pairs[view] = [data_address(PublishedFile(data, PNG_TYPE, ".png")) for data in thesis_pair(shape, bits)]
         except VextureError as error:
             pairs[view] = {"error": str(error)}
     return pairs

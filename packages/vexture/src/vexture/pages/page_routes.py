@@ -17,9 +17,9 @@ from vexture.pages.page import PNG_TYPE, SERVED_POLICY, VIEWER, Bundle, built, s
 from vexture.server.converter import BusyError, Converter
 from vexture.server.limits import Limits
 from vexture.server.publish_file import THESIS_BITS, load_thesis, thesis_pair
-from vexture.server.published import Shape, Shelf, manifest
-from vexture.server.routes import FOREVER, NO_SNIFFING, current, fixed, refusal
-from vexture.server.uploads import received
+from vexture.server.published import PublishedShape, PublishedShapes, manifest
+from vexture.server.routes import FOREVER, NO_SNIFFING, current_route, fixed_route, refusal
+from vexture.server.uploads import read_body
 from vexture.texture.registry import find_encoding
 
 __all__ = ["DROPPED", "dropping_routes", "page_routes", "thesis_addresses", "thesis_routes"]
@@ -43,13 +43,13 @@ def page_routes(bundle: Bundle = VIEWER, page: Callable[[], bytes] | None = None
     common = {"Cache-Control": "no-cache", **NO_SNIFFING, "Referrer-Policy": "no-referrer"}
     policy = {"Content-Security-Policy": SERVED_POLICY}
     return [
-        current("/", page or cache(lambda: served_page(bundle)), "text/html", common | policy),
-        fixed(f"/{bundle.script}", built(bundle.script, bundle.package), "text/javascript", common),
-        fixed(f"/{bundle.style}", built(bundle.style, bundle.package), "text/css", common),
+        current_route("/", page or cache(lambda: served_page(bundle)), "text/html", common | policy),
+        fixed_route(f"/{bundle.script}", built(bundle.script, bundle.package), "text/javascript", common),
+        fixed_route(f"/{bundle.style}", built(bundle.style, bundle.package), "text/css", common),
     ]
 
 
-def thesis_addresses(shape: Shape) -> dict[str, list[str]]:
+def thesis_addresses(shape: PublishedShape) -> dict[str, list[str]]:
     """Addresses of a shape's thesis encodings, relative to its manifest; none without its drawing."""
     if "svg" not in shape.views:
         return {}
@@ -59,8 +59,8 @@ def thesis_addresses(shape: Shape) -> dict[str, list[str]]:
     }
 
 
-def thesis_routes(shelf: Shelf, converter: Converter) -> list[Route]:
-    """Routes of the thesis encodings of a shelf's shapes, which are converted when they are first asked for."""
+def thesis_routes(published: PublishedShapes, converter: Converter) -> list[Route]:
+    """Routes of the thesis encodings of published shapes, which are converted at the first request."""
     files = {
         view + suffix: (bits, place)
         for view, bits in THESIS_BITS.items()
@@ -68,18 +68,18 @@ def thesis_routes(shelf: Shelf, converter: Converter) -> list[Route]:
     }
     pairs: OrderedDict[tuple[str, int], asyncio.Future[tuple[bytes, ...]]] = OrderedDict()
 
-    async def converted(shape: Shape, bits: int) -> tuple[bytes, ...]:
+    async def convert_pair(shape: PublishedShape, bits: int) -> tuple[bytes, ...]:
         await converter.run(load_thesis, about=shape.name, seconds=inf)  # perhaps a minute, and of no conversion's
         return await converter.run(thesis_pair, shape, bits, about=shape.name)
 
     async def view(request: Request) -> Response:
         version, name = request.path_params["version"], request.path_params["name"]
-        shape = next((one for one in map(shelf.shape, shelf.names) if one and one.version == version), None)
+        shape = next((one for one in map(published.shape, published.names) if one and one.version == version), None)
         if shape is None or name not in files:
             return refusal(404, f"no view {name[:100]!r} of that version; the manifest of its shape names the newest")
         bits, place = files[name]
         if (version, bits) not in pairs:
-            pairs[version, bits] = asyncio.ensure_future(converted(shape, bits))
+            pairs[version, bits] = asyncio.ensure_future(convert_pair(shape, bits))
             if len(pairs) > MOST_PAIRS:
                 pairs.popitem(last=False)
         try:
@@ -94,10 +94,10 @@ def thesis_routes(shelf: Shelf, converter: Converter) -> list[Route]:
     return [Route("/views/{version}/{name}", view)]
 
 
-def dropping_routes(shelf: Shelf, converter: Converter, given: Collection[str]) -> list[Route]:
+def dropping_routes(published: PublishedShapes, converter: Converter, reserved: Collection[str]) -> list[Route]:
     """Route that converts a file dropped on the page as an upload is converted, and publishes it.
 
-    The names in `given` are those of shapes that stay: a dropped file of such a name gets another one.
+    The names in `reserved` are those of shapes that stay: a dropped file of such a name gets another one.
     """
     dropped: OrderedDict[str, None] = OrderedDict()
 
@@ -108,10 +108,10 @@ def dropping_routes(shelf: Shelf, converter: Converter, given: Collection[str]) 
         if not file_name or len(file_name) > MOST_NAME_LENGTH or not file_name.isprintable():
             return refusal(422, f"the name of the file must have 1 to {MOST_NAME_LENGTH} characters; rename it")
         name = unicodedata.normalize("NFC", file_name.partition(".")[0]) or "drawing"
-        while name in given:
+        while name in reserved:
             name += " (dropped)"
         try:
-            data, size = await received(request, DROPPED, DROPPED.max_bytes)
+            data, size = await read_body(request, DROPPED, DROPPED.max_bytes)
             if size > len(data):
                 return refusal(413, f"the file is larger than {DROPPED.max_bytes:,} bytes; name it to `vexture view`")
             with converter.place():
@@ -124,11 +124,11 @@ def dropping_routes(shelf: Shelf, converter: Converter, given: Collection[str]) 
             return refusal(400, "the file did not arrive")
         except EXPECTED as error:
             return refusal(422, str(error))
-        shelf.put(shape)
+        published.add(shape)
         dropped[name] = None
         dropped.move_to_end(name)
         if len(dropped) > MOST_DROPPED:
-            shelf.remove(dropped.popitem(last=False)[0])
+            published.remove(dropped.popitem(last=False)[0])
         place = f"shapes/{quote(shape.name, safe='')}"
         return JSONResponse(manifest(shape, None, thesis_addresses(shape)), 201, {"Location": place})
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from starlette.routing import Route
 
-from vexture.base.errors import DeviceError, counted
+from vexture.base.errors import DeviceError, format_count
 from vexture.pages.page_routes import page_routes
 from vexture.server.converter import BusyError, Converter
 from vexture.server.folder import Folder
@@ -29,16 +29,16 @@ def serve(
     limits: Limits,
     precision: float | None,
     fonts: Sequence[Path] | None,
-    say: Callable[[str], None],
+    report: Callable[[str], None],
 ) -> None:
     """Serve a folder until Ctrl-C or SIGTERM; without a token nothing can be published.
 
-    `precision` and `fonts` are those of conversions; `say` takes lines for the user, first the address of the server.
+    `precision` and `fonts` are those of conversions; `report` takes lines for the user, first the server's address.
     """
     token = None if token_file is None else read_token(token_file)
-    with closing(bind(host, port)) as taken:
+    with closing(bind(host, port)) as server_socket:
         is_new = not path.exists()
-        folder = Folder(path, limits, say)
+        folder = Folder(path, limits, report)
         waiting = len(folder.drawings)
         converter = Converter(limits, replace(PUBLISHED_PARAMETERS, precision=precision, fonts=fonts))
 
@@ -47,7 +47,7 @@ def serve(
                 await converter.warm()
                 await folder.take_drawings(converter)
                 if waiting:
-                    say(f"{path}: {counted(len(folder.names), 'shape')}")
+                    report(f"{path}: {format_count(len(folder.names), 'shape')}")
 
         app = application(
             [*routes(folder), *publishing_routes(folder, converter, limits, token), *_page()],
@@ -59,13 +59,13 @@ def serve(
             folder.close()
             converter.close()
 
-        shapes = f"{counted(len(folder.names), 'shape')} of " if folder.names or not waiting else ""
-        to_read = f", with {counted(waiting, 'file')} to read," if waiting else ""
-        say(f"serving {shapes}{path}{to_read} at {listen(taken)}")
+        shapes = f"{format_count(len(folder.names), 'shape')} of " if folder.names or not waiting else ""
+        to_read = f", with {format_count(waiting, 'file')} to read," if waiting else ""
+        report(f"serving {shapes}{path}{to_read} at {listen(server_socket)}")
         if is_new:
-            say(f"{path}: there was no such folder, so it was created")
+            report(f"{path}: there was no such folder, so it was created")
         try:
-            serve_until_stopped(app, taken, stop, limits)
+            serve_until_stopped(app, server_socket, stop, limits)
         finally:
             folder.release()
 

@@ -14,19 +14,25 @@ from vexture.base.notes import Note, check_losses
 from vexture.conversion.parameters import Parameters
 from vexture.conversion.reading import content_of
 from vexture.server.publish_file import shape_of
-from vexture.server.published import Shape, Shelf
-from vexture.server.watch import Source, named, watch
+from vexture.server.published import PublishedShape, PublishedShapes
+from vexture.server.watch import WatchedFile, name_files, watch
 
 __all__ = ["export", "view"]
 
-Say = Callable[[str], None]
+Report = Callable[[str], None]
 """Takes a line for the user."""
 
-Made: TypeAlias = tuple[bytes, Shape]
+SourceResult: TypeAlias = tuple[bytes, PublishedShape]
 
 
 def export(
-    paths: Sequence[Path], output: Path, title: str | None, parameters: Parameters, say: Say, *, strict: bool = False
+    paths: Sequence[Path],
+    output: Path,
+    title: str | None,
+    parameters: Parameters,
+    report: Report,
+    *,
+    strict: bool = False,
 ) -> int:
     """Write one page that shows files and needs nothing else; return its size.
 
@@ -37,10 +43,12 @@ def export(
 
     check_output(output, VIEWER)
     shapes = []
-    for source, (_, shape) in zip(sources := named(paths), map(_checked, _converted(sources, parameters)), strict=True):
+    for source, (_, shape) in zip(
+        sources := name_files(paths), map(_unwrap, _convert_sources(sources, parameters)), strict=True
+    ):
         notes = [Note(note["kind"], note["message"], note["count"]) for note in shape.facts["notes"]]
         check_losses(str(source.path), notes, is_empty=shape.facts["segments"] == 0, strict=strict)
-        _say_warnings(shape, say)  # an error says them itself
+        _report_warnings(shape, report)  # an error says them itself
         shapes.append(shape)
     page = exported_page(shapes, title or ", ".join(shape.name for shape in shapes))
     write_together({output: page})
@@ -55,12 +63,12 @@ def view(
     port: int,
     watching: bool,
     opening: bool,
-    say: Say,
+    report: Report,
     show: Callable[[str, int], None],
 ) -> None:
     """Serve files to browsers until Ctrl-C, and convert them again when they change if `watching`.
 
-    `say` takes warnings and errors for the user, `show` the address and the number of shapes.
+    `report` takes warnings and errors for the user, `show` the address and the number of shapes.
     """
     from vexture.pages.page_routes import DROPPED, dropping_routes, page_routes, thesis_addresses, thesis_routes
     from vexture.server.converter import Converter
@@ -68,83 +76,87 @@ def view(
     from vexture.server.routes import application, routes
 
     page = page_routes()
-    with bind(host, port) as taken:
-        shelf, converter = Shelf(), Converter(DROPPED, parameters)
+    with bind(host, port) as server_socket:
+        published, converter = PublishedShapes(), Converter(DROPPED, parameters)
 
-        async def convert(source: Source, data: bytes) -> Shape:
+        async def convert(source: WatchedFile, data: bytes) -> PublishedShape:
             given = (data, str(source.path), source.name, parameters, source.path.parent)
             return await converter.run(shape_of, *given, about=str(source.path), seconds=parameters.max_seconds)
 
         async def follow() -> None:
             await converter.warm()
-            await watch(shelf, sources, convert, seen)
+            await watch(published, sources, convert, seen)
 
         def stop() -> None:
-            shelf.close()
+            published.close()
             converter.close()
 
-        sources = named(paths)
-        seen = _published(shelf, sources, parameters, say)
+        sources = name_files(paths)
+        seen = _publish_sources(published, sources, parameters, report)
         app = application(
             [
                 *page,
-                *routes(shelf, thesis_addresses),
-                *thesis_routes(shelf, converter),
-                *dropping_routes(shelf, converter, frozenset(source.name for source in sources)),
+                *routes(published, thesis_addresses),
+                *thesis_routes(published, converter),
+                *dropping_routes(published, converter, frozenset(source.name for source in sources)),
             ],
             DROPPED,
             only_at=host,
             lifespan=background(follow) if watching else None,
         )
-        where = listen(taken)
-        show(where, len(shelf.names))
+        where = listen(server_socket)
+        show(where, len(published.names))
         if opening and _has_display():
             threading.Thread(target=webbrowser.open, args=(where,), daemon=True).start()
-        serve_until_stopped(app, taken, stop, DROPPED)
+        serve_until_stopped(app, server_socket, stop, DROPPED)
 
 
-def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, say: Say) -> dict[str, bytes | None]:
+def _publish_sources(
+    published: PublishedShapes, sources: Sequence[WatchedFile], parameters: Parameters, report: Report
+) -> dict[str, bytes | None]:
     """Publish files; return the content of each, or None if it cannot be published."""
     seen: dict[str, bytes | None] = {}
-    for source, result in zip(sources, _converted(sources, parameters), strict=True):
+    for source, result in zip(sources, _convert_sources(sources, parameters), strict=True):
         seen[source.name] = None
         try:
-            seen[source.name], shape = _checked(result)
+            seen[source.name], shape = _unwrap(result)
         except EXPECTED as error:
             if len(sources) == 1:
                 raise
-            say(str(error))
-            shelf.refuse(source.name, str(error))
+            report(str(error))
+            published.refuse(source.name, str(error))
             continue
-        _say_warnings(shape, say)
-        shelf.put(shape)
-    if not shelf.names:
+        _report_warnings(shape, report)
+        published.add(shape)
+    if not published.names:
         raise LimitError(f"none of the {len(sources)} files can be shown; correct one of them")
     return seen
 
 
-def _converted(sources: Sequence[Source], parameters: Parameters) -> Iterator["Made | VextureError | ParameterError"]:
-    """What `_made` makes of each source, in another process; or why it cannot."""
+def _convert_sources(
+    sources: Sequence[WatchedFile], parameters: Parameters
+) -> Iterator["SourceResult | VextureError | ParameterError"]:
+    """Convert each source in another process; yield its result, or the error that prevented it."""
     items = [(source, parameters) for source in sources]
-    return each_apart(_made, items, [str(source.path) for source in sources], parameters.max_seconds)
+    return each_apart(_convert_source, items, [str(source.path) for source in sources], parameters.max_seconds)
 
 
-def _made(source: Source, parameters: Parameters) -> Made:
-    """The content of a source, and its shape."""
+def _convert_source(source: WatchedFile, parameters: Parameters) -> SourceResult:
+    """Convert a source; return its content and its shape."""
     data = content_of(source.path)
     return data, shape_of(data, str(source.path), source.name, parameters, source.path.parent)
 
 
-def _checked(result: "Made | VextureError | ParameterError") -> Made:
-    """What was made; raises the error if it was not."""
+def _unwrap(result: "SourceResult | VextureError | ParameterError") -> SourceResult:
+    """Return a result, or raise it if it is an error."""
     if isinstance(result, EXPECTED):
         raise result
     return result
 
 
-def _say_warnings(shape: Shape, say: Say) -> None:
+def _report_warnings(shape: PublishedShape, report: Report) -> None:
     for warning in shape.facts["warnings"]:
-        say(f"warning: {warning}")
+        report(f"warning: {warning}")
 
 
 def _has_display() -> bool:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 
-__all__ = ["Sides", "accumulated"]
+__all__ = ["Sides", "render_sides"]
 
 PARTS = 4
 """Red, green, blue, each times opacity, and opacity."""
@@ -37,7 +37,7 @@ class Sides:
     owner: NDArray[np.int64]
 
 
-def accumulated(sides: Sides, rgba: NDArray[np.float64], size: Size, view: ViewLike = None) -> NDArray[np.float32]:
+def render_sides(sides: Sides, rgba: NDArray[np.float64], size: Size, view: ViewLike = None) -> NDArray[np.float32]:
     """Mean colour of each pixel's square, premultiplied sRGB and opacity, (height, width, 4), top row first.
 
     `size` and `view`, which must be affine, are as in `vexture.render`; `rgba`, (c, 4), is not premultiplied. Where
@@ -47,7 +47,7 @@ def accumulated(sides: Sides, rgba: NDArray[np.float64], size: Size, view: ViewL
     --------
     >>> corners = np.array([[0.0, 0.0], [0.5, 0.0], [0.5, 1.0], [0.0, 1.0]])
     >>> half = Sides(corners, np.roll(corners, -1, axis=0), np.zeros(4, np.int64))
-    >>> accumulated(half, np.array([[1.0, 0.5, 0.0, 1.0]]), (3, 1), [[1 / 3, 0, 0], [0, -1, 1]])[0, :, 0].tolist()
+    >>> render_sides(half, np.array([[1.0, 0.5, 0.0, 1.0]]), (3, 1), [[1 / 3, 0, 0], [0, -1, 1]])[0, :, 0].tolist()
     [1.0, 0.5, 0.0]
     """
     width, height = size_of(size)

@@ -29,13 +29,13 @@ from vexture.renderers.method import (
 )
 
 __all__ = [
-    "Cell",
-    "Place",
-    "Square",
     "Texel",
     "Texels",
-    "Top",
     "Vec2",
+    "VextureCell",
+    "VexturePlace",
+    "VextureSquare",
+    "VextureTop",
     "Whole2",
     "clamp",
     "count",
@@ -57,7 +57,7 @@ Whole2 = tuple[int, int]
 Texel = tuple[int, int, int, int]
 
 
-class Place(NamedTuple):
+class VexturePlace(NamedTuple):
     """A point and the box of a pixel around it."""
 
     point: Whole2
@@ -66,7 +66,7 @@ class Place(NamedTuple):
     high: Whole2
 
 
-class Cell(NamedTuple):
+class VextureCell(NamedTuple):
     """A leaf, as the byte of a quad's texel; or a quad."""
 
     quad: int
@@ -76,14 +76,14 @@ class Cell(NamedTuple):
     is_quad: bool
 
 
-class Square(NamedTuple):
+class VextureSquare(NamedTuple):
     """A square of cells: its lowest position in a pixel's box."""
 
     position: Whole2
     bit: int
 
 
-class Top(NamedTuple):
+class VextureTop(NamedTuple):
     """Start of a descent of the tree."""
 
     quad: int
@@ -108,11 +108,11 @@ def texel(texels: Texels, index: int) -> Texel:
 
 
 @kernel(allocates=False)
-def place(base: Whole2, offset: Vec2, extent: Vec2) -> Place:
+def place(base: Whole2, offset: Vec2, extent: Vec2) -> VexturePlace:
     """A pixel's place and the box around it."""
     x, rest_x, low_x, high_x = place_coordinate(base[0], offset[0], extent[0])
     y, rest_y, low_y, high_y = place_coordinate(base[1], offset[1], extent[1])
-    return Place((x, y), (rest_x, rest_y), (low_x, low_y), (high_x, high_y))
+    return VexturePlace((x, y), (rest_x, rest_y), (low_x, low_y), (high_x, high_y))
 
 
 @kernel(allocates=False)
@@ -134,17 +134,17 @@ def place_coordinate(base: int, offset: float, extent: float) -> tuple[int, floa
 
 
 @kernel(allocates=False)
-def first_square(place: Place) -> Square:
+def first_square(place: VexturePlace) -> VextureSquare:
     """The smallest cell that holds the whole box of a place."""
     low, high = place.low, place.high
     differ = (low[0] ^ high[0]) | (low[1] ^ high[1])
     is_inside = low[0] <= high[0] and low[1] <= high[1]
     bit = max(math.frexp(float(differ))[1], POSITION_BITS - MOST_DEPTH)
-    return Square((low[0] if is_inside else NO_CELL, low[1]), bit)
+    return VextureSquare((low[0] if is_inside else NO_CELL, low[1]), bit)
 
 
 @kernel(allocates=False)
-def next_square(position: Whole2, beyond: Whole2, place: Place) -> Square:
+def next_square(position: Whole2, beyond: Whole2, place: VexturePlace) -> VextureSquare:
     """The next square of cells that meets the box."""
     low, high = place.low, place.high
     step_x = beyond[0] & -beyond[0] if beyond[0] <= high[0] else NO_CELL
@@ -153,7 +153,7 @@ def next_square(position: Whole2, beyond: Whole2, place: Place) -> Square:
     x, y = max(position[0] & -(step_y + step_y), low[0]), beyond[1]
     if step_x <= step_y:
         x, y = beyond[0], max(position[1] & -step_x, low[1])
-    return Square((x if least < NO_CELL else NO_CELL, y), math.frexp(float(least))[1] - 1)
+    return VextureSquare((x if least < NO_CELL else NO_CELL, y), math.frexp(float(least))[1] - 1)
 
 
 @kernel(allocates=False)
@@ -170,13 +170,15 @@ def finest_bit(area: float, longer: float) -> int:
 
 
 @kernel(allocates=False)
-def top(root: int) -> Top:
+def top(root: int) -> VextureTop:
     """Start of the descents of a shape."""
-    return Top(root, POSITION_BITS, root + FOLLOWED_QUADS)
+    return VextureTop(root, POSITION_BITS, root + FOLLOWED_QUADS)
 
 
 @kernel(allocates=False)
-def descend(texels: Texels, top: Top, shared: int, finest: int, position: Whole2) -> tuple[Cell, Top]:
+def descend(
+    texels: Texels, top: VextureTop, shared: int, finest: int, position: Whole2
+) -> tuple[VextureCell, VextureTop]:
     """Return the new `top` too, which GLSL changes in place."""
     quad, bit = top.quad, top.bit
     found = texel(texels, quad)
@@ -191,30 +193,30 @@ def descend(texels: Texels, top: Top, shared: int, finest: int, position: Whole2
             quad = found[0] + ((before * 0x010101 >> 16) & 3)
             found = texel(texels, quad)
             if bit == shared:
-                top = Top(quad, bit, top.followed)
-    return Cell(quad, found, shift, bit, is_quad), top
+                top = VextureTop(quad, bit, top.followed)
+    return VextureCell(quad, found, shift, bit, is_quad), top
 
 
 @kernel(allocates=False)
-def stored_coverage(cell: Cell) -> float:
+def stored_coverage(cell: VextureCell) -> float:
     """Coverage in the cell's byte."""
     return ((cell.texel[3] >> cell.shift) & 255) / COVERAGE_ONE
 
 
 @kernel(allocates=False)
-def count(cell: Cell) -> int:
+def count(cell: VextureCell) -> int:
     """Number of the leaf's pieces."""
     return (cell.texel[2] >> (cell.shift + COUNT_SHIFT)) & MOST_CURVES
 
 
 @kernel(allocates=False)
-def winding_code(cell: Cell) -> int:
+def winding_code(cell: VextureCell) -> int:
     """Corner winding of the leaf, from 1; 0 marks a constant leaf."""
     return (cell.texel[2] >> cell.shift) & 7
 
 
 @kernel(allocates=False)
-def first_curve(cell: Cell) -> int:
+def first_curve(cell: VextureCell) -> int:
     """Texel of the leaf's first piece."""
     before = (cell.texel[2] >> COUNT_SHIFT) & 0x0F0F0F & ((1 << cell.shift) - 1)
     return cell.texel[1] + ((before * 0x010101 >> 16) & 255)

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.base.layout import COUNT_SHIFT, COVERAGE_ONE, HOLDS_PROGRAM, IS_MEAN, PAINT_ONE
 from vexture.renderers.cells import (
-    Cell,
-    Place,
     Texel,
     Texels,
     Vec2,
+    VextureCell,
+    VexturePlace,
     Whole2,
     clamp,
     count,
@@ -25,13 +25,13 @@ from vexture.renderers.cells import (
     texel,
     top,
 )
-from vexture.renderers.cpu import Look, above_ends, cut_place, first_look, is_beside, piece_area
-from vexture.renderers.flat import Flat, flat, flat_piece_area
-from vexture.renderers.gradient import Region, Vec4, times
+from vexture.renderers.cpu import VextureLook, above_ends, cut_place, first_look, is_beside, piece_area
+from vexture.renderers.flat import VextureFlat, flat, flat_piece_area
+from vexture.renderers.gradient import Vec4, VextureRegion, times
 from vexture.renderers.leaf import leaf, leaf_piece, leaf_sides
 from vexture.renderers.method import NEARLY_WHOLE, NO_CELL, POSITION_BITS
 from vexture.renderers.moment import (
-    Share,
+    VextureShare,
     area_share,
     box_share,
     flat_ends_share,
@@ -42,8 +42,8 @@ from vexture.renderers.moment import (
     whole_share,
 )
 from vexture.renderers.paints import (
-    Planar,
-    Sum,
+    VexturePlanar,
+    VextureSum,
     add_base,
     add_kept,
     add_piece,
@@ -57,7 +57,7 @@ from vexture.renderers.paints import (
     unpacked,
     with_color,
 )
-from vexture.renderers.piece import Box, Frame, box, ends, frame, in_box, piece, view_pixel, word
+from vexture.renderers.piece import VextureBox, VextureFrame, box, ends, frame, in_box, piece, view_pixel, word
 from vexture.renderers.uniforms import HasTexels, uniforms_of
 from vexture.renderers.view import Size, ViewLike
 
@@ -65,23 +65,25 @@ __all__ = ["render_cpu_colours"]
 
 
 @kernel(allocates=False)
-def leaf_kind(cell: Cell) -> int:
+def leaf_kind(cell: VextureCell) -> int:
     return (cell.texel[2] >> cell.shift) & ((1 << COUNT_SHIFT) - 1)
 
 
 @kernel(allocates=False)
-def holds_program(cell: Cell) -> bool:
+def holds_program(cell: VextureCell) -> bool:
     return leaf_kind(cell) & HOLDS_PROGRAM != 0
 
 
 @kernel(allocates=False)
-def reads_mean(cell: Cell, share: float) -> bool:
+def reads_mean(cell: VextureCell, share: float) -> bool:
     is_whole = holds_program(cell) and share > NEARLY_WHOLE
     return is_whole or leaf_kind(cell) == IS_MEAN
 
 
 @kernel(allocates=False)
-def add_mean(texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, place: Vec2, area: float) -> Sum:
+def add_mean(
+    texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlanar, cell: VextureCell, place: Vec2, area: float
+) -> VextureSum:
     stored = texel(texels, means_at(planar, cell.quad))
     step = area * (PAINT_ONE / COVERAGE_ONE) if sum.done == 0 else 0.0
     if cell.is_quad:
@@ -90,14 +92,14 @@ def add_mean(texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cel
 
 
 @kernel(allocates=False)
-def region(place: Place, right: Vec2, up: Vec2) -> Region:
+def region(place: VexturePlace, right: Vec2, up: Vec2) -> VextureRegion:
     unit = 1.0 / float(1 << POSITION_BITS)
     point = ((place.point[0] + place.rest[0]) * unit, (place.point[1] + place.rest[1]) * unit)
-    return Region(point, (right[0] * unit, right[1] * unit), (up[0] * unit, up[1] * unit))
+    return VextureRegion(point, (right[0] * unit, right[1] * unit), (up[0] * unit, up[1] * unit))
 
 
 @kernel(allocates=False)
-def flat_look(texel: Texel, box: Box) -> Look:
+def flat_look(texel: Texel, box: VextureBox) -> VextureLook:
     p0, p3 = word(texel[0]), word(texel[3])
     r0, r3 = in_box(p0, box), in_box(p3, box)
     y0, y3 = clamp(r0[1], 0.0, 1.0), clamp(r3[1], 0.0, 1.0)
@@ -105,11 +107,11 @@ def flat_look(texel: Texel, box: Box) -> Look:
     right = max(r0[0], r3[0])
     filled += y0 - y3 if right <= 0.0 else 0.0
     left = min(r0[0], r3[0]) if right > 0.0 else 1.0
-    return Look(filled, False, left < 1.0 and y0 != y3)
+    return VextureLook(filled, False, left < 1.0 and y0 != y3)
 
 
 @kernel(allocates=False)
-def flat_filled_share(texel: Texel, look: Look, box: Box, has_moments: bool) -> Share:
+def flat_filled_share(texel: Texel, look: VextureLook, box: VextureBox, has_moments: bool) -> VextureShare:
     if has_moments:
         share = flat_ends_share(texel, look.crosses, box)
         if look.crosses:
@@ -125,8 +127,15 @@ def flat_filled_share(texel: Texel, look: Look, box: Box, has_moments: bool) -> 
 
 @kernel(allocates=False)
 def add_flat_leaf(
-    texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, box: Box, sides: Vec2, middle: Vec2
-) -> Sum:
+    texels: Texels,
+    is_linear: int,
+    sum: VextureSum,
+    planar: VexturePlanar,
+    cell: VextureCell,
+    box: VextureBox,
+    sides: Vec2,
+    middle: Vec2,
+) -> VextureSum:
     has_moments = holds_program(cell)
     whole = moved_share(whole_share(), sides, middle)
     sum = add_base(texels, is_linear, sum, planar, base_paint(texels, planar, cell), whole)
@@ -142,7 +151,15 @@ def add_flat_leaf(
 
 
 @kernel(allocates=False)
-def add_flat_cell(texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, box: Box, view: Flat) -> Sum:
+def add_flat_cell(
+    texels: Texels,
+    is_linear: int,
+    sum: VextureSum,
+    planar: VexturePlanar,
+    cell: VextureCell,
+    box: VextureBox,
+    view: VextureFlat,
+) -> VextureSum:
     low, size = box.low, box.size
     side = 2.0**-cell.bit
     if cell.is_quad or reads_mean(cell, min(size[0], size[1]) * side):
@@ -155,7 +172,7 @@ def add_flat_cell(texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell
 
 
 @kernel(allocates=False)
-def flat_color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: Vec2, view: Flat) -> Vec4:
+def flat_color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: Vec2, view: VextureFlat) -> Vec4:
     parts = planar(texels, root)
     there = place(base, offset, view.extent)
     here = region(there, (2.0 * view.extent[0], 0.0), (0.0, 2.0 * view.extent[1]))
@@ -196,7 +213,9 @@ def held_channel(value: float, most: float) -> float:
 
 
 @kernel(allocates=False)
-def filled_share(texel: Texel, look: Look, box: Box, frame: Frame, whole: Share, has_moments: bool) -> Share:
+def filled_share(
+    texel: Texel, look: VextureLook, box: VextureBox, frame: VextureFrame, whole: VextureShare, has_moments: bool
+) -> VextureShare:
     found = plus_share(area_share(0.0), whole, look.filled)
     if look.crosses:
         one = piece(texel, box)
@@ -209,8 +228,15 @@ def filled_share(texel: Texel, look: Look, box: Box, frame: Frame, whole: Share,
 
 @kernel(allocates=False)
 def add_leaf(
-    texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, box: Box, frame: Frame, whole: Share
-) -> Sum:
+    texels: Texels,
+    is_linear: int,
+    sum: VextureSum,
+    planar: VexturePlanar,
+    cell: VextureCell,
+    box: VextureBox,
+    frame: VextureFrame,
+    whole: VextureShare,
+) -> VextureSum:
     has_moments = holds_program(cell)
     sum = add_base(texels, is_linear, sum, planar, base_paint(texels, planar, cell), whole)
     pieces = leaf(cell)
@@ -225,7 +251,15 @@ def add_leaf(
 
 
 @kernel(allocates=False)
-def add_cell(texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, box: Box, frame: Frame) -> Sum:
+def add_cell(
+    texels: Texels,
+    is_linear: int,
+    sum: VextureSum,
+    planar: VexturePlanar,
+    cell: VextureCell,
+    box: VextureBox,
+    frame: VextureFrame,
+) -> VextureSum:
     low, size, extent = box.low, box.size, frame.extent
     whole = whole_share()
     if low[0] > -extent[0] or low[1] > -extent[1] or low[0] + size[0] < extent[0] or low[1] + size[1] < extent[1]:

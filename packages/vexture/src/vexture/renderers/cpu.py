@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.base.layout import WINDING_OFFSET
 from vexture.renderers.cells import (
-    Cell,
-    Place,
-    Square,
     Texel,
     Texels,
     Vec2,
+    VextureCell,
+    VexturePlace,
+    VextureSquare,
     Whole2,
     clamp,
     count,
@@ -44,10 +44,10 @@ from vexture.renderers.method import (
     NO_CELL,
 )
 from vexture.renderers.piece import (
-    Box,
-    Ends,
-    Frame,
-    Piece,
+    VextureBox,
+    VextureEnds,
+    VextureFrame,
+    VexturePiece,
     at,
     beside,
     beside_sloped,
@@ -73,7 +73,7 @@ from vexture.renderers.view import Size, ViewLike
 __all__ = ["render_cpu"]
 
 
-class Corner(NamedTuple):
+class VextureCorner(NamedTuple):
     """A box as a parallelogram in the footprint's frame."""
 
     origin: Vec2
@@ -81,10 +81,10 @@ class Corner(NamedTuple):
     y: Vec2
 
 
-class Path(NamedTuple):
+class VexturePath(NamedTuple):
     """The way along a box's sides: left, right, and from the piece's ends to the right side."""
 
-    corner: Corner
+    corner: VextureCorner
     l0: Vec2
     l1: Vec2
     r0: Vec2
@@ -93,8 +93,8 @@ class Path(NamedTuple):
     e1: Vec2
 
 
-class Look(NamedTuple):
-    """What the ends of a piece say of the box."""
+class VextureLook(NamedTuple):
+    """Result of a look at the ends of a piece: a filled share of the box, and whether more must be read."""
 
     filled: float
     turns: bool
@@ -105,22 +105,22 @@ class Look(NamedTuple):
 
 
 @kernel(allocates=False)
-def corner(falls: tuple[bool, bool], box: Box, frame: Frame) -> Corner:
+def corner(falls: tuple[bool, bool], box: VextureBox, frame: VextureFrame) -> VextureCorner:
     low, size, right, up = box.low, box.size, frame.right, frame.up
     x = -size[0] if falls[0] else size[0]
     y = -size[1] if falls[1] else size[1]
     start = (low[0] + size[0] if falls[0] else low[0], low[1] + size[1] if falls[1] else low[1])
-    return Corner(into_frame(frame, start), (right[0] * x, up[0] * x), (right[1] * y, up[1] * y))
+    return VextureCorner(into_frame(frame, start), (right[0] * x, up[0] * x), (right[1] * y, up[1] * y))
 
 
 @kernel(allocates=False)
-def from_corner(corner: Corner, x: float, y: float) -> Vec2:
+def from_corner(corner: VextureCorner, x: float, y: float) -> Vec2:
     origin, along, above = corner.origin, corner.x, corner.y
     return origin[0] + along[0] * x + above[0] * y, origin[1] + along[1] * x + above[1] * y
 
 
 @kernel(allocates=False)
-def piece_parts(piece: Piece, ends: Ends, corner: Corner) -> int:
+def piece_parts(piece: VexturePiece, ends: VextureEnds, corner: VextureCorner) -> int:
     """Number of parts that the bend of a piece requires."""
     along, above = corner.x, corner.y
     p = from_corner(corner, ends.enter[0], ends.enter[1])
@@ -135,7 +135,7 @@ def piece_parts(piece: Piece, ends: Ends, corner: Corner) -> int:
 
 
 @kernel(allocates=False)
-def curve_area(piece: Piece, ends: Ends, corner: Corner) -> float:
+def curve_area(piece: VexturePiece, ends: VextureEnds, corner: VextureCorner) -> float:
     along, above = corner.x, corner.y
     parts = piece_parts(piece, ends, corner)
     step_t = (ends.end - ends.start) / parts
@@ -159,7 +159,9 @@ def curve_area(piece: Piece, ends: Ends, corner: Corner) -> float:
 
 
 @kernel(allocates=False)
-def path_of(texel: Texel, turns: bool, piece: Piece, ends: Ends, box: Box, frame: Frame) -> Path:
+def path_of(
+    texel: Texel, turns: bool, piece: VexturePiece, ends: VextureEnds, box: VextureBox, frame: VextureFrame
+) -> VexturePath:
     """The path along the box's sides that closes a piece."""
     there = corner(piece.falls, box, frame)
     falls = piece.falls[0]
@@ -177,11 +179,13 @@ def path_of(texel: Texel, turns: bool, piece: Piece, ends: Ends, box: Box, frame
     l0, l1 = from_corner(there, left, left_start), from_corner(there, left, left_end)
     r0, r1 = from_corner(there, right, right_start), from_corner(there, right, right_end)
     e0, e1 = from_corner(there, ends.enter[0], right_end), from_corner(there, ends.leave[0], right_start)
-    return Path(there, l0, l1, r0, r1, e0, e1)
+    return VexturePath(there, l0, l1, r0, r1, e0, e1)
 
 
 @kernel(allocates=False)
-def piece_area(texel: Texel, turns: bool, piece: Piece, ends: Ends, box: Box, frame: Frame) -> float:
+def piece_area(
+    texel: Texel, turns: bool, piece: VexturePiece, ends: VextureEnds, box: VextureBox, frame: VextureFrame
+) -> float:
     path = path_of(texel, turns, piece, ends, box, frame)
     level = slopes(frame.right[0], frame.up[0])
     upright = slopes(frame.right[1], frame.up[1])
@@ -191,7 +195,7 @@ def piece_area(texel: Texel, turns: bool, piece: Piece, ends: Ends, box: Box, fr
 
 
 @kernel(allocates=False)
-def cut_place(cell: Cell, box: Box, frame: Frame) -> Vec2:
+def cut_place(cell: VextureCell, box: VextureBox, frame: VextureFrame) -> Vec2:
     right, up, low, size = frame.right, frame.up, box.low, box.size
     middle = (low[0] + 0.5 * size[0], low[1] + 0.5 * size[1])
     along, above = into_frame(frame, middle)
@@ -219,7 +223,7 @@ def above_ends(p0: Vec2, p3: Vec2, y0: float, y3: float) -> float:
 
 
 @kernel(allocates=False)
-def first_look(texel: Texel, box: Box) -> Look:
+def first_look(texel: Texel, box: VextureBox) -> VextureLook:
     p0, p3 = word(texel[0]), word(texel[3])
     r0, r3 = in_box(p0, box), in_box(p3, box)
     y0, y3 = clamp(r0[1], 0.0, 1.0), clamp(r3[1], 0.0, 1.0)
@@ -235,11 +239,11 @@ def first_look(texel: Texel, box: Box) -> Look:
         cancels = p0[0] == p3[0]
         filled = 0.0 if turns and not cancels else above
         crosses = (turns or crosses) and not cancels
-    return Look(filled if crosses else filled + passed, turns, crosses)
+    return VextureLook(filled if crosses else filled + passed, turns, crosses)
 
 
 @kernel(allocates=False)
-def cell_area(texels: Texels, cell: Cell, box: Box, frame: Frame) -> float:
+def cell_area(texels: Texels, cell: VextureCell, box: VextureBox, frame: VextureFrame) -> float:
     low, size, extent = box.low, box.size, frame.extent
     whole = 1.0
     if low[0] > -extent[0] or low[1] > -extent[1] or low[0] + size[0] < extent[0] or low[1] + size[1] < extent[1]:
@@ -261,7 +265,7 @@ def cell_area(texels: Texels, cell: Cell, box: Box, frame: Frame) -> float:
 
 
 @kernel(allocates=False)
-def is_beside(square: Square, place: Place, frame: Frame) -> bool:
+def is_beside(square: VextureSquare, place: VexturePlace, frame: VextureFrame) -> bool:
     side = 1 << square.bit
     right, up = frame.right, frame.up
     x = float((square.position[0] & -side) - place.point[0]) - place.rest[0] + 0.5 * side

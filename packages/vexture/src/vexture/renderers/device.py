@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vexture.base.errors import DeviceError, LimitError
 from vexture.renderers.shader import vertex_source
 
-__all__ = ["ONE_AT_A_TIME", "VERSION", "compiled", "context", "draw", "upload"]
+__all__ = ["ONE_AT_A_TIME", "VERSION", "compile_shader", "context", "draw", "upload"]
 
 VERSION: Final = "330"
 
@@ -42,7 +42,7 @@ def context() -> Any:
     return made
 
 
-def compiled(fragment_source: str) -> Any:
+def compile_shader(fragment_source: str) -> Any:
     """Compile a fragment shader with a triangle that covers the image. Raises `DeviceError` on failure."""
     gl = context()
     try:

@@ -18,7 +18,7 @@ from vexture.base.errors import ParameterError
 from vexture.base.kernels import kernel
 from vexture.base.tolerance import FLATNESS, SCANLINE
 from vexture.drawing.drawing import Drawing, FillRule
-from vexture.renderers.faces import FLAT, RUN, Faces, Stack, find_face, forget
+from vexture.renderers.faces import FLAT, RUN, PathStack, SweepFaces, find_face, forget
 from vexture.renderers.flatten import Chords, find_chords
 from vexture.renderers.regions import SIDE, Regions, add_region, end_row
 from vexture.renderers.slabs import Sweep, add_edge, cross, next_slab
@@ -70,9 +70,9 @@ def render_exact_colours(
     image = np.zeros((height, width, 4), np.float32)
     chords = chords_of(drawing, (width, height), view, flatness)
     if len(chords.lines):
-        stack = Stack.of(drawing, view_matrix(view, (width, height)))
+        stack = PathStack.of_drawing(drawing, view_matrix(view, (width, height)))
         regions = Regions.between(chords.lines if stack.ramps.stops.size else chords.lines[:0], width)
-        sweep, faces = Sweep.over(chords), Faces.of(stack)
+        sweep, faces = Sweep.over(chords), SweepFaces.at_start(stack)
         for rows in bands(height, drawing.name):
             colour_rows(sweep, chords.owners, stack, faces, regions, rows, image)
     return image
@@ -145,8 +145,8 @@ def cover_slab(
 def colour_rows(
     sweep: Sweep,
     owners: NDArray[np.int32],
-    stack: Stack,
-    faces: Faces,
+    stack: PathStack,
+    faces: SweepFaces,
     regions: Regions,
     rows: tuple[int, int],
     image: NDArray[np.float32],
@@ -175,8 +175,8 @@ def colour_slab(
     sweep: Sweep,
     owners: NDArray[np.int32],
     heights: tuple[float, float],
-    stack: Stack,
-    faces: Faces,
+    stack: PathStack,
+    faces: SweepFaces,
     regions: Regions,
     change: NDArray[np.float64],
 ) -> None:

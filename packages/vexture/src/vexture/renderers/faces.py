@@ -19,7 +19,7 @@ from vexture.drawing.group import Blend, Mask
 from vexture.renderers.blend import lay
 from vexture.renderers.ramps import Ramps, shade
 
-__all__ = ["FLAT", "MEMBERS", "RUN", "Faces", "Stack", "composite", "find_face", "forget"]
+__all__ = ["FLAT", "MEMBERS", "RUN", "PathStack", "SweepFaces", "composite", "find_face", "forget"]
 
 KEPT: Final = 2**16
 """Faces that are kept, a power of two; 3.7 MB."""
@@ -34,7 +34,7 @@ FLAT: Final = -1
 """Start of a face without gradients."""
 
 
-class Stack(NamedTuple):
+class PathStack(NamedTuple):
     """The paths of a drawing from the lowest up, as arrays, and the groups around them."""
 
     evenodd: NDArray[np.bool_]  # (paths,)
@@ -51,7 +51,7 @@ class Stack(NamedTuple):
     ramps: Ramps
 
     @classmethod
-    def of(cls, drawing: Drawing, view: NDArray[np.float64]) -> "Stack":
+    def of_drawing(cls, drawing: Drawing, view: NDArray[np.float64]) -> "PathStack":
         """The stack of a drawing in an image; the view is a (3, 3) matrix from pixel coordinates to the unit square."""
         paths, groups, bits = drawing.paths, drawing.groups, np.iinfo(np.int64)
         paints = np.array([(*path.paint.color, 1.0) for path in paths], np.float64)
@@ -71,12 +71,12 @@ class Stack(NamedTuple):
             np.array(
                 [sum(mask.outer == place for mask in groups if mask.mask) for place in range(len(groups))], np.int64
             ),
-            Ramps.of([gradient for gradient in gradients if gradient is not None], view),
+            Ramps.of_gradients([gradient for gradient in gradients if gradient is not None], view),
         )
 
 
-class Faces(NamedTuple):
-    """Where a sweep is, from left to right, and the faces that it met."""
+class SweepFaces(NamedTuple):
+    """State of a sweep from left to right, and the faces that it has met."""
 
     winding: NDArray[np.int64]  # (paths,)
     inside: NDArray[np.int64]  # (paths/RUN,): how many of each run
@@ -92,8 +92,8 @@ class Faces(NamedTuple):
     missing: NDArray[np.int64]  # (groups,): its masks of which nothing was met
 
     @classmethod
-    def of(cls, stack: Stack) -> "Faces":
-        """None so far."""
+    def at_start(cls, stack: PathStack) -> "SweepFaces":
+        """Start a sweep, with no face so far."""
         paths = len(stack.names)
         return cls(
             np.zeros(paths, np.int64),
@@ -112,7 +112,7 @@ class Faces(NamedTuple):
 
 
 @kernel(allocates=False)
-def find_face(name: int, stack: Stack, faces: Faces) -> int:
+def find_face(name: int, stack: PathStack, faces: SweepFaces) -> int:
     """Place of the face of all paths that are inside, which is composited unless it is kept there.
 
     Members for which there is no more room are written behind the others, until the next such face.
@@ -138,7 +138,7 @@ def find_face(name: int, stack: Stack, faces: Faces) -> int:
 
 
 @kernel(allocates=False)
-def forget(faces: Faces) -> None:
+def forget(faces: SweepFaces) -> None:
     """Forget all faces, if more than half of the members are used."""
     if faces.used[0] > MEMBERS // 2:
         faces.names[:] = 0
@@ -148,7 +148,7 @@ def forget(faces: Faces) -> None:
 
 
 @kernel(allocates=False)
-def gather(stack: Stack, faces: Faces, start: int) -> int:
+def gather(stack: PathStack, faces: SweepFaces, start: int) -> int:
     """Write the paths that are inside among the members, from the highest that covers all; return where they end."""
     end = start
     for run in range(len(faces.inside)):
@@ -165,7 +165,7 @@ def gather(stack: Stack, faces: Faces, start: int) -> int:
 
 @kernel(allocates=False)
 def composite(
-    stack: Stack, faces: Faces, start: int, end: int, x: float, y: float, colour: NDArray[np.float64]
+    stack: PathStack, faces: SweepFaces, start: int, end: int, x: float, y: float, colour: NDArray[np.float64]
 ) -> None:
     """Write the colour of a face's members, from the lowest up, at a point of the image."""
     levels, paint = faces.levels, faces.levels[len(faces.levels) - 1]
@@ -185,24 +185,24 @@ def composite(
 
 
 @kernel(allocates=False)
-def change_group(inner: int, wanted: int, stack: Stack, faces: Faces) -> None:
+def change_group(inner: int, target: int, stack: PathStack, faces: SweepFaces) -> None:
     """Go from one group to another: end some, and begin others with nothing.
 
     A group stands after the one around it, so the later of two groups is not around the other.
     """
-    while inner != wanted:
-        if inner > wanted:
+    while inner != target:
+        if inner > target:
             end_group(inner, stack, faces)
             inner = stack.outer[inner]
         else:
-            faces.levels[wanted + 1, :] = 0.0
-            faces.shown[wanted] = 1.0
-            faces.missing[wanted] = stack.masked[wanted]
-            wanted = stack.outer[wanted]
+            faces.levels[target + 1, :] = 0.0
+            faces.shown[target] = 1.0
+            faces.missing[target] = stack.masked[target]
+            target = stack.outer[target]
 
 
 @kernel(allocates=False)
-def end_group(group: int, stack: Stack, faces: Faces) -> None:
+def end_group(group: int, stack: PathStack, faces: SweepFaces) -> None:
     """Lay a group on the one around it, or let it mask that. Of a mask where nothing is, nothing is left to be seen."""
     outer, colour = stack.outer[group], faces.levels[group + 1]
     left = faces.shown[group] * stack.opacities[group] if faces.missing[group] == 0 else 0.0

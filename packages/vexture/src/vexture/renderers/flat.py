@@ -5,9 +5,9 @@ from typing import NamedTuple
 from vexture.base.kernels import kernel
 from vexture.base.layout import WINDING_OFFSET
 from vexture.renderers.cells import (
-    Cell,
     Texels,
     Vec2,
+    VextureCell,
     Whole2,
     clamp,
     count,
@@ -23,13 +23,25 @@ from vexture.renderers.cells import (
     winding_code,
 )
 from vexture.renderers.method import NO_CELL, POSITION_BITS, SMALLEST_PIXEL
-from vexture.renderers.piece import Box, Ends, Piece, box, bulge, ends, in_box, mean, piece, slope, word
+from vexture.renderers.piece import (
+    VextureBox,
+    VextureEnds,
+    VexturePiece,
+    box,
+    bulge,
+    ends,
+    in_box,
+    mean,
+    piece,
+    slope,
+    word,
+)
 
-__all__ = ["Flat", "flat", "flat_coverage", "flat_piece_area"]
+__all__ = ["VextureFlat", "flat", "flat_coverage", "flat_piece_area"]
 
 
-class Flat(NamedTuple):
-    """What the pixels of a flat view have in common."""
+class VextureFlat(NamedTuple):
+    """Values that all pixels of a flat view share."""
 
     extent: Vec2
     inverse: float
@@ -37,18 +49,18 @@ class Flat(NamedTuple):
 
 
 @kernel(allocates=False)
-def flat(dx: Vec2, dy: Vec2) -> Flat:
-    """What the pixels of a view have in common, from the steps to the next ones."""
+def flat(dx: Vec2, dy: Vec2) -> VextureFlat:
+    """Compute the values that all pixels of a view share, from the steps to the next pixels."""
     one = float(1 << POSITION_BITS)
     extent_x = max(0.5 * (abs(dx[0]) + abs(dy[0])), 0.5 * SMALLEST_PIXEL) * one
     extent_y = max(0.5 * (abs(dx[1]) + abs(dy[1])), 0.5 * SMALLEST_PIXEL) * one
     area = 4.0 * extent_x * extent_y
     longer = 2.0 * max(extent_x, extent_y)
-    return Flat((extent_x, extent_y), 1.0 / area, finest_bit(area, longer * longer))
+    return VextureFlat((extent_x, extent_y), 1.0 / area, finest_bit(area, longer * longer))
 
 
 @kernel(allocates=False)
-def flat_piece_area(piece: Piece, ends: Ends) -> float:
+def flat_piece_area(piece: VexturePiece, ends: VextureEnds) -> float:
     """Area of the box on the right of a piece, negative for one that rises."""
     enter, leave = ends.enter, ends.leave
     chord = (leave[0] - enter[0], leave[1] - enter[1])
@@ -61,7 +73,7 @@ def flat_piece_area(piece: Piece, ends: Ends) -> float:
 
 
 @kernel(allocates=False)
-def flat_cell_area(texels: Texels, cell: Cell, box: Box) -> float:
+def flat_cell_area(texels: Texels, cell: VextureCell, box: VextureBox) -> float:
     if cell.is_quad:
         side = 2.0**-cell.bit
         x = (box.way[0] + (box.part[0] + 0.5) * box.size[0]) * side
@@ -87,7 +99,7 @@ def flat_cell_area(texels: Texels, cell: Cell, box: Box) -> float:
 
 
 @kernel(allocates=False)
-def flat_coverage(texels: Texels, root: int, base: Whole2, offset: Vec2, view: Flat) -> float:
+def flat_coverage(texels: Texels, root: int, base: Whole2, offset: Vec2, view: VextureFlat) -> float:
     """Coverage of a pixel."""
     there = place(base, offset, view.extent)
     square = first_square(there)

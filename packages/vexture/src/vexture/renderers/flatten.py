@@ -42,7 +42,7 @@ class Chords(NamedTuple):
         return cls(np.empty((count, 4)), np.empty(count, np.int32), np.zeros(1, np.int64))
 
 
-class Frame(NamedTuple):
+class ImageFrame(NamedTuple):
     """The part of homogeneous pixel coordinates (X, Y, W) that the image shows, and the flatness.
 
     Points with W <= near are out of sight. They are moved along (lift_x, lift_y, 1) onto the line W = near, which does
@@ -85,7 +85,7 @@ def homogeneous(drawing: Drawing, view: NDArray[np.float64]) -> tuple[NDArray[np
     return cubics, np.repeat(np.arange(len(counts), dtype=np.int32), counts)
 
 
-def frame_of(size: tuple[int, int], view: NDArray[np.float64], flatness: float) -> Frame:
+def frame_of(size: tuple[int, int], view: NDArray[np.float64], flatness: float) -> ImageFrame:
     """Frame of an image; `near` is half of the least W of its pixels, and W is 1/(third row of the view)."""
     width, height = size
     nearest = 1.0 / (view[2] @ ((0, width, 0, width), (0, 0, height, height), (1, 1, 1, 1))).max()
@@ -93,11 +93,11 @@ def frame_of(size: tuple[int, int], view: NDArray[np.float64], flatness: float) 
     slope = to_pixel[2, :2]  # of W over the unit square
     steepness = slope @ slope
     lift_x, lift_y = to_pixel[:2, :2] @ slope / steepness if steepness > 0.0 else (0.0, 0.0)
-    return Frame(float(width), float(height), float(0.5 * nearest), float(lift_x), float(lift_y), flatness)
+    return ImageFrame(float(width), float(height), float(0.5 * nearest), float(lift_x), float(lift_y), flatness)
 
 
 @kernel
-def flatten(cubics: NDArray[np.float64], paths: NDArray[np.int32], frame: Frame, chords: Chords) -> None:
+def flatten(cubics: NDArray[np.float64], paths: NDArray[np.int32], frame: ImageFrame, chords: Chords) -> None:
     """Add the chords of all cubics."""
     stack = np.empty((HALVINGS, 4, 3))
     for i in range(len(cubics)):
@@ -116,7 +116,7 @@ def flatten(cubics: NDArray[np.float64], paths: NDArray[np.int32], frame: Frame,
 
 
 @kernel
-def chords_needed(curve: NDArray[np.float64], frame: Frame) -> float:
+def chords_needed(curve: NDArray[np.float64], frame: ImageFrame) -> float:
     """Number of chords for a cubic; 1 if it is out of sight.
 
     A chord over 1/n of t deviates from the curve by at most max|B''|/(8 n^2), and |B''| is at most six times the larger
@@ -153,7 +153,7 @@ def halve(curve: NDArray[np.float64], first: NDArray[np.float64]) -> None:
 
 
 @kernel
-def add_curve(curve: NDArray[np.float64], pieces: int, owner: int, frame: Frame, chords: Chords) -> None:
+def add_curve(curve: NDArray[np.float64], pieces: int, owner: int, frame: ImageFrame, chords: Chords) -> None:
     """Add a cubic as chords of equal steps in t, split where they pass out of sight."""
     x0, y0, w0 = curve[0, 0], curve[0, 1], curve[0, 2]
     for k in range(1, pieces + 1):
@@ -179,8 +179,8 @@ def snap(y: float) -> float:
 
 
 @kernel
-def to_screen(x: float, y: float, w: float, frame: Frame) -> tuple[float, float]:
-    """Pixel coordinates of a homogeneous point; a point out of sight is moved first (see `Frame`)."""
+def to_screen(x: float, y: float, w: float, frame: ImageFrame) -> tuple[float, float]:
+    """Pixel coordinates of a homogeneous point; a point out of sight is moved first (see `ImageFrame`)."""
     hidden = max(frame.near - w, 0.0)
     w = max(w, frame.near)
     return (x + hidden * frame.lift_x) / w, snap((y + hidden * frame.lift_y) / w)
@@ -188,7 +188,7 @@ def to_screen(x: float, y: float, w: float, frame: Frame) -> tuple[float, float]
 
 @kernel
 def add_line(
-    x0: float, y0: float, w0: float, x1: float, y1: float, w1: float, owner: int, frame: Frame, chords: Chords
+    x0: float, y0: float, w0: float, x1: float, y1: float, w1: float, owner: int, frame: ImageFrame, chords: Chords
 ) -> None:
     """Add the part of a line that the image needs: nothing right of the image, only the heights left of it."""
     x0, y0 = to_screen(x0, y0, w0, frame)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.layout import MAP_HEAD
-from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compiled, context, draw, upload
+from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compile_shader, context, draw, upload
 from vexture.renderers.shader import color_source, view_source
 from vexture.renderers.uniforms import HasTexels, Uniforms, uniforms_of
 from vexture.renderers.view import Size, ViewLike
@@ -18,13 +18,13 @@ __all__ = ["render_gpu", "render_gpu_colours"]
 @cache
 def program(is_flat: bool) -> Any:
     """Compiled shader for all packed textures, in flat or any views, with its triangle."""
-    return compiled(view_source(VERSION, is_flat))
+    return compile_shader(view_source(VERSION, is_flat))
 
 
 @cache
 def color_program(is_flat: bool, is_linear: bool, has_gradients: bool) -> Any:
     """The same for planar maps, averaged in linear light or in sRGB."""
-    return compiled(color_source(VERSION, is_flat, is_linear, has_gradients))
+    return compile_shader(color_source(VERSION, is_flat, is_linear, has_gradients))
 
 
 def has_gradients(texture: HasTexels, quad: int) -> bool:

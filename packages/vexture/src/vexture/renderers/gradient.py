@@ -47,7 +47,7 @@ from vexture.renderers.method import (
     SHORTEST_RAMP,
 )
 
-__all__ = ["Region", "Vec3", "Vec4", "halves", "plus", "program", "times"]
+__all__ = ["Vec3", "Vec4", "VextureRegion", "halves", "plus", "program", "times"]
 
 Vec3 = tuple[float, float, float]
 Vec4 = tuple[float, float, float, float]
@@ -57,7 +57,7 @@ PLUS_LIGHTER, LUMINANCE = int(Blend.PLUS_LIGHTER), int(Mask.LUMINANCE)
 PAD, REFLECT = int(Spread.PAD), int(Spread.REFLECT)
 
 
-class Region(NamedTuple):
+class VextureRegion(NamedTuple):
     """The part of a footprint in a cell, in the unit square: its middle and its sides."""
 
     point: Vec2
@@ -65,7 +65,7 @@ class Region(NamedTuple):
     up: Vec2
 
 
-class Ramp(NamedTuple):
+class VextureRamp(NamedTuple):
     """A place on a ramp, how it changes along x and y, whether there is one, and parts in which it is straight."""
 
     t: float
@@ -76,13 +76,13 @@ class Ramp(NamedTuple):
 
 @kernel(allocates=False)
 def plus(a: Vec4, b: Vec4, share: float) -> Vec4:
-    """What GLSL writes as ``a + share * b``."""
+    """Return ``a + share * b`` of GLSL."""
     return a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2], a[3] + share * b[3]
 
 
 @kernel(allocates=False)
 def times(a: Vec4, share: float) -> Vec4:
-    """What GLSL writes as ``share * a``."""
+    """Return ``share * a`` of GLSL."""
     return a[0] * share, a[1] * share, a[2] * share, a[3] * share
 
 
@@ -95,7 +95,7 @@ def halves(words: Whole2) -> Vec4:
 
 @kernel(allocates=False)
 def as_float(bits: int) -> float:
-    """What GLSL's ``uintBitsToFloat`` gives, by IEEE 754: float32 is exact in float64."""
+    """Mirror GLSL's ``uintBitsToFloat``, by IEEE 754: float32 is exact in float64."""
     size, part = (bits >> 23) & 255, bits & 0x7FFFFF
     if size == 255:
         value = math.nan if part else math.inf
@@ -152,36 +152,36 @@ def straight_color(color: Vec4, is_whole: bool) -> Vec3:
 
 @kernel(allocates=False)
 def dot(row: Vec3, point: Vec2) -> float:
-    """What GLSL writes as ``dot(row.xy, point)``."""
+    """Return ``dot(row.xy, point)`` of GLSL."""
     return row[0] * point[0] + row[1] * point[1]
 
 
 @kernel(allocates=False)
-def spans(way: Vec2, region: Region) -> Vec2:
+def spans(way: Vec2, region: VextureRegion) -> Vec2:
     row = (way[0], way[1], 0.0)
     return abs(dot(row, region.right)), abs(dot(row, region.up))
 
 
 @kernel(allocates=False)
 def length(way: Vec2) -> float:
-    """What GLSL has built in."""
+    """Mirror the function that GLSL has built in."""
     return math.hypot(way[0], way[1])
 
 
 @kernel(allocates=False)
 def along(slope: Vec2, across: Vec3, up: Vec3) -> Vec2:
-    """What GLSL writes as ``slope.x * across.xy + slope.y * up.xy``."""
+    """Return ``slope.x * across.xy + slope.y * up.xy`` of GLSL."""
     return slope[0] * across[0] + slope[1] * up[0], slope[0] * across[1] + slope[1] * up[1]
 
 
 @kernel(allocates=False)
 def larger(a: Vec2, b: Vec2) -> Vec2:
-    """What GLSL writes as ``max(a, b)``."""
+    """Return ``max(a, b)`` of GLSL."""
     return max(a[0], b[0]), max(a[1], b[1])
 
 
 @kernel(allocates=False)
-def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
+def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: VextureRegion) -> VextureRamp:
     qx = dot(across, region.point) + across[2] - focus[0]
     qy = dot(up, region.point) + up[2]
     sides = larger(spans((across[0], across[1]), region), spans((up[0], up[1]), region))
@@ -227,12 +227,12 @@ def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     parts = larger(parts, (beside[0] / least_bend, beside[1] / least_bend))
     inverse = 1.0 / down if down != 0.0 else 0.0
     way = along((inverse * e[0], inverse * e[1]), across, up)
-    return Ramp(t + inverse * bend, way, exists, parts)
+    return VextureRamp(t + inverse * bend, way, exists, parts)
 
 
 @kernel(allocates=False)
-def premultiplied(color: Vec4, weight: float) -> Vec4:
-    """What GLSL writes as ``weight * vec4(color.rgb * color.a, color.a)``."""
+def premultiply(color: Vec4, weight: float) -> Vec4:
+    """Return ``weight * vec4(color.rgb * color.a, color.a)`` of GLSL."""
     alpha = weight * color[3]
     return color[0] * alpha, color[1] * alpha, color[2] * alpha, alpha
 
@@ -250,8 +250,8 @@ def add_stretch(total: Vec4, color: Vec4, slope: Vec4, stretch: Vec2, edges: Vec
             if k == 2:
                 w0, w2 = (last - low) / (last - first), (last - high) / (last - first)
             c0, c2 = plus(color, slope, low - stretch[0]), plus(color, slope, high - stretch[0])
-            c1 = premultiplied(times(plus(c0, c2, 1.0), 0.5), 2.0 * (w0 + w2))
-            both = plus(premultiplied(c0, w0), premultiplied(c2, w2), 1.0)
+            c1 = premultiply(times(plus(c0, c2, 1.0), 0.5), 2.0 * (w0 + w2))
+            both = plus(premultiply(c0, w0), premultiply(c2, w2), 1.0)
             total = plus(total, plus(both, c1, 1.0), (high - low) / 6.0)
     return total
 
@@ -318,10 +318,10 @@ def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: floa
 
 
 @kernel(allocates=False)
-def gradient_ramp(texels: Texels, at: int, record: Texel, region: Region) -> Ramp:
+def gradient_ramp(texels: Texels, at: int, record: Texel, region: VextureRegion) -> VextureRamp:
     kind, across, focus = record[3] >> KIND_SHIFT, as_floats(record), (0.0, 0.0)
     if kind == KIND_LINEAR:
-        return Ramp(dot(across, region.point) + across[2], (across[0], across[1]), True, (0.0, 0.0))
+        return VextureRamp(dot(across, region.point) + across[2], (across[0], across[1]), True, (0.0, 0.0))
     if kind == KIND_FOCAL:
         circle = as_floats(texel(texels, at + 2))
         focus = (circle[0], circle[1])
@@ -329,7 +329,7 @@ def gradient_ramp(texels: Texels, at: int, record: Texel, region: Region) -> Ram
 
 
 @kernel(allocates=False)
-def gradient(texels: Texels, at: int, record: Texel, number: int, region: Region) -> Vec4:
+def gradient(texels: Texels, at: int, record: Texel, number: int, region: VextureRegion) -> Vec4:
     found = gradient_ramp(texels, at, record, region)
     stops = at + (record[3] & ((1 << STOP_BITS) - 1))
     spread = (record[3] >> (STOP_BITS + STOP_COUNT_BITS)) & 3
@@ -347,7 +347,7 @@ def ended(kept: Vec4, color: Vec4, how: int) -> Vec4:
 
 
 @kernel(allocates=False)
-def program_part(texels: Texels, at: int, end: int, region: Region) -> Vec4:
+def program_part(texels: Texels, at: int, end: int, region: VextureRegion) -> Vec4:
     nothing = (0.0, 0.0, 0.0, 0.0)
     color, kept, kept_before, kept_first = nothing, nothing, nothing, nothing
     left = MOST_STOPS
@@ -370,7 +370,7 @@ def program_part(texels: Texels, at: int, end: int, region: Region) -> Vec4:
 
 
 @kernel(allocates=False)
-def program_parts(texels: Texels, at: int, end: int, region: Region, area: float) -> Whole2:
+def program_parts(texels: Texels, at: int, end: int, region: VextureRegion, area: float) -> Whole2:
     bends, ramps, factors, for_each = (0.0, 0.0), (0.0, 0.0), 0, float(PRODUCT_PARTS)
     for k in range(at, end):
         found = texel(texels, k)
@@ -387,7 +387,7 @@ def program_parts(texels: Texels, at: int, end: int, region: Region, area: float
 
 
 @kernel(allocates=False)
-def program(texels: Texels, at: int, count: int, region: Region, area: float) -> Vec4:
+def program(texels: Texels, at: int, count: int, region: VextureRegion, area: float) -> Vec4:
     """Premultiplied colour of a program over a region that is so much of a pixel, in steps of a paint."""
     end = at + min(count, MOST_PROGRAM)
     across, high = program_parts(texels, at, end, region, area)
@@ -396,5 +396,5 @@ def program(texels: Texels, at: int, count: int, region: Region, area: float) ->
     for k in range(across * high):
         x, y = k % across + 0.5 - 0.5 * across, k // across + 0.5 - 0.5 * high
         point = (region.point[0] + x * right[0] + y * up[0], region.point[1] + x * right[1] + y * up[1])
-        total = plus(total, program_part(texels, at, end, Region(point, right, up)), 1.0)
+        total = plus(total, program_part(texels, at, end, VextureRegion(point, right, up)), 1.0)
     return times(total, PAINT_ONE / (across * high))

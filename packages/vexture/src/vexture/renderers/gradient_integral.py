@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
 from vexture.base.tolerance import STEADY
-from vexture.renderers.faces import Faces, Stack, composite
+from vexture.renderers.faces import PathStack, SweepFaces, composite
 from vexture.renderers.ramps import MOST_CUTS, Place, add_cut, cut_line, cut_turns
 
-__all__ = ["Cell", "Room", "add_cell"]
+__all__ = ["Room", "SlabCell", "add_cell"]
 
 MOST_HALVINGS: Final = (64, 256)
 """Halvings in a cell, and in a line of it; then what is left counts as it is."""
@@ -32,8 +32,8 @@ CELL, ROWS, ROWS_BEFORE, LINE, POINTS, POINTS_BEFORE, POINT = range(7)
 """Sums of `Room`: a whole cell; rows in a part of it, and those before; a line; points in a part of it, likewise."""
 
 
-class Cell(NamedTuple):
-    """What lies in one column of the image between two edges from the top to the bottom of a slab."""
+class SlabCell(NamedTuple):
+    """Part of one column of the image between two edges that go from the top to the bottom of a slab."""
 
     start: int  # of the face's members
     end: int
@@ -58,7 +58,7 @@ class Room(NamedTuple):
 
 
 @kernel(allocates=False)
-def add_cell(cell: Cell, stack: Stack, faces: Faces, room: Room, change: NDArray[np.float64]) -> None:
+def add_cell(cell: SlabCell, stack: PathStack, faces: SweepFaces, room: Room, change: NDArray[np.float64]) -> None:
     """Add the integral over a cell."""
     total, rows = room.sums[CELL], room.sums[ROWS]
     total[:] = 0.0
@@ -80,7 +80,7 @@ def add_cell(cell: Cell, stack: Stack, faces: Faces, room: Room, change: NDArray
 
 
 @kernel(allocates=False)
-def cut_cell(cell: Cell, stack: Stack, faces: Faces, cuts: NDArray[np.float64]) -> int:
+def cut_cell(cell: SlabCell, stack: PathStack, faces: SweepFaces, cuts: NDArray[np.float64]) -> int:
     """Find where, on the way down, the edges leave the column, and where a ramp's corners begin, end or turn."""
     column, beyond = float(cell.column), cell.column + 1.0
     count = 0
@@ -98,7 +98,7 @@ def cut_cell(cell: Cell, stack: Stack, faces: Faces, cuts: NDArray[np.float64]) 
 
 
 @kernel(allocates=False)
-def settle_rows(cell: Cell, start: float, end: float, stack: Stack, faces: Faces, room: Room) -> bool:
+def settle_rows(cell: SlabCell, start: float, end: float, stack: PathStack, faces: SweepFaces, room: Room) -> bool:
     """Integrate over the rows between two parts of the way down a cell; return whether more rows change nothing."""
     rows, before, line = room.sums[ROWS], room.sums[ROWS_BEFORE], room.sums[LINE]
     for points in range(1, MOST_POINTS + 1):
@@ -119,7 +119,7 @@ def settle_rows(cell: Cell, start: float, end: float, stack: Stack, faces: Faces
 
 
 @kernel(allocates=False)
-def sum_line(cell: Cell, x0: float, x1: float, y: float, stack: Stack, faces: Faces, room: Room) -> None:
+def sum_line(cell: SlabCell, x0: float, x1: float, y: float, stack: PathStack, faces: SweepFaces, room: Room) -> None:
     """Integrate the colour along a level line."""
     line, points = room.sums[LINE], room.sums[POINTS]
     line[:] = 0.0
@@ -141,7 +141,9 @@ def sum_line(cell: Cell, x0: float, x1: float, y: float, stack: Stack, faces: Fa
 
 
 @kernel(allocates=False)
-def settle_points(cell: Cell, x0: float, x1: float, y: float, stack: Stack, faces: Faces, room: Room) -> bool:
+def settle_points(
+    cell: SlabCell, x0: float, x1: float, y: float, stack: PathStack, faces: SweepFaces, room: Room
+) -> bool:
     """Integrate over the points of a part of a line; return whether more points change nothing."""
     sums, before, colour = room.sums[POINTS], room.sums[POINTS_BEFORE], room.sums[POINT]
     for points in range(1, MOST_POINTS + 1):

@@ -4,14 +4,14 @@ from typing import NamedTuple
 
 from vexture.base.kernels import kernel
 from vexture.base.layout import CONTROL_OFFSET, COORDINATE_BITS, COUNT_SHIFT, MOST_CURVES, STRAIGHT
-from vexture.renderers.cells import Cell, Texel, Texels, Whole2, texel
-from vexture.renderers.paints import Planar, numbered
+from vexture.renderers.cells import Texel, Texels, VextureCell, Whole2, texel
+from vexture.renderers.paints import VexturePlanar, numbered
 
-__all__ = ["Leaf", "leaf", "leaf_piece", "leaf_sides"]
+__all__ = ["VextureLeaf", "leaf", "leaf_piece", "leaf_sides"]
 
 
-class Leaf(NamedTuple):
-    """Where the pieces of a leaf are, and the texels of pieces and of sides that were read last."""
+class VextureLeaf(NamedTuple):
+    """Position of a leaf's pieces, and the texels of pieces and sides that were read last."""
 
     first: int
     number: int
@@ -23,7 +23,7 @@ class Leaf(NamedTuple):
 
 
 @kernel(allocates=False)
-def leaf(cell: Cell) -> Leaf:
+def leaf(cell: VextureCell) -> VextureLeaf:
     """A leaf of which nothing is read yet."""
     counts = (cell.texel[2] >> COUNT_SHIFT) & 0x0F0F0F & ((1 << cell.shift) - 1)
     paired = (cell.texel[2] & (STRAIGHT * 0x010101)) * MOST_CURVES
@@ -31,7 +31,7 @@ def leaf(cell: Cell) -> Leaf:
     first = cell.texel[1] + ((texels * 0x010101 >> 16) & 255)
     number = cell.texel[3] + ((counts * 0x010101 >> 16) & 255)
     is_straight = (cell.texel[2] >> cell.shift) & STRAIGHT != 0
-    return Leaf(first, number, is_straight, 0, cell.texel, 0, cell.texel)
+    return VextureLeaf(first, number, is_straight, 0, cell.texel, 0, cell.texel)
 
 
 @kernel(allocates=False)
@@ -45,11 +45,11 @@ def straight(ends: tuple[int, int]) -> Texel:
 
 
 @kernel(allocates=False)
-def leaf_piece(texels: Texels, leaf: Leaf, i: int) -> tuple[Texel, Leaf]:
+def leaf_piece(texels: Texels, leaf: VextureLeaf, i: int) -> tuple[Texel, VextureLeaf]:
     """Return the new `leaf` too, which GLSL changes in place."""
     at = leaf.first + (i >> 1 if leaf.is_straight else i)
     if at != leaf.at:
-        leaf = Leaf(leaf.first, leaf.number, leaf.is_straight, at, texel(texels, at), leaf.sides_at, leaf.sides)
+        leaf = VextureLeaf(leaf.first, leaf.number, leaf.is_straight, at, texel(texels, at), leaf.sides_at, leaf.sides)
     found = leaf.texel
     if leaf.is_straight:
         found = straight((found[0], found[1]) if i & 1 == 0 else (found[2], found[3]))
@@ -57,11 +57,11 @@ def leaf_piece(texels: Texels, leaf: Leaf, i: int) -> tuple[Texel, Leaf]:
 
 
 @kernel(allocates=False)
-def leaf_sides(texels: Texels, leaf: Leaf, planar: Planar, i: int) -> tuple[Whole2, Leaf]:
+def leaf_sides(texels: Texels, leaf: VextureLeaf, planar: VexturePlanar, i: int) -> tuple[Whole2, VextureLeaf]:
     """As `leaf_piece`, of the paints on the left and on the right of a piece."""
     place, packing = 2 * (leaf.number + i), planar.packing
     at = planar.sides + (place >> (2 + packing))
     if at != leaf.sides_at:
-        leaf = Leaf(leaf.first, leaf.number, leaf.is_straight, leaf.at, leaf.texel, at, texel(texels, at))
+        leaf = VextureLeaf(leaf.first, leaf.number, leaf.is_straight, leaf.at, leaf.texel, at, texel(texels, at))
     left, right = leaf.sides[(place >> packing) & 3], leaf.sides[((place + 1) >> packing) & 3]
     return (numbered(planar, left, place), numbered(planar, right, place + 1)), leaf

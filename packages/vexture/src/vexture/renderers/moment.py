@@ -7,12 +7,24 @@ from typing import NamedTuple
 
 from vexture.base.kernels import kernel
 from vexture.renderers.cells import Texel, Vec2, clamp
-from vexture.renderers.cpu import Corner, from_corner, path_of, piece_parts
+from vexture.renderers.cpu import VextureCorner, from_corner, path_of, piece_parts
 from vexture.renderers.method import GAUSS, NOTHING
-from vexture.renderers.piece import Box, Ends, Frame, Piece, at, bulge, in_box, into_frame, part_inside, slope, word
+from vexture.renderers.piece import (
+    VextureBox,
+    VextureEnds,
+    VextureFrame,
+    VexturePiece,
+    at,
+    bulge,
+    in_box,
+    into_frame,
+    part_inside,
+    slope,
+    word,
+)
 
 __all__ = [
-    "Share",
+    "VextureShare",
     "area_share",
     "box_share",
     "flat_ends_share",
@@ -24,7 +36,7 @@ __all__ = [
 ]
 
 
-class Share(NamedTuple):
+class VextureShare(NamedTuple):
     """The area of a part of a pixel, and its moments about the pixel's middle, in the pixel's sides."""
 
     area: float
@@ -36,21 +48,21 @@ class Share(NamedTuple):
 
 
 @kernel(allocates=False)
-def area_share(area: float) -> Share:
+def area_share(area: float) -> VextureShare:
     """An area of which no moments are wanted."""
-    return Share(area, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return VextureShare(area, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @kernel(allocates=False)
-def whole_share() -> Share:
+def whole_share() -> VextureShare:
     """A whole pixel."""
-    return Share(1.0, 0.0, 0.0, 1.0 / 12.0, 0.0, 1.0 / 12.0)
+    return VextureShare(1.0, 0.0, 0.0, 1.0 / 12.0, 0.0, 1.0 / 12.0)
 
 
 @kernel(allocates=False)
-def plus_share(a: Share, b: Share, times: float) -> Share:
+def plus_share(a: VextureShare, b: VextureShare, times: float) -> VextureShare:
     """The first share, with so many times the second."""
-    return Share(
+    return VextureShare(
         a.area + times * b.area,
         a.x + times * b.x,
         a.y + times * b.y,
@@ -61,7 +73,7 @@ def plus_share(a: Share, b: Share, times: float) -> Share:
 
 
 @kernel(allocates=False)
-def moved_share(share: Share, sides: Vec2, middle: Vec2) -> Share:
+def moved_share(share: VextureShare, sides: Vec2, middle: Vec2) -> VextureShare:
     """A share of a box as one of the pixel in which the box lies: with these sides, about this middle."""
     size = sides[0] * sides[1]
     area = size * share.area
@@ -69,19 +81,19 @@ def moved_share(share: Share, sides: Vec2, middle: Vec2) -> Share:
     xx = size * sides[0] * sides[0] * share.xx + 2.0 * x * middle[0] + area * middle[0] * middle[0]
     xy = size * sides[0] * sides[1] * share.xy + x * middle[1] + y * middle[0] + area * middle[0] * middle[1]
     yy = size * sides[1] * sides[1] * share.yy + 2.0 * y * middle[1] + area * middle[1] * middle[1]
-    return Share(area, x + area * middle[0], y + area * middle[1], xx, xy, yy)
+    return VextureShare(area, x + area * middle[0], y + area * middle[1], xx, xy, yy)
 
 
 @kernel(allocates=False)
-def share_at(place: Vec2) -> Share:
-    """What lies on the right of a place, on its level."""
+def share_at(place: Vec2) -> VextureShare:
+    """Area and moments to the right of a place, at its level."""
     x, y = place
     wide, first = 0.5 - x, 0.5 * (0.25 - x * x)
-    return Share(wide, first, y * wide, (0.125 - x * x * x) / 3.0, y * first, y * y * wide)
+    return VextureShare(wide, first, y * wide, (0.125 - x * x * x) / 3.0, y * first, y * y * wide)
 
 
 @kernel(allocates=False)
-def stretch_share(p: Vec2, q: Vec2) -> Share:
+def stretch_share(p: Vec2, q: Vec2) -> VextureShare:
     """Share on the right of a straight line in the pixel; negative if it goes up."""
     way = (GAUSS * (q[0] - p[0]), GAUSS * (q[1] - p[1]))
     middle = (0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]))
@@ -92,7 +104,7 @@ def stretch_share(p: Vec2, q: Vec2) -> Share:
 
 
 @kernel(allocates=False)
-def share_beside(p: Vec2, q: Vec2) -> Share:
+def share_beside(p: Vec2, q: Vec2) -> VextureShare:
     """Share on the right of any straight line."""
     rise = q[1] - p[1]
     rise = rise if abs(rise) > NOTHING else NOTHING
@@ -111,7 +123,7 @@ def share_beside(p: Vec2, q: Vec2) -> Share:
 
 
 @kernel(allocates=False)
-def box_share(frame: Frame, low: Vec2, size: Vec2) -> Share:
+def box_share(frame: VextureFrame, low: Vec2, size: Vec2) -> VextureShare:
     """Share of the pixel in a box."""
     right, up = frame.right, frame.up
     p = into_frame(frame, low)
@@ -124,7 +136,7 @@ def box_share(frame: Frame, low: Vec2, size: Vec2) -> Share:
 
 
 @kernel(allocates=False)
-def curve_share(piece: Piece, ends: Ends, corner: Corner) -> Share:
+def curve_share(piece: VexturePiece, ends: VextureEnds, corner: VextureCorner) -> VextureShare:
     """Share beside a piece between its ends."""
     along, above = corner.x, corner.y
     parts = piece_parts(piece, ends, corner)
@@ -144,14 +156,16 @@ def curve_share(piece: Piece, ends: Ends, corner: Corner) -> Share:
         more = bulge(step_t / 3.0, first, last, (q[0] - p[0], q[1] - p[1])) * part_inside(p, q)
         x, y = clamp(0.5 * (p[0] + q[0]), -0.5, 0.5), clamp(0.5 * (p[1] + q[1]), -0.5, 0.5)
         share = plus_share(share, share_beside(p, q), 1.0)
-        share = plus_share(share, Share(1.0, x, y, x * x, x * y, y * y), more)
+        share = plus_share(share, VextureShare(1.0, x, y, x * x, x * y, y * y), more)
         p = q
         first = last
     return share
 
 
 @kernel(allocates=False)
-def piece_share(texel: Texel, turns: bool, piece: Piece, ends: Ends, box: Box, frame: Frame) -> Share:
+def piece_share(
+    texel: Texel, turns: bool, piece: VexturePiece, ends: VextureEnds, box: VextureBox, frame: VextureFrame
+) -> VextureShare:
     """As `piece_area`, with moments."""
     path = path_of(texel, turns, piece, ends, box, frame)
     share = curve_share(piece, ends, path.corner)
@@ -162,11 +176,11 @@ def piece_share(texel: Texel, turns: bool, piece: Piece, ends: Ends, box: Box, f
 
 
 @kernel(allocates=False)
-def flat_piece_share(piece: Piece, ends: Ends) -> Share:
+def flat_piece_share(piece: VexturePiece, ends: VextureEnds) -> VextureShare:
     """As `flat_piece_area`, with moments."""
     falls = piece.falls
     x, y = 0.5 if falls[0] else -0.5, 0.5 if falls[1] else -0.5
-    corner = Corner((x, y), (-2.0 * x, 0.0), (0.0, -2.0 * y))
+    corner = VextureCorner((x, y), (-2.0 * x, 0.0), (0.0, -2.0 * y))
     y0 = clamp(piece.d[1], 0.0, 1.0) if not falls[0] else ends.leave[1]
     y3 = clamp(piece.d[1] + piece.way[1], 0.0, 1.0) if falls[0] else ends.enter[1]
     left = (-0.5, y - 2.0 * y * y0), (-0.5, y - 2.0 * y * y3)
@@ -174,13 +188,13 @@ def flat_piece_share(piece: Piece, ends: Ends) -> Share:
 
 
 @kernel(allocates=False)
-def share_above(y: float) -> Share:
+def share_above(y: float) -> VextureShare:
     """Share of a box above a height in it, 0..1."""
     return stretch_share((-0.5, 0.5), (-0.5, y - 0.5))
 
 
 @kernel(allocates=False)
-def flat_ends_share(texel: Texel, crosses: bool, box: Box) -> Share:
+def flat_ends_share(texel: Texel, crosses: bool, box: VextureBox) -> VextureShare:
     """Share of what the look at a piece's ends finds filled."""
     p0, p3 = word(texel[0]), word(texel[3])
     r0, r3 = in_box(p0, box), in_box(p3, box)

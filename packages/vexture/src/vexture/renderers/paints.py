@@ -8,14 +8,14 @@ from typing import NamedTuple
 
 from vexture.base.kernels import kernel
 from vexture.base.layout import COVERAGE_ONE, MOST_BYTE_PAINTS, MOST_HALF_PAINTS
-from vexture.renderers.cells import Cell, Texel, Texels, Vec2, Whole2, clamp, texel
-from vexture.renderers.gradient import Region, Vec3, Vec4, halves, plus, program, times
+from vexture.renderers.cells import Texel, Texels, Vec2, VextureCell, Whole2, clamp, texel
+from vexture.renderers.gradient import Vec3, Vec4, VextureRegion, halves, plus, program, times
 from vexture.renderers.method import LEAST_SHARE, NEARLY_WHOLE, NO_SHARE, NOTHING
-from vexture.renderers.moment import Share, area_share, plus_share
+from vexture.renderers.moment import VextureShare, area_share, plus_share
 
 __all__ = [
-    "Planar",
-    "Sum",
+    "VexturePlanar",
+    "VextureSum",
     "add_base",
     "add_kept",
     "add_paint",
@@ -33,8 +33,8 @@ __all__ = [
 ]
 
 
-class Planar(NamedTuple):
-    """Where the parts of a planar map begin."""
+class VexturePlanar(NamedTuple):
+    """Start of each part of a planar map."""
 
     root: int
     cells: int
@@ -56,29 +56,29 @@ def linear_component(encoded: float) -> float:
 
 
 @kernel(allocates=False)
-def planar(texels: Texels, root: int) -> Planar:
-    """Where the parts of the map with a root quad begin."""
+def planar(texels: Texels, root: int) -> VexturePlanar:
+    """Find where the parts of the map with a root quad begin."""
     head = texel(texels, root - 1)
     packing = 0 if head[0] > MOST_HALF_PAINTS else 1 if head[0] > MOST_BYTE_PAINTS else 2
-    return Planar(root, 0 + head[1], 0 + head[2], 0 + head[3], packing)  # of 64 bits
+    return VexturePlanar(root, 0 + head[1], 0 + head[2], 0 + head[3], packing)  # of 64 bits
 
 
 @kernel(allocates=False)
-def means_at(planar: Planar, quad: int) -> int:
+def means_at(planar: VexturePlanar, quad: int) -> int:
     """The texel of the means of a quad's cells."""
     place = quad - planar.root
     return planar.cells + 1 + place + (place >> planar.packing)
 
 
 @kernel(allocates=False)
-def numbered(planar: Planar, word: int, place: int) -> int:
+def numbered(planar: VexturePlanar, word: int, place: int) -> int:
     """The number at a place among others that fill words, of which `word` is that of the place."""
     bits = 32 >> planar.packing
     return 0 + (word >> (bits * (place & ((1 << planar.packing) - 1)))) & (0xFFFFFFFF >> (32 - bits))  # of 64 bits
 
 
 @kernel(allocates=False)
-def base_paint(texels: Texels, planar: Planar, cell: Cell) -> int:
+def base_paint(texels: Texels, planar: VexturePlanar, cell: VextureCell) -> int:
     """Number of the base paint of a leaf."""
     place, packing = cell.quad - planar.root, planar.packing
     block = place >> packing
@@ -98,7 +98,7 @@ def averaged(is_linear: int, stored: Vec4) -> Vec4:
 
 
 @kernel(allocates=False)
-def paint_words(texels: Texels, planar: Planar, number: int) -> Whole2:
+def paint_words(texels: Texels, planar: VexturePlanar, number: int) -> Whole2:
     both = texel(texels, planar.paints + (number >> 1))
     return (0 + both[0], 0 + both[1]) if number & 1 == 0 else (0 + both[2], 0 + both[3])  # of 64 bits
 
@@ -108,12 +108,12 @@ def is_program(words: Whole2) -> bool:
     return words[0] != 0 and words[1] >> 16 == 0
 
 
-class Sum(NamedTuple):
+class VextureSum(NamedTuple):
     """The colours of a pixel, times their areas; of programs whose colours are not added yet, their shares."""
 
     color: Vec4
     kept: int
-    kept_share: Share
+    kept_share: VextureShare
     done: int
     is_left: bool
     cell: float
@@ -127,35 +127,37 @@ class Sum(NamedTuple):
 
 
 @kernel(allocates=False)
-def nothing() -> Sum:
+def nothing() -> VextureSum:
     """The empty sum."""
     none = (0.0, 0.0, 0.0, 0.0)
-    return Sum(none, 0, area_share(0.0), 0, False, 0.0, (0, 0, 0, 0), none, none, none, none, none, none)
+    return VextureSum(none, 0, area_share(0.0), 0, False, 0.0, (0, 0, 0, 0), none, none, none, none, none, none)
 
 
 @kernel(allocates=False)
-def changed(sum: Sum, color: Vec4, kept: int, kept_share: Share, done: int, is_left: bool, cell: float) -> Sum:
-    """The sum with the same four paints, and else these values."""
+def replace_state(
+    sum: VextureSum, color: Vec4, kept_paint: int, kept_share: VextureShare, done: int, is_left: bool, cell: float
+) -> VextureSum:
+    """Return the sum with the same four paints and these other values."""
     paints, areas, x, y, xx, xy, yy = sum.paints, sum.areas, sum.x, sum.y, sum.xx, sum.xy, sum.yy
-    return Sum(color, kept, kept_share, done, is_left, cell, paints, areas, x, y, xx, xy, yy)
+    return VextureSum(color, kept_paint, kept_share, done, is_left, cell, paints, areas, x, y, xx, xy, yy)
 
 
 @kernel(allocates=False)
-def put(values: Vec4, at: int, value: float) -> Vec4:
-    """Four values, one of which GLSL sets in place."""
+def set_component(values: Vec4, at: int, value: float) -> Vec4:
+    """Set one of four values, as GLSL does in place."""
     a, b = value if at == 0 else values[0], value if at == 1 else values[1]
     return a, b, value if at == 2 else values[2], value if at == 3 else values[3]
 
 
 @kernel(allocates=False)
-def with_color(sum: Sum, color: Vec4, share: float) -> Sum:
+def with_color(sum: VextureSum, color: Vec4, share: float) -> VextureSum:
     """The sum with so much of a colour added."""
     found = plus(sum.color, color, share)
-    return changed(sum, found, sum.kept, sum.kept_share, sum.done, sum.is_left, sum.cell)
+    return replace_state(sum, found, sum.kept, sum.kept_share, sum.done, sum.is_left, sum.cell)
 
 
 @kernel(allocates=False)
-def slot(sum: Sum, paint: int) -> int:
+def slot(sum: VextureSum, paint: int) -> int:
     best = 0
     for place in range(4):
         if sum.paints[place] == paint:
@@ -166,16 +168,16 @@ def slot(sum: Sum, paint: int) -> int:
 
 
 @kernel(allocates=False)
-def add_program(sum: Sum, paint: int, share: Share) -> Sum:
+def add_program(sum: VextureSum, paint: int, share: VextureShare) -> VextureSum:
     """Return the new `sum`, which GLSL changes in place."""
     at = slot(sum, paint)
     if at == 4:
-        return changed(sum, sum.color, sum.kept, sum.kept_share, sum.done, True, sum.cell)
+        return replace_state(sum, sum.color, sum.kept, sum.kept_share, sum.done, True, sum.cell)
     (a, b, c, d), is_new = sum.paints, sum.paints[at] != paint
     kept = 0.0 if is_new else 1.0
     is_left = sum.is_left or (is_new and sum.paints[at] != 0)
     a, b, c, d = paint if at == 0 else a, paint if at == 1 else b, paint if at == 2 else c, paint if at == 3 else d
-    return Sum(
+    return VextureSum(
         sum.color,
         sum.kept,
         sum.kept_share,
@@ -183,17 +185,19 @@ def add_program(sum: Sum, paint: int, share: Share) -> Sum:
         is_left,
         sum.cell,
         (a, b, c, d),
-        put(sum.areas, at, kept * sum.areas[at] + share.area),
-        put(sum.x, at, kept * sum.x[at] + share.x),
-        put(sum.y, at, kept * sum.y[at] + share.y),
-        put(sum.xx, at, kept * sum.xx[at] + share.xx),
-        put(sum.xy, at, kept * sum.xy[at] + share.xy),
-        put(sum.yy, at, kept * sum.yy[at] + share.yy),
+        set_component(sum.areas, at, kept * sum.areas[at] + share.area),
+        set_component(sum.x, at, kept * sum.x[at] + share.x),
+        set_component(sum.y, at, kept * sum.y[at] + share.y),
+        set_component(sum.xx, at, kept * sum.xx[at] + share.xx),
+        set_component(sum.xy, at, kept * sum.xy[at] + share.xy),
+        set_component(sum.yy, at, kept * sum.yy[at] + share.yy),
     )
 
 
 @kernel(allocates=False)
-def add_paint(texels: Texels, is_linear: int, sum: Sum, planar: Planar, paint: int, share: Share) -> Sum:
+def add_paint(
+    texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlanar, paint: int, share: VextureShare
+) -> VextureSum:
     """Return the new `sum`, which GLSL changes in place, as with ``VEXTURE_GRADIENTS``."""
     if paint <= sum.done:
         return sum
@@ -207,34 +211,38 @@ def add_paint(texels: Texels, is_linear: int, sum: Sum, planar: Planar, paint: i
 
 
 @kernel(allocates=False)
-def add_piece(texels: Texels, is_linear: int, sum: Sum, planar: Planar, sides: Whole2, share: Share) -> Sum:
+def add_piece(
+    texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlanar, sides: Whole2, share: VextureShare
+) -> VextureSum:
     """Return the sum with the paint on the left of a piece, less that on its right."""
     sum = add_paint(texels, is_linear, sum, planar, sides[0], share)
     return add_paint(texels, is_linear, sum, planar, sides[1], plus_share(area_share(0.0), share, -1.0))
 
 
 @kernel(allocates=False)
-def holds_kept(sum: Sum) -> bool:
+def holds_kept(sum: VextureSum) -> bool:
     """Whether a program is kept."""
     return sum.kept != 0
 
 
 @kernel(allocates=False)
-def add_kept(texels: Texels, is_linear: int, sum: Sum, planar: Planar) -> Sum:
+def add_kept(texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlanar) -> VextureSum:
     """Return the sum with the program that was kept."""
     found = add_paint(texels, is_linear, sum, planar, sum.kept, sum.kept_share)
-    return changed(found, found.color, 0, found.kept_share, found.done, found.is_left, NO_SHARE)
+    return replace_state(found, found.color, 0, found.kept_share, found.done, found.is_left, NO_SHARE)
 
 
 @kernel(allocates=False)
-def add_base(texels: Texels, is_linear: int, sum: Sum, planar: Planar, paint: int, share: Share) -> Sum:
+def add_base(
+    texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlanar, paint: int, share: VextureShare
+) -> VextureSum:
     """Return the sum with the base paint of a cell, over the cell's part of the pixel."""
-    sum = changed(sum, sum.color, sum.kept, sum.kept_share, sum.done, sum.is_left, share.area)
+    sum = replace_state(sum, sum.color, sum.kept, sum.kept_share, sum.done, sum.is_left, share.area)
     return add_paint(texels, is_linear, sum, planar, paint, share)
 
 
 @kernel(allocates=False)
-def part(region: Region, share: Share) -> Region:
+def part(region: VextureRegion, share: VextureShare) -> VextureRegion:
     point, right, up = region.point, region.right, region.up
     x, y = clamp(share.x / share.area, -0.5, 0.5), clamp(share.y / share.area, -0.5, 0.5)
     xx = clamp(12.0 * (share.xx / share.area - x * x), 0.0, 3.0)
@@ -244,7 +252,7 @@ def part(region: Region, share: Share) -> Region:
     root = math.sqrt(max(xx * yy - xy * xy, 0.0))
     inverse = 1.0 / math.sqrt(max(xx + yy + 2.0 * root, NOTHING))
     xx, xy, yy = (xx + root) * inverse, xy * inverse, (yy + root) * inverse
-    return Region(
+    return VextureRegion(
         (point[0] + x * right[0] + y * up[0], point[1] + x * right[1] + y * up[1]),
         (xx * right[0] + xy * up[0], xx * right[1] + xy * up[1]),
         (xy * right[0] + yy * up[0], xy * right[1] + yy * up[1]),
@@ -252,7 +260,7 @@ def part(region: Region, share: Share) -> Region:
 
 
 @kernel(allocates=False)
-def settle(texels: Texels, is_linear: int, sum: Sum, planar: Planar, region: Region) -> Sum:
+def settle(texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlanar, region: VextureRegion) -> VextureSum:
     """Return the sum with the colours of its programs added; more are left if `done` is not 0 then."""
     color, kept, kept_share, last = sum.color, sum.kept, sum.kept_share, sum.done
     for place in range(4):
@@ -260,7 +268,7 @@ def settle(texels: Texels, is_linear: int, sum: Sum, planar: Planar, region: Reg
         last = max(last, number)
         if number == 0 or abs(area) <= LEAST_SHARE:
             continue
-        share = Share(area, sum.x[place], sum.y[place], sum.xx[place], sum.xy[place], sum.yy[place])
+        share = VextureShare(area, sum.x[place], sum.y[place], sum.xx[place], sum.xy[place], sum.yy[place])
         if abs(area - sum.cell) <= 1.0 - NEARLY_WHOLE:
             is_same, before = number == kept, kept_share
             kept_share = plus_share(share, before, 1.0 if is_same else 0.0)
@@ -270,7 +278,7 @@ def settle(texels: Texels, is_linear: int, sum: Sum, planar: Planar, region: Reg
             found = program(texels, words[0], words[1], part(region, share), share.area)
             color = plus(color, averaged(is_linear, found), share.area)
     done, none = last if sum.is_left else 0, (0.0, 0.0, 0.0, 0.0)
-    return Sum(color, kept, kept_share, done, False, sum.cell, (0, 0, 0, 0), none, none, none, none, none, none)
+    return VextureSum(color, kept, kept_share, done, False, sum.cell, (0, 0, 0, 0), none, none, none, none, none, none)
 
 
 @kernel(allocates=False)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
 from vexture.base.layout import CONTROL_OFFSET, COORDINATE_BITS, COVERAGE_ONE, LATTICE_BITS
-from vexture.renderers.cells import Place, Texel, Vec2, Whole2, clamp
+from vexture.renderers.cells import Texel, Vec2, VexturePlace, Whole2, clamp
 from vexture.renderers.method import (
     CLOSE,
     NO_SIZE,
@@ -21,10 +21,10 @@ from vexture.renderers.method import (
 )
 
 __all__ = [
-    "Box",
-    "Ends",
-    "Frame",
-    "Piece",
+    "VextureBox",
+    "VextureEnds",
+    "VextureFrame",
+    "VexturePiece",
     "ViewPixel",
     "at",
     "beside",
@@ -47,7 +47,7 @@ __all__ = [
 ]
 
 
-class Frame(NamedTuple):
+class VextureFrame(NamedTuple):
     """Coordinates in which the pixel's footprint is the square from -1/2 to 1/2."""
 
     right: Vec2
@@ -57,7 +57,7 @@ class Frame(NamedTuple):
     longer: float
 
 
-class Box(NamedTuple):
+class VextureBox(NamedTuple):
     """The part of a cell in the box around a pixel's footprint."""
 
     unit: float
@@ -68,7 +68,7 @@ class Box(NamedTuple):
 
 
 class ViewPixel(NamedTuple):
-    """Where a picture's pixel lies in the drawing, if the plane is there."""
+    """Position of a picture's pixel in the drawing, if the plane is there."""
 
     seen: bool
     offset: Vec2
@@ -76,7 +76,7 @@ class ViewPixel(NamedTuple):
     dy: Vec2
 
 
-class Piece(NamedTuple):
+class VexturePiece(NamedTuple):
     """Monotone in x and y; coordinates that fall are mirrored in the box."""
 
     a: Vec2
@@ -87,8 +87,8 @@ class Piece(NamedTuple):
     falls: tuple[bool, bool]
 
 
-class Ends(NamedTuple):
-    """Where a piece enters and leaves the box."""
+class VextureEnds(NamedTuple):
+    """Points where a piece enters and leaves the box."""
 
     start: float
     end: float
@@ -100,7 +100,7 @@ class Ends(NamedTuple):
 
 
 @kernel(allocates=False)
-def frame(dx: Vec2, dy: Vec2) -> Frame:
+def frame(dx: Vec2, dy: Vec2) -> VextureFrame:
     """The frame of the footprint that two steps span."""
     one = float(1 << POSITION_BITS)
     dx = (dx[0] * one, dx[1] * one)
@@ -119,11 +119,11 @@ def frame(dx: Vec2, dy: Vec2) -> Frame:
     right = (dy[1] / area, -dy[0] / area)
     up = (-dx[1] / abs(area), dx[0] / abs(area))
     extent = (0.5 * (abs(dx[0]) + abs(dy[0])), 0.5 * (abs(dx[1]) + abs(dy[1])))
-    return Frame(right, up, extent, abs(area), longer)
+    return VextureFrame(right, up, extent, abs(area), longer)
 
 
 @kernel(allocates=False)
-def into_frame(frame: Frame, point: Vec2) -> Vec2:
+def into_frame(frame: VextureFrame, point: Vec2) -> Vec2:
     """A point or way of the plane in the frame."""
     right, up = frame.right, frame.up
     return right[0] * point[0] + right[1] * point[1], up[0] * point[0] + up[1] * point[1]
@@ -171,7 +171,7 @@ def part_inside(p: Vec2, q: Vec2) -> float:
 
 
 @kernel(allocates=False)
-def box_area(frame: Frame, low: Vec2, size: Vec2) -> float:
+def box_area(frame: VextureFrame, low: Vec2, size: Vec2) -> float:
     """Area of the pixel in a box."""
     right, up = frame.right, frame.up
     level = slopes(right[0], up[0])
@@ -188,7 +188,7 @@ def box_area(frame: Frame, low: Vec2, size: Vec2) -> float:
 
 
 @kernel(allocates=False)
-def box(origin: Whole2, bit: int, place: Place, extent: Vec2) -> Box:
+def box(origin: Whole2, bit: int, place: VexturePlace, extent: Vec2) -> VextureBox:
     """The part of a cell in the box of a footprint."""
     way = (float(place.point[0] - origin[0]), float(place.point[1] - origin[1]))
     rest, side = place.rest, float(1 << bit)
@@ -196,7 +196,7 @@ def box(origin: Whole2, bit: int, place: Place, extent: Vec2) -> Box:
     high = (min(side - way[0] - rest[0], extent[0]), min(side - way[1] - rest[1], extent[1]))
     size = (max(high[0] - low[0], SMALLEST_BOX), max(high[1] - low[1], SMALLEST_BOX))
     part = ((rest[0] + low[0]) / size[0], (rest[1] + low[1]) / size[1])
-    return Box(2.0 ** (bit - LATTICE_BITS), way, part, low, size)
+    return VextureBox(2.0 ** (bit - LATTICE_BITS), way, part, low, size)
 
 
 @kernel(allocates=False)
@@ -206,14 +206,14 @@ def word(word: int) -> Vec2:
 
 
 @kernel(allocates=False)
-def in_box(point: Vec2, box: Box) -> Vec2:
+def in_box(point: Vec2, box: VextureBox) -> Vec2:
     """A point of the cell's lattice in the box's own coordinates."""
     unit, way, part, size = box.unit, box.way, box.part, box.size
     return (point[0] * unit - way[0]) / size[0] - part[0], (point[1] * unit - way[1]) / size[1] - part[1]
 
 
 @kernel(allocates=False)
-def piece(texel: Texel, box: Box) -> Piece:
+def piece(texel: Texel, box: VextureBox) -> VexturePiece:
     """The polynomials of a piece in the box's own coordinates."""
     p0, p1, p2, p3 = word(texel[0]), word(texel[1]), word(texel[2]), word(texel[3])
     way = (p3[0] - p0[0], p3[1] - p0[1])
@@ -225,11 +225,11 @@ def piece(texel: Texel, box: Box) -> Piece:
     c = ((p1[0] - p0[0] - CONTROL_OFFSET) * rising[0], (p1[1] - p0[1] - CONTROL_OFFSET) * rising[1])
     b = ((p2[0] - p1[0]) * rising[0] - c[0], (p2[1] - p1[1]) * rising[1] - c[1])
     way = (abs(way[0]) * sides[0], abs(way[1]) * sides[1])
-    return Piece((way[0] - c[0] - b[0], way[1] - c[1] - b[1]), b, c, d, way, falls)
+    return VexturePiece((way[0] - c[0] - b[0], way[1] - c[1] - b[1]), b, c, d, way, falls)
 
 
 @kernel(allocates=False)
-def at(piece: Piece, t: float) -> Vec2:
+def at(piece: VexturePiece, t: float) -> Vec2:
     """Point at t, held in the box."""
     a, b, c, d = piece.a, piece.b, piece.c, piece.d
     x = ((a[0] * t + b[0]) * t + c[0]) * t + d[0]
@@ -238,14 +238,14 @@ def at(piece: Piece, t: float) -> Vec2:
 
 
 @kernel(allocates=False)
-def slope(piece: Piece, t: float) -> Vec2:
+def slope(piece: VexturePiece, t: float) -> Vec2:
     """Derivative at t."""
     a, b, c = piece.a, piece.b, piece.c
     return (3.0 * a[0] * t + 2.0 * b[0]) * t + c[0], (3.0 * a[1] * t + 2.0 * b[1]) * t + c[1]
 
 
 @kernel(allocates=False)
-def better_t(piece: Piece, side: float, t: Vec2) -> Vec2:
+def better_t(piece: VexturePiece, side: float, t: Vec2) -> Vec2:
     """One Laguerre step for each coordinate."""
     a, b, c, d = piece.a, piece.b, piece.c, piece.d
     return better_coordinate(a[0], b[0], c[0], d[0] - side, t[0]), better_coordinate(
@@ -265,8 +265,8 @@ def better_coordinate(a: float, b: float, c: float, d: float, t: float) -> float
 
 
 @kernel(allocates=False)
-def ends(piece: Piece) -> Ends:
-    """Where a piece enters and leaves the box."""
+def ends(piece: VexturePiece) -> VextureEnds:
+    """Find where a piece enters and leaves the box."""
     d = piece.d
     inverse = (1.0 / max(piece.way[0], NO_SIZE), 1.0 / max(piece.way[1], NO_SIZE))
     t0 = (clamp(-d[0] * inverse[0], 0.0, 1.0), clamp(-d[1] * inverse[1], 0.0, 1.0))
@@ -287,7 +287,7 @@ def ends(piece: Piece) -> Ends:
     leave = at(piece, end)
     enter = (0.0 if t0[0] > t0[1] else enter[0], 0.0 if t0[1] > t0[0] else enter[1])
     leave = (1.0 if t1[0] < t1[1] else leave[0], 1.0 if t1[1] < t1[0] else leave[1])
-    return Ends(start, end, enter, leave)
+    return VextureEnds(start, end, enter, leave)
 
 
 @kernel(allocates=False)

@@ -43,7 +43,7 @@ class Ramps(NamedTuple):
     stops: NDArray[np.float64]  # (m, 5): offset, colour and opacity
 
     @classmethod
-    def of(cls, gradients: list[Gradient], view: NDArray[np.float64]) -> "Ramps":
+    def of_gradients(cls, gradients: list[Gradient], view: NDArray[np.float64]) -> "Ramps":
         """Arrays of gradients; the view is a (3, 3) matrix from pixel coordinates to the unit square."""
         maps = [np.array([*gradient.to_ramp, (0.0, 0.0, 1.0)]) @ view for gradient in gradients]
         foci = [gradient.focus or (0.0, 0.0) for gradient in gradients]
@@ -61,7 +61,7 @@ class Ramps(NamedTuple):
 @kernel(allocates=False)
 def shade(ramps: Ramps, k: int, x: float, y: float, colour: NDArray[np.float64]) -> None:
     """Write the premultiplied colour of a ramp at a point of the image."""
-    X, Y, W = seen(ramps.maps[k], x, y)
+    X, Y, W = ramp_point(ramps.maps[k], x, y)
     t = X / W
     if ramps.radial[k]:
         t = circle_through(X / W, Y / W, ramps.foci[k, 0], ramps.foci[k, 1])
@@ -87,8 +87,8 @@ def shade(ramps: Ramps, k: int, x: float, y: float, colour: NDArray[np.float64])
 
 
 @kernel(allocates=False)
-def seen(matrix: NDArray[np.float64], x: float, y: float) -> Point:
-    """A point of the image in homogeneous coordinates of a ramp."""
+def ramp_point(matrix: NDArray[np.float64], x: float, y: float) -> Point:
+    """Map a point of the image to homogeneous coordinates of a ramp."""
     return (
         matrix[0, 0] * x + matrix[0, 1] * y + matrix[0, 2],
         matrix[1, 0] * x + matrix[1, 1] * y + matrix[1, 2],
@@ -124,7 +124,7 @@ def cut_line(ramps: Ramps, k: int, start: Place, end: Place, cuts: NDArray[np.fl
 
     Also where it is nearest to one that it misses. Returns the new count.
     """
-    p, q = seen(ramps.maps[k], start[0], start[1]), seen(ramps.maps[k], end[0], end[1])
+    p, q = ramp_point(ramps.maps[k], start[0], start[1]), ramp_point(ramps.maps[k], end[0], end[1])
     d = q[0] - p[0], q[1] - p[1], q[2] - p[2]
     x, g = ramps.foci[k]
     first, last = periods(ramps, k, p, q)
@@ -163,9 +163,9 @@ def cut_turns(ramps: Ramps, k: int, start: Place, end: Place, cuts: NDArray[np.f
     line at y is, in the ramp's plane, one - y other. The circles are those near the way from start to end.
     """
     m = ramps.maps[k]
-    one, other = crossed(m, 2, 0), crossed(m, 0, 1)
+    one, other = cross_columns(m, 2, 0), cross_columns(m, 0, 1)
     x, g = ramps.foci[k]
-    first, last = periods(ramps, k, seen(m, start[0], start[1]), seen(m, end[0], end[1]))
+    first, last = periods(ramps, k, ramp_point(m, start[0], start[1]), ramp_point(m, end[0], end[1]))
     for period in range(first, last + 1):
         for j in range(ramps.ends[k + 1] - ramps.ends[k] + 1):
             u = 1.0 - corner(ramps, k, period, j)
@@ -182,7 +182,7 @@ def cut_turns(ramps: Ramps, k: int, start: Place, end: Place, cuts: NDArray[np.f
 
 
 @kernel(allocates=False)
-def crossed(m: NDArray[np.float64], i: int, j: int) -> Point:
+def cross_columns(m: NDArray[np.float64], i: int, j: int) -> Point:
     """Cross product of two columns of a matrix."""
     return (
         m[1, i] * m[2, j] - m[2, i] * m[1, j],

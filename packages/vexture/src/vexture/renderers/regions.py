@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
-from vexture.renderers.faces import FLAT, MEMBERS, Faces, Stack
-from vexture.renderers.gradient_integral import Cell, Room, add_cell
+from vexture.renderers.faces import FLAT, MEMBERS, PathStack, SweepFaces
+from vexture.renderers.gradient_integral import Room, SlabCell, add_cell
 
 __all__ = ["SIDE", "Regions", "add_region", "end_row"]
 
@@ -57,8 +57,8 @@ def add_region(
     chords: tuple[int, int],
     face: tuple[int, int],
     heights: tuple[float, float],
-    stack: Stack,
-    faces: Faces,
+    stack: PathStack,
+    faces: SweepFaces,
     regions: Regions,
     change: NDArray[np.float64],
 ) -> None:
@@ -79,7 +79,7 @@ def add_region(
 
 
 @kernel(allocates=False)
-def end_region(left: int, stack: Stack, faces: Faces, regions: Regions, change: NDArray[np.float64]) -> None:
+def end_region(left: int, stack: PathStack, faces: SweepFaces, regions: Regions, change: NDArray[np.float64]) -> None:
     """Add the region of a chord, if there is one: to the columns that it fills, as they go on, or by its integral."""
     top, bottom = regions.heights[left]
     if not bottom > top:
@@ -98,7 +98,7 @@ def end_region(left: int, stack: Stack, faces: Faces, regions: Regions, change: 
                 filled[0], filled[1], span[0] = start, end, top
             span[1] = bottom
         else:
-            cell = Cell(start, end, (x0, x1), (x2, x3), top, bottom, column)
+            cell = SlabCell(start, end, (x0, x1), (x2, x3), top, bottom, column)
             add_cell(cell, stack, faces, regions.room, change)
     regions.heights[left, 0] = bottom
 
@@ -110,17 +110,17 @@ def place(line: NDArray[np.float64], y: float) -> float:
 
 
 @kernel(allocates=False)
-def end_column(column: int, stack: Stack, faces: Faces, regions: Regions, change: NDArray[np.float64]) -> None:
+def end_column(column: int, stack: PathStack, faces: SweepFaces, regions: Regions, change: NDArray[np.float64]) -> None:
     """Add what fills a column, if anything does."""
     (start, end), (top, bottom), x = regions.filled[column], regions.spans[column], float(column)
     if bottom > top:
-        cell = Cell(start, end, (x, x), (x + 1.0, x + 1.0), top, bottom, column)
+        cell = SlabCell(start, end, (x, x), (x + 1.0, x + 1.0), top, bottom, column)
         add_cell(cell, stack, faces, regions.room, change)
         regions.spans[column, 0] = bottom
 
 
 @kernel(allocates=False)
-def end_row(stack: Stack, faces: Faces, regions: Regions, change: NDArray[np.float64]) -> None:
+def end_row(stack: PathStack, faces: SweepFaces, regions: Regions, change: NDArray[np.float64]) -> None:
     """Add all regions and columns."""
     for left in regions.listed[: regions.used[0]]:
         end_region(left, stack, faces, regions, change)

@@ -23,7 +23,7 @@ __all__ = [
     "VERSIONS",
     "WRAPS",
     "color_source",
-    "included",
+    "read_shader",
     "shader_source",
     "shader_text",
     "vertex_source",
@@ -81,7 +81,7 @@ INCLUDE: Final = re.compile(r'^#include "(.*)"$', re.MULTILINE)
 
 
 @cache
-def included(name: str, package: str = "vexture") -> str:
+def read_shader(name: str, package: str = "vexture") -> str:
     """Text of a shader file after the files that it includes, each once.
 
     The file is in the folder ``shaders/`` of a package; what it includes may also be in that of vexture.
@@ -188,7 +188,7 @@ def shader_text(file: str, *owners: ModuleType) -> str:
     The numbers are those of `vexture.renderers.method`, `vexture.base.layout` and further owners. The caller must
     define ``VEXTURE_WRAP`` (values in `WRAPS`) and ``VEXTURE_FLAT`` (0 or 1) where the file asks for them.
     """
-    text = included(file)
+    text = read_shader(file)
     lines = []
     for name in sorted(set(PREFIXED.findall(text)) - CHOSEN):
         value = next((getattr(owner, name) for owner in (method, layout, MODES, *owners) if hasattr(owner, name)), None)

@@ -1,4 +1,4 @@
-"""What the generator does not know is refused, never guessed at."""
+"""Error of the generator: it refuses what it does not know, and never guesses."""
 
 from vexture.base.errors import VextureError
 
@@ -16,6 +16,6 @@ class ShaderError(VextureError):
         What is there, and what may be.
     """
 
-    def __init__(self, line: int, what: str) -> None:
-        super().__init__(f"line {line}: {what}")
+    def __init__(self, line: int, message: str) -> None:
+        super().__init__(f"line {line}: {message}")
         self.line = line

@@ -18,7 +18,7 @@ __all__ = ["Sweep", "add_edge", "cross", "next_slab"]
 
 
 class Sweep(NamedTuple):
-    """What a sweep over chords has reached."""
+    """State of a sweep over chords."""
 
     lines: NDArray[np.float64]  # (n, 4), of `Chords`
     order: NDArray[np.int64]  # (n,): the chords by their tops

@@ -15,7 +15,7 @@ __all__ = ["HasTexels", "Uniforms", "uniforms_of"]
 
 
 class HasTexels(Protocol):
-    """What a renderer reads of a `vexture.Texture`."""
+    """The part of a `vexture.Texture` that a renderer reads."""
 
     @property
     def texels(self) -> NDArray[np.uint32]:

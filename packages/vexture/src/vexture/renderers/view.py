@@ -20,7 +20,7 @@ __all__ = [
     "Size",
     "View",
     "ViewLike",
-    "Window",
+    "ViewWindow",
     "fit",
     "size_of",
     "view_base",
@@ -66,7 +66,7 @@ def size_of(size: Size) -> tuple[int, int]:
 
 
 @dataclass(frozen=True, slots=True)
-class Window:
+class ViewWindow:
     """A rectangle of the unit square, centred in the image at the largest size that fits; see `window`."""
 
     x: float
@@ -97,7 +97,7 @@ class Window:
         return view_matrix(matrix, size)
 
 
-def window(x: float, y: float, w: float, h: float, rotate: float = 0.0) -> Window:
+def window(x: float, y: float, w: float, h: float, rotate: float = 0.0) -> ViewWindow:
     """View of a rectangle of the unit square, centred at the largest size that fits, for images of any size.
 
     Parameters
@@ -125,12 +125,12 @@ def window(x: float, y: float, w: float, h: float, rotate: float = 0.0) -> Windo
     >>> (window(0.5, 0.25, 0.5, 0.5).matrix((100, 100)) @ lower_left).tolist()
     [0.5, 0.25, 1.0]
     """
-    return Window(x, y, w, h, rotate)
+    return ViewWindow(x, y, w, h, rotate)
 
 
 def fit(size: Size) -> NDArray[np.float64]:
     """View of the whole unit square, centred in the image at the largest size that fits, (3, 3)."""
-    return view_matrix(Window(0.0, 0.0, 1.0, 1.0), size) + 0.0  # no negative zeros
+    return view_matrix(ViewWindow(0.0, 0.0, 1.0, 1.0), size) + 0.0  # no negative zeros
 
 
 def view_matrix(view: ViewLike, size: Size) -> NDArray[np.float64]:

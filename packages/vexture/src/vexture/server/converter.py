@@ -13,10 +13,10 @@ from vexture.base.errors import LimitError, VextureError
 from vexture.conversion.parameters import Parameters
 from vexture.server.limits import Limits
 from vexture.server.publish_file import PUBLISHED_PARAMETERS, SMALL, shape_of
-from vexture.server.published import Shape
+from vexture.server.published import PublishedShape
 from vexture.server.worker import Worker
 
-__all__ = ["BusyError", "Conversion", "Converter"]
+__all__ = ["BusyError", "Converter", "UploadConversion"]
 
 T = TypeVar("T")
 
@@ -30,7 +30,7 @@ TEMPORARY_BYTES: Final = 512 * 2**20
 """On the disk, of all temporary files of a conversion, and of each."""
 
 FULL: Final = (errno.EFBIG, errno.ENOSPC, errno.EDQUOT)
-"""What systems say where there is no room for a file."""
+"""Error numbers of systems without room for a file."""
 
 LOOK_SECONDS: Final = 0.2
 """Between two looks at the temporary files of a conversion."""
@@ -43,22 +43,22 @@ class BusyError(VextureError):
     """Too many conversions wait: try again later."""
 
 
-class Conversion(Protocol):
+class UploadConversion(Protocol):
     """A conversion of uploads of another kind, such as into the frame of a flood; it is sent to the processes."""
 
     def warm(self) -> None:
         """Load what a conversion needs."""
 
-    def shape_of(self, data: bytes, name: str) -> Shape:
+    def shape_of(self, data: bytes, name: str) -> PublishedShape:
         """Convert an upload."""
 
 
 class Converter:
     """Converts uploads side by side, as parameters say or by a conversion of another kind."""
 
-    def __init__(self, limits: Limits, how: Parameters | Conversion = PUBLISHED_PARAMETERS) -> None:
+    def __init__(self, limits: Limits, conversion: Parameters | UploadConversion = PUBLISHED_PARAMETERS) -> None:
         self._limits = limits
-        self._how = how
+        self._conversion = conversion
         self._waiting = 0
         self._workers = [Worker(MEMORY_BYTES, TEMPORARY_BYTES) for _ in range(SIDE_BY_SIDE)]
         self._idle: asyncio.LifoQueue[Worker] = asyncio.LifoQueue()  # the last used is warm; others start when needed
@@ -82,12 +82,12 @@ class Converter:
         async with AsyncExitStack() as held:  # all of them: a second one would compile the same kernels meanwhile
             first, *_ = [await held.enter_async_context(self._worker()) for _ in self._workers]
             with suppress(BrokenProcessPool):  # the server stops
-                await self._warmed(first)
+                await self._start_worker(first)
 
-    async def _warmed(self, worker: Worker) -> Worker:
-        """A worker whose process is started, which takes no time of a conversion's."""
+    async def _start_worker(self, worker: Worker) -> Worker:
+        """Start a worker's process if it has none, outside of a conversion's time limit; return the worker."""
         if not worker.is_running:
-            await worker.run(_warm, self._how)
+            await worker.run(_warm, self._conversion)
         return worker
 
     @contextmanager
@@ -101,21 +101,21 @@ class Converter:
         finally:
             self._waiting -= 1
 
-    async def shape_of(self, data: bytes, name: str, file_name: str | None = None) -> Shape:
+    async def shape_of(self, data: bytes, name: str, file_name: str | None = None) -> PublishedShape:
         """Shape of an upload, whose content decides what it is; raises a `BusyError` if the server stops.
 
         `file_name` is what its sender calls it; by default its name, with the suffix of what it is.
         """
-        return await self.run(_convert, data, name, file_name, self._limits.texture_bytes, self._how, about=name)
+        return await self.run(_convert, data, name, file_name, self._limits.texture_bytes, self._conversion, about=name)
 
     async def run(self, work: Callable[..., T], *given: Any, about: str, seconds: float | None = None) -> T:
         """Do work in a process, within so many seconds, by default those of an upload; raises as `shape_of` does."""
         seconds = self._limits.conversion_seconds if seconds is None else seconds
         async with self._worker() as worker:
             try:
-                await self._warmed(worker)
+                await self._start_worker(worker)
                 async with asyncio.timeout(seconds):
-                    return await _watched(worker, worker.run(work, *given))
+                    return await _watch_files(worker, worker.run(work, *given))
             except asyncio.CancelledError:
                 worker.kill()
                 raise
@@ -134,8 +134,8 @@ class Converter:
             worker.kill()
 
 
-async def _watched(worker: Worker, work: "asyncio.Future[T]") -> T:
-    """Result of work whose temporary files have room; raises an `OSError` when they have none any more."""
+async def _watch_files(worker: Worker, work: "asyncio.Future[T]") -> T:
+    """Wait for work while its temporary files have room; raises an `OSError` when they have none left."""
     while not work.done():
         await asyncio.wait([work], timeout=LOOK_SECONDS)
         if worker.temporary_bytes > TEMPORARY_BYTES:
@@ -144,7 +144,7 @@ async def _watched(worker: Worker, work: "asyncio.Future[T]") -> T:
 
 
 def _need(error: Exception, seconds: float) -> str:
-    """What a conversion needs that it cannot have."""
+    """Describe in words the resource that a conversion has used up."""
     if isinstance(error, TimeoutError):
         return f"takes longer than {seconds:g} s"
     if isinstance(error, OSError):
@@ -152,27 +152,29 @@ def _need(error: Exception, seconds: float) -> str:
     return "needs too much memory"
 
 
-def _warm(how: Parameters | Conversion) -> None:
+def _warm(conversion: Parameters | UploadConversion) -> None:
     """Load what a conversion needs."""
-    if isinstance(how, Parameters):
-        shape_of(SMALL, "small.svg", "small", how)
+    if isinstance(conversion, Parameters):
+        shape_of(SMALL, "small.svg", "small", conversion)
     else:
-        how.warm()
+        conversion.warm()
 
 
-def _convert(data: bytes, name: str, file_name: str | None, most: int, how: Parameters | Conversion) -> Shape:
+def _convert(
+    data: bytes, name: str, file_name: str | None, most: int, conversion: Parameters | UploadConversion
+) -> PublishedShape:
     """Convert an upload, in the process."""
     from vexture.texture.ktx2 import TEXEL_BYTES
     from vexture.texture.load import texture_from
 
-    if not isinstance(how, Parameters):
-        shape = how.shape_of(data, name)
+    if not isinstance(conversion, Parameters):
+        shape = conversion.shape_of(data, name)
     elif file_name is not None:
-        shape = shape_of(data, file_name, name, how)
+        shape = shape_of(data, file_name, name, conversion)
     elif not data.strip():
         raise LimitError(f"{name}: the upload is empty; send an SVG, GeoJSON, a picture or a packed texture")
     else:
-        shape = shape_of(data, name + SUFFIXES.get(kind_of(start_of(data)), ""), name, how)
+        shape = shape_of(data, name + SUFFIXES.get(kind_of(start_of(data)), ""), name, conversion)
     size = texture_from(shape.texture.data, name).nbytes
     if size > most:
         raise LimitError(

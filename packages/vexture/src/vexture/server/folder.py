@@ -13,10 +13,10 @@ from vexture.base.content import SHAPEFILE
 from vexture.base.errors import EXPECTED, DeviceError, LimitError
 from vexture.conversion.reading import content_of
 from vexture.server.converter import BusyError, Converter
-from vexture.server.limited_shapes import LimitedShelf
+from vexture.server.limited_shapes import LimitedShapes
 from vexture.server.limits import Limits
 from vexture.server.names import checked_name, manifest_name
-from vexture.server.published import File, Shape
+from vexture.server.published import PublishedFile, PublishedShape
 from vexture.texture.files import TEMPORARY, make_folder, replace_files
 
 __all__ = ["STATE", "Folder"]
@@ -29,10 +29,10 @@ TAKEN: Final = (DRAWINGS, GEOGRAPHIC, PICTURES)
 """Suffixes of files that are served; their content decides how they are read. Of files with one name, a drawing comes
 before data, and data before a picture, which often shows the drawing beside it."""
 
-Say = Callable[[str], None]
+Report = Callable[[str], None]
 
 
-class Folder(LimitedShelf):
+class Folder(LimitedShapes):
     """The shapes of a folder.
 
     Published shapes are kept in ``.vexture`` inside it: ``files/DIGEST.ext``, named after their content, and a manifest
@@ -45,16 +45,16 @@ class Folder(LimitedShelf):
     These files are never changed. `say` takes a line for the user about each file that is damaged or not served.
     """
 
-    def __init__(self, path: Path, limits: Limits, say: Say) -> None:
+    def __init__(self, path: Path, limits: Limits, report: Report) -> None:
         super().__init__(limits)
-        self._path, self._say = path, say
+        self._path, self._report = path, report
         self._shapes_folder, self._files_folder = path / STATE / "shapes", path / STATE / "files"
         self._kept: set[str] = set()  # names of the files on the disk, whose content has been checked
         self._turn = asyncio.Lock()
         try:
             for folder in (self._shapes_folder, self._files_folder):
                 make_folder(folder, durable=True)
-            self._lock = _locked(path / STATE / "lock")
+            self._lock = _lock_file(path / STATE / "lock")
             self._load()
         except OSError as error:
             raise DeviceError(f"{path}: cannot be used ({error.strerror}); choose another folder") from None
@@ -63,7 +63,7 @@ class Folder(LimitedShelf):
         """Let another server have the folder."""
         self._lock.close()
 
-    async def publish(self, shape: Shape) -> None:
+    async def publish(self, shape: PublishedShape) -> None:
         """Keep a shape and tell all clients; raises a `DeviceError` if the disk refuses, and keeps the previous one."""
         async with self._turn:
             self.check_room(shape)
@@ -73,7 +73,7 @@ class Folder(LimitedShelf):
                 await asyncio.to_thread(self._write, shape, fresh)
             except OSError as error:
                 raise DeviceError(f"{shape.name}: cannot be kept ({error.strerror}); make room on the disk") from None
-            self.put(shape)
+            self.add(shape)
             stale = [file.name for file in (before.files if before else ()) if not self.owners(file.name)]
             self._kept.update(file.name for file in fresh)
             self._kept.difference_update(stale)
@@ -108,15 +108,15 @@ class Folder(LimitedShelf):
             except BusyError:  # the server stops, and says nothing of what it has not read
                 raise
             except EXPECTED as error:
-                self._say(f"{path.name} is not served: {error}")
+                self._report(f"{path.name} is not served: {error}")
             except OSError as error:
-                self._say(f"{path.name} is not served: it cannot be read ({error.strerror}); check its permissions")
+                self._report(f"{path.name} is not served: it cannot be read ({error.strerror}); check its permissions")
 
     async def _take(self, path: Path, converter: Converter) -> None:
         name = checked_name(path.stem)
         taken = f"{path.name} is not served: another shape {name!r} is; remove one of the two"
         if self.shape(name) is not None:
-            self._say(taken)
+            self._report(taken)
             return
         self._check_links(path)
         with path.open("rb") as file:
@@ -128,10 +128,10 @@ class Folder(LimitedShelf):
         shape = await converter.shape_of(data, name)
         async with self._turn:
             if self.shape(name) is not None:  # published while it was converted
-                self._say(taken)
+                self._report(taken)
                 return
             self.check_room(shape)
-            self.put(shape)
+            self.add(shape)
 
     def _check_links(self, path: Path) -> None:
         """Refuse a file that is, or one of whose parts is, a link out of the folder."""
@@ -141,7 +141,7 @@ class Folder(LimitedShelf):
                 what = "it" if part == path else part.name
                 raise LimitError(f"{what} is a link that leads out of the folder; put the file itself there")
 
-    def _write(self, shape: Shape, fresh: list[File]) -> None:
+    def _write(self, shape: PublishedShape, fresh: list[PublishedFile]) -> None:
         """Write a shape: first its files, then the manifest that names them."""
         record = {
             "name": shape.name,
@@ -166,35 +166,35 @@ class Folder(LimitedShelf):
                 path.unlink()
                 continue
             try:
-                self.put(self._read(path))
+                self.add(self._read(path))
             except (OSError, ValueError, KeyError, TypeError, AttributeError, LimitError, RecursionError) as error:
                 whole = False
-                self._say(f"{path}: damaged ({_reason(error)}); the others are served; publish its shape again")
+                self._report(f"{path}: damaged ({_reason(error)}); the others are served; publish its shape again")
         self._kept.update(file.name for name in self.names for file in self._shapes[name].files)
         for path in self._files_folder.iterdir():
             # a damaged manifest may be repaired by hand, and needs the files that it names
             if path.name.endswith(TEMPORARY) or (whole and not self.owners(path.name)):
                 path.unlink()
 
-    def _read(self, path: Path) -> Shape:
+    def _read(self, path: Path) -> PublishedShape:
         record = json.loads(path.read_bytes())
         name = checked_name(record["name"])
         if path.name != manifest_name(name):
             raise ValueError(f"it names the shape {name!r}, which is kept elsewhere")
         views = {str(what): self._file(entry) for what, entry in record["views"].items()}
-        return Shape(name, self._file(record["texture"]), dict(record["facts"]), views)
+        return PublishedShape(name, self._file(record["texture"]), dict(record["facts"]), views)
 
-    def _file(self, entry: dict[str, str]) -> File:
+    def _file(self, entry: dict[str, str]) -> PublishedFile:
         name, media_type = entry["file"], entry["type"]
         if Path(name).name != name:
             raise ValueError(f"{name!r} is no name of a file")
-        file = File((self._files_folder / name).read_bytes(), media_type, "".join(Path(name).suffixes))
+        file = PublishedFile((self._files_folder / name).read_bytes(), media_type, "".join(Path(name).suffixes))
         if file.name != name:
             raise ValueError(f"{name} is not what was written")
         return file
 
 
-def _entry(file: File) -> dict[str, str]:
+def _entry(file: PublishedFile) -> dict[str, str]:
     return {"file": file.name, "type": file.media_type}
 
 
@@ -205,7 +205,7 @@ def _reason(error: Exception) -> str:
     return f"it has no {error}" if isinstance(error, KeyError) else " ".join(str(error).split())[:200]
 
 
-def _locked(path: Path) -> IO[bytes]:
+def _lock_file(path: Path) -> IO[bytes]:
     """Open a file that only one process at a time can lock."""
     file = path.open("ab")
     try:

@@ -1,33 +1,33 @@
-"""A shelf with room for as many shapes, and as many bytes, as the limits of its server say."""
+"""Published shapes within the limits of their server: a number of shapes, and of bytes."""
 
 from vexture.base.errors import LimitError
 from vexture.server.limits import Limits
-from vexture.server.published import Shape, Shelf
+from vexture.server.published import PublishedShape, PublishedShapes
 
-__all__ = ["FullError", "LimitedShelf"]
+__all__ = ["FullError", "LimitedShapes"]
 
 
 class FullError(LimitError):
     """There is no room for a shape: remove others or raise the limit."""
 
 
-class LimitedShelf(Shelf):
-    """A shelf that accepts `Limits.max_shapes` shapes and `Limits.max_total` bytes."""
+class LimitedShapes(PublishedShapes):
+    """Published shapes: at most `Limits.max_shapes` shapes and `Limits.max_total` bytes."""
 
     def __init__(self, limits: Limits) -> None:
         super().__init__()
         self._limits = limits
 
-    async def publish(self, shape: Shape) -> None:
+    async def publish(self, shape: PublishedShape) -> None:
         """Keep a shape and tell all clients; raises what `check_room` raises."""
         self.check_room(shape)
-        self.put(shape)
+        self.add(shape)
 
     async def withdraw(self, name: str) -> None:
         """Keep the shape of a name no longer, and tell all clients."""
         self.remove(name)
 
-    def check_room(self, shape: Shape) -> None:
+    def check_room(self, shape: PublishedShape) -> None:
         """Raise a `FullError` if there would be too many shapes, or too many bytes."""
         before = self.shape(shape.name)
         if before is None and len(self.names) >= self._limits.max_shapes:

@@ -52,13 +52,13 @@ class Pace:
         self._rate, self._burst, self._clock = rate, burst, clock
         self._buckets: OrderedDict[str, tuple[float, float]] = OrderedDict()
 
-    def wait(self, who: str) -> float:
+    def wait(self, address: str) -> float:
         """Take a token; return 0 if there was one, else the seconds until there is."""
         now = self._clock()
-        tokens, before = self._buckets.pop(who, (float(self._burst), now))
+        tokens, before = self._buckets.pop(address, (float(self._burst), now))
         tokens = min(tokens + (now - before) * self._rate, self._burst)
         taken = tokens >= 1.0
-        self._buckets[who] = (tokens - taken, now)
+        self._buckets[address] = (tokens - taken, now)
         if len(self._buckets) > MOST_KNOWN:
             self._buckets.popitem(last=False)
         return 0.0 if taken else (1.0 - tokens) / self._rate

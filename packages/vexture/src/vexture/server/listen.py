@@ -44,32 +44,32 @@ def bind(host: str, port: int) -> socket.socket:
     """
     try:  # without the port: getaddrinfo would take it modulo 2^16
         family, kind, protocol, _, where = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)[0]
-        taken = socket.socket(family, kind, protocol)
+        server_socket = socket.socket(family, kind, protocol)
     except OSError as error:
         raise DeviceError(f"host {host}: {error.strerror}; choose another `host`") from None
     try:
-        taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        taken.bind((where[0], port, *where[2:]))
+        server_socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        server_socket.bind((where[0], port, *where[2:]))
     except OverflowError:
-        taken.close()
+        server_socket.close()
         raise ParameterError(f"`port` is {port}; it must be 0 to 65535") from None
     except OSError as error:
-        taken.close()
+        server_socket.close()
         raise _unusable(host, port, error) from None
-    return taken
+    return server_socket
 
 
-def listen(taken: socket.socket) -> str:
+def listen(server_socket: socket.socket) -> str:
     """Let clients connect, since all is ready to be served; URL of the server.
 
     Raises
     ------
     DeviceError
-        If another server has taken the port at the same time.
+        If another server has server_socket the port at the same time.
     """
-    host, port = taken.getsockname()[:2]
+    host, port = server_socket.getsockname()[:2]
     try:
-        taken.listen(WAITING)
+        server_socket.listen(WAITING)
     except OSError as error:
         raise _unusable(host, port, error) from None
     return f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"
@@ -105,8 +105,10 @@ class _Server(uvicorn.Server):
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
-        for taken in sockets or ():
-            taken.listen(WAITING)  # the event loop has made the queue as short as the number that it accepts at once
+        for server_socket in sockets or ():
+            server_socket.listen(
+                WAITING
+            )  # the event loop has made the queue as short as the number that it accepts at once
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         self._stop()
@@ -126,7 +128,7 @@ class _Few(logging.Filter):
         return not self._pace.wait(f"{record.name} {kind} {record.getMessage()[:100]}")
 
 
-def serve_until_stopped(app: ASGIApp, taken: socket.socket, stop: Callable[[], None], limits: Limits) -> None:
+def serve_until_stopped(app: ASGIApp, server_socket: socket.socket, stop: Callable[[], None], limits: Limits) -> None:
     """Serve until Ctrl-C or SIGTERM; `stop` then ends streams and conversions, before the server waits for clients."""
     _, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     with suppress(ValueError, OSError):  # one file for each client: as many as the system allows
@@ -156,6 +158,6 @@ def serve_until_stopped(app: ASGIApp, taken: socket.socket, stop: Callable[[], N
         signal.signal(number, end)
     try:
         with suppress(KeyboardInterrupt):
-            server.run(sockets=[taken])
+            server.run(sockets=[server_socket])
     finally:
         stop()  # a server that is ended while it starts does not shut down

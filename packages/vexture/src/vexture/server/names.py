@@ -41,16 +41,16 @@ def checked_name(name: str) -> str:
     return normal
 
 
-def _check_part(part: str, shown: str) -> None:
+def _check_part(part: str, display_name: str) -> None:
     if not part:
-        raise LimitError(f"name {shown}: nothing stands before, after or between slashes; choose another name")
+        raise LimitError(f"name {display_name}: nothing stands before, after or between slashes; choose another name")
     if part[0] == ".":
-        raise LimitError(f"name {shown}: it must not start with a dot; choose another name")
+        raise LimitError(f"name {display_name}: it must not start with a dot; choose another name")
     if part != part.strip(" "):
-        raise LimitError(f"name {shown}: it must not start or end with a space; choose another name")
+        raise LimitError(f"name {display_name}: it must not start or end with a space; choose another name")
     for letter in part:
         if letter not in OTHERS and unicodedata.category(letter)[0] not in CATEGORIES:
-            raise LimitError(f"name {shown}: {letter!a} is not a letter, a digit, a space or one of '._-'")
+            raise LimitError(f"name {display_name}: {letter!a} is not a letter, a digit, a space or one of '._-'")
 
 
 def manifest_name(name: str) -> str:

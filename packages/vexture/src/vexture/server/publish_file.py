@@ -6,11 +6,11 @@ from functools import cache
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
-from vexture.base.content import FileKind, about, decompressed, kind_of, known_kind, start_of
+from vexture.base.content import FileKind, about, decompress, kind_of, known_kind, start_of
 from vexture.base.errors import SourceError
 from vexture.base.notes import line_of
 from vexture.conversion.parameters import Parameters, Split
-from vexture.server.published import TEXTURE_TYPE, File, Shape
+from vexture.server.published import TEXTURE_TYPE, PublishedFile, PublishedShape
 
 if TYPE_CHECKING:
     import numpy as np
@@ -24,10 +24,10 @@ __all__ = [
     "SMALL",
     "THESIS_BITS",
     "VIEWER_PARAMETERS",
-    "converted",
     "load_kernels",
     "load_thesis",
     "shape_of",
+    "shape_of_drawing",
     "texture_shape",
     "thesis_pair",
 ]
@@ -55,7 +55,9 @@ SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 """Uses all kernels: corners, curves, crossings, two colours, parts outside of the box."""
 
 
-def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters, folder: Path | None = None) -> Shape:
+def shape_of(
+    data: bytes, file_name: str, name: str, parameters: Parameters, folder: Path | None = None
+) -> PublishedShape:
     """Convert the content of a file, or check and keep that of a packed texture, into a shape that can be published.
 
     The file's name, which stands in messages, is never opened; only the images of an SVG in `folder` are. The facts of
@@ -72,7 +74,7 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters, fol
     from vexture.svg.read import framed_drawing
 
     with about(file_name):
-        plain = decompressed(data)
+        plain = decompress(data)
     if kind_of(start_of(plain), file_name) is FileKind.TEXTURE:
         return texture_shape(data, file_name, name)
     with about(file_name):
@@ -88,16 +90,16 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters, fol
     else:
         drawing = read_drawing(plain, name=file_name, select=parameters.select)
     named = replace(drawing, name=name)
-    shape = converted(named, file_name, parameters, start)
+    shape = shape_of_drawing(named, file_name, parameters, start)
     if parameters.precision is not None:
         shape = replace(shape, views={CONVERTED: _as_written(named, file_name, parameters)})
     if kind is not FileKind.SVG:
         return shape
     facts = {**shape.facts, "box": _box_in_browsers(framed, drawing.to_source)}
-    return replace(shape, facts=facts, views={**shape.views, "svg": File(plain, "image/svg+xml", ".svg")})
+    return replace(shape, facts=facts, views={**shape.views, "svg": PublishedFile(plain, "image/svg+xml", ".svg")})
 
 
-def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
+def thesis_pair(shape: PublishedShape, bits: int) -> tuple[bytes, ...]:
     """Convert a shape's source, ``views["svg"]``, in the thesis encoding of 8 or 16 bits; contents of its files."""
     from vexture.conversion.pipeline import convert
     from vexture.conversion.reading import read_drawing
@@ -128,7 +130,7 @@ def load_kernels() -> None:
     convert(svg_drawing(SMALL, "small.svg"), split="faces", precision=VIEW_PRECISION)
 
 
-def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start: float) -> Shape:
+def shape_of_drawing(drawing: "Drawing", file_name: str, parameters: Parameters, start: float) -> PublishedShape:
     """Shape of a drawing, with the facts of its conversion; its notes are one line, if there are any."""
     from vexture.conversion.pipeline import combine, trees_of
 
@@ -152,16 +154,18 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
         "warnings": [line] if line else [],
         "notes": [note.facts() for note in part.notes],
     }
-    return Shape(drawing.name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
+    return PublishedShape(drawing.name, PublishedFile(data, TEXTURE_TYPE, ".ktx2"), facts)
 
 
-def _as_written(drawing: "Drawing", file_name: str, parameters: Parameters) -> File:
+def _as_written(drawing: "Drawing", file_name: str, parameters: Parameters) -> PublishedFile:
     """The file that `vexture convert` writes, at its own accuracy, of a drawing that is read already."""
     split: Split = "auto" if parameters.split == VIEWER_PARAMETERS.split else parameters.split
-    return converted(drawing, file_name, Parameters(split=split, max_seconds=parameters.max_seconds), 0.0).texture
+    return shape_of_drawing(
+        drawing, file_name, Parameters(split=split, max_seconds=parameters.max_seconds), 0.0
+    ).texture
 
 
-def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
+def texture_shape(data: bytes, file_name: str, name: str) -> PublishedShape:
     """Shape of a texture; facts that the texture does not hold are None."""
     from vexture.texture.load import texture_from
 
@@ -181,7 +185,7 @@ def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
         "warnings": [],
         "notes": [],
     }
-    return Shape(name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
+    return PublishedShape(name, PublishedFile(data, TEXTURE_TYPE, ".ktx2"), facts)
 
 
 def _box_in_browsers(framed: "Frame | None", to_source: "NDArray[np.float64]") -> list[float]:

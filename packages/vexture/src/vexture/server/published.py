@@ -1,4 +1,4 @@
-"""Published shapes: their files, what clients are told of them, and the clients that listen for changes."""
+"""Published shapes: their files, their manifests, and the clients that listen for changes."""
 
 import asyncio
 import hashlib
@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Final
 
-__all__ = ["TEXTURE_TYPE", "Event", "File", "Listener", "Shape", "Shelf", "manifest"]
+__all__ = ["TEXTURE_TYPE", "Event", "Listener", "PublishedFile", "PublishedShape", "PublishedShapes", "manifest"]
 
 TEXTURE_TYPE: Final = "image/ktx2"
 
@@ -21,7 +21,7 @@ REPLACED_BYTES: Final = 32 * 2**20
 
 
 @dataclass(frozen=True)
-class File:
+class PublishedFile:
     """Bytes that are served under the name of their digest, and so never change."""
 
     data: bytes
@@ -34,20 +34,20 @@ class File:
 
         Examples
         --------
-        >>> File(b"", "image/ktx2", ".ktx2").name
+        >>> PublishedFile(b"", "image/ktx2", ".ktx2").name
         'e3b0c44298fc1c149afbf4c8996fb924.ktx2'
         """
         return hashlib.sha256(self.data).hexdigest()[:DIGEST_LENGTH] + self.suffix
 
 
 @dataclass(frozen=True)
-class Shape:
+class PublishedShape:
     """One published shape or drawing."""
 
     name: str
-    texture: File  # packed
+    texture: PublishedFile  # packed
     facts: Mapping[str, Any] = field(default_factory=dict)  # counts, sizes and times, ready for JSON
-    views: Mapping[str, File] = field(default_factory=dict)  # to compare with the texture: svg, the source
+    views: Mapping[str, PublishedFile] = field(default_factory=dict)  # to compare with the texture: svg, the source
 
     @cached_property
     def version(self) -> str:
@@ -57,18 +57,18 @@ class Shape:
         return hashlib.sha256(json.dumps(seen, sort_keys=True).encode()).hexdigest()[:DIGEST_LENGTH]
 
     @property
-    def files(self) -> tuple[File, ...]:
+    def files(self) -> tuple[PublishedFile, ...]:
         """All files that it consists of."""
         return (self.texture, *self.views.values())
 
 
 def manifest(
-    shape: Shape,
+    shape: PublishedShape,
     note: str | None,
     views: Mapping[str, Any],
     *,
     levels: int = 0,
-    address: Callable[[File], str] | None = None,
+    address: Callable[[PublishedFile], str] | None = None,
 ) -> dict[str, Any]:
     """Describe a shape to clients, ready for JSON.
 
@@ -114,7 +114,7 @@ class Listener:
     def __len__(self) -> int:
         return len(self._pending)
 
-    def tell(self, event: Event) -> None:
+    def add(self, event: Event) -> None:
         """Add an event, and drop those that it supersedes."""
         name = event.data["name"]
         for kind in ("note",) if event.kind == "note" else ("shape", "gone", "note"):
@@ -137,15 +137,15 @@ class Listener:
         return self._pending.popitem(last=False)[1]
 
 
-class Shelf:
+class PublishedShapes:
     """Shapes in memory. All methods belong to the event loop's thread."""
 
     def __init__(self) -> None:
-        self._shapes: dict[str, Shape] = {}
+        self._shapes: dict[str, PublishedShape] = {}
         self._notes: dict[str, str] = {}
-        self._files: dict[str, File] = {}
+        self._files: dict[str, PublishedFile] = {}
         self._owners: Counter[str] = Counter()
-        self._replaced: OrderedDict[str, File] = OrderedDict()
+        self._replaced: OrderedDict[str, PublishedFile] = OrderedDict()
         self._listeners: set[Listener] = set()
         self._closed = False
 
@@ -168,19 +168,19 @@ class Shelf:
         """Bytes of all files of the shapes."""
         return sum(len(file.data) for file in self._files.values())
 
-    def shape(self, name: str) -> Shape | None:
+    def shape(self, name: str) -> PublishedShape | None:
         """The shape of a name, if there is one."""
         return self._shapes.get(name)
 
-    def file(self, name: str) -> File | None:
+    def file(self, name: str) -> PublishedFile | None:
         """File of a name that the shapes consist of, or consisted of a moment ago."""
         return self._files.get(name) or self._replaced.get(name)
 
     def owners(self, file: str) -> int:
-        """How often the shapes use a file, by its name."""
+        """Number of times that the shapes use a file, by its name."""
         return self._owners[file]
 
-    def put(self, shape: Shape) -> None:
+    def add(self, shape: PublishedShape) -> None:
         """Publish a shape; it replaces the one of its name."""
         self._notes.pop(shape.name, None)
         for file in shape.files:
@@ -190,7 +190,7 @@ class Shelf:
         before = self._shapes.get(shape.name)
         self._shapes[shape.name] = shape
         self._release(before)
-        self._tell(Event("shape", {"name": shape.name, "version": shape.version}))
+        self._notify(Event("shape", {"name": shape.name, "version": shape.version}))
 
     def remove(self, name: str) -> None:
         """Remove the shape of a name, and the note about it."""
@@ -198,12 +198,12 @@ class Shelf:
         if shape is not None:
             self._release(shape)
         if shape is not None or note is not None:
-            self._tell(Event("gone", {"name": name}))
+            self._notify(Event("gone", {"name": name}))
 
     def refuse(self, name: str, message: str) -> None:
         """Tell all clients why an update is not published; the last good shape stays."""
         self._notes[name] = message
-        self._tell(Event("note", {"name": name, "message": message}))
+        self._notify(Event("note", {"name": name, "message": message}))
 
     def close(self) -> None:
         """End the streams of all listeners, and of those that come later."""
@@ -211,7 +211,7 @@ class Shelf:
         for listener in self._listeners:
             listener.close()
 
-    def _release(self, shape: Shape | None) -> None:
+    def _release(self, shape: PublishedShape | None) -> None:
         """Give up the files of a replaced shape; those that no shape uses any more are served for a while."""
         for file in () if shape is None else shape.files:
             self._owners[file.name] -= 1
@@ -222,9 +222,9 @@ class Shelf:
         while size > REPLACED_BYTES:
             size -= len(self._replaced.popitem(last=False)[1].data)
 
-    def _tell(self, event: Event) -> None:
+    def _notify(self, event: Event) -> None:
         for listener in self._listeners:
-            listener.tell(event)
+            listener.add(event)
 
     @contextmanager
     def events(self) -> Iterator[Listener]:

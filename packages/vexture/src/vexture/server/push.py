@@ -37,7 +37,7 @@ def push(path: Path, url: str, token: str) -> dict[str, str]:
             manifest = json.loads(answer.read(LONGEST_ANSWER))
         return {"url": target, **{key: str(manifest[key]) for key in ("name", "version", "bytes")}}
     except HTTPError as error:
-        raise _refused(target, error) from None
+        raise _refusal_error(target, error) from None
     except URLError as error:
         raise DeviceError(f"{target}: cannot be reached ({error.reason}); check the address") from None
     except (OSError, HTTPException) as error:
@@ -70,7 +70,7 @@ def target_of(url: str, stem: str) -> str:
     return urlunsplit((parts.scheme, parts.netloc, f"{base}{SHAPES}/{quote(name)}", "", ""))
 
 
-def _refused(target: str, error: HTTPError) -> VextureError:
+def _refusal_error(target: str, error: HTTPError) -> VextureError:
     """Turn an answer into an error of one line."""
     try:
         line = json.loads(error.read(LONGEST_ANSWER))["error"]

@@ -1,4 +1,4 @@
-"""What every server answers: the list of shapes, their manifests, their files, and the stream of changes."""
+"""Routes of every server: the list of shapes, their manifests, their files, and the stream of changes."""
 
 import asyncio
 import hashlib
@@ -23,16 +23,16 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from vexture.server.description import DESCRIPTION, description
 from vexture.server.limits import Limits
 from vexture.server.listen import Lifespan
-from vexture.server.published import Event, Shape, Shelf, manifest
+from vexture.server.published import Event, PublishedShape, PublishedShapes, manifest
 
 __all__ = [
     "FOREVER",
     "NO_SNIFFING",
     "KnownHosts",
     "application",
-    "current",
+    "current_route",
     "entity_tag",
-    "fixed",
+    "fixed_route",
     "levels_below",
     "refusal",
     "routes",
@@ -42,13 +42,13 @@ PING_SECONDS: Final = 15
 """A proxy takes a stream for dead that is silent for long."""
 
 TOLD: Final = 256
-"""Shapes of which a new client is told at once: a slow one takes its time without a copy of all."""
+"""Shapes that one part of the first event holds: a slow client costs no copy of all."""
 
 FOREVER: Final = "public, max-age=31536000, immutable"
 SVG_POLICY: Final = "sandbox; default-src 'none'; style-src 'unsafe-inline'"
 NO_SNIFFING: Final = {"X-Content-Type-Options": "nosniff"}
 
-Views: TypeAlias = Callable[[Shape], Mapping[str, Any]]
+Views: TypeAlias = Callable[[PublishedShape], Mapping[str, Any]]
 """What a manifest names beside the files of a shape, relative to the manifest."""
 
 OTHER_ORIGINS: Final = Middleware(
@@ -116,12 +116,12 @@ def application(
     With `only_at` it answers only requests that name this host or the machine itself (`KnownHosts`). Otherwise it
     answers everyone, and lets pages of other origins read.
     """
-    described = fixed(DESCRIPTION, description(listed, limits), "application/json", {"Cache-Control": "no-cache"})
+    described = fixed_route(DESCRIPTION, description(listed, limits), "application/json", {"Cache-Control": "no-cache"})
     app = Starlette(
         routes=[*listed, described],
         middleware=[OTHER_ORIGINS if only_at is None else Middleware(KnownHosts, name=only_at)],
         lifespan=lifespan,
-        exception_handlers={HTTPException: _told, Exception: _failed},
+        exception_handlers={HTTPException: _http_error, Exception: _server_error},
     )
     app.router.redirect_slashes = False  # to a host that the client names
     return app
@@ -132,8 +132,8 @@ def refusal(status: int, line: str, headers: Mapping[str, str] | None = None) ->
     return JSONResponse({"error": line}, status, {"Cache-Control": "no-store", **(headers or {})})
 
 
-async def _told(request: Request, error: Exception) -> Response:
-    """Say in JSON what the framework refuses."""
+async def _http_error(request: Request, error: Exception) -> Response:
+    """Answer in JSON for what the framework refuses."""
     assert isinstance(error, HTTPException)
     if error.status_code == 405:
         found = [route for route in request.app.routes if route.matches(request.scope)[0] is not Match.NONE]
@@ -143,30 +143,30 @@ async def _told(request: Request, error: Exception) -> Response:
     return refusal(error.status_code, line, error.headers)
 
 
-async def _failed(request: Request, error: Exception) -> Response:
+async def _server_error(request: Request, error: Exception) -> Response:
     """Answer that the server has a fault; the traceback is in its log, not here."""
     return refusal(500, f"the server failed ({type(error).__name__}); its log says more")
 
 
-def fixed(path: str, content: bytes, media_type: str, headers: Mapping[str, str]) -> Route:
+def fixed_route(path: str, content: bytes, media_type: str, headers: Mapping[str, str]) -> Route:
     """Route of content that never changes while the server runs."""
-    return current(path, lambda: content, media_type, headers)
+    return current_route(path, lambda: content, media_type, headers)
 
 
-def current(path: str, content: Callable[[], bytes], media_type: str, headers: Mapping[str, str]) -> Route:
+def current_route(path: str, content: Callable[[], bytes], media_type: str, headers: Mapping[str, str]) -> Route:
     """Route of content as it is now; the same object is digested once."""
     digest = lru_cache(1)(lambda found: hashlib.sha256(found).hexdigest()[:32])
 
     async def answer(request: Request) -> Response:
         found = content()
         tagged = {"ETag": f'"{digest(found)}"', **headers}
-        return _unchanged(request, tagged) or Response(found, media_type=media_type, headers=tagged)
+        return _not_modified(request, tagged) or Response(found, media_type=media_type, headers=tagged)
 
     return Route(path, answer)
 
 
 def levels_below(request: Request) -> int:
-    """How many levels below ``shapes/`` the address of a shape's manifest is, as the client wrote it.
+    """Count the levels below ``shapes/`` of the address of a shape's manifest, as the client wrote it.
 
     The slash in ``flood/00`` is a level, and ``%2F`` in its place is none.
     """
@@ -174,37 +174,37 @@ def levels_below(request: Request) -> int:
     return int(name.count("/")) - bytes(request.scope.get("raw_path") or b"").lower().count(b"%2f")
 
 
-def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[Route]:
-    """Routes to read the shapes of a shelf, whose manifests also name what `views` gives."""
+def routes(published: PublishedShapes, views: Views = lambda shape: {}) -> list[Route]:
+    """Routes to read published shapes, whose manifests also name what `views` returns."""
 
     async def shapes(request: Request) -> Response:
-        listed = _listed(tuple(shelf.names))
+        listed = _shape_list(tuple(published.names))
         return Response(listed, media_type="application/json", headers={"Cache-Control": "no-cache"})
 
     async def one(request: Request) -> Response:
         name = unicodedata.normalize("NFC", request.path_params["name"])
-        shape = shelf.shape(name)
+        shape = published.shape(name)
         if shape is None:
             return refusal(404, f"no shape {name[:100]!r}; /shapes lists the names")
-        note = shelf.notes.get(name)
+        note = published.notes.get(name)
         headers = {"ETag": entity_tag(shape.version, note), "Cache-Control": "no-cache"}
         told = manifest(shape, note, views(shape), levels=levels_below(request))
-        return _unchanged(request, headers) or JSONResponse(told, headers=headers)
+        return _not_modified(request, headers) or JSONResponse(told, headers=headers)
 
     async def file(request: Request) -> Response:
         name = request.path_params["name"]
-        found = shelf.file(name)
+        found = published.file(name)
         if found is None:
             return refusal(404, f"no file {name[:100]!r}; the manifest of its shape names the newest")
         headers = {"ETag": f'"{name}"', "Cache-Control": FOREVER, **NO_SNIFFING}
         if found.media_type.startswith("image/svg"):
             headers["Content-Security-Policy"] = SVG_POLICY
-        return _unchanged(request, headers) or Response(found.data, media_type=found.media_type, headers=headers)
+        return _not_modified(request, headers) or Response(found.data, media_type=found.media_type, headers=headers)
 
     async def events(request: Request) -> Response:
         headers = {"Cache-Control": "no-cache", "X-Accel-Buffering": "no", "Content-Type": "text/event-stream"}
         if request.method != "HEAD":
-            return StreamingResponse(stream(shelf), headers=headers)
+            return StreamingResponse(stream(published), headers=headers)
         answer = Response(headers=headers)
         del answer.headers["Content-Length"]  # of a stream nobody knows it
         return answer
@@ -218,25 +218,25 @@ def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[Route]:
 
 
 @lru_cache(1)
-def _listed(names: tuple[str, ...]) -> bytes:
+def _shape_list(names: tuple[str, ...]) -> bytes:
     """Answer that many clients share."""
     return json.dumps({"shapes": names}, ensure_ascii=False, separators=(",", ":")).encode()
 
 
-async def stream(shelf: Shelf) -> AsyncIterator[bytes]:
+async def stream(published: PublishedShapes) -> AsyncIterator[bytes]:
     """First all versions and notes, so that a client that comes back catches up; then the changes.
 
     The versions are one event, in parts. What changes between two parts is a change that comes after the event.
     """
-    with shelf.events() as listener:
+    with published.events() as listener:
         yield b'event: hello\r\ndata: {"versions":{'
-        names, separator = shelf.names, ""
+        names, separator = published.names, ""
         for start in range(0, len(names), TOLD):
-            if versions := shelf.versions(names[start : start + TOLD]):
+            if versions := published.versions(names[start : start + TOLD]):
                 yield f"{separator}{json.dumps(versions, separators=(',', ':'))[1:-1]}".encode()
                 separator = ","
         yield b"}}\r\n\r\n"
-        for name, message in shelf.notes.items():
+        for name, message in published.notes.items():
             yield Event("note", {"name": name, "message": message}).sent
         while True:
             try:
@@ -255,7 +255,7 @@ def entity_tag(version: str, note: str | None) -> str:
     return f'"{version}"' if note is None else f'"{version}-{hashlib.sha256(note.encode()).hexdigest()[:8]}"'
 
 
-def _unchanged(request: Request, headers: Mapping[str, str]) -> Response | None:
+def _not_modified(request: Request, headers: Mapping[str, str]) -> Response | None:
     """Answer 304 to a client that has the content of this ``ETag`` already, or None."""
     known = is_known(headers["ETag"], request.headers.get("if-none-match", ""))
     return Response(status_code=304, headers=headers) if known else None

@@ -1,4 +1,4 @@
-"""The token that authorizes uploads, and those who try others."""
+"""The token that authorizes uploads, and the pace of wrong ones."""
 
 import time
 from collections.abc import Callable
@@ -36,7 +36,7 @@ def read_token(path: Path) -> str:
 
 
 class WrongTokens:
-    """How often wrong tokens were sent of late; who has the right one never waits, whoever shares the address.
+    """Rate of recent wrong tokens; a client with the right one never waits, whoever shares its address.
 
     Examples
     --------
@@ -48,6 +48,6 @@ class WrongTokens:
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._each, self._all = Pace(*WRONG_FROM_ONE, clock), Pace(*WRONG_FROM_ALL, clock)
 
-    def wait(self, who: str) -> float:
+    def wait(self, address: str) -> float:
         """Note a wrong token from an address; return the seconds until the next one may be answered as usual, or 0."""
-        return max(self._each.wait(who), self._all.wait(""))
+        return max(self._each.wait(address), self._all.wait(""))

@@ -13,14 +13,14 @@ from starlette.routing import Route
 
 from vexture.base.errors import EXPECTED, DeviceError, LimitError
 from vexture.server.converter import BusyError, Converter
-from vexture.server.limited_shapes import FullError, LimitedShelf
+from vexture.server.limited_shapes import FullError, LimitedShapes
 from vexture.server.limits import Limits, Pace
 from vexture.server.names import checked_name
 from vexture.server.published import manifest
 from vexture.server.routes import entity_tag, levels_below, refusal
 from vexture.server.tokens import WrongTokens
 
-__all__ = ["publishing_routes", "received"]
+__all__ = ["publishing_routes", "read_body"]
 
 DRAINED: Final = 4
 """Times the limit. So much of a refused body is read: a client that still sends does not see the answer."""
@@ -45,13 +45,13 @@ class _WrongTokenError(_RefusedError):
     """One of too many."""
 
 
-def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits, token: str | None) -> list[Route]:
-    """Routes to publish shapes on a shelf with the token; without one, all uploads are refused."""
+def publishing_routes(published: LimitedShapes, converter: Converter, limits: Limits, token: str | None) -> list[Route]:
+    """Routes to publish shapes with the token; without one, all uploads are refused."""
     pace, wrong = Pace(limits.rate, limits.burst), WrongTokens()
     delayed = asyncio.Semaphore(MOST_DELAYED)
     turns: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
-    def admitted(request: Request) -> str:
+    def admit(request: Request) -> str:
         who = request.client.host if request.client else ""
         _check_token(request, token, wrong, who)
         try:
@@ -63,12 +63,12 @@ def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits,
             raise _RefusedError(429, line, {"Retry-After": str(ceil(wait))})
         return name
 
-    async def put(request: Request) -> Response:
+    async def upload(request: Request) -> Response:
         try:
-            name = admitted(request)
+            name = admit(request)
         except _RefusedError as error:
             with suppress(TimeoutError, ClientDisconnect):
-                await received(request, limits, 0)
+                await read_body(request, limits, 0)
             if isinstance(error, _WrongTokenError) and not delayed.locked():
                 async with delayed:
                     await asyncio.sleep(DELAY_SECONDS)
@@ -77,40 +77,40 @@ def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits,
             data = await _body(request, limits)
             with converter.place():  # not before the upload is here: a slow sender takes no place
                 async with turns.setdefault(name, asyncio.Lock()):  # of one name the last one that came stays
-                    return await published(name, data, levels_below(request))
+                    return await publish(name, data, levels_below(request))
         except _RefusedError as error:
             return refusal(error.status, error.line, error.headers)
         except BusyError as error:
             return refusal(503, str(error), {"Retry-After": "5"})
 
-    async def published(name: str, data: bytes, levels: int) -> Response:
+    async def publish(name: str, data: bytes, levels: int) -> Response:
         try:
             shape = await converter.shape_of(data, name)
         except BusyError:
             raise
         except EXPECTED as error:
-            if shelf.shape(name) is not None:
-                shelf.refuse(name, str(error))
+            if published.shape(name) is not None:
+                published.refuse(name, str(error))
             return refusal(422, str(error))
-        is_new = shelf.shape(name) is None
+        is_new = published.shape(name) is None
         try:
-            await shelf.publish(shape)
+            await published.publish(shape)
         except (FullError, DeviceError) as error:
             return refusal(507, str(error))
         headers = {"ETag": entity_tag(shape.version, None), "Cache-Control": "no-store"}
         return JSONResponse(manifest(shape, None, {}, levels=levels), 201 if is_new else 200, headers)
 
-    return [Route("/shapes/{name:any}", put, methods=["PUT"])]
+    return [Route("/shapes/{name:any}", upload, methods=["PUT"])]
 
 
-def _check_token(request: Request, token: str | None, wrong: WrongTokens, who: str) -> None:
+def _check_token(request: Request, token: str | None, wrong: WrongTokens, address: str) -> None:
     if token is None:
         raise _RefusedError(403, "this server takes no uploads; start it with --token-file")
     scheme, _, given = request.headers.get("authorization", "").partition(" ")
     if scheme.lower() != "bearer":
         raise _RefusedError(401, "uploads need the header Authorization: Bearer TOKEN", CHALLENGE)
     if not hmac.compare_digest(given.strip().encode(), token.encode()):
-        if wait := wrong.wait(who):
+        if wait := wrong.wait(address):
             line = f"the token is wrong, as others were before it; wait {wait:.0f} s, and give the right one"
             raise _WrongTokenError(429, line, {"Retry-After": str(ceil(wait))})
         raise _RefusedError(401, "the token is wrong", WRONG)
@@ -122,7 +122,7 @@ async def _body(request: Request, limits: Limits) -> bytes:
     length = request.headers.get("content-length", "0")
     too_large = int(length[:20]) > most if length.isdecimal() else True
     try:
-        body, size = await received(request, limits, 0 if too_large else most)
+        body, size = await read_body(request, limits, 0 if too_large else most)
     except TimeoutError:
         raise _RefusedError(408, f"the upload took longer than {limits.upload_seconds:g} s; try again") from None
     except ClientDisconnect:
@@ -132,8 +132,8 @@ async def _body(request: Request, limits: Limits) -> bytes:
     return body
 
 
-async def received(request: Request, limits: Limits, kept: int) -> tuple[bytes, int]:
-    """Read a body: its content, if it has at most `kept` bytes, and the number of bytes read.
+async def read_body(request: Request, limits: Limits, max_bytes: int) -> tuple[bytes, int]:
+    """Read a body: its content, if it has at most `max_bytes` bytes, and the number of bytes read.
 
     Raises a `TimeoutError` if that takes too long, and a `ClientDisconnect` if it breaks off.
     """
@@ -141,7 +141,7 @@ async def received(request: Request, limits: Limits, kept: int) -> tuple[bytes, 
     async with asyncio.timeout(limits.upload_seconds):
         async for chunk in request.stream():
             size += len(chunk)
-            if size <= kept:
+            if size <= max_bytes:
                 body += chunk
             elif size > DRAINED * limits.max_bytes:
                 break

@@ -9,9 +9,9 @@ from typing import Any
 
 from vexture.base.errors import EXPECTED
 from vexture.conversion.reading import content_of
-from vexture.server.published import Shape, Shelf
+from vexture.server.published import PublishedShape, PublishedShapes
 
-__all__ = ["Source", "named", "watch"]
+__all__ = ["WatchedFile", "name_files", "watch"]
 
 STEP_MILLISECONDS = 10
 DEBOUNCE_MILLISECONDS = 50
@@ -30,7 +30,7 @@ _Stamp = tuple[int, int, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Source:
+class WatchedFile:
     """A file that is shown."""
 
     path: Path  # as the user gave it, for messages
@@ -42,17 +42,17 @@ class Source:
         return {self.path.parent.resolve() / self.path.name, self.path.resolve()}
 
 
-Convert = Callable[[Source, bytes], Awaitable[Shape]]
+Convert = Callable[[WatchedFile, bytes], Awaitable[PublishedShape]]
 
 
-def named(paths: Sequence[Path]) -> list[Source]:
+def name_files(paths: Sequence[Path]) -> list[WatchedFile]:
     r"""Give each file a name of its own, made from its stem, in Unicode's normal form NFC.
 
     Examples
     --------
-    >>> [source.name for source in named([Path("a/duck.svg"), Path("b/duck.svg"), Path("cake.svg")])]
+    >>> [source.name for source in name_files([Path("a/duck.svg"), Path("b/duck.svg"), Path("cake.svg")])]
     ['duck', 'duck-2', 'cake']
-    >>> [source.name for source in named([Path("cafe\u0301.svg")])] == ["caf\u00e9"]
+    >>> [source.name for source in name_files([Path("cafe\u0301.svg")])] == ["caf\u00e9"]
     True
     """
     names: set[str] = set()
@@ -64,20 +64,22 @@ def named(paths: Sequence[Path]) -> list[Source]:
             number += 1
             name = f"{stem}-{number}"
         names.add(name)
-        sources.append(Source(path, name))
+        sources.append(WatchedFile(path, name))
     return sources
 
 
-async def watch(shelf: Shelf, sources: Sequence[Source], convert: Convert, seen: Mapping[str, bytes | None]) -> None:
+async def watch(
+    published: PublishedShapes, sources: Sequence[WatchedFile], convert: Convert, contents: Mapping[str, bytes | None]
+) -> None:
     """Publish each file again when it changes, or tell clients why not; ends only when it is cancelled.
 
-    `convert` makes the shape of a file with a content; `seen` is the content that is published already, by name.
+    `convert` makes the shape of a file with a content; `contents` is the content that is published already, by name.
     """
     from watchfiles import awatch
 
-    content: dict[str, bytes | None] = dict(seen)
+    content: dict[str, bytes | None] = dict(contents)
     read: dict[str, _Stamp | None] = {}
-    owners: dict[Path, list[Source]] = {}
+    owners: dict[Path, list[WatchedFile]] = {}
     for source in sources:
         for place in source.places:
             owners.setdefault(place, []).append(source)
@@ -99,7 +101,7 @@ async def watch(shelf: Shelf, sources: Sequence[Source], convert: Convert, seen:
             stamp = _stamp(source.path)
             if source in changed or read.get(source.name, ()) != stamp:
                 read[source.name] = stamp
-                await _publish(shelf, source, convert, content)
+                await _publish(published, source, convert, content)
 
 
 def _stamp(path: Path) -> _Stamp | None:
@@ -111,7 +113,9 @@ def _stamp(path: Path) -> _Stamp | None:
     return found.st_ino, found.st_size, found.st_mtime_ns
 
 
-async def _publish(shelf: Shelf, source: Source, convert: Convert, content: dict[str, bytes | None]) -> None:
+async def _publish(
+    published: PublishedShapes, source: WatchedFile, convert: Convert, content: dict[str, bytes | None]
+) -> None:
     """Publish a file once it is a drawing; after the last pause, tell clients why it is none."""
     line = ""
     for delay in (*SETTLING_SECONDS, None):
@@ -126,7 +130,7 @@ async def _publish(shelf: Shelf, source: Source, convert: Convert, content: dict
                 await asyncio.sleep(delay)
             continue
         content[source.name] = data
-        shelf.put(shape)
+        published.add(shape)
         return
     content[source.name] = None  # the last good content, once it is back, is published and clears the note
-    shelf.refuse(source.name, line)
+    published.refuse(source.name, line)

@@ -87,10 +87,10 @@ def _entries(folder: str) -> list[Path]:
     return [Path(place, name) for place, _, names in os.walk(folder) for name in names]
 
 
-def _work(work: Callable[..., T], given: tuple[Any, ...]) -> T:
+def _work(work: Callable[..., T], arguments: tuple[Any, ...]) -> T:
     """Do a piece of work in the process, and remove what it leaves."""
     try:
-        return work(*given)
+        return work(*arguments)
     finally:
         for file in _entries(tempfile.gettempdir()):
             with suppress(OSError):

@@ -120,7 +120,7 @@ def paint_angular(scene: Imaging, element: etree._Element, place: Place, painter
     step = STEP * max(count / MOST_SECTORS, 1.0)
     sectors = [sector for course in courses for sector in course.sectors(step)]
     if any(course.change for course in courses):
-        scene.report.simplified(f"angular gradient drawn in {len(sectors)} sectors", element)
+        scene.report.simplification(f"angular gradient drawn in {len(sectors)} sectors", element)
     inner = replace(place, space=place.space.window(box, Identity))
     for sector in sectors if fill.opacity < 1.0 else overlapping(sectors):
         paint = Paint(sector.first.color, sector.first.opacity * fill.opacity)

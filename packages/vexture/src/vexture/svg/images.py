@@ -14,8 +14,8 @@ from urllib.parse import unquote, unquote_to_bytes
 
 from lxml import etree
 
-from vexture.base.content import BEFORE_MARKUP, FileKind, kind_of, picture_size, read_bytes, start_of, unpacked
-from vexture.base.errors import LimitError, SourceError, shortened
+from vexture.base.content import BEFORE_MARKUP, FileKind, kind_of, picture_size, read_bytes, start_of, unpack_source
+from vexture.base.errors import LimitError, SourceError, shorten_text
 from vexture.drawing.drawing import Drawing
 from vexture.svg.document import parse_svg
 from vexture.svg.gradients import rows
@@ -84,7 +84,7 @@ class Images:
 
     def opened(self, link: str) -> Found:
         """As `read`, without looking whether it is known, and with errors that do not name the image."""
-        content = unpacked(embedded(link) if is_embedded(link) else self.beside(link))
+        content = unpack_source(embedded(link) if is_embedded(link) else self.beside(link))
         start = start_of(content) or read_bytes(content)
         kind = kind_of(start)
         if kind is FileKind.PICTURE:
@@ -136,7 +136,7 @@ def called(link: str) -> str:
     if not is_embedded(link):
         place = re.split("[?#]", link, maxsplit=1)[0]
         name = re.split(r"[/\\:]", unquote(place).rstrip("/\\"))[-1] or place
-        return f"image '{shortened(name, SHOWN)}'"
+        return f"image '{shorten_text(name, SHOWN)}'"
     try:
         content = embedded(link)
     except SourceError:
@@ -201,7 +201,7 @@ def paint_image(scene: Imaging, element: etree._Element, place: Place, painter: 
     if not isinstance(found, Drawing):
         scene.paint_embedded(found, inner, painter)
         return
-    scene.report.simplified("<image> traced", element)
+    scene.report.simplification("<image> traced", element)
     (a, b, c), (d, e, f) = found.to_source.tolist()
     to_pixels = Transform(a, d, b, e, c, f)
     to_unit = rows(inner.space.whole.transform(to_pixels).inverse())

@@ -77,7 +77,7 @@ def note_outer_units(scene: Measured, root: etree._Element, style: Style, size: 
         return
     for name in MASKING.keys() & style.own.keys():
         if style[name].lower() != "none":
-            scene.report.simplified(f"{name} of the outermost <svg> read in the units of its content", root)
+            scene.report.simplification(f"{name} of the outermost <svg> read in the units of its content", root)
 
 
 def shape_of(scene: Measured, element: etree._Element, place: Place) -> etree._Element | None:
@@ -114,7 +114,7 @@ def add_mask(
             return replace(place, space=space.window(rectangle, matrix.inverse())), []
     if not is_clip:
         if style["color-interpolation"].lower() == "linearrgb":
-            scene.report.simplified("mask in linear light (color-interpolation) read as one in sRGB", element)
+            scene.report.simplification("mask in linear light (color-interpolation) read as one in sRGB", element)
         space = region(scene, element, target, place, matrix)
     assert place.veil is not None
     mode = place.style["mask-mode"].lower().partition(",")[0].strip()  # of one layer

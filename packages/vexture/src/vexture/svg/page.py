@@ -7,7 +7,7 @@ from typing import Final
 
 from lxml import etree
 
-from vexture.base.errors import ParameterError, shortened
+from vexture.base.errors import ParameterError, shorten_text
 from vexture.base.notes import Note
 from vexture.drawing.colors import CONTEXT, CURRENT, Color, parse_color
 from vexture.svg.document import local_name
@@ -67,7 +67,7 @@ class Page:
     def lost(self, what: str, *, helps: bool) -> str:
         """What a note says of something that has no value; `helps` is whether a colour would be valid there."""
         remedy = " (`page_colors` gives it one)" if helps and self.is_open else ""
-        return f"{shortened(what, LONGEST)}, which has no value{remedy}"
+        return f"{shorten_text(what, LONGEST)}, which has no value{remedy}"
 
 
 ENCLOSED: Final = Page(is_open=False)
@@ -124,5 +124,5 @@ def texts_of(root: etree._Element) -> Iterator[str]:
 
 def listed(names: list[str]) -> str:
     """The first of some names of colours, as a note lists them."""
-    shown = ["currentColor" if name == CURRENT else shortened(name, LONGEST) for name in names[:MOST_NAMED]]
+    shown = ["currentColor" if name == CURRENT else shorten_text(name, LONGEST) for name in names[:MOST_NAMED]]
     return ", ".join((*shown, "...") if len(names) > MOST_NAMED else shown)

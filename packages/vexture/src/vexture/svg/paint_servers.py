@@ -144,7 +144,9 @@ class PaintServers(Links):
             stops = next(filter(None, map(self.stops, chain)), None)
             style = self.style_of(gradient)
             if style["color-interpolation"].lower() == "linearrgb":
-                self.report.simplified("gradient in linear light (color-interpolation) read as one in sRGB", gradient)
+                self.report.simplification(
+                    "gradient in linear light (color-interpolation) read as one in sRGB", gradient
+                )
             self.ramps[gradient] = None if stops is None else read_ramp(chain, stops, style, self.report)
         return self.ramps[gradient]
 
@@ -155,7 +157,7 @@ class PaintServers(Links):
         stops = tuple(self.stop(element, offset) for element, offset in zip(elements, offsets, strict=True))
         if len(stops) <= MOST_STOPS:
             return stops
-        self.report.simplified(f"gradient of more than {MOST_STOPS} stops, of which as many are kept", gradient)
+        self.report.simplification(f"gradient of more than {MOST_STOPS} stops, of which as many are kept", gradient)
         return tuple(stops[(len(stops) - 1) * k // (MOST_STOPS - 1)] for k in range(MOST_STOPS))
 
     def stop(self, element: etree._Element, offset: float) -> Stop:

@@ -278,7 +278,7 @@ def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:
         return None
     join = style["stroke-linejoin"].lower()
     if join in ("miter-clip", "arcs"):
-        shape.report.simplified(f"stroke-linejoin {join} drawn as miter", shape.element)
+        shape.report.simplification(f"stroke-linejoin {join} drawn as miter", shape.element)
         join = "miter"
     dashes = dashes_of(shape)
     offset = shape.length("stroke-dashoffset") or 0.0

@@ -121,7 +121,7 @@ class Budget:
         """Whether a pattern may have so many of the things that `MOST` limits; if not, a note says so."""
         for what, count in counts.items():
             if self.spent[what] + count > MOST[what]:
-                self.report.simplified(
+                self.report.simplification(
                     f"{described(pattern)} read as solid: here it has {count:,} {what} in its tiles; all patterns of a"
                     f" drawing may have {MOST[what]:,}",
                     pattern,

@@ -11,7 +11,7 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
-from vexture.base.content import about, decompressed, read_bytes
+from vexture.base.content import about, decompress, read_bytes
 from vexture.base.errors import ParameterError, SourceError
 from vexture.base.notes import Note, warn_of
 from vexture.drawing.drawing import Drawing
@@ -152,7 +152,7 @@ def framed_drawing(
         for name, value in (("select", select), ("names", names)):
             if value is not None and not isinstance(value, str):
                 raise ParameterError(f"`{name}` is {value!r:.80}; it must be text")
-        root = parse_svg(decompressed(content))
+        root = parse_svg(decompress(content))
         unused = unused_colors(page, root) if page.colors else ()
         part = None if select is None else partial(selected, select=select)
         found = read_document(Request(root, Path(source).stem, part, named, fonts, images or Images(), page))

@@ -7,7 +7,7 @@ from typing import Final, TypeAlias
 
 from lxml import etree
 
-from vexture.base.errors import SourceError, printable, shortened
+from vexture.base.errors import SourceError, printable, shorten_text
 from vexture.base.notes import MOST_SUBJECTS, Kind, Note, Notes, Subject
 
 __all__ = ["LocatedError", "Report", "described"]
@@ -92,7 +92,7 @@ class Report(Notes):
     --------
     >>> report = Report()
     >>> report.invalid("r", "x", etree.fromstring("<rect/>"))
-    >>> [str(note) for note in report.listed]
+    >>> [str(note) for note in report.in_order]
     ["r='x' of <rect> in line 1"]
     """
 
@@ -105,17 +105,17 @@ class Report(Notes):
         """Note something that is not supported, and so paints nothing or has no effect."""
         self.count("left out", what, element)
 
-    def simplified(self, what: str, element: etree._Element | None = None) -> None:
+    def simplification(self, what: str, element: etree._Element | None = None) -> None:
         """Note something that is in the result, but not as it should be."""
         self.count("simplified", what, element)
 
     def invalid(self, name: str, value: str, element: etree._Element) -> None:
         """Note a value that the standard does not allow."""
-        self.count("invalid", f"{name}='{' '.join(shortened(value, 40).split())}' of {described(element)}", element)
+        self.count("invalid", f"{name}='{' '.join(shorten_text(value, 40).split())}' of {described(element)}", element)
 
-    def boxed(self, character: str, element: etree._Element | None = None) -> None:
+    def missing_character(self, character: str, element: etree._Element | None = None) -> None:
         """Note a character of an element that no font has."""
-        super().boxed(character)
+        super().missing_character(character)
         self.add_about("simplified", BOXED, element)
 
     def count(self, kind: Kind, what: str, element: etree._Element | None = None) -> None:
@@ -144,6 +144,6 @@ class Report(Notes):
     def about(self, subject: Callable[[etree._Element], Subject]) -> tuple[Note, ...]:
         """All notes, as `listed`, with what their elements are."""
         boxes = {note.message: BOXED for note in self.of_boxes}
-        keys = ((note, boxes.get(note.message, note.message)) for note in self.listed)
+        keys = ((note, boxes.get(note.message, note.message)) for note in self.in_order)
         found = ((note, self._about.get((note.kind, key), {})) for note, key in keys)
         return tuple(replace(note, elements=tuple(map(subject, about))) for note, about in found)

@@ -358,7 +358,7 @@ class Scene:
                 left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
                 width, height = right - left, bottom - top
             else:
-                self.report.simplified("transform-box of a group read as view-box", element)
+                self.report.simplification("transform-box of a group read as view-box", element)
 
         def length(value: str, axis: int) -> float | None:
             return place.viewport.length(value, (width, height)[axis], style.font_size)

@@ -9,7 +9,7 @@ import cssselect2
 from lxml import etree
 
 from vexture.base.deadline import check_time
-from vexture.base.errors import LimitError, ParameterError, counted, printable, shortened
+from vexture.base.errors import LimitError, ParameterError, format_count, printable, shorten_text
 from vexture.base.notes import Note
 from vexture.svg.document import language, local_name
 from vexture.svg.values import INITIAL_SIZE, Viewport, is_relative
@@ -116,7 +116,7 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
         found = {wrapper.etree_element for wrapper in wrappers if wrapper.matches(*selectors)}
     except (cssselect2.SelectorError, SyntaxError, AttributeError) as error:
         cut = isinstance(error, AttributeError)  # what cssselect2 raises for :nth-child(2n+)
-        reason = "it breaks off" if cut else shortened(str(error.args[-1] if error.args else error), LONGEST_NAMED)
+        reason = "it breaks off" if cut else shorten_text(str(error.args[-1] if error.args else error), LONGEST_NAMED)
         raise ParameterError(
             f"`select` {named(select)} is no CSS selector ({reason}); write it like '#id', '.class' or 'g > path'"
         ) from None
@@ -205,10 +205,10 @@ def unpainted(root: etree._Element) -> Note:
     names = [f"#{name}" for name in symbols_of(root)]
     if not names:
         return Note("remark", UNPAINTED)
-    shown = ", ".join(repr(shortened(printable(name), LONGEST_NAMED)) for name in names[:MOST_NAMED])
+    shown = ", ".join(repr(shorten_text(printable(name), LONGEST_NAMED)) for name in names[:MOST_NAMED])
     more = ", ..." if len(names) > MOST_NAMED else ""
     remedy = "choose one by `select`, or make an atlas of all, as `vexture convert --atlas` does"
-    return Note("left out", f"{counted(len(names), 'symbol')}: {shown}{more} ({remedy})", has_remedy=True)
+    return Note("left out", f"{format_count(len(names), 'symbol')}: {shown}{more} ({remedy})", has_remedy=True)
 
 
 def symbols_of(root: etree._Element) -> dict[str, etree._Element]:
@@ -230,4 +230,4 @@ def nothing_painted(select: str, count: int) -> LimitError:
 def named(select: str) -> str:
     """Selector as a message names it."""
     text = " ".join(select.split())
-    return repr(shortened(text, LONGEST_NAMED))
+    return repr(shorten_text(text, LONGEST_NAMED))

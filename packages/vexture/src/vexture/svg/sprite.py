@@ -10,9 +10,9 @@ from typing import Final
 
 from lxml import etree
 
-from vexture.base.content import about, decompressed
+from vexture.base.content import about, decompress
 from vexture.base.deadline import check_time
-from vexture.base.errors import shortened
+from vexture.base.errors import shorten_text
 from vexture.base.notes import Note, Notes
 from vexture.drawing.drawing import Drawing
 from vexture.svg.document import local_name, parse_svg
@@ -49,7 +49,7 @@ def symbol_drawings(
     """
     named, page = "id" if names is None else names, Page.of(page_colors)
     with about(source):
-        root = parse_svg(decompressed(content))
+        root = parse_svg(decompress(content))
     of_file = (*unread_symbols(root), *unused_colors(page, root))  # the first drawing has them
     sprite = Sprite(root)
     for name in sprite.symbols:
@@ -69,9 +69,9 @@ def unread_symbols(root: etree._Element) -> tuple[Note, ...]:
         if local_name(symbol) == "symbol" and symbol not in named:
             name = symbol.get("id")
             notes.left_out(
-                f"symbol with the id of another, {shortened(name, 40)!r}" if name else "symbol without an id"
+                f"symbol with the id of another, {shorten_text(name, 40)!r}" if name else "symbol without an id"
             )
-    return notes.listed
+    return notes.in_order
 
 
 def alone_in(root: etree._Element, name: str) -> Part:

@@ -18,7 +18,7 @@ from vexture.base.errors import SourceError
 from vexture.base.tolerance import ROUND
 from vexture.bezier.bounds import bounds
 from vexture.bezier.convert import conic_cubics, straight
-from vexture.bezier.reduce import reduced
+from vexture.bezier.reduce import reduce_contour
 from vexture.svg.outline import Outline
 
 __all__ = ["Stroke", "arc_length", "stroke_contours"]
@@ -123,7 +123,7 @@ def traced(outlines: Sequence[Outline], stroke: Stroke, size: float) -> list[NDA
         [dash * scale for dash in stroke.dashes] or None,
         stroke.dash_offset * scale,
     )
-    return [reduced(contour, 1.0 - REFINED) / scale + middle for contour in read(path)]
+    return [reduce_contour(contour, 1.0 - REFINED) / scale + middle for contour in read(path)]
 
 
 def feed(path: pathops.Path, cubics: NDArray[np.float64], closed: bool) -> None:

@@ -8,7 +8,7 @@ import cssselect2
 import tinycss2
 from lxml import etree
 
-from vexture.base.errors import shortened
+from vexture.base.errors import shorten_text
 from vexture.drawing.calculation import separated
 from vexture.svg.animations import KEYFRAMES, Values, read_keyframes
 from vexture.svg.css_names import is_other_property
@@ -233,7 +233,7 @@ def spelled(tokens: list[Any]) -> str:
         text = str(tinycss2.serialize(tokens))
     except RecursionError:
         text = "..."
-    return shortened(" ".join(text.split()), LONGEST_NAMED)
+    return shorten_text(" ".join(text.split()), LONGEST_NAMED)
 
 
 def nested(prelude: list[Any], around: str, is_relative: bool) -> str:

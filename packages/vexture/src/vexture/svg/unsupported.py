@@ -7,7 +7,7 @@ from typing import Final
 
 from lxml import etree
 
-from vexture.base.errors import shortened
+from vexture.base.errors import shorten_text
 from vexture.svg.animations import ANIMATIONS
 from vexture.svg.css_gradients import own_background
 from vexture.svg.document import local_name
@@ -61,7 +61,7 @@ def name_unseen(
     for before in root.itersiblings(etree.ProcessingInstruction, preceding=True):
         match = STYLESHEET.match(str(before))
         if match is not None:
-            report.left_out(f"style sheet '{shortened(match[2], 40)}'", root)
+            report.left_out(f"style sheet '{shorten_text(match[2], 40)}'", root)
     remarks = set[str]()
     moved_by_sheets = animated(servers)
     for top in [root] if chosen is None else chosen:

@@ -62,14 +62,14 @@ def _straight(ends: NDArray[np.int32]) -> NDArray[np.int32]:
 
 
 class LeafCurves(NamedTuple):
-    """Where the curves of leaves lie in the texels of all these leaves."""
+    """Positions of the curves of leaves in the texels of all these leaves."""
 
     texel: NDArray[np.int64]  # (curves,)
     half: NDArray[np.int64]  # (curves,): 0 or 1 in a texel of two; 0 elsewhere
     is_straight: NDArray[np.bool_]  # (curves,): whether it is in a texel of two
 
     @classmethod
-    def of(cls, count: NDArray[np.int64], is_straight: NDArray[np.bool_]) -> "LeafCurves":
+    def of_counts(cls, count: NDArray[np.int64], is_straight: NDArray[np.bool_]) -> "LeafCurves":
         """Of leaves with so many curves (leaves,), which are all straight or not."""
         texels, paired = texels_in(count, is_straight), np.repeat(is_straight, count)
         number = np.arange(len(paired)) - np.repeat(np.cumsum(count) - count, count)
@@ -95,7 +95,7 @@ def leaf_texels(
     curves: NDArray[np.int32], count: NDArray[np.int64], is_straight: NDArray[np.bool_]
 ) -> NDArray[np.uint32]:
     """Texels of the curves (n, 4, 2) of leaves with so many curves (leaves,), which are all straight or not."""
-    at = LeafCurves.of(count, is_straight)
+    at = LeafCurves.of_counts(count, is_straight)
     texels, full = np.zeros((texels_in(count, is_straight).sum(), 4), np.uint32), curve_texels(curves)
     texels[at.texel[~at.is_straight]] = full[~at.is_straight]
     pairs = texels.reshape(-1, 2, 2)

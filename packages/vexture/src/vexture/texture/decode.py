@@ -23,20 +23,20 @@ def decode(texture: Texture, root: str | int | None = None) -> Tree:
     """
     flat = texture.flat
     levels = walk(flat, np.array([texture.root(root).quad]))
-    is_quad, count = _joined(levels, "is_quad"), _joined(levels, "counts")
+    is_quad, count = _concatenate(levels, "is_quad"), _concatenate(levels, "counts")
     quads_in, curves_in = is_quad.sum(axis=1), count.sum(axis=1)
     return Tree(
         is_quad,
         count.astype(np.uint8),
-        _joined(levels, "windings").astype(np.int8),
+        _concatenate(levels, "windings").astype(np.int8),
         (1 + np.cumsum(quads_in) - quads_in).astype(np.int32),
         (np.cumsum(curves_in) - curves_in).astype(np.int32),
-        _joined(levels, "coverages") / layout.COVERAGE_ONE,
-        curve_points(flat[_joined(levels, "curves")]),
+        _concatenate(levels, "coverages") / layout.COVERAGE_ONE,
+        curve_points(flat[_concatenate(levels, "curves")]),
         deviation=0.0,
         unresolved=0,
     )
 
 
-def _joined(levels: list[WalkLevel], what: str) -> NDArray[Any]:
-    return np.concatenate([getattr(level, what) for level in levels])
+def _concatenate(levels: list[WalkLevel], attribute: str) -> NDArray[Any]:
+    return np.concatenate([getattr(level, attribute) for level in levels])

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from vexture.base.errors import FormatError
 from vexture.base.layout import MOST_ROWS, MOST_TEXT_BYTES, ROW_BITS
 
-__all__ = ["MAGIC", "TEXEL_BYTES", "check_size", "inflated", "read_ktx2", "read_value", "write_ktx2"]
+__all__ = ["MAGIC", "TEXEL_BYTES", "check_size", "inflate", "read_ktx2", "read_value", "write_ktx2"]
 
 MAGIC: Final = b"\xabKTX 20\xbb\r\n\x1a\n"
 
@@ -41,7 +41,7 @@ DEFLATE_RATIO: Final = 1032
 """Most bytes that one byte of a deflate stream can inflate to (zlib's technical details)."""
 
 
-class Header(NamedTuple):
+class Ktx2Header(NamedTuple):
     """The file's header; fields are named as in the specification."""
 
     identifier: bytes
@@ -94,7 +94,7 @@ def write_ktx2(texels: NDArray[np.uint32], texts: Mapping[str, str | bytes], def
     dfd_offset = HEADER.size + LEVEL.size
     kvd_offset = dfd_offset + len(descriptor)
     image_offset = kvd_offset + len(pairs)
-    header = Header(
+    header = Ktx2Header(
         MAGIC, R32G32B32A32_UINT, WORD_BYTES, width, height, 0, 0, 1, 1, ZLIB if deflate else NONE,
         dfd_offset, len(descriptor), kvd_offset if pairs else 0, len(pairs), 0, 0,
     )  # fmt: skip
@@ -111,8 +111,8 @@ def _key_values(texts: Mapping[str, str | bytes]) -> bytes:
     return pairs
 
 
-def read_ktx2(data: bytes, where: str) -> tuple[NDArray[np.uint32], dict[str, str]]:
-    """Texels (rows, width, 4) and texts of an untrusted KTX 2.0 file; `where` names the file in messages.
+def read_ktx2(data: bytes, name: str) -> tuple[NDArray[np.uint32], dict[str, str]]:
+    """Texels (rows, width, 4) and texts of an untrusted KTX 2.0 file; `name` names the file in messages.
 
     The header bounds everything that needs memory, and the format's limits bound the header. Texts are without their
     final zero byte; those that are not UTF-8 are left out. Raises a `FormatError` if the file is damaged or anything
@@ -125,24 +125,24 @@ def read_ktx2(data: bytes, where: str) -> tuple[NDArray[np.uint32], dict[str, st
         texts = _read_texts(_part(data, header.kvd_offset, header.kvd_length, "key/value data"))
         return _read_image(data, header), texts
     except FormatError as error:
-        raise FormatError(f"{where}: {error}; convert the drawing again") from None
+        raise FormatError(f"{name}: {error}; convert the drawing again") from None
 
 
-def _part(data: bytes, offset: int, length: int, what: str) -> bytes:
+def _part(data: bytes, offset: int, length: int, label: str) -> bytes:
     """Bytes of the file, if it has so many."""
     if length and not HEADER.size <= offset <= len(data) - length:
-        raise FormatError(f"{what} at bytes {offset} to {offset + length} of a file of {len(data)}; it is damaged")
+        raise FormatError(f"{label} at bytes {offset} to {offset + length} of a file of {len(data)}; it is damaged")
     return data[offset : offset + length]
 
 
-def _read_header(data: bytes) -> Header:
+def _read_header(data: bytes) -> Ktx2Header:
     if not data:
         raise FormatError("it is empty")
     if data[: len(MAGIC)] != MAGIC:
         raise FormatError(f"begins with {data[: len(MAGIC)]!r}; a packed texture is a KTX 2.0 file")
     if len(data) < HEADER.size + LEVEL.size:
         raise FormatError(f"{len(data)} bytes; the header alone has {HEADER.size + LEVEL.size}")
-    header = Header(*HEADER.unpack_from(data))
+    header = Ktx2Header(*HEADER.unpack_from(data))
     for what, value, allowed in (
         ("vkFormat", header.vk_format, (R32G32B32A32_UINT,)),
         ("typeSize", header.type_size, (WORD_BYTES,)),
@@ -199,7 +199,7 @@ def _read_values(pairs: bytes) -> dict[bytes, bytes]:
     return values
 
 
-def _read_image(data: bytes, header: Header) -> NDArray[np.uint32]:
+def _read_image(data: bytes, header: Ktx2Header) -> NDArray[np.uint32]:
     offset, length, said = LEVEL.unpack_from(data, HEADER.size)
     size = header.width * header.height * TEXEL_BYTES
     stored = _part(data, offset, length, "image")
@@ -208,7 +208,7 @@ def _read_image(data: bytes, header: Header) -> NDArray[np.uint32]:
     else:
         if said != size:
             raise FormatError(f"uncompressedByteLength is {said}; the size in texels makes it {size}")
-        raw = inflated(stored, size, "image")
+        raw = inflate(stored, size, "image")
     if len(raw) != size:
         raise FormatError(f"the image has {len(raw)} bytes; its size in texels makes it {size}")
     # a writable copy: kernels are compiled for such arrays, as a conversion makes them
@@ -216,15 +216,15 @@ def _read_image(data: bytes, header: Header) -> NDArray[np.uint32]:
     return texels.reshape(header.height, header.width, CHANNELS)
 
 
-def inflated(stored: bytes, size: int, what: str) -> bytes:
+def inflate(stored: bytes, size: int, label: str) -> bytes:
     """Inflate to at most `size` bytes; a `FormatError` names what it is if it is damaged."""
     if size > DEFLATE_RATIO * (len(stored) + 1):
-        raise FormatError(f"{len(stored)} bytes of {what}; they cannot inflate to {size}")
+        raise FormatError(f"{len(stored)} bytes of {label}; they cannot inflate to {size}")
     stream = zlib.decompressobj()
     try:
         raw = stream.decompress(stored, size + 1)
     except zlib.error as error:
-        raise FormatError(f"the {what} cannot be inflated ({error})") from None
+        raise FormatError(f"the {label} cannot be inflated ({error})") from None
     if len(raw) == size and (not stream.eof or stream.unused_data):
-        raise FormatError(f"the {len(stored)} bytes of {what} do not end where they should")
+        raise FormatError(f"the {len(stored)} bytes of {label} do not end where they should")
     return raw

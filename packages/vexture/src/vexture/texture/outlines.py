@@ -26,7 +26,7 @@ STRAIGHT = 1.0
 """Lattice units of the leaf. A cubic whose inner control points are this close to a line's is a rounded line."""
 
 
-class Leaves(NamedTuple):
+class OutlineLeaves(NamedTuple):
     """The n leaves that are not empty, and their m pieces, in units of the finest lattice."""
 
     low: NDArray[np.int64]  # (n, 2): bottom-left corner
@@ -52,10 +52,10 @@ def outlines(flat: NDArray[np.uint32], root: int) -> list[NDArray[np.float64]]:
     arcs = np.concatenate([leaves.pieces[steep] / SIDE, _lines(upright) / SIDE, _lines(level) / SIDE])
     is_line = np.ones(len(arcs), np.bool_)
     is_line[: steep.sum()] = leaves.is_line[steep]
-    return [_merged(arcs[cycle], is_line[cycle]) for cycle in _cycles(ends)]
+    return [_merge_lines(arcs[cycle], is_line[cycle]) for cycle in _cycles(ends)]
 
 
-def _leaves(flat: NDArray[np.uint32], root: int) -> Leaves:
+def _leaves(flat: NDArray[np.uint32], root: int) -> OutlineLeaves:
     origins: NDArray[np.int64] = np.zeros((1, 2), np.int64)
     low, sides, corner, pieces, owner, on_left, is_line = [], [], [], [], [], [], []
     total = 0
@@ -77,7 +77,7 @@ def _leaves(flat: NDArray[np.uint32], root: int) -> Leaves:
         is_line.append(abs(points - _lines(points[:, [0, 3]])).max(axis=(1, 2)) <= STRAIGHT)
         total += kept.sum()
         origins = cells[level.is_quad.ravel()]
-    return Leaves(*map(np.concatenate, (low, sides, corner, pieces, owner, on_left, is_line)))
+    return OutlineLeaves(*map(np.concatenate, (low, sides, corner, pieces, owner, on_left, is_line)))
 
 
 def _lines(ends: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -86,7 +86,7 @@ def _lines(ends: NDArray[np.int64]) -> NDArray[np.float64]:
     return line_cubics(start, stop)
 
 
-def _edges(leaves: Leaves) -> NDArray[np.int64]:
+def _edges(leaves: OutlineLeaves) -> NDArray[np.int64]:
     """Stretches of the leaves' left and right edges that bound the filled part, (n, 2, 2).
 
     In the code, `change` is added at x, above y, to the number of times that the edge runs upwards.
@@ -147,7 +147,7 @@ def _cycles(ends: NDArray[np.int64]) -> list[NDArray[np.int64]]:
     return cycles
 
 
-def _merged(arcs: NDArray[np.float64], is_line: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _merge_lines(arcs: NDArray[np.float64], is_line: NDArray[np.bool_]) -> NDArray[np.float64]:
     """One contour, in which each vertical or horizontal line is one part, and other lines are exactly straight."""
     step = np.sign(arcs[:, 3] - arcs[:, 0])
     aligned = is_line & (step == 0.0).any(axis=1)

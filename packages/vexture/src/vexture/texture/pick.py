@@ -1,4 +1,4 @@
-"""What is at a point of a planar map, by FORMAT.md, D.7: a paint, an element of the drawing, or nothing."""
+"""Pick the paint or the element of the drawing at a point of a planar map (FORMAT.md, D.7)."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -18,14 +18,14 @@ from vexture.base.layout import (
     MOST_DEPTH,
     QUAD_FLAG,
 )
-from vexture.renderers.gradient import Region, program
+from vexture.renderers.gradient import VextureRegion, program
 from vexture.texture.contains import checked_points
 from vexture.texture.curves import read_leaf_curve, texels_of_cell
 from vexture.texture.numbers import means_place, read_base, read_sides
 from vexture.texture.planar import head_of
 from vexture.texture.root import Root
 from vexture.tree.crossings import x_at
-from vexture.tree.planar.style import Style
+from vexture.tree.planar.style import PlanarStyle
 
 __all__ = ["Elements", "elements_at", "painted_at", "paints_at", "style_of_root"]
 
@@ -53,7 +53,7 @@ def _tally(ids: NDArray[np.int64], counts: NDArray[np.int64], n: int, paint: int
 
 @kernel
 def _times(curve: NDArray[np.float64], x: float, y: float) -> int:
-    """How often a curve of a leaf counts its left paint at a point more, and its right paint less."""
+    """Count by which a curve of a leaf raises its left paint at a point, and lowers its right paint."""
     start, end = curve[0, 1], curve[3, 1]
     times = 0
     if curve[0, 0] == 0.0 and start <= y:
@@ -133,7 +133,7 @@ def programs_paint(
 ) -> None:
     """Write where programs paint something: number k, of the paint's `words` (n, 2), at point k."""
     for k in range(len(points)):
-        point = Region((points[k, 0], points[k, 1]), (0.0, 0.0), (0.0, 0.0))
+        point = VextureRegion((points[k, 0], points[k, 1]), (0.0, 0.0), (0.0, 0.0))
         painted[k] = program(texels, int(words[k, 0]), int(words[k, 1]), point, 1.0)[3] > 0.0
 
 
@@ -155,7 +155,7 @@ def painted_at(texels: NDArray[np.uint32], root: Root, points: NDArray[np.float6
     return painted
 
 
-def style_of_root(root: Root) -> Style:
+def style_of_root(root: Root) -> PlanarStyle:
     """The style of a shape; a `ParameterError` without any."""
     if root.style is None:
         raise ParameterError(f"`root` {root.name!r} has no elements; convert the drawing with `restyle`")

@@ -103,7 +103,7 @@ def cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
 
 
 def _number(paints: int) -> np.dtype[np.unsignedinteger]:
-    """What the number of a paint beside a curve is, in a map with so many paints."""
+    """Encoding of the number of a paint beside a curve, in a map with `paints` paints."""
     if paints > layout.MOST_HALF_PAINTS:
         return np.dtype("<u4")
     return np.dtype("<u1" if paints <= layout.MOST_BYTE_PAINTS else "<u2")
@@ -152,7 +152,7 @@ class MapHead(NamedTuple):
 
     @property
     def paint_texels(self) -> slice:
-        """Where the paints are."""
+        """Position of the paints."""
         return slice(self.paints, self.paints + (self.used + 1) // 2)
 
 
@@ -165,7 +165,7 @@ PARTS: Final = ("head", "quads", "curves", "cells", "sides", "paints", "programs
 
 
 class MapTexels(NamedTuple):
-    """Where the texels of a planar map lie, and what they say; all of it checked."""
+    """Positions and checked content of the texels of a planar map."""
 
     levels: list[WalkLevel]
     quad: int
@@ -239,7 +239,7 @@ def _curves(
     """The curves of a map, (curves, 4, 2), and the texel of each, both in the order of the levels, as are `texels`."""
     count = np.concatenate([level.counts.ravel() for level in levels])
     straight = np.concatenate([level.windings.ravel() & layout.STRAIGHT > 0 for level in levels])
-    at = LeafCurves.of(count, straight)
+    at = LeafCurves.of_counts(count, straight)
     points = leaf_points(flat[texels], at)
     alone = np.cumsum(texels_in(count, straight))[straight & (count % 2 == 1)] - 1
     if flat[texels[alone], 2:].any():

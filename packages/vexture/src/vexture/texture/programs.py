@@ -11,11 +11,11 @@ from vexture.base.errors import FormatError, LimitError
 from vexture.drawing.group import Blend, Mask
 from vexture.drawing.paint import Gradient, Spread, Stop
 from vexture.texture.walk import REMEDY
-from vexture.tree.planar.programs import Keep, Mix, Operation, Program, Solid, how_of, number_of
+from vexture.tree.planar.programs import Keep, Mix, Operation, Program, Solid, ending_of, number_of_ending
 
 __all__ = ["NO_PROGRAMS", "ProgramTexels", "halves", "program_texels", "read_programs"]
 
-ENDS: Final = [*map(number_of, Blend), *(number_of(mask) for mask in Mask if mask)]
+ENDS: Final = [*map(number_of_ending, Blend), *(number_of_ending(mask) for mask in Mask if mask)]
 """How a group may end."""
 
 FOLLOWING: Final = np.array([0, 0, 0, 1, 2, 0, 0, 0])
@@ -73,7 +73,7 @@ def _rows(operation: Operation) -> list[list[int]]:
     if isinstance(operation, Keep):
         return [[0, 0, 0, layout.KIND_KEEP << layout.KIND_SHIFT]]
     if isinstance(operation, Mix):
-        return [[operation.opacity, number_of(operation.how), 0, layout.KIND_MIX << layout.KIND_SHIFT]]
+        return [[operation.opacity, number_of_ending(operation.how), 0, layout.KIND_MIX << layout.KIND_SHIFT]]
     if isinstance(operation, Solid):
         red, green, blue, alpha = operation.rgba
         word, other = red | green << layout.COORDINATE_BITS, blue | alpha << layout.COORDINATE_BITS
@@ -112,9 +112,9 @@ def read_programs(
     }
 
 
-def _need(holds: bool, what: str) -> None:
+def _need(holds: bool, message: str) -> None:
     if not holds:
-        raise FormatError(f"a map's programs: {what}; {REMEDY}")
+        raise FormatError(f"a map's programs: {message}; {REMEDY}")
 
 
 def _check(operations: NDArray[np.uint32], stops: NDArray[np.uint32], starts: NDArray[np.int64]) -> None:
@@ -179,7 +179,7 @@ def _operation(operations: NDArray[np.uint32], row: int, stops: list[Stop]) -> O
     if kind == layout.KIND_KEEP:
         return Keep()
     if kind == layout.KIND_MIX:
-        return Mix(words[0], how_of(words[1]))
+        return Mix(words[0], ending_of(words[1]))
     if kind == layout.KIND_SOLID:
         red, green, blue, alpha = (word >> shift & layout.PAINT_ONE for word in words[:2] for shift in (0, 16))
         return Solid((red, green, blue, alpha))

@@ -29,9 +29,9 @@ from vexture.texture.planar import head_of, paint_texels, paints_from
 from vexture.texture.root import Root
 from vexture.tree.planar.faces import composite_stacks
 from vexture.tree.planar.layers import solid_layers
-from vexture.tree.planar.style import Style, rounded
+from vexture.tree.planar.style import PlanarStyle, round_colours
 
-__all__ = ["Colour", "checked_colours", "components", "renew_means", "restyled"]
+__all__ = ["Colour", "checked_colours", "components", "renew_means", "restyle_texels"]
 
 Colour: TypeAlias = str | Sequence[float] | Paint | None
 """A CSS colour, three or four components in 0..1, a flat paint, or None for nothing."""
@@ -43,7 +43,7 @@ MOST_NEAR: Final = 5
 BYTE = (1 << CELL_BITS) - 1
 
 
-def restyled(
+def restyle_texels(
     flat: NDArray[np.uint32],
     roots: tuple[Root, ...],
     places: Sequence[int],
@@ -56,7 +56,7 @@ def restyled(
     texels, new = flat.copy(), list(roots)
     for place in places:
         style = style_of_root(roots[place])
-        styled = _styled(style, names, rgba)
+        styled = _replace_colours(style, names, rgba)
         changed = (styled != style.rgba).any(axis=1)
         if not changed.any():
             continue
@@ -75,11 +75,11 @@ def checked_colours(
     if not isinstance(colours, Mapping) or not all(isinstance(name, str) for name in colours):
         raise ParameterError("the colours are no mapping of elements' names, such as {'sun': 'red'}")
     names = {name: k for k, name in enumerate(colours)}
-    rgba = rounded([components(name, colour) for name, colour in colours.items()])
+    rgba = round_colours([components(name, colour) for name, colour in colours.items()])
     styles = [style_of_root(roots[place]) for place in places]
     _check_names(names, {name for style in styles for name in style.names} - {""}, texture)
     for style in styles:
-        styled = _styled(style, names, rgba)
+        styled = _replace_colours(style, names, rgba)
         faded = (styled != style.rgba).any(axis=1) & style.hides & (styled[:, 3] < 1.0)
         if faded.any():
             k = int(faded.argmax())
@@ -90,8 +90,8 @@ def checked_colours(
     return rgba
 
 
-def _styled(style: Style, names: Mapping[str, int], rgba: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Components of all elements of a style, of which some have new ones."""
+def _replace_colours(style: PlanarStyle, names: Mapping[str, int], rgba: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Components of all elements of a style, with new ones for some of them."""
     which = np.array([names.get(name, -1) for name in style.names], np.int64)
     styled = style.rgba.copy()
     styled[which >= 0] = rgba[which[which >= 0]]
@@ -122,16 +122,16 @@ def components(name: str, colour: Any) -> tuple[float, ...]:
     )
 
 
-def _check_names(wanted: Mapping[str, int], known: set[str], texture: str) -> None:
+def _check_names(names: Mapping[str, int], known: set[str], texture: str) -> None:
     """Refuse names that no element has; propose near ones."""
-    for name in wanted:
+    for name in names:
         if name not in known:
             near = difflib.get_close_matches(name, known, n=MOST_NEAR) or sorted(known)[:MOST_NEAR]
             listed = ", ".join(map(repr, near)) or "none, as the drawing names no element"
             raise ParameterError(f"{texture}: no element {name!r}; near names are {listed}; there are {len(known)}")
 
 
-def _repaint(flat: NDArray[np.uint32], quad: int, style: Style, changed: NDArray[np.bool_]) -> None:
+def _repaint(flat: NDArray[np.uint32], quad: int, style: PlanarStyle, changed: NDArray[np.bool_]) -> None:
     """Write the colours of all paints that some elements are part of, and all means."""
     head = head_of(flat, quad)
     colours = np.zeros((head.used, 4))

@@ -12,10 +12,10 @@ from vexture.base.errors import FormatError, LimitError
 from vexture.base.layout import MOST_STYLE_BYTES, TEXT_ROOTS, TEXT_STYLES
 from vexture.drawing.drawing import IDENTITY
 from vexture.drawing.paint import Paint
-from vexture.texture.ktx2 import inflated
+from vexture.texture.ktx2 import inflate
 from vexture.texture.style_text import line, numbers, paint_as_json, read_paint, read_style, short, style_as_json
 from vexture.texture.walk import REMEDY
-from vexture.tree.planar.style import Style
+from vexture.tree.planar.style import PlanarStyle
 
 __all__ = ["Root", "deflated_texts", "read_roots", "roots_text"]
 
@@ -63,7 +63,7 @@ class Root:
     crs: str | None = None
     paint: Paint | None = None
     is_map: bool = False
-    style: Style | None = None
+    style: PlanarStyle | None = None
 
 
 def roots_text(roots: tuple[Root, ...]) -> str:
@@ -141,17 +141,17 @@ def _text(styles: bytes) -> str:
     length = int.from_bytes(styles[:LENGTH_BYTES], "little")
     if not 0 < length <= MOST_STYLE_BYTES or len(styles) <= LENGTH_BYTES:
         raise FormatError(f"{TEXT_STYLES} says that it has {length} bytes; the limit is {MOST_STYLE_BYTES}; {REMEDY}")
-    raw = inflated(styles[LENGTH_BYTES:], length, "styles")
+    raw = inflate(styles[LENGTH_BYTES:], length, "styles")
     if len(raw) != length:
         raise FormatError(f"{TEXT_STYLES} has {len(raw)} bytes and says {length}; {REMEDY}")
     return raw.decode(errors="replace")
 
 
-def _json(text: str, what: str) -> Any:
+def _json(text: str, label: str) -> Any:
     try:
         return json.loads(text, parse_constant=_refuse_constant)
     except (ValueError, RecursionError) as error:
-        raise FormatError(f"{what} is not JSON ({line(error)}); {REMEDY}") from None
+        raise FormatError(f"{label} is not JSON ({line(error)}); {REMEDY}") from None
 
 
 def _read_root(entry: Any, place: int) -> Root:

@@ -1,4 +1,4 @@
-"""Which shape of a texture, or which layers, a caller means; it defines the meaning of a missing `root`.
+"""Select the shape or the layers of a texture that `root` means; this module defines a missing `root`.
 
 A missing `root` means the whole texture where the answer can be of the whole: all outlines, or all layers of the only
 drawing. Where one shape is needed it means the only one; if there are several, an error lists them.
@@ -31,9 +31,8 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
     """
     if root is None:
         if len(roots) > 1:
-            raise ParameterError(
-                f"{texture} holds {len(roots)} shapes ({_listed([one.name for one in roots])}); choose one by `root`"
-            )
+            choices = _format_names([one.name for one in roots])
+            raise ParameterError(f"{texture} holds {len(roots)} shapes ({choices}); choose one by `root`")
         return 0
     names = [one.name for one in roots]
     if isinstance(root, str):
@@ -75,13 +74,13 @@ def layers_of(roots: Sequence[Root], root: str | int | None, texture: str = "tex
         different = list(dict.fromkeys(owners))
         if len(different) > 1:
             raise ParameterError(
-                f"{texture} holds {len(different)} drawings ({_listed(different)}); choose one by `root`"
+                f"{texture} holds {len(different)} drawings ({_format_names(different)}); choose one by `root`"
             )
         return list(range(len(owners)))
     layers = [place for place, owner in enumerate(owners) if owner == root]
     return layers or [place_of(roots, root, texture)]
 
 
-def _listed(names: list[str]) -> str:
+def _format_names(names: list[str]) -> str:
     listed = ", ".join(name[:60] for name in names[:MOST_NAMED])
     return listed + (f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else "")

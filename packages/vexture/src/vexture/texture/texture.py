@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from vexture.base import layout
 from vexture.base.errors import FormatError, LimitError, ParameterError
 from vexture.drawing.paint import Paint
-from vexture.renderers.picture import painted, stacked
+from vexture.renderers.picture import composite_pictures, paint_layer
 from vexture.renderers.view import Size, ViewLike, size_of
 from vexture.texture.check import check_styles, check_texels
 from vexture.texture.describe import facts_of
@@ -129,7 +129,7 @@ class Texture:
         check_styles(self.flat, self.roots)
 
     def contains(self, points: ArrayLike, root: str | int | None = None) -> NDArray[np.bool_]:
-        """Which points are inside a shape, by the stored outlines; of a planar map, where it paints anything.
+        """Mark the points inside a shape by the stored outlines; in a planar map, those where it paints anything.
 
         Parameters
         ----------
@@ -168,7 +168,7 @@ class Texture:
         return inside
 
     def element_at(self, points: ArrayLike, *, root: str | int | None = None) -> "Elements":
-        """Which element of a drawing is topmost at points; the drawing was converted with `restyle`.
+        """Find the topmost element of a drawing at points; the drawing was converted with `restyle`.
 
         Parameters
         ----------
@@ -224,10 +224,10 @@ class Texture:
         >>> texture.with_paints({"a": "red"}).render(1)[0, 0].tolist()
         [1.0, 0.0, 0.0, 1.0]
         """
-        from vexture.texture.restyle import restyled  # late: compiled code, not needed to read
+        from vexture.texture.restyle import restyle_texels  # late: compiled code, not needed to read
 
         places = layers_of(self.roots, root, self.name)
-        texels, roots = restyled(self.flat, self.roots, places, paints, self.name)
+        texels, roots = restyle_texels(self.flat, self.roots, places, paints, self.name)
         return Texture(texels.reshape(self.texels.shape), roots, self.name, self.source)
 
     def _silhouette(self, root: str | int | None) -> Root:
@@ -260,10 +260,12 @@ class Texture:
         pictures = (
             colours_of(self, place, size, view, renderer)
             if self.roots[place].is_map
-            else painted(self.roots[place].paint or Paint(), self.coverage(size, view, renderer=renderer, root=place))
+            else paint_layer(
+                self.roots[place].paint or Paint(), self.coverage(size, view, renderer=renderer, root=place)
+            )
             for place in layers_of(self.roots, root, self.name)
         )
-        return stacked(size_of(size), pictures)
+        return composite_pictures(size_of(size), pictures)
 
     def plot(self, root: str | int | None = None) -> "Figure":
         """Figure of a shape's cells by depth, their coverage, and the picture. `root` as in `contains`.

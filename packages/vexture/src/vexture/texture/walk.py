@@ -82,7 +82,7 @@ def _cells(
 
 
 def _below(
-    first: NDArray[np.uint32], quads: NDArray[np.int64], counts: NDArray[np.int64], met: NDArray[np.bool_], what: str
+    first: NDArray[np.uint32], quads: NDArray[np.int64], counts: NDArray[np.int64], met: NDArray[np.bool_], noun: str
 ) -> NDArray[np.int64]:
     """Indices of the texels that quads refer to, `counts` for each from its `first`; marks them in `met`."""
     some = counts > 0
@@ -91,7 +91,7 @@ def _below(
     if wrong.any():
         place = wrong.argmax()
         raise FormatError(
-            f"quad {quads[some][place]} has {counts[place]} {what}s from texel {start[place]}; they must lie after it "
+            f"quad {quads[some][place]} has {counts[place]} {noun}s from texel {start[place]}; they must lie after it "
             f"and within {len(met)} texels; {REMEDY}"
         )
     before = np.cumsum(counts) - counts
@@ -100,7 +100,7 @@ def _below(
     again = met[order]
     again[1:] |= order[1:] == order[:-1]
     if again.any():
-        raise FormatError(f"texel {order[again.argmax()]} is referred to twice, as a {what} now; {REMEDY}")
+        raise FormatError(f"texel {order[again.argmax()]} is referred to twice, as a {noun} now; {REMEDY}")
     met[found] = True
     return found
 

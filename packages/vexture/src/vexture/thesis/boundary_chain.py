@@ -15,7 +15,7 @@ from vexture.bezier.area import area_right_of, integral_x_dy
 from vexture.bezier.monotone import Pieces
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, subcubic
-from vexture.thesis.subdivide import Cell
+from vexture.thesis.subdivide import LevelCell
 from vexture.tree.boundary import Boundary, cell_paths, quantise, resolve
 from vexture.tree.winding import inside, winding_area
 
@@ -231,7 +231,7 @@ def _travel(chain: Chain, parts: int, following: NDArray[np.int64], area: float)
 
 
 @kernel
-def cell_chain(cell: Cell, rules: NDArray[np.int64]) -> Chain:
+def cell_chain(cell: LevelCell, rules: NDArray[np.int64]) -> Chain:
     """Chain of a cell's boundary, with overlaps and crossings resolved; `rules` has the `FillRule` of each path."""
     pieces, present = cell.pieces, cell.present
     owner = np.empty(len(pieces.path), np.int64)
@@ -254,7 +254,7 @@ def cell_chain(cell: Cell, rules: NDArray[np.int64]) -> Chain:
 
 
 @kernel
-def to_cell(cell: Cell) -> NDArray[np.float64]:
+def to_cell(cell: LevelCell) -> NDArray[np.float64]:
     """Pieces of a cell, (n, 4, 2), in its unit square; coordinates on its edge become exactly 0 or 1."""
     points = cell.pieces.points
     out = np.empty((len(points), 4, 2))
@@ -272,7 +272,7 @@ def touches_edge(point: NDArray[np.float64]) -> bool:
 
 
 @kernel
-def filled_sides(cell: Cell, curves: NDArray[np.float64], rule: int, signed_area: float) -> tuple[bool, bool]:
+def filled_sides(cell: LevelCell, curves: NDArray[np.float64], rule: int, signed_area: float) -> tuple[bool, bool]:
     """Whether the right and the left side of one chain from edge to edge are filled.
 
     The winding number is w on the right and w + 1 on the left, except in loops; its mean over the cell gives w.
@@ -316,7 +316,7 @@ def _is_plain(curves: NDArray[np.float64]) -> bool:
 
 
 @kernel
-def plain_chain(cell: Cell, rules: NDArray[np.int64]) -> Chain:
+def plain_chain(cell: LevelCell, rules: NDArray[np.int64]) -> Chain:
     """Chain of a cell with one path if nothing in it needs to be resolved; else one of `chains` 2 without area."""
     curves = to_cell(cell)
     n, segment, span = len(curves), cell.pieces.segment, cell.pieces.span

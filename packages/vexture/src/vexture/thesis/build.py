@@ -21,7 +21,7 @@ from vexture.thesis.leaf import (
     FULL,
     NO_LEAF,
     QUAD,
-    Leaf,
+    ThesisLeaf,
     chain_leaf,
     limit_leaf,
     nearest_constant,
@@ -29,7 +29,7 @@ from vexture.thesis.leaf import (
     own_leaf,
 )
 from vexture.thesis.sample_and_fit import build_sampled
-from vexture.thesis.subdivide import Cell, Level, cell_of, children
+from vexture.thesis.subdivide import LevelCell, ThesisLevel, cell_of, children
 from vexture.thesis.tree import CellTree
 from vexture.tree.boundary import MOST_RESOLVED, crowded_area
 from vexture.tree.bounds import check_whole
@@ -46,7 +46,7 @@ CROWDED = 8
 
 
 @kernel
-def _ends_on_edge(cell: Cell) -> int:
+def _ends_on_edge(cell: LevelCell) -> int:
     """Number of ends of chains on the cell's edge: ends of pieces there that the next piece does not continue."""
     points, count = cell.pieces.points, 0
     for i in range(len(points)):
@@ -64,7 +64,9 @@ def _ends_on_edge(cell: Cell) -> int:
 
 
 @kernel
-def _leaf_or_limit(chain: Chain, cubics: NDArray[np.float64], cell: Cell, tolerance: float, at_limit: bool) -> Leaf:
+def _leaf_or_limit(
+    chain: Chain, cubics: NDArray[np.float64], cell: LevelCell, tolerance: float, at_limit: bool
+) -> ThesisLeaf:
     """Leaf of a chain; at the depth limit never `NO_LEAF`."""
     leaf = chain_leaf(chain, cubics, cell, tolerance / cell.size)
     if leaf.kind == NO_LEAF and at_limit:
@@ -74,8 +76,8 @@ def _leaf_or_limit(chain: Chain, cubics: NDArray[np.float64], cell: Cell, tolera
 
 @kernel
 def _leaf_of(
-    cell: Cell, cubics: NDArray[np.float64], rules: NDArray[np.int64], tolerance: float, at_limit: bool
-) -> Leaf:
+    cell: LevelCell, cubics: NDArray[np.float64], rules: NDArray[np.int64], tolerance: float, at_limit: bool
+) -> ThesisLeaf:
     """Leaf of a cell, or `NO_LEAF` if the cell must be divided."""
     pieces, count = cell.pieces, len(cell.pieces.path)
     if len(cell.present) == 1:
@@ -97,7 +99,7 @@ def _leaf_of(
 
 
 @kernel
-def _add_quads(cells: NDArray[np.float64], level: Level, split_cells: NDArray[np.bool_], quad: int) -> int:
+def _add_quads(cells: NDArray[np.float64], level: ThesisLevel, split_cells: NDArray[np.bool_], quad: int) -> int:
     """Append a quad with empty cells for each divided cell of a level; return the new number of quads."""
     for c in range(len(split_cells)):
         if split_cells[c]:
@@ -125,7 +127,7 @@ def _with_room(rows: NDArray[np.float64], count: int, room: int) -> NDArray[np.f
 
 @kernel
 def grow(
-    level: Level,
+    level: ThesisLevel,
     cubics: NDArray[np.float64],
     rules: NDArray[np.int64],
     accuracy: Accuracy,
@@ -182,7 +184,7 @@ def grow(
     return cells[:quads], curves[:curve_count], deviation, unresolved
 
 
-def root_level(drawing: Drawing, pieces: Pieces) -> Level:
+def root_level(drawing: Drawing, pieces: Pieces) -> ThesisLevel:
     """The unit square as the only cell of its level. The corner winding of every path is 0 there."""
     ends = pieces.points[:, [0, 3]]
     worst = np.abs(ends - np.clip(ends, 0.0, 1.0)).max()
@@ -190,7 +192,7 @@ def root_level(drawing: Drawing, pieces: Pieces) -> Level:
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {worst:.3g}; clip or scale it first")
     pieces.points[:, [0, 3]] = np.clip(ends, 0.0, 1.0)
     paths = np.unique(pieces.path)
-    return Level(
+    return ThesisLevel(
         np.zeros((1, 2)),
         np.full(1, -1),
         np.array([0, len(pieces.path)]),

@@ -22,7 +22,7 @@ from vexture.thesis.layout import (
     THRESHOLD_QUAD,
 )
 from vexture.thesis.method import CONSTANT, CORNER, CURVE, SAMPLES, SHORTEST_CHORD
-from vexture.thesis.shader_text import Pair
+from vexture.thesis.shader_text import ThesisPair
 
 __all__ = ["render_thesis_cpu"]
 
@@ -31,7 +31,7 @@ Vec3 = tuple[float, float, float]
 List = NDArray[np.float64]
 
 
-class Cell(NamedTuple):
+class ThesisCell(NamedTuple):
     """A leaf; or a quad smaller than a pixel, as a constant."""
 
     origin: Vec2
@@ -90,9 +90,9 @@ def inside_corner(corner: Vec2, point: Vec2) -> bool:
 
 
 @kernel
-def constant_cell(origin: Vec2, size: float, value: float) -> Cell:
+def constant_cell(origin: Vec2, size: float, value: float) -> ThesisCell:
     nowhere = (0.0, 0.0)
-    return Cell(origin, size, CONSTANT, value, nowhere, nowhere, nowhere, nowhere, nowhere)
+    return ThesisCell(origin, size, CONSTANT, value, nowhere, nowhere, nowhere, nowhere, nowhere)
 
 
 @kernel
@@ -115,7 +115,7 @@ def end_point(edge0: float, edge3: float, p1: Vec2, p2: Vec2) -> Vec2:
 
 
 @kernel
-def read_leaf(curves: List, origin: Vec2, size: float, shape: int, row: int) -> Cell:
+def read_leaf(curves: List, origin: Vec2, size: float, shape: int, row: int) -> ThesisCell:
     left, right = curves[row, 0], curves[row, 1]
     p1 = (left[1], right[1])
     p2 = p1
@@ -131,7 +131,7 @@ def read_leaf(curves: List, origin: Vec2, size: float, shape: int, row: int) -> 
     p2 = change_basis(along, (p2[0] - start[0], p2[1] - start[1]))
     weight = 0.75 if shape == CURVE else 1.0
     heights = (weight * min(0.0, p1[1], p2[1]), weight * max(0.0, p1[1], p2[1]))
-    return Cell(origin, size, shape, 0.0, start, along, p1, p2, heights)
+    return ThesisCell(origin, size, shape, 0.0, start, along, p1, p2, heights)
 
 
 @kernel
@@ -140,7 +140,7 @@ def outside_square(point: Vec2) -> bool:
 
 
 @kernel
-def find_cell(quads: List, curves: List, point: Vec2, footprint: float) -> Cell:
+def find_cell(quads: List, curves: List, point: Vec2, footprint: float) -> ThesisCell:
     x, y = 0.0, 0.0
     size = 1.0
     row = 0
@@ -164,20 +164,20 @@ def find_cell(quads: List, curves: List, point: Vec2, footprint: float) -> Cell:
 
 
 @kernel
-def cell_contains(cell: Cell, low: Vec2, high: Vec2) -> bool:
+def cell_contains(cell: ThesisCell, low: Vec2, high: Vec2) -> bool:
     x, y = cell.origin
     return low[0] >= x and low[1] >= y and high[0] < x + cell.size and high[1] < y + cell.size
 
 
 @kernel
-def cell_point(cell: Cell, point: Vec2) -> Vec2:
+def cell_point(cell: ThesisCell, point: Vec2) -> Vec2:
     x = (point[0] - cell.origin[0]) / cell.size - cell.start[0]
     y = (point[1] - cell.origin[1]) / cell.size - cell.start[1]
     return change_basis(cell.along, (x, y))
 
 
 @kernel
-def cell_value(cell: Cell, point: Vec2) -> float:
+def cell_value(cell: ThesisCell, point: Vec2) -> float:
     if cell.shape == CONSTANT:
         return cell.value
     c = cell_point(cell, point)
@@ -251,7 +251,7 @@ def draw(quads: List, curves: List, to_unit: List, image: NDArray[np.float32]) -
             image[row, column] = view_coverage(quads, curves, to_unit, (column + 0.5, row + 0.5))
 
 
-def render_thesis_cpu(texture: Pair, size: Size, view: ViewLike = None) -> NDArray[np.float32]:
+def render_thesis_cpu(texture: ThesisPair, size: Size, view: ViewLike = None) -> NDArray[np.float32]:
     """Render a texture as the thesis's shader would with exact arithmetic; parameters as in `vexture.coverage`.
 
     Examples

@@ -118,7 +118,7 @@ def quantised_ends(index: NDArray[np.float64], clockwise: NDArray[np.bool_], ste
 
 
 def _on_edge(ends: NDArray[np.float64], half_step: float) -> NDArray[np.bool_]:
-    """Which curves, (n,), have both ends, (n, 2, 2), on the edge of their cell, within half a step."""
+    """Mark the curves, (n,), whose two ends, (n, 2, 2), lie on the edge of their cell, within half a step."""
     off = np.minimum(abs(ends), abs(1.0 - ends)).min(axis=2)
     near = (off <= half_step) & (abs(ends - 0.5) <= 0.5 + half_step).all(axis=2)
     both: NDArray[np.bool_] = near.all(axis=1)

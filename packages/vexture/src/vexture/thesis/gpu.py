@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compiled, context, draw, upload
+from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compile_shader, context, draw, upload
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
-from vexture.thesis.shader_text import Pair, TextureSizes, view_source
+from vexture.thesis.shader_text import TextureSizes, ThesisPair, view_source
 
 __all__ = ["fold", "render_thesis_gpu"]
 
@@ -16,7 +16,7 @@ __all__ = ["fold", "render_thesis_gpu"]
 @lru_cache(maxsize=64)
 def program(sizes: TextureSizes) -> Any:
     """Compiled shader for all textures of the same sizes, with its triangle."""
-    return compiled(view_source(VERSION, sizes))
+    return compile_shader(view_source(VERSION, sizes))
 
 
 def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:
@@ -34,7 +34,7 @@ def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:
 
 
 def render_thesis_gpu(
-    texture: Pair, size: Size, view: ViewLike = None, fold_height: int | None = None
+    texture: ThesisPair, size: Size, view: ViewLike = None, fold_height: int | None = None
 ) -> NDArray[np.float32]:
     """Render a texture by the thesis's shader; parameters as in `vexture.coverage`.
 
@@ -45,7 +45,7 @@ def render_thesis_gpu(
     width, height = size_of(size)
     matrix = view_matrix(view, (width, height))
     with ONE_AT_A_TIME, context() as gl:
-        sizes = TextureSizes.of(texture, fold_height or gl.info["GL_MAX_TEXTURE_SIZE"])
+        sizes = TextureSizes.of_texture(texture, fold_height or gl.info["GL_MAX_TEXTURE_SIZE"])
         triangle = program(sizes)
         lists = []
         for unit, (name, rows) in enumerate((("quads", texture.quads), ("curves", texture.curves))):

@@ -17,7 +17,7 @@ from vexture.bezier.roots import cubic_at
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.thesis.boundary_chain import JOIN, Chain, filled_sides, on_edge, to_cell, touches_edge
 from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
-from vexture.thesis.subdivide import Cell
+from vexture.thesis.subdivide import LevelCell
 from vexture.thesis.tree import CellKind
 
 __all__ = [
@@ -27,7 +27,7 @@ __all__ = [
     "FULL",
     "NO_LEAF",
     "QUAD",
-    "Leaf",
+    "ThesisLeaf",
     "chain_leaf",
     "limit_leaf",
     "nearest_constant",
@@ -49,7 +49,7 @@ MAX_SAMPLES, SAMPLES_PER_PART = 64, 8
 """Samples of a chain for a fit: at most so many in all, and so many on each part of a short chain."""
 
 
-class Leaf(NamedTuple):
+class ThesisLeaf(NamedTuple):
     """Possible content of a cell."""
 
     kind: int  # a `CellKind` other than QUAD, or `NO_LEAF`
@@ -60,21 +60,21 @@ class Leaf(NamedTuple):
 
 
 @kernel
-def no_leaf() -> Leaf:
+def no_leaf() -> ThesisLeaf:
     """Result of an attempt that failed."""
-    return Leaf(NO_LEAF, np.zeros((4, 2)), 0.0, 0.0, True)
+    return ThesisLeaf(NO_LEAF, np.zeros((4, 2)), 0.0, 0.0, True)
 
 
 @kernel
-def _constant_leaf(is_full: bool) -> Leaf:
+def _constant_leaf(is_full: bool) -> ThesisLeaf:
     """Full or empty leaf of a cell without a boundary."""
-    return Leaf(FULL if is_full else EMPTY, np.zeros((4, 2)), 1.0 if is_full else 0.0, 0.0, True)
+    return ThesisLeaf(FULL if is_full else EMPTY, np.zeros((4, 2)), 1.0 if is_full else 0.0, 0.0, True)
 
 
 @kernel
-def nearest_constant(area: float) -> Leaf:
+def nearest_constant(area: float) -> ThesisLeaf:
     """Full or empty leaf as a last resort: an outline in the cell is up to its diagonal away."""
-    return Leaf(FULL if area > 0.5 else EMPTY, np.zeros((4, 2)), area, np.sqrt(2.0), False)
+    return ThesisLeaf(FULL if area > 0.5 else EMPTY, np.zeros((4, 2)), area, np.sqrt(2.0), False)
 
 
 @kernel
@@ -99,7 +99,7 @@ def _expressible(curve: NDArray[np.float64]) -> bool:
 
 
 @kernel
-def own_leaf(cell: Cell, cubics: NDArray[np.float64], rules: NDArray[np.int64]) -> Leaf:
+def own_leaf(cell: LevelCell, cubics: NDArray[np.float64], rules: NDArray[np.int64]) -> ThesisLeaf:
     """Leaf of a cell with one path if a single cubic of it crosses the cell once from edge to edge: its exact part.
 
     Nothing is quantised or resolved. A cubic that crosses itself in the cell is accepted only under the even-odd rule,
@@ -129,14 +129,14 @@ def own_leaf(cell: Cell, cubics: NDArray[np.float64], rules: NDArray[np.int64]) 
     if area <= SLIVER:
         return _constant_leaf(left)
     if right:
-        return Leaf(CURVE, curve, area, 0.0, True)
+        return ThesisLeaf(CURVE, curve, area, 0.0, True)
     backwards = np.empty((4, 2))
     subcubic(curve, 1.0, 0.0, backwards)
-    return Leaf(CURVE, backwards, leaf_area(backwards, False), 0.0, True)
+    return ThesisLeaf(CURVE, backwards, leaf_area(backwards, False), 0.0, True)
 
 
 @kernel
-def _own_chain(chain: Chain, cubics: NDArray[np.float64], cell: Cell) -> Leaf:
+def _own_chain(chain: Chain, cubics: NDArray[np.float64], cell: LevelCell) -> ThesisLeaf:
     """Leaf of a chain whose parts are consecutive on one cubic of the source: the exact part of that cubic."""
     n = len(chain.segment)
     segment = chain.segment[0]
@@ -153,7 +153,7 @@ def _own_chain(chain: Chain, cubics: NDArray[np.float64], cell: Cell) -> Leaf:
         snap_to_edge(curve[end])
     if not _expressible(curve) or (n > 1 and loop_area(curve) != 0.0):
         return no_leaf()
-    return Leaf(CURVE, curve, 0.0, 0.0, True)
+    return ThesisLeaf(CURVE, curve, 0.0, 0.0, True)
 
 
 @kernel
@@ -171,7 +171,7 @@ def _off_line(curves: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np
 
 
 @kernel
-def _corner(chain: Chain, tolerance: float) -> Leaf:
+def _corner(chain: Chain, tolerance: float) -> ThesisLeaf:
     """Leaf of a chain of two straight runs that meet at one of its joints inside the cell."""
     n = len(chain.curves)
     best, worst = 0, np.inf
@@ -190,7 +190,7 @@ def _corner(chain: Chain, tolerance: float) -> Leaf:
         curve[0, axis], curve[3, axis] = chain.curves[0, 0, axis], chain.curves[n - 1, 3, axis]
         curve[1, axis] = min(max(chain.curves[best, 0, axis], 0.0), 1.0)
         curve[2, axis] = curve[1, axis]
-    return Leaf(CORNER, curve, 0.0, worst, True)
+    return ThesisLeaf(CORNER, curve, 0.0, worst, True)
 
 
 @kernel
@@ -208,18 +208,18 @@ def _sample(chain: Chain, per_part: int) -> NDArray[np.float64]:
 
 
 @kernel
-def _fit(chain: Chain, tolerance: float) -> Leaf:
+def _fit(chain: Chain, tolerance: float) -> ThesisLeaf:
     """Leaf of a chain that one cubic approximates within tolerance."""
     per_part = min(max(MAX_SAMPLES // len(chain.curves), 2), SAMPLES_PER_PART)
     curve = np.empty((4, 2))
     distance = fit_cubic(_sample(chain, per_part), tolerance, curve)
     if distance > tolerance or not _expressible(curve):
         return no_leaf()
-    return Leaf(CURVE, curve, 0.0, distance, True)
+    return ThesisLeaf(CURVE, curve, 0.0, distance, True)
 
 
 @kernel
-def chain_leaf(chain: Chain, cubics: NDArray[np.float64], cell: Cell, tolerance: float) -> Leaf:
+def chain_leaf(chain: Chain, cubics: NDArray[np.float64], cell: LevelCell, tolerance: float) -> ThesisLeaf:
     """Leaf that describes a cell's chain within a tolerance in cell-local units, or `NO_LEAF`."""
     if chain.chains == 0:
         return _constant_leaf(chain.area > 0.5)
@@ -237,11 +237,11 @@ def chain_leaf(chain: Chain, cubics: NDArray[np.float64], cell: Cell, tolerance:
         leaf = _corner(chain, tolerance)
     if leaf.kind == NO_LEAF:
         leaf = _fit(chain, tolerance)
-    return Leaf(leaf.kind, leaf.curve, chain.area, leaf.distance, True)
+    return ThesisLeaf(leaf.kind, leaf.curve, chain.area, leaf.distance, True)
 
 
 @kernel
-def limit_leaf(chain: Chain) -> Leaf:
+def limit_leaf(chain: Chain) -> ThesisLeaf:
     """Leaf of a cell at the depth limit: the straight line from edge to edge, or constant, of the nearest area.
 
     A line joins two points at which the boundary meets the cell's edge.
@@ -267,5 +267,5 @@ def limit_leaf(chain: Chain) -> Leaf:
                 error = off
                 kept = np.empty((4, 2))
                 copy_curve(line, kept)
-                best = Leaf(CURVE, kept, area, _off_line(chain.curves, kept[0], kept[3]), False)
+                best = ThesisLeaf(CURVE, kept, area, _off_line(chain.curves, kept[0], kept[3]), False)
     return best

@@ -33,14 +33,14 @@ def write_png(pixels: NDArray[Any], texts: dict[str, str]) -> bytes:
     """
     height, width, channels = pixels.shape
     header = HEADER.pack(width, height, 8 * pixels.dtype.itemsize, COLOUR_TYPES[channels], 0, 0, 0)
-    images = _filtered(pixels)
+    images = _filter_rows(pixels)
     deflated = [_deflate(image, zlib.Z_DEFAULT_STRATEGY) for image in images]
     smallest = images[deflated.index(min(deflated, key=len))]
     data = min(*deflated, _deflate(smallest, zlib.Z_FILTERED), _deflate(smallest, zlib.Z_RLE), key=len)
-    return _framed((b"IHDR", header), *(_text_chunk(key, value) for key, value in texts.items()), (b"IDAT", data))
+    return _write_chunks((b"IHDR", header), *(_text_chunk(key, value) for key, value in texts.items()), (b"IDAT", data))
 
 
-def _framed(*chunks: tuple[bytes, bytes]) -> bytes:
+def _write_chunks(*chunks: tuple[bytes, bytes]) -> bytes:
     out = io.BytesIO()
     png.write_chunks(out, (*chunks, (b"IEND", b"")))
     return out.getvalue()
@@ -52,8 +52,8 @@ def _deflate(image: bytes, strategy: int) -> bytes:
     return stream.compress(image) + stream.flush()
 
 
-def _filtered(pixels: NDArray[Any]) -> list[bytes]:
-    """Image bytes under the filters None, Sub and Up (PNG specification, 9.2), with a filter byte for each row.
+def _filter_rows(pixels: NDArray[Any]) -> list[bytes]:
+    """Filter image bytes by None, Sub and Up (PNG specification, 9.2), with a filter byte for each row.
 
     The filters Average and Paeth make no texture of our drawings smaller.
     """
@@ -76,8 +76,8 @@ def _text_chunk(key: str, value: str) -> tuple[bytes, bytes]:
         return b"iTXt", keyword + b"\0\0\0\0\0" + value.encode()
 
 
-def read_png(data: bytes, width: int, where: str) -> tuple[NDArray[Any], dict[str, str]]:
-    """Pixels, (height, width, 3) uint8 or uint16, and texts of an untrusted PNG; `where` names it in messages.
+def read_png(data: bytes, width: int, name: str) -> tuple[NDArray[Any], dict[str, str]]:
+    """Pixels, (height, width, 3) uint8 or uint16, and texts of an untrusted PNG; `name` names it in messages.
 
     The header bounds all memory that is used, and the format's limits bound the header. The texts are those of tEXt and
     uncompressed iTXt chunks, by keyword.
@@ -88,22 +88,24 @@ def read_png(data: bytes, width: int, where: str) -> tuple[NDArray[Any], dict[st
         If it is damaged, or anything but an RGB image of 8 or 16 bits and this width, not interlaced.
     """
     if len(data) > FILE_LIMIT:
-        raise FormatError(f"{where}: longer than {FILE_LIMIT} bytes, so not a texture; convert the drawing again")
+        raise FormatError(f"{name}: longer than {FILE_LIMIT} bytes, so not a texture; convert the drawing again")
     try:
         chunks = list(png.Reader(bytes=data).chunks())
-        height, bits = _read_header(chunks, width, where)
+        height, bits = _read_header(chunks, width, name)
         if chunks[-1] != (b"IEND", b""):
             raise png.FormatError("its last chunk is no end")
         deflated = b"".join(body for tag, body in chunks if tag == b"IDAT")
         _check_inflated(deflated, width, height, bits)
-        rows = png.Reader(bytes=_framed(chunks[0], (b"IDAT", deflated))).read()[2]  # without other programs' chunks
+        rows = png.Reader(bytes=_write_chunks(chunks[0], (b"IDAT", deflated))).read()[
+            2
+        ]  # without other programs' chunks
         image = np.frombuffer(b"".join(bytes(row) for row in rows), np.uint8 if bits == 8 else np.uint16)
         return image.reshape(height, width, CHANNELS), _read_texts(chunks)
     except (png.Error, zlib.error, EOFError, UnicodeDecodeError) as error:
-        raise FormatError(f"{where}: damaged PNG ({error}); convert the drawing again") from None
+        raise FormatError(f"{name}: damaged PNG ({error}); convert the drawing again") from None
 
 
-def _read_header(chunks: list[tuple[bytes, bytes]], width: int, where: str) -> tuple[int, int]:
+def _read_header(chunks: list[tuple[bytes, bytes]], width: int, name: str) -> tuple[int, int]:
     """Height and bits per channel."""
     (tag, body), *others = chunks
     if tag != b"IHDR" or len(body) != HEADER.size or b"IHDR" in dict(others):
@@ -111,12 +113,12 @@ def _read_header(chunks: list[tuple[bytes, bytes]], width: int, where: str) -> t
     found_width, height, bits, color, _, _, interlace = HEADER.unpack(body)
     if color != RGB or bits not in LIST_LIMIT or interlace:
         raise FormatError(
-            f"{where}: colour type {color}, {bits} bits, interlace {interlace}; a texture is RGB (type {RGB}), "
+            f"{name}: colour type {color}, {bits} bits, interlace {interlace}; a texture is RGB (type {RGB}), "
             "8 or 16 bits, not interlaced; convert the drawing again"
         )
     if found_width != width or not 1 <= height <= LIST_LIMIT[bits]:
         raise FormatError(
-            f"{where}: {found_width} x {height} pixels; a texture of {bits} bits is {width} wide and "
+            f"{name}: {found_width} x {height} pixels; a texture of {bits} bits is {width} wide and "
             f"1 to {LIST_LIMIT[bits]} high; convert the drawing again"
         )
     return height, bits

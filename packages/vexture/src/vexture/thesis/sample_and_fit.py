@@ -90,8 +90,8 @@ def _halves(run: _Run, axis: int, line: float) -> tuple[list[_Run], list[_Run]]:
     return parts
 
 
-def _joined(runs: list[_Run]) -> list[_Run]:
-    """Runs of a cell, after runs that meet at a contour's start are joined."""
+def _join_runs(runs: list[_Run]) -> list[_Run]:
+    """Join the runs of a cell that meet at a contour's start."""
     out = list(runs)
     while True:
         pair = next(((a, b) for a, b in permutations(out, 2) if _continues(a, b)), None)
@@ -231,7 +231,7 @@ def _divide(
             halves = [_halves(run, 0, corner[0] + size) for run in runs]
             for cell in range(4):
                 column = [part for half in halves for part in half[cell & 1]]
-                mine = _joined([p for part in column for p in _halves(part, 1, corner[1] + size)[cell >> 1]])
+                mine = _join_runs([p for part in column for p in _halves(part, 1, corner[1] + size)[cell >> 1]])
                 origin = corner + size * np.array([cell & 1, cell >> 1])
                 coarse |= _too_coarse(mine, size)
                 limit = cell_tolerance(accuracy, size)

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.errors import FormatError
-from vexture.renderers.shader import PICTURE_MAIN, VERSIONS, included
+from vexture.renderers.shader import PICTURE_MAIN, VERSIONS, read_shader
 from vexture.thesis import layout, method
 
-__all__ = ["FOLD_HEIGHT", "PACKAGE", "Pair", "TextureSizes", "compose", "constants", "view_source"]
+__all__ = ["FOLD_HEIGHT", "PACKAGE", "TextureSizes", "ThesisPair", "compose", "constants", "view_source"]
 
 PACKAGE: Final = "vexture.thesis"
 """Its folder ``shaders/`` holds the files."""
@@ -25,8 +25,8 @@ FOLD_HEIGHT: Final = 16384
 """Rows; a longer list continues in the columns to its right."""
 
 
-class Pair(Protocol):
-    """What a renderer reads of a `vexture.thesis.ThesisTexture`."""
+class ThesisPair(Protocol):
+    """The part of a `vexture.thesis.ThesisTexture` that a renderer reads."""
 
     @property
     def quads(self) -> NDArray[Any]:
@@ -43,13 +43,13 @@ class Pair(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class TextureSizes:
-    """What must be known of a texture to compile a shader for it."""
+    """Sizes of a texture that are needed to compile a shader for it."""
 
     levels: int  # quads on the longest path from the root to a leaf
     fold_height: int  # rows of a list; the next ones start again at the top, in the columns to the right
 
     @classmethod
-    def of(cls, texture: Pair, fold_height: int = FOLD_HEIGHT) -> "TextureSizes":
+    def of_texture(cls, texture: ThesisPair, fold_height: int = FOLD_HEIGHT) -> "TextureSizes":
         """Sizes of a texture, by all references from its root. Raises `FormatError` if its quads do not form a tree."""
         cells = texture.quads.astype(np.float64) / np.iinfo(texture.quads.dtype).max
         last = len(cells) - 1
@@ -88,7 +88,7 @@ def compose(version: str, file: str, main: str, sizes: TextureSizes | None = Non
     any.
     """
     injected = "".join(f"const int {name.upper()} = {size};\n" for name, size in asdict(sizes).items()) if sizes else ""
-    return VERSIONS[version] + constants(layout) + constants(method) + injected + included(file, PACKAGE) + main
+    return VERSIONS[version] + constants(layout) + constants(method) + injected + read_shader(file, PACKAGE) + main
 
 
 def view_source(version: str, sizes: TextureSizes) -> str:

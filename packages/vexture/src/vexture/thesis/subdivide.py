@@ -13,10 +13,10 @@ from vexture.bezier.split import copy_curve, split
 from vexture.tree.divide import child_of, snap
 from vexture.tree.winding import child_windings, inside
 
-__all__ = ["Cell", "Level", "cell_of", "children"]
+__all__ = ["LevelCell", "ThesisLevel", "cell_of", "children"]
 
 
-class Level(NamedTuple):
+class ThesisLevel(NamedTuple):
     """Cells of one depth that are neither leaves nor constant yet.
 
     Each cell owns a range of `pieces` and a range of `present`: the paths that have pieces in it, with their corner
@@ -32,7 +32,7 @@ class Level(NamedTuple):
     present: NDArray[np.int64]  # (m, 2): path and corner winding
 
 
-class Cell(NamedTuple):
+class LevelCell(NamedTuple):
     """One cell of a level: its bottom-left corner and width, in unit-square units, and what it owns."""
 
     x0: float
@@ -43,13 +43,13 @@ class Cell(NamedTuple):
 
 
 @kernel
-def cell_of(level: Level, c: int, size: float) -> Cell:
+def cell_of(level: ThesisLevel, c: int, size: float) -> LevelCell:
     """Cell c of a level whose cells have this width."""
     first, last = level.piece_at[c], level.piece_at[c + 1]
     points, path, segment, span = level.pieces
     pieces = Pieces(points[first:last], path[first:last], segment[first:last], span[first:last])
     present = level.present[level.path_at[c] : level.path_at[c + 1]]
-    return Cell(level.origin[c, 0], level.origin[c, 1], size, pieces, present)
+    return LevelCell(level.origin[c, 0], level.origin[c, 1], size, pieces, present)
 
 
 @kernel(allocates=False)
@@ -108,7 +108,12 @@ def _sort_by_child(
 
 @kernel(allocates=False)
 def _copy_present(
-    cell: Cell, child: int, windings: NDArray[np.int64], rules: NDArray[np.int64], present: NDArray[np.int64], end: int
+    cell: LevelCell,
+    child: int,
+    windings: NDArray[np.int64],
+    rules: NDArray[np.int64],
+    present: NDArray[np.int64],
+    end: int,
 ) -> int:
     """Append the paths that have pieces in a child; return the new end, or -1 if another path fills the child."""
     for k in range(len(windings)):
@@ -122,7 +127,7 @@ def _copy_present(
 
 
 @kernel(allocates=False)
-def _room_for(level: Level, split_cells: NDArray[np.bool_]) -> tuple[int, int, int, int]:
+def _room_for(level: ThesisLevel, split_cells: NDArray[np.bool_]) -> tuple[int, int, int, int]:
     """Upper bounds: children, pieces of all children, pieces of one cell, paths of all children."""
     cells, pieces, widest, paths = 0, 0, 0, 0
     for c in range(len(split_cells)):
@@ -137,8 +142,8 @@ def _room_for(level: Level, split_cells: NDArray[np.bool_]) -> tuple[int, int, i
 
 @kernel
 def children(
-    level: Level, split_cells: NDArray[np.bool_], rules: NDArray[np.int64], size: float, first_quad: int
-) -> tuple[Level, NDArray[np.int64]]:
+    level: ThesisLevel, split_cells: NDArray[np.bool_], rules: NDArray[np.int64], size: float, first_quad: int
+) -> tuple[ThesisLevel, NDArray[np.int64]]:
     """Divide cells of a level, each `size` wide; return the next level and the slots of full children.
 
     Each cell in the mask `split_cells` becomes a quad, numbered from `first_quad`. The next level holds the children
@@ -180,5 +185,7 @@ def children(
         quad += 1
     piece_at[cells], path_at[cells] = end, paths
     pieces = Pieces(out.points[:end], out.path[:end], out.segment[:end], out.span[:end])
-    below = Level(origin[:cells], slot[:cells], piece_at[: cells + 1], path_at[: cells + 1], pieces, present[:paths])
+    below = ThesisLevel(
+        origin[:cells], slot[:cells], piece_at[: cells + 1], path_at[: cells + 1], pieces, present[:paths]
+    )
     return below, full[:full_count]

@@ -12,7 +12,7 @@ from vexture.base.errors import FormatError, LimitError, ParameterError
 from vexture.base.layout import TEXT_ENCODING, TEXT_VERSION
 from vexture.drawing.drawing import IDENTITY
 from vexture.drawing.paint import Paint
-from vexture.renderers.picture import painted, stacked
+from vexture.renderers.picture import composite_pictures, paint_layer
 from vexture.renderers.view import Size, ViewLike, size_of
 from vexture.texture.files import file_name, is_folder, read_file, write_together
 from vexture.texture.registry import TextureRenderer
@@ -186,7 +186,7 @@ class ThesisTexture:
     ) -> NDArray[np.float32]:
         """Picture of the shape in black; the parameters are those of `vexture.render`."""
         covered = self.coverage(size, view, renderer=renderer, root=root)
-        return stacked(size_of(size), [painted(Paint(), covered)])
+        return composite_pictures(size_of(size), [paint_layer(Paint(), covered)])
 
     def info(self) -> dict[str, Any]:
         """Describe the texture, ready for JSON.
@@ -255,15 +255,15 @@ class ThesisTexture:
         return targets
 
 
-def _check_rising(rows: NDArray[np.int32], first: int, count: int, what: str) -> None:
+def _check_rising(rows: NDArray[np.int32], first: int, count: int, noun: str) -> None:
     """Check that each row of a list, from `first` on, is referred to once, in order."""
     if len(rows) != count - first:
-        raise FormatError(f"{len(rows)} references to {count - first} {what} rows; each must have one; {REMEDY}")
+        raise FormatError(f"{len(rows)} references to {count - first} {noun} rows; each must have one; {REMEDY}")
     wrong = rows != np.arange(first, count)
     if wrong.any():
         place = wrong.argmax()
         raise FormatError(
-            f"reference {place} to {what} rows is to row {rows[place]}; in order it must be {first + place}; {REMEDY}"
+            f"reference {place} to {noun} rows is to row {rows[place]}; in order it must be {first + place}; {REMEDY}"
         )
 
 

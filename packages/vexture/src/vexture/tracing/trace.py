@@ -169,7 +169,7 @@ def _traced(pixels: NDArray[np.uint8], name: str, *, whole: bool = False) -> Dra
     elif not has_background:
         notes.remark("has no background, since its border has several colours: its silhouette is the whole picture")
     scale = np.array([[pixels.shape[1]], [pixels.shape[0]]]) / np.array([[size[0]], [size[1]]])
-    return replace(drawing, to_source=drawing.to_source * scale, name=name, notes=notes.listed)
+    return replace(drawing, to_source=drawing.to_source * scale, name=name, notes=notes.in_order)
 
 
 def _smooth_document(pixels: NDArray[np.uint8], whole: bool, notes: Notes) -> tuple[bytes, tuple[int, int], bool]:

@@ -36,7 +36,7 @@ from vexture.tree.growth import (
     tree_of,
     with_needed_room,
 )
-from vexture.tree.leaf import DIVIDE, Leaf, Workspace, leaf_of, new_workspace
+from vexture.tree.leaf import DIVIDE, TreeLeaf, Workspace, leaf_of, new_workspace
 from vexture.tree.parts import LARGE, PART, grow_parts, usual_threads
 from vexture.tree.tree import MOST_QUADS, Tree
 from vexture.tree.winding import child_windings, inside
@@ -123,7 +123,7 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
         if here < 0 or child_at[child] == child_at[child + 1]:
             continue
         x, y, end = x0 + half * (child & 1), y0 + half * (child >> 1), child_at[child + 1]
-        leaf = Leaf(DIVIDE, 0, 0.0, 0.0, True)
+        leaf = TreeLeaf(DIVIDE, 0, 0.0, 0.0, True)
         if depth + 1 >= bounds.least_depth and not holds_runs(pool, child_at[child], end):
             paths, target = present[end_path:here], tree.curves[counts[CURVES] :]
             leaf = leaf_of(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vexture.drawing.contours import Closed, joined, together
 from vexture.drawing.drawing import Drawing, FillRule
 
-__all__ = ["gather", "owned"]
+__all__ = ["cubics_and_paths", "gather"]
 
 MIXED: Final = 0.7548776662466927
 """Factor that makes one number of several."""
@@ -26,18 +26,20 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
     """
     of_paths = [path.contours for path in drawing.paths]
     if _all_differ(together(of_paths)):
-        return (*owned(of_paths), np.array([int(path.fill_rule) for path in drawing.paths], dtype=np.int64))
+        return (*cubics_and_paths(of_paths), np.array([int(path.fill_rule) for path in drawing.paths], dtype=np.int64))
     different: dict[tuple[Any, ...], list[NDArray[np.float64]]] = {}
     names = _names([contour for path in drawing.paths for contour in path.contours])
     for path in drawing.paths:
         bits = list(islice(names, len(path.contours)))
         if (path.fill_rule, *bits) not in different:
-            different[path.fill_rule, *bits] = [path.contours[k] for k in _needed(path.fill_rule, bits)]
+            different[path.fill_rule, *bits] = [path.contours[k] for k in _deciding_contours(path.fill_rule, bits)]
     rules = np.array([int(rule) for rule, *_ in different], dtype=np.int64)
-    return (*owned([*different.values()]), rules)
+    return (*cubics_and_paths([*different.values()]), rules)
 
 
-def owned(of_paths: Sequence[Sequence[NDArray[np.float64]]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def cubics_and_paths(
+    of_paths: Sequence[Sequence[NDArray[np.float64]]],
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Cubics of some paths, and the path of each."""
     lengths = [sum(map(len, contours)) for contours in of_paths]
     return joined(together(of_paths)), np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
@@ -70,7 +72,7 @@ def _names(contours: Sequence[NDArray[np.float64]]) -> Iterator[bytes]:
         yield name if shared[name] == 1 else contour.tobytes()
 
 
-def _needed(rule: FillRule, contours: list[bytes]) -> Iterable[int]:
+def _deciding_contours(rule: FillRule, contours: list[bytes]) -> Iterable[int]:
     """Places of the contours that decide where a path is filled.
 
     Under the even-odd rule two copies cancel. Under the nonzero rule all winding numbers may be divided by a common
@@ -78,8 +80,10 @@ def _needed(rule: FillRule, contours: list[bytes]) -> Iterable[int]:
 
     Examples
     --------
-    >>> list(_needed(FillRule.NONZERO, [b"a", b"a", b"b", b"b"])), list(_needed(FillRule.EVENODD, [b"a", b"a", b"b"]))
-    ([0, 2], [2])
+    >>> list(_deciding_contours(FillRule.NONZERO, [b"a", b"a", b"b", b"b"]))
+    [0, 2]
+    >>> list(_deciding_contours(FillRule.EVENODD, [b"a", b"a", b"b"]))
+    [2]
     """
     copies = Counter(contours)
     if len(copies) == len(contours):

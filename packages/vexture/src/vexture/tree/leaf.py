@@ -23,7 +23,7 @@ from vexture.tree.merge import MOST_MERGED, follows, merge_chains
 from vexture.tree.separate import UNSURE, CellPieces, all_separate, clean_pieces
 from vexture.tree.winding import winding_area
 
-__all__ = ["DIVIDE", "SPARE", "Leaf", "keep_run", "leaf_of", "new_workspace", "round_controls"]
+__all__ = ["DIVIDE", "SPARE", "TreeLeaf", "keep_run", "leaf_of", "new_workspace", "round_controls"]
 
 DIVIDE = -1
 """`Leaf.size` of a cell that must be divided."""
@@ -38,8 +38,8 @@ MOST_RUNS = 1000
 """Runs of resolved pieces that are kept to measure a cell's area."""
 
 
-class Leaf(NamedTuple):
-    """What a leaf stores of a cell."""
+class TreeLeaf(NamedTuple):
+    """Content of a cell that a leaf stores."""
 
     size: int  # number of pieces, or `DIVIDE`
     winding: int  # corner winding, 0 without pieces
@@ -232,7 +232,7 @@ def leaf_of(
     at_limit: bool,
     workspace: Workspace,
     target: NDArray[np.float64],
-) -> Leaf:
+) -> TreeLeaf:
     """Leaf of a cell, whose pieces are the pool's numbers first..last-1; the leaf's pieces are written to `target`.
 
     `capacity` is the number of pieces in a leaf; more are allowed only at the depth limit, or where dividing would not
@@ -249,9 +249,9 @@ def leaf_of(
     if matched >= 0:
         n = matched
     elif n > MOST_RESOLVED and at_limit:
-        return Leaf(0, 0, _crowded_area(pool, first, last, present, rules, x0, y0, size), 0.0, False)
+        return TreeLeaf(0, 0, _crowded_area(pool, first, last, present, rules, x0, y0, size), 0.0, False)
     elif n > (MOST_MERGED if tolerance > 0.0 else 2 * MOST_CURVES) and not at_limit:
-        return Leaf(DIVIDE, 0, 0.0, 0.0, True)
+        return TreeLeaf(DIVIDE, 0, 0.0, 0.0, True)
     else:
         points, paths_of, numbers, curves, path = (
             pool.points,
@@ -280,7 +280,7 @@ def leaf_of(
         room.multiplicity[:n] = 1
     curves = room.curves[:n]
     if not at_limit and upright > most and (upright > MOST_CURVES or not _meet(curves, n)):
-        return Leaf(DIVIDE, 0, 0.0, 0.0, True)
+        return TreeLeaf(DIVIDE, 0, 0.0, 0.0, True)
     cell = CellPieces(
         curves, room.owner[:n], room.multiplicity[:n], room.corner[:paths], room.rules[:paths], room.windings[:paths]
     )
@@ -295,8 +295,8 @@ def leaf_of(
     area = min(max(winding_area(out[:count], winding, LATTICE), 0.0), 1.0)
     distance *= size / LATTICE
     if count == 0:
-        return Leaf(0, 0, area, distance, True)
+        return TreeLeaf(0, 0, area, distance, True)
     if count > capacity and not (count <= MOST_CURVES and (at_limit or _meet(out, count))):
-        return Leaf(0 if at_limit else DIVIDE, 0, area, distance, False)
+        return TreeLeaf(0 if at_limit else DIVIDE, 0, area, distance, False)
     _write_chains(out, count, target)
-    return Leaf(count, winding, area, distance, True)
+    return TreeLeaf(count, winding, area, distance, True)

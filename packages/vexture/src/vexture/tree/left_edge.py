@@ -25,14 +25,14 @@ def _events(out: NDArray[np.float64], count: int, y: float) -> int:
 
 
 @kernel(allocates=False)
-def _match_left_edge(out: NDArray[np.float64], count: int, y: float, wanted: int) -> int:
-    """Make starts minus ends on the left edge at a height equal to `wanted`; return the new count of pieces.
+def _match_left_edge(out: NDArray[np.float64], count: int, y: float, target: int) -> int:
+    """Make starts minus ends on the left edge at a height equal to `target`; return the new count of pieces.
 
     Where they differ an end is moved off the edge, or one beside it onto it, or, where the boundary leaves the edge
     horizontally, a horizontal piece is added.
     """
     for _ in range(2 * len(out)):
-        missing = wanted - _events(out, count, y)
+        missing = target - _events(out, count, y)
         if missing == 0:
             break
         best, best_end, best_x = -1, 0, TOUCH

@@ -52,7 +52,7 @@ Step = Callable[[Growth, int], Growth]
 """Grows a tree for a while, down to cells whose lists are at most so long; raises an error at a limit."""
 
 
-class Part(NamedTuple):
+class TreePart(NamedTuple):
     """A part that has grown."""
 
     quad: int  # the number of its first quad in the whole
@@ -110,12 +110,12 @@ def set_aside(tree: Growth, part: Growth) -> int:
     return int(row[QUAD])
 
 
-def _grown(part: Growth, quad: int, step: Step, stopped: Event) -> tuple[Part, Growth]:
+def _grown(part: Growth, quad: int, step: Step, stopped: Event) -> tuple[TreePart, Growth]:
     """Grow a part; also returns its arrays, for another one."""
     while part.counts[WAITING] > 0 and not stopped.is_set():
         part = step(part, 0)
     quads, curves = part.counts[QUADS], part.counts[CURVES]
-    return Part(
+    return TreePart(
         quad,
         part.cells[:quads].copy(),
         part.first[:quads].copy(),
@@ -170,11 +170,11 @@ def grow_parts(tree: Growth, step: Step, threads: int, check: Callable[[int], No
             tree = step(tree, PART)
         return -1
 
-    def grow(part: Growth, quad: int, stopped: Event) -> tuple[Part, Growth]:
+    def grow(part: Growth, quad: int, stopped: Event) -> tuple[TreePart, Growth]:
         return _grown(part, quad, step, stopped)
 
-    parts, quads = list[Part](), 0
-    growing: Generator[Part, None, None] = grow_in_threads(lambda: new_part(tree), find, grow, threads)
+    parts, quads = list[TreePart](), 0
+    growing: Generator[TreePart, None, None] = grow_in_threads(lambda: new_part(tree), find, grow, threads)
     with closing(growing):
         for part in growing:
             parts.append(part)
@@ -184,7 +184,7 @@ def grow_parts(tree: Growth, step: Step, threads: int, check: Callable[[int], No
     return step(tree, 0)._replace(curves=curves)  # a step without a cell: it takes means above the parts
 
 
-def joined_cells(tree: Growth, parts: Sequence[Part]) -> tuple[Growth, NDArray[np.int32]]:
+def joined_cells(tree: Growth, parts: Sequence[TreePart]) -> tuple[Growth, NDArray[np.int32]]:
     """The cells at the top and those of the parts, and all curves. A part's first quad has its place in the top."""
     quads, curves = int(tree.counts[QUADS]), int(tree.counts[CURVES])
     cells: list[NDArray[Any]] = [tree.cells[:quads].copy()]

@@ -128,7 +128,7 @@ def map(
     with renaming({"color": "column"} if changing is None or changing.is_table else OF_STEPS):
         ready = prepared([layer], name=title, crs=given.pop("crs", MERCATOR), size=size, max_seconds=seconds)
     asked_at = place_of_caller(1)
-    warn_at(asked_at, ready.name, ready.notes.listed)
+    warn_at(asked_at, ready.name, ready.notes.in_order)
     asked = {"width": width, "height": height, "background": background, "view": view}
     traits = {name: value for name, value in asked.items() if value is not None}
     conversion = partial(converted, ready, **given, capacity=CAPACITY)

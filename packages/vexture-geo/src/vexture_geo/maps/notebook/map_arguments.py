@@ -7,7 +7,7 @@ from typing import Any, Final
 from vexture.base.content import renaming
 from vexture.base.errors import ParameterError
 from vexture.notebook.picture import MARGIN
-from vexture.notebook.traits import pixels, told
+from vexture.notebook.traits import format_value, pixels
 from vexture.notebook.widget import HEIGHT, PICTURE_WIDTH
 from vexture_geo.base.snap import MOST_SNAP
 from vexture_geo.maps import Times
@@ -59,18 +59,20 @@ def checked(options: dict[str, Any], column: Any, legend: Any, *, has_colours: b
             raise ParameterError(f"map has no option {name!r}; {other}")
     given = {name: value for name, value in options.items() if value is not None}
     if not isinstance(legend, bool):
-        raise ParameterError(f"`legend` is {told(legend)}; give True or False")
+        raise ParameterError(f"`legend` is {format_value(legend)}; give True or False")
     if not isinstance(where := given.get("where", ""), str):
         remedy = "give a condition in SQL, such as 'people > 1000', or choose rows of the frame"
         raise ParameterError(f"`where` is a {type(where).__name__}; {remedy}")
     if "fill" in given and has_colours:
-        shows = "`times` give" if column is None else f"`column` {told(column)} gives"
-        raise ParameterError(f"`fill` is {told(given['fill'])}, and {shows} colours; leave one out")
+        shows = "`times` give" if column is None else f"`column` {format_value(column)} gives"
+        raise ParameterError(f"`fill` is {format_value(given['fill'])}, and {shows} colours; leave one out")
     snap, tolerance = given.get("snap", 0.0), given.get("tolerance", "auto")
     if not (_is_number(snap) and 0.0 <= snap <= MOST_SNAP):
-        raise ParameterError(f"`snap` is {told(snap)}; it must be in 0..{MOST_SNAP}, in parts of the map's larger side")
+        raise ParameterError(
+            f"`snap` is {format_value(snap)}; it must be in 0..{MOST_SNAP}, in parts of the map's larger side"
+        )
     if tolerance != "auto" and not (_is_number(tolerance) and 0.0 <= tolerance < 1.0):
-        raise ParameterError(f"`tolerance` is {told(tolerance)}; give 'auto' or a number from 0 to below 1")
+        raise ParameterError(f"`tolerance` is {format_value(tolerance)}; give 'auto' or a number from 0 to below 1")
     return given
 
 
@@ -123,7 +125,7 @@ def times_of(source: Any, column: str | list[str] | None, times: Any) -> Times |
     several = column is not None and not is_column and (not isinstance(column, str) or Times(column).is_pattern)
     if times is not None and not isinstance(times, os.PathLike | Iterable):
         raise ParameterError(
-            f"`times` is {told(times)}; give the names of the steps, or a table of id, time and a value"
+            f"`times` is {format_value(times)}; give the names of the steps, or a table of id, time and a value"
         )
     if several:
         if times is not None and Times(times).is_table:
@@ -137,6 +139,6 @@ def times_of(source: Any, column: str | list[str] | None, times: Any) -> Times |
         raise ParameterError("`times` names steps; give the `column` of each, or a table of id, time and a value")
     if column is not None:
         raise ParameterError(
-            f"`times` has the values, so `column` {told(column)} is not shown; leave it out, and set it later"
+            f"`times` has the values, so `column` {format_value(column)} is not shown; leave it out, and set it later"
         )
     return Times(times)

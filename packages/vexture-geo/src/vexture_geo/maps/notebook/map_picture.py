@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.renderers.accumulate import Sides, accumulated
+from vexture.renderers.accumulate import Sides, render_sides
 from vexture.renderers.view import Size, ViewLike
-from vexture.tree.planar.style import rounded
+from vexture.tree.planar.style import round_colours
 from vexture_geo.base.rings import Rings, oriented
 from vexture_geo.maps.colours import rgba_of
 from vexture_geo.maps.paths import Fit
@@ -42,7 +42,7 @@ class MapPicture:
         """
         picture = np.zeros(1, np.float32)
         for sheet in self.sheets:
-            above = accumulated(sheet.sides, sheet.rgba if rgba is None else rgba[sheet.rows], size, view)
+            above = render_sides(sheet.sides, sheet.rgba if rgba is None else rgba[sheet.rows], size, view)
             picture = above + (1.0 - above[..., 3:]) * picture
         return picture
 
@@ -51,7 +51,7 @@ class MapPicture:
         rgba = np.zeros((count, 4))
         for sheet in self.sheets:
             rgba[sheet.rows] = sheet.rgba
-        return rounded(rgba)
+        return round_colours(rgba)
 
 
 def map_picture(ready: Prepared) -> MapPicture:
@@ -78,7 +78,7 @@ def plain(ready: Prepared, rgba: NDArray[np.float64]) -> NDArray[np.float64]:
     for one in ready.layers:
         features = one.features
         for colour, rows in ((FILL, features.feature), (INK, features.lines.feature), (DOT, features.points.feature)):
-            changed[first + rows] = rounded(rgba_of(colour, "fill")[None])
+            changed[first + rows] = round_colours(rgba_of(colour, "fill")[None])
         first += len(features)
     return changed
 

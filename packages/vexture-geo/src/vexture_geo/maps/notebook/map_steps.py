@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.tree.planar.style import rounded
+from vexture.tree.planar.style import round_colours
 from vexture_geo.maps.prepare import Prepared
 from vexture_geo.maps.times import STEP_COLUMNS
 
@@ -43,7 +43,7 @@ class MapSteps:
         """Colours of the rows of the map's table at a time in steps."""
         rgba = self._still.copy()
         rgba[self._rows] = self._steps.at(time)
-        return rounded(rgba)
+        return round_colours(rgba)
 
     def sent(self, rows: NDArray[np.intp]) -> dict[str, Any]:
         """Colours of some rows of the table at all steps, one step after another; the places are deflated."""

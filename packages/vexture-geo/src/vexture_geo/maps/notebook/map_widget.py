@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from vexture.base.errors import EXPECTED, ParameterError, reason_of
 from vexture.base.notes import Notes, warn_at
 from vexture.notebook.picture import MARGIN, Rect, png_of
-from vexture.notebook.shared import shared
-from vexture.notebook.traits import Label, Number
+from vexture.notebook.shared_content import share_content
+from vexture.notebook.traits import LabelTrait, NumberTrait
 from vexture.notebook.widget import HEIGHT, PICTURE_WIDTH, PNG, VectorWidget
 from vexture.renderers.view import Size, window
 from vexture.texture.restyle import components
 from vexture.texture.texture import Texture
-from vexture.tree.planar.style import rounded
+from vexture.tree.planar.style import round_colours
 from vexture_geo.maps import Map, Scale
 from vexture_geo.maps.colours import colours_of
 from vexture_geo.maps.notebook.map_picture import map_picture, plain
@@ -62,9 +62,9 @@ class MapWidget(VectorWidget):
         As of `VectorWidget`.
     """
 
-    column = Label(None, allow_none=True)
-    selected = Label(None, allow_none=True).tag(sync=True)
-    time = Number(0.0).tag(sync=True)
+    column = LabelTrait(None, allow_none=True)
+    selected = LabelTrait(None, allow_none=True).tag(sync=True)
+    time = NumberTrait(0.0).tag(sync=True)
     times: Any = traitlets.List(trait=traitlets.Unicode()).tag(sync=True)
     _steps: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     legend: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
@@ -87,7 +87,7 @@ class MapWidget(VectorWidget):
         has_legend: bool = True,
         **traits: Any,
     ) -> None:
-        self.table, self._notes = ready.table, ready.notes.listed
+        self.table, self._notes = ready.table, ready.notes.in_order
         borders = [one.outline.name for one in ready.layers if len(one.outline.rings.ends)]
         self._ids = [*(str(name) for name in ready.table.column("id").to_pylist()), *borders]
         self._row = {name: row for row, name in enumerate(self._ids)}
@@ -139,7 +139,7 @@ class MapWidget(VectorWidget):
             self._style_rows = np.array([self._row[name] for name in style.names], np.intp)
             self._texture = texture
             with self.hold_sync():
-                self._source = shared(content)
+                self._source = share_content(content)
                 self._send_colours()
                 self._mark({"new": self.selected})
                 self.send_state("colors")  # without those of what is hidden
@@ -217,7 +217,7 @@ class MapWidget(VectorWidget):
         for name in colours:
             if name not in self._row:
                 raise ParameterError(f"there is no feature {name!r}; names are in the column `id` of `table`")
-        parts = rounded([components(name, colour) for name, colour in colours.items()]).tolist()
+        parts = round_colours([components(name, colour) for name, colour in colours.items()]).tolist()
         pairs = zip(colours, parts, strict=True)
         return {name: part for name, part in pairs if self._is_seen(name)}
 
@@ -277,7 +277,7 @@ class MapWidget(VectorWidget):
         except ParameterError:  # a column of texts: the scale was chosen for another one
             rgba, legend = colours_of(self.table, replace(scale, kind="categories", palette=None), Notes())
         borders = self._rgba[len(rgba) :]  # of outlines, which no column colours
-        return np.concatenate([rounded(rgba), borders]), legend
+        return np.concatenate([round_colours(rgba), borders]), legend
 
     def _go(self, change: Any) -> None:
         """Another time: the page has its colours, and only a picture in place of the texture is drawn again."""

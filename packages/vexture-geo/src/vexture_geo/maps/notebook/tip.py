@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 from vexture.base.errors import ParameterError
-from vexture.notebook.traits import told
+from vexture.notebook.traits import format_value
 
 if TYPE_CHECKING:
     import pyarrow
@@ -73,7 +73,7 @@ def _chosen(names: Sequence[str], tooltip: Any) -> list[str] | None:
     if tooltip is None or tooltip is False:
         return []
     if not (isinstance(tooltip, str | int) or hasattr(tooltip, "__iter__")):
-        raise ParameterError(f"`tooltip` is {told(tooltip)}; give True, False or names of columns")
+        raise ParameterError(f"`tooltip` is {format_value(tooltip)}; give True, False or names of columns")
     chosen = [str(name) for name in ([tooltip] if isinstance(tooltip, str | int) else tooltip)]
     for name in chosen:
         if name not in names:

@@ -105,7 +105,7 @@ def looking(own: Place, place: Place, report: Report) -> Decoration:
     unknown += [word for word in words_of(place, ("text-underline-offset",)) if word not in USUAL]
     if unknown:
         what = f"text-decoration {' '.join(unknown)[:40]}"
-        report.simplified(f"{what} drawn where and as the font says", place.element)
+        report.simplification(f"{what} drawn where and as the font says", place.element)
     return Decoration(own, style, thickness)
 
 

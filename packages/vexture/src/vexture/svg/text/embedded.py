@@ -49,7 +49,7 @@ def embedded_fonts(rules: Sequence[FontFace], fonts: Fonts, report: Report) -> I
             continue
         ranges = ranges_of(rule.get("unicode-range", ""))
         if ranges is None:
-            report.simplified(f"unicode-range of font {names[0][:40]!r}, which is used for all characters", sheet)
+            report.simplification(f"unicode-range of font {names[0][:40]!r}, which is used for all characters", sheet)
         yield EmbeddedFont(
             names[0],
             content,

@@ -133,7 +133,7 @@ class Faces:
             if (what, element) in self.noted:  # of which other characters are in another font
                 return
             self.noted.add((what, element))
-        self.note_once(self.report.simplified, f"{what} drawn in {face.family}", element)
+        self.note_once(self.report.simplification, f"{what} drawn in {face.family}", element)
 
     def note_once(self, how: Callable[[str, etree._Element], None], what: str, element: etree._Element) -> None:
         """Note something once for an element of a text."""
@@ -228,7 +228,7 @@ def face_of(want: Wanted, character: str, faces: Faces, last: Face | None, eleme
         return face
     face = last or faces.first(want)
     if face is not None and is_seen(character):
-        faces.note_once(faces.report.boxed, character, element)
+        faces.note_once(faces.report.missing_character, character, element)
     return face
 
 

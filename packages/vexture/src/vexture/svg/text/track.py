@@ -95,7 +95,7 @@ def read_track(scene: Measured, element: etree._Element, place: Place) -> Track 
     for name, usual in (("method", "align"), ("spacing", "exact")):
         value = element.get(name, usual).strip()
         if value not in (usual, "auto"):
-            scene.report.simplified(f"textPath with {name} {value[:40]} drawn with {usual}", element)
+            scene.report.simplification(f"textPath with {name} {value[:40]} drawn with {usual}", element)
     track = track_of(outlines)
     if track is None:
         return None

@@ -237,7 +237,7 @@ def note_ignored(scene: Setting, span: Span) -> None:
         if style[name].lower() != "none":
             scene.report.left_out(f"{name} of a <{local_name(span.element)}>", span.element)
     if outer is None and style["writing-mode"].lower() == "sideways-lr":
-        scene.report.simplified("writing-mode sideways-lr drawn as sideways-rl", span.element)
+        scene.report.simplification("writing-mode sideways-lr drawn as sideways-rl", span.element)
 
 
 def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Span | None:

@@ -64,19 +64,19 @@ def bands_of(gradient: Gradient, box: Box, at_all_stops: bool = False) -> Bands:
     [1, 1]
     """
     kind = _kind(gradient)
-    if kind is Kind.FLAT:
+    if kind is RampShape.FLAT:
         return Bands((gradient,), ())
-    if kind is Kind.NESTED:
+    if kind is RampShape.NESTED:
         gradient = _outwards(gradient)
     nothing = Gradient(gradient.to_ramp, (Stop(0.0, (0.0, 0.0, 0.0), 0.0),))
-    around = Bands((nothing,), (_cone(gradient, box),)) if kind >= Kind.TOUCHING else Bands((), ())
+    around = Bands((nothing,), (_cone(gradient, box),)) if kind >= RampShape.TOUCHING else Bands((), ())
     grows = gradient.focus is None or gradient.focus[1] < 1.0
     found = _within(gradient, kind, box, at_all_stops) if grows else Bands((gradient,), ())
     return Bands(around.gradients + found.gradients, around.regions + found.regions)
 
 
-class Kind(IntEnum):
-    """What the places of a gradient are: one; lines; circles in one another; those that touch; those of a cone."""
+class RampShape(IntEnum):
+    """Shape of the lines of equal colour: one point; lines; nested circles; touching circles; circles of a cone."""
 
     FLAT = 0
     LINES = 1
@@ -85,15 +85,21 @@ class Kind(IntEnum):
     CONE = 4
 
 
-def _kind(gradient: Gradient) -> Kind:
+def _kind(gradient: Gradient) -> RampShape:
     (a, b, _), (d, e, _) = gradient.to_ramp
     if gradient.focus is None:
-        return Kind.LINES if a != 0.0 or b != 0.0 else Kind.FLAT
+        return RampShape.LINES if a != 0.0 or b != 0.0 else RampShape.FLAT
     if a * e - b * d == 0.0:
-        return Kind.FLAT
+        return RampShape.FLAT
     focus, radius = gradient.focus
     beyond = focus - abs(1.0 - radius)
-    return Kind.NESTED if beyond < -CLOSE else Kind.TOUCHING if beyond <= CLOSE and radius != 1.0 else Kind.CONE
+    return (
+        RampShape.NESTED
+        if beyond < -CLOSE
+        else RampShape.TOUCHING
+        if beyond <= CLOSE and radius != 1.0
+        else RampShape.CONE
+    )
 
 
 def _outwards(gradient: Gradient) -> Gradient:
@@ -106,7 +112,7 @@ def _outwards(gradient: Gradient) -> Gradient:
     return Gradient(rows, stops, gradient.spread, (focus / radius, 1.0 / radius))
 
 
-def _within(gradient: Gradient, kind: Kind, box: Box, at_all_stops: bool) -> Bands:
+def _within(gradient: Gradient, kind: RampShape, box: Box, at_all_stops: bool) -> Bands:
     """The bands of a gradient where it paints."""
     whole = Bands((gradient,), ())
     low, high = _reach(gradient, kind, box)
@@ -125,7 +131,7 @@ def _within(gradient: Gradient, kind: Kind, box: Box, at_all_stops: bool) -> Ban
         for k, (a, b) in enumerate(pairwise([0, *parts, len(knots) - 1]))
     ]
     regions = [_region(gradient, kind, knots[k].place, box) for k in parts]
-    if kind is not Kind.LINES:  # each lies in the next one
+    if kind is not RampShape.LINES:  # each lies in the next one
         bands, regions = bands[::-1], regions[::-1]
         regions = regions[: next((k for k, one in enumerate(regions) if len(one) == 0), len(regions))]
     return Bands(tuple(bands[: len(regions) + 1]), tuple(regions))
@@ -147,23 +153,23 @@ def _is_beside_ramp(knots: list[Knot], k: int, most: float) -> bool:
     return any(_differ(one.after, other.before) and other.place - one.place < most for one, other in beside)
 
 
-def _places_in(gradient: Gradient, kind: Kind, length: float) -> float:
-    """How many places of a ramp a length of the unit square spans; of circles of several middles, about so many."""
-    rows = np.array(gradient.to_ramp)[: 1 if kind is Kind.LINES else 2, :2]
+def _places_in(gradient: Gradient, kind: RampShape, length: float) -> float:
+    """Length of a ramp that a length of the unit square spans; approximate for circles with several centres."""
+    rows = np.array(gradient.to_ramp)[: 1 if kind is RampShape.LINES else 2, :2]
     grows = 1.0 if gradient.focus is None else 1.0 - gradient.focus[1]
     return length * float(np.linalg.norm(rows, 2)) / grows
 
 
-def _reach(gradient: Gradient, kind: Kind, box: Box) -> tuple[float, float]:
+def _reach(gradient: Gradient, kind: RampShape, box: Box) -> tuple[float, float]:
     """Least place on the ramp in a box, or less, and greatest, or more; circles of the least have no radius."""
     corners = np.array([(x, y, 1.0) for x in box[:, 0] for y in box[:, 1]]) @ np.array(gradient.to_ramp).T
     if gradient.focus is None:
         return float(corners[:, 0].min()), float(corners[:, 0].max())
     focus, radius = gradient.focus
     grows = 1.0 - radius
-    if kind is Kind.TOUCHING:
+    if kind is RampShape.TOUCHING:
         return -np.inf, np.inf
-    if kind is Kind.NESTED:
+    if kind is RampShape.NESTED:
         return -radius / grows, max(_place(focus, radius, x, y) for x, y in corners.tolist())
     # a circle of radius r comes to r (focus / grows - 1) from the tip
     away = float(np.linalg.norm(corners - (focus / grows, 0.0), axis=1).max())
@@ -218,12 +224,12 @@ def _band(gradient: Gradient, knots: list[Knot], is_begun: bool, is_ended: bool)
     if all(not _differ(stops[0], stop) for stop in stops):
         return Gradient(gradient.to_ramp, (Stop(0.0, stops[0].color, stops[0].opacity),), focus=gradient.focus)
     placed = [one for k, one in enumerate(placed) if k == 0 or one != placed[k - 1]]
-    if gradient.spread is Spread.PAD and _kind(gradient) is Kind.TOUCHING:  # float32 would part circles that touch
+    if gradient.spread is Spread.PAD and _kind(gradient) is RampShape.TOUCHING:  # float32 would part circles that touch
         return Gradient(gradient.to_ramp, tuple(stop for _, stop in placed), focus=gradient.focus)
     if gradient.focus is not None:
         placed = _from(placed, -gradient.focus[1] / (1.0 - gradient.focus[1]))
     start, end = placed[0][0], placed[-1][0]
-    to_ramp, focus = _stretched(gradient, start, end)
+    to_ramp, focus = _stretch_ramp(gradient, start, end)
     shares = [min(max((place - start) / (end - start), 0.0), 1.0) for place, _ in placed]
     moved = tuple(Stop(at, stop.color, stop.opacity) for at, (_, stop) in zip(shares, placed, strict=True))
     return Gradient(to_ramp, moved, focus=focus)
@@ -241,8 +247,8 @@ def _from(placed: list[tuple[float, Stop]], start: float) -> list[tuple[float, S
     return [(start, Stop(0.0, (red, green, blue), opacity)), *placed[first:]]
 
 
-def _stretched(gradient: Gradient, start: float, end: float) -> tuple[Affine, tuple[float, float] | None]:
-    """The map and focus of a gradient whose places 0 and 1 are those from `start` to `end` of another one."""
+def _stretch_ramp(gradient: Gradient, start: float, end: float) -> tuple[Affine, tuple[float, float] | None]:
+    """Compute map and focus of the gradient that spans the part from `start` to `end` of another one."""
     (a, b, c), (d, e, f) = gradient.to_ramp
     size = end - start
     if gradient.focus is None:
@@ -254,7 +260,7 @@ def _stretched(gradient: Gradient, start: float, end: float) -> tuple[Affine, tu
     return rows, (focus * size / outer, max(inner / outer, 0.0))
 
 
-def _region(gradient: Gradient, kind: Kind, place: float, box: Box) -> NDArray[np.float64]:
+def _region(gradient: Gradient, kind: RampShape, place: float, box: Box) -> NDArray[np.float64]:
     """The part of a box beyond a place of a linear ramp, or before it of a radial one, as a contour."""
     (a, b, c), (d, e, _) = gradient.to_ramp
     if gradient.focus is None:
@@ -264,7 +270,7 @@ def _region(gradient: Gradient, kind: Kind, place: float, box: Box) -> NDArray[n
     if size <= 0.0:
         return np.zeros((0, 4, 2))
     tolerance = ROUND * float(np.linalg.norm([[a, b], [d, e]], -2))
-    if kind is not Kind.CONE:
+    if kind is not RampShape.CONE:
         return _from_ramp(gradient, ellipse_cubics((middle, 0.0), (size, size), tolerance), box)
     # in a cone, the places before one lie between its tip and the arc of the circle that faces it
     tip, turn = focus / (1.0 - radius), np.arccos((1.0 - radius) / focus)

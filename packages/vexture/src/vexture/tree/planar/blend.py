@@ -22,7 +22,7 @@ none, or hue and saturation would make a colour of it."""
 
 
 @kernel(allocates=False)
-def _mixed(mode: int, b: float, s: float) -> float:
+def _mix_channel(mode: int, b: float, s: float) -> float:
     """B(b, s) of one channel of the backdrop and the source (section 10.1, separable blend modes)."""
     if mode == MULTIPLY:
         return b * s
@@ -56,24 +56,24 @@ def _luminosity(c: tuple[float, float, float]) -> float:
 
 
 @kernel(allocates=False)
-def _with_luminosity(c: tuple[float, float, float], wanted: float) -> tuple[float, float, float]:
+def _with_luminosity(c: tuple[float, float, float], target: float) -> tuple[float, float, float]:
     """SetLum and ClipColor of section 10.2."""
-    by = wanted - _luminosity(c)
+    by = target - _luminosity(c)
     red, green, blue = c[0] + by, c[1] + by, c[2] + by
     low, high = min(red, green, blue), max(red, green, blue)
     share = 1.0
     if low < 0.0:
-        share = wanted / (wanted - low)
+        share = target / (target - low)
     if high > 1.0:
-        share = min(share, (1.0 - wanted) / (high - wanted))
-    return wanted + (red - wanted) * share, wanted + (green - wanted) * share, wanted + (blue - wanted) * share
+        share = min(share, (1.0 - target) / (high - target))
+    return target + (red - target) * share, target + (green - target) * share, target + (blue - target) * share
 
 
 @kernel(allocates=False)
-def _with_saturation(c: tuple[float, float, float], wanted: float) -> tuple[float, float, float]:
+def _with_saturation(c: tuple[float, float, float], target: float) -> tuple[float, float, float]:
     """SetSat of section 10.2."""
     low, high = min(c[0], c[1], c[2]), max(c[0], c[1], c[2])
-    scale = wanted / (high - low) if high - low > NOTHING else 0.0
+    scale = target / (high - low) if high - low > NOTHING else 0.0
     return (c[0] - low) * scale, (c[1] - low) * scale, (c[2] - low) * scale
 
 
@@ -111,14 +111,14 @@ def blend_over(below: NDArray[np.float64], above: NDArray[np.float64], opacity: 
     if mode >= HUE:
         whole = _mixed_whole(mode, backdrop, source)
     for c in range(3):
-        mixed = whole[c] if mode >= HUE else _mixed(mode, backdrop[c], source[c])
+        mixed = whole[c] if mode >= HUE else _mix_channel(mode, backdrop[c], source[c])
         below[c] = source[c] * a * (1.0 - b) + backdrop[c] * b * (1.0 - a) + a * b * mixed
     below[3] = a + b * (1.0 - a)
 
 
 @kernel(allocates=False)
 def masking(colour: NDArray[np.float64], mask: int) -> float:
-    """What a mask of a premultiplied colour, (4,), leaves (*CSS Masking Level 1*, 7.10)."""
+    """Share that a mask of a premultiplied colour, (4,), leaves (*CSS Masking Level 1*, 7.10)."""
     if mask == LUMINANCE:
         return LUMINANCE_RED * colour[0] + LUMINANCE_GREEN * colour[1] + LUMINANCE_BLUE * colour[2]
     return colour[3]

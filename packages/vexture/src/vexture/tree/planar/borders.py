@@ -15,16 +15,16 @@ from vexture.bezier.split import copy_curve
 from vexture.tree.boundary import quantise_piece
 from vexture.tree.divide import PiecePool
 from vexture.tree.merge import follows, merge_chains
-from vexture.tree.planar.layers import Layers
+from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.winding import inside
 
-__all__ = ["Borders", "Cell", "cross", "find_borders", "key_of", "merge_borders", "new_borders", "set_left_edge"]
+__all__ = ["Borders", "PlanarCell", "cross", "find_borders", "key_of", "merge_borders", "new_borders", "set_left_edge"]
 
 SAME = 2.0
 """Lattice units by which control points of coincident pieces may differ: each is rounded where a cell cuts it."""
 
 
-class Cell(NamedTuple):
+class PlanarCell(NamedTuple):
     """A cell: its pieces are the pool's numbers first..last-1, in the order of its paths."""
 
     x: float
@@ -78,7 +78,7 @@ def _same_border(a: NDArray[np.float64], b: NDArray[np.float64]) -> int:
 
 
 @kernel(allocates=False)
-def find_borders(pool: PiecePool, cell: Cell, present: NDArray[np.int64], most: int, borders: Borders) -> int:
+def find_borders(pool: PiecePool, cell: PlanarCell, present: NDArray[np.int64], most: int, borders: Borders) -> int:
     """Write the borders in a cell; return how many, or -1 if there are more than `most`."""
     kind, turn = pool.child, pool.part  # scratch with room for the pieces of any cell
     count, curves, sums = 0, borders.curves, borders.sums
@@ -108,7 +108,7 @@ def find_borders(pool: PiecePool, cell: Cell, present: NDArray[np.int64], most: 
 
 
 @kernel(allocates=False)
-def _crossing_paths(pool: PiecePool, cell: Cell, present: NDArray[np.int64], count: int, borders: Borders) -> int:
+def _crossing_paths(pool: PiecePool, cell: PlanarCell, present: NDArray[np.int64], count: int, borders: Borders) -> int:
     """Write which paths cross each border; drop those that none crosses; return how many are left."""
     kind, turn, begin = pool.child, pool.part, borders.begin
     for k in range(count + 1):
@@ -195,7 +195,7 @@ def merge_borders(
 
 
 @kernel(allocates=False)
-def key_of(layers: Layers, present: NDArray[np.int64], windings: NDArray[np.int64]) -> int:
+def key_of(layers: PlanarLayers, present: NDArray[np.int64], windings: NDArray[np.int64]) -> int:
     """Exclusive or of the keys of the paths that are inside."""
     key, rules, keys = 0, layers.rules, layers.keys
     for k in range(len(present)):
@@ -209,7 +209,7 @@ def cross(
     borders: Borders,
     border: int,
     by: int,
-    layers: Layers,
+    layers: PlanarLayers,
     present: NDArray[np.int64],
     windings: NDArray[np.int64],
     key: int,
@@ -228,7 +228,12 @@ def cross(
 
 @kernel(allocates=False)
 def set_left_edge(
-    borders: Borders, count: int, layers: Layers, present: NDArray[np.int64], y: float, windings: NDArray[np.int64]
+    borders: Borders,
+    count: int,
+    layers: PlanarLayers,
+    present: NDArray[np.int64],
+    y: float,
+    windings: NDArray[np.int64],
 ) -> int:
     """Write the windings at the left edge just above a height, right of the borders along it; return their key."""
     for k in range(len(present)):

@@ -19,7 +19,7 @@ from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Gradient
 from vexture.tree.bounds import DEFAULT_DEPTH, Bounds, bounds_of, check_growth
 from vexture.tree.build import CELL, SLICE, new_growth
-from vexture.tree.cubics import owned
+from vexture.tree.cubics import cubics_and_paths
 from vexture.tree.divide import PARTS, divide
 from vexture.tree.growth import (
     COUNT,
@@ -41,11 +41,11 @@ from vexture.tree.growth import (
 )
 from vexture.tree.leaf import DIVIDE
 from vexture.tree.parts import LARGE, usual_threads
-from vexture.tree.planar.borders import Cell, key_of
-from vexture.tree.planar.faces import Faces, face_of, new_faces, roomier_faces
-from vexture.tree.planar.growth import BASE, IS_MEAN, PlanarGrowth, State, planted, with_room
-from vexture.tree.planar.layers import Layers, Rows, layers_of, looks_of, rows_of
-from vexture.tree.planar.leaf import PlanarLeaf, Workspace, new_workspace, planar_leaf
+from vexture.tree.planar.borders import PlanarCell, key_of
+from vexture.tree.planar.faces import FaceTable, face_of, new_faces, roomier_faces
+from vexture.tree.planar.growth import BASE, IS_MEAN, PlanarGrowth, State, growth_from_tuples, with_room
+from vexture.tree.planar.layers import PlanarLayers, Rows, layers_of, looks_of, rows_of
+from vexture.tree.planar.leaf import PlanarLeaf, PlanarWorkspace, new_workspace, planar_leaf
 from vexture.tree.planar.map import PlanarMap, texels_of
 from vexture.tree.planar.means import add_programs, set_flat_mean
 from vexture.tree.planar.parts import grow_map_parts
@@ -56,14 +56,14 @@ from vexture.tree.winding import child_windings, inside
 __all__ = ["DEFAULT_MAP_CAPACITY", "build_map", "grow_map", "plant_map", "row_cubics"]
 
 
-class Work(NamedTuple):
+class PlanarWork(NamedTuple):
     """Arrays that are reused from cell to cell."""
 
     counts: NDArray[np.int64]  # (5,): what the map had before a cell
     row: NDArray[np.int64]  # (7,): the row of the stack of the cell
     child_at: NDArray[np.int64]  # (9,): start of each child's list of pieces; see `divide`
     windings: NDArray[np.int64]  # (paths, 8): what `child_windings` writes
-    leaf: Workspace
+    leaf: PlanarWorkspace
 
 
 SHORT_SLICE = SLICE // 8
@@ -80,8 +80,8 @@ def _child_paths(
     rows: tuple[int, int],
     child: int,
     windings: NDArray[np.int64],
-    layers: Layers,
-    faces: Faces,
+    layers: PlanarLayers,
+    faces: FaceTable,
     ground: int,
     end: int,
 ) -> tuple[int, int]:
@@ -113,10 +113,10 @@ def _child_paths(
 @kernel(allocates=False)
 def _grow_quad(
     growth: PlanarGrowth,
-    layers: Layers,
-    faces: Faces,
+    layers: PlanarLayers,
+    faces: FaceTable,
     bounds: Bounds,
-    work: Work,
+    work: PlanarWork,
 ) -> None:
     """Divide the cell on top of the stack: each child becomes a leaf or is pushed onto the stack.
 
@@ -146,7 +146,7 @@ def _grow_quad(
         first, last = child_at[child], child_at[child + 1]
         while first < last and (here == end_path or pool.path[pool.numbers[first]] < present[end_path, 0]):
             first += 1  # hidden by a path above
-        cell = Cell(x0 + half * (child & 1), y0 + half * (child >> 1), half, first, last)
+        cell = PlanarCell(x0 + half * (child & 1), y0 + half * (child >> 1), half, first, last)
         leaf = _leaf(
             growth, cell, quad, child, ground, present[end_path:here], layers, faces, depth + 1, bounds, work.leaf
         )
@@ -170,16 +170,16 @@ def _grow_quad(
 @kernel(allocates=False)
 def _leaf(
     growth: PlanarGrowth,
-    cell: Cell,
+    cell: PlanarCell,
     quad: int,
     child: int,
     ground: int,
     present: NDArray[np.int64],
-    layers: Layers,
-    faces: Faces,
+    layers: PlanarLayers,
+    faces: FaceTable,
     depth: int,
     bounds: Bounds,
-    workspace: Workspace,
+    workspace: PlanarWorkspace,
 ) -> PlanarLeaf:
     """Write a cell of a quad, and the pieces of its leaf, if it is one."""
     tree, mean = growth.tree, growth.mean[quad, child]
@@ -239,7 +239,9 @@ def _means(growth: PlanarGrowth) -> None:
 
 
 @kernel(ahead=True, shares=True)
-def grow_map(growth: PlanarGrowth, layers: Layers, faces: Faces, bounds: Bounds, most_work: int, aside: int) -> None:
+def grow_map(
+    growth: PlanarGrowth, layers: PlanarLayers, faces: FaceTable, bounds: Bounds, most_work: int, aside: int
+) -> None:
     """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done.
 
     It also ends before a cell whose list is no longer than `aside`, unless that is 0.
@@ -250,7 +252,7 @@ def grow_map(growth: PlanarGrowth, layers: Layers, faces: Faces, bounds: Bounds,
         in_cell = max(in_cell, PARTS * (stack[k, LAST] - stack[k, FIRST]))
     row = np.empty(stack.shape[1], np.int64)
     child_at, windings = np.empty(9, np.int64), np.empty((paths, 8), np.int64)
-    work = Work(np.empty(len(counts), np.int64), row, child_at, windings, new_workspace(paths, in_cell))
+    work = PlanarWork(np.empty(len(counts), np.int64), row, child_at, windings, new_workspace(paths, in_cell))
     while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
         top = counts[WAITING] - 1
         listed = stack[top, LAST] - stack[top, FIRST]
@@ -279,7 +281,7 @@ def plant_map(cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: 
 
 def row_cubics(rows: Rows) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Cubics of some rows, (n, 4, 2), and the number of the row of each, (n,)."""
-    return owned([path.contours for path in rows.paths])
+    return cubics_and_paths([path.contours for path in rows.paths])
 
 
 def build_map(
@@ -330,7 +332,7 @@ def build_map(
         check_growth(quads, most_quads, drawing.name)
         return most_texels is None or texels_of(quads, curves) <= most_texels
 
-    state = State(planted(*root), layers, new_faces())
+    state = State(growth_from_tuples(*root), layers, new_faces())
     # only drawings that lack what is hidden: parts number paints in an order of their own, and others keep their bytes
     if restyle and layers.hides.any() and state.growth.tree.stack[0, LAST] > LARGE:
         grown = grow_map_parts(state, step, usual_threads() if threads is None else threads, check)

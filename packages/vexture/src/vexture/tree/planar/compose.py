@@ -14,7 +14,7 @@ from vexture.base.kernels import kernel
 from vexture.base.layout import MASKS, MOST_KEPT, MOST_PROGRAM, MOST_STOPS, PAINT_ONE
 from vexture.drawing.group import Blend
 from vexture.tree.planar.blend import blend_over, masking
-from vexture.tree.planar.layers import Layers
+from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.planar.shades import COUNT, FOCUS, flat_shade, shade_at
 
 __all__ = [
@@ -48,7 +48,7 @@ class Operations(NamedTuple):
 
 
 @kernel
-def new_operations(layers: Layers, stack: NDArray[np.int32]) -> Operations:
+def new_operations(layers: PlanarLayers, stack: NDArray[np.int32]) -> Operations:
     """Arrays with room for those of a stack."""
     room = len(stack) + 1
     for k in range(len(stack)):
@@ -128,7 +128,7 @@ def _end_group(ops: Operations, count: int, base: int, start: int, opacity: floa
 
 
 @kernel(allocates=False)
-def _is_in(layers: Layers, group: int, around: int) -> bool:
+def _is_in(layers: PlanarLayers, group: int, around: int) -> bool:
     """Whether a group, or -1, is another one or lies in it."""
     while group >= 0 and layers.depth[group] > layers.depth[around]:
         group = layers.outer[group]
@@ -137,29 +137,29 @@ def _is_in(layers: Layers, group: int, around: int) -> bool:
 
 @kernel(allocates=False)
 def _leave(
-    layers: Layers,
+    layers: PlanarLayers,
     ops: Operations,
     count: int,
     around: NDArray[np.int64],
     starts: NDArray[np.int64],
-    shown: NDArray[np.float64],
+    mask_state: NDArray[np.float64],
     level: int,
 ) -> int:
     """End the innermost group, or let it mask the one around it; return the new number of operations.
 
     `starts` has for each open group where its `KEEP` is, and where what it paints begins: until it is ended, that is
-    after its masks that hold gradients. `shown` has what its other masks leave, and of how many nothing was met.
+    after its masks that hold gradients. `mask_state` has what its other masks leave, and of how many nothing was met.
     """
     g, start, mask = around[level], starts[level, 0], layers.mask[around[level]]
-    left = layers.opacity[g] * (shown[level, 0] if shown[level, 1] == 0.0 else 0.0)
+    left = layers.opacity[g] * (mask_state[level, 0] if mask_state[level, 1] == 0.0 else 0.0)
     count = start + 1 if left == 0.0 or count == starts[level, 1] else count
     if count > start + 1:
         _swap(ops, start + 1, starts[level, 1], count)
     if mask == 0:
         return _end_group(ops, count, starts[level - 1, 1], start, left, layers.blend[g])
-    shown[level - 1, 1] -= 1.0
+    mask_state[level - 1, 1] -= 1.0
     if count == start + 1 or (count == start + 2 and ops.code[start + 1] == SOLID):
-        shown[level - 1, 0] *= left * masking(ops.rgba[start + 1], mask) if count > start + 1 else 0.0
+        mask_state[level - 1, 0] *= left * masking(ops.rgba[start + 1], mask) if count > start + 1 else 0.0
         return start
     ops.code[count], ops.number[count] = MIX, (MASKS + mask) << 16 | int(np.rint(ONE * left))
     _swap(ops, starts[level - 1, 1], start, count + 1)
@@ -168,7 +168,7 @@ def _leave(
 
 
 @kernel(allocates=False)
-def _band(layers: Layers, stack: NDArray[np.int32], k: int) -> int:
+def _band(layers: PlanarLayers, stack: NDArray[np.int32], k: int) -> int:
     """Number of the band of a gradient, of a path in a stack: so many of the regions after it are there, too."""
     after = k + 1
     while after < len(stack) and layers.cut[stack[after]] == stack[k]:
@@ -177,7 +177,7 @@ def _band(layers: Layers, stack: NDArray[np.int32], k: int) -> int:
 
 
 @kernel
-def compose(layers: Layers, stack: NDArray[np.int32], is_flat: bool, ops: Operations) -> int:
+def compose(layers: PlanarLayers, stack: NDArray[np.int32], is_flat: bool, ops: Operations) -> int:
     """Write the operations of a stack of paths; return how many, or -1 if no paint can hold them.
 
     Of flat colours there is one solid, or none. With `is_flat` gradients are the solids of their means.
@@ -221,7 +221,7 @@ def compose(layers: Layers, stack: NDArray[np.int32], is_flat: bool, ops: Operat
 
 
 @kernel(allocates=False)
-def _fits(layers: Layers, ops: Operations, count: int) -> bool:
+def _fits(layers: PlanarLayers, ops: Operations, count: int) -> bool:
     """Whether a shader can run the operations: few, of few stops, few groups in one another."""
     texels, stops, kept, most = 0, 0, 0, 0
     for k in range(count):
@@ -256,7 +256,13 @@ def key_of_operations(ops: Operations, count: int) -> int:
 
 @kernel(allocates=False)
 def colour_at(
-    layers: Layers, ops: Operations, count: int, x: float, y: float, work: NDArray[np.float64], out: NDArray[np.float64]
+    layers: PlanarLayers,
+    ops: Operations,
+    count: int,
+    x: float,
+    y: float,
+    work: NDArray[np.float64],
+    out: NDArray[np.float64],
 ) -> None:
     """Write the premultiplied colour (4,) of operations at a point of the unit square; `work` is scratch, (room, 4)."""
     level = 0

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
 from vexture.tree.planar.compose import ONE, Operations, compose, key_of_operations, new_operations
-from vexture.tree.planar.layers import Layers
+from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.winding import inside
 
 __all__ = [
-    "Faces",
+    "FaceTable",
     "add_faces",
     "composite_stacks",
     "face_of",
@@ -26,14 +26,14 @@ __all__ = [
     "refill",
     "roomier_faces",
     "stack_of",
-    "trimmed",
+    "trim_faces",
 ]
 
 FIRST_ROOM = 1024
 """Faces for which a table has room at first."""
 
 
-class Faces(NamedTuple):
+class FaceTable(NamedTuple):
     """Table of all faces. Face 0 is where nothing is painted."""
 
     slots: NDArray[np.int64]  # (4 room,): face + 1 of each hash slot, or 0
@@ -48,12 +48,12 @@ class Faces(NamedTuple):
     counts: NDArray[np.int64]  # (2,): faces; 1 if there was no room for another
 
 
-def new_faces(room: int = FIRST_ROOM, paths: int = FIRST_ROOM) -> Faces:
+def new_faces(room: int = FIRST_ROOM, paths: int = FIRST_ROOM) -> FaceTable:
     """A table that holds face 0; its room is a power of two."""
     return _faces(room, paths)
 
 
-def faces_with(faces: Faces, face: int) -> Faces:
+def faces_with(faces: FaceTable, face: int) -> FaceTable:
     """A table that holds face 0 and one of others, which is face 1, unless it is face 0."""
     start, end = faces.starts[face : face + 2]
     out = new_faces(paths=max(FIRST_ROOM, int(end - start)))
@@ -68,12 +68,12 @@ def faces_with(faces: Faces, face: int) -> Faces:
     return out
 
 
-def trimmed(faces: Faces) -> Faces:
-    """A table without its room and slots, in which nothing can be found or added."""
+def trim_faces(faces: FaceTable) -> FaceTable:
+    """Copy a table without its spare room and slots; nothing can be found in it or added to it."""
     count = int(faces.counts[0])
     none = np.zeros(0, np.int64)
     starts = faces.starts[: count + 1].copy()
-    return Faces(
+    return FaceTable(
         none,
         none,
         faces.keys[:count].copy(),
@@ -87,8 +87,8 @@ def trimmed(faces: Faces) -> Faces:
     )
 
 
-def _faces(room: int, paths: int) -> Faces:
-    faces = Faces(
+def _faces(room: int, paths: int) -> FaceTable:
+    faces = FaceTable(
         np.zeros(4 * room, np.int64),
         np.zeros(4 * room, np.int64),
         np.zeros(room, np.int64),
@@ -104,7 +104,7 @@ def _faces(room: int, paths: int) -> Faces:
     return faces
 
 
-def roomier_faces(faces: Faces) -> Faces:
+def roomier_faces(faces: FaceTable) -> FaceTable:
     """A copy with twice the room of what is full."""
     count, room = int(faces.counts[0]), len(faces.keys)
     out = _faces(2 * room, len(faces.paths)) if count == room else _faces(room, 2 * len(faces.paths))
@@ -118,7 +118,7 @@ def roomier_faces(faces: Faces) -> Faces:
 
 
 @kernel(allocates=False, ahead=True)
-def refill(faces: Faces) -> None:
+def refill(faces: FaceTable) -> None:
     """Put all faces into the hash slots."""
     for face in range(1, faces.counts[0]):
         faces.slots[_free_slot(faces.slots, faces.keys[face])] = face + 1
@@ -127,7 +127,7 @@ def refill(faces: Faces) -> None:
 
 
 @kernel(allocates=False, ahead=True)
-def add_faces(faces: Faces, more: Faces, first: int, last: int, number: NDArray[np.int64]) -> None:
+def add_faces(faces: FaceTable, more: FaceTable, first: int, last: int, number: NDArray[np.int64]) -> None:
     """Add faces first..last-1 of another table to one that has room; write the number that each has there."""
     for k in range(first, last):
         slot = _slot_of(faces, more.keys[k]) if more.keys[k] != 0 else 0
@@ -157,7 +157,7 @@ def _free_slot(slots: NDArray[np.int64], key: int) -> int:
 
 
 @kernel(allocates=False)
-def _paint_key(faces: Faces, face: int) -> int:
+def _paint_key(faces: FaceTable, face: int) -> int:
     """Hash of a face's program or look, or else its colour in steps of 1/65535; 0 only of what is transparent."""
     key = faces.program[face] ^ faces.look[face]
     if key != 0:
@@ -170,7 +170,7 @@ def _paint_key(faces: Faces, face: int) -> int:
 
 
 @kernel(allocates=False)
-def _same_paint(faces: Faces, a: int, b: int) -> bool:
+def _same_paint(faces: FaceTable, a: int, b: int) -> bool:
     for c in range(4):
         if np.rint(ONE * faces.rgba[a, c]) != np.rint(ONE * faces.rgba[b, c]):
             return False
@@ -178,13 +178,13 @@ def _same_paint(faces: Faces, a: int, b: int) -> bool:
 
 
 @kernel
-def stack_of(faces: Faces, face: int) -> NDArray[np.int32]:
+def stack_of(faces: FaceTable, face: int) -> NDArray[np.int32]:
     """Numbers of the paths inside, from below."""
     return faces.paths[faces.starts[face] : faces.starts[face + 1]]
 
 
 @kernel(ahead=True)
-def operations_of(layers: Layers, stack: NDArray[np.int32]) -> tuple[int, Operations, int]:
+def operations_of(layers: PlanarLayers, stack: NDArray[np.int32]) -> tuple[int, Operations, int]:
     """Number of a stack's operations, these, and 1 if its gradients are their means: no paint can hold them; else 0."""
     ops = new_operations(layers, stack)
     count = compose(layers, stack, False, ops)
@@ -195,7 +195,12 @@ def operations_of(layers: Layers, stack: NDArray[np.int32]) -> tuple[int, Operat
 
 @kernel(allocates=False)
 def _stack(
-    faces: Faces, layers: Layers, ground: int, present: NDArray[np.int64], windings: NDArray[np.int64], face: int
+    faces: FaceTable,
+    layers: PlanarLayers,
+    ground: int,
+    present: NDArray[np.int64],
+    windings: NDArray[np.int64],
+    face: int,
 ) -> bool:
     """Write the stack of a face, which is that of its ground and the paths inside; False if there is no room."""
     start = faces.starts[face]
@@ -217,7 +222,7 @@ def _stack(
 
 
 @kernel(allocates=False)
-def _look_of(layers: Layers, stack: NDArray[np.int32]) -> int:
+def _look_of(layers: PlanarLayers, stack: NDArray[np.int32]) -> int:
     """Hash of a stack's elements, in order; 0 of a map that is not to be restyled."""
     key = 0
     for k in range(len(stack)):
@@ -228,7 +233,7 @@ def _look_of(layers: Layers, stack: NDArray[np.int32]) -> int:
 
 @kernel
 def composite_stacks(
-    layers: Layers, starts: NDArray[np.int64], paths: NDArray[np.int32], out: NDArray[np.float64]
+    layers: PlanarLayers, starts: NDArray[np.int64], paths: NDArray[np.int32], out: NDArray[np.float64]
 ) -> None:
     """Write the colours (n, 4) of stacks, of which number k is `paths[starts[k] : starts[k + 1]]`."""
     for k in range(len(out)):
@@ -241,7 +246,12 @@ def composite_stacks(
 
 @kernel(allocates=False)
 def face_of(
-    faces: Faces, layers: Layers, ground: int, present: NDArray[np.int64], windings: NDArray[np.int64], key: int
+    faces: FaceTable,
+    layers: PlanarLayers,
+    ground: int,
+    present: NDArray[np.int64],
+    windings: NDArray[np.int64],
+    key: int,
 ) -> int:
     """The face above another one, `ground`, in which some paths are inside by their windings.
 
@@ -258,7 +268,7 @@ def face_of(
 
 
 @kernel(allocates=False)
-def _slot_of(faces: Faces, key: int) -> int:
+def _slot_of(faces: FaceTable, key: int) -> int:
     """The slot of the face with a key, or the free one where it belongs."""
     mask = len(faces.slots) - 1
     slot = key & mask
@@ -269,8 +279,8 @@ def _slot_of(faces: Faces, key: int) -> int:
 
 @kernel
 def _new_face(
-    faces: Faces,
-    layers: Layers,
+    faces: FaceTable,
+    layers: PlanarLayers,
     ground: int,
     present: NDArray[np.int64],
     windings: NDArray[np.int64],
@@ -296,7 +306,7 @@ def _new_face(
 
 
 @kernel(allocates=False)
-def _set_paint(faces: Faces, face: int) -> None:
+def _set_paint(faces: FaceTable, face: int) -> None:
     """Find the first face of the same paint as a new one, which may be the first."""
     mask = len(faces.slots) - 1
     slot = _paint_key(faces, face) & mask

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.tree.growth import COVERAGE, WINDING, Growth, roomy, with_needed_room
-from vexture.tree.planar.faces import Faces
-from vexture.tree.planar.layers import Layers
+from vexture.tree.planar.faces import FaceTable
+from vexture.tree.planar.layers import PlanarLayers
 
-__all__ = ["BASE", "IS_MEAN", "PlanarGrowth", "State", "planted", "with_room"]
+__all__ = ["BASE", "IS_MEAN", "PlanarGrowth", "State", "growth_from_tuples", "with_room"]
 
 BASE: Final = WINDING
 IS_MEAN: Final = COVERAGE
@@ -29,12 +29,12 @@ class State(NamedTuple):
     """A map while it grows, with its layers and the faces that were met."""
 
     growth: PlanarGrowth
-    layers: Layers
-    faces: Faces
+    layers: PlanarLayers
+    faces: FaceTable
 
 
-def planted(tree: tuple[Any, ...], *others: Any) -> PlanarGrowth:
-    """The growth that `plant_map` returns as plain tuples."""
+def growth_from_tuples(tree: tuple[Any, ...], *others: Any) -> PlanarGrowth:
+    """Make a growth of the plain tuples that `plant_map` returns."""
     return PlanarGrowth(Growth(*tree), *others)
 
 

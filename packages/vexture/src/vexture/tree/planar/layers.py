@@ -12,7 +12,7 @@ from vexture.tree.planar.bands import Bands, bands_of
 from vexture.tree.planar.shades import Shades, shades_of
 from vexture.tree.planar.style import elements_of
 
-__all__ = ["JUMPING", "Layers", "Rows", "layers_of", "looks_of", "rows_of", "solid_layers"]
+__all__ = ["JUMPING", "PlanarLayers", "Rows", "layers_of", "looks_of", "rows_of", "solid_layers"]
 
 MARGIN: Final = 2.0**-10
 """By how much the box in which a gradient is cut is wider than its path: sides of both would coincide else."""
@@ -32,8 +32,8 @@ class Rows(NamedTuple):
     gradients: tuple[Gradient, ...]
 
 
-class Layers(NamedTuple):
-    """What faces are composited of. The first arrays have a row for each path, in painting order."""
+class PlanarLayers(NamedTuple):
+    """Parts that faces are composited of. The first arrays have a row for each path, in painting order."""
 
     rules: NDArray[np.int64]
     rgba: NDArray[np.float64]  # (paths, 4), premultiplied; of a gradient its mean
@@ -82,7 +82,7 @@ def rows_of(drawing: Drawing, restyle: bool = False) -> Rows:
     )
 
 
-def layers_of(rows: Rows, groups: tuple[Group, ...], looks: NDArray[np.int64] | None = None) -> Layers:
+def layers_of(rows: Rows, groups: tuple[Group, ...], looks: NDArray[np.int64] | None = None) -> PlanarLayers:
     """The arrays of some rows; with `looks`, a key of each, faces are alike by these, not by their colours."""
     paints = [path.paint for path in rows.paths]
     rgba = np.array([(*paint.color, paint.opacity) for paint in paints]).reshape(-1, 4)
@@ -101,10 +101,10 @@ def layers_of(rows: Rows, groups: tuple[Group, ...], looks: NDArray[np.int64] | 
     )
 
 
-def solid_layers(rgba: NDArray[np.float64], group: NDArray[np.int64], groups: tuple[Group, ...]) -> Layers:
+def solid_layers(rgba: NDArray[np.float64], group: NDArray[np.int64], groups: tuple[Group, ...]) -> PlanarLayers:
     """The arrays of flat colours, (n, 4), not premultiplied, and the groups that they are in."""
     zeros, false = np.zeros(len(rgba), np.int64), np.zeros(len(rgba), np.bool_)
-    return Layers(
+    return PlanarLayers(
         zeros,
         np.hstack([rgba[:, :3] * rgba[:, 3:], rgba[:, 3:]]),
         false,

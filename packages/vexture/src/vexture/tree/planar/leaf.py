@@ -11,15 +11,15 @@ from vexture.tree.boundary import MOST_RESOLVED
 from vexture.tree.divide import PiecePool
 from vexture.tree.leaf import DIVIDE, SPARE, round_controls
 from vexture.tree.merge import MOST_MERGED
-from vexture.tree.planar.borders import Borders, Cell, find_borders, merge_borders, new_borders
-from vexture.tree.planar.faces import Faces
-from vexture.tree.planar.layers import Layers
+from vexture.tree.planar.borders import Borders, PlanarCell, find_borders, merge_borders, new_borders
+from vexture.tree.planar.faces import FaceTable
+from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.planar.left_edge import Tally, new_tally, settle_left_edge
 from vexture.tree.planar.means import add_programs, set_crowded_mean, set_flat_mean
-from vexture.tree.planar.slabs import Pieces, clean_borders, sweep
+from vexture.tree.planar.slabs import PlanarPieces, clean_borders, sweep
 from vexture.tree.separate import all_separate
 
-__all__ = ["PlanarLeaf", "Workspace", "new_workspace", "planar_leaf"]
+__all__ = ["PlanarLeaf", "PlanarWorkspace", "new_workspace", "planar_leaf"]
 
 KNOT = LATTICE / 4.0
 """Pieces that all have an end in a square this wide are one *knot*: dividing the leaf would follow it down many levels.
@@ -30,7 +30,7 @@ MOST_PIECES = 250
 
 
 class PlanarLeaf(NamedTuple):
-    """What a leaf stores of a cell, beside its mean."""
+    """Content of a cell that a leaf stores, besides its mean."""
 
     size: int  # number of pieces, or `DIVIDE`
     base: int  # paint at the bottom left corner, before what starts or ends there
@@ -38,29 +38,29 @@ class PlanarLeaf(NamedTuple):
     resolved: bool  # False if the cell, at the depth limit, holds more than a leaf can store: only its mean counts
 
 
-class Workspace(NamedTuple):
+class PlanarWorkspace(NamedTuple):
     """Arrays that are reused from cell to cell."""
 
     borders: Borders
     windings: NDArray[np.int64]  # (paths,)
-    pieces: Pieces
+    pieces: PlanarPieces
     tally: Tally
 
 
 @kernel
-def new_workspace(paths: int, in_cell: int) -> Workspace:
+def new_workspace(paths: int, in_cell: int) -> PlanarWorkspace:
     """Arrays for the cells of a drawing of so many paths, and of so many pieces in one cell."""
     room = MOST_PIECES + 2 * MOST_RESOLVED
-    return Workspace(
+    return PlanarWorkspace(
         new_borders(MOST_RESOLVED + 1, in_cell),
         np.empty(paths, np.int64),
-        Pieces(np.empty((room, 4, 2)), np.empty((room, 2), np.int64)),
+        PlanarPieces(np.empty((room, 4, 2)), np.empty((room, 2), np.int64)),
         new_tally(MOST_RESOLVED, room),
     )
 
 
 @kernel(allocates=False)
-def _is_knot(pieces: Pieces, count: int) -> bool:
+def _is_knot(pieces: PlanarPieces, count: int) -> bool:
     """Whether all pieces have an end near an end of the first."""
     for end in (0, 3):
         x, y = pieces.curves[0, end, 0], pieces.curves[0, end, 1]
@@ -79,15 +79,15 @@ def _is_knot(pieces: Pieces, count: int) -> bool:
 @kernel(allocates=False)
 def planar_leaf(
     pool: PiecePool,
-    cell: Cell,
+    cell: PlanarCell,
     ground: int,
     present: NDArray[np.int64],
-    layers: Layers,
-    faces: Faces,
+    layers: PlanarLayers,
+    faces: FaceTable,
     capacity: int,
     tolerance: float,
     at_limit: bool,
-    workspace: Workspace,
+    workspace: PlanarWorkspace,
     mean: NDArray[np.float64],
 ) -> PlanarLeaf:
     """Leaf of a cell above a face, `ground`; its pieces are left in the workspace, its mean colour in `mean` (4,).

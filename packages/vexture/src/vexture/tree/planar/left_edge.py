@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.base.layout import LATTICE
 from vexture.tree.planar.borders import Borders, set_left_edge
-from vexture.tree.planar.faces import Faces, face_of
-from vexture.tree.planar.layers import Layers
-from vexture.tree.planar.slabs import Pieces
+from vexture.tree.planar.faces import FaceTable, face_of
+from vexture.tree.planar.layers import PlanarLayers
+from vexture.tree.planar.slabs import PlanarPieces
 
 __all__ = ["Tally", "new_tally", "settle_left_edge"]
 
@@ -32,7 +32,7 @@ def _tally(ids: NDArray[np.int64], sums: NDArray[np.int64], n: int, paint: int, 
 
 
 @kernel(allocates=False)
-def _changes(pieces: Pieces, count: int, y: float, ids: NDArray[np.int64], sums: NDArray[np.int64]) -> int:
+def _changes(pieces: PlanarPieces, count: int, y: float, ids: NDArray[np.int64], sums: NDArray[np.int64]) -> int:
     """Tally the paints that ends on the left edge at a height add and take away; return how many there are."""
     n = 0
     for k in range(count):
@@ -44,7 +44,7 @@ def _changes(pieces: Pieces, count: int, y: float, ids: NDArray[np.int64], sums:
 
 
 @kernel(allocates=False)
-def _move_off(pieces: Pieces, count: int, y: float) -> None:
+def _move_off(pieces: PlanarPieces, count: int, y: float) -> None:
     """Move the ends on the left edge at a height off it, by one unit."""
     for k in range(count):
         for end, control in ((0, 1), (3, 2)):
@@ -102,11 +102,11 @@ def settle_left_edge(
     count: int,
     ground: int,
     present: NDArray[np.int64],
-    layers: Layers,
-    faces: Faces,
+    layers: PlanarLayers,
+    faces: FaceTable,
     windings: NDArray[np.int64],
-    pieces: Pieces,
-    made: int,
+    pieces: PlanarPieces,
+    piece_count: int,
     tally: Tally,
 ) -> tuple[int, int]:
     """Make the ends on the left edge agree with the faces there; return the number of pieces and the base paint.
@@ -118,7 +118,7 @@ def settle_left_edge(
     levels = _find_heights(borders, count, heights)
     key = set_left_edge(borders, count, layers, present, 0.0, windings)
     below = faces.paint[face_of(faces, layers, ground, present, windings, key)]
-    n = _tally(ids, sums, _changes(pieces, made, 0.0, ids, sums), below, -1)
+    n = _tally(ids, sums, _changes(pieces, piece_count, 0.0, ids, sums), below, -1)
     base, single = below, True
     for k in range(n):
         if sums[k] == -1 and base == below and single:
@@ -127,20 +127,20 @@ def settle_left_edge(
             single = True
             break
     if single:
-        _move_off(pieces, made, 0.0)
+        _move_off(pieces, piece_count, 0.0)
         base = below
     for s in range(1, levels):
         y = heights[s]
         key = set_left_edge(borders, count, layers, present, y, windings)
         above = faces.paint[face_of(faces, layers, ground, present, windings, key)]
-        n = _tally(ids, sums, _changes(pieces, made, y, ids, sums), above, -1)
+        n = _tally(ids, sums, _changes(pieces, piece_count, y, ids, sums), above, -1)
         n = _tally(ids, sums, n, below, 1)
         if not _all_zero(sums, n):
-            _move_off(pieces, made, y)
-            if above != below and made < len(pieces.sides):
+            _move_off(pieces, piece_count, y)
+            if above != below and piece_count < len(pieces.sides):
                 for k in range(4):
-                    pieces.curves[made, k, 0], pieces.curves[made, k, 1] = k / 3.0, y
-                pieces.sides[made, 0], pieces.sides[made, 1] = above, below
-                made += 1
+                    pieces.curves[piece_count, k, 0], pieces.curves[piece_count, k, 1] = k / 3.0, y
+                pieces.sides[piece_count, 0], pieces.sides[piece_count, 1] = above, below
+                piece_count += 1
         below = above
-    return made, base
+    return piece_count, base

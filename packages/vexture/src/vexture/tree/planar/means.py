@@ -9,11 +9,11 @@ from vexture.bezier.area import integral_x_dy
 from vexture.tree.boundary import sort_order
 from vexture.tree.crossings import x_at
 from vexture.tree.divide import PiecePool
-from vexture.tree.planar.borders import Cell, key_of
+from vexture.tree.planar.borders import PlanarCell, key_of
 from vexture.tree.planar.compose import colour_at
-from vexture.tree.planar.faces import Faces, face_of, operations_of, stack_of
-from vexture.tree.planar.layers import Layers
-from vexture.tree.planar.slabs import Pieces
+from vexture.tree.planar.faces import FaceTable, face_of, operations_of, stack_of
+from vexture.tree.planar.layers import PlanarLayers
+from vexture.tree.planar.slabs import PlanarPieces
 from vexture.tree.winding import inside
 
 __all__ = ["add_programs", "set_crowded_mean", "set_flat_mean"]
@@ -50,7 +50,7 @@ def _counts(curve: NDArray[np.float64], x: float, y: float) -> int:
 
 @kernel
 def _add_colour(
-    layers: Layers, faces: Faces, face: int, x: float, y: float, share: float, mean: NDArray[np.float64]
+    layers: PlanarLayers, faces: FaceTable, face: int, x: float, y: float, share: float, mean: NDArray[np.float64]
 ) -> None:
     """Add a share of a face's colour at a point to a mean."""
     if faces.program[face] == 0:
@@ -65,7 +65,7 @@ def _add_colour(
 
 
 @kernel(allocates=False)
-def set_flat_mean(pieces: Pieces, count: int, base: int, faces: Faces, mean: NDArray[np.float64]) -> bool:
+def set_flat_mean(pieces: PlanarPieces, count: int, base: int, faces: FaceTable, mean: NDArray[np.float64]) -> bool:
     """Write the mean colour of a leaf, without its programs; return whether it has any."""
     holds_program = faces.program[base] != 0
     for c in range(4):
@@ -89,7 +89,13 @@ def _hold(mean: NDArray[np.float64]) -> None:
 
 @kernel
 def add_programs(
-    pieces: Pieces, count: int, base: int, cell: Cell, layers: Layers, faces: Faces, mean: NDArray[np.float64]
+    pieces: PlanarPieces,
+    count: int,
+    base: int,
+    cell: PlanarCell,
+    layers: PlanarLayers,
+    faces: FaceTable,
+    mean: NDArray[np.float64],
 ) -> None:
     """Add the means of a leaf's programs: of each the mean over the points in it, times its exact area."""
     found, areas, n = np.full(2 * count + 1, -1), np.zeros(2 * count + 1), 0
@@ -125,7 +131,7 @@ def add_programs(
 
 
 @kernel
-def _faces_at(pieces: Pieces, count: int, base: int, points: int) -> NDArray[np.int64]:
+def _faces_at(pieces: PlanarPieces, count: int, base: int, points: int) -> NDArray[np.int64]:
     """The face at each point of a leaf: as one is left of all that are counted, its number is their sum."""
     found = np.full(points, base)
     for k in range(points):
@@ -138,11 +144,11 @@ def _faces_at(pieces: Pieces, count: int, base: int, points: int) -> NDArray[np.
 @kernel
 def set_crowded_mean(
     pool: PiecePool,
-    cell: Cell,
+    cell: PlanarCell,
     ground: int,
     present: NDArray[np.int64],
-    layers: Layers,
-    faces: Faces,
+    layers: PlanarLayers,
+    faces: FaceTable,
     windings: NDArray[np.int64],
     mean: NDArray[np.float64],
 ) -> None:

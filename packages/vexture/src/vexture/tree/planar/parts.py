@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.tree.growth import CURVES, FIRST, FIRST_PATH, LAST, LAST_PATH, QUADS, UNRESOLVED, WAITING, roomy
-from vexture.tree.parts import PART, Part, grow_in_threads, joined_cells, new_part, set_aside
-from vexture.tree.planar.faces import Faces, add_faces, faces_with, new_faces, trimmed
+from vexture.tree.parts import PART, TreePart, grow_in_threads, joined_cells, new_part, set_aside
+from vexture.tree.planar.faces import FaceTable, add_faces, faces_with, new_faces, trim_faces
 from vexture.tree.planar.growth import BASE, PlanarGrowth, State
 
 __all__ = ["grow_map_parts"]
@@ -50,10 +50,10 @@ class _Arrays:
 class _MapPart(NamedTuple):
     """A part that has grown; its paints are the numbers of its own faces."""
 
-    cells: Part
+    cells: TreePart
     mean: NDArray[np.float64]
     sides: NDArray[np.int64]
-    faces: Faces
+    faces: FaceTable
     met: int  # faces that the map above had met before it
 
 
@@ -63,7 +63,7 @@ def _grown(arrays: _Arrays, quad: int, step: Step, stopped: Event) -> tuple[_Map
         arrays.state = step(arrays.state, 0)
     growth, _, faces = arrays.state
     tree, quads, curves = growth.tree, growth.tree.counts[QUADS], growth.tree.counts[CURVES]
-    cells = Part(
+    cells = TreePart(
         quad,
         tree.cells[:quads].copy(),
         tree.first[:quads].copy(),
@@ -71,7 +71,9 @@ def _grown(arrays: _Arrays, quad: int, step: Step, stopped: Event) -> tuple[_Map
         float(tree.deviation[0]),
         int(tree.counts[UNRESOLVED]),
     )
-    return _MapPart(cells, growth.mean[:quads].copy(), growth.sides[:curves].copy(), trimmed(faces), arrays.met), arrays
+    return _MapPart(
+        cells, growth.mean[:quads].copy(), growth.sides[:curves].copy(), trim_faces(faces), arrays.met
+    ), arrays
 
 
 def grow_map_parts(state: State, step: Step, threads: int, check: Callable[[int, int], bool]) -> State | None:
@@ -109,10 +111,10 @@ def grow_map_parts(state: State, step: Step, threads: int, check: Callable[[int,
                 return None
     for arrays in every:
         state.layers.hides[:] |= arrays.state.layers.hides
-    return _joined(state, parts, step)
+    return _join_parts(state, parts, step)
 
 
-def _joined(state: State, parts: Sequence[_MapPart], step: Step) -> State:
+def _join_parts(state: State, parts: Sequence[_MapPart], step: Step) -> State:
     """The cells at the top and those of the parts, and all curves, by the numbers of faces of one table."""
     (tree, ground, mean, sides), layers, _ = state
     quads, curves = int(tree.counts[QUADS]), int(tree.counts[CURVES])
@@ -137,7 +139,9 @@ def _renumber(cells: NDArray[np.float64], paints: NDArray[np.int64]) -> None:
     cells[:, :, BASE] = paints[cells[:, :, BASE].astype(np.int64)]
 
 
-def _one_table(top: Faces, parts: Sequence[_MapPart]) -> tuple[Faces, NDArray[np.int64], list[NDArray[np.int64]]]:
+def _one_table(
+    top: FaceTable, parts: Sequence[_MapPart]
+) -> tuple[FaceTable, NDArray[np.int64], list[NDArray[np.int64]]]:
     """A table of all faces in the order of the parts, and the paints there of the faces of each table."""
     tables = [top, *(part.faces for part in parts)]
     counts = [int(table.counts[0]) for table in tables]

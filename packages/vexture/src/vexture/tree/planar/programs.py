@@ -11,9 +11,9 @@ from vexture.drawing.group import Blend, Mask
 from vexture.drawing.paint import Gradient
 from vexture.tree.planar.compose import KEEP, SHADE, SOLID, Operations
 from vexture.tree.planar.faces import operations_of
-from vexture.tree.planar.layers import Layers
+from vexture.tree.planar.layers import PlanarLayers
 
-__all__ = ["Keep", "Mix", "Operation", "Program", "Solid", "how_of", "number_of", "programs_of"]
+__all__ = ["Keep", "Mix", "Operation", "Program", "Solid", "ending_of", "number_of_ending", "programs_of"]
 
 
 class Solid(NamedTuple):
@@ -40,7 +40,7 @@ Program: TypeAlias = tuple[Operation, ...]
 
 
 def programs_of(
-    gradients: Sequence[Gradient], layers: Layers, stacks: Sequence[NDArray[np.int32]]
+    gradients: Sequence[Gradient], layers: PlanarLayers, stacks: Sequence[NDArray[np.int32]]
 ) -> tuple[dict[int, Program], int]:
     """The programs of the stacks that need one, by their places; and of how many no paint can hold the gradients."""
     programs: dict[int, Program] = {}
@@ -61,14 +61,14 @@ def _operation(ops: Operations, k: int, gradients: Sequence[Gradient]) -> Operat
         return Solid((red, green, blue, alpha))
     if code == SHADE:
         return gradients[number]
-    return Keep() if code == KEEP else Mix(number & PAINT_ONE, how_of(number >> 16))
+    return Keep() if code == KEEP else Mix(number & PAINT_ONE, ending_of(number >> 16))
 
 
-def how_of(number: int) -> Blend | Mask:
-    """How a group ends, by its number in a program."""
+def ending_of(number: int) -> Blend | Mask:
+    """Return the blend or mask that ends a group, by its number in a program."""
     return Blend(number) if number < MASKS else Mask(number - MASKS)
 
 
-def number_of(how: Blend | Mask) -> int:
+def number_of_ending(ending: Blend | Mask) -> int:
     """Number in a program of how a group ends."""
-    return MASKS + how if isinstance(how, Mask) else int(how)
+    return MASKS + ending if isinstance(ending, Mask) else int(ending)

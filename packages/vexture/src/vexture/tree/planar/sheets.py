@@ -53,8 +53,8 @@ class Sheet(NamedTuple):
         """Paint of a layer."""
         return self.drawing.paths[0].paint if isinstance(self.tree, Tree) else None
 
-    def named(self, name: str, number: int) -> "Sheet":
-        """The sheet, named as the layers of a drawing are."""
+    def with_name(self, name: str, number: int) -> "Sheet":
+        """Return the sheet with a name like those of a drawing's layers."""
         what = "faces" if self.paint is None else self.paint.hex
         return Sheet(replace(self.drawing, name=f"{name}/{number}-{what}"), self.tree)
 
@@ -71,11 +71,11 @@ def sheets_of(drawing: Drawing, restyle: bool = False, **parameters: Any) -> lis
     if precision is None:
         return sheets
     parameters["precision"] = precision
-    return [Sheet(one.drawing, _again(one, restyle, **parameters)) for one in sheets]
+    return [Sheet(one.drawing, _rebuild_sheet(one, restyle, **parameters)) for one in sheets]
 
 
-def _again(sheet: Sheet, restyle: bool, **parameters: Any) -> PlanarMap | Tree:
-    """The map or tree of a sheet, with other parameters."""
+def _rebuild_sheet(sheet: Sheet, restyle: bool, **parameters: Any) -> PlanarMap | Tree:
+    """Build the map or tree of a sheet again, with other parameters."""
     if isinstance(sheet.tree, Tree):
         return build_tree(sheet.drawing, **parameters)
     planar = build_map(sheet.drawing, restyle=restyle, **parameters)
@@ -94,7 +94,7 @@ def _within_budget(drawing: Drawing, restyle: bool, **parameters: Any) -> list[S
         return [Sheet(drawing, whole)]
     items = _items(drawing)
 
-    def tried(first: int, last: int) -> Sheet | None:
+    def try_sheet(first: int, last: int) -> Sheet | None:
         part = _part(drawing, items[first:last], len(items))
         is_layer = last == first + 1 and len(items[first]) == 1 and part.paths[0].group < 0 and _is_flat(part.paths)
         if is_layer and not restyle:
@@ -103,8 +103,8 @@ def _within_budget(drawing: Drawing, restyle: bool, **parameters: Any) -> list[S
         planar = build_map(part, most_texels=share, restyle=restyle, **parameters)
         return None if planar is None else Sheet(part, planar)
 
-    found = _greedy(len(items), budget / len(items), tried)
-    return [sheet.named(drawing.name, number) for number, sheet in enumerate(found, 1)]
+    found = _greedy(len(items), budget / len(items), try_sheet)
+    return [sheet.with_name(drawing.name, number) for number, sheet in enumerate(found, 1)]
 
 
 def _is_flat(paths: Sequence[Path]) -> bool:

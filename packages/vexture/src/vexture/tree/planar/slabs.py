@@ -15,13 +15,13 @@ from vexture.tree.boundary import coincide, order_slab, slab_heights
 from vexture.tree.crossings import x_at
 from vexture.tree.leaf import keep_run
 from vexture.tree.planar.borders import Borders, cross, set_left_edge
-from vexture.tree.planar.faces import Faces, face_of
-from vexture.tree.planar.layers import Layers
+from vexture.tree.planar.faces import FaceTable, face_of
+from vexture.tree.planar.layers import PlanarLayers
 
-__all__ = ["Pieces", "clean_borders", "sweep"]
+__all__ = ["PlanarPieces", "clean_borders", "sweep"]
 
 
-class Pieces(NamedTuple):
+class PlanarPieces(NamedTuple):
     """Pieces of a leaf, all going up, and the paints beside them."""
 
     curves: NDArray[np.float64]  # (room, 4, 2), in lattice units
@@ -29,7 +29,7 @@ class Pieces(NamedTuple):
 
 
 @kernel(allocates=False)
-def _add(pieces: Pieces, count: int, curve: NDArray[np.float64], left: int, right: int) -> int:
+def _add(pieces: PlanarPieces, count: int, curve: NDArray[np.float64], left: int, right: int) -> int:
     """Append a whole border, going up; return the new number of pieces."""
     turned = curve[3, 1] < curve[0, 1]
     for k in range(4):
@@ -74,10 +74,10 @@ def clean_borders(
     count: int,
     ground: int,
     present: NDArray[np.int64],
-    layers: Layers,
-    faces: Faces,
+    layers: PlanarLayers,
+    faces: FaceTable,
     windings: NDArray[np.int64],
-    out: Pieces,
+    out: PlanarPieces,
 ) -> int:
     """Write the pieces of borders that touch only at their ends; return how many, or -1 if their order is not clear."""
     pieces = 0
@@ -122,8 +122,8 @@ def _roles_in_slab(
     height: float,
     ground: int,
     present: NDArray[np.int64],
-    layers: Layers,
-    faces: Faces,
+    layers: PlanarLayers,
+    faces: FaceTable,
     windings: NDArray[np.int64],
     key: int,
     roles: Roles,
@@ -165,11 +165,11 @@ def sweep(
     count: int,
     ground: int,
     present: NDArray[np.int64],
-    layers: Layers,
-    faces: Faces,
+    layers: PlanarLayers,
+    faces: FaceTable,
     windings: NDArray[np.int64],
     most: int,
-    out: Pieces,
+    out: PlanarPieces,
 ) -> int:
     """Write the pieces of borders that cross or coincide in part, slab by slab; return how many, or -1 above `most`."""
     curves = borders.curves[:count]

@@ -1,4 +1,4 @@
-"""What of a planar map can be restyled: the elements of its drawing, and which of them each paint is composited of."""
+"""Restyling data of a planar map: the elements of its drawing, and those that each paint is composited of."""
 
 from dataclasses import dataclass, replace
 from itertools import chain, pairwise
@@ -13,7 +13,7 @@ from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.group import Group, groups_around
 from vexture.drawing.paint import Paint
 
-__all__ = ["Style", "elements_of", "restylable", "rounded", "style_of"]
+__all__ = ["PlanarStyle", "elements_of", "restylable", "round_colours", "style_of"]
 
 DIGITS: Final = 6
 """Decimals of an element's colour and opacity: finer than the steps of 1/65535 in which paints are stored."""
@@ -25,7 +25,7 @@ SHADED: Final = "gradient, of its mean colour, as colours that can be changed ar
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Style:
+class PlanarStyle:
     """The n elements of a planar map, in painting order, and what its p paints are made of.
 
     An element is the paths that have one name, one paint and one group: they get a new colour together.
@@ -63,12 +63,12 @@ class Style:
         top[some] = self.members[self.starts[1:][some] - 1]
         if any(group.mask for group in self.groups):
             for paint, (start, end) in enumerate(pairwise(self.starts.tolist())):
-                seen = self._unmasked(self.members[start:end].tolist())
+                seen = self._visible_elements(self.members[start:end].tolist())
                 top[paint] = seen[-1] if seen else -1
         return top
 
-    def _unmasked(self, stack: list[int]) -> list[int]:
-        """What of a stack is neither a mask nor hidden by one of which nothing is there."""
+    def _visible_elements(self, stack: list[int]) -> list[int]:
+        """Return the elements of a stack that are no masks and are not hidden by an empty mask."""
         around = {element: groups_around(self.groups, int(self.group[element])) for element in set(stack)}
         open_groups = {group for found in around.values() for group in found}
         hidden = {g.outer for place, g in enumerate(self.groups) if g.mask and place not in open_groups}
@@ -89,8 +89,8 @@ class Style:
             Drawing(tuple(Path((), group=group) for group in self.group.tolist()), groups=self.groups)
 
 
-def rounded(rgba: Any) -> NDArray[np.float64]:
-    """Colours as a style has them."""
+def round_colours(rgba: Any) -> NDArray[np.float64]:
+    """Round colours to the digits that a style stores."""
     return np.round(np.asarray(rgba, np.float64).reshape(-1, 4), DIGITS)
 
 
@@ -121,14 +121,14 @@ def elements_of(drawing: Drawing) -> tuple[list[Path], NDArray[np.int64]]:
     return first, np.array(numbers, np.int64)
 
 
-def style_of(drawing: Drawing, planar: Any) -> Style:
+def style_of(drawing: Drawing, planar: Any) -> PlanarStyle:
     """The style of a drawing's `PlanarMap`, which was built to be restyled."""
     first, number = elements_of(drawing)
     hides = np.zeros(len(first), np.bool_)
     hides[number[list(planar.hiding)]] = True
-    style = Style(
+    style = PlanarStyle(
         tuple(path.element for path in first),
-        rounded([(*path.paint.color, path.paint.opacity) for path in first]),
+        round_colours([(*path.paint.color, path.paint.opacity) for path in first]),
         np.array([path.group for path in first], np.int64),
         hides,
         drawing.groups,

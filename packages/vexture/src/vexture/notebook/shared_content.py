@@ -6,12 +6,12 @@ from typing import Any, Final
 import ipywidgets
 import traitlets
 
-__all__ = ["Shared", "shared"]
+__all__ = ["SharedContent", "share_content"]
 
 KEY_LENGTH: Final = 16
 
 
-class Shared(ipywidgets.Widget):
+class SharedContent(ipywidgets.Widget):
     """A model without a view. `key` tells its content from others."""
 
     key = traitlets.Unicode().tag(sync=True)
@@ -19,20 +19,20 @@ class Shared(ipywidgets.Widget):
     users = 0
 
     def release(self) -> None:
-        """One user less; without any it is closed, and so are its bytes in the page."""
+        """Remove one user; the last one closes the model, and its bytes in the page."""
         self.users -= 1
         if self.users == 0:
             self.close()
 
 
-_OPEN: dict[str, Shared] = {}
+_OPEN: dict[str, SharedContent] = {}
 
 
-def shared(content: bytes, **options: Any) -> Shared:
-    """The model of some bytes, with one user more; that which is there, unless it was closed."""
+def share_content(content: bytes, **options: Any) -> SharedContent:
+    """Return the model of some bytes, with one more user; an open one of the same bytes is used again."""
     key = hashlib.sha256(content).hexdigest()[:KEY_LENGTH]
     found = _OPEN.get(key)
     if found is None or found.comm is None:
-        found = _OPEN[key] = Shared(key=key, content=content, **options)
+        found = _OPEN[key] = SharedContent(key=key, content=content, **options)
     found.users += 1
     return found
