@@ -79,7 +79,7 @@ def format_count(count: int, noun: str) -> str:
 
     Examples
     --------
-    >>> format_count(1, "shape"), counted(0, "shape"), counted(2, "shape")
+    >>> format_count(1, "shape"), format_count(0, "shape"), format_count(2, "shape")
     ('1 shape', '0 shapes', '2 shapes')
     """
     return f"{count} {noun}{'s' * (count != 1)}"
@@ -90,7 +90,7 @@ def shorten_text(text: str, most: int) -> str:
 
     Examples
     --------
-    >>> shorten_text("a long name", 8), shortened("a name", 8)
+    >>> shorten_text("a long name", 8), shorten_text("a name", 8)
     ('a lon...', 'a name')
     """
     return text if len(text) <= most else text[: most - 3] + "..."

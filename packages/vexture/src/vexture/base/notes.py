@@ -214,7 +214,7 @@ def format_character(character: str) -> str:
 
     Examples
     --------
-    >>> format_character("é"), called("\ue000")
+    >>> format_character("é"), format_character("\ue000")
     ("'é' (U+00E9)", '(U+E000)')
     """
     shown = f"'{character}' " if character.isprintable() else ""

@@ -31,7 +31,7 @@ def format_value(value: Any) -> str:
 
     Examples
     --------
-    >>> format_value("100%"), told(np.arange(9))
+    >>> format_value("100%"), format_value(np.arange(9))
     ("'100%'", 'a ndarray')
     """
     if getattr(value, "shape", ()):
