@@ -34,7 +34,7 @@ def radial(middle, radius, stops, spread=Spread.PAD, focus=None, focal_radius=0.
 
 def painted_path(contour, paint, group=-1) -> Path:
     """A path of one contour; a gradient is a paint."""
-    return Path((contour,), paint=Paint.of(paint) if isinstance(paint, Gradient) else paint, group=group)
+    return Path((contour,), paint=Paint.from_gradient(paint) if isinstance(paint, Gradient) else paint, group=group)
 
 
 DISC, LENS, OTHER = circle((0.5, 0.5), 0.45), circle((0.4, 0.45), 0.33), circle((0.62, 0.58), 0.3)

@@ -226,7 +226,7 @@ def read_font(data: bytes) -> str:
         metrics = (face.ascender, face.descender, face.x_height, face.cap_height, *face.underline, *face.vertical)
         if not np.isfinite(metrics).all() or face.units_per_em <= 0:
             raise FindingError("a metric is not finite")
-        face.varied(700.0, 80.0, "italic").outline(1)
+        face.with_style(700.0, 80.0, "italic").outline(1)
     return f"{len(faces)} {[face.names for face in faces]}"
 
 

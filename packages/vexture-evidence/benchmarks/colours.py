@@ -122,12 +122,12 @@ def spheres(count: int, seed: int) -> Drawing:
     """A background, and discs with gradients of all kinds, every other one of them translucent."""
     rng = np.random.default_rng(seed)
     square = Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]).paths[0].contours
-    paths = [Path(square, paint=Paint.of(random_gradient(rng, np.array([0.5, 0.5]), 0.7, 1.0)))]
+    paths = [Path(square, paint=Paint.from_gradient(random_gradient(rng, np.array([0.5, 0.5]), 0.7, 1.0)))]
     for k in range(count):
         radius, middle = rng.uniform(0.05, 0.25), rng.uniform(0.25, 0.75, 2)
         circle = ellipse_cubics(tuple(middle.tolist()), (radius, radius), ROUND)
         opacity = 1.0 if k % 2 else 0.6
-        paths.append(Path((circle,), paint=Paint.of(random_gradient(rng, middle, radius, opacity))))
+        paths.append(Path((circle,), paint=Paint.from_gradient(random_gradient(rng, middle, radius, opacity))))
     return Drawing(tuple(paths), name=f"{count} spheres")
 
 

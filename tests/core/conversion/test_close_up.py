@@ -35,7 +35,7 @@ def test_a_picture_is_exact_at_any_magnification(drawing, place, times):
     exact = vexture.render(drawing, 60, view, "exact")
     assert np.ptp(exact, axis=(0, 1)).max() > 0.2, "an outline is seen"
     assert np.abs(vexture.render(drawing, 60, view) - exact).max() < 3 / 255
-    plain = drawing.unmasked()
+    plain = drawing.without_masks()
     exact = vexture.coverage(plain, 60, view, "exact")
     assert np.abs(vexture.coverage(plain, 60, view) - exact).max() < 3 / 255
 
@@ -60,7 +60,7 @@ def test_the_part_leads_to_the_source_and_keeps_what_is_said(drawing):
 
 def test_nothing_is_seen_beside_the_square_and_below_an_empty_mask(drawing):
     assert not vexture.render(drawing, 9, vexture.window(1.5, 0.5, 1e-4, 1e-4)).any()
-    assert not vexture.coverage(drawing.unmasked(), 9, vexture.window(1.5, 0.5, 1e-4, 1e-4)).any()
+    assert not vexture.coverage(drawing.without_masks(), 9, vexture.window(1.5, 0.5, 1e-4, 1e-4)).any()
     square = Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.9, 0.9), (0.1, 0.9)]).paths[0]
     mask = Drawing.polygon([(0.1, 0.1), (0.2, 0.1), (0.2, 0.2), (0.1, 0.2)]).paths[0]
     paths = tuple(vexture.drawing.drawing.Path(path.contours, group=group) for group, path in enumerate((square, mask)))

@@ -56,7 +56,7 @@ def test_masks_are_no_layers_and_no_part_of_a_silhouette() -> None:
     masked = drawing((Group(), Group(0, mask=Mask.LUMINANCE), Group(1)), -1, 0, 1, 2, 0)
     assert [len(layer.paths) for layer in masked.layers()] == [1, 1, 1]
     assert [str(note) for note in masked.layers()[0].notes] == ["clip-path or mask"]
-    plain = masked.unmasked()
+    plain = masked.without_masks()
     assert (len(plain.paths), plain.groups, [str(note) for note in plain.notes]) == (3, (), ["clip-path or mask"])
 
 
@@ -67,9 +67,9 @@ def test_a_pattern_gives_way_to_its_mask_where_masks_are_unknown() -> None:
     (layer,) = nested.layers()
     assert [path.paint.opacity for path in layer.paths] == [0.125]
     assert [str(note) for note in layer.notes] == ["pattern shown as solid (2)"]
-    assert len(nested.unmasked().paths) == 1
+    assert len(nested.without_masks().paths) == 1
 
 
 def test_a_drawing_without_masks_stays_as_it_is() -> None:
     kept = drawing((Group(),), 0)
-    assert kept.unmasked() is kept
+    assert kept.without_masks() is kept

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from vexture.base.errors import SourceError
 from vexture.bezier.convert import line_cubics
-from vexture.drawing import contours
-from vexture.drawing.contours import check_contours, joined, ring_contours
+from vexture.drawing.contours import check_contours, join_contours, ring_contours
+from vexture.drawing.drawing import contours
 
 
 @given(st.lists(st.integers(1, 5), min_size=1, max_size=8), st.integers(0, 3), st.randoms())
@@ -18,12 +18,12 @@ def test_joined_holds_all_cubics_in_order(lengths, before, random):
     whole = np.arange(8.0 * (sum(lengths) + before + 2)).reshape(-1, 4, 2)
     ends = before + np.cumsum(lengths)
     parts = [whole[end - length : end] for end, length in zip(ends, lengths, strict=True)]
-    assert np.shares_memory(joined(parts), whole)
-    assert (joined(parts) == np.concatenate(parts)).all()
+    assert np.shares_memory(join_contours(parts), whole)
+    assert (join_contours(parts) == np.concatenate(parts)).all()
     random.shuffle(parts)
-    assert (joined(parts) == np.concatenate(parts)).all()
+    assert (join_contours(parts) == np.concatenate(parts)).all()
     strange = [part[::-1] for part in parts]
-    assert (joined(strange) == np.concatenate(strange)).all()
+    assert (join_contours(strange) == np.concatenate(strange)).all()
 
 
 @pytest.mark.parametrize("flags", ["strided", "read-only", "other type", "turned", "of another process"])
@@ -39,7 +39,7 @@ def test_joined_is_what_kernels_read(flags):
     }[flags]
     if flags == "read-only":
         whole.flags.writeable = False
-    found = joined(parts)
+    found = join_contours(parts)
     assert found.flags.c_contiguous
     assert found.flags.writeable
     assert (found == np.concatenate(parts)).all()

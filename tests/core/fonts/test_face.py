@@ -37,7 +37,7 @@ def test_metrics_are_those_of_the_tables():
 
 
 def test_outlines_are_closed_and_have_the_areas_that_fonttools_computes(default_faces):
-    face = default_faces["normal"].varied(650.0, 80.0, "normal")
+    face = default_faces["normal"].with_style(650.0, 80.0, "normal")
     font = TTFont(io.BytesIO(bytes(face.blob.data)))
     glyphs, order = font.getGlyphSet(location=dict(face.variations)), font.getReverseGlyphMap()
     for char in "AgQ8&é":
@@ -50,9 +50,9 @@ def test_outlines_are_closed_and_have_the_areas_that_fonttools_computes(default_
 
 
 def test_variable_face_takes_the_nearest_style_that_it_has(default_faces):
-    face = default_faces["normal"].varied(1000.0, 10.0, "italic")
+    face = default_faces["normal"].with_style(1000.0, 10.0, "italic")
     assert (face.weight, face.stretch, face.style) == (900, 62.5, "normal")
-    thin = default_faces["normal"].varied(100.0, 100.0, "normal")
+    thin = default_faces["normal"].with_style(100.0, 100.0, "normal")
     assert area(thin, glyph_of(thin, "H")) != area(face, glyph_of(face, "H"))
 
 

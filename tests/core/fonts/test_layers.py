@@ -34,7 +34,7 @@ from vexture.drawing.drawing import Drawing, Path
 from vexture.fonts import layers as module
 from vexture.fonts import text as texts
 from vexture.fonts.face import faces_in
-from vexture.fonts.layers import PORTER_DUFF, Layers
+from vexture.fonts.layers import PORTER_DUFF, GlyphLayers
 from vexture.renderers.exact import render_exact_colours
 
 
@@ -284,7 +284,7 @@ def test_pictures_are_named_and_their_outline_is_shown():
     face = faces_in(with_svg())[0]
     glyph = face._font.get_nominal_glyph(ord("A"))
     found = face.layers(glyph)
-    assert isinstance(found, Layers)
+    assert isinstance(found, GlyphLayers)
     assert [str(note) for note in found.notes] == ["glyphs that are SVG documents, shown as outlines"]
     assert found.paths[0].contours == face.outline(glyph)
 

@@ -106,10 +106,10 @@ def test_a_font_that_is_there_as_woff2_is_not_read_as_woff_too(tmp_path):
 
 def test_system_fonts_come_from_fontconfig_or_the_usual_folders(folder, monkeypatch):
     monkeypatch.setattr(
-        system, "asked", lambda *command: f"{folder / 'a.ttf'}\n{folder / 'a.ttf'}\n{folder / 'x.pcf'}\n"
+        system, "run_program", lambda *command: f"{folder / 'a.ttf'}\n{folder / 'a.ttf'}\n{folder / 'x.pcf'}\n"
     )
     assert system.system_files.__wrapped__() == (folder / "a.ttf",)
-    monkeypatch.setattr(system, "asked", lambda *command: "")
+    monkeypatch.setattr(system, "run_program", lambda *command: "")
     monkeypatch.setattr(system, "LINUX", (str(folder), str(folder / "nowhere")))
     monkeypatch.setattr(system.sys, "platform", "linux")
     assert [path.name for path in system.system_files.__wrapped__()] == ["a.ttf", "b.ttf", "broken.ttf", "c.ttf"]

@@ -73,7 +73,7 @@ def test_a_colour_font_is_a_planar_map_and_takes_the_opacity_as_a_whole(folder):
 
 def test_a_gradient_goes_over_the_whole_text(folder):
     gradient = Gradient(((1 / 1.8, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1))))
-    image = vexture.render(drawn(folder, "AA", paint=Paint.of(gradient)), size=180, renderer="exact")
+    image = vexture.render(drawn(folder, "AA", paint=Paint.from_gradient(gradient)), size=180, renderer="exact")
     for column in (20, 70, 110, 160):
         assert image[90, column, 2] == pytest.approx((column + 0.5) / 180, abs=0.01)
 

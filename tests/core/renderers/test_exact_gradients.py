@@ -27,7 +27,7 @@ def box(x0, y0, x1, y1, paint, group=-1):
 
 
 def shaded(to_ramp, stops=RAMP, spread=Spread.PAD, focus=None):
-    return Paint.of(Gradient(to_ramp, stops, spread, focus))
+    return Paint.from_gradient(Gradient(to_ramp, stops, spread, focus))
 
 
 def colour_of(*paths, groups=(), view=None):

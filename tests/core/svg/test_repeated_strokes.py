@@ -14,15 +14,15 @@ def read(places):
 
 
 def test_a_stroke_that_many_uses_show_is_made_once():
-    strokes.kept.cache_clear()
+    strokes.cached_contours.cache_clear()
     drawing = read(range(10, 1000, 10))
     assert len(drawing.paths) == 2 * 99
-    assert strokes.kept.cache_info().misses == 1
+    assert strokes.cached_contours.cache_info().misses == 1
 
 
 def test_a_kept_stroke_is_what_is_made_anew():
-    strokes.kept.cache_clear()
+    strokes.cached_contours.cache_clear()
     (_, first), (_, second) = read([500]).paths, read([500]).paths
-    assert strokes.kept.cache_info().hits == 1
+    assert strokes.cached_contours.cache_info().hits == 1
     assert first.contours[0].tobytes() == second.contours[0].tobytes()
     assert not np.shares_memory(first.contours[0], second.contours[0])

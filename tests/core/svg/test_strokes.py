@@ -6,7 +6,7 @@ import pytest
 from vexture.base.errors import SourceError
 from vexture.base.tolerance import ROUND
 from vexture.bezier.convert import ellipse_cubics
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.strokes import Stroke, arc_length, stroke_contours
 
 T = np.linspace(0, 1, 41)[:, None]
@@ -18,8 +18,8 @@ def points_on(cubics: np.ndarray) -> np.ndarray:
     return (s**3 * p0 + 3 * s * s * T * p1 + 3 * s * T * T * p2 + T**3 * p3).reshape(-1, 2)
 
 
-def line(*points: tuple[float, float], closed: bool = False) -> Outline:
-    return Outline.polygon(np.array(points, dtype=np.float64), closed)
+def line(*points: tuple[float, float], closed: bool = False) -> ShapeOutline:
+    return ShapeOutline.polygon(np.array(points, dtype=np.float64), closed)
 
 
 def area(contours: list[np.ndarray]) -> float:
@@ -34,7 +34,7 @@ def area(contours: list[np.ndarray]) -> float:
 @pytest.mark.parametrize("radius", [40.0, 10.0, 1.0, 0.1])
 @pytest.mark.parametrize("center", [50.0, -3000.0])
 def test_a_stroked_circle_is_round(radius: float, center: float) -> None:
-    circle = Outline(ellipse_cubics((center, center), (radius, radius), 1e-4), closed=True)
+    circle = ShapeOutline(ellipse_cubics((center, center), (radius, radius), 1e-4), closed=True)
     outer, inner = stroke_contours([circle], Stroke(radius / 5), 100.0)
     for contour, expected in ((outer, radius * 1.1), (inner, radius * 0.9)):
         distance = np.hypot(*(points_on(contour) - center).T)
@@ -48,7 +48,7 @@ def test_a_stroked_curve_keeps_its_distance() -> None:
     t = np.linspace(0, 1, 20001)[:, None]
     s = 1 - t
     middle = s**3 * curve[0, 0] + 3 * s * s * t * curve[0, 1] + 3 * s * t * t * curve[0, 2] + t**3 * curve[0, 3]
-    (contour,) = stroke_contours([Outline(curve, closed=False)], Stroke(8.0), 100.0)
+    (contour,) = stroke_contours([ShapeOutline(curve, closed=False)], Stroke(8.0), 100.0)
     bent = contour[~np.isclose(contour[:, 0], contour[:, 3]).all(axis=1)]
     distance = np.array([np.hypot(*(middle - point).T).min() for point in points_on(bent)])
     assert distance.max() < 4.0 + ROUND * 100.0

@@ -175,17 +175,17 @@ def test_silhouettes_and_layers_show_the_shape_that_a_pattern_fills(opacity: flo
     (layer,) = drawing.layers()
     assert (layer.paths[0].paint.hex[:7], layer.paths[0].paint.opacity) == ("#808080", 0.5 * opacity)
     assert [str(note) for note in layer.notes] == ["pattern shown as solid"]
-    silhouette = drawing.unmasked()
+    silhouette = drawing.without_masks()
     assert [str(note) for note in silhouette.notes] == ["pattern shown as solid"]
     for shown in (layer, silhouette):
         np.testing.assert_array_equal(render_exact(shown, (40, 40)), render_exact(disc, (40, 40)))
 
 
 def test_a_silhouette_has_the_tiles_of_a_rectangle_and_nothing_of_a_mask() -> None:
-    (path,) = drawing_of(DOTS + RECT.format(FILLED)).unmasked().paths
+    (path,) = drawing_of(DOTS + RECT.format(FILLED)).without_masks().paths
     assert len(path.contours) == 100
     mask = f'<mask id="m">{DISC.format(FILLED)}</mask>'
-    silhouette = drawing_of(f'{DOTS}{mask}<rect width="50" height="9" mask="url(#m)"/>').unmasked()
+    silhouette = drawing_of(f'{DOTS}{mask}<rect width="50" height="9" mask="url(#m)"/>').without_masks()
     assert [len(path.contours[0]) for path in silhouette.paths] == [4]
     assert [str(note) for note in silhouette.notes] == ["clip-path or mask", "pattern shown as solid"]
 

@@ -199,7 +199,7 @@ def test_sheets_of_one_drawing_are_restyled_together(monkeypatch) -> None:
 
 
 def test_a_gradient_becomes_its_mean_and_a_note_says_so() -> None:
-    shade = Paint.of(Gradient(((1, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1)))))
+    shade = Paint.from_gradient(Gradient(((1, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1)))))
     of = Drawing((Path((SQUARE,), paint=shade, element="a"), Path((circle((0.5, 0.5), 0.2),), element="b")))
     with pytest.warns(vexture.base.errors.SourceWarning, match="gradient, of its mean colour"):
         texture = vexture.convert(of, split="faces", restyle=True)

@@ -21,7 +21,7 @@ from vexture.svg.read import svg_drawing
 from vexture.texture.load import texture_from
 from vexture.tracing.document import MOST_CURVES
 from vexture.tracing.images import MOST_PIXELS
-from vexture.tracing.outline import MOST_PIECES, _traced
+from vexture.tracing.outline import MOST_PIECES, _trace_mask
 
 SHAPES = Path(__file__).parents[3] / "examples" / "shapes"
 
@@ -305,7 +305,7 @@ def test_picture_of_nothing_is_a_drawing_of_nothing():
 def test_mask_with_more_pieces_than_vtracer_counts_never_reaches_it():
     mask = np.add.outer(np.arange(400), np.arange(400)) % 2 == 0
     with pytest.raises(LimitError, match=f"80,000 pieces; the limit is {MOST_PIECES:,}"):
-        _traced(mask, 1)
+        _trace_mask(mask, 1)
 
 
 def test_without_vtracer_it_is_said_what_to_install():

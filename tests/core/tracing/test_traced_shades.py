@@ -7,7 +7,7 @@ from PIL import Image, ImageFilter
 import vexture
 from vexture.svg.read import svg_drawing
 from vexture.tracing.shading import pieces
-from vexture.tracing.trace import _traced
+from vexture.tracing.trace import _trace_pixels
 
 pytestmark = pytest.mark.filterwarnings("ignore::vexture.SourceWarning")
 
@@ -57,7 +57,7 @@ def premultiplied(pixels):
 
 def traced(pixels):
     """The drawing with its background, and the differences of its picture."""
-    drawing = _traced(pixels, "picture", whole=True)
+    drawing = _trace_pixels(pixels, "picture", whole=True)
     return drawing, np.abs(drawn(drawing, pixels.shape[1::-1]) - premultiplied(pixels))
 
 

@@ -63,7 +63,7 @@ def test_stripes_need_no_program() -> None:
     stops = tuple(Stop(offset, colours[k]) for offset, k in ((0.0, 0), (0.5, 0), (0.5, 1), (1.0, 1)))
     stripes = Gradient(((4.0, 2.0, 0.1), (-2.0, 4.0, 0.0)), stops, Spread.REPEAT)
     square = Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)]).paths[0].contours
-    (planar,) = run(Drawing((Path(square, paint=Paint.of(stripes)),))).trees
+    (planar,) = run(Drawing((Path(square, paint=Paint.from_gradient(stripes)),))).trees
     assert planar.programs == {}
     assert len(planar.paints) == 3
 

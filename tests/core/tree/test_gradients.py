@@ -119,7 +119,7 @@ def test_programs_of_random_groups_are_right(seed: int) -> None:
     of = colour_paths(layers, rng)
     shades = [linear(rng.random(2), rng.random(2), stops) for stops in (WARM, FADING, BANDS, FADING)]
     paints = [
-        Paint.of(shades[k]) if k < len(shades) else path.paint
+        Paint.from_gradient(shades[k]) if k < len(shades) else path.paint
         for k, path in zip(rng.permutation(8)[: len(of.paths)], of.paths, strict=True)
     ]
     of = replace(of, paths=tuple(replace(path, paint=paint) for path, paint in zip(of.paths, paints, strict=True)))
@@ -212,7 +212,7 @@ def test_one_layer_of_a_gradient_is_a_map() -> None:
 def test_a_group_that_makes_no_difference_is_no_part_of_a_program() -> None:
     """Such as that of a clip: without it, groups within are not too deep for a pixel."""
     square = Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]).paths[0].contours
-    shade = Paint.of(Gradient(((1, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1)))))
+    shade = Paint.from_gradient(Gradient(((1, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1)))))
     groups = (Group(), Group(0, 0.85), Group(1, blend=Blend.MULTIPLY))
     paths = [Path(square, paint=shade, group=group) for group in (0, 1, 2)]
     planar = build_map(Drawing(tuple(paths), groups=groups))

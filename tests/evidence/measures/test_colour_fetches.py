@@ -11,7 +11,7 @@ from vexture_evidence.measures.colour_fetches import SheetStack, layer_boxes, pi
 
 RED, BLUE = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.0, 1.0))
 STOPS = Stop(0.0, (0.0, 0.0, 0.0), 1.0), Stop(1.0, (1.0, 1.0, 1.0), 1.0)
-FADE = Paint.of(Gradient(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), STOPS))
+FADE = Paint.from_gradient(Gradient(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), STOPS))
 
 
 def box(low: float, high: float, paint: Paint) -> Path:

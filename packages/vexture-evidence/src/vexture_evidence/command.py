@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from vexture.cli.messages import one_line, say
+from vexture.cli.messages import one_line, print_message
 
 __all__ = ["report"]
 
@@ -35,5 +35,5 @@ def report(sources: tuple[Path, ...], output: Path) -> None:
         from vexture_evidence.report.assemble import assemble
 
         start = time.perf_counter()
-        made = assemble(sources, output, report=say)
+        made = assemble(sources, output, report=print_message)
         click.echo(f"{made}: {time.perf_counter() - start:.0f} s")

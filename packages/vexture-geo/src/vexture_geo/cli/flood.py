@@ -9,7 +9,7 @@ import click
 
 from vexture.base.errors import ParameterError
 from vexture.base.tolerance import HMIN
-from vexture.cli.messages import echo, one_line, say
+from vexture.cli.messages import echo, one_line, print_message
 from vexture.cli.options import PATH, refuse_stream
 from vexture_geo.flood.options import DEPTHS, PERIOD, FloodOptions, bounds_of, depths_of
 from vexture_geo.flood.video_options import FPS, SIZE, STEP_SECONDS, VideoOptions, size_of
@@ -124,7 +124,7 @@ def flood(
         from vexture_geo.flood.server import Made, Serving, export, serve
 
         if not serving:
-            made, sizes = export(asked, output, filmed, say, _tracked)
+            made, sizes = export(asked, output, filmed, print_message, _tracked)
             for path, written in sizes.items():
                 echo(f"{path}: {made.described}, {written} bytes")
             return
@@ -136,7 +136,7 @@ def flood(
             from vexture_geo.depth.appended_steps import share_files
 
             share_files()
-        serve(asked, Serving(host, port, token_file, follow is not None, keep), say=say, show=show)
+        serve(asked, Serving(host, port, token_file, follow is not None, keep), say=print_message, show=show)
 
 
 def _video(path: Path | None, size: str | None, **given: Any) -> VideoOptions | None:

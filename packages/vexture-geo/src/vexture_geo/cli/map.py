@@ -10,7 +10,7 @@ import click
 from vexture.base.errors import ParameterError, format_count
 from vexture.base.notes import Note
 from vexture.cli.messages import echo, note_facts, one_line, say_notes
-from vexture.cli.options import PATH, streamed
+from vexture.cli.options import PATH, read_stream
 from vexture_geo.cli.colour_options import colour_options, columns_of, refuse_idle_colours, scale_of
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def map(
         targets = [output, *(output.with_suffix(suffix) for suffix in beside)]
         check_targets(targets, sources)
         names = ", ".join(str(source) for source in sources)
-        given = (sources, [streamed(source) for source in sources], output, symbol, table, options)
+        given = (sources, [read_stream(source) for source in sources], output, symbol, table, options)
         files, facts, notes = apart(_made, *given, name=names, seconds=options["max_seconds"])
         write_together(files)
         if as_json:

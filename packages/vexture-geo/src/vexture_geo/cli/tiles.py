@@ -10,7 +10,7 @@ import click
 
 from vexture.base.errors import format_count
 from vexture.cli.interrupt import INTERRUPTED
-from vexture.cli.messages import echo, one_line, say, say_notes
+from vexture.cli.messages import echo, one_line, print_message, say_notes
 from vexture.cli.options import PATH, refuse_stream
 from vexture_geo.cli.colour_options import colour_options, columns_of, refuse_idle_colours, scale_of
 
@@ -66,7 +66,7 @@ def tiles(source: Path, output: Path, **options: Any) -> None:
             with ExitStack() as opened:
                 made = make_tiles(source, output, asked, _progress(opened, quiet))
         except KeyboardInterrupt:
-            say(f"interrupted; {unfinished(output)}")
+            print_message(f"interrupted; {unfinished(output)}")
             sys.exit(INTERRUPTED)
         if not quiet:
             say_notes(source, made.notes)

@@ -53,5 +53,5 @@ def area_paths(
     for end, name, colour in named:
         paint = paints.get(colour) or paints.setdefault(colour, Paint(colour[:3], colour[3]))
         own = tuple(contours[place] for place in places[first:end])
-        yield Path.sound(own, FillRule.NONZERO, paint, element=str(name))
+        yield Path.unchecked(own, FillRule.NONZERO, paint, element=str(name))
         first = end

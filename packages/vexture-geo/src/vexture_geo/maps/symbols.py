@@ -97,7 +97,7 @@ class Symbols:
         for number, (name, paint) in enumerate(zip(self.names, self.paints, strict=True)):
             for moved, spans, rule, own in copies:
                 contours = () if moved is None else tuple(moved[number, start:end] for start, end in spans)
-                yield Path.sound(contours, rule, paint or own, element=name)
+                yield Path.unchecked(contours, rule, paint or own, element=name)
 
     def seen_paths(self, fit: Fit) -> Iterator[Path]:
         """The paths, in the unit square; where many convex ones crowd, without most of what later ones hide.
@@ -119,7 +119,7 @@ class Symbols:
         spans = pairwise([0, *ends.tolist()])
         for name, paint, (start, end), one_hides in zip(self.names, paints, spans, hides.tolist(), strict=True):
             contours = (cubics[start:end],) if end > start else ()
-            yield Path.sound(contours, path.fill_rule, paint, element=name, hides=one_hides)
+            yield Path.unchecked(contours, path.fill_rule, paint, element=name, hides=one_hides)
 
 
 class _Circles(NamedTuple):

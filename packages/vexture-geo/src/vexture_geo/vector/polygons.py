@@ -14,7 +14,7 @@ from vexture.base.tolerance import CLOSED
 from vexture.bezier.convert import line_cubics
 from vexture.drawing.contours import ring_contours
 from vexture.drawing.drawing import Drawing, FillRule, Path
-from vexture.drawing.unit_square import clipped, tidied
+from vexture.drawing.unit_square import clip_contours, tidy_contours
 from vexture_geo.base.coordinate_units import refuse_other_units
 from vexture_geo.base.crs import (
     UNPLACED,
@@ -151,6 +151,6 @@ def _drawn(rings: Rings, frame: Frame, name: str) -> Drawing:
         contours = ring_contours(start, turned.ends)  # already clipped and without tiny sides
     else:
         sides = line_cubics(start, end)
-        contours = tuple(tidied(*clipped(sides, turned.ends, np.zeros(2), np.ones(2))).values())
+        contours = tuple(tidy_contours(*clip_contours(sides, turned.ends, np.zeros(2), np.ones(2))).values())
     paths = (Path(contours, FillRule.NONZERO),) if contours else ()
     return Drawing(paths, frame.to_source, name, crs)

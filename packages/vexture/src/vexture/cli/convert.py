@@ -15,7 +15,7 @@ import click
 from vexture.base.deadline import DEFAULT_SECONDS
 from vexture.base.errors import EXPECTED, ParameterError, SourceError, VextureError, format_count
 from vexture.base.layout import PACKED_SUFFIX
-from vexture.cli.messages import echo, one_line, say
+from vexture.cli.messages import echo, one_line, print_message
 from vexture.cli.options import (
     PATH,
     SILHOUETTE_HELP,
@@ -25,9 +25,9 @@ from vexture.cli.options import (
     check_output,
     font_option,
     page_color_option,
+    read_stream,
     shown_name,
     split_of,
-    streamed,
     strict_option,
     tolerance_option,
     trace_images_option,
@@ -37,7 +37,7 @@ from vexture.cli.result import (
     NORMAL,
     QUIET,
     VERBOSE,
-    Outcome,
+    ConversionResult,
     facts_of,
     is_texture_file,
     say_outcome,
@@ -169,7 +169,7 @@ def convert(
     SVGs in it, or - for standard input.
     """
     with one_line():
-        parameters = _checked(encoding, options)
+        parameters = _encoding_parameters(encoding, options)
         sources = drawings_in(sources)
         to_pipe = Path(STANDARD) in (output, atlas)
         level = QUIET if quiet else VERBOSE if verbose else NORMAL
@@ -177,7 +177,7 @@ def convert(
         stored = {name: parameters.pop(name) for name in ("deflate",) if name in parameters}
         work = partial(_convert_one, encoding=encoding, parameters=parameters, stored=stored)
         work = partial(work, for_atlas=atlas is not None, strict=strict, quiet=quiet)
-        outcomes: list[Outcome] = []
+        outcomes: list[ConversionResult] = []
         owners: dict[str, Path | str] = {}
         for found in _outcomes(work, sources, jobs, level, parameters.get("max_seconds", DEFAULT_SECONDS)):
             outcome = found if atlas or found.error else written(found, output or Path(), owners)
@@ -190,11 +190,13 @@ def convert(
             click.echo(json.dumps([facts_of(outcome) for outcome in outcomes], indent=2), err=to_pipe)
     if failed:
         if len(sources) > 1:
-            say(f"{failed} of {len(sources)} files failed{'' if atlas is None else f'; {atlas} is not written'}")
+            print_message(
+                f"{failed} of {len(sources)} files failed{'' if atlas is None else f'; {atlas} is not written'}"
+            )
         sys.exit(1)
 
 
-def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
+def _encoding_parameters(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
     """Parameters of the conversion, without those that were not given."""
     parameters = given_options(options)
     for name, owner in BELONGS_TO.items():
@@ -293,7 +295,7 @@ def _convert_one(
     for_atlas: bool,
     strict: bool,
     quiet: bool,
-) -> list[Outcome]:
+) -> list[ConversionResult]:
     """Convert one source, in this process or another; an error is returned as its line.
 
     Of a sprite, there is an outcome for each symbol in an atlas.
@@ -323,25 +325,27 @@ def _convert_one(
         files = done.texture.files(**stored)
         check_losses(str(source), done.notes, is_empty=not done.drawing.paths, strict=strict)
     except EXPECTED as error:
-        return [Outcome(source, {}, error=str(error))]
+        return [ConversionResult(source, {}, error=str(error))]
     facts = shape_facts(done) | {"bytes": sum(map(len, files.values()))}
-    return [Outcome(source, facts, files, warning=line_of(str(source), done.notes))]
+    return [ConversionResult(source, facts, files, warning=line_of(str(source), done.notes))]
 
 
-def _for_atlas(source: Path, part: "Conversion[Any]") -> Outcome:
+def _for_atlas(source: Path, part: "Conversion[Any]") -> ConversionResult:
     """Outcome of a drawing whose trees become a part of an atlas."""
     from vexture.base.notes import line_of
     from vexture.texture.ktx2 import TEXEL_BYTES
 
     size = TEXEL_BYTES * sum(tree.texels for tree in part.trees)
-    return Outcome(source, shape_facts(part) | {"bytes": size}, None, part, line_of(part.source, part.notes))
+    return ConversionResult(source, shape_facts(part) | {"bytes": size}, None, part, line_of(part.source, part.notes))
 
 
-def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int, max_seconds: float) -> Iterator[Outcome]:
+def _outcomes(
+    work: Any, sources: tuple[Path, ...], jobs: int, level: int, max_seconds: float
+) -> Iterator[ConversionResult]:
     """Outcomes in the order of the sources, from other processes; a terminal shows the progress of several."""
     from vexture.base.apart import each_apart
 
-    tasks = [(source, streamed(source)) for source in sources]
+    tasks = [(source, read_stream(source)) for source in sources]
     results: Iterable[Any] = each_apart(work, tasks, [shown_name(source) for source in sources], max_seconds, jobs)
     with ExitStack() as opened:
         if len(tasks) > 1 and level > QUIET and sys.stderr.isatty():
@@ -352,12 +356,14 @@ def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int, max_s
             results = progress.track(results, total=len(tasks), description="converting")
         for source, result in zip(sources, results, strict=True):
             if isinstance(result, VextureError):
-                yield Outcome(source, {}, error=str(result))
+                yield ConversionResult(source, {}, error=str(result))
             else:
                 yield from result
 
 
-def _write_atlas(outcomes: list[Outcome], atlas: Path, stored: dict[str, Any], *, silent: bool, to_pipe: bool) -> None:
+def _write_atlas(
+    outcomes: list[ConversionResult], atlas: Path, stored: dict[str, Any], *, silent: bool, to_pipe: bool
+) -> None:
     """Write one texture of all shapes."""
     from vexture.conversion.pipeline import combine
 

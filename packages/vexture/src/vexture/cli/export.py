@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from vexture.base.errors import format_count
-from vexture.cli.messages import echo, one_line, say
+from vexture.cli.messages import echo, one_line, print_message
 from vexture.cli.options import PATH, conversion_options, strict_option, viewer_parameters
 
 __all__ = ["export"]
@@ -28,5 +28,5 @@ def export(files: tuple[Path, ...], output: Path, title: str | None, strict: boo
     with one_line():
         from vexture.pages.view import export as write
 
-        size = write(files, output, title, viewer_parameters(**conversion), say, strict=strict)
+        size = write(files, output, title, viewer_parameters(**conversion), print_message, strict=strict)
         echo(f"{output}: {format_count(len(files), 'file')}, {size} bytes")

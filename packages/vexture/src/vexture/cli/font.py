@@ -71,7 +71,7 @@ def font(
         stored = {name: parameters.pop(name) for name in ("deflate",) if name in parameters}
         given = (wanted, [code for text in ranges for code in codes_of(text)], parameters, stored)
         about, seconds = str(font or "the font"), parameters.get("max_seconds", DEFAULT_SECONDS)
-        made = apart(_made, styled, *given, font, output, strict, name=about, seconds=seconds)
+        made = apart(_convert_font, styled, *given, font, output, strict, name=about, seconds=seconds)
         write_together(made.files)
         if not quiet:
             say_notes(made.about, made.notes)
@@ -80,7 +80,7 @@ def font(
             echo(f"{target}: {counts}, {len(made.files[target])} bytes; {metrics}")
 
 
-class Made(NamedTuple):
+class FontFiles(NamedTuple):
     """The texture of a font."""
 
     about: str
@@ -90,16 +90,16 @@ class Made(NamedTuple):
     notes: Sequence[Note]
 
 
-def _made(
+def _convert_font(
     styled: tuple[Any, ...],
-    wanted: str | None,
+    characters: str | None,
     ranged: list[int],
     parameters: dict[str, Any],
     stored: dict[str, Any],
     font: Path | None,
     output: Path,
     strict: bool,
-) -> Made:
+) -> FontFiles:
     """Files of a font, which may be a stranger's."""
     from vexture.base.notes import check_losses
     from vexture.conversion.glyph_atlas import PRINTABLE, made_atlas
@@ -108,11 +108,13 @@ def _made(
 
     weight, style, stretch, name = styled
     options = TextOptions(font or (), (), weight, style, stretch, name=name)
-    made = made_atlas(options, PRINTABLE if wanted is None else wanted, ranged, **parameters)
+    made = made_atlas(options, PRINTABLE if characters is None else characters, ranged, **parameters)
     about = str(font or made.texture.name)
     check_losses(about, made.notes, is_empty=False, strict=strict)
     place = output if is_texture_file(output, DEFAULT) else output / (file_name(made.texture.name) + PACKED_SUFFIX)
-    return Made(about, made.files(place, **stored), len(made.metrics["glyphs"]), len(made.texture.roots), made.notes)
+    return FontFiles(
+        about, made.files(place, **stored), len(made.metrics["glyphs"]), len(made.texture.roots), made.notes
+    )
 
 
 def read_text(file: Path) -> str:

@@ -27,7 +27,7 @@ Examples:
 """
 
 
-class Pair(click.ParamType):  # type: ignore[type-arg]
+class NumberPair(click.ParamType):  # type: ignore[type-arg]
     """Two numbers, separated by a comma, or one that is both."""
 
     name = "X,Y"
@@ -90,9 +90,9 @@ class Pair(click.ParamType):  # type: ignore[type-arg]
 @click.option("--color", metavar="COLOR", help="Mode mix: a CSS colour.  [default: white]")
 @click.option("--threshold", metavar="T", type=float, help="Mode cut: least coverage that is drawn.  [default: 0.5]")
 @click.option("--tex-coord", metavar="N", type=click.IntRange(0, 1), help="Set of texture coordinates.  [default: 0]")
-@click.option("--scale", type=Pair(), help="Of texture coordinates: 4 makes the drawing a quarter as large.")
+@click.option("--scale", type=NumberPair(), help="Of texture coordinates: 4 makes the drawing a quarter as large.")
 @click.option("--rotation", metavar="DEG", type=float, help="Turns the drawing counter-clockwise about their origin.")
-@click.option("--offset", type=Pair(), help="Moves texture coordinates, after --scale and --rotation.")
+@click.option("--offset", type=NumberPair(), help="Moves texture coordinates, after --scale and --rotation.")
 def gltf(
     model: Path,
     lists: bool,
@@ -118,7 +118,7 @@ def gltf(
             for place, name in enumerate(read_model(model).materials):
                 echo(f"{place} {name}".rstrip())
             return
-        output = _checked(materials, drawings, output)
+        output = _output_of(materials, drawings, output)
         shown = {name: options.pop(name) for name in Appearance.__dataclass_fields__}
         shown = {name: value for name, value in shown.items() if value is not None}
         parameters = given_options(options)
@@ -131,7 +131,7 @@ def gltf(
         _write(changed, output, materials, quiet)
 
 
-def _checked(materials: Sequence[str], drawings: Sequence[Path], output: Path | None) -> Path:
+def _output_of(materials: Sequence[str], drawings: Sequence[Path], output: Path | None) -> Path:
     """The file to write; raises a `ParameterError` if an option is missing."""
     from vexture.gltf.model import target_of
 
@@ -147,7 +147,7 @@ def _checked(materials: Sequence[str], drawings: Sequence[Path], output: Path | 
     return target_of(output)
 
 
-def _texture_of(drawing: Path, shown: Any, parameters: dict[str, Any], strict: bool, quiet: bool) -> "Texture":
+def _texture_of(drawing: Path, appearance: Any, parameters: dict[str, Any], strict: bool, quiet: bool) -> "Texture":
     """The texture of a file, which may be one, or is converted."""
     from vexture.base.apart import apart
     from vexture.base.notes import check_losses
@@ -156,9 +156,9 @@ def _texture_of(drawing: Path, shown: Any, parameters: dict[str, Any], strict: b
 
     if drawing_kind(drawing) is None:
         without = {name: value for name, value in parameters.items() if (name, value) != ("tolerance", "auto")}
-        return texture_of(drawing, shown, without)
+        return texture_of(drawing, appearance, without)
     limit = parameters.get("max_seconds", DEFAULT_SECONDS)
-    done = apart(partial(run, drawing, split=shown.split, **parameters), name=str(drawing), seconds=limit)
+    done = apart(partial(run, drawing, split=appearance.split, **parameters), name=str(drawing), seconds=limit)
     check_losses(str(drawing), done.notes, is_empty=not done.drawing.paths, strict=strict)
     if not quiet:
         say_notes(drawing, done.notes)

@@ -9,7 +9,7 @@ import click
 
 from vexture.base.errors import FormatError
 from vexture.cli.messages import echo, one_line
-from vexture.cli.options import PATH, drawing_kind, shown_name, streamed
+from vexture.cli.options import PATH, drawing_kind, read_stream, shown_name
 
 __all__ = ["info"]
 
@@ -35,7 +35,7 @@ def info(texture: Path, as_json: bool) -> None:
         from vexture.texture.load import load_any, texture_from
 
         reader, tiles = find_geographic_reader(), None
-        if (data := streamed(texture)) is not None:
+        if (data := read_stream(texture)) is not None:
             facts = texture_from(data, shown_name(texture)).info()
         elif reader is not None and (tiles := reader.describe_tiles(texture)) is not None:
             facts = tiles[0]

@@ -13,7 +13,7 @@ import click
 
 from vexture.base.errors import printable
 from vexture.cli.interrupt import INTERRUPTED, at_once
-from vexture.cli.messages import say
+from vexture.cli.messages import print_message
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -64,13 +64,13 @@ class _Commands(click.Group):
     """The commands by name, and those that other distributions add."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        return [*COMMANDS, *_added(ctx)]
+        return [*COMMANDS, *_plugin_commands(ctx)]
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name in COMMANDS:
             command: click.Command = getattr(import_module(COMMANDS[cmd_name]), cmd_name)
             return command
-        added = _added(ctx).get(cmd_name)
+        added = _plugin_commands(ctx).get(cmd_name)
         if added is None and cmd_name in ELSEWHERE:
             ctx.fail(f"No such command {cmd_name!r}; {ELSEWHERE[cmd_name]}")
         return None if added is None else added.load()
@@ -78,7 +78,7 @@ class _Commands(click.Group):
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List the commands without their modules, which take longer to import than all else of the help."""
         listed = {name: click.Command(name, help=line) for name, line in SUMMARIES.items()}
-        for name, point in _added(ctx).items():
+        for name, point in _plugin_commands(ctx).items():
             line = ADDED_SUMMARIES.get(name)
             listed[name] = point.load() if line is None else click.Command(name, help=line)
         _Listed(commands=listed).format_commands(ctx, formatter)
@@ -97,7 +97,7 @@ class _Commands(click.Group):
             with _printable_errors():
                 return super().invoke(ctx)
         except KeyboardInterrupt:
-            say("interrupted")
+            print_message("interrupted")
             sys.exit(INTERRUPTED)
         finally:
             if ours:
@@ -111,7 +111,7 @@ class _Listed(click.Group):
         return [*self.commands]
 
 
-def _added(ctx: click.Context) -> "dict[str, EntryPoint]":
+def _plugin_commands(ctx: click.Context) -> "dict[str, EntryPoint]":
     """Commands of other distributions by name; all that are installed are looked through once."""
     if PLUGINS not in ctx.meta:
         from importlib.metadata import entry_points

@@ -15,7 +15,7 @@ from vexture.base.errors import EXPECTED, printable, reason_of
 if TYPE_CHECKING:
     from vexture.base.notes import Note
 
-__all__ = ["as_options", "echo", "note_facts", "one_line", "say", "say_notes"]
+__all__ = ["as_options", "echo", "note_facts", "one_line", "print_message", "say_notes"]
 
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter in a message of the library."""
@@ -28,7 +28,7 @@ OF_FLOODS = frozenset({"layer", "time_dim", "variable"})
 """Parameters of depths and areas that other commands read, too, but choose nothing of."""
 
 
-def say(message: str) -> None:
+def print_message(message: str) -> None:
     """Print a line to standard error."""
     echo(f"vexture: {as_options(message)}", err=True)
 
@@ -63,27 +63,27 @@ def say_notes(source: object, notes: Sequence["Note"]) -> None:
     from vexture.base.notes import line_of  # the list of the commands does not wait for it
 
     if line := line_of(str(source), notes):
-        say(f"warning: {line}")
+        print_message(f"warning: {line}")
 
 
 @contextmanager
 def one_line() -> Iterator[None]:
     """Print errors that the user can correct, and warnings of libraries, as one line each."""
     with warnings.catch_warnings():
-        warnings.showwarning = lambda message, *_args, **_kwargs: say(f"warning: {message}")
+        warnings.showwarning = lambda message, *_args, **_kwargs: print_message(f"warning: {message}")
         warnings.simplefilter("always")
         warnings.simplefilter("ignore", ResourceWarning)  # what Ctrl-C interrupts is left open
         try:
             yield
         except EXPECTED as error:
-            say(str(error))
+            print_message(str(error))
             sys.exit(1)
         except BrokenPipeError:
             raise  # click ends in silence: who reads standard output has enough, such as head
         except OSError as error:
             remedy = "make room, or choose another place" if error.errno == errno.ENOSPC else "choose another file"
-            say(f"{error.filename or 'the output'}: {error.strerror or reason_of(error)}; {remedy}")
+            print_message(f"{error.filename or 'the output'}: {error.strerror or reason_of(error)}; {remedy}")
             sys.exit(1)
         except MemoryError:
-            say("out of memory; use a smaller drawing or a smaller --size")
+            print_message("out of memory; use a smaller drawing or a smaller --size")
             sys.exit(1)

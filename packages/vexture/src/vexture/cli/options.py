@@ -15,8 +15,8 @@ __all__ = [
     "SILHOUETTE_HELP",
     "STANDARD",
     "Colour",
-    "Place",
-    "Rectangle",
+    "PathArgument",
+    "RectangleArgument",
     "Sectioned",
     "Tolerance",
     "as_given",
@@ -25,11 +25,11 @@ __all__ = [
     "drawing_kind",
     "font_option",
     "page_color_option",
+    "read_stream",
     "refuse_stream",
     "shown_name",
     "split_of",
     "standard_input",
-    "streamed",
     "strict_option",
     "tolerance_option",
     "trace_images_option",
@@ -46,7 +46,7 @@ else:  # generic since click 8.4
     ParamType = click.ParamType
 
 
-class Place(click.Path):
+class PathArgument(click.Path):
     """A path; an empty one, as of a shell's variable that is not set, would be the folder "."."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
@@ -57,7 +57,7 @@ class Place(click.Path):
         return super().convert(value, param, ctx)
 
 
-PATH: Final[Any] = Place(path_type=Path)
+PATH: Final[Any] = PathArgument(path_type=Path)
 
 STANDARD: Final = "-"
 """Name of standard input and output among files."""
@@ -83,7 +83,7 @@ class Sectioned(click.Command):
                 formatter.write_dl(rows[True])
 
 
-class Rectangle(ParamType):
+class RectangleArgument(ParamType):
     """Four numbers, separated by commas."""
 
     name = "X,Y,W,H"
@@ -126,7 +126,7 @@ def standard_input() -> bytes:
     return sys.stdin.buffer.read(LARGEST_FILE + 1)
 
 
-def streamed(path: Path) -> bytes | None:
+def read_stream(path: Path) -> bytes | None:
     """Content of standard input, or of a pipe of a name, which can be read only once; None of a file."""
     from vexture.base.content import about, is_stream, read_bytes
 
@@ -138,12 +138,12 @@ def streamed(path: Path) -> bytes | None:
         return read_bytes(path)
 
 
-def refuse_stream(path: Path, what: str) -> None:
+def refuse_stream(path: Path, subject: str) -> None:
     """Raise a `SourceError` if what is read several times is a pipe."""
     from vexture.base.content import is_stream
 
     if is_stream(path):
-        raise SourceError(f"{path}: {what} is read several times, and a pipe only once; save it as a file")
+        raise SourceError(f"{path}: {subject} is read several times, and a pipe only once; save it as a file")
 
 
 def shown_name(path: Path) -> str:

@@ -14,14 +14,14 @@ from vexture.cli.options import (
     PATH,
     STANDARD,
     Colour,
-    Rectangle,
+    RectangleArgument,
     as_given,
     check_output,
     drawing_kind,
     font_option,
     page_color_option,
+    read_stream,
     shown_name,
-    streamed,
     strict_option,
     trace_images_option,
     write_output,
@@ -60,7 +60,7 @@ Examples:
 @click.option("--silhouette", is_flag=True, help="Draw the covered part of each pixel in black, without colours.")
 @click.option(
     "--view",
-    type=Rectangle(),
+    type=RectangleArgument(),
     help="Part of the unit square, y up.  [default: the drawing's box, which is as wide or as high as the square; "
     "of a texture, all of it]",
 )
@@ -118,7 +118,7 @@ def render(
         seen = None if view is None else window(*view, rotate)  # refused before anything is read
         given = {"select": select, "fonts": fonts, "trace_images": trace_images, "page_colors": page_colors}
         reading = {name: value for name, value in given.items() if value is not None}
-        shown = _shown(source, reading, strict=strict, max_seconds=max_seconds)
+        shown = _read_or_load(source, reading, strict=strict, max_seconds=max_seconds)
         view = view or _box_of(shown)
         pixels = _pixels(size, width, height, view)
         with within(max_seconds):
@@ -137,11 +137,11 @@ def _check_sides(size: int | None, width: int | None, height: int | None) -> Non
             raise ParameterError(f"`{name}` is {side}; it must be 1 to {SIZE_LIMIT}")
 
 
-def _box_of(shown: "Shown") -> tuple[float, float, float, float]:
+def _box_of(subject: "Shown") -> tuple[float, float, float, float]:
     """The part of the unit square that a drawing's box fills; of a texture, which does not know it, all."""
     from vexture.drawing.drawing import Drawing
 
-    width, height = shown.sides if isinstance(shown, Drawing) else (1.0, 1.0)
+    width, height = subject.sides if isinstance(subject, Drawing) else (1.0, 1.0)
     return (1.0 - width) / 2, (1.0 - height) / 2, width, height
 
 
@@ -160,7 +160,9 @@ def _pixels(
     return width, height if height is not None else max(round(width / ratio), 1)
 
 
-def _picture(shown: "Shown", pixels: tuple[int, int], view: Any, *, silhouette: bool, **options: Any) -> "NDArray[Any]":
+def _picture(
+    subject: "Shown", pixels: tuple[int, int], view: Any, *, silhouette: bool, **options: Any
+) -> "NDArray[Any]":
     """Premultiplied RGBA."""
     import numpy as np
 
@@ -168,8 +170,8 @@ def _picture(shown: "Shown", pixels: tuple[int, int], view: Any, *, silhouette: 
     from vexture.conversion.images import render as picture_of
 
     if not silhouette:
-        return picture_of(shown, pixels, view, **options)
-    covered = coverage(shown, pixels, view, **options)
+        return picture_of(subject, pixels, view, **options)
+    covered = coverage(subject, pixels, view, **options)
     return np.stack([np.zeros_like(covered)] * 3 + [covered], axis=2)
 
 
@@ -185,20 +187,20 @@ def _over(picture: "NDArray[Any]", background: tuple[float, float, float, float]
     return np.rint(255.0 * np.concatenate([straight.clip(0.0, 1.0), alpha], axis=2)).astype(np.uint8)
 
 
-def _root_of(shown: "Shown", root: str | None) -> str | int | None:
+def _root_of(subject: "Shown", root: str | None) -> str | int | None:
     """The name of a shape, or if none has that name, its index."""
     from vexture.texture.select_root import drawing_of
     from vexture.texture.texture import Texture
 
     if root is None:
         return None
-    if not isinstance(shown, Texture):
+    if not isinstance(subject, Texture):
         raise ParameterError(f"`root` {root} chooses a shape of a texture; leave it out, or use `select` for an SVG")
-    names = {part for one in shown.roots for part in (one.name, drawing_of(one))}
+    names = {part for one in subject.roots for part in (one.name, drawing_of(one))}
     return int(root) if root not in names and root.isdecimal() else root
 
 
-def _shown(path: Path, reading: dict[str, Any], *, strict: bool, max_seconds: float) -> "Shown":
+def _read_or_load(path: Path, reading: dict[str, Any], *, strict: bool, max_seconds: float) -> "Shown":
     """Read a drawing with parameters, or load a texture by one of its files or what their names have in common."""
     from vexture.base.apart import apart
     from vexture.base.content import FileKind, kind_of, start_of
@@ -206,7 +208,7 @@ def _shown(path: Path, reading: dict[str, Any], *, strict: bool, max_seconds: fl
     from vexture.conversion.reading import read_drawing
     from vexture.texture.load import load_any, texture_from
 
-    data, name = streamed(path), shown_name(path)
+    data, name = read_stream(path), shown_name(path)
     kind = drawing_kind(path) if data is None else kind_of(start_of(data))
     if kind not in (None, FileKind.TEXTURE):
         given = path if data is None else data

@@ -1,4 +1,4 @@
-"""What commands that convert say and write of each source."""
+"""Results of the commands that convert: files and messages for each source."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from vexture.base.errors import VextureError, format_count
 from vexture.base.layout import PACKED_SUFFIX
-from vexture.cli.messages import as_options, echo, note_facts, say
+from vexture.cli.messages import as_options, echo, note_facts, print_message
 from vexture.cli.options import STANDARD, write_output
 from vexture.texture.registry import DEFAULT
 
@@ -17,7 +17,7 @@ __all__ = [
     "NORMAL",
     "QUIET",
     "VERBOSE",
-    "Outcome",
+    "ConversionResult",
     "facts_of",
     "is_texture_file",
     "say_outcome",
@@ -29,7 +29,7 @@ QUIET, NORMAL, VERBOSE = -1, 0, 1
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class ConversionResult:
     """Result of one source: the contents of its files, or for an atlas its trees; or why there are none."""
 
     source: Path | str
@@ -66,7 +66,7 @@ def is_texture_file(output: Path, encoding: str) -> bool:
     return encoding == DEFAULT and output.suffix.lower() == PACKED_SUFFIX and not output.is_dir()
 
 
-def written(outcome: Outcome, output: Path, owners: dict[str, Path | str]) -> Outcome:
+def written(outcome: ConversionResult, output: Path, owners: dict[str, Path | str]) -> ConversionResult:
     """Write the files of an outcome, and return it with their names, or with an error."""
     from vexture.texture.files import file_name, write_together
 
@@ -91,13 +91,13 @@ def written(outcome: Outcome, output: Path, owners: dict[str, Path | str]) -> Ou
     return replace(outcome, facts=outcome.facts | {"files": [str(place) for place in places]})
 
 
-def say_outcome(outcome: Outcome, level: int, *, quiet: bool, to_pipe: bool) -> None:
+def say_outcome(outcome: ConversionResult, level: int, *, quiet: bool, to_pipe: bool) -> None:
     """Print the result of one source."""
     if outcome.error:
-        say(outcome.error)
+        print_message(outcome.error)
         return
     if level > QUIET and outcome.warning:
-        say(f"warning: {outcome.warning}")
+        print_message(f"warning: {outcome.warning}")
     if level > QUIET and not quiet:
         echo(line_of_facts(outcome.facts), err=to_pipe)
     if level == VERBOSE and not quiet:
@@ -119,7 +119,7 @@ def line_of_facts(facts: dict[str, Any]) -> str:
     return line + (f", {format_count(facts['unresolved'], 'cell')} at the depth limit" if facts["unresolved"] else "")
 
 
-def facts_of(outcome: Outcome) -> dict[str, Any]:
+def facts_of(outcome: ConversionResult) -> dict[str, Any]:
     """Facts of a source for JSON, its error or warning included."""
     facts: dict[str, Any] = {"source": str(outcome.source)}
     if outcome.error:

@@ -11,7 +11,7 @@ from vexture.base.errors import SourceError
 from vexture.cli.convert import check_places, given_options, options_of_convert
 from vexture.cli.messages import one_line
 from vexture.cli.options import PATH, STANDARD, Colour, standard_input
-from vexture.cli.result import NORMAL, QUIET, VERBOSE, Outcome, facts_of, say_outcome, shape_facts, written
+from vexture.cli.result import NORMAL, QUIET, VERBOSE, ConversionResult, facts_of, say_outcome, shape_facts, written
 from vexture.texture.registry import DEFAULT
 
 if TYPE_CHECKING:
@@ -120,7 +120,7 @@ def text(
         words = standard_input().decode("utf-8", "replace").rstrip("\n") if text == STANDARD else text
         styled |= {"font": font, "paint": paint_of(color)}
         given = (words.replace("\\n", "\n"), styled, parameters, stored, strict)
-        outcome = apart(_converted, *given, name="the text", seconds=parameters.get("max_seconds", DEFAULT_SECONDS))
+        outcome = apart(_convert_text, *given, name="the text", seconds=parameters.get("max_seconds", DEFAULT_SECONDS))
         outcome = written(outcome, output or Path(), {})
         say_outcome(outcome, level, quiet=as_json, to_pipe=to_pipe)
         if as_json:
@@ -131,9 +131,9 @@ def text(
         sys.exit(1)
 
 
-def _converted(
+def _convert_text(
     words: str, styled: dict[str, Any], parameters: dict[str, Any], stored: dict[str, Any], strict: bool
-) -> Outcome:
+) -> ConversionResult:
     """The texture of a text, whose fonts may be a stranger's."""
     from vexture.base.deadline import within
     from vexture.base.notes import check_losses, line_of
@@ -149,7 +149,7 @@ def _converted(
     check_losses(drawing.name, done.notes, is_empty=False, strict=strict)
     files = done.texture.files(**stored)
     facts = shape_facts(done) | {"bytes": sum(map(len, files.values()))}
-    return Outcome(drawing.name, facts, files, warning=line_of(drawing.name, done.notes))
+    return ConversionResult(drawing.name, facts, files, warning=line_of(drawing.name, done.notes))
 
 
 def paint_of(color: tuple[float, float, float, float] | None) -> "Paint":

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from vexture.base.errors import format_count
-from vexture.cli.messages import echo, one_line, say
+from vexture.cli.messages import echo, one_line, print_message
 from vexture.cli.options import PATH, conversion_options, viewer_parameters
 
 __all__ = ["view"]
@@ -36,8 +36,8 @@ def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening:
 
         check_packages()
 
-        def show(where: str, shapes: int) -> None:
-            echo(f"vexture: {where} shows {format_count(shapes, 'shape')}; Ctrl-C ends it")
+        def show(url: str, shapes: int) -> None:
+            echo(f"vexture: {url} shows {format_count(shapes, 'shape')}; Ctrl-C ends it")
 
         serve(
             files,
@@ -46,6 +46,6 @@ def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening:
             port=port,
             watching=watching,
             opening=opening,
-            report=say,
+            report=print_message,
             show=show,
         )

@@ -1,4 +1,4 @@
-"""What a view from nearby shows of a drawing, as a drawing of its own, whose texture is as exact as the view needs."""
+"""The part of a drawing that a view from nearby shows, as a drawing of its own, as exact as the view needs."""
 
 from dataclasses import replace
 from typing import Final, NamedTuple
@@ -24,7 +24,7 @@ FLIP: Final[Affine] = ((1.0, 0.0, 0.0), (0.0, -1.0, 1.0))
 
 
 class CloseUp(NamedTuple):
-    """What a view shows.
+    """The part of a drawing that a view shows.
 
     Parameters
     ----------

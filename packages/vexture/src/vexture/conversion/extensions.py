@@ -1,4 +1,4 @@
-"""What other distributions add to reading: geographic data, by the entry point ``geographic`` of `vexture.readers`."""
+"""Readers that other distributions add: geographic data, by the entry point ``geographic`` of `vexture.readers`."""
 
 import os
 from functools import cache
@@ -25,7 +25,7 @@ Source: TypeAlias = str | os.PathLike[str] | bytes
 
 
 class GeographicReader(Protocol):
-    """What reads geographic data; `vexture_geo.extension` is one."""
+    """A reader of geographic data; `vexture_geo.extension` is one."""
 
     def unpack(self, source: Source, file_name: str) -> Source:
         """Return the source or, of a zip, what it holds; refuse formats that are known and not read."""
@@ -52,9 +52,9 @@ def find_geographic_reader() -> GeographicReader | None:
     return next((cast(GeographicReader, point.load()) for point in points), None)
 
 
-def geographic_reader(what: str = "a file of geographic data") -> GeographicReader:
+def geographic_reader(subject: str = "a file of geographic data") -> GeographicReader:
     """Import the reader of geographic data; raise a `DeviceError` if none is installed."""
     reader = find_geographic_reader()
     if reader is None:
-        raise DeviceError(f"reading {what} needs the package vexture-geo: {INSTALL_GEO}")
+        raise DeviceError(f"reading {subject} needs the package vexture-geo: {INSTALL_GEO}")
     return reader

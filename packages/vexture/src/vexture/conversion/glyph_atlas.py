@@ -17,9 +17,9 @@ from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import BLACK
 from vexture.fonts.face import Face
 from vexture.fonts.levels import LATIN, scripts
-from vexture.fonts.lines import Choice, Placed, named
+from vexture.fonts.lines import FaceChoice, Placed, describe_character
 from vexture.fonts.shaping import Glyph, shape
-from vexture.fonts.text import Canvas, Places, TextOptions
+from vexture.fonts.text import Places, TextCanvas, TextOptions
 
 if TYPE_CHECKING:
     from vexture.texture.texture import Texture
@@ -159,7 +159,7 @@ def made_atlas(
             many = f"{len(found) + len(missing):,} characters, of at most {MOST_CHARACTERS:,}"
             raise LimitError(f"{many}; make several atlases")
         for character in missing:
-            notes.left_out(f"{named(character)}, which {face.family} lacks")
+            notes.left_out(f"{describe_character(character)}, which {face.family} lacks")
         if not found:
             number = format_count(len(given) + len(ranged), "character")
             raise SourceError(f"{face.family} has none of what is asked for ({number}); give others as `characters`")
@@ -186,7 +186,7 @@ def made_atlas(
     return FontAtlas(texture, metrics, notes.in_order)
 
 
-def faces_of_characters(choice: Choice, characters: Iterable[str]) -> dict[str, Face]:
+def faces_of_characters(choice: FaceChoice, characters: Iterable[str]) -> dict[str, Face]:
     """The face of each character: the first of all, or another subset of the same font; without those of neither."""
     left = dict.fromkeys(characters)
     found: dict[str, Face] = {}
@@ -215,7 +215,7 @@ def missing_glyph(face: Face) -> Glyph:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shape:
+class GlyphShape:
     """A glyph that shows something: its drawing, and its box (left, bottom, right, top); both in ems, y up."""
 
     drawing: Drawing
@@ -223,45 +223,45 @@ class Shape:
 
 
 def key_of(glyph: Glyph) -> tuple[Face, int]:
-    """What tells glyphs apart: several faces may be subsets of one font."""
+    """Key that tells glyphs apart: several faces may be subsets of one font."""
     return glyph.face, glyph.glyph
 
 
-def drawn(glyphs: dict[str, Glyph], notes: Notes) -> dict[tuple[Face, int], Shape]:
+def drawn(glyphs: dict[str, Glyph], notes: Notes) -> dict[tuple[Face, int], GlyphShape]:
     """Shapes by the keys of their glyphs, each named after the first character that it stands for."""
-    found: dict[tuple[Face, int], Shape] = {}
+    found: dict[tuple[Face, int], GlyphShape] = {}
     for character, glyph in glyphs.items():
         if key_of(glyph) in found:
             continue
-        canvas = Canvas(1.0, BLACK, notes)
+        canvas = TextCanvas(1.0, BLACK, notes)
         canvas.draw(Placed(glyph, 0.0, 0.0, character), 0.0, 0.0)
-        left, top, right, bottom = canvas.painted
+        left, top, right, bottom = canvas.painted_box
         if left < right and top < bottom:
-            drawing = canvas.drawing(canvas.painted, character)
+            drawing = canvas.drawing(canvas.painted_box, character)
             upwards = np.array([[1.0], [-1.0]]) * drawing.to_source + 0.0  # no -0.0
-            found[key_of(glyph)] = Shape(replace(drawing, to_source=upwards), (left, -bottom, right, -top))
+            found[key_of(glyph)] = GlyphShape(replace(drawing, to_source=upwards), (left, -bottom, right, -top))
     return found
 
 
-def entry(glyph: Glyph, shapes: dict[tuple[Face, int], Shape]) -> dict[str, Any]:
+def entry(glyph: Glyph, shapes: dict[tuple[Face, int], GlyphShape]) -> dict[str, Any]:
     """Metrics of a character."""
     advance = glyph.advance[0] / glyph.face.units_per_em
     if key_of(glyph) not in shapes:
-        return {"shape": None, "advance": rounded(advance)}
+        return {"shape": None, "advance": round_length(advance)}
     found = shapes[key_of(glyph)]
     (side, _, x), (_, _, y) = found.drawing.to_source.tolist()
     left, _, right, _ = found.box
     return {
         "shape": [*shapes].index(key_of(glyph)),
-        "advance": rounded(advance),
-        "bearings": [rounded(left), rounded(advance - right)],
-        "box": [rounded(part) for part in found.box],
-        "square": [rounded(x), rounded(y), rounded(side)],
+        "advance": round_length(advance),
+        "bearings": [round_length(left), round_length(advance - right)],
+        "box": [round_length(part) for part in found.box],
+        "square": [round_length(x), round_length(y), round_length(side)],
     }
 
 
 def kerning(glyphs: dict[str, Glyph]) -> dict[str, dict[str, float]]:
-    """What is added to the advance of a character before another of its face, in ems, where it is not 0."""
+    """Distance added to the advance of a character before another of its face, in ems, where it is not 0."""
     kinds = {character: scripts([character])[0] for character in glyphs}  # Latin, if it is common to several
     groups: dict[Face, dict[str, list[str]]] = {}
     for character, script in kinds.items():
@@ -278,25 +278,25 @@ def kerning(glyphs: dict[str, Glyph]) -> dict[str, dict[str, float]]:
             for place, second in enumerate(seconds):
                 glyph = clusters.get(2 * place)
                 if glyph is not None and glyph.glyph == one.glyph and glyph.advance != one.advance:
-                    pairs[second] = rounded((glyph.advance[0] - one.advance[0]) / one.face.units_per_em)
+                    pairs[second] = round_length((glyph.advance[0] - one.advance[0]) / one.face.units_per_em)
         if pairs:
             found[first] = pairs
     return found
 
 
 def facts(face: Face) -> dict[str, Any]:
-    """What says which font it is."""
+    """Facts that identify the font."""
     return {"family": face.family, "weight": face.weight, "style": face.style, "stretch": face.stretch}
 
 
 def lines(face: Face) -> dict[str, Any]:
     """Metrics of lines, in ems."""
     em = face.units_per_em
-    heights = {name: rounded(getattr(face, name) / em) for name in LINE_METRICS}
-    places = {name: [rounded(part / em) for part in getattr(face, name)] for name in ("underline", "strikeout")}
+    heights = {name: round_length(getattr(face, name) / em) for name in LINE_METRICS}
+    places = {name: [round_length(part / em) for part in getattr(face, name)] for name in ("underline", "strikeout")}
     return heights | places
 
 
-def rounded(length: float) -> float:
+def round_length(length: float) -> float:
     """A length as metrics have it."""
     return round(length, DIGITS)

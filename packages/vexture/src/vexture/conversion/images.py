@@ -79,7 +79,7 @@ def coverage(
     if renderer == "exact":
         from vexture.renderers.exact import render_exact
 
-        return render_exact(cast("Drawing", thing).unmasked(), size, view)
+        return render_exact(cast("Drawing", thing).without_masks(), size, view)
     if not isinstance(thing, Drawing):
         return thing.coverage(size, view, renderer=renderer, root=root)
     shown, view, precision = close_up(thing, size, view)

@@ -68,7 +68,7 @@ class Parameters:
         return {name: value for name, value in values if value is not None and value is not False}
 
     def split_of(self, drawing: "Drawing") -> Split:
-        """How a drawing becomes shapes: "auto" decided.
+        """The split of a drawing into shapes, with "auto" decided.
 
         A drawing of one colour is a silhouette in that colour, unless it is translucent and may overlap itself.
         """

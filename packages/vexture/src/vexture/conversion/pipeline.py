@@ -92,7 +92,7 @@ def run(
     from vexture.conversion.reading import drawing_of
 
     with within(max_seconds):
-        drawing = drawing_of(source, {} if select is None else {"select": select}).unmasked()
+        drawing = drawing_of(source, {} if select is None else {"select": select}).without_masks()
         tree, other_texture, rounding = other.convert(drawing, **parameters)
     return Conversion(drawing, (tree,), other_texture, CLOCK.seconds() - start, rounding, notes=drawing.notes)
 
@@ -131,7 +131,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     with within(parameters.max_seconds):
         drawing = drawing_of(source, parameters.reading)
         split = parameters.split_of(drawing)
-        shown = restylable(drawing) if parameters.restyle else drawing if split else drawing.unmasked()
+        shown = restylable(drawing) if parameters.restyle else drawing if split else drawing.without_masks()
         given = {"max_depth": parameters.max_depth, "capacity": parameters.capacity, "precision": parameters.precision}
         bounds: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
         bounds["tolerance"] = tolerance

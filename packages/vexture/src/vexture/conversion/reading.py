@@ -140,7 +140,7 @@ def read_drawing(
     page_colors: Mapping[str, str] | None = None,
 ) -> "Drawing":
     """Read a drawing as `read` does, but without a warning."""
-    source, shown = _checked(source), name_of(source, name)
+    source, shown = _check_source(source), name_of(source, name)
     if not isinstance(trace_images, bool):
         raise ParameterError(f"`trace_images` is {trace_images!r:.80}; it must be True or False")
     with about(shown):
@@ -192,7 +192,7 @@ def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":
     return source
 
 
-def _checked(source: object) -> Place | bytes | IO[bytes]:
+def _check_source(source: object) -> Place | bytes | IO[bytes]:
     """Return a source as it is, or a buffer as bytes; refuse anything else."""
     if isinstance(source, bytearray | memoryview):
         return bytes(source)
@@ -219,16 +219,16 @@ def name_of(source: Source, name: str | None = None) -> str:
     return called if isinstance(called, str) else UNNAMED
 
 
-def _read_other(kind: FileKind, source: Place | bytes, shown: str, names: str | None, snap: float | None) -> "Drawing":
+def _read_other(kind: FileKind, source: Place | bytes, label: str, names: str | None, snap: float | None) -> "Drawing":
     """Read anything but SVG; the caller puts the name in front of errors."""
     if kind is FileKind.TEXTURE:
         raise SourceError("is a texture already; give the drawing that it was made from")
-    name = Path(shown).stem or UNNAMED
+    name = Path(label).stem or UNNAMED
     if kind is FileKind.PICTURE:
         from vexture.tracing.trace import image_drawing
 
         return image_drawing(source, name)
-    return geographic_reader().read_drawing(kind, source, shown, name, names=names, snap=snap)
+    return geographic_reader().read_drawing(kind, source, label, name, names=names, snap=snap)
 
 
 def _is_drawing(source: Place | bytes) -> bool:

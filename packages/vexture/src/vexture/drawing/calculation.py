@@ -14,12 +14,12 @@ __all__ = [
     "PERCENT",
     "Quantity",
     "Resolve",
-    "calculated",
+    "calculate",
     "keyword",
-    "parsed",
-    "reduced",
-    "sampled",
-    "separated",
+    "parse_tokens",
+    "reduce_calculations",
+    "sample_calculations",
+    "split_arguments",
 ]
 
 NUMBER, PERCENT, LENGTH, ANGLE = "number", "percentage", "length", "angle"
@@ -55,28 +55,28 @@ SAMPLES: Final = {kind: f"1{unit}" for kind, unit in UNITS.items()}
 """A text of each kind."""
 
 
-class InvalidError(Exception):
+class InvalidCalculationError(Exception):
     """A calculation is not valid."""
 
 
-def calculated(text: str, resolve: Resolve) -> Quantity | None:
+def calculate(text: str, resolve: Resolve) -> Quantity | None:
     """Value of a text that is one of these functions; None if it is not, or not valid.
 
     Examples
     --------
-    >>> calculated("max(3, 2 * (1 + 4))", lambda value, unit: None)
+    >>> calculate("max(3, 2 * (1 + 4))", lambda value, unit: None)
     Quantity(value=10.0, kind='number')
     """
     if "(" not in text or len(text) > LONGEST:
         return None
-    tokens = parsed(text.strip())
+    tokens = parse_tokens(text.strip())
     if len(tokens) != 1 or tokens[0].type != "function" or tokens[0].lower_name not in MATH:
         return None
     return attempt(tokens[0], resolve)
 
 
 @lru_cache(maxsize=512)
-def parsed(text: str) -> tuple[Any, ...]:
+def parse_tokens(text: str) -> tuple[Any, ...]:
     """Tokens of a text; none if it holds a number that is too long."""
     try:
         return tuple(tinycss2.parse_component_value_list(text, skip_comments=True))
@@ -84,37 +84,37 @@ def parsed(text: str) -> tuple[Any, ...]:
         return ()
 
 
-def sampled(text: str) -> str:
+def sample_calculations(text: str) -> str:
     """A value with a number or length of the same kind in place of each calculation, to tell whether it is valid.
 
     Examples
     --------
-    >>> sampled("translate(calc(1px + 5%), min(1px, 2px)) rotate(calc(1turn / 3))")
+    >>> sample_calculations("translate(calc(1px + 5%), min(1px, 2px)) rotate(calc(1turn / 3))")
     'translate(1px, 1px) rotate(1deg)'
     """
-    return replaced(text, sample)
+    return replace_calculations(text, sample)
 
 
-def reduced(text: str) -> str:
+def reduce_calculations(text: str) -> str:
     """A value with what each calculation of numbers, percentages or angles gives in its place.
 
     Examples
     --------
-    >>> reduced("rgb(calc(2 * 50) min(7, 8) 0 / calc(50% / 2))")
+    >>> reduce_calculations("rgb(calc(2 * 50) min(7, 8) 0 / calc(50% / 2))")
     'rgb(100.0 7.0 0 / 25.0%)'
     """
-    return replaced(text, result)
+    return replace_calculations(text, result)
 
 
-def replaced(text: str, instead: Callable[[Any], str | None]) -> str:
+def replace_calculations(text: str, instead: Callable[[Any], str | None]) -> str:
     """A value with other texts in place of calculations that have one."""
     if "(" not in text or len(text) > LONGEST:
         return text
-    return "".join(written(token, instead) for token in parsed(text))
+    return "".join(written(token, instead) for token in parse_tokens(text))
 
 
 def written(token: Any, instead: Callable[[Any], str | None]) -> str:
-    """Text of a token, as in `replaced`."""
+    """Text of a token, as in `replace_calculations`."""
     if token.type != "function":
         return str(tinycss2.serialize([token]))
     if token.lower_name not in MATH:
@@ -124,7 +124,7 @@ def written(token: Any, instead: Callable[[Any], str | None]) -> str:
 
 
 def sample(token: Any) -> str | None:
-    """Text for a calculation, as in `sampled`; None if it is not valid."""
+    """Text for a calculation, as in `sample_calculations`; None if it is not valid."""
     for kind in (PERCENT, LENGTH):
         found = attempt(token, partial(of_kind, percentages=kind))
         if found is not None:
@@ -133,7 +133,7 @@ def sample(token: Any) -> str | None:
 
 
 def result(token: Any) -> str | None:
-    """Text for a calculation, as in `reduced`; None if it is not valid."""
+    """Text for a calculation, as in `reduce_calculations`; None if it is not valid."""
     found = attempt(token, lambda value, unit: Quantity(value, PERCENT) if unit == "%" else None)
     if found is None:
         return None
@@ -144,8 +144,8 @@ def result(token: Any) -> str | None:
 def attempt(token: Any, resolve: Resolve) -> Quantity | None:
     """Value of a function; None if it is not valid."""
     try:
-        return called(token, resolve)
-    except (InvalidError, OverflowError):
+        return evaluate_function(token, resolve)
+    except (InvalidCalculationError, OverflowError):
         return None
 
 
@@ -156,11 +156,11 @@ def of_kind(value: float, unit: str, percentages: str) -> Quantity:
     return Quantity(value, percentages if unit == "%" else LENGTH)
 
 
-def called(token: Any, resolve: Resolve) -> Quantity:
+def evaluate_function(token: Any, resolve: Resolve) -> Quantity:
     """Value of a function."""
-    name, arguments = token.lower_name, separated(token.arguments)
+    name, arguments = token.lower_name, split_arguments(token.arguments)
     if name == "round" and len(arguments) > 1 and (word := keyword(arguments[0])) in ROUNDINGS:
-        return rounded(ROUNDINGS[word], [total(part, resolve) for part in arguments[1:]])
+        return round_to(ROUNDINGS[word], [total(part, resolve) for part in arguments[1:]])
     if name == "clamp" and len(arguments) == 3:
         ends = zip(arguments, ("-infinity", "", "infinity"), strict=True)
         parts = [None if keyword(part) == "none" and end else total(part, resolve) for part, end in ends]
@@ -172,11 +172,11 @@ def called(token: Any, resolve: Resolve) -> Quantity:
         return Quantity(value if low is None else max(value, low.value), middle.kind)
     found = MATH[name]
     if found is None:
-        raise InvalidError
+        raise InvalidCalculationError
     return found([total(part, resolve) for part in arguments])
 
 
-def separated(tokens: list[Any]) -> list[list[Any]]:
+def split_arguments(tokens: list[Any]) -> list[list[Any]]:
     """Arguments between commas."""
     found: list[list[Any]] = [[]]
     for token in tokens:
@@ -200,7 +200,7 @@ def total(tokens: list[Any], resolve: Resolve) -> Quantity:
     for at, token in enumerate(tokens):
         if token in ("+", "-"):  # tokens have no hash
             if not (0 < at < len(tokens) - 1 and tokens[at - 1].type == tokens[at + 1].type == "whitespace"):
-                raise InvalidError
+                raise InvalidCalculationError
             signs.append(1.0 if token == "+" else -1.0)
             terms.append([])
         elif token.type != "whitespace":
@@ -213,20 +213,20 @@ def total(tokens: list[Any], resolve: Resolve) -> Quantity:
 def product(tokens: list[Any], resolve: Resolve) -> Quantity:
     """Value of factors and divisors."""
     if len(tokens) % 2 == 0:
-        raise InvalidError
+        raise InvalidCalculationError
     value, kind = single(tokens[0], resolve)
     for sign, token in zip(tokens[1::2], tokens[2::2], strict=True):
         other = single(token, resolve)
         if sign == "*" and NUMBER in (kind, other.kind):
             value, kind = value * other.value, other.kind if kind == NUMBER else kind
         elif sign == "/" and other.kind in (NUMBER, kind):
-            value, kind = divided(value, other.value), kind if other.kind == NUMBER else NUMBER
+            value, kind = divide(value, other.value), kind if other.kind == NUMBER else NUMBER
         else:
-            raise InvalidError
+            raise InvalidCalculationError
     return Quantity(value, kind)
 
 
-def divided(a: float, b: float) -> float:
+def divide(a: float, b: float) -> float:
     """Quotient, infinite where the divisor is zero."""
     if b == 0.0:
         return math.nan if a == 0.0 or math.isnan(a) else math.copysign(math.inf, a) * math.copysign(1.0, b)
@@ -248,9 +248,9 @@ def single(token: Any, resolve: Resolve) -> Quantity:
     elif token.type == "() block":
         found = total(token.content, resolve)
     elif token.type == "function" and token.lower_name in MATH:
-        found = called(token, resolve)
+        found = evaluate_function(token, resolve)
     if found is None:
-        raise InvalidError
+        raise InvalidCalculationError
     return found
 
 
@@ -258,54 +258,54 @@ def alike(values: list[Quantity]) -> str:
     """The kind of all values."""
     kinds = {one.kind for one in values}
     if len(kinds) != 1:
-        raise InvalidError
+        raise InvalidCalculationError
     return kinds.pop()
 
 
 def same(function: Callable[..., float], least: int = 1, most: int | None = None) -> Function:
     """A function of values of one kind that gives one of it."""
 
-    def called(values: list[Quantity]) -> Quantity:
+    def evaluate(values: list[Quantity]) -> Quantity:
         if not least <= len(values) <= (most or len(values)):
-            raise InvalidError
+            raise InvalidCalculationError
         return Quantity(finite(function, *(one.value for one in values)), alike(values))
 
-    return called
+    return evaluate
 
 
 def plain(function: Callable[..., float], least: int = 1, most: int = 1) -> Function:
     """A function of numbers that gives a number."""
 
-    def called(values: list[Quantity]) -> Quantity:
+    def evaluate(values: list[Quantity]) -> Quantity:
         found = same(function, least, most)(values)
         if found.kind != NUMBER:
-            raise InvalidError
+            raise InvalidCalculationError
         return found
 
-    return called
+    return evaluate
 
 
-def turned(function: Callable[[float], float]) -> Function:
+def function_of_angle(function: Callable[[float], float]) -> Function:
     """A function of an angle, in radians where it is a number."""
 
-    def called(values: list[Quantity]) -> Quantity:
+    def evaluate(values: list[Quantity]) -> Quantity:
         if len(values) != 1 or values[0].kind not in (NUMBER, ANGLE):
-            raise InvalidError
+            raise InvalidCalculationError
         value, kind = values[0]
         return Quantity(finite(function, math.radians(value) if kind == ANGLE else value), NUMBER)
 
-    return called
+    return evaluate
 
 
 def to_angle(function: Callable[..., float], count: int = 1) -> Function:
     """A function that gives an angle."""
 
-    def called(values: list[Quantity]) -> Quantity:
+    def evaluate(values: list[Quantity]) -> Quantity:
         if count == 1 and values[0].kind != NUMBER:
-            raise InvalidError
+            raise InvalidCalculationError
         return Quantity(math.degrees(same(function, count, count)(values).value), ANGLE)
 
-    return called
+    return evaluate
 
 
 def finite(function: Callable[..., float], *values: float) -> float:
@@ -324,7 +324,7 @@ ROUNDINGS: Final[dict[str, Callable[[float], float]]] = {
 }
 
 
-def rounded(rule: Callable[[float], float], values: list[Quantity]) -> Quantity:
+def round_to(rule: Callable[[float], float], values: list[Quantity]) -> Quantity:
     """A value rounded to a multiple of another one, or of one."""
     if len(values) == 1 and values[0].kind == NUMBER:
         values = [*values, Quantity(1.0, NUMBER)]
@@ -337,7 +337,7 @@ MATH: Final[dict[str, Function | None]] = {
     "min": same(lambda *values: min(values)),
     "max": same(lambda *values: max(values)),
     "clamp": None,
-    "round": lambda values: rounded(ROUNDINGS["nearest"], values),
+    "round": lambda values: round_to(ROUNDINGS["nearest"], values),
     "mod": same(lambda a, b: a % b, 2, 2),
     "rem": same(math.fmod, 2, 2),
     "abs": same(abs, 1, 1),
@@ -347,12 +347,12 @@ MATH: Final[dict[str, Function | None]] = {
     "exp": plain(math.exp),
     "log": plain(math.log, 1, 2),
     "pow": plain(math.pow, 2, 2),
-    "sin": turned(math.sin),
-    "cos": turned(math.cos),
-    "tan": turned(math.tan),
+    "sin": function_of_angle(math.sin),
+    "cos": function_of_angle(math.cos),
+    "tan": function_of_angle(math.tan),
     "asin": to_angle(math.asin),
     "acos": to_angle(math.acos),
     "atan": to_angle(math.atan),
     "atan2": to_angle(math.atan2, 2),
 }
-"""Functions of lists of arguments; that of a bounded value, `clamp`, is `called` itself."""
+"""Functions of lists of arguments; that of a bounded value, `clamp`, is `evaluate_function` itself."""

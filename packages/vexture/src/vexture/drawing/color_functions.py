@@ -6,7 +6,7 @@ from typing import Any, Final, NamedTuple
 import tinycss2
 from coloraide import Color
 
-from vexture.drawing.calculation import keyword, reduced, separated
+from vexture.drawing.calculation import keyword, reduce_calculations, split_arguments
 
 __all__ = ["Rgba", "color_of_function"]
 
@@ -14,7 +14,7 @@ Rgba = tuple[float, float, float, float]
 """Red, green, blue and opacity in sRGB; the colours may be outside 0..1."""
 
 
-class Model(NamedTuple):
+class ColorModel(NamedTuple):
     """A function that gives a colour by three numbers."""
 
     space: str
@@ -23,15 +23,15 @@ class Model(NamedTuple):
 
 
 MODELS: Final = {
-    "rgb": Model("srgb", "rgb", (255.0, 255.0, 255.0)),
-    "rgba": Model("srgb", "rgb", (255.0, 255.0, 255.0)),
-    "hsl": Model("hsl", "hsl", (1.0, 100.0, 100.0)),
-    "hsla": Model("hsl", "hsl", (1.0, 100.0, 100.0)),
-    "hwb": Model("hwb", "hwb", (1.0, 100.0, 100.0)),
-    "lab": Model("lab", "lab"),
-    "lch": Model("lch", "lch"),
-    "oklab": Model("oklab", "lab"),
-    "oklch": Model("oklch", "lch"),
+    "rgb": ColorModel("srgb", "rgb", (255.0, 255.0, 255.0)),
+    "rgba": ColorModel("srgb", "rgb", (255.0, 255.0, 255.0)),
+    "hsl": ColorModel("hsl", "hsl", (1.0, 100.0, 100.0)),
+    "hsla": ColorModel("hsl", "hsl", (1.0, 100.0, 100.0)),
+    "hwb": ColorModel("hwb", "hwb", (1.0, 100.0, 100.0)),
+    "lab": ColorModel("lab", "lab"),
+    "lch": ColorModel("lch", "lch"),
+    "oklab": ColorModel("oklab", "lab"),
+    "oklch": ColorModel("oklch", "lch"),
 }
 
 RGB_SPACES: Final = frozenset(
@@ -49,7 +49,7 @@ HUES: Final = frozenset({"shorter", "longer", "increasing", "decreasing"})
 DEFAULT_SPACE: Final = "oklab"
 
 
-class InvalidError(Exception):
+class InvalidColorError(Exception):
     """A colour is not valid."""
 
 
@@ -66,7 +66,7 @@ def color_of_function(token: Any, current: Rgba | None) -> Rgba | None:
         found = wide(token, current).convert("srgb")
         red, green, blue = found.coords(nans=False)
         return red, green, blue, min(max(found.alpha(nans=False), 0.0), 1.0)
-    except (InvalidError, ValueError, OverflowError):
+    except (InvalidColorError, ValueError, OverflowError):
         return None
 
 
@@ -85,10 +85,10 @@ def wide(token: Any, current: Rgba | None) -> Color:
     if arguments and keyword(arguments[:1]) == "from":
         return relative(token.lower_name, arguments[1:], current)
     if token.lower_name == "color" and keyword(arguments[:1]) not in {*RGB_SPACES, *XYZ_SPACES}:
-        raise InvalidError
+        raise InvalidColorError
     if token.lower_name != "color" and token.lower_name not in MODELS:
-        raise InvalidError
-    return plain(reduced(tinycss2.serialize([token])))
+        raise InvalidColorError
+    return plain(reduce_calculations(tinycss2.serialize([token])))
 
 
 def plain(text: str) -> Color:
@@ -104,9 +104,9 @@ def plain(text: str) -> Color:
 
 def pair(token: Any) -> list[list[Any]]:
     """Two arguments of a function."""
-    parts = separated(token.arguments)
+    parts = split_arguments(token.arguments)
     if len(parts) != 2:
-        raise InvalidError
+        raise InvalidColorError
     return parts
 
 
@@ -114,27 +114,27 @@ def single(tokens: list[Any]) -> Any:
     """The one token that is no space."""
     found = [token for token in tokens if token.type != "whitespace"]
     if len(found) != 1:
-        raise InvalidError
+        raise InvalidColorError
     return found[0]
 
 
 def mixture(token: Any, current: Rgba | None) -> Color:
     """Colour of `color-mix()` (CSS Color 5, 2)."""
-    parts = separated(token.arguments)
+    parts = split_arguments(token.arguments)
     words = [str(part.lower_value) if part.type == "ident" else "" for part in parts[0] if part.type != "whitespace"]
     space, hue = DEFAULT_SPACE, "shorter"
     if words and words[0] == "in":
         parts = parts[1:]
         if len(words) not in (2, 4) or words[1] not in MIXED_IN:
-            raise InvalidError
+            raise InvalidColorError
         space = MIXED_IN[words[1]]
         if len(words) == 4:
             hue = words[2]
             if hue not in HUES or words[3] != "hue":
-                raise InvalidError
+                raise InvalidColorError
     if len(parts) != 2:
-        raise InvalidError
-    (first, part), (second, other) = (weighed(each, current) for each in parts)
+        raise InvalidColorError
+    (first, part), (second, other) = (weighted_color(each, current) for each in parts)
     if part is None:
         part = 1.0 - other if other is not None else 0.5
     if other is None:
@@ -156,45 +156,49 @@ def mixture(token: Any, current: Rgba | None) -> Color:
     return found
 
 
-def weighed(tokens: list[Any], current: Rgba | None) -> tuple[Color, float | None]:
+def weighted_color(tokens: list[Any], current: Rgba | None) -> tuple[Color, float | None]:
     """A colour of a mixture and its part, if it says one."""
-    weights = [tinycss2.parse_one_component_value(reduced(tinycss2.serialize([token]))) for token in tokens]
+    weights = [tinycss2.parse_one_component_value(reduce_calculations(tinycss2.serialize([token]))) for token in tokens]
     found = [weight.value / 100.0 for weight in weights if weight.type == "percentage"]
     others = [token for token, weight in zip(tokens, weights, strict=True) if weight.type != "percentage"]
     if len(found) > 1 or not all(0.0 <= weight <= 1.0 for weight in found):
-        raise InvalidError
+        raise InvalidColorError
     return wide(single(others), current), found[0] if found else None
 
 
 def relative(name: str, arguments: list[Any], current: Rgba | None) -> Color:
     """Colour from the channels of another one (CSS Color 5, 4)."""
     if not arguments:
-        raise InvalidError
+        raise InvalidColorError
     origin, prefix = wide(arguments[0], current), ""
     model, rest = MODELS.get(name), arguments[1:]
     if name == "color" and rest:
         space = keyword(rest[:1])
         if space not in MIXED_IN or space in MODELS:
-            raise InvalidError
-        model, rest, prefix = Model(MIXED_IN[space], "xyz" if space in XYZ_SPACES else "rgb"), rest[1:], f"{space} "
+            raise InvalidColorError
+        model, rest, prefix = (
+            ColorModel(MIXED_IN[space], "xyz" if space in XYZ_SPACES else "rgb"),
+            rest[1:],
+            f"{space} ",
+        )
     if model is None:
-        raise InvalidError
+        raise InvalidColorError
     origin = origin.convert(model.space)
     values = zip(model.channels, origin.coords(nans=False), model.scales, strict=True)
     channels = {channel: value * scale for channel, value, scale in values}
     channels["alpha"] = origin.alpha(nans=False)
     slash = next((at for at, token in enumerate(rest) if token == "/"), None)
     alpha = channels["alpha"] if slash is None else None
-    written = " ".join(reduced(filled(token, channels)) for token in rest)
+    written = " ".join(reduce_calculations(fill_channels(token, channels)) for token in rest)
     return plain(f"{name}({prefix}{written}{f' / {alpha!r}' if alpha is not None else ''})")
 
 
-def filled(token: Any, channels: dict[str, float]) -> str:
+def fill_channels(token: Any, channels: dict[str, float]) -> str:
     """Text of a token with numbers for the names of channels."""
     if token.type == "ident" and token.lower_value in channels:
         return f"{channels[token.lower_value]:.12f}"
     if token.type == "function":
-        return f"{token.name}({''.join(filled(part, channels) for part in token.arguments)})"
+        return f"{token.name}({''.join(fill_channels(part, channels) for part in token.arguments)})"
     if token.type == "() block":
-        return f"({''.join(filled(part, channels) for part in token.content)})"
+        return f"({''.join(fill_channels(part, channels) for part in token.content)})"
     return str(tinycss2.serialize([token]))

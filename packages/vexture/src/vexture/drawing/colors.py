@@ -79,7 +79,7 @@ def read_color(text: str, current: Color | None) -> Color | str | None:
         parts = [min(max(part or 0.0, 0.0), 100.0) for part in parts]
         parsed = tinycss2.color4.Color("hsl", (hue, *parts), parsed.alpha)
     red, green, blue = parsed.to("srgb").coordinates
-    return clipped(red, green, blue, parsed.alpha)
+    return clip_color(red, green, blue, parsed.alpha)
 
 
 def read_function(token: Any, text: str, current: Color | None) -> Color | str | None:
@@ -90,7 +90,7 @@ def read_function(token: Any, text: str, current: Color | None) -> Color | str |
     found = color_of_function(token, (*own.rgb, own.alpha))
     if found is None:
         return None
-    return text if current is None and CURRENT in text.lower() else clipped(*found)
+    return text if current is None and CURRENT in text.lower() else clip_color(*found)
 
 
 def is_hsl(token: Any) -> bool:
@@ -99,7 +99,7 @@ def is_hsl(token: Any) -> bool:
     return "," not in parts or all(part.type == "percentage" for part in parts[2:5:2])
 
 
-def clipped(red: float | None, green: float | None, blue: float | None, alpha: float) -> Color:
+def clip_color(red: float | None, green: float | None, blue: float | None, alpha: float) -> Color:
     """Colour of channels, each of which is brought into the range of sRGB, as browsers do."""
     first, second, third = (min(max(float(channel or 0.0), 0.0), 1.0) for channel in (red, green, blue))
     return Color((first, second, third), float(alpha))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vexture.base.errors import SourceError
 from vexture.bezier.convert import write_lines
 
-__all__ = ["Closed", "check_contours", "joined", "ring_contours", "together"]
+__all__ = ["Closed", "check_contours", "join_contours", "ring_contours", "together"]
 
 BLOCK = 1 << 18
 """Cubics of short contours that are checked together, 17 MB."""
@@ -72,13 +72,13 @@ def together(of_paths: Sequence[Sequence[NDArray[np.float64]]]) -> Sequence[NDAr
     return [contour for contours in of_paths for contour in contours]
 
 
-def joined(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+def join_contours(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     """All cubics of contours, (n, 4, 2): a part of the array whose parts they are, or else a copy; only to be read.
 
     Examples
     --------
     >>> whole = np.zeros((5, 4, 2))
-    >>> [np.shares_memory(whole, joined(parts)) for parts in ([whole[1:3], whole[3:]], [whole[3:], whole[:3]])]
+    >>> [np.shares_memory(whole, join_contours(parts)) for parts in ([whole[1:3], whole[3:]], [whole[3:], whole[:3]])]
     [True, False]
     """
     if isinstance(contours, Closed):
@@ -86,23 +86,23 @@ def joined(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     if not contours:
         return np.empty((0, 4, 2))
     if len(contours) > MANY and sum(map(len, contours)) < SHORT * len(contours):
-        return _copied(contours)
+        return _copy_contours(contours)
     base: Any = contours[0] if len(contours) == 1 else contours[0].base  # of another process's array, bytes
     if not isinstance(base, np.ndarray) or base.dtype != np.float64:
-        return _copied(contours)
+        return _copy_contours(contours)
     if not (base.flags.c_contiguous and base.flags.writeable):
-        return _copied(contours)
+        return _copy_contours(contours)
     first = at = _address(contours[0])
     for contour in contours:
         if (contour.base is not base and contour is not base) or _address(contour) != at or not _is_plain(contour):
-            return _copied(contours)
+            return _copy_contours(contours)
         at += contour.nbytes
     start, end = ((place - _address(base)) // base.itemsize for place in (first, at))
     found: NDArray[np.float64] = base.reshape(-1)[start:end].reshape(-1, 4, 2)
     return found
 
 
-def _copied(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+def _copy_contours(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     return np.ascontiguousarray(np.concatenate(contours))  # concatenate keeps the order of the axes
 
 
@@ -141,7 +141,7 @@ def _check_finite(cubics: NDArray[np.float64]) -> None:
 
 
 def _check_values(contours: Sequence[NDArray[np.float64]]) -> None:
-    cubics = joined(contours)
+    cubics = join_contours(contours)
     _check_finite(cubics)
     lasts = np.cumsum([len(contour) for contour in contours]) - 1
     firsts = np.append(0, lasts[:-1] + 1)

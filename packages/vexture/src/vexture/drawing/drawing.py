@@ -20,10 +20,10 @@ from vexture.base.deadline import check_time
 from vexture.base.errors import SourceError
 from vexture.base.notes import Note
 from vexture.bezier.convert import line_cubics
-from vexture.drawing.contours import check_contours, joined, together
+from vexture.drawing.contours import check_contours, join_contours, together
 from vexture.drawing.group import Blend, Group, Mask, groups_around
 from vexture.drawing.paint import BLACK, Affine, Paint
-from vexture.drawing.unit_square import clipped, tidied
+from vexture.drawing.unit_square import clip_contours, tidy_contours
 
 __all__ = ["Drawing", "FillRule", "Path"]
 
@@ -78,7 +78,7 @@ class Path:
         check_contours(self.contours)
 
     @classmethod
-    def sound(
+    def unchecked(
         cls,
         contours: tuple[NDArray[np.float64], ...],
         fill_rule: FillRule,
@@ -98,16 +98,18 @@ class Path:
         return path
 
     @classmethod
-    def _sound(cls, contours: tuple[NDArray[np.float64], ...], like: "Path", to_source: Affine) -> "Path":
+    def _unchecked(cls, contours: tuple[NDArray[np.float64], ...], like: "Path", to_source: Affine) -> "Path":
         """Sound path whose rest is another's, moved."""
-        return cls.sound(contours, like.fill_rule, like.paint.after(to_source), like.group, like.element, like.hides)
+        return cls.unchecked(
+            contours, like.fill_rule, like.paint.after(to_source), like.group, like.element, like.hides
+        )
 
     @property
     def box(self) -> NDArray[np.float64]:
         """Least and greatest coordinates of all control points, (2, 2): no part of the path is outside."""
         if not self.contours:
             return np.array([[np.inf, np.inf], [-np.inf, -np.inf]])
-        points = joined(self.contours)
+        points = join_contours(self.contours)
         return np.stack([points.min(axis=(0, 1)), points.max(axis=(0, 1))])
 
 
@@ -153,7 +155,7 @@ class Drawing:
         self._check_groups()
         if np.shape(self.to_source) != (2, 3) or not np.isfinite(self.to_source).all():
             raise SourceError(f"{self.name}: to_source must be a finite (2, 3) array")
-        begins = joined(together([path.contours for path in self.paths]))[:, 0]
+        begins = join_contours(together([path.contours for path in self.paths]))[:, 0]
         inside = (begins[:, axis].min() >= 0.0 and begins[:, axis].max() <= 1.0 for axis in range(2))
         if len(begins) and not all(inside):
             raise SourceError(f"{self.name}: a contour leaves the unit square; clip or scale it first")
@@ -249,13 +251,13 @@ class Drawing:
                 hidden.add(place)
         hidden |= patterns
         shown = [path for path in self.paths if path.group not in hidden]
-        paints = (path.paint.faded(opacities[path.group]) for path in shown)
+        paints = (path.paint.fade(opacities[path.group]) for path in shown)
         flat = (Paint(paint.color, paint.opacity) for paint in paints)
         paths = tuple(replace(path, paint=paint, group=-1) for path, paint in zip(shown, flat, strict=True))
         return replace(self, paths=paths, groups=(), notes=(*self.notes, *self._lost()))
 
-    def unmasked(self) -> "Drawing":
-        """What a silhouette is made of: the drawing without its masks, with a note of them if it has any."""
+    def without_masks(self) -> "Drawing":
+        """The drawing of which a silhouette is made: without its masks, with a note of them if it has any."""
         if not any(group.mask for group in self.groups):
             return self
         plain = self.flat()
@@ -353,10 +355,10 @@ class Drawing:
         contours = [contour for path in listed for contour in path.contours]
         if not contours:
             return cls((), to_source, name, groups=groups, sides=sides)
-        cubics = (joined(contours) - (x, y)) / size + low
+        cubics = (join_contours(contours) - (x, y)) / size + low
         cubics[..., 1] = 1.0 - cubics[..., 1]
         ends = np.cumsum([len(contour) for contour in contours])
-        kept = tidied(*clipped(cubics, ends, low, 1.0 - low))
+        kept = tidy_contours(*clip_contours(cubics, ends, low, 1.0 - low))
         normal = []
         a, b, c, d, e, f = to_source.ravel().tolist()
         rows = ((a, b, c), (d, e, f))
@@ -366,5 +368,5 @@ class Drawing:
             inside = tuple(kept[k] for k in range(at, after) if k in kept)
             at = after
             if inside:
-                normal.append(Path._sound(inside, path, rows))
+                normal.append(Path._unchecked(inside, path, rows))
         return cls(tuple(normal), to_source, name, groups=groups, sides=sides)

@@ -10,7 +10,7 @@ __all__ = ["Blend", "Group", "Mask", "groups_around"]
 
 
 class Blend(IntEnum):
-    """How a group's colours mix with what is below, as in *Compositing and Blending Level 1* of the W3C."""
+    """Mixing of a group's colours with those below, as in *Compositing and Blending Level 1* of the W3C."""
 
     NORMAL = 0
     MULTIPLY = 1
@@ -32,7 +32,7 @@ class Blend(IntEnum):
 
 
 class Mask(IntEnum):
-    """What of a group's colour masks the group around it, which is hidden where that is 0.
+    """The part of a group's colour that masks the group around it, which is hidden where that is 0.
 
     A clip is a mask by opacity, of opaque paths. Luminance is that of premultiplied sRGB (CSS Masking 1, 7.10.1).
     """

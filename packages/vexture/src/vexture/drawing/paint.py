@@ -16,7 +16,7 @@ Affine = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 class Spread(IntEnum):
-    """What a gradient does beyond its first and last stop: keep their colours, go back and forth, or begin again."""
+    """Behaviour of a gradient beyond its first and last stop: keep their colours, go back and forth, or begin again."""
 
     PAD = 0
     REFLECT = 1
@@ -89,19 +89,19 @@ class Paint:
             raise SourceError(f"a paint is {self.color} with opacity {self.opacity}; all must be in 0..1")
 
     @classmethod
-    def of(cls, gradient: Gradient) -> "Paint":
+    def from_gradient(cls, gradient: Gradient) -> "Paint":
         """Paint of a gradient, with the mean of its stops' colours.
 
         Examples
         --------
-        >>> Paint.of(Gradient(((1, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1), 0.5)))).hex
+        >>> Paint.from_gradient(Gradient(((1, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1), 0.5)))).hex
         '#800080bf'
         """
         stops = gradient.stops
         red, green, blue = (sum(stop.color[k] for stop in stops) / len(stops) for k in range(3))
         return cls((red, green, blue), sum(stop.opacity for stop in stops) / len(stops), gradient)
 
-    def faded(self, opacity: float) -> "Paint":
+    def fade(self, opacity: float) -> "Paint":
         """The paint with its opacity, and that of all stops, multiplied."""
         if opacity == 1.0:
             return self

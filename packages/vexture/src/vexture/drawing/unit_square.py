@@ -9,13 +9,13 @@ from vexture.base.errors import SourceError
 from vexture.base.tolerance import CLOSED
 from vexture.bezier.convert import line_cubics, straight
 
-__all__ = ["FARTHEST", "clipped", "tidied"]
+__all__ = ["FARTHEST", "clip_contours", "tidy_contours"]
 
 FARTHEST: Final = 1e9
 """Unit-square units. Beyond it, float64 cannot tell points within the drawing apart by 1e-6."""
 
 
-def clipped(
+def clip_contours(
     joined: NDArray[np.float64], ends: NDArray[np.intp], low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
     """Clip contours to a box: all their cubics one after another, and the indices at which the contours end."""
@@ -39,10 +39,10 @@ def clipped(
     return joined, ends
 
 
-def tidied(joined: NDArray[np.float64], ends: NDArray[np.intp]) -> dict[int, NDArray[np.float64]]:
+def tidy_contours(joined: NDArray[np.float64], ends: NDArray[np.intp]) -> dict[int, NDArray[np.float64]]:
     """Contours that enclose an area, by index, without cubics of no length, closed bit for bit, with exact lines.
 
-    The parameters are those that `clipped` returns.
+    The parameters are those that `clip_contours` returns.
     """
     keep = np.abs(joined - joined[:, :1]).max(axis=(1, 2)) > CLOSED
     joined, owner = joined[keep], np.searchsorted(ends, np.flatnonzero(keep), side="right")

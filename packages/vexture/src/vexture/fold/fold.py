@@ -23,7 +23,7 @@ WRAPS: Final = ("none", "clamp", "repeat")
 
 
 class Kind(IntEnum):
-    """How a texel moves from its place to its end position.
+    """Movement of a texel from its place to its end position.
 
     With x = (time - begin) / duration clamped to 0..1, the progress is x (linear), x^2 (smooth start), 1 - (1 - x)^2
     (smooth end) or x^2 (3 - 2 x) (smooth both). The periodic kind has the progress 0 before its begin, and then
@@ -239,7 +239,7 @@ def fold_from(data: bytes, source: str = "fold") -> Fold:
                 found = repr(texts.get(key))[:80]
                 raise FormatError(f"{key} is {found}; a fold has {known!r}; {REMEDY}")
         columns, rows, cycle = _read_facts(texts.get(layout.TEXT_FOLD, ""))
-        return _unpacked(texels, columns, rows, cycle)
+        return _fold_of_texels(texels, columns, rows, cycle)
     except ParameterError as error:
         raise FormatError(f"{source}: {error}; {REMEDY}") from None
     except FormatError as error:
@@ -264,7 +264,7 @@ def _read_facts(text: str) -> tuple[int, int, float]:
     return facts["columns"], facts["rows"], float(cycle)
 
 
-def _unpacked(texels: NDArray[np.uint32], columns: int, rows: int, cycle: float) -> Fold:
+def _fold_of_texels(texels: NDArray[np.uint32], columns: int, rows: int, cycle: float) -> Fold:
     """Fold of a file's texels."""
     flat, count = texels.reshape(-1, 4), rows * columns
     width = min(1 << (count - 1).bit_length(), 1 << ROW_BITS)

@@ -25,10 +25,10 @@ Line: TypeAlias = tuple[float, float, tuple[Stop, ...]]
 """The places of the first and last stop on the paint's own ramp, and the stops between them, at 0..1."""
 
 
-def solid(color: Any, own: bool, foreground: Color) -> Paint:
-    """A flat paint; `own` says that it is the text's colour, which is kept unrounded."""
+def solid(color: Any, is_foreground: bool, foreground: Color) -> Paint:
+    """A flat paint; `is_foreground` says that it is the text's colour, which is kept unrounded."""
     plain = (color.red / 255.0, color.green / 255.0, color.blue / 255.0)
-    return Paint(foreground if own else plain, color.alpha / 255.0)
+    return Paint(foreground if is_foreground else plain, color.alpha / 255.0)
 
 
 def line_of(line: Any, foreground: Color) -> Line | None:
@@ -45,7 +45,7 @@ def line_of(line: Any, foreground: Color) -> Line | None:
 
 
 def spread_of(line: Any) -> Spread:
-    """What a colour line does beyond its ends."""
+    """Behaviour of a colour line beyond its ends."""
     return SPREADS[line.extend.name]
 
 
@@ -72,7 +72,7 @@ def linear(line: Any, points: tuple[float, ...], foreground: Color) -> Paint | N
     origin = first / (last - first or 1.0)
     u, v = nx * scale, ny * scale
     rows: Affine = ((u, v, -u * x0 - v * y0 - origin), (-v, u, v * x0 - u * y0))
-    return Paint.of(Gradient(rows, stops, spread_of(line)))
+    return Paint.from_gradient(Gradient(rows, stops, spread_of(line)))
 
 
 def radial(line: Any, circles: tuple[float, ...], foreground: Color, notes: Notes) -> Paint | None:
@@ -135,12 +135,12 @@ def between(begins: Circle, ends: Circle, stops: tuple[Stop, ...], spread: Sprea
     away = hypot(dx, dy)
     c, s = (dx / away / radius, dy / away / radius) if away else (1.0 / radius, 0.0)
     rows: Affine = ((c, s, -c * x - s * y), (-s, c, s * x - c * y))
-    return Paint.of(Gradient(rows, stops, spread, (away / radius, max(begins[2], 0.0) / radius)))
+    return Paint.from_gradient(Gradient(rows, stops, spread, (away / radius, max(begins[2], 0.0) / radius)))
 
 
 def mean(stops: tuple[Stop, ...]) -> Paint:
     """Flat paint of the mean colour of stops."""
-    return replace(Paint.of(Gradient(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), stops)), gradient=None)
+    return replace(Paint.from_gradient(Gradient(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), stops)), gradient=None)
 
 
 def swept(line: Any, foreground: Color, notes: Notes) -> Paint | None:

@@ -15,7 +15,7 @@ from vexture.base.errors import SourceError
 from vexture.drawing.paint import Color
 from vexture.fonts.engine import harfbuzz
 from vexture.fonts.files import DESCRIBING, is_sfnt, sfnt_of
-from vexture.fonts.layers import Layers, glyph_layers
+from vexture.fonts.layers import GlyphLayers, glyph_layers
 from vexture.fonts.outlines import glyph_outline
 from vexture.fonts.places import NO_FILE
 
@@ -83,10 +83,10 @@ class Face:
     @cached_property
     def _font(self) -> Any:
         """The whole font."""
-        return self._described if self.load is None else self._font_of(self.load())
+        return self._described_font if self.load is None else self._font_of(self.load())
 
     @cached_property
-    def _described(self) -> Any:
+    def _described_font(self) -> Any:
         """The font, of which only the tables that describe it may be there."""
         return self._font_of(self.blob)
 
@@ -100,7 +100,7 @@ class Face:
     @cached_property
     def names(self) -> tuple[str, ...]:
         """All names of its family, in all languages; the first is `family`."""
-        face = self._described.face
+        face = self._described_font.face
         entries = {(entry.name_id, entry.language) for entry in face.list_names()}
         english = [face.get_name(number) for number in FAMILY_NAMES if any(number == known for known, _ in entries)]
         others = [face.get_name(number, language) for number, language in sorted(entries) if number in FAMILY_NAMES]
@@ -109,7 +109,7 @@ class Face:
     @cached_property
     def full_names(self) -> frozenset[str]:
         """Its own names, of which no other face of its family has one: in words, and as PostScript knows it."""
-        face = self._described.face
+        face = self._described_font.face
         found = (face.get_name(entry.name_id, entry.language) for entry in face.list_names() if entry.name_id in OWN)
         return frozenset(name.casefold() for name in found if name)
 
@@ -123,7 +123,7 @@ class Face:
         """CSS weight, 1 to 1000: 400 is regular, 700 bold."""
         said = min(max(round(self._style("WEIGHT")), 1), 1000)
         if said == RAISED and not self.axes:
-            style = (self._described.face.get_name(POSTSCRIPT) or "").partition("-")[2].casefold()
+            style = (self._described_font.face.get_name(POSTSCRIPT) or "").partition("-")[2].casefold()
             return next((weight for start, weight in LIGHTEST.items() if style.startswith(start)), said)
         return said
 
@@ -140,18 +140,18 @@ class Face:
         return "oblique" if self._style("SLANT_ANGLE") != 0.0 else "normal"
 
     def _style(self, name: str) -> float:
-        value: float = self._described.get_style_value(harfbuzz().StyleTag[name])
+        value: float = self._described_font.get_style_value(harfbuzz().StyleTag[name])
         return value
 
     @cached_property
     def axes(self) -> dict[str, tuple[float, float]]:
         """Least and greatest place on each axis of a variable font."""
-        return {axis.tag: (axis.min_value, axis.max_value) for axis in self._described.face.axis_infos}
+        return {axis.tag: (axis.min_value, axis.max_value) for axis in self._described_font.face.axis_infos}
 
     @property
     def units_per_em(self) -> int:
         """Units that make an em."""
-        return int(self._described.face.upem)
+        return int(self._described_font.face.upem)
 
     @property
     def ascender(self) -> float:
@@ -206,15 +206,15 @@ class Face:
         """Whether it has a glyph of a character, and is to be used for it."""
         if self.ranges and not any(first <= codepoint <= last for first, last in self.ranges):
             return False
-        return self._described.get_nominal_glyph(codepoint) is not None
+        return self._described_font.get_nominal_glyph(codepoint) is not None
 
     @cached_property
     def characters(self) -> frozenset[int]:
         """Codes of the characters in its table; a font of symbols `has` others in their stead, too."""
-        return frozenset(self._described.face.unicodes)
+        return frozenset(self._described_font.face.unicodes)
 
-    def lowered(self, glyph: int) -> float:
-        """How far a glyph of vertical text is to be moved from where HarfBuzz puts it.
+    def vertical_offset(self, glyph: int) -> float:
+        """Distance by which a glyph of vertical text is moved from where HarfBuzz puts it.
 
         HarfBuzz centres each glyph of a font without vertical metrics in its cell. Browsers put all of a font on the
         baseline, at the ascent below the top, so that letters have even steps.
@@ -231,7 +231,7 @@ class Face:
     @property
     def glyph_count(self) -> int:
         """Number of glyphs."""
-        return int(self._described.face.glyph_count)
+        return int(self._described_font.face.glyph_count)
 
     def outline(self, glyph: int) -> tuple[NDArray[np.float64], ...]:
         """Closed contours of cubics (n, 4, 2), filled by the nonzero rule; none of a glyph that is empty."""
@@ -244,7 +244,7 @@ class Face:
         return {}
 
     def missing(self, glyph: int) -> str:
-        """What a note says of a glyph that has a box and no outline; empty for any other.
+        """Message of a note about a glyph that has a box and no outline; empty for any other.
 
         HarfBuzz draws none that is composed of itself, or of more than its limits allow.
         """
@@ -255,8 +255,8 @@ class Face:
             return ""
         return f"glyph {glyph} of font {self.family[:40]!r}, which is composed of itself or of too many others"
 
-    def layers(self, glyph: int, foreground: Color = (0.0, 0.0, 0.0)) -> Layers | None:
-        """What a glyph in colour paints, with the text's own colour where the font says so; None of any other."""
+    def layers(self, glyph: int, foreground: Color = (0.0, 0.0, 0.0)) -> GlyphLayers | None:
+        """Layers of a glyph in colour, with the text's own colour where the font says so; None of any other."""
         return glyph_layers(self._font, glyph, self.outline, foreground) if self._in_colour else None
 
     @cached_property
@@ -265,7 +265,7 @@ class Face:
         face = self._font.face
         return bool(face.has_color_paint or face.has_color_layers or face.has_color_svg or face.has_color_png)
 
-    def varied(self, weight: float, stretch: float, style: str) -> "Face":
+    def with_style(self, weight: float, stretch: float, style: str) -> "Face":
         """The face nearest to a style; itself if it is not variable."""
         slant = {"italic": ("ital", 1.0), "oblique": ("slnt", -14.0)}
         wanted = dict([("wght", weight), ("wdth", stretch), *([slant[style]] if style in slant else [])])

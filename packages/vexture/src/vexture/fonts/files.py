@@ -45,7 +45,7 @@ def sfnt_of(content: bytes, tables: Collection[str] | None = None) -> bytes:
     if content.startswith((WOFF, WOFF2)):
         try:
             (check_woff if content.startswith(WOFF) else check_woff2)(content)
-            content = decompressed(content, tables)
+            content = decompress(content, tables)
         except (SourceError, DeviceError):
             raise
         except Exception as error:  # fontTools raises whatever a damaged table leads to
@@ -88,7 +88,7 @@ def check_woff2(content: bytes) -> None:
     check_size(len(brotli.Decompressor().process(file.read(packed), output_buffer_limit=LARGEST_FONT + 1)))
 
 
-def decompressed(content: bytes, tables: Collection[str] | None) -> bytes:
+def decompress(content: bytes, tables: Collection[str] | None) -> bytes:
     """Font in a WOFF or WOFF2, or some of its tables, without the metadata, which may be of any size."""
     from fontTools.ttLib import TTFont
 

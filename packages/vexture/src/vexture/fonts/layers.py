@@ -15,7 +15,7 @@ from vexture.drawing.group import Blend, Group, Mask
 from vexture.drawing.paint import BLACK, Color, Paint
 from vexture.fonts.paint_tree import Clip, Composite, Contours, Fill, Node, paint_tree, rectangle
 
-__all__ = ["Layers", "glyph_layers"]
+__all__ = ["GlyphLayers", "glyph_layers"]
 
 MOST_PATHS: Final = 10_000
 """Of one glyph, with its groups; groups that mask each other paint what they hold several times."""
@@ -50,8 +50,8 @@ PORTER_DUFF: Final = {
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Layers:
-    """What a glyph in colour paints.
+class GlyphLayers:
+    """The paths and groups of a glyph in colour.
 
     Parameters
     ----------
@@ -68,28 +68,28 @@ class Layers:
     notes: tuple[Note, ...] = ()
 
 
-def glyph_layers(font: Any, glyph: int, outline: Callable[[int], Contours], foreground: Color) -> Layers | None:
-    """What a glyph of a font in colour paints; None of any other glyph."""
+def glyph_layers(font: Any, glyph: int, outline: Callable[[int], Contours], foreground: Color) -> GlyphLayers | None:
+    """Layers of a glyph in colour; None of any other glyph."""
     face = font.face
     notes = Notes()
     if (face.has_color_paint and face.glyph_has_color_paint(glyph)) or (
         face.has_color_layers and face.get_glyph_color_layers(glyph)
     ):
         tree = paint_tree(font, glyph, outline, foreground, notes)
-        layers = Stack(bounds_of(tree.children))
+        layers = LayerStack(bounds_of(tree.children))
         layers.paint(tree.children, -1)
-        return Layers(tuple(layers.paths), tuple(layers.groups), notes.in_order)
+        return GlyphLayers(tuple(layers.paths), tuple(layers.groups), notes.in_order)
     kind = other_kind(font, glyph)
     if kind is None:
         return None
     shown = outline(glyph)
     message = f"glyphs that are {kind}"
     (notes.simplification if shown else notes.left_out)(f"{message}, shown as outlines" if shown else message)
-    return Layers((Path(shown, paint=Paint(foreground)),) if shown else (), (), notes.in_order)
+    return GlyphLayers((Path(shown, paint=Paint(foreground)),) if shown else (), (), notes.in_order)
 
 
 def other_kind(font: Any, glyph: int) -> str | None:
-    """What a glyph is, if it is a picture."""
+    """Kind of a glyph that is a picture."""
     if font.face.has_color_svg and font.face.get_glyph_color_svg(glyph):
         return "SVG documents"
     if font.face.has_color_png and font.get_glyph_color_png(glyph):
@@ -125,14 +125,16 @@ def is_clipped(node: Node) -> bool:
     return isinstance(node, Clip) or (isinstance(node, Composite) and all(map(is_clipped, node.children)))
 
 
-def blackened(paint: Paint) -> Paint:
+def blacken(paint: Paint) -> Paint:
     """A paint in black, with its opacity."""
     if paint.gradient is None:
         return Paint(opacity=paint.opacity)
-    return Paint.of(replace(paint.gradient, stops=tuple(replace(s, color=BLACK.color) for s in paint.gradient.stops)))
+    return Paint.from_gradient(
+        replace(paint.gradient, stops=tuple(replace(s, color=BLACK.color) for s in paint.gradient.stops))
+    )
 
 
-class Stack:
+class LayerStack:
     """Paths and groups that the nodes of a tree become; `black` leaves of what they paint only its opacity."""
 
     def __init__(self, box: Box) -> None:
@@ -159,7 +161,7 @@ class Stack:
         """Paint an outline."""
         self._count()
         if contours:
-            self.paths.append(Path(contours, paint=blackened(paint) if black else paint, group=group))
+            self.paths.append(Path(contours, paint=blacken(paint) if black else paint, group=group))
 
     def paint(self, nodes: Sequence[Node], group: int, black: bool = False) -> None:
         """Paint nodes one on another."""
@@ -210,15 +212,15 @@ class Stack:
         self._part(below, kept_below, above.children, Group(group), black)
         self._part(above.children, kept_above, below, Group(group, blend=Blend.PLUS_LIGHTER), black)
 
-    def _part(self, nodes: Sequence[Node], kept: int, other: Sequence[Node], group: Group, black: bool) -> None:
+    def _part(self, nodes: Sequence[Node], region: int, other: Sequence[Node], group: Group, black: bool) -> None:
         """Paint in a new group what is left of a layer beside another one."""
-        if kept == NOTHING:
+        if region == NOTHING:
             return
         inner = self.group(group)
         self.paint(nodes, inner, black)
-        if kept == WITHIN:
+        if region == WITHIN:
             self.paint(other, self.group(Group(inner, mask=Mask.OPACITY)), black=True)
-        elif kept == WITHOUT:
+        elif region == WITHOUT:
             mask = self.group(Group(inner, mask=Mask.LUMINANCE))
             self.path(self.everywhere, WHITE, mask)
             self.paint(other, mask, black=True)

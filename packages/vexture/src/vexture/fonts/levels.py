@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from vexture.base.errors import DeviceError
 
-__all__ = ["CURSIVE", "LATIN", "is_upright", "levels", "reordered", "scripts"]
+__all__ = ["CURSIVE", "LATIN", "is_upright", "levels", "scripts", "visual_order"]
 
 CURSIVE: Final = frozenset(
     {
@@ -173,12 +173,12 @@ def entry(kind: str, level: int, at: int) -> dict[str, object]:
     return {"level": level, "type": kind, "orig": kind, "at": at}
 
 
-def reordered(embedding: Sequence[int]) -> list[int]:
+def visual_order(embedding: Sequence[int]) -> list[int]:
     """Places of a line's parts in visual order, by their levels (rule L2).
 
     Examples
     --------
-    >>> reordered([0, 1, 1, 2, 2, 0])
+    >>> visual_order([0, 1, 1, 2, 2, 0])
     [0, 3, 4, 2, 1, 5]
     """
     order = list(range(len(embedding)))

@@ -59,8 +59,8 @@ class Listed:
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
-    """What a text wants of a face: a style, and glyphs of some characters, by their codes."""
+class FontRequest:
+    """The face that a text asks for: a style, and glyphs of some characters, by their codes."""
 
     weight: float
     style: str
@@ -127,10 +127,10 @@ class Fonts:
         all of a face come one after another, that with most of the `characters` first.
         """
         shown: set[int] = set()
-        for listed in self._ordered(families, Wanted(weight, style, stretch, frozenset(map(ord, characters)))):
+        for listed in self._candidates(families, FontRequest(weight, style, stretch, frozenset(map(ord, characters)))):
             if id(listed) not in shown:
                 shown.add(id(listed))
-                yield listed.face.varied(weight, stretch, style)
+                yield listed.face.with_style(weight, stretch, style)
 
     def substitute(
         self, families: Sequence[str], weight: int = 400, style: str = "normal", stretch: float = 100.0
@@ -140,8 +140,8 @@ class Fonts:
         None, too, if there is nothing to choose: only one face is there, and it is not asked for another weight or
         width than the normal one. A slope that is asked for and lacking is not looked at.
         """
-        wanted = Wanted(weight, style, stretch)
-        first = next(self._ordered(families, wanted), None)
+        wanted = FontRequest(weight, style, stretch)
+        first = next(self._candidates(families, wanted), None)
         if first is None or first.traits.offers(weight, style if style == "normal" else None, stretch):
             return None
         is_one = len({one.traits for one in self._beside(first)}) == 1
@@ -151,33 +151,33 @@ class Fonts:
         """The faces among which one was chosen: of the same given file or folder, or else of the same family."""
         for source in self._sources():
             if listed in source:
-                if source is self._given:
+                if source is self._given_faces:
                     yield from (one for one in source if one.place == listed.place)
                 else:
                     yield from (one for one in source if one.names & listed.names)
                 return
 
-    def _ordered(self, families: Sequence[str], wanted: Wanted) -> Iterator[Listed]:
-        """What may be used, the best first; some of it several times."""
-        return chain(self._named(families, wanted), self._others(wanted))
+    def _candidates(self, families: Sequence[str], request: FontRequest) -> Iterator[Listed]:
+        """Faces that may be used, the best first; some of it several times."""
+        return chain(self._named(families, request), self._others(request))
 
     def count_named(
         self, families: Sequence[str], weight: int = 400, style: str = "normal", stretch: float = 100.0
     ) -> int:
         """Number of the first `faces` that are of the families; the others stand in for these."""
-        return len({id(listed) for listed in self._named(families, Wanted(weight, style, stretch))})
+        return len({id(listed) for listed in self._named(families, FontRequest(weight, style, stretch))})
 
-    def _named(self, families: Sequence[str], wanted: Wanted) -> Iterator[Listed]:
+    def _named(self, families: Sequence[str], request: FontRequest) -> Iterator[Listed]:
         """The best face of each of some families."""
-        for name in self._asked(families):
-            yield from self._chosen(name, wanted)
+        for name in self._family_names(families):
+            yield from self._chosen(name, request)
 
-    def _asked(self, families: Sequence[str]) -> Iterator[str]:
+    def _family_names(self, families: Sequence[str]) -> Iterator[str]:
         """Names of families, with those that stand for generic ones: given ones, the system's choice, and others."""
         for family in families:
             yield family
             if family.lower() in GENERIC:
-                given = {name for listed in (*self._given, *self._embedded) for name in listed.names}
+                given = {name for listed in (*self._given_faces, *self._embedded) for name in listed.names}
                 yield from (name for name in GENERIC[family.lower()] if name.casefold() in given)
                 yield from filter(None, [generic_family(family.lower()) if self.system else ""])
                 yield from GENERIC[family.lower()]
@@ -193,7 +193,7 @@ class Fonts:
         )
         return next(found, None)
 
-    def _chosen(self, name: str, wanted: Wanted) -> Iterator[Listed]:
+    def _chosen(self, name: str, request: FontRequest) -> Iterator[Listed]:
         """The best face of a family in the first source that has the family.
 
         Of a family of the drawing all that are as good come, the last one first: each is for characters of its own
@@ -203,13 +203,13 @@ class Fonts:
             named = [listed for listed in source if name.casefold() in listed.names]
             if named:
                 if source is self._embedded:
-                    best = min(map(wanted.rank, named))
-                    yield from (one for one in reversed(named) if wanted.rank(one) == best)
+                    best = min(map(request.rank, named))
+                    yield from (one for one in reversed(named) if request.rank(one) == best)
                 else:
-                    yield from wanted.best_of(named)
+                    yield from request.best_of(named)
                 return
 
-    def _others(self, wanted: Wanted) -> Iterator[Listed]:
+    def _others(self, request: FontRequest) -> Iterator[Listed]:
         """The best face of each family of each source; a font of the drawing stands in for no other one.
 
         Of the families in a given folder, that which has the style comes first: fonts with nine weights often have a
@@ -222,20 +222,20 @@ class Fonts:
             for listed in source:
                 families.setdefault(listed.face.family, []).append(listed)
             ordered = [*families.values()]
-            if source is self._given:
-                ordered.sort(key=lambda named: (named[0].place, min(map(wanted.rank, named))))
+            if source is self._given_faces:
+                ordered.sort(key=lambda named: (named[0].place, min(map(request.rank, named))))
             for named in ordered:
-                yield from wanted.best_of(named)
+                yield from request.best_of(named)
 
     def _sources(self) -> Iterator[tuple[Listed, ...]]:
-        yield self._given
+        yield self._given_faces
         yield self._embedded
         yield of_files(default_files())
         if self.system:
             yield of_files(system_files())
 
     @cached_property
-    def _given(self) -> tuple[Listed, ...]:
+    def _given_faces(self) -> tuple[Listed, ...]:
         found: list[Listed] = []
         for place, path in enumerate(self.files):
             if path.is_dir():

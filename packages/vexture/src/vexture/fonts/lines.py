@@ -10,10 +10,10 @@ from vexture.base.deadline import check_time
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes, format_character
 from vexture.fonts.face import Face
-from vexture.fonts.levels import levels, reordered, scripts
+from vexture.fonts.levels import levels, scripts, visual_order
 from vexture.fonts.shaping import Glyph, shape
 
-__all__ = ["Choice", "Placed", "Typesetting", "belongs", "is_seen", "line_of_glyphs", "named"]
+__all__ = ["FaceChoice", "Placed", "Typesetting", "belongs", "describe_character", "is_seen", "line_of_glyphs"]
 
 SELECTORS: Final = frozenset(map(chr, (*range(0xFE00, 0xFE10), *range(0xE0100, 0xE01F0))))
 """Variation selectors, which choose a form of the character before them."""
@@ -31,7 +31,7 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class Typesetting:
-    """How lines are set.
+    """Settings of lines.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class Typesetting:
 
 
 @dataclass(slots=True)
-class Choice:
+class FaceChoice:
     """The faces that a text may use, in order; each character gets the first that has it."""
 
     faces: Iterator[Face]
@@ -71,7 +71,7 @@ class Choice:
             check_time()
             if face.has(ord(character)):
                 if self.is_asked and not self.is_first(face) and not character.isspace():
-                    example = self.others.setdefault(face.family, named(character))
+                    example = self.others.setdefault(face.family, describe_character(character))
                     self.notes.simplification(f"{example}, which {self.first.family} lacks, and such in {face.family}")
                 return face
         if is_seen(character):
@@ -109,12 +109,12 @@ def is_seen(character: str) -> bool:
     return category(character) not in ("Cc", "Cf", "Zs") and character not in SELECTORS
 
 
-def named(character: str) -> str:
+def describe_character(character: str) -> str:
     """A character as a message names it."""
     return f"character {format_character(character)}"
 
 
-def line_of_glyphs(text: str, choice: Choice, setting: Typesetting) -> tuple[list[Placed], float]:
+def line_of_glyphs(text: str, choice: FaceChoice, setting: Typesetting) -> tuple[list[Placed], float]:
     """Glyphs of a line from left to right, the first at 0, and the line's width; all in ems."""
     if not text:
         return [], 0.0
@@ -126,16 +126,16 @@ def line_of_glyphs(text: str, choice: Choice, setting: Typesetting) -> tuple[lis
     runs = list(pairwise(edges))
     found: list[Placed] = []
     x = 0.0
-    for place in reordered([kinds[start][1] for start, _ in runs]):
+    for place in visual_order([kinds[start][1] for start, _ in runs]):
         start, end = runs[place]
-        for glyph, shown in shaped(text[start:end], *kinds[start], setting):
+        for glyph, shown in shape_run(text[start:end], *kinds[start], setting):
             scale = 1.0 / glyph.face.units_per_em
             found.append(Placed(glyph, x + glyph.offset[0] * scale, glyph.offset[1] * scale, shown))
             x += glyph.advance[0] * scale
     return found, x
 
 
-def shaped(text: str, face: Face, level: int, script: str, setting: Typesetting) -> Iterator[tuple[Glyph, str]]:
+def shape_run(text: str, face: Face, level: int, script: str, setting: Typesetting) -> Iterator[tuple[Glyph, str]]:
     """Glyphs of a run in visual order, each with the characters of its cluster."""
     direction = "rtl" if level % 2 else "ltr"
     glyphs = shape(face, text, direction=direction, script=script, language=setting.language, features=setting.features)

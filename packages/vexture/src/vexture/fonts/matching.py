@@ -21,7 +21,7 @@ NORMAL_STRETCH: Final = 100.0
 
 @dataclass(frozen=True, slots=True)
 class Traits:
-    """What a face offers: the least and greatest weight and stretch, and its styles."""
+    """The range of a face: the least and greatest weight and stretch, and its styles."""
 
     weights: tuple[float, float]
     stretches: tuple[float, float]
@@ -53,7 +53,7 @@ def preference(traits: Traits, weight: float, style: str, stretch: float) -> tup
     return (*width, slope, *distances(traits.weights, weight, -inf if weight < REGULAR else inf))
 
 
-def distances(offered: tuple[float, float], wanted: float, first: float) -> tuple[float, float]:
+def distances(offered: tuple[float, float], value: float, first: float) -> tuple[float, float]:
     """Rank of the side on which an offered range lies, and how far: the side towards `first`, and up to it, is before.
 
     Examples
@@ -62,9 +62,9 @@ def distances(offered: tuple[float, float], wanted: float, first: float) -> tupl
     ((2, 100), (1, 100), (3, 200))
     """
     low, high = offered
-    if low <= wanted <= high:
+    if low <= value <= high:
         return 0, 0
-    place = low if wanted < low else high
-    if min(wanted, first) <= place <= max(wanted, first):
-        return 1, abs(place - wanted)
-    return 2 if (place < wanted) == (first >= wanted) else 3, abs(place - wanted)
+    place = low if value < low else high
+    if min(value, first) <= place <= max(value, first):
+        return 1, abs(place - value)
+    return 2 if (place < value) == (first >= value) else 3, abs(place - value)

@@ -15,12 +15,12 @@ Contours = tuple[NDArray[np.float64], ...]
 
 def glyph_outline(font: Any, glyph: int) -> Contours:
     """Closed contours (n, 4, 2) of a glyph in font units, y up, filled by the nonzero rule."""
-    pen = Pen()
+    pen = OutlinePen()
     font.draw_glyph(glyph, draw_funcs(), pen)
     return tuple(np.array(points, dtype=np.float64).reshape(-1, 4, 2) for points in pen.contours if points)
 
 
-class Pen:
+class OutlinePen:
     """Collects cubics: P0 to P3 of each in turn, one flat list for each contour. HarfBuzz closes contours by lines."""
 
     def __init__(self) -> None:
@@ -48,7 +48,7 @@ class Pen:
 
 @cache
 def draw_funcs() -> Any:
-    """Callbacks by which HarfBuzz draws with a `Pen`."""
+    """Callbacks by which HarfBuzz draws with a `OutlinePen`."""
     funcs = harfbuzz().DrawFuncs()
     funcs.set_move_to_func(lambda x, y, pen: pen.move(x, y))
     funcs.set_line_to_func(lambda x, y, pen: pen.line(x, y))

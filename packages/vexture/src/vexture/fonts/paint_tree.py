@@ -30,7 +30,7 @@ class Fill:
 
 @dataclass(slots=True)
 class Clip:
-    """What is within an outline, in font units; or within a box, which is there for its bounds."""
+    """Content within an outline, in font units; or within a box, which is there for its bounds."""
 
     contours: Contours
     is_box: bool = False
@@ -39,7 +39,7 @@ class Clip:
 
 @dataclass(slots=True)
 class Composite:
-    """What is painted on nothing, before it goes on what is below by a mode that HarfBuzz names."""
+    """Content painted on nothing, before it goes on what is below by a mode that HarfBuzz names."""
 
     mode: str = "SRC_OVER"
     children: list["Node"] = field(default_factory=list)
@@ -50,13 +50,13 @@ Node: TypeAlias = Fill | Clip | Composite
 
 def paint_tree(font: Any, glyph: int, outline: Callable[[int], Contours], foreground: Color, notes: Notes) -> Composite:
     """Tree of what a glyph paints, with a note of what of it is not as it should be."""
-    painter = Painter(outline, foreground, notes)
+    painter = GlyphPainter(outline, foreground, notes)
     red, green, blue = (round(255.0 * part) for part in foreground)
     font.paint_glyph(glyph, paint_funcs(), painter, 0, harfbuzz().Color(red, green, blue, 255))
     return painter.root
 
 
-class Painter:
+class GlyphPainter:
     """Builds the tree: HarfBuzz opens and closes transforms, clips and groups in turn."""
 
     def __init__(self, outline: Callable[[int], Contours], foreground: Color, notes: Notes) -> None:
@@ -77,7 +77,7 @@ class Painter:
     def clip(self, contours: Contours, is_box: bool = False) -> None:
         """Open a clip by an outline in the present coordinates."""
         upright = is_box and self.matrices[-1][0][1] == self.matrices[-1][1][0] == 0.0
-        self.begin(Clip(tuple(moved(contour, self.matrices[-1]) for contour in contours), upright))
+        self.begin(Clip(tuple(transform_contour(contour, self.matrices[-1]) for contour in contours), upright))
 
     def begin(self, node: Clip | Composite) -> None:
         """Open a clip or group."""
@@ -100,7 +100,7 @@ class Painter:
         self.open[-1].children.append(Fill(paint.after(((p, q, -p * c - q * f), (r, s, -r * c - s * f)))))
 
 
-def moved(contour: NDArray[np.float64], matrix: Affine) -> NDArray[np.float64]:
+def transform_contour(contour: NDArray[np.float64], matrix: Affine) -> NDArray[np.float64]:
     """A contour after an affine map."""
     (a, b, c), (d, e, f) = matrix
     x, y = contour[..., 0], contour[..., 1]
@@ -115,7 +115,7 @@ def rectangle(left: float, bottom: float, right: float, top: float) -> Contours:
 
 @cache
 def paint_funcs() -> Any:
-    """Callbacks by which HarfBuzz paints with a `Painter`."""
+    """Callbacks by which HarfBuzz paints with a `GlyphPainter`."""
     funcs = harfbuzz().PaintFuncs()
     funcs.set_push_transform_func(lambda a, d, b, e, c, f, painter: painter.transform(((a, b, c), (d, e, f))))
     funcs.set_pop_transform_func(lambda painter: painter.matrices.pop())

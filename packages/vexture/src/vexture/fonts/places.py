@@ -10,7 +10,7 @@ __all__ = ["NO_FILE", "font_places"]
 NO_FILE = "it is no file; give a font file or a folder of fonts"
 
 
-def font_places(given: object, name: str) -> tuple[Path, ...]:
+def font_places(value: object, name: str) -> tuple[Path, ...]:
     """Paths of the parameter `name`: one of them or several.
 
     Raises a `ParameterError` if they are no paths, and a `SourceError` if one leads nowhere, whether it is used or not.
@@ -21,12 +21,12 @@ def font_places(given: object, name: str) -> tuple[Path, ...]:
     Traceback (most recent call last):
     vexture.base.errors.SourceError: nowhere.ttf: it is no file; give a font file or a folder of fonts
     """
-    several = [given] if isinstance(given, str | os.PathLike) else given
+    several = [value] if isinstance(value, str | os.PathLike) else value
     places = [*several] if isinstance(several, list | tuple | set | frozenset) else [several]
     found = list[Path]()
     for place in places:
         if not isinstance(place, str | os.PathLike) or not isinstance(os.fspath(place), str):
-            raise ParameterError(f"`{name}` is {given!r:.80}; it must be paths of font files or folders of fonts")
+            raise ParameterError(f"`{name}` is {value!r:.80}; it must be paths of font files or folders of fonts")
         found.append(Path(place))
     for path in found:
         if not path.exists():

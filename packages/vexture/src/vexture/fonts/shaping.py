@@ -77,7 +77,7 @@ def shape(
             info.codepoint,
             info.cluster,
             place.position[2:],
-            (place.position[0], place.position[1] + (face.lowered(info.codepoint) if is_vertical else 0.0)),
+            (place.position[0], place.position[1] + (face.vertical_offset(info.codepoint) if is_vertical else 0.0)),
         )
         for info, place in zip(buffer.glyph_infos, buffer.glyph_positions or (), strict=True)
     ]

@@ -1,4 +1,4 @@
-"""Where fonts are: those of the system, and the default font that comes with ``vexture[text]``."""
+"""Files of fonts: those of the system, and the default font that comes with ``vexture[text]``."""
 
 import os
 import shutil
@@ -39,7 +39,7 @@ def font_files(folder: Path) -> Iterator[Path]:
 @cache
 def system_files() -> tuple[Path, ...]:
     """Font files of the system: those that fontconfig lists, or those of the usual folders."""
-    listed = asked("fc-list", "--format", "%{file}\n")
+    listed = run_program("fc-list", "--format", "%{file}\n")
     if listed:
         paths = {Path(line) for line in listed.splitlines()}
         return tuple(sorted(path for path in paths if path.suffix.lower() in SUFFIXES))
@@ -51,11 +51,11 @@ def system_files() -> tuple[Path, ...]:
 @cache
 def generic_family(name: str) -> str:
     """Family that fontconfig chooses for a generic one; empty without it."""
-    return asked("fc-match", "--format", "%{family[0]}", name)
+    return run_program("fc-match", "--format", "%{family[0]}", name)
 
 
-def asked(program: str, *arguments: str) -> str:
-    """What a program of fontconfig prints; nothing if it is not there or fails."""
+def run_program(program: str, *arguments: str) -> str:
+    """Output of a program of fontconfig; empty if it is not there or fails."""
     found = shutil.which(program)
     if found is None:
         return ""

@@ -15,13 +15,13 @@ from vexture.bezier.bounds import bounds
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.group import Group
 from vexture.drawing.paint import BLACK, Affine, Paint
-from vexture.fonts.layers import Layers
+from vexture.fonts.layers import GlyphLayers
 from vexture.fonts.library import GENERIC, Fonts
-from vexture.fonts.lines import Choice, Placed, Typesetting, is_seen, line_of_glyphs
+from vexture.fonts.lines import FaceChoice, Placed, Typesetting, is_seen, line_of_glyphs
 from vexture.fonts.matching import NORMAL_STRETCH
 from vexture.fonts.places import font_places
 
-__all__ = ["Canvas", "Places", "TextOptions", "text", "text_drawing"]
+__all__ = ["Places", "TextCanvas", "TextOptions", "text", "text_drawing"]
 
 Places: TypeAlias = "str | os.PathLike[str] | Sequence[str | os.PathLike[str]]"
 """A font file or a folder of fonts, or several."""
@@ -48,7 +48,7 @@ BLANKS: Final = {ord("\t"): " "} | dict.fromkeys((*range(9), *range(11, 32), 127
 
 @dataclass(frozen=True, slots=True)
 class TextOptions:
-    """How a text is drawn, as `text` describes it."""
+    """Options for drawing a text, as `text` describes them."""
 
     font: Places = ()
     family: str | Sequence[str] = ()
@@ -76,13 +76,13 @@ class TextOptions:
             if getattr(self, name) not in known:
                 raise ParameterError(f"`{name}` is {getattr(self, name)!r}; it must be {', '.join(known)}")
         if not (isinstance(self.weight, int | float) and 1.0 <= self.weight <= 1000.0):
-            raise ParameterError(f"`weight` is {shown(self.weight)}; it must be 1 to 1000")
+            raise ParameterError(f"`weight` is {format_value(self.weight)}; it must be 1 to 1000")
         given = {"size": self.size, "stretch": self.stretch}
         if self.line_height is not None:
             given["line_height"] = self.line_height
         for name, value in given.items():
             if not (isinstance(value, int | float) and 0.0 < value < LARGEST):
-                raise ParameterError(f"`{name}` is {shown(value)}; it must be above 0 and below {LARGEST:g}")
+                raise ParameterError(f"`{name}` is {format_value(value)}; it must be above 0 and below {LARGEST:g}")
         if not isinstance(self.paint, Paint):
             raise ParameterError(f"`paint` is {self.paint!r}; it must be a Paint, such as Paint((1.0, 0.0, 0.0))")
 
@@ -91,11 +91,11 @@ class TextOptions:
         """Names of families in order of preference."""
         return [self.family] if isinstance(self.family, str) else [*self.family]
 
-    def choice(self, notes: Notes, characters: Iterable[str]) -> Choice:
+    def choice(self, notes: Notes, characters: Iterable[str]) -> FaceChoice:
         """Faces of the fonts, with notes of what the first of them is not."""
         given = [self.font] if isinstance(self.font, str | os.PathLike) else [*self.font]
         fonts, wanted = Fonts(given), (self.families, round(self.weight), self.style, self.stretch)
-        choice = Choice(fonts.faces(*wanted, characters), notes, is_asked=bool(given or self.families))
+        choice = FaceChoice(fonts.faces(*wanted, characters), notes, is_asked=bool(given or self.families))
         face = choice.first
         first = next(iter(self.families), face.family)
         if first.lower() not in GENERIC and first.casefold() not in {name.casefold() for name in face.names}:
@@ -121,7 +121,7 @@ def style_of(weight: int, style: str, stretch: float) -> str:
     return f"weight {weight}, {style}" + ("" if stretch == NORMAL_STRETCH else f", stretch {stretch:g}")
 
 
-def shown(value: object) -> str:
+def format_value(value: object) -> str:
     """A value as a message shows it."""
     return f"{value:g}" if isinstance(value, int | float) else repr(value)
 
@@ -230,7 +230,7 @@ def text_drawing(text: str, options: TextOptions) -> Drawing:
     high, low, gap = (part / face.units_per_em for part in (face.ascender, face.descender, face.line_gap))
     leading = high - low + gap if options.line_height is None else options.line_height
     part = 1.0 - ALIGN[options.align] if base else ALIGN[options.align]
-    canvas = Canvas(options.size, options.paint, notes)
+    canvas = TextCanvas(options.size, options.paint, notes)
     for row, (glyphs, width) in enumerate(lines):
         for placed in glyphs:
             canvas.draw(placed, part * (widest - width), -row * leading)
@@ -248,7 +248,7 @@ def base_level(text: str, direction: str) -> int:
     return next((int(kind != "L") for kind in kinds if kind in ("L", "R", "AL")), 0)
 
 
-class Canvas:
+class TextCanvas:
     """Glyphs as paths and groups, in units of the source, y down; `size` of them are an em."""
 
     def __init__(self, size: float, paint: Paint, notes: Notes) -> None:
@@ -270,7 +270,7 @@ class Canvas:
         paths = (Path(face.outline(glyph)),) if layers is None else layers.paths
         if layers is None and (missing := face.missing(glyph)):
             self.notes.left_out(missing)
-        outer, start = (-1, 0) if layers is None else self._opened(layers)
+        outer, start = (-1, 0) if layers is None else self._open_groups(layers)
         self.parts += len(self.groups) - start if layers else 0
         self.parts += sum(len(contour) for path in paths for contour in path.contours)
         if self.parts > MOST_PARTS:
@@ -282,7 +282,7 @@ class Canvas:
             if contours:
                 self.paths.append(replace(path, contours=contours, paint=paint, group=group, element=placed.text))
 
-    def _opened(self, layers: Layers) -> tuple[int, int]:
+    def _open_groups(self, layers: GlyphLayers) -> tuple[int, int]:
         """Add the groups of a glyph in colour: the place of the one around all, or -1, and that of the first other."""
         for note in layers.notes:
             self.notes.count(note.kind, note.message)
@@ -297,7 +297,7 @@ class Canvas:
         return outer, start
 
     @property
-    def painted(self) -> Box:
+    def painted_box(self) -> Box:
         """Box (left, top, right, bottom) of what is painted, in units of the source; empty if nothing is."""
         if not self.paths:
             return inf, inf, -inf, -inf
@@ -307,7 +307,7 @@ class Canvas:
         """The drawing, as large as a box (left, top, right, bottom) in units of the source and what is painted."""
         if not self.paths:
             return Drawing((), name=name, notes=(*self.notes.in_order, Note("remark", "nothing in it is painted")))
-        left, top = (min(pair) for pair in zip(box[:2], self.painted[:2], strict=True))
-        right, bottom = (max(pair) for pair in zip(box[2:], self.painted[2:], strict=True))
+        left, top = (min(pair) for pair in zip(box[:2], self.painted_box[:2], strict=True))
+        right, bottom = (max(pair) for pair in zip(box[2:], self.painted_box[2:], strict=True))
         drawing = Drawing.from_source(self.paths, (left, top, right - left, bottom - top), name, tuple(self.groups))
         return replace(drawing, notes=self.notes.in_order)

@@ -1,4 +1,4 @@
-"""How a material shows a drawing: the members of the extension of a material (FORMAT.md, E.3)."""
+"""Appearance of a drawing on a material: the members of the extension of a material (FORMAT.md, E.3)."""
 
 import math
 from collections.abc import Sequence
@@ -41,7 +41,7 @@ DIGITS: Final = 6
 
 @dataclass(frozen=True, slots=True)
 class Appearance:
-    """How a material shows a drawing; `Model.with_drawing` describes the parameters.
+    """Appearance of a drawing on a material; `Model.with_drawing` describes the parameters.
 
     Examples
     --------
@@ -89,7 +89,7 @@ class Appearance:
 
     @property
     def split(self) -> "Split":
-        """How a drawing is converted for it: in its colours, or as its silhouette."""
+        """The split with which a drawing is converted for it: in its colours, or as its silhouette."""
         return "faces" if self.mode == "paint" else None
 
     def check(self, texture: "Texture") -> None:

@@ -14,7 +14,7 @@ from typing import Any, Final
 from vexture.base.content import BYTE_ORDER_MARK
 from vexture.base.errors import LimitError, SourceError
 
-__all__ = ["Container", "listed", "padded", "parse", "to_glb", "to_gltf", "values"]
+__all__ = ["Container", "objects_in", "pad", "parse", "to_glb", "to_gltf", "values"]
 
 MAGIC: Final = b"glTF"
 VERSION: Final = 2
@@ -115,7 +115,7 @@ def values(document: Any) -> Iterator[Any]:
         raise SourceError(f"its JSON is nested deeper than {MOST_NESTED} levels; {REMEDY}")
 
 
-def listed(document: dict[str, Any], name: str) -> list[dict[str, Any]]:
+def objects_in(document: dict[str, Any], name: str) -> list[dict[str, Any]]:
     """A list of objects at the top of a document; empty if there is none."""
     found = document.get(name, [])
     if not isinstance(found, list) or not all(isinstance(one, dict) for one in found):
@@ -131,7 +131,7 @@ def _short(error: Exception) -> str:
     return "nested too deep" if isinstance(error, RecursionError) else str(error)[:80]
 
 
-def padded(content: bytes, filler: bytes = b"\0") -> bytes:
+def pad(content: bytes, filler: bytes = b"\0") -> bytes:
     """Content up to a multiple of four bytes."""
     return content + filler * (-len(content) % 4)
 
@@ -148,9 +148,9 @@ def to_gltf(document: dict[str, Any], indent: str | None = None) -> bytes:
 
 def to_glb(container: Container) -> bytes:
     """Contents of a .glb; a `LimitError` if they are longer than its header can say."""
-    chunks = [(JSON_CHUNK, padded(to_gltf(container.document), b" "))]
+    chunks = [(JSON_CHUNK, pad(to_gltf(container.document), b" "))]
     if container.binary is not None:
-        chunks.append((BINARY_CHUNK, padded(container.binary)))
+        chunks.append((BINARY_CHUNK, pad(container.binary)))
     chunks += container.others
     length = HEADER.size + sum(CHUNK.size + len(content) for _, content in chunks)
     if length > LARGEST_GLB:

@@ -12,8 +12,8 @@ from vexture.base.content import FileKind, about, kind_of, read_bytes, start_of
 from vexture.base.errors import ParameterError, SourceError, SourceWarning, format_count
 from vexture.base.layout import PACKED_SUFFIX
 from vexture.gltf.appearance import HALF, WHITE, Appearance, Background, Mode, Wrap
-from vexture.gltf.container import REMEDY, Container, listed, parse, to_glb, to_gltf
-from vexture.gltf.resources import KTX2_TYPE, content_at, data_uri, files_beside, missed, packed, with_view
+from vexture.gltf.container import REMEDY, Container, objects_in, parse, to_glb, to_gltf
+from vexture.gltf.resources import KTX2_TYPE, content_at, data_uri, files_beside, missing_file, pack, with_view
 
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
@@ -53,7 +53,7 @@ class Model:
     @property
     def materials(self) -> tuple[str, ...]:
         """Names of the materials."""
-        names = (material.get("name") for material in listed(self.container.document, "materials"))
+        names = (material.get("name") for material in objects_in(self.container.document, "materials"))
         return tuple(name if isinstance(name, str) else "" for name in names)
 
     def place_of(self, material: str | int) -> int:
@@ -166,19 +166,21 @@ class Model:
             self._warn_of_coordinates(place, shown.tex_coord)
             return self._with_texture(place, texture.name, texture.to_ktx2(), shown)
 
-    def _with_texture(self, place: int, name: str, content: bytes, shown: Appearance) -> "Model":
+    def _with_texture(self, place: int, name: str, content: bytes, appearance: Appearance) -> "Model":
         """The model with the file of a texture on a material; one that other materials have is shared."""
         document = dict(self.container.document)
-        materials = list(listed(document, "materials"))
+        materials = list(objects_in(document, "materials"))
         extensions = _object(document, "extensions", "extensions")
         known = _object(extensions, EXTENSION, f"extensions.{EXTENSION}")
-        textures = list(listed(known, "textures"))
+        textures = list(objects_in(known, "textures"))
         index = next((one for one, other in self.textures.items() if other == content), None)
         if index is None:
             index = _free(materials, place, len(textures))
             textures[index : index + 1] = [{"name": name, "mimeType": KTX2_TYPE}]
         own = _object(materials[place], "extensions", f"materials[{place}].extensions")
-        materials[place] = materials[place] | {"extensions": own | {EXTENSION: {"texture": index, **shown.facts()}}}
+        materials[place] = materials[place] | {
+            "extensions": own | {EXTENSION: {"texture": index, **appearance.facts()}}
+        }
         document["materials"] = materials
         document["extensions"] = extensions | {EXTENSION: known | {"textures": textures}}
         document["extensionsUsed"] = _with_name(document.get("extensionsUsed", []))
@@ -187,8 +189,8 @@ class Model:
 
     def _warn_of_coordinates(self, place: int, tex_coord: int) -> None:
         """Warn of meshes on which the drawing cannot be seen."""
-        for number, mesh in enumerate(listed(self.container.document, "meshes")):
-            for primitive in listed(mesh, "primitives"):
+        for number, mesh in enumerate(objects_in(self.container.document, "meshes")):
+            for primitive in objects_in(mesh, "primitives"):
                 attributes = primitive.get("attributes")
                 has = isinstance(attributes, dict) and f"TEXCOORD_{tex_coord}" in attributes
                 if primitive.get("material") == place and not has:
@@ -205,7 +207,7 @@ class Model:
         """Contents of the file, and of those that a .gltf needs beside it; parameters and errors as in `save`."""
         target = target_of(path)
         with about(self.name):
-            file = missed(self.container, self.folder, target)
+            file = missing_file(self.container, self.folder, target)
             if target.suffix.lower() == GLB:
                 return {target: to_glb(self._embedded(bool(file) or not self.container.is_glb))}
             if file:
@@ -252,9 +254,9 @@ class Model:
             index: content_at(entry["uri"], self.folder) for index, entry in there if whole and files_beside(entry)
         }
         textures = beside | dict(self.textures)
-        container = replace(self, textures=textures)._settled({})
+        container = replace(self, textures=textures)._with_addresses({})
         if whole:
-            container = packed(container, self.folder)
+            container = pack(container, self.folder)
         for index, content in textures.items():
             container, view = with_view(container, content)
             source = {"uri": data_uri(content, KTX2_TYPE)} if view is None else {"bufferView": view}
@@ -274,10 +276,10 @@ class Model:
                 file = target.with_name(f"{target.stem}.{name}.{index}{PACKED_SUFFIX}")
             beside[file] = content
             addresses[index] = quote(file.name)
-        container = self._settled(addresses)
+        container = self._with_addresses(addresses)
         if container.others:
             raise ParameterError(f"{target}: the model has parts that only a .glb can hold; write a .glb")
-        buffers = listed(container.document, "buffers")
+        buffers = objects_in(container.document, "buffers")
         if container.binary is not None and buffers and "uri" not in buffers[0]:
             file = target.with_suffix(".bin")
             beside[file] = container.binary
@@ -285,7 +287,7 @@ class Model:
             container = replace(container, document=container.document | {"buffers": buffers})
         return {target: to_gltf(container.document, container.indent), **beside}
 
-    def _settled(self, addresses: Mapping[int, str]) -> Container:
+    def _with_addresses(self, addresses: Mapping[int, str]) -> Container:
         """The model with the addresses of its new textures; without one, a texture is nowhere yet."""
         container = self.container
         for index in self.textures:
@@ -303,7 +305,7 @@ def target_of(path: str | os.PathLike[str]) -> Path:
 
 
 def texture_of(
-    drawing: "Texture | Drawing | str | os.PathLike[str]", shown: Appearance, conversion: Mapping[str, Any]
+    drawing: "Texture | Drawing | str | os.PathLike[str]", appearance: Appearance, conversion: Mapping[str, Any]
 ) -> "Texture":
     """The texture that is given, loaded or made of a drawing."""
     from vexture.conversion.pipeline import convert
@@ -314,7 +316,7 @@ def texture_of(
     if isinstance(drawing, str | os.PathLike) and kind_of(start_of(drawing), drawing) is FileKind.TEXTURE:
         texture = load(drawing)
     if texture is None:
-        parameters: dict[str, Any] = {"split": shown.split, **conversion}
+        parameters: dict[str, Any] = {"split": appearance.split, **conversion}
         return convert(drawing, **parameters)  # type: ignore[arg-type,return-value]
     for name in conversion:
         raise ParameterError(f"`{name}` is for drawings, and {texture.name} is a texture already; leave it out")
@@ -351,15 +353,15 @@ def read_model(source: str | os.PathLike[str] | bytes, *, name: str | None = Non
         container = parse(read_bytes(source))
         model = Model(container, shown, None if isinstance(source, bytes) else Path(source).parent)
         for part in ("materials", "meshes", "buffers", "bufferViews", "images"):
-            listed(container.document, part)
+            objects_in(container.document, part)
     return model
 
 
-def _object(owner: dict[str, Any], name: str, where: str) -> dict[str, Any]:
+def _object(owner: dict[str, Any], name: str, location: str) -> dict[str, Any]:
     """An object in another one; empty if there is none."""
     found = owner.get(name, {})
     if not isinstance(found, dict):
-        raise SourceError(f"{where} is no object; {REMEDY}")
+        raise SourceError(f"{location} is no object; {REMEDY}")
     return found
 
 
@@ -383,7 +385,7 @@ def _free(materials: list[dict[str, Any]], place: int, count: int) -> int:
 
 def _textures(container: Container) -> list[dict[str, Any]]:
     extensions = _object(container.document, "extensions", "extensions")
-    return listed(_object(extensions, EXTENSION, f"extensions.{EXTENSION}"), "textures")
+    return objects_in(_object(extensions, EXTENSION, f"extensions.{EXTENSION}"), "textures")
 
 
 def _with_source(container: Container, index: int, source: dict[str, Any]) -> Container:

@@ -1,4 +1,4 @@
-"""What a model refers to beside its JSON: the bytes of its buffers, and files beside it."""
+"""Resources that a model refers to beside its JSON: the bytes of its buffers, and files beside it."""
 
 import binascii
 import os
@@ -11,9 +11,9 @@ from urllib.parse import unquote
 
 from vexture.base.content import LARGEST_FILE, picture_size
 from vexture.base.errors import SourceError, printable, shorten_text
-from vexture.gltf.container import REMEDY, Container, listed, padded, values
+from vexture.gltf.container import REMEDY, Container, objects_in, pad, values
 
-__all__ = ["KTX2_TYPE", "content_at", "data_uri", "files_beside", "missed", "packed", "with_view"]
+__all__ = ["KTX2_TYPE", "content_at", "data_uri", "files_beside", "missing_file", "pack", "with_view"]
 
 KTX2_TYPE: Final = "image/ktx2"
 BYTES_TYPE: Final = "application/octet-stream"
@@ -40,26 +40,26 @@ def files_beside(document: dict[str, Any]) -> list[str]:
 
 def with_view(container: Container, content: bytes) -> tuple[Container, int | None]:
     """The model with more bytes in its first buffer, and the place of their view; None if that buffer is elsewhere."""
-    buffers, binary = listed(container.document, "buffers"), container.binary or b""
+    buffers, binary = objects_in(container.document, "buffers"), container.binary or b""
     is_ours = container.binary is not None and "uri" not in buffers[0] if buffers else not binary
     if not is_ours:
         return container, None
-    before = padded(binary)
-    views = listed(container.document, "bufferViews")
+    before = pad(binary)
+    views = objects_in(container.document, "bufferViews")
     view = {"buffer": 0, "byteOffset": len(before), "byteLength": len(content)}
     first = (buffers[0] if buffers else {}) | {"byteLength": len(before) + len(content)}
     document = container.document | {"buffers": [first, *buffers[1:]], "bufferViews": [*views, view]}
     return replace(container, document=document, binary=before + content), len(views)
 
 
-def packed(container: Container, folder: Path | None) -> Container:
+def pack(container: Container, folder: Path | None) -> Container:
     """A model as that of a .glb: with the files in it that are beside it.
 
     Raises a `SourceError` if one is missing, is not beside it or below, or an extension refers to it that vexture does
     not know.
     """
     document = dict(container.document)
-    buffers = [dict(buffer) for buffer in listed(document, "buffers")]
+    buffers = [dict(buffer) for buffer in objects_in(document, "buffers")]
     binary = container.binary
     for place, buffer in enumerate(buffers):
         if place == 0 and binary is None and isinstance(buffer.get("uri"), str):
@@ -69,7 +69,7 @@ def packed(container: Container, folder: Path | None) -> Container:
     if buffers:
         document["buffers"] = buffers
     result = replace(container, document=document, binary=binary, is_glb=True, indent=None)
-    images = [dict(image) for image in listed(document, "images")]
+    images = [dict(image) for image in objects_in(document, "images")]
     for image in images:
         if _is_beside(image):
             content = content_at(image["uri"], folder)
@@ -82,7 +82,7 @@ def packed(container: Container, folder: Path | None) -> Container:
     if images:
         result = replace(result, document=result.document | {"images": images})
     if left := files_beside(result.document):
-        raise SourceError(f"an extension of it refers to the file {_named(left[0])}; write a .gltf beside it")
+        raise SourceError(f"an extension of it refers to the file {_label(left[0])}; write a .gltf beside it")
     return result
 
 
@@ -96,7 +96,7 @@ def _image_type(content: bytes, uri: str) -> str:
         return f"image/{size[0].lower()}"
     if content.startswith(b"\xabKTX 20"):
         return KTX2_TYPE
-    raise SourceError(f"the file {_named(uri)} is no picture that a model can hold; write a .gltf beside it")
+    raise SourceError(f"the file {_label(uri)} is no picture that a model can hold; write a .gltf beside it")
 
 
 def content_at(uri: str, folder: Path | None) -> bytes:
@@ -104,36 +104,36 @@ def content_at(uri: str, folder: Path | None) -> bytes:
     if uri[:5].lower() == "data:":
         start = DATA.match(uri)
         if start is None:
-            raise SourceError(f"the address {_named(uri)} is not base64; {REMEDY}")
+            raise SourceError(f"the address {_label(uri)} is not base64; {REMEDY}")
         try:
             return b64decode(uri[start.end() :], validate=True)
         except (binascii.Error, ValueError):
-            raise SourceError(f"the address {_named(uri)} is no base64; {REMEDY}") from None
+            raise SourceError(f"the address {_label(uri)} is no base64; {REMEDY}") from None
     path = unquote(uri)
     if folder is None or OUTSIDE.match(path) or "\0" in path or ".." in re.split(r"[/\\]", path):
-        raise SourceError(f"it refers to {_named(uri)}, and only files beside it or in folders there are read")
+        raise SourceError(f"it refers to {_label(uri)}, and only files beside it or in folders there are read")
     inside = folder.resolve()
     try:
         file = (inside / path).resolve()
         if not file.is_relative_to(inside):
-            raise SourceError(f"it refers to {_named(uri)}, which leads out of its folder; put the file there")
+            raise SourceError(f"it refers to {_label(uri)}, which leads out of its folder; put the file there")
         with file.open("rb") as opened:
             content = opened.read(LARGEST_FILE + 1)
     except OSError as error:
         raise SourceError(
-            f"its file {_named(uri)} cannot be read ({error.strerror}); put it beside the model"
+            f"its file {_label(uri)} cannot be read ({error.strerror}); put it beside the model"
         ) from None
     if len(content) > LARGEST_FILE:
-        raise SourceError(f"its file {_named(uri)} is larger than {LARGEST_FILE:,} bytes; write a .gltf beside it")
+        raise SourceError(f"its file {_label(uri)} is larger than {LARGEST_FILE:,} bytes; write a .gltf beside it")
     return content
 
 
-def missed(container: Container, folder: Path | None, target: Path) -> str:
+def missing_file(container: Container, folder: Path | None, target: Path) -> str:
     """Name of a file that a model would miss in the folder of a target; empty if there is none."""
     left = files_beside(container.document)
     is_elsewhere = folder is None or folder.resolve() != target.absolute().parent.resolve()
-    return _named(left[0]) if left and is_elsewhere else ""
+    return _label(left[0]) if left and is_elsewhere else ""
 
 
-def _named(uri: str) -> str:
+def _label(uri: str) -> str:
     return printable(shorten_text(os.fspath(uri), SHOWN))

@@ -11,17 +11,17 @@ from typing import Final, NamedTuple, Protocol
 import numpy as np
 from lxml import etree
 
-from vexture.drawing.calculation import parsed
+from vexture.drawing.calculation import parse_tokens
 from vexture.drawing.drawing import FillRule
 from vexture.drawing.paint import Paint, Stop
 from vexture.svg.css_gradients import CssGradient, between, read_function
 from vexture.svg.declarations import read_style
 from vexture.svg.document import HTML
 from vexture.svg.images import image_sides
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report
-from vexture.svg.space import Place
+from vexture.svg.space import ElementPlace
 from vexture.svg.transform import Identity, angle, parse_origin
 from vexture.svg.values import fraction, number
 from vexture.svg.viewport import Rectangle
@@ -46,8 +46,8 @@ BEYOND: Final = 1.01
 """How far triangles reach, as a part of what is needed."""
 
 
-class Fill(NamedTuple):
-    """What fills a box of HTML."""
+class AngularFill(NamedTuple):
+    """A gradient that fills a box of HTML, and its opacity."""
 
     gradient: CssGradient
     opacity: float
@@ -67,7 +67,7 @@ class Course(NamedTuple):
         return between(replace(self.first, offset=0.0), replace(self.last, offset=1.0), share)
 
     def within(self, low: float, high: float) -> "Course":
-        """What of it lies in a range."""
+        """The part of it within a range."""
         begin, end = max(self.begin, low), min(self.end, high)
         return Course(begin, end, self.color(begin), self.color(end))
 
@@ -85,13 +85,13 @@ class Course(NamedTuple):
         return [Course(*pair, color, color) for pair, color in zip(pairwise(ends), middles, strict=True)]
 
 
-class Imaging(Protocol):
-    """What is needed of a scene."""
+class AngularScene(Protocol):
+    """The part of a scene that angular gradients need."""
 
     report: Report
 
 
-def angular_fill(element: etree._Element) -> Fill | None:
+def angular_fill(element: etree._Element) -> AngularFill | None:
     """The angular gradient that fills a `foreignObject`; None if it holds anything else."""
     boxes = list(element.iterchildren("*"))
     if len(boxes) != 1 or boxes[0].tag != f"{HTML}div" or len(boxes[0]) or (boxes[0].text or "").strip():
@@ -100,14 +100,14 @@ def angular_fill(element: etree._Element) -> Fill | None:
     if said.get("width", "auto") not in FILLING["width"] or said.get("height", "auto") not in FILLING["height"]:
         return None
     opacity = fraction(said.get("opacity", "1"))
-    tokens = [token for token in parsed(said.get("background-image", "")) if token.type != "whitespace"]
+    tokens = [token for token in parse_tokens(said.get("background-image", "")) if token.type != "whitespace"]
     if opacity is None or len(tokens) != 1 or tokens[0].type != "function" or tokens[0].lower_name not in CONIC:
         return None
     gradient = read_function(tokens[0])
-    return None if gradient is None else Fill(gradient, opacity)
+    return None if gradient is None else AngularFill(gradient, opacity)
 
 
-def paint_angular(scene: Imaging, element: etree._Element, place: Place, painter: Painter) -> None:
+def paint_angular(scene: AngularScene, element: etree._Element, place: ElementPlace, painter: Painter) -> None:
     """Paint the angular gradient that fills a `foreignObject`, at a place with its own style."""
     fill, box = angular_fill(element), image_sides(place, (0.0, 0.0))
     if fill is None or min(box[2:]) <= 0.0 or place.style["visibility"].lower() != "visible" or place.space.flat:
@@ -141,7 +141,7 @@ def overlapping(sectors: list[Course]) -> list[Course]:
     return [lowest, *(one._replace(end=after.end) for one, after in pairwise([*others, before])), before]
 
 
-def center_of(shape: str, box: Rectangle, place: Place) -> tuple[float, float, float] | None:
+def center_of(shape: str, box: Rectangle, place: ElementPlace) -> tuple[float, float, float] | None:
     """Middle of a gradient in a box, and where it begins, in turns from the top; None if `shape` is not valid."""
     left, top, width, height = box
     turn, _, where = f" {shape.lower()} ".partition(" at ")
@@ -151,19 +151,19 @@ def center_of(shape: str, box: Rectangle, place: Place) -> tuple[float, float, f
     return None if start is None or middle is None else (left + middle[0], top + middle[1], start / (2.0 * pi))
 
 
-def triangle(sector: Course, box: Rectangle, x: float, y: float, start: float) -> Outline:
+def triangle(sector: Course, box: Rectangle, x: float, y: float, start: float) -> ShapeOutline:
     """A sector about a point, beyond a box."""
     left, top, width, height = box
     far = hypot(max(abs(x - left), abs(left + width - x)), max(abs(y - top), abs(top + height - y)))
     reach = BEYOND * far / cos(pi * (sector.end - sector.begin))
     turns = [2.0 * pi * (start + at) for at in (sector.begin, sector.end)]
     corners = [(x, y), *((x + reach * sin(turn), y - reach * cos(turn)) for turn in turns)]
-    return Outline.polygon(np.array(corners), closed=True)
+    return ShapeOutline.polygon(np.array(corners), closed=True)
 
 
-def courses_of(gradient: CssGradient, place: Place) -> list[Course]:
+def courses_of(gradient: CssGradient, place: ElementPlace) -> list[Course]:
     """Courses of a gradient around a whole turn; none if it is not valid, or they are too many."""
-    stops = gradient.placed(place.style.solid, turns_of, 1.0)
+    stops = gradient.place_stops(place.style.solid, turns_of, 1.0)
     if not 0 < len(stops) <= MOST_COURSES:
         return []
     ends = [(stop.offset, Stop(0.0, stop.color, stop.opacity)) for stop in stops]

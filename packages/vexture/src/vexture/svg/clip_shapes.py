@@ -38,7 +38,7 @@ Element: TypeAlias = tuple[str, dict[str, str]]
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class ReferenceBox:
     """A reference box, and what lengths in it depend on."""
 
     left: float
@@ -86,7 +86,7 @@ def clip_element(
     if make is unknown or len(names) > 1 or not {*names} <= BOXES.keys() or not (names or opened):
         return None  # before all that the element shows is measured for its box
     left, top, width, height = box_of(BOXES[names[0]] if names else STROKED) or (0.0, 0.0, 0.0, 0.0)
-    box = Box(left, top, Viewport(width, height, root_font_size), font_size)
+    box = ReferenceBox(left, top, Viewport(width, height, root_font_size), font_size)
     found = make(arguments, box)
     if found is None:
         return None
@@ -95,21 +95,21 @@ def clip_element(
     return clip
 
 
-def numbered(name: str, **values: float) -> Element:
+def numeric_element(name: str, **values: float) -> Element:
     """An element with attributes that are numbers."""
     return name, {key: repr(float(value)) for key, value in values.items()}
 
 
-def unknown(_: str, __: Box) -> None:
+def unknown(_: str, __: ReferenceBox) -> None:
     """No shape that we know."""
 
 
-def whole(_: str, box: Box) -> Element | None:
+def whole(_: str, box: ReferenceBox) -> Element | None:
     """All of the reference box."""
-    return numbered("rect", x=box.left, y=box.top, width=box.view.width, height=box.view.height)
+    return numeric_element("rect", x=box.left, y=box.top, width=box.view.width, height=box.view.height)
 
 
-def position(text: str, box: Box) -> tuple[float, float] | None:
+def position(text: str, box: ReferenceBox) -> tuple[float, float] | None:
     """A position in a box, from its corner: two lengths or keywords, one of them, or two edges with distances."""
     parts = words(text, SPACES) or ["center"]
     if len(parts) != 4:
@@ -125,7 +125,7 @@ def position(text: str, box: Box) -> tuple[float, float] | None:
     return None if x is None or y is None else (x, y)
 
 
-def centred(text: str, box: Box, most: int) -> tuple[list[str], tuple[float, float]] | None:
+def radii_and_centre(text: str, box: ReferenceBox, most: int) -> tuple[list[str], tuple[float, float]] | None:
     """The radii that a circle or an ellipse names, at most so many, and its centre from the corner of the box."""
     radii, *places = AT.split(text.lower())
     lengths = words(radii, SPACES)
@@ -142,20 +142,20 @@ def radius(word: str, distances: tuple[float, ...], length: float | None) -> flo
     return None if length is None or length < 0.0 else length
 
 
-def circle(text: str, box: Box) -> Element | None:
+def circle(text: str, box: ReferenceBox) -> Element | None:
     """`circle()`."""
-    found = centred(text, box, 1)
+    found = radii_and_centre(text, box, 1)
     if found is None:
         return None
     (word,), (x, y) = found
     distances = (x, box.view.width - x, y, box.view.height - y)
     r = radius(word, distances, box.view.length(word, box.view.diagonal, box.font_size))
-    return None if r is None else numbered("circle", cx=box.left + x, cy=box.top + y, r=r)
+    return None if r is None else numeric_element("circle", cx=box.left + x, cy=box.top + y, r=r)
 
 
-def ellipse(text: str, box: Box) -> Element | None:
+def ellipse(text: str, box: ReferenceBox) -> Element | None:
     """`ellipse()`."""
-    found = centred(text, box, 2)
+    found = radii_and_centre(text, box, 2)
     if found is None:
         return None
     (across, down), (x, y) = found
@@ -163,22 +163,22 @@ def ellipse(text: str, box: Box) -> Element | None:
     ry = radius(down, (y, box.view.height - y), box.along(down, 1))
     if rx is None or ry is None:
         return None
-    return numbered("ellipse", cx=box.left + x, cy=box.top + y, rx=rx, ry=ry)
+    return numeric_element("ellipse", cx=box.left + x, cy=box.top + y, rx=rx, ry=ry)
 
 
-def inset(text: str, box: Box) -> Element | None:
+def inset(text: str, box: ReferenceBox) -> Element | None:
     """`inset()`: distances from the sides."""
-    sides, corners = in_two(text)
+    sides, corners = split_at_round(text)
     found = box.four(sides, (1, 0, 1, 0))
     if found is None:
         return None
     top, right, bottom, left = found
-    return rounded((left, top, box.view.width - right, box.view.height - bottom), corners, box)
+    return rounded_rectangle((left, top, box.view.width - right, box.view.height - bottom), corners, box)
 
 
-def rect(text: str, box: Box) -> Element | None:
+def rect(text: str, box: ReferenceBox) -> Element | None:
     """`rect()`: places of the sides from the top and the left."""
-    sides, corners = in_two(text)
+    sides, corners = split_at_round(text)
     parts = words(sides, SPACES)
     if len(parts) != 4:
         return None
@@ -188,26 +188,26 @@ def rect(text: str, box: Box) -> Element | None:
     if found is None:
         return None
     top, right, bottom, left = found
-    return rounded((left, top, max(left, right), max(top, bottom)), corners, box)
+    return rounded_rectangle((left, top, max(left, right), max(top, bottom)), corners, box)
 
 
-def xywh(text: str, box: Box) -> Element | None:
+def xywh(text: str, box: ReferenceBox) -> Element | None:
     """`xywh()`: a corner and two sides."""
-    sides, corners = in_two(text)
+    sides, corners = split_at_round(text)
     found = box.four(sides, (0, 1, 0, 1)) if len(words(sides, SPACES)) == 4 else None
     if found is None or min(found[2:]) < 0.0:
         return None
     x, y, width, height = found
-    return rounded((x, y, x + width, y + height), corners, box)
+    return rounded_rectangle((x, y, x + width, y + height), corners, box)
 
 
-def in_two(text: str) -> tuple[str, str]:
-    """What stands before and after "round"; radii of zero without it."""
+def split_at_round(text: str) -> tuple[str, str]:
+    """Split a text into the parts before and after "round"; radii of zero without it."""
     sides, *corners = ROUND.split(text.lower(), maxsplit=1)
     return sides, corners[0] if corners else "0"
 
 
-def rounded(edges: Rectangle, corners: str, box: Box) -> Element | None:
+def rounded_rectangle(edges: Rectangle, corners: str, box: ReferenceBox) -> Element | None:
     """A rectangle, by its edges from the corner of the box, with radii as those of `border-radius`."""
     left, top, right, bottom = edges
     width, height = max(right - left, 0.0), max(bottom - top, 0.0)
@@ -223,7 +223,7 @@ def rounded(edges: Rectangle, corners: str, box: Box) -> Element | None:
     rounds = [(factor * x, factor * y) if x > 0.0 and y > 0.0 else (0.0, 0.0) for x, y in zip(rx, ry, strict=True)]
     if width == 0.0 or height == 0.0 or len({*rounds}) == 1:
         x, y = rounds[0]
-        return numbered("rect", x=left, y=top, width=width, height=height, rx=x, ry=y)
+        return numeric_element("rect", x=left, y=top, width=width, height=height, rx=x, ry=y)
     right, bottom = left + width, top + height
     (ax, ay), (bx, by), (cx, cy), (dx, dy) = rounds
     data = (
@@ -235,7 +235,7 @@ def rounded(edges: Rectangle, corners: str, box: Box) -> Element | None:
     return "path", {"d": data}
 
 
-def polygon(text: str, box: Box) -> Element | None:
+def polygon(text: str, box: ReferenceBox) -> Element | None:
     """`polygon()`."""
     match = POLYGON.fullmatch(text)
     assert match is not None  # the rule is optional, and points may be anything
@@ -251,7 +251,7 @@ def polygon(text: str, box: Box) -> Element | None:
     return "polygon", {"points": " ".join(corners), "clip-rule": (match[1] or "nonzero").lower()}
 
 
-def path(text: str, box: Box) -> Element | None:
+def path(text: str, box: ReferenceBox) -> Element | None:
     """`path()`."""
     match = PATH.fullmatch(text)
     data = " ".join(match[3].split()) if match else ""
@@ -261,7 +261,7 @@ def path(text: str, box: Box) -> Element | None:
     return "path", {"d": data, "clip-rule": (match[1] or "nonzero").lower(), "transform": moved}
 
 
-MAKERS: Final[dict[str, Callable[[str, Box], Element | None]]] = {
+MAKERS: Final[dict[str, Callable[[str, ReferenceBox], Element | None]]] = {
     "circle": circle,
     "ellipse": ellipse,
     "inset": inset,

@@ -1,13 +1,13 @@
-"""Which elements are groups of the drawing: opacity, blend modes and isolation, where a picture shows them."""
+"""Elements that are groups of the drawing: opacity, blend modes and isolation, where a picture shows them."""
 
 from dataclasses import dataclass, field, replace
 
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.group import Blend, Group, Mask
 from vexture.svg.properties import BLENDS
-from vexture.svg.style import Style
+from vexture.svg.style import ElementStyle
 
-__all__ = ["Veil", "grouped", "has_colors", "masking", "occupied", "veil_of"]
+__all__ = ["Veil", "drop_empty_groups", "group_paths", "has_colors", "masking", "veil_of"]
 
 MOST_BOXES = 500
 """Paths in a veil that are compared with one another."""
@@ -45,7 +45,7 @@ class Veil:
             outer.overlaps = True
             outer = None if outer.mask else outer.outer
 
-    def masked(self, opacity: float) -> "Veil":
+    def mask_pattern(self, opacity: float) -> "Veil":
         """Make it the veil of a pattern, and return that of the shape that masks it, of an opacity."""
         self.is_pattern = True
         self.masks.append(Veil(self, opacity, mask=Mask.OPACITY))
@@ -75,7 +75,7 @@ def meet(a: Box, b: Box) -> bool:
     return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
 
 
-def veil_of(style: Style, outer: Veil | None, is_clip: bool = False) -> Veil | None:
+def veil_of(style: ElementStyle, outer: Veil | None, is_clip: bool = False) -> Veil | None:
     """The veil of an element inside the outermost one; the one around it if it is not composited by itself.
 
     In a clip only outlines count, so that nothing but another clip or mask makes a difference.
@@ -91,7 +91,7 @@ def veil_of(style: Style, outer: Veil | None, is_clip: bool = False) -> Veil | N
     return Veil(outer, opacity, blend)
 
 
-def grouped(paths: list[Path], veils: list[Veil | None]) -> tuple[list[Path], tuple[Group, ...]]:
+def group_paths(paths: list[Path], veils: list[Veil | None]) -> tuple[list[Path], tuple[Group, ...]]:
     """Put paths, each with the innermost veil around it, into groups; they get the opacities of the other veils."""
     groups: list[Group] = []
     places: dict[Veil | None, tuple[int, float]] = {None: (-1, 1.0)}  # the group, and the opacity of paths in it
@@ -119,7 +119,7 @@ def grouped(paths: list[Path], veils: list[Veil | None]) -> tuple[list[Path], tu
             unknown += [mask for mask in veil.masks if mask not in unknown]  # also those that show nothing
         place, opacity = places[innermost]
         if innermost is not None:
-            path = replace(path, paint=path.paint.faded(opacity), group=place)
+            path = replace(path, paint=path.paint.fade(opacity), group=place)
         done.append(path)
     return done, tuple(groups)
 
@@ -139,7 +139,7 @@ def has_colors(drawing: Drawing) -> bool:
     return len({paint.color for paint in paints}) > 1 or any(paint.gradient is not None for paint in paints)
 
 
-def occupied(paths: tuple[Path, ...], groups: tuple[Group, ...]) -> tuple[tuple[Path, ...], tuple[Group, ...]]:
+def drop_empty_groups(paths: tuple[Path, ...], groups: tuple[Group, ...]) -> tuple[tuple[Path, ...], tuple[Group, ...]]:
     """Paths and their groups, without the groups that hold none of them; a mask that is empty hides what it masks."""
     held = {path.group for path in paths}
     for place in reversed(range(len(groups))):

@@ -9,10 +9,10 @@ from typing import Any, Final
 
 import tinycss2
 
-from vexture.drawing.calculation import keyword, parsed, separated
+from vexture.drawing.calculation import keyword, parse_tokens, split_arguments
 from vexture.drawing.colors import Color, parse_color
 from vexture.drawing.paint import Affine, Gradient, Paint, Spread, Stop
-from vexture.svg.style import Style
+from vexture.svg.style import ElementStyle
 from vexture.svg.transform import KEYWORDS, Length, angle, parse_origin
 from vexture.svg.values import Viewport, words
 from vexture.svg.viewport import Rectangle
@@ -71,7 +71,7 @@ class CssGradient:
         if line is None:
             return None
         to_ramp, whole, is_radial = line
-        stops = self.placed(solid, length, whole)
+        stops = self.place_stops(solid, length, whole)
         if not stops:
             return None
         first, last = stops[0].offset, stops[-1].offset
@@ -85,36 +85,38 @@ class CssGradient:
         (a, c, e), (b, d, f) = to_ramp
         if is_radial:
             rows = (a / last, c / last, e / last), (b / last, d / last, f / last)
-            return Paint.of(Gradient(rows, tuple(mixed(within)), spread, (0.0, first / last)))
+            return Paint.from_gradient(Gradient(rows, tuple(add_mixed_stops(within)), spread, (0.0, first / last)))
         long = last - first
-        return Paint.of(Gradient(((a / long, c / long, (e - first) / long), (b, d, f)), tuple(mixed(within)), spread))
+        return Paint.from_gradient(
+            Gradient(((a / long, c / long, (e - first) / long), (b, d, f)), tuple(add_mixed_stops(within)), spread)
+        )
 
-    def outward(self, stops: "list[Place]") -> "list[Place]":
+    def outward(self, stops: "list[CssStop]") -> "list[CssStop]":
         """Stops of a radial gradient that begins before its middle, from there on."""
         first, last = stops[0].offset, stops[-1].offset
         if self.repeats:
             turns = ceil(-first / (last - first)) * (last - first)
-            return [Place(stop.offset + turns, stop.color, stop.opacity) for stop in stops]
+            return [CssStop(stop.offset + turns, stop.color, stop.opacity) for stop in stops]
         at = max(number for number, stop in enumerate(stops) if stop.offset <= 0.0)
         low, high = stops[at], stops[at + 1]
         share = -low.offset / (high.offset - low.offset)
         start = between(Stop(0.0, low.color, low.opacity), Stop(1.0, high.color, high.opacity), share)
-        return [Place(0.0, start.color, start.opacity), *stops[at + 1 :]]
+        return [CssStop(0.0, start.color, start.opacity), *stops[at + 1 :]]
 
-    def placed(self, solid: Solid, length: Length, whole: float) -> "list[Place]":
+    def place_stops(self, solid: Solid, length: Length, whole: float) -> "list[CssStop]":
         """Stops in order, in parts of the ramp; none if one is not valid."""
-        found = list[Place]()
+        found = list[CssStop]()
         for color, *places in self.stops:
             value = solid(color)
             offsets = [part_of(place, length, whole) for place in places] or [None]
             if value is None or (places and None in offsets):
                 return []
-            found += [Place(offset, value.rgb, value.alpha) for offset in offsets]
+            found += [CssStop(offset, value.rgb, value.alpha) for offset in offsets]
         return even(found)
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class CssStop:
     """A stop at any place, or at none yet."""
 
     at: float | None
@@ -136,7 +138,7 @@ def background_gradient(text: str) -> CssGradient | None:
     CssGradient(name='linear-gradient', shape='to right', stops=(('red',), ('#00f', '60%')))
     """
     found = None
-    for token in parsed(text.strip()):
+    for token in parse_tokens(text.strip()):
         word = str(tinycss2.serialize([token])).strip().lower()
         if token.type == "function" and token.lower_name.removeprefix(REPEATING) in FUNCTIONS and found is None:
             found = read_function(token)
@@ -147,13 +149,13 @@ def background_gradient(text: str) -> CssGradient | None:
     return found
 
 
-def own_background(style: Style) -> CssGradient | None:
+def own_background(style: ElementStyle) -> CssGradient | None:
     """The gradient that fills the box of the outermost element by its style; None without one, or with more."""
     is_whole = style["background-size"].lower() in WHOLE and style["background-blend-mode"].lower() == "normal"
     return background_gradient(style["background-image"]) if is_whole else None
 
 
-def background_of(style: Style, frame: Rectangle) -> list[Paint]:
+def background_of(style: ElementStyle, frame: Rectangle) -> list[Paint]:
     """Paints of the background of the outermost element, whose box has a frame, the lowest first."""
     found = []
     color = style.solid(style["background-color"])
@@ -169,14 +171,14 @@ def background_of(style: Style, frame: Rectangle) -> list[Paint]:
 
 def read_function(token: Any) -> CssGradient | None:
     """A gradient function; None if it says what is not read: hints between colours, spaces of interpolation."""
-    arguments = [tinycss2.serialize(part).strip() for part in separated(token.arguments)]
+    arguments = [tinycss2.serialize(part).strip() for part in split_arguments(token.arguments)]
     shape = "" if parse_color(first_word(arguments[0])) else arguments.pop(0)
     said = words(shape.lower(), SPACE)
     if len(arguments) < 2 or "in" in said or ("at" in said and len(said) - said.index("at") > 3):
         return None  # a space of interpolation, or a place counted from other sides
     stops = []
     for argument in arguments:
-        parts = [str(tinycss2.serialize([part])) for part in parsed(argument) if part.type != "whitespace"]
+        parts = [str(tinycss2.serialize([part])) for part in parse_tokens(argument) if part.type != "whitespace"]
         if not 1 <= len(parts) <= 3 or not parse_color(parts[0]):
             return None
         stops.append(tuple(parts))
@@ -185,7 +187,7 @@ def read_function(token: Any) -> CssGradient | None:
 
 def first_word(text: str) -> str:
     """The first value in a text."""
-    tokens = [token for token in parsed(text) if token.type != "whitespace"]
+    tokens = [token for token in parse_tokens(text) if token.type != "whitespace"]
     return str(tinycss2.serialize(tokens[:1])) if tokens else ""
 
 
@@ -248,13 +250,13 @@ def part_of(text: str, length: Length, whole: float) -> float | None:
     if text.endswith("%"):
         value = length(text.removesuffix("%"), 0)
         return None if value is None else value / 100.0
-    if keyword(list(parsed(text))):
+    if keyword(list(parse_tokens(text))):
         return None
     turn = length(text, 0)
     return None if turn is None or whole <= 0.0 else turn / whole
 
 
-def even(stops: list[Place]) -> list[Place]:
+def even(stops: list[CssStop]) -> list[CssStop]:
     """Stops with places for all, none before the one before it; those without are even between others (3.4.3)."""
     if not stops:
         return []
@@ -269,10 +271,10 @@ def even(stops: list[Place]) -> list[Place]:
         low, high = at[before] or 0.0, at[after] or 0.0
         for number in range(before + 1, after):
             at[number] = low + (high - low) * (number - before) / (after - before)
-    return [Place(place, stop.color, stop.opacity) for place, stop in zip(at, stops, strict=True)]
+    return [CssStop(place, stop.color, stop.opacity) for place, stop in zip(at, stops, strict=True)]
 
 
-def mixed(stops: list[Stop]) -> list[Stop]:
+def add_mixed_stops(stops: list[Stop]) -> list[Stop]:
     """Stops with others between those of different opacity, that are mixed as premultiplied colours."""
     found = stops[:1]
     for before, after in pairwise(stops):

@@ -18,7 +18,7 @@ __all__ = [
     "MARKERS",
     "Declaration",
     "canonical",
-    "expanded",
+    "expand_declaration",
     "longhands",
     "read_declaration",
     "read_descriptors",
@@ -59,7 +59,7 @@ SHORTHANDS: Final[dict[str, tuple[str, ...]]] = {
 
 
 class Declaration(NamedTuple):
-    """What is said of a property, or of a custom one, whose name begins with two hyphens."""
+    """The value of a property, or of a custom one, whose name begins with two hyphens."""
 
     name: str
     value: str
@@ -102,7 +102,7 @@ def read_declaration(name: str, value: str, important: bool) -> Iterator[Declara
         if longhands(name):
             yield Declaration(name, value, important)
         return
-    pairs = [*expanded(name, value)]
+    pairs = [*expand_declaration(name, value)]
     for longhand, part in pairs:
         yield Declaration(longhand, part, important)
     if not pairs and longhands(name) and value:  # to be named where it has no effect
@@ -122,7 +122,7 @@ def longhands(name: str) -> tuple[str, ...]:
     return SHORTHANDS.get(name, ()) if match is None else ("".join(filter(None, match.groups())),)
 
 
-def expanded(name: str, value: str) -> Iterator[tuple[str, str]]:
+def expand_declaration(name: str, value: str) -> Iterator[tuple[str, str]]:
     """Yield the longhands that a property and its value set."""
     if name == "mask" and value:
         yield from mask_longhands(value)

@@ -44,7 +44,7 @@ def parse_svg(content: bytes) -> etree._Element:
         if others or not parser.error_log:
             known = len(others) == len(parser.error_log)
             message = error.msg or "it is empty" if known else f"{others[0].message}, line {others[0].line}"
-            raise SourceError(explained(" ".join(message.split()))) from None
+            raise SourceError(explain_error(" ".join(message.split()))) from None
         root = etree.fromstring(content, parser_of(encoding, recover=True))
     if local_name(root) != "svg":
         space, _, name = str(root.tag).rpartition("}")
@@ -79,7 +79,7 @@ def parser_of(encoding: str | None = None, *, recover: bool = False) -> etree.XM
     )
 
 
-def explained(message: str) -> str:
+def explain_error(message: str) -> str:
     """Message of libxml2, with the limit and the remedy if a limit was exceeded."""
     if "amplification" in message:
         return "its entities expand to too much text (an entity bomb?); write the drawing without entities"

@@ -15,7 +15,7 @@ from vexture.svg.document import local_name
 from vexture.svg.paint_servers import LINK, PaintServers
 from vexture.svg.values import number
 
-__all__ = ["HIDING", "filter_named"]
+__all__ = ["HIDING", "filter_label"]
 
 HIDING: Final = ""
 """Name of a filter without steps: it leaves nothing of what it is on."""
@@ -30,8 +30,8 @@ MOST_STEPS: Final = 4
 """Steps that a name lists."""
 
 
-def filter_named(value: str, servers: PaintServers) -> str | None:
-    """What a filter, the value of the property, is called in a note; `HIDING`, or None if there is none.
+def filter_label(value: str, servers: PaintServers) -> str | None:
+    """Name a filter, the value of the property, for a note; `HIDING`, or None if there is none.
 
     A filter that is not there makes the whole list of filters void (Filter Effects 1, 5).
     """
@@ -47,7 +47,7 @@ def filter_named(value: str, servers: PaintServers) -> str | None:
             lists.append({token.lower_name.replace("-", " "): None})
         elif token.type != "whitespace":
             return None
-    return f"filter of {listed([*ChainMap(*reversed(lists))])}" if all(lists) else HIDING
+    return f"filter of {join_names([*ChainMap(*reversed(lists))])}" if all(lists) else HIDING
 
 
 def steps_of(element: etree._Element) -> dict[str, None]:
@@ -59,12 +59,12 @@ def steps_of(element: etree._Element) -> dict[str, None]:
     return {CAPITAL.sub(" ", name[2:]).lower().removeprefix("gaussian "): None for name in names}
 
 
-def listed(names: list[str]) -> str:
+def join_names(names: list[str]) -> str:
     """Names as a sentence lists them.
 
     Examples
     --------
-    >>> listed(["flood", "offset", "blend"])
+    >>> join_names(["flood", "offset", "blend"])
     'flood, offset and blend'
     """
     names = [*names[:MOST_STEPS], "more"] if len(names) > MOST_STEPS else names

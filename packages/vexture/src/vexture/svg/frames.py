@@ -10,7 +10,7 @@ from vexture.bezier.bounds import bounds
 from vexture.drawing.drawing import Path
 from vexture.drawing.group import Group
 from vexture.svg.report import Report
-from vexture.svg.scene import Scene
+from vexture.svg.scene import SvgScene
 from vexture.svg.spatial import TRANSFORMS
 from vexture.svg.transform import Identity, Transform
 from vexture.svg.values import Viewport, is_relative
@@ -36,7 +36,7 @@ EMPTY: Final[Frame] = (0.0, 0.0), Viewport(0.0, 0.0), Identity
 """Frame that shows nothing."""
 
 
-def frame(scene: Scene) -> Frame:
+def frame(scene: SvgScene) -> Frame:
     """Frame that the outermost element sets; `EMPTY`, with a note, if a side is zero."""
     root, style = scene.root, scene.style
     box = scene.view(root)
@@ -59,29 +59,36 @@ def frame(scene: Scene) -> Frame:
     given = width is not None, height is not None
     size = (width or ANONYMOUS[0], height or ANONYMOUS[1])
     if not all(given):
-        scene.report.remark(unsized(scene, size, {(True, False): "height", (False, True): "width"}.get(given, "size")))
+        scene.report.remark(
+            missing_size_note(scene, size, {(True, False): "height", (False, True): "width"}.get(given, "size"))
+        )
     return size, viewport_of(scene, size), Identity
 
 
-def painted_frame(scene: Scene) -> Frame:
+def painted_frame(scene: SvgScene) -> Frame:
     """Frame around what is painted, with a note; `EMPTY` if nothing is."""
     viewport = viewport_of(scene, ANONYMOUS)
     box = painted_box(scene, viewport)
     if box is None:
         return EMPTY
-    x, y, width, height = rounded(box)
+    x, y, width, height = round_box(box)
     told = "it has no viewBox and no size; its frame is what it paints"
-    scene.report.remark(f'{told}, viewBox="{written((x, y, width, height))}"')
+    scene.report.remark(f'{told}, viewBox="{view_box_text((x, y, width, height))}"')
     return (width, height), viewport, Identity.translate(-x, -y)
 
 
-def viewport_of(scene: Scene, sides: Size, size: Size | None = None) -> Viewport:
+def viewport_of(scene: SvgScene, sides: Size, size: Size | None = None) -> Viewport:
     """Viewport of a size in user units; `size` is that in pixels, if it is another."""
     return Viewport(*sides, scene.style.font_size, size)
 
 
 def painted_box(
-    scene: Scene, viewport: Viewport, matrix: Transform = Identity, size: Size | None = None, *, is_whole: bool = False
+    scene: SvgScene,
+    viewport: Viewport,
+    matrix: Transform = Identity,
+    size: Size | None = None,
+    *,
+    is_whole: bool = False,
 ) -> Rectangle | None:
     """Bounding box of what is seen in a viewport, before the frame cuts it; None if that is nothing.
 
@@ -90,12 +97,12 @@ def painted_box(
     """
     fonts, page = scene.typesetter.files, scene.cascade.page
     chosen = None if is_whole else scene.chosen
-    silent = Scene(scene.root, Report(), scene.images, chosen, fonts=fonts, page=page)  # notes come later
+    silent = SvgScene(scene.root, Report(), scene.images, chosen, fonts=fonts, page=page)  # notes come later
     painted, groups = silent.paint(viewport, matrix, None, size)
-    return box_seen(painted, groups)
+    return visible_box(painted, groups)
 
 
-def box_seen(paths: list[Path], groups: tuple[Group, ...]) -> Rectangle | None:
+def visible_box(paths: list[Path], groups: tuple[Group, ...]) -> Rectangle | None:
     """Bounding box of paths, each inside those that mask the groups around it; None if it is empty."""
     shown: list[list[Bounds | None]] = [[] for _ in range(len(groups) + 1)]  # in each group; the last is in none
     masks: list[list[Bounds | None]] = [[] for _ in range(len(groups) + 1)]
@@ -104,14 +111,14 @@ def box_seen(paths: list[Path], groups: tuple[Group, ...]) -> Rectangle | None:
             shown[path.group].append(bounds(np.concatenate(path.contours)))
     for place in reversed(range(len(groups))):  # from the innermost one
         group = groups[place]
-        (masks if group.mask else shown)[group.outer].append(seen_through(shown[place], masks[place]))
-    box = seen_through(shown[-1], [])
+        (masks if group.mask else shown)[group.outer].append(visible_bounds(shown[place], masks[place]))
+    box = visible_bounds(shown[-1], [])
     return None if box is None else (box[0], box[1], box[2] - box[0], box[3] - box[1])
 
 
-def seen_through(shown: list[Bounds | None], masks: list[Bounds | None]) -> Bounds | None:
+def visible_bounds(parts: list[Bounds | None], masks: list[Bounds | None]) -> Bounds | None:
     """Box around some boxes, as far as it is in each of those of masks; None is an empty one."""
-    boxes = [box for box in shown if box is not None]
+    boxes = [box for box in parts if box is not None]
     if not boxes or None in masks:
         return None
     left, low = np.min(boxes, axis=0)[:2]
@@ -122,12 +129,12 @@ def seen_through(shown: list[Bounds | None], masks: list[Bounds | None]) -> Boun
     return (float(left), float(low), float(right), float(high)) if left <= right and low <= high else None
 
 
-def rounded(box: Rectangle) -> Rectangle:
+def round_box(box: Rectangle) -> Rectangle:
     """A box around another one in whole units, or of a small one in parts of ten.
 
     Examples
     --------
-    >>> rounded((1.5, -2.25, 20.0, 20.0)), rounded((0.015, 0.0, 0.5, 0.25))
+    >>> round_box((1.5, -2.25, 20.0, 20.0)), rounded((0.015, 0.0, 0.5, 0.25))
     ((1.0, -3.0, 21.0, 21.0), (0.01, 0.0, 0.51, 0.25))
     """
     x, y, width, height = box
@@ -139,13 +146,13 @@ def rounded(box: Rectangle) -> Rectangle:
     return left / units, top / units, wide / units, high / units
 
 
-def written(box: Rectangle) -> str:
+def view_box_text(box: Rectangle) -> str:
     """A box as `viewBox` has it."""
     return " ".join(f"{value:.10g}" for value in box)
 
 
-def unsized(scene: Scene, size: Size, lacking: str) -> str:
-    """What a note says of a drawing that lacks a size and a `viewBox`, and the `viewBox` that would fit it."""
+def missing_size_note(scene: SvgScene, size: Size, lacking: str) -> str:
+    """Message of a note about a drawing that lacks a size and a `viewBox`, and the `viewBox` that would fit it."""
     told = f"it has no viewBox and no {lacking}, and is {size[0]:g} x {size[1]:g}, as in browsers"
     box = painted_box(scene, viewport_of(scene, size), Identity, size, is_whole=True)
     if box is None or fits(box, size):
@@ -154,7 +161,7 @@ def unsized(scene: Scene, size: Size, lacking: str) -> str:
         wrong, gain = "which cuts it", "shows all"
     else:
         wrong, gain = "of which it fills a small part", "fills all of it"
-    fitting = written(rounded(box))
+    fitting = view_box_text(round_box(box))
     remedy = f' (with viewBox="{fitting}" it {gain})' if fits_with(scene, fitting) else ""
     return f"{told}, {wrong}{remedy}"
 
@@ -171,7 +178,7 @@ def fits(box: Rectangle, size: Size) -> bool:
     return not is_cut(box, size) and (box[2] >= LITTLE * size[0] or box[3] >= LITTLE * size[1])
 
 
-def fits_with(scene: Scene, box: str) -> bool:
+def fits_with(scene: SvgScene, box: str) -> bool:
     """Whether a drawing is known to fit the frame of a `viewBox`, to which percentages and media refer, too."""
     root = scene.root
     if not scene.style.own.keys().isdisjoint(TRANSFORMS):  # they move the frame itself, which cuts before that
@@ -179,7 +186,7 @@ def fits_with(scene: Scene, box: str) -> bool:
     before = root.get("viewBox")
     root.set("viewBox", box)
     try:
-        silent = Scene(root, Report(), scene.images, fonts=scene.typesetter.files, page=scene.cascade.page)
+        silent = SvgScene(root, Report(), scene.images, fonts=scene.typesetter.files, page=scene.cascade.page)
         size, viewport, matrix = frame(silent)
         found = painted_box(silent, viewport, matrix, size, is_whole=True)
         return found is not None and fits(found, size)

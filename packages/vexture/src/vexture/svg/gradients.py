@@ -10,15 +10,25 @@ from lxml import etree
 from vexture.bezier.bounds import bounds
 from vexture.drawing.paint import Affine, Gradient, Paint, Spread, Stop
 from vexture.svg.document import local_name
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.report import Report
-from vexture.svg.space import SMALLEST, Place
-from vexture.svg.spatial import Attribute, css_transform, seen
-from vexture.svg.style import Style
+from vexture.svg.space import SMALLEST, ElementPlace
+from vexture.svg.spatial import Attribute, css_transform, to_plane
+from vexture.svg.style import ElementStyle
 from vexture.svg.transform import Identity, Transform, about_origin, parse_transform
 from vexture.svg.values import LARGEST, Viewport, fraction, number
 
-__all__ = ["BOXED", "GRADIENTS", "SHORTEST", "WHOLE", "Ramp", "read_ramp", "rows", "stop_offsets", "transform_of"]
+__all__ = [
+    "BOXED",
+    "GRADIENTS",
+    "SHORTEST",
+    "WHOLE",
+    "GradientRamp",
+    "read_ramp",
+    "rows",
+    "stop_offsets",
+    "transform_of",
+]
 
 LENGTHS: Final = {
     "linearGradient": {"x1": "0%", "y1": "0%", "x2": "100%", "y2": "0%"},
@@ -57,7 +67,7 @@ def touching(focal: float) -> tuple[float, float]:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Ramp:
+class GradientRamp:
     """A gradient as its element and those that it refers to say, with no place yet."""
 
     radial: bool
@@ -69,7 +79,7 @@ class Ramp:
     stops: tuple[Stop, ...]  # one or more
     font_size: float  # of the element
 
-    def paint(self, place: Place, outlines: list[Outline]) -> Paint | None:
+    def paint(self, place: ElementPlace, outlines: list[ShapeOutline]) -> Paint | None:
         """The paint of outlines at a place, in the drawing's coordinates; None if the gradient has no area there."""
         whole = place.space.whole
         if self.boxed:
@@ -84,7 +94,7 @@ class Ramp:
         if gradient is None:
             last = self.stops[-1]
             return Paint(last.color, last.opacity)
-        return Paint.of(gradient.after(rows(whole.inverse())))
+        return Paint.from_gradient(gradient.after(rows(whole.inverse())))
 
     def along(self, view: Viewport) -> Gradient | None:
         """The gradient in its own coordinates; None if it has one colour, that of the last stop (SVG 2, 14.2)."""
@@ -135,7 +145,9 @@ def rows(matrix: Transform) -> Affine:
     return (a, c, e), (b, d, f)
 
 
-def read_ramp(chain: list[etree._Element], stops: tuple[Stop, ...], style: Style, report: Report) -> Ramp:
+def read_ramp(
+    chain: list[etree._Element], stops: tuple[Stop, ...], style: ElementStyle, report: Report
+) -> GradientRamp:
     """Ramp of the first of some gradient elements, which has a style, and each of which refers to the next."""
     name = local_name(chain[0]) or ""
     lengths = dict(LENGTHS[name])
@@ -153,10 +165,10 @@ def read_ramp(chain: list[etree._Element], stops: tuple[Stop, ...], style: Style
     radial = name == "radialGradient"
     moved, spread = moved or Identity, spread or Spread.PAD
     origin = style["transform-origin"]
-    return Ramp(radial, lengths, boxed is not False, moved, origin, spread, stops, style.font_size)
+    return GradientRamp(radial, lengths, boxed is not False, moved, origin, spread, stops, style.font_size)
 
 
-def transform_of(text: str, element: etree._Element, style: Style) -> tuple[str, Transform | None]:
+def transform_of(text: str, element: etree._Element, style: ElementStyle) -> tuple[str, Transform | None]:
     """Text and value of the transform of a paint server: the CSS property, or else the text of its attribute.
 
     An attribute `transform` means nothing here, though the cascade takes it for the property.
@@ -164,7 +176,7 @@ def transform_of(text: str, element: etree._Element, style: Style) -> tuple[str,
     css = style["transform"]
     if css.lower() != "none" and not isinstance(css, Attribute):
         matrix = css_transform(css, WHOLE.along(style.font_size))
-        return css, None if matrix is None else seen(matrix)[0]
+        return css, None if matrix is None else to_plane(matrix)[0]
     return text, parse_transform(text, lambda part, axis: number(part))
 
 

@@ -22,8 +22,8 @@ from vexture.svg.gradients import rows
 from vexture.svg.links import reference
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report
-from vexture.svg.space import Place, Window
-from vexture.svg.transform import Identity, Transform, mapped
+from vexture.svg.space import ContentWindow, ElementPlace
+from vexture.svg.transform import Identity, Transform, map_points
 from vexture.svg.viewport import THINNEST, Rectangle, own_size
 
 __all__ = ["Images", "image_sides", "paint_image"]
@@ -46,25 +46,27 @@ SHOWN: Final = 40
 """Characters of a file's name in a message."""
 
 
-Found: TypeAlias = etree._Element | Drawing
+ImageContent: TypeAlias = etree._Element | Drawing
 """Root of a drawing, or a picture as it is traced."""
 
 
 @dataclass(frozen=True, slots=True)
 class Images:
-    """What of the images of a drawing is read."""
+    """The images of a drawing that are read."""
 
     trace: Callable[[bytes], Drawing] | None = None  # a picture's content; None leaves pictures and files out
     folder: Path | None = None  # of files that may be read
     depth: int = 0
-    known: dict[tuple[int, str], Found | SourceError | LimitError] = field(default_factory=dict)  # by depth and link
+    known: dict[tuple[int, str], ImageContent | SourceError | LimitError] = field(
+        default_factory=dict
+    )  # by depth and link
 
     @property
     def inside(self) -> "Images":
         """Those of a drawing in an image: it may hold others, and refers to no file."""
         return replace(self, folder=None, depth=self.depth + 1)
 
-    def read(self, link: str) -> Found:
+    def read(self, link: str) -> ImageContent:
         """Root of the drawing that a link leads to, or the picture traced; a `SourceError` or `LimitError` if none.
 
         The error is what a note says: it names the image, and why it is left out.
@@ -72,19 +74,19 @@ class Images:
         key = self.depth, link
         if key not in self.known:
             if len(self.known) >= MOST_IMAGES:
-                raise LimitError(f"{called(link)} (the drawing has more than {MOST_IMAGES} images)")
+                raise LimitError(f"{image_label(link)} (the drawing has more than {MOST_IMAGES} images)")
             try:
-                self.known[key] = self.opened(link)
+                self.known[key] = self.open_link(link)
             except (SourceError, LimitError) as error:
-                self.known[key] = type(error)(f"{called(link)} ({error})")
+                self.known[key] = type(error)(f"{image_label(link)} ({error})")
         found = self.known[key]
         if isinstance(found, SourceError | LimitError):
             raise found
         return found
 
-    def opened(self, link: str) -> Found:
+    def open_link(self, link: str) -> ImageContent:
         """As `read`, without looking whether it is known, and with errors that do not name the image."""
-        content = unpack_source(embedded(link) if is_embedded(link) else self.beside(link))
+        content = unpack_source(decode_data_url(link) if is_embedded(link) else self.beside(link))
         start = start_of(content) or read_bytes(content)
         kind = kind_of(start)
         if kind is FileKind.PICTURE:
@@ -125,12 +127,12 @@ def is_embedded(link: str) -> bool:
     return link[:5].lower() == "data:"
 
 
-def called(link: str) -> str:
+def image_label(link: str) -> str:
     """An image as a message names it: by its file's name, or by what is embedded.
 
     Examples
     --------
-    >>> called("pictures/a%20b.png#top"), called("https://example.org/a.png?x=/1"), called("data:,x")
+    >>> image_label("pictures/a%20b.png#top"), called("https://example.org/a.png?x=/1"), called("data:,x")
     ("image 'a b.png'", "image 'a.png'", 'an embedded image')
     """
     if not is_embedded(link):
@@ -138,7 +140,7 @@ def called(link: str) -> str:
         name = re.split(r"[/\\:]", unquote(place).rstrip("/\\"))[-1] or place
         return f"image '{shorten_text(name, SHOWN)}'"
     try:
-        content = embedded(link)
+        content = decode_data_url(link)
     except SourceError:
         return "an embedded image"
     size = picture_size(content)
@@ -148,8 +150,8 @@ def called(link: str) -> str:
     return "an embedded image"
 
 
-class Imaging(Protocol):
-    """What is needed of a scene."""
+class ImageScene(Protocol):
+    """The part of a scene that images need."""
 
     report: Report
     images: Images
@@ -157,16 +159,16 @@ class Imaging(Protocol):
     def fit(self, element: etree._Element, box: Rectangle, width: float, height: float) -> Transform:
         """Map from a view box to a viewport, by the element's `preserveAspectRatio`."""
 
-    def paint_embedded(self, root: etree._Element, place: Place, painter: Painter) -> None:
+    def paint_embedded(self, root: etree._Element, place: ElementPlace, painter: Painter) -> None:
         """Paint another document at a place inside its viewport."""
 
 
-def embedded(link: str) -> bytes:
+def decode_data_url(link: str) -> bytes:
     """Content of a data: URL (RFC 2397).
 
     Examples
     --------
-    >>> embedded("data:image/svg+xml,%3Csvg/%3E"), embedded("data:;base64,PHN2 Zy8+")
+    >>> decode_data_url("data:image/svg+xml,%3Csvg/%3E"), embedded("data:;base64,PHN2 Zy8+")
     (b'<svg/>', b'<svg/>')
     """
     head, comma, body = link.partition("#")[0].partition(",")
@@ -181,7 +183,7 @@ def embedded(link: str) -> bytes:
         raise SourceError("its data is no base64") from None
 
 
-def paint_image(scene: Imaging, element: etree._Element, place: Place, painter: Painter) -> None:
+def paint_image(scene: ImageScene, element: etree._Element, place: ElementPlace, painter: Painter) -> None:
     """Paint an image at a place with its own style, or name it."""
     link = (reference(element) or "").strip()
     if not link or place.style["visibility"].lower() != "visible" or place.space.flat:
@@ -197,7 +199,7 @@ def paint_image(scene: Imaging, element: etree._Element, place: Place, painter: 
         return
     content = Identity.translate(*sides[:2]).transform(scene.fit(element, (0.0, 0.0, width, height), *sides[2:]))
     visible = None if place.style["overflow"].lower() in ("visible", "auto") else sides
-    inner = Window(visible, content, (width, height)).within(place)
+    inner = ContentWindow(visible, content, (width, height)).within(place)
     if not isinstance(found, Drawing):
         scene.paint_embedded(found, inner, painter)
         return
@@ -206,11 +208,11 @@ def paint_image(scene: Imaging, element: etree._Element, place: Place, painter: 
     to_pixels = Transform(a, d, b, e, c, f)
     to_unit = rows(inner.space.whole.transform(to_pixels).inverse())
     for path in found.paths:
-        contours = [mapped(contour, to_pixels) for contour in path.contours]
+        contours = [map_points(contour, to_pixels) for contour in path.contours]
         painter.add(contours, inner, path.fill_rule, path.paint.after(to_unit), place.name)
 
 
-def size_of(found: Found) -> tuple[float, float]:
+def size_of(found: ImageContent) -> tuple[float, float]:
     """Width and height of a picture, or of a drawing in its own pixels."""
     if isinstance(found, Drawing):  # whose pixels begin at 0, 0, in the middle of the unit square
         (side, _, left), (_, _, bottom) = found.to_source.tolist()
@@ -218,7 +220,7 @@ def size_of(found: Found) -> tuple[float, float]:
     return own_size(found)
 
 
-def image_sides(place: Place, size: tuple[float, float]) -> Rectangle:
+def image_sides(place: ElementPlace, size: tuple[float, float]) -> Rectangle:
     """Place and size of an image; what it leaves to the picture follows from the size of that."""
     style, view = place.style, place.viewport
     wholes = {"x": view.width, "y": view.height, "width": view.width, "height": view.height}

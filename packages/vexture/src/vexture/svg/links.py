@@ -46,11 +46,11 @@ class Links:
         if not self.by_id:
             for element in self.root.iter("{*}*"):
                 self.by_id.setdefault(element.get("id", ""), element)
-        decoded = (match[1], unquote(match[1]), ESCAPE.sub(unescaped, match[1]))
+        decoded = (match[1], unquote(match[1]), ESCAPE.sub(unescape, match[1]))
         return next((self.by_id[name] for name in decoded if name in self.by_id), None)
 
 
-def unescaped(match: re.Match[str]) -> str:
+def unescape(match: re.Match[str]) -> str:
     """The character of an escape (CSS Syntax 3, 4.3.7)."""
     if not match[1]:
         return match[2]

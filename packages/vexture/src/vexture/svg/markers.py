@@ -11,10 +11,10 @@ from lxml import etree
 from vexture.base.tolerance import ROUND
 from vexture.svg.compositing import veil_of
 from vexture.svg.declarations import MARKERS
-from vexture.svg.masks import Measured, add_masks
-from vexture.svg.shapes import Shape, shape_outlines
-from vexture.svg.space import Context, Place, Placed, Window
-from vexture.svg.style import Style
+from vexture.svg.masks import MeasuredScene, add_masks
+from vexture.svg.shapes import ShapeElement, shape_outlines
+from vexture.svg.space import ContentWindow, Context, ElementPlace, PlacedElement
+from vexture.svg.style import ElementStyle
 from vexture.svg.transform import KEYWORDS, Identity, angle
 from vexture.svg.values import Viewport
 from vexture.svg.vertices import vertices
@@ -27,16 +27,16 @@ DEFAULT_SIZE = "3"
 REVERSED = "auto-start-reverse"
 
 
-class Marking(Measured, Protocol):
-    """What is needed of a scene."""
+class MarkerScene(MeasuredScene, Protocol):
+    """The part of a scene that markers need."""
 
     def check_used(self, more: int, masks: int) -> None:
-        """Raise a `SourceError` if so many more elements are too many; `masks` as in `Place`."""
+        """Raise a `SourceError` if so many more elements are too many; `masks` as in `ElementPlace`."""
 
-    def window(self, element: etree._Element, style: Style, sides: Rectangle) -> Window | None:
-        """How an element with sides shows its content; None if it shows nothing."""
+    def window(self, element: etree._Element, style: ElementStyle, sides: Rectangle) -> ContentWindow | None:
+        """Viewport of an element with sides; None if it shows nothing."""
 
-    def note_effects(self, element: etree._Element, style: Style) -> bool:
+    def note_effects(self, element: etree._Element, style: ElementStyle) -> bool:
         """Note effects that are not supported; return whether anything is seen of an element with its filter."""
 
 
@@ -45,22 +45,22 @@ class Marker:
     """A marker as a shape shows it."""
 
     element: etree._Element
-    style: Style
-    window: Window
+    style: ElementStyle
+    window: ContentWindow
     anchor: tuple[float, float]  # what of it lies on the vertex, in the units around the window
     scale: float  # of those units
     angle: float  # radians
     follows: bool  # whether the angle is from the direction of the outline
 
 
-def has_markers(name: str, style: Style) -> bool:
+def has_markers(name: str, style: ElementStyle) -> bool:
     """Whether an element of a name may have markers."""
     return name in MARKED and any(style[end].lower() != "none" for end in MARKERS)
 
 
-def markers(scene: Marking, element: etree._Element, place: Place) -> Iterator[list[Placed]]:
-    """What each marker of a shape shows, in painting order; of each, what is painted first is last."""
-    shape = Shape(element, place.style, place.viewport, ROUND * place.viewport.diagonal, scene.report)
+def markers(scene: MarkerScene, element: etree._Element, place: ElementPlace) -> Iterator[list[PlacedElement]]:
+    """Content of each marker of a shape, in painting order; of each, what is painted first is last."""
+    shape = ShapeElement(element, place.style, place.viewport, ROUND * place.viewport.diagonal, scene.report)
     found = [read_marker(scene, name, shape, place) for name in MARKERS]
     if not any(found):
         return
@@ -72,18 +72,23 @@ def markers(scene: Marking, element: etree._Element, place: Place) -> Iterator[l
     scene.check_used(masks * sum(len(marker.element) * len(points[where]) for marker, where in drawn), masks)
     for marker, where in drawn:
         for point, direction in zip(points[where], angles[where], strict=True):
-            yield shown(scene, marker, point, direction, place, context)
+            yield marker_content(scene, marker, point, direction, place, context)
 
 
-def shown(
-    scene: Marking, marker: Marker, point: tuple[float, float], direction: float, place: Place, context: Context
-) -> list[Placed]:
-    """What a marker shows on one vertex of a shape at a place."""
+def marker_content(
+    scene: MarkerScene,
+    marker: Marker,
+    point: tuple[float, float],
+    direction: float,
+    place: ElementPlace,
+    context: Context,
+) -> list[PlacedElement]:
+    """Content of a marker on one vertex of a shape at a place."""
     (x, y), turn = marker.anchor, marker.angle + (direction if marker.follows else 0.0)
     matrix = Identity.translate(*point).rotate(turn).scale(marker.scale).translate(-x, -y)
-    inner = Place(
+    inner = ElementPlace(
         place.viewport,
-        place.space.moved(matrix),
+        place.space.with_transform(matrix),
         marker.style,
         marker.element,
         place,
@@ -99,16 +104,16 @@ def shown(
     return [*((child, inner) for child in reversed(marker.element)), *reversed(masking)]
 
 
-def read_marker(scene: Marking, name: str, shape: Shape, place: Place) -> Marker | None:
+def read_marker(scene: MarkerScene, name: str, shape: ShapeElement, place: ElementPlace) -> Marker | None:
     """The marker that one of `MARKERS` gives a shape; None if it shows nothing."""
-    element = scene.servers.referred(name, "marker", place)
+    element = scene.servers.referenced_element(name, "marker", place)
     if element is None:
         return None
     style = scene.servers.style_of(element)
     if not scene.note_effects(element, style):
         return None
     scale = 1.0 if element.get("markerUnits") == "userSpaceOnUse" else shape.length("stroke-width") or 0.0
-    own = Shape(element, style, place.viewport, shape.tolerance, shape.report)
+    own = ShapeElement(element, style, place.viewport, shape.tolerance, shape.report)
     width, height = side(own, "markerWidth", place.viewport.width), side(own, "markerHeight", place.viewport.height)
     window = scene.window(element, style, (0.0, 0.0, width, height))
     if window is None or scale == 0.0:
@@ -120,7 +125,7 @@ def read_marker(scene: Marking, name: str, shape: Shape, place: Place) -> Marker
     return Marker(element, style, window, on_vertex, scale, turn, follows)
 
 
-def side(marker: Shape, name: str, whole: float) -> float:
+def side(marker: ShapeElement, name: str, whole: float) -> float:
     """Width or height of a marker, in its units."""
     text = marker.element.get(name, DEFAULT_SIZE)
     length = marker.viewport.length(text, whole, marker.style.font_size)
@@ -130,7 +135,7 @@ def side(marker: Shape, name: str, whole: float) -> float:
     return length
 
 
-def anchor(marker: Shape, name: str, whole: float) -> float:
+def anchor(marker: ShapeElement, name: str, whole: float) -> float:
     """Coordinate of a marker's reference point, in the units of its content.
 
     A keyword is a part of the marker's own view box, and a percentage one of the viewport around, as in browsers.
@@ -145,7 +150,7 @@ def anchor(marker: Shape, name: str, whole: float) -> float:
     return length or 0.0
 
 
-def orientation(marker: Shape, name: str) -> tuple[float, bool]:
+def orientation(marker: ShapeElement, name: str) -> tuple[float, bool]:
     """Angle of a marker in radians, and whether it is from the direction of the outline."""
     text = marker.element.get("orient", "0").strip()
     if text in ("auto", REVERSED):

@@ -17,13 +17,13 @@ from vexture.svg.compositing import Veil
 from vexture.svg.document import local_name
 from vexture.svg.paint_servers import PaintServers
 from vexture.svg.report import Report
-from vexture.svg.shapes import Shape, shape_outlines
-from vexture.svg.space import Place, Placed, Space
-from vexture.svg.style import Cascade, Style
+from vexture.svg.shapes import ShapeElement, shape_outlines
+from vexture.svg.space import ElementPlace, PlacedElement, Space
+from vexture.svg.style import Cascade, ElementStyle
 from vexture.svg.transform import Identity, Transform
 from vexture.svg.viewport import Rectangle, view_box
 
-__all__ = ["MASKING", "Measured", "add_masks", "note_outer_units"]
+__all__ = ["MASKING", "MeasuredScene", "add_masks", "note_outer_units"]
 
 MASKING: Final = {"clip-path": "clipPath", "mask": "mask"}
 """The properties that mask an element, and the elements to which they refer."""
@@ -34,43 +34,45 @@ REGION: Final = {"x": "-10%", "y": "-10%", "width": "120%", "height": "120%"}
 NOTHING: Final = Identity.scale(0.0)
 
 
-class Measured(Protocol):
-    """What is needed of a scene."""
+class MeasuredScene(Protocol):
+    """The part of a scene that measures elements."""
 
     report: Report
     cascade: Cascade
     servers: PaintServers
 
-    def transform(self, element: etree._Element, style: Style, place: Place) -> Transform:
+    def transform(self, element: etree._Element, style: ElementStyle, place: ElementPlace) -> Transform:
         """Transform of an element, about its origin."""
 
-    def extent(self, element: etree._Element, place: Place) -> Rectangle | None:
+    def extent(self, element: etree._Element, place: ElementPlace) -> Rectangle | None:
         """As `around`, without strokes; None if the box has no area."""
 
-    def around(self, element: etree._Element, place: Place, stroked: bool) -> Rectangle | None:
+    def around(self, element: etree._Element, place: ElementPlace, stroked: bool) -> Rectangle | None:
         """Bounding box of what an element shows, in the units of the place inside it; None if that is nothing."""
 
 
 def add_masks(
-    scene: Measured, element: etree._Element, place: Place, names: Iterable[str] = MASKING
-) -> tuple[Place, list[Placed]]:
+    scene: MeasuredScene, element: etree._Element, place: ElementPlace, names: Iterable[str] = MASKING
+) -> tuple[ElementPlace, list[PlacedElement]]:
     """The place inside an element, cut by its clips, and what is to be shown to mask it.
 
     The element has a veil of its own if it has a clip or a mask. `names` are the properties that have an effect: in a
     clip, of which only outlines count, a mask has none.
     """
-    shown: list[Placed] = []
+    shown: list[PlacedElement] = []
     for name in names:
         target = shape_of(scene, element, place) if name == "clip-path" else None
         if target is None:
-            target = scene.servers.referred(name, MASKING[name], place)
+            target = scene.servers.referenced_element(name, MASKING[name], place)
         if target is not None:
             place, more = add_mask(scene, element, target, place)
             shown += more
     return place, shown
 
 
-def note_outer_units(scene: Measured, root: etree._Element, style: Style, size: tuple[float, float] | None) -> None:
+def note_outer_units(
+    scene: MeasuredScene, root: etree._Element, style: ElementStyle, size: tuple[float, float] | None
+) -> None:
     """Note clips and masks of the outermost element, of a size, whose units browsers take for pixels."""
     box = view_box(root.get("viewBox", ""))
     if size is None or box is None or box[2:] == size:
@@ -80,7 +82,7 @@ def note_outer_units(scene: Measured, root: etree._Element, style: Style, size: 
             scene.report.simplification(f"{name} of the outermost <svg> read in the units of its content", root)
 
 
-def shape_of(scene: Measured, element: etree._Element, place: Place) -> etree._Element | None:
+def shape_of(scene: MeasuredScene, element: etree._Element, place: ElementPlace) -> etree._Element | None:
     """The clip that an element has by a basic shape, as an element; None if it has none.
 
     Two kinds are left out: those of an outermost element, which are in the units around it, and those of clips and
@@ -99,15 +101,15 @@ def shape_of(scene: Measured, element: etree._Element, place: Place) -> etree._E
 
 
 def add_mask(
-    scene: Measured, element: etree._Element, target: etree._Element, place: Place
-) -> tuple[Place, list[Placed]]:
+    scene: MeasuredScene, element: etree._Element, target: etree._Element, place: ElementPlace
+) -> tuple[ElementPlace, list[PlacedElement]]:
     """As `add_masks`, of one `clipPath` or `mask`."""
     masks = place.deeper()
     is_clip, style = local_name(target) == "clipPath", scene.servers.style_of(target)
     matrix = scene.transform(target, style, place) if is_clip else Identity
     if target.get("clipPathUnits" if is_clip else "maskContentUnits") == "objectBoundingBox":
         matrix = matrix.transform(box_matrix(scene, element, place))
-    space = place.space.moved(matrix)
+    space = place.space.with_transform(matrix)
     if is_clip and not space.flat:
         rectangle = only_rectangle(scene, target, style, place)
         if rectangle is not None:
@@ -122,7 +124,7 @@ def add_mask(
     by_opacity = is_clip or kind == "alpha"
     veil = Veil(place.veil, 1.0, mask=Mask.OPACITY if by_opacity else Mask.LUMINANCE)
     place.veil.masks.append(veil)
-    content = Place(
+    content = ElementPlace(
         place.viewport,
         space,
         style,
@@ -139,13 +141,15 @@ def add_mask(
     return place, [*shown, *((child, content) for child in target)]
 
 
-def box_matrix(scene: Measured, element: etree._Element, place: Place) -> Transform:
+def box_matrix(scene: MeasuredScene, element: etree._Element, place: ElementPlace) -> Transform:
     """From the unit square to the bounding box of what an element shows; to a point if that has no area."""
     box = scene.extent(element, place)
     return NOTHING if box is None else Transform(box[2], 0.0, 0.0, box[3], box[0], box[1])
 
 
-def region(scene: Measured, element: etree._Element, target: etree._Element, place: Place, matrix: Transform) -> Space:
+def region(
+    scene: MeasuredScene, element: etree._Element, target: etree._Element, place: ElementPlace, matrix: Transform
+) -> Space:
     """The space inside a mask's region; `matrix` leads from its content to the units of the element."""
     by_box = target.get("maskUnits") != "userSpaceOnUse"
     whole = (1.0, 1.0) if by_box else (place.viewport.width, place.viewport.height)
@@ -160,12 +164,14 @@ def region(scene: Measured, element: etree._Element, target: etree._Element, pla
         lengths.append(length or 0.0)
     x, y, width, height = lengths
     if width <= 0.0 or height <= 0.0 or units == NOTHING:
-        return place.space.moved(NOTHING)
+        return place.space.with_transform(NOTHING)
     visible = (units.dx + x * units.xx, units.dy + y * units.yy, width * units.xx, height * units.yy)
     return place.space.window(visible, matrix)
 
 
-def only_rectangle(scene: Measured, clip: etree._Element, style: Style, place: Place) -> Rectangle | None:
+def only_rectangle(
+    scene: MeasuredScene, clip: etree._Element, style: ElementStyle, place: ElementPlace
+) -> Rectangle | None:
     """The rectangle, in the units of a clip's content, if that is all that it shows, and upright there."""
     children = [child for child in clip if local_name(child) not in (None, "title", "desc", "metadata")]
     if len(children) != 1 or local_name(children[0]) != "rect":
@@ -177,7 +183,7 @@ def only_rectangle(scene: Measured, clip: etree._Element, style: Style, place: P
         or own["visibility"].lower() != "visible"
     ):
         return None
-    outlines = shape_outlines(Shape(children[0], own, place.viewport, ROUND, scene.report))
+    outlines = shape_outlines(ShapeElement(children[0], own, place.viewport, ROUND, scene.report))
     if len(outlines) != 1 or len(outlines[0].cubics) != 4:
         return None
     (left, top), (right, bottom) = (limit(outlines[0].cubics, axis=(0, 1)).tolist() for limit in (np.min, np.max))

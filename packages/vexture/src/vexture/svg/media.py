@@ -8,10 +8,10 @@ from typing import Any, Final
 
 import tinycss2
 
-from vexture.drawing.calculation import separated
+from vexture.drawing.calculation import split_arguments
 from vexture.svg.values import INITIAL_SIZE, TooLargeError, Viewport, number
 
-__all__ = ["Answer", "Medium", "condition", "shown", "word"]
+__all__ = ["Answer", "Medium", "condition", "significant_tokens", "word"]
 
 TYPES: Final = {"all": True, "screen": True, "print": False, "speech": False}
 
@@ -89,7 +89,7 @@ def word(token: Any) -> str | None:
     return token.lower_value if token.type == "ident" else None
 
 
-def shown(tokens: list[Any]) -> list[Any]:
+def significant_tokens(tokens: list[Any]) -> list[Any]:
     """Tokens without spaces and comments."""
     return [token for token in tokens if token.type not in ("whitespace", "comment")]
 
@@ -110,10 +110,10 @@ class Medium:
 
     def holds(self, queries: list[Any]) -> Answer:
         """Whether one of some media queries holds; an empty list does. A number that is too large is not known."""
-        if not shown(queries):
+        if not significant_tokens(queries):
             return True
         try:
-            answers = [self.query(shown(query)) for query in separated(queries)]
+            answers = [self.query(significant_tokens(query)) for query in split_arguments(queries)]
         except TooLargeError:
             return None
         return True if True in answers else None if None in answers else False
@@ -138,7 +138,7 @@ class Medium:
         """Answer of a condition in brackets."""
         if token.type != "() block":
             return None
-        inside = shown(token.content)
+        inside = significant_tokens(token.content)
         if inside and (inside[0].type == "() block" or word(inside[0]) == "not"):
             return condition(inside, self.atom)
         return self.feature(tinycss2.serialize(token.content).strip().lower())
@@ -162,7 +162,7 @@ class Medium:
             return WORDS[name] not in NOTHING
         if name == "orientation":
             return True
-        own = self.own(ALIASES.get(name, name))
+        own = self.feature_value(ALIASES.get(name, name))
         return None if own is None else own > 0.0
 
     def plain(self, name: str, value: str) -> Answer:
@@ -175,22 +175,22 @@ class Medium:
         match = PREFIX.fullmatch(name)
         webkit, limit, name = match.groups() if match else (None, None, name)
         name = f"{webkit or ''}{name}"
-        own, other = self.own(ALIASES.get(name, name)), self.value(value, name)
+        own, other = self.feature_value(ALIASES.get(name, name)), self.value(value, name)
         if own is None or other is None:
             return None
         return COMPARED[{"min-": ">=", "max-": "<=", None: "="}[limit]](own, other)
 
-    def own(self, name: str) -> float | None:
-        """What a feature is that has a size."""
+    def feature_value(self, name: str) -> float | None:
+        """Value of a media feature that is a number."""
         sizes = {"width": self.width, "height": self.height, "resolution": 1.0}
         if name in ("aspect-ratio", "device-aspect-ratio"):
             return round(self.width / self.height, DIGITS) if self.height else None
         return sizes.get(name, NUMBERS.get(name))
 
     def value(self, text: str, name: str) -> float | None:
-        """What one side of a comparison says, a feature or a value; `name` is the other side."""
+        """Value of one side of a comparison, a feature or a number; `name` is the other side."""
         text, name = ALIASES.get(text, text), ALIASES.get(name, name)
-        if (own := self.own(text)) is not None:
+        if (own := self.feature_value(text)) is not None:
             return own
         if name in ("width", "height"):
             length = Viewport(self.width, self.height).length(text, self.width, INITIAL_SIZE)

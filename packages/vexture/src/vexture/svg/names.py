@@ -12,7 +12,7 @@ TITLE = "title"
 
 
 class ElementNames:
-    """What names elements: an attribute, of which a prefix is the document's, or `TITLE`.
+    """Names of elements, by an attribute, of which a prefix is the document's, or `TITLE`.
 
     Raises a `SourceError` if no element has it.
 

@@ -1,4 +1,4 @@
-"""What the notes of an SVG are about: elements by name, and where in the drawing they are."""
+"""The elements that the notes of an SVG are about: their names, and their boxes in the drawing."""
 
 from collections.abc import Collection, Iterable
 
@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from vexture.base.notes import Box, Subject
 from vexture.drawing.drawing import Path
 from vexture.svg.names import ElementNames
-from vexture.svg.report import described
-from vexture.svg.space import Place
+from vexture.svg.report import describe_element
+from vexture.svg.space import ElementPlace
 
 __all__ = ["boxes_of", "subject_of"]
 
@@ -21,7 +21,7 @@ Boxes = dict[etree._Element, NDArray[np.float64]]
 """Least and greatest coordinates of what elements paint, (2, 2) each, in the coordinates of the paths."""
 
 
-def boxes_of(elements: Collection[etree._Element], paths: Iterable[Path], places: Iterable[Place]) -> Boxes:
+def boxes_of(elements: Collection[etree._Element], paths: Iterable[Path], places: Iterable[ElementPlace]) -> Boxes:
     """Boxes of what some elements paint, from the paths of the drawing with the place of each.
 
     What they show as a clip, marker, mask or pattern of others is not theirs.
@@ -30,7 +30,7 @@ def boxes_of(elements: Collection[etree._Element], paths: Iterable[Path], places
     if not elements:
         return boxes
     for path, innermost in zip(paths, places, strict=True):
-        place: Place | None = None if innermost.masks else innermost
+        place: ElementPlace | None = None if innermost.masks else innermost
         while place is not None:
             if place.element in elements:
                 assert place.element is not None
@@ -44,7 +44,7 @@ def subject_of(
     element: etree._Element, names: ElementNames, boxes: Boxes, to_source: NDArray[np.float64] | None
 ) -> Subject:
     """An element as a note names it; `to_source` maps the unit square to the coordinates of its box, without a turn."""
-    name = (names.of(element) or described(element))[:LONGEST_NAME]
+    name = (names.of(element) or describe_element(element))[:LONGEST_NAME]
     if element not in boxes or to_source is None:
         return Subject(name, None)
     corners = ((boxes[element] - to_source[:, 2]) / np.diag(to_source)).clip(0.0, 1.0)

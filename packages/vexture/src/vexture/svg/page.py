@@ -33,11 +33,11 @@ DECLARATION: Final = re.compile(r"(?<![\w-])(--[^\s:;,(){}]+)\s*:")
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """What surrounds a drawing, and the colours that it gives.
+    """The surroundings of a drawing, and the colours that they give it.
 
     Examples
     --------
-    >>> Page.of({"currentColor": "#c00", "--primary": "teal"}).inherited
+    >>> Page.from_colors({"currentColor": "#c00", "--primary": "teal"}).inherited
     {'color': '#c00', '--primary': 'teal'}
     """
 
@@ -45,13 +45,13 @@ class Page:
     is_open: bool = True  # whether a user can give colours: nobody can to a drawing in an image
 
     @classmethod
-    def of(cls, given: object) -> "Page":
+    def from_colors(cls, colors: object) -> "Page":
         """The page that gives some colours, by `page_colors`; raises a `ParameterError` if they are none."""
-        if given is None:
+        if colors is None:
             return cls()
-        if not isinstance(given, Mapping):
-            raise ParameterError(f"`page_colors` is {given!r:.80}; it must be a mapping of names to CSS colours")
-        return cls({checked_name(name): checked_color(name, color) for name, color in given.items()})
+        if not isinstance(colors, Mapping):
+            raise ParameterError(f"`page_colors` is {colors!r:.80}; it must be a mapping of names to CSS colours")
+        return cls({checked_name(name): checked_color(name, color) for name, color in colors.items()})
 
     @property
     def inherited(self) -> dict[str, str]:
@@ -64,10 +64,10 @@ class Page:
         color = parse_color(self.colors.get(name, ""))
         return color if isinstance(color, Color) else None
 
-    def lost(self, what: str, *, helps: bool) -> str:
-        """What a note says of something that has no value; `helps` is whether a colour would be valid there."""
+    def describe_missing(self, text: str, *, helps: bool) -> str:
+        """Describe a reference without a value for a note; `helps` is whether a colour would be valid there."""
         remedy = " (`page_colors` gives it one)" if helps and self.is_open else ""
-        return f"{shorten_text(what, LONGEST)}, which has no value{remedy}"
+        return f"{shorten_text(text, LONGEST)}, which has no value{remedy}"
 
 
 ENCLOSED: Final = Page(is_open=False)
@@ -97,7 +97,7 @@ def unused_colors(page: Page, root: etree._Element) -> tuple[Note, ...]:
     Examples
     --------
     >>> root = etree.fromstring('<svg><path fill="var(--primary)" stroke="currentColor"/></svg>')
-    >>> print(*unused_colors(Page.of({"--primry": "teal"}), root))
+    >>> print(*unused_colors(Page.from_colors({"--primry": "teal"}), root))
     `page_colors` names --primry, which the drawing does not have; it has --primary, currentColor
     """
     if not page.colors:
@@ -110,8 +110,8 @@ def unused_colors(page: Page, root: etree._Element) -> tuple[Note, ...]:
         return ()
     own = {name for text in texts for name in DECLARATION.findall(text)}
     open_names = [name for name in used if name not in own]
-    rest = f"it has {listed(open_names)}" if open_names else "it leaves no colour to the page"
-    return (Note("remark", f"`page_colors` names {listed(unused)}, which the drawing does not have; {rest}"),)
+    rest = f"it has {list_colors(open_names)}" if open_names else "it leaves no colour to the page"
+    return (Note("remark", f"`page_colors` names {list_colors(unused)}, which the drawing does not have; {rest}"),)
 
 
 def texts_of(root: etree._Element) -> Iterator[str]:
@@ -122,7 +122,7 @@ def texts_of(root: etree._Element) -> Iterator[str]:
             yield "".join(map(str, element.itertext()))
 
 
-def listed(names: list[str]) -> str:
+def list_colors(names: list[str]) -> str:
     """The first of some names of colours, as a note lists them."""
     shown = ["currentColor" if name == CURRENT else shorten_text(name, LONGEST) for name in names[:MOST_NAMED]]
     return ", ".join((*shown, "...") if len(names) > MOST_NAMED else shown)

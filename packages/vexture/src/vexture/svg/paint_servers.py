@@ -8,14 +8,14 @@ from lxml import etree
 from vexture.drawing.colors import CONTEXT, CURRENT, Color, PaintText, parse_paint
 from vexture.drawing.paint import Paint, Stop
 from vexture.svg.document import local_name
-from vexture.svg.gradients import GRADIENTS, Ramp, read_ramp, stop_offsets
+from vexture.svg.gradients import GRADIENTS, GradientRamp, read_ramp, stop_offsets
 from vexture.svg.links import Links, reference
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.pattern_tiles import Budget, FirstTile
 from vexture.svg.patterns import Pattern, Tiling, read_pattern
-from vexture.svg.report import Report, described
-from vexture.svg.space import Place
-from vexture.svg.style import Cascade, Style
+from vexture.svg.report import Report, describe_element
+from vexture.svg.space import ElementPlace
+from vexture.svg.style import Cascade, ElementStyle
 
 __all__ = ["PaintServers"]
 
@@ -37,14 +37,14 @@ class PaintServers(Links):
         super().__init__(root)
         self.cascade = cascade
         self.report = report
-        self.ramps: dict[etree._Element, Ramp | None] = {}
+        self.ramps: dict[etree._Element, GradientRamp | None] = {}
         self.patterns: dict[etree._Element, Pattern | None] = {}
-        self.styles: dict[etree._Element, Style] = {}
+        self.styles: dict[etree._Element, ElementStyle] = {}
         self.budget: Budget = Budget(report)
         self.tiles: dict[tuple[Hashable, ...], FirstTile] = {}  # of patterns, as painted so far
         self.lacks_color = False  # whether anything is painted in `currentcolor`, which nothing says
 
-    def referred(self, name: str, kind: str, place: Place) -> etree._Element | None:
+    def referenced_element(self, name: str, kind: str, place: ElementPlace) -> etree._Element | None:
         """Element of a kind to which a property at a place refers; None, with a note, if it is none or around it."""
         value = place.style[name]
         if value.lower() == "none":
@@ -54,34 +54,36 @@ class PaintServers(Links):
         if target is None or local_name(target) != kind:
             self.report.left_out(f"{name} '{value[:40]}'", place.element)
         elif place.inside(target):
-            self.report.left_out(f"{name} that refers to itself, of {described(target)}", place.element)
+            self.report.left_out(f"{name} that refers to itself, of {describe_element(target)}", place.element)
         else:
             return target
         return None
 
-    def paint(self, name: str, place: Place, outlines: list[Outline]) -> Paint | Tiling | None:
+    def paint(self, name: str, place: ElementPlace, outlines: list[ShapeOutline]) -> Paint | Tiling | None:
         """Paint of `name`, "fill" or "stroke", for outlines at a place with their style; None if nothing is painted."""
         paint = self.found(name, place, lambda: outlines)
-        paint = paint and paint.faded(place.style.opacity(f"{name}-opacity"))
+        paint = paint and paint.fade(place.style.opacity(f"{name}-opacity"))
         return paint if paint is not None and paint.opacity > 0.0 else None
 
-    def found(self, name: str, place: Place, outlines: Callable[[], list[Outline]]) -> Paint | Tiling | None:
+    def found(
+        self, name: str, place: ElementPlace, outlines: Callable[[], list[ShapeOutline]]
+    ) -> Paint | Tiling | None:
         """As `paint`, but for the opacity of the property."""
         text = parse_paint(place.style[name])
         if text is None:
             return None
         if text.reference is not None:
-            return self.served(text, place, outlines())
+            return self.paint_of_reference(text, place, outlines())
         if text.color not in CONTEXT:
             return self.flat(text.color, place.style)
         if place.context is not None:
             return self.found(CONTEXT[text.color], place.context.place, place.context.outlines)
         color = self.cascade.page.context(text.color)
         if color is None and place.element is not None:
-            self.report.once("left out", self.cascade.page.lost(text.color, helps=True), place.element)
+            self.report.once("left out", self.cascade.page.describe_missing(text.color, helps=True), place.element)
         return self.flat(color, place.style)
 
-    def flat(self, color: Color | str | None, style: Style) -> Paint | None:
+    def flat(self, color: Color | str | None, style: ElementStyle) -> Paint | None:
         """Paint of one colour."""
         if isinstance(color, str):
             self.lacks_color |= not style.has_color
@@ -90,7 +92,9 @@ class PaintServers(Links):
             return None
         return Paint(color.rgb, color.alpha)
 
-    def served(self, text: PaintText, place: Place, outlines: list[Outline]) -> Paint | Tiling | None:
+    def paint_of_reference(
+        self, text: PaintText, place: ElementPlace, outlines: list[ShapeOutline]
+    ) -> Paint | Tiling | None:
         """Paint of a reference to a paint server, or its fallback where there is none or it has no area."""
         link = text.reference or ""
         server = self.target(link)
@@ -109,20 +113,20 @@ class PaintServers(Links):
         return self.flat(text.color, place.style) if found is None else found
 
     def tiling(
-        self, server: etree._Element, fallback: Color | str | None, place: Place, outlines: list[Outline]
+        self, server: etree._Element, fallback: Color | str | None, place: ElementPlace, outlines: list[ShapeOutline]
     ) -> Tiling | None:
         """A pattern on outlines; None if it shows nothing."""
         pattern = self.pattern(server)
         if pattern is None:
             return None
         if place.inside(pattern.holder):
-            self.report.left_out(f"pattern that refers to itself, of {described(pattern.holder)}", place.element)
+            self.report.left_out(f"pattern that refers to itself, of {describe_element(pattern.holder)}", place.element)
             return None
         solid = self.flat(fallback or GREY, place.style)
         return None if solid is None else pattern.tiling(place, outlines, solid)
 
     def pattern(self, element: etree._Element) -> Pattern | None:
-        """What a pattern and those that it refers to say; None if they have no content."""
+        """Read a pattern and those that it refers to; None if they have no content."""
         if element not in self.patterns:
             chain = self.chain(element, PATTERNS)
             self.patterns[element] = read_pattern(chain, [*map(self.style_of, chain)], self.report)
@@ -137,8 +141,8 @@ class PaintServers(Links):
             element = self.target(reference(element) or "")
         return chain
 
-    def ramp(self, gradient: etree._Element) -> Ramp | None:
-        """What a gradient and those that it refers to say; None if they have no stops."""
+    def ramp(self, gradient: etree._Element) -> GradientRamp | None:
+        """Read a gradient and those that it refers to; None if they have no stops."""
         if gradient not in self.ramps:
             chain = self.chain(gradient, GRADIENTS)
             stops = next(filter(None, map(self.stops, chain)), None)
@@ -167,7 +171,7 @@ class PaintServers(Links):
         color = style.solid(style["stop-color"]) or style.color
         return Stop(offset, color.rgb, color.alpha * style.opacity("stop-opacity"))
 
-    def style_of(self, element: etree._Element) -> Style:
+    def style_of(self, element: etree._Element) -> ElementStyle:
         """Style of an element where it stands in the document."""
         style = self.cascade.initial
         for around in reversed([element, *element.iterancestors()]):

@@ -15,21 +15,21 @@ from vexture.base.tolerance import ROUND
 from vexture.drawing.drawing import FillRule, Path
 from vexture.drawing.paint import BLACK, Paint
 from vexture.svg.compositing import Veil
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.paint_servers import PaintServers
-from vexture.svg.pattern_tiles import Canvas, FirstTile, Tiles, is_window, visible
+from vexture.svg.pattern_tiles import Canvas, FirstTile, PatternTiles, is_window, visible
 from vexture.svg.patterns import Tiling
 from vexture.svg.properties import PARTS
 from vexture.svg.report import Report
-from vexture.svg.shapes import Shape, check, shape_outlines
-from vexture.svg.space import Place, Placed
+from vexture.svg.shapes import ShapeElement, check, shape_outlines
+from vexture.svg.space import ElementPlace, PlacedElement
 from vexture.svg.strokes import Stroke, arc_length, stroke_contours
 from vexture.svg.text.typesetter import Text
-from vexture.svg.transform import Identity, Transform, mapped, scale_of
+from vexture.svg.transform import Identity, Transform, map_points, scale_of
 from vexture.svg.values import number, words
 
 if TYPE_CHECKING:  # imported at run time for drawings with texts only
-    from vexture.fonts.layers import Layers
+    from vexture.fonts.layers import GlyphLayers
 
 __all__ = ["Painter", "Ruler"]
 
@@ -51,7 +51,7 @@ class Painter:
         servers: PaintServers,
         report: Report,
         canvas: Canvas,
-        walk: "Callable[[list[Placed], Painter], None]",
+        walk: "Callable[[list[PlacedElement], Painter], None]",
     ) -> None:
         self.servers = servers
         self.report = report
@@ -59,10 +59,10 @@ class Painter:
         self.walk = walk
         self.paths: list[Path] = []
         self.veils: list[Veil | None] = []
-        self.places: list[Place] = []
+        self.places: list[ElementPlace] = []
         self.segments: int = 0
 
-    def paint(self, element: etree._Element, place: Place, markers: Iterable[list[Placed]] = ()) -> None:
+    def paint(self, element: etree._Element, place: ElementPlace, markers: Iterable[list[PlacedElement]] = ()) -> None:
         """Paint a shape, and what its markers show; `place` has the shape's own style and transform."""
         style = place.style
         if style["visibility"].lower() != "visible" or place.space.flat:
@@ -71,13 +71,13 @@ class Painter:
             return
         scale = scale_of(place.space.whole)
         size = self.canvas.size / scale
-        shape = Shape(element, style, place.viewport, ROUND * size, self.report)
+        shape = ShapeElement(element, style, place.viewport, ROUND * size, self.report)
         outlines = shape_outlines(shape)
         if outlines:
             rule = FillRule[style["clip-rule" if place.is_clip else "fill-rule"].upper()]
             self.paint_outlines(shape, outlines, outlines, place, rule, size, markers)
 
-    def paint_text(self, text: Text, place: Place) -> None:
+    def paint_text(self, text: Text, place: ElementPlace) -> None:
         """Paint a text; `place` has its transform."""
         if place.space.flat or text.box is None:
             return
@@ -89,20 +89,20 @@ class Painter:
                 if style["fill"].lower() != "none":
                     self.paint_layers(piece.layers, piece.matrix, piece.place)
                 continue
-            shape = Shape(piece.place.element, style, place.viewport, ROUND * size, self.report)
+            shape = ShapeElement(piece.place.element, style, place.viewport, ROUND * size, self.report)
             for outline in piece.outlines:
                 check(outline.cubics)
             self.paint_outlines(shape, [*piece.outlines], [text.box], piece.place, FillRule.NONZERO, size)
 
     def paint_outlines(
         self,
-        shape: Shape,
-        outlines: list[Outline],
-        boxed: list[Outline],
-        place: Place,
+        shape: ShapeElement,
+        outlines: list[ShapeOutline],
+        boxed: list[ShapeOutline],
+        place: ElementPlace,
         rule: FillRule,
         size: float,
-        markers: Iterable[list[Placed]] = (),
+        markers: Iterable[list[PlacedElement]] = (),
     ) -> None:
         """Paint outlines and markers; `boxed` are what the bounding box is around, `size` as in `stroke`."""
         fill = BLACK if place.is_clip else self.servers.paint("fill", place, boxed)
@@ -117,9 +117,9 @@ class Painter:
                 for marker in markers:
                     self.walk(marker, self)
 
-    def paint_layers(self, layers: "Layers", matrix: Transform, place: Place) -> None:
+    def paint_layers(self, layers: "GlyphLayers", matrix: Transform, place: ElementPlace) -> None:
         """Paint a glyph in colour; `matrix` leads from its units to those of a place."""
-        space = place.space.moved(matrix)
+        space = place.space.with_transform(matrix)
         a, b, c, d, e, f = space.whole.inverse()
         opacity = place.style.opacity("fill-opacity")
         veils: dict[int, Veil | None] = {-1: place.veil}
@@ -137,14 +137,19 @@ class Painter:
         for note in layers.notes:
             self.report.count(note.kind, note.message, place.element)
 
-    def for_document(self, servers: PaintServers, walk: "Callable[[list[Placed], Painter], None]") -> "Painter":
+    def for_document(self, servers: PaintServers, walk: "Callable[[list[PlacedElement], Painter], None]") -> "Painter":
         """Return a painter of another document onto the same drawing."""
         own = copy(self)
         own.servers, own.walk = servers, walk
         return own
 
     def stroke(
-        self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | Tiling | None, size: float
+        self,
+        shape: ShapeElement,
+        outlines: list[ShapeOutline],
+        place: ElementPlace,
+        paint: Paint | Tiling | None,
+        size: float,
     ) -> None:
         """Paint along the outlines; `size` is the drawing's, in the shape's user units."""
         stroke = stroke_of(shape, outlines) if paint is not None else None
@@ -154,7 +159,7 @@ class Painter:
         screen = Identity
         if effect == "non-scaling-stroke":
             screen = place.space.whole
-            outlines = [replace(outline, cubics=mapped(outline.cubics, screen)) for outline in outlines]
+            outlines = [replace(outline, cubics=map_points(outline.cubics, screen)) for outline in outlines]
             size *= scale_of(screen)
         elif effect != "none":
             self.report.left_out(f"vector-effect '{effect[:40]}'", shape.element)
@@ -162,11 +167,16 @@ class Painter:
             size = max(stroke.width, *(float(np.ptp(outline.cubics, axis=(0, 1)).max()) for outline in outlines))
         contours = stroke_contours(outlines, stroke, size)
         if screen is not Identity:
-            contours = [mapped(contour, screen.inverse()) for contour in contours]
+            contours = [map_points(contour, screen.inverse()) for contour in contours]
         self.add(contours, place, FillRule.NONZERO, paint, place.name and place.name + STROKE)
 
     def add(
-        self, contours: list[NDArray[np.float64]], place: Place, rule: FillRule, paint: Paint | Tiling, element: str
+        self,
+        contours: list[NDArray[np.float64]],
+        place: ElementPlace,
+        rule: FillRule,
+        paint: Paint | Tiling,
+        element: str,
     ) -> None:
         """Add contours, in the units of a place, to the paths."""
         self.segments += sum(map(len, contours))
@@ -188,7 +198,7 @@ class Painter:
             place.veil.add((*ends.min(axis=0), *ends.max(axis=0)))
 
     def tile(
-        self, shape: list[NDArray[np.float64]], place: Place, rule: FillRule, tiling: Tiling, element: str
+        self, shape: list[NDArray[np.float64]], place: ElementPlace, rule: FillRule, tiling: Tiling, element: str
     ) -> bool:
         """Paint the tiles of a pattern over a shape on the canvas; False if they are too many, or the frame is unknown.
 
@@ -202,7 +212,7 @@ class Painter:
         first = self.first_tile(place, tiling)
         if first is None:
             return False
-        tiles = Tiles.over(first.canvas, shape, window, self.canvas)
+        tiles = PatternTiles.over(first.canvas, shape, window, self.canvas)
         costs = np.array([tiles.cost(path) for path, _ in first.painted]).reshape(-1, 2)
         cubics, gradients = costs.sum(axis=0).tolist()
         if not self.servers.budget.affords(tiling.pattern.element, segments=cubics, gradients=gradients):
@@ -212,16 +222,16 @@ class Painter:
             first.veil.opacity = tiling.opacity
         elif first.painted:
             self.paths.append(Path(tuple(shape), rule, Paint(tiling.solid.color)))
-            self.veils.append(first.veil.masked(tiling.opacity))
+            self.veils.append(first.veil.mask_pattern(tiling.opacity))
             self.places.append(place)
         for path, veil in first.painted:
-            repeated = [replace(made, element=element) for made in tiles.repeated(path)]
+            repeated = [replace(made, element=element) for made in tiles.repeat_path(path)]
             self.paths += repeated
             self.veils += [veil] * len(repeated)
             self.places += [place] * len(repeated)
         return True
 
-    def first_tile(self, place: Place, tiling: Tiling) -> FirstTile | None:
+    def first_tile(self, place: ElementPlace, tiling: Tiling) -> FirstTile | None:
         """The first tile of a pattern, painted once for all shapes in one coordinate system; None if it is too much."""
         tiles, key = self.servers.tiles, tiling.key
         if key not in tiles:
@@ -230,9 +240,9 @@ class Painter:
                 return None
             canvas = Canvas(tiling.tile, self.canvas.size, tiling.space.whole)
             painter, veil = Painter(self.servers, self.report, canvas, self.walk), Veil(None, 1.0)
-            self.walk(tiling.shown(place, veil), painter)
-            tiles[key] = FirstTile.of(canvas, veil, painter.paths, painter.veils)
-        return tiles[key].again()
+            self.walk(tiling.first_tile_content(place, veil), painter)
+            tiles[key] = FirstTile.from_paths(canvas, veil, painter.paths, painter.veils)
+        return tiles[key].copy_veils()
 
 
 class Ruler(Painter):
@@ -242,35 +252,35 @@ class Ruler(Painter):
         self,
         servers: PaintServers,
         report: Report,
-        walk: "Callable[[list[Placed], Painter], None]",
+        walk: "Callable[[list[PlacedElement], Painter], None]",
         stroked: bool = False,
     ) -> None:
         super().__init__(servers, report, Canvas(None, inf), walk)
         self.stroked = stroked
         self.corners: list[NDArray[np.float64]] = []
 
-    def paint(self, element: etree._Element, place: Place, markers: Iterable[list[Placed]] = ()) -> None:
+    def paint(self, element: etree._Element, place: ElementPlace, markers: Iterable[list[PlacedElement]] = ()) -> None:
         """Add the outlines of a shape, in the units of the outermost place; markers do not count."""
-        shape = Shape(element, place.style, place.viewport, inf, self.report)
+        shape = ShapeElement(element, place.style, place.viewport, inf, self.report)
         outlines = shape_outlines(shape)
         self.measure(place, *outlines)
         stroke = stroke_of(shape, outlines) if self.stroked and outlines else None
         if stroke is not None and place.style["stroke"].lower() != "none":
             size = max(stroke.width, *(float(np.ptp(outline.cubics, axis=(0, 1)).max()) for outline in outlines))
             contours = stroke_contours(outlines, replace(stroke, dashes=()), size)  # dashes do not count (SVG 2, 8.10)
-            self.corners.extend(mapped(contour, place.space.whole) for contour in contours)
+            self.corners.extend(map_points(contour, place.space.whole) for contour in contours)
 
-    def measure(self, place: Place, *outlines: Outline) -> None:
+    def measure(self, place: ElementPlace, *outlines: ShapeOutline) -> None:
         """Add outlines."""
-        self.corners.extend(mapped(outline.cubics, place.space.whole) for outline in outlines)
+        self.corners.extend(map_points(outline.cubics, place.space.whole) for outline in outlines)
 
-    def paint_text(self, text: Text, place: Place) -> None:
+    def paint_text(self, text: Text, place: ElementPlace) -> None:
         """Add the box of a text."""
         if text.box is not None:
-            self.corners.append(mapped(text.box.cubics, place.space.whole))
+            self.corners.append(map_points(text.box.cubics, place.space.whole))
 
 
-def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:
+def stroke_of(shape: ShapeElement, outlines: list[ShapeOutline]) -> Stroke | None:
     """Stroke of a shape; None if it has no width."""
     style = shape.style
     width = shape.length("stroke-width") or 0.0
@@ -290,7 +300,7 @@ def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:
     return Stroke(width, style["stroke-linecap"].lower(), join, limit, dashes, offset)
 
 
-def dashes_of(shape: Shape) -> tuple[float, ...]:
+def dashes_of(shape: ShapeElement) -> tuple[float, ...]:
     """Lengths of dashes and gaps, an even number; empty for a solid line."""
     text = shape.style["stroke-dasharray"]
     if text.lower() == "none":

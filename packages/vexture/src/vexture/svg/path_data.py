@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from vexture.bezier.convert import arc_cubics
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 
 __all__ = [
     "ARC",
@@ -18,7 +18,7 @@ __all__ = [
     "NUMBERS",
     "POINTS",
     "SPACE",
-    "Pen",
+    "PathPen",
     "Point",
     "path_outlines",
 ]
@@ -46,14 +46,14 @@ ARGUMENTS: Final[dict[str, list[str]]] = {
 """Arguments after the letter of each command, once or more."""
 
 
-def repeated(arguments: list[str]) -> re.Pattern[str]:
+def repeated_arguments(arguments: list[str]) -> re.Pattern[str]:
     """Pattern of all arguments after the letter of a command, and of the blanks after them."""
     one = GAP.join(arguments)
     more = rf"{SPACE}({one}(?:{GAP}{one})*+)" if arguments else "()"
     return re.compile(more + SPACE)
 
 
-COMMANDS: Final = {letter: repeated(arguments) for letter, arguments in ARGUMENTS.items()}
+COMMANDS: Final = {letter: repeated_arguments(arguments) for letter, arguments in ARGUMENTS.items()}
 NUMBERS: Final = re.compile(NUMBER)
 ARC: Final = re.compile(GAP.join(f"({argument})" for argument in ARGUMENTS["A"]))
 
@@ -63,7 +63,7 @@ HUGE = 1e100
 Point = tuple[float, float]
 
 
-def path_outlines(data: str, tolerance: float) -> tuple[list[Outline], int]:
+def path_outlines(data: str, tolerance: float) -> tuple[list[ShapeOutline], int]:
     """Outlines of path data (the attribute `d`) up to the first error, and the number of valid characters.
 
     `tolerance` is the largest distance of a cubic from its arc, in the units of the path.
@@ -74,17 +74,17 @@ def path_outlines(data: str, tolerance: float) -> tuple[list[Outline], int]:
     >>> square.closed, len(square.cubics), line.closed, line.cubics[0, 0].tolist(), valid
     (True, 4, False, [4.0, 0.0], 20)
     """
-    pen = Pen(tolerance)
+    pen = PathPen(tolerance)
     valid = pen.follow(data)
     return pen.outlines, valid
 
 
-class Pen:
+class PathPen:
     """Draws commands as cubics."""
 
     def __init__(self, tolerance: float) -> None:
         self.tolerance = tolerance
-        self.outlines: list[Outline] = []
+        self.outlines: list[ShapeOutline] = []
         self.cubics: list[tuple[float, ...]] = []
         self.at: tuple[float, float] = (0.0, 0.0)
         self.start: tuple[float, float] = (0.0, 0.0)
@@ -134,9 +134,9 @@ class Pen:
                 case "Q", (x1, y1, x, y):
                     self.quadratic_to((dx + x1, dy + y1), (dx + x, dy + y))
                 case "S", (x2, y2, x, y):
-                    self.cubic_to(self.mirrored("cubic"), (dx + x2, dy + y2), (dx + x, dy + y))
+                    self.cubic_to(self.mirrored_control("cubic"), (dx + x2, dy + y2), (dx + x, dy + y))
                 case "T", (x, y):
-                    self.quadratic_to(self.mirrored("quadratic"), (dx + x, dy + y))
+                    self.quadratic_to(self.mirrored_control("quadratic"), (dx + x, dy + y))
                 case "A", (rx, ry, rotation, large, sweep, x, y):
                     self.arc_to(rx, ry, rotation, bool(large), bool(sweep), (dx + x, dy + y))
                 case "M", (x, y):
@@ -151,7 +151,7 @@ class Pen:
         self.cubics.append((x0, y0, x0 + dx * third, y0 + dy * third, x0 + dx * rest, y0 + dy * rest, x3, y3))
         self.at, self.bend = end, ""
 
-    def mirrored(self, bend: str) -> Point:
+    def mirrored_control(self, bend: str) -> Point:
         """First control point of a smooth curve: the last control point mirrored, if the last segment was a `bend`."""
         (x, y), (u, v) = self.at, self.control
         return (x + x - u, y + y - v) if self.bend == bend else self.at
@@ -197,5 +197,5 @@ class Pen:
         if closed and not self.cubics:
             self.cubics.append(self.at * 4)
         if self.cubics:
-            self.outlines.append(Outline(np.array(self.cubics).reshape(-1, 4, 2), closed))
+            self.outlines.append(ShapeOutline(np.array(self.cubics).reshape(-1, 4, 2), closed))
             self.cubics = []

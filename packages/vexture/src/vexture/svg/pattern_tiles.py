@@ -22,11 +22,11 @@ from vexture.bezier.clip import clip_contour
 from vexture.bezier.convert import line_cubics, straight
 from vexture.drawing.drawing import Path
 from vexture.svg.compositing import Veil
-from vexture.svg.report import Report, described
-from vexture.svg.transform import Identity, Transform, mapped, scale_of
+from vexture.svg.report import Report, describe_element
+from vexture.svg.transform import Identity, Transform, map_points, scale_of
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["Budget", "Canvas", "FirstTile", "Tiles", "is_window", "visible"]
+__all__ = ["Budget", "Canvas", "FirstTile", "PatternTiles", "is_window", "visible"]
 
 MOST: Final = {"elements": 20_000, "segments": 400_000, "gradients": 2_000}
 """Of all patterns of a drawing: elements in first tiles, and what tiles are made of; each has gradients of its own."""
@@ -43,7 +43,7 @@ Window = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 @dataclass(frozen=True, slots=True)
 class Canvas:
-    """What is painted on: the drawing, or a pattern's first tile in the pattern's space."""
+    """A surface to paint on: the drawing, or a pattern's first tile in the pattern's space."""
 
     frame: Rectangle | None  # the visible part, None while it is unknown
     size: float  # larger side of the drawing, which bounds the error of approximations; infinite while it is unknown
@@ -67,7 +67,7 @@ class Canvas:
         """Distance within which points are on the border of a tile."""
         return min(ROUND * self.size / scale_of(self.whole), LOOSE * float(self.sides.min()))
 
-    def fitted(self, contour: NDArray[np.float64]) -> NDArray[np.float64]:
+    def fit_contour(self, contour: NDArray[np.float64]) -> NDArray[np.float64]:
         """A contour whose points near the border are on it; empty if it has no area then."""
         lines, near = straight(contour), self.near
         for border in self.window:
@@ -89,29 +89,29 @@ class Canvas:
 
 @dataclass(frozen=True, slots=True)
 class FirstTile:
-    """What a pattern paints in one tile, in the pattern's space but for gradients, which are in the drawing's."""
+    """Paths that a pattern paints in one tile, in the pattern's space but for gradients, which are in the drawing's."""
 
     canvas: Canvas
     veil: Veil  # around all of it
     painted: tuple[tuple[Path, Veil | None], ...]  # each with the innermost veil around it
 
     @classmethod
-    def of(cls, canvas: Canvas, veil: Veil, paths: list[Path], veils: list[Veil | None]) -> "FirstTile":
-        """What was painted, fitted into the tile."""
+    def from_paths(cls, canvas: Canvas, veil: Veil, paths: list[Path], veils: list[Veil | None]) -> "FirstTile":
+        """Fit painted paths into the tile."""
         painted = []
         for path, innermost in zip(paths, veils, strict=True):
-            fitted = tuple(contour for contour in map(canvas.fitted, path.contours) if len(contour))
+            fitted = tuple(contour for contour in map(canvas.fit_contour, path.contours) if len(contour))
             if fitted:
                 painted.append((replace(path, contours=fitted), innermost))
         return cls(canvas, veil, tuple(painted))
 
-    def again(self) -> "FirstTile":
+    def copy_veils(self) -> "FirstTile":
         """The same with veils of its own."""
         return deepcopy(self, {id(path): path for path, _ in self.painted})
 
 
 class Budget:
-    """What is left to the patterns of a drawing."""
+    """The numbers of tiles and curves that the patterns of a drawing may still have."""
 
     def __init__(self, report: Report) -> None:
         self.report = report
@@ -122,8 +122,8 @@ class Budget:
         for what, count in counts.items():
             if self.spent[what] + count > MOST[what]:
                 self.report.simplification(
-                    f"{described(pattern)} read as solid: here it has {count:,} {what} in its tiles; all patterns of a"
-                    f" drawing may have {MOST[what]:,}",
+                    f"{describe_element(pattern)} read as solid: here it has {count:,} {what} in its tiles; all"
+                    f" patterns of a drawing may have {MOST[what]:,}",
                     pattern,
                 )
                 return False
@@ -132,7 +132,7 @@ class Budget:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Tiles:
+class PatternTiles:
     """The tiles over a part of the drawing."""
 
     tile: Canvas  # the first one
@@ -142,11 +142,11 @@ class Tiles:
     window: Window  # on the canvas
 
     @classmethod
-    def over(cls, tile: Canvas, shape: list[NDArray[np.float64]], window: Window, canvas: Canvas) -> "Tiles":
+    def over(cls, tile: Canvas, shape: list[NDArray[np.float64]], window: Window, canvas: Canvas) -> "PatternTiles":
         """The tiles over a shape within a window of a canvas."""
         (x, y), (width, height) = tile.window[0], tile.sides
         matrix = tile.whole if canvas.whole == Identity else canvas.whole.inverse().transform(tile.whole)
-        left, top, right, bottom = bounds(mapped(np.concatenate(shape), matrix.inverse()))
+        left, top, right, bottom = bounds(map_points(np.concatenate(shape), matrix.inverse()))
         first = floor((left - x) / width + TOUCHED), floor((top - y) / height + TOUCHED)
         last = ceil((right - x) / width - TOUCHED), ceil((bottom - y) / height - TOUCHED)
         return cls(tile, matrix, first, (max(last[0], first[0] + 1), max(last[1], first[1] + 1)), window)
@@ -167,16 +167,18 @@ class Tiles:
             cubics += len(contour) * (1 if across else columns) * (1 if down else rows)
         return cubics, 0
 
-    def repeated(self, path: Path) -> list[Path]:
-        """What a path of the first tile is in all tiles."""
+    def repeat_path(self, path: Path) -> list[Path]:
+        """Repeat a path of the first tile in all tiles."""
         if path.paint.gradient is not None:
-            return [made for at in self._places(False, False) for made in self._shaded(path, at)]
+            return [made for at in self._places(False, False) for made in self._gradient_tile(path, at)]
         contours: list[NDArray[np.float64]] = []
         for contour in path.contours:
             check_time()
             stretched = self.tile.spans(contour)
             start = self._places(*stretched)
-            contours += self._moved(contour, start, np.where(stretched, np.array(self.last, np.float64), start + 1.0))
+            contours += self._move_contour(
+                contour, start, np.where(stretched, np.array(self.last, np.float64), start + 1.0)
+            )
         return [replace(path, contours=tuple(contours))] if contours else []
 
     def _places(self, across: bool, down: bool) -> NDArray[np.float64]:
@@ -185,17 +187,17 @@ class Tiles:
         columns, rows = (np.arange(first, first + 1 if one else last, dtype=np.float64) for first, last, one in ends)
         return np.stack(np.meshgrid(columns, rows), axis=-1).reshape(-1, 2)
 
-    def _shaded(self, path: Path, at: NDArray[np.float64]) -> Iterator[Path]:
+    def _gradient_tile(self, path: Path, at: NDArray[np.float64]) -> Iterator[Path]:
         """A path with a gradient, in one tile."""
         check_time()
-        contours = [part for contour in path.contours for part in self._moved(contour, at[None], at[None] + 1.0)]
+        contours = [part for contour in path.contours for part in self._move_contour(contour, at[None], at[None] + 1.0)]
         if contours:
             a, b, c, d = self.tile.whole[:4]
             x, y = (at * self.tile.sides).tolist()
             paint = path.paint.after(((1.0, 0.0, -a * x - c * y), (0.0, 1.0, -b * x - d * y)))
             yield replace(path, contours=tuple(contours), paint=paint)
 
-    def _moved(
+    def _move_contour(
         self, contour: NDArray[np.float64], start: NDArray[np.float64], end: NDArray[np.float64]
     ) -> list[NDArray[np.float64]]:
         """A contour of the first tile in others, on the canvas, as far as it is in the window.
@@ -210,7 +212,7 @@ class Tiles:
         if (end - start > 1.0).any():
             ends = points[:, :, 0]
             points = line_cubics(ends, np.roll(ends, -1, axis=1))
-        points = mapped(points, self.matrix)
+        points = map_points(points, self.matrix)
         low, high = self.window
         least, most = points.min(axis=(1, 2)), points.max(axis=(1, 2))
         inside = ((least >= low) & (most <= high)).all(axis=1)
@@ -223,7 +225,7 @@ class Tiles:
 
 
 def visible(shape: list[NDArray[np.float64]], frame: Rectangle) -> tuple[list[NDArray[np.float64]], Window]:
-    """What of a shape is inside a frame, and its bounding box."""
+    """The part of a shape inside a frame, and its bounding box."""
     x, y, width, height = frame
     cut = (clip_contour(contour, (x, y), (x + width, y + height)) for contour in shape)
     inside = [contour for contour in cut if len(contour)]

@@ -12,13 +12,13 @@ from vexture.drawing.paint import Paint
 from vexture.svg.compositing import Veil
 from vexture.svg.document import local_name
 from vexture.svg.gradients import BOXED, SHORTEST, WHOLE, transform_of
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.report import Report
-from vexture.svg.space import SMALLEST, Place, Placed, Space
-from vexture.svg.style import Style
+from vexture.svg.space import SMALLEST, ElementPlace, PlacedElement, Space
+from vexture.svg.style import ElementStyle
 from vexture.svg.transform import Identity, Transform, about_origin
 from vexture.svg.values import Viewport
-from vexture.svg.viewport import CENTRED, THINNEST, Fit, Rectangle, parse_fit, view_box, view_transform
+from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, ViewBoxFit, parse_fit, view_box, view_transform
 
 __all__ = ["Pattern", "Tiling", "read_pattern"]
 
@@ -33,7 +33,7 @@ class Pattern:
 
     element: etree._Element
     holder: etree._Element  # whose children are shown
-    style: Style  # that they inherit
+    style: ElementStyle  # that they inherit
     lengths: tuple[str, ...]  # as `LENGTHS`
     font_size: float  # of the element
     boxed: bool  # whether the lengths are parts of the bounding box
@@ -41,9 +41,9 @@ class Pattern:
     moved: Transform  # `patternTransform`
     origin: str  # about which it is
     view: Rectangle | None
-    fit: Fit
+    fit: ViewBoxFit
 
-    def tiling(self, place: Place, outlines: list[Outline], solid: Paint) -> "Tiling | None":
+    def tiling(self, place: ElementPlace, outlines: list[ShapeOutline], solid: Paint) -> "Tiling | None":
         """The tiles on outlines at a place; None if they have no area there."""
         left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
         width, height = right - left, bottom - top
@@ -87,17 +87,17 @@ class Tiling:
 
     @property
     def key(self) -> tuple[Hashable, ...]:
-        """What its first tile depends on."""
+        """Everything that its first tile depends on."""
         return self.pattern, self.tile, self.space.whole, self.content, self.viewport
 
-    def faded(self, opacity: float) -> "Tiling":
+    def fade(self, opacity: float) -> "Tiling":
         """The tiling with its opacity multiplied."""
-        return replace(self, solid=self.solid.faded(opacity), opacity=opacity * self.opacity)
+        return replace(self, solid=self.solid.fade(opacity), opacity=opacity * self.opacity)
 
-    def shown(self, place: Place, veil: Veil) -> list[Placed]:
-        """What is to be painted as the first tile, for a shape at a place."""
+    def first_tile_content(self, place: ElementPlace, veil: Veil) -> list[PlacedElement]:
+        """The elements to paint as the first tile, for a shape at a place."""
         pattern = self.pattern
-        inner = Place(
+        inner = ElementPlace(
             self.viewport,
             self.space.window(self.tile, self.content),
             pattern.style,
@@ -112,10 +112,10 @@ class Tiling:
         return [(child, inner) for child in reversed(pattern.holder)]
 
 
-def read_pattern(chain: list[etree._Element], styles: list[Style], report: Report) -> Pattern | None:
+def read_pattern(chain: list[etree._Element], styles: list[ElementStyle], report: Report) -> Pattern | None:
     """The first of some pattern elements, each of which refers to the next; None if they have no content."""
 
-    def said(name: str, parse: Callable[[str], Value | None], default: Value) -> Value:
+    def read_attribute(name: str, parse: Callable[[str], Value | None], default: Value) -> Value:
         element = next((element for element in chain if element.get(name) is not None), None)
         text = "" if element is None else element.get(name, "")
         value = default if element is None else parse(text)
@@ -135,14 +135,14 @@ def read_pattern(chain: list[etree._Element], styles: list[Style], report: Repor
         chain[0],
         chain[holder],
         styles[holder],
-        tuple(said(name, size_text if name in SIZES else length_text, "0") for name in LENGTHS),
+        tuple(read_attribute(name, size_text if name in SIZES else length_text, "0") for name in LENGTHS),
         styles[0].font_size,
-        said("patternUnits", lambda text: BOXED.get(text.strip()), True),
-        said("patternContentUnits", lambda text: BOXED.get(text.strip()), False),
+        read_attribute("patternUnits", lambda text: BOXED.get(text.strip()), True),
+        read_attribute("patternContentUnits", lambda text: BOXED.get(text.strip()), False),
         moved or Identity,
         styles[0]["transform-origin"],
-        said("viewBox", view_box, None),
-        said("preserveAspectRatio", parse_fit, CENTRED),
+        read_attribute("viewBox", view_box, None),
+        read_attribute("preserveAspectRatio", parse_fit, CENTRED),
     )
 
 

@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable
 from typing import Final, NamedTuple
 
-from vexture.drawing.calculation import sampled
+from vexture.drawing.calculation import sample_calculations
 from vexture.drawing.colors import parse_color, parse_paint
 from vexture.drawing.group import Blend
 from vexture.svg.path_data import NUMBER
@@ -29,7 +29,7 @@ KEYWORDS = ("inherit", "initial", *UNSET)
 
 
 class Property(NamedTuple):
-    """What the cascade needs to know of a property."""
+    """A CSS property, as the cascade needs it."""
 
     initial: str
     inherited: bool
@@ -37,7 +37,7 @@ class Property(NamedTuple):
 
     def allows(self, value: str) -> bool:
         """Whether a value is valid, calculations by what they give."""
-        return bool(self.accepts(value) or ("(" in value and self.accepts(sampled(value))))
+        return bool(self.accepts(value) or ("(" in value and self.accepts(sample_calculations(value))))
 
 
 def anything(value: str) -> bool:

@@ -16,20 +16,20 @@ from vexture.base.errors import ParameterError, SourceError
 from vexture.base.notes import Note, warn_of
 from vexture.drawing.drawing import Drawing
 from vexture.fonts.places import font_places
-from vexture.svg.compositing import has_colors, occupied
+from vexture.svg.compositing import drop_empty_groups, has_colors
 from vexture.svg.document import parse_svg
 from vexture.svg.frames import EMPTY, Frame, frame, painted_frame
 from vexture.svg.images import Images
 from vexture.svg.note_elements import subject_of
 from vexture.svg.page import CURRENT_IS_BLACK, Page, unused_colors
 from vexture.svg.report import Report
-from vexture.svg.scene import Scene
-from vexture.svg.select import UNPAINTED, Part, chosen, nothing_painted, unpainted, with_symbols_used
+from vexture.svg.scene import SvgScene
+from vexture.svg.select import UNPAINTED, SelectedPart, chosen, nothing_painted, unpainted_note, with_symbols_used
 from vexture.svg.transform import Transform
 from vexture.svg.unsupported import ANIMATION
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["Found", "Request", "framed_drawing", "read_document", "read_svg", "svg_drawing"]
+__all__ = ["ReadResult", "Request", "framed_drawing", "read_document", "read_svg", "svg_drawing"]
 
 REVEALED: Final = "what only an animation shows is drawn as that shows it"
 EMPTY_TOO: Final = "its animations show nothing more"
@@ -147,14 +147,14 @@ def framed_drawing(
     page_colors: Mapping[str, str] | None = None,
 ) -> tuple[Drawing, Frame | None]:
     """Read as `svg_drawing` does, and return the frame of the whole drawing too."""
-    named, page = "id" if names is None else names, Page.of(page_colors)
+    named, page = "id" if names is None else names, Page.from_colors(page_colors)
     with about(source):
         for name, value in (("select", select), ("names", names)):
             if value is not None and not isinstance(value, str):
                 raise ParameterError(f"`{name}` is {value!r:.80}; it must be text")
         root = parse_svg(decompress(content))
         unused = unused_colors(page, root) if page.colors else ()
-        part = None if select is None else partial(selected, select=select)
+        part = None if select is None else partial(select_part, select=select)
         found = read_document(Request(root, Path(source).stem, part, named, fonts, images or Images(), page))
         if select is not None and not found.drawing.paths and found.chosen:
             raise nothing_painted(select, found.chosen)
@@ -163,11 +163,11 @@ def framed_drawing(
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What is to be read of a document."""
+    """A document to read, and how to read it."""
 
     root: etree._Element  # which reading changes
     name: str
-    part: Callable[[etree._Element], Part] | None  # finds what is chosen
+    part: Callable[[etree._Element], SelectedPart] | None  # finds what is chosen
     names: str
     fonts: Sequence[str | os.PathLike[str]]
     images: Images
@@ -178,26 +178,26 @@ class Request:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
-    """What is read of a document."""
+class ReadResult:
+    """The drawing read from a document."""
 
     drawing: Drawing
     frame: Frame | None
     chosen: int  # elements that were chosen
 
 
-def selected(root: etree._Element, select: str) -> Part:
-    """What to paint for a selector."""
+def select_part(root: etree._Element, select: str) -> SelectedPart:
+    """Select the part of a document to paint."""
     return with_symbols_used(root, chosen(root, select))
 
 
-def read_document(request: Request) -> Found:
+def read_document(request: Request) -> ReadResult:
     """Read a document, or a part of it."""
     report, root = Report(), request.root
     try:
         part = None if request.part is None else request.part(root)
         elements = None if part is None else part.elements
-        scene = Scene(root, report, request.images, elements, request.names, request.fonts, request.page)
+        scene = SvgScene(root, report, request.images, elements, request.names, request.fonts, request.page)
         framed = painted_frame(scene) if part is not None and part.is_unframed else frame(scene)
         drawing, to_pixels = drawing_of(scene, framed, request.name)
     except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
@@ -208,8 +208,8 @@ def read_document(request: Request) -> Found:
         report.remark(CURRENT_IS_BLACK)
     notes = report.about(lambda element: subject_of(element, scene.names, scene.boxes, to_pixels))
     if not drawing.paths:
-        notes = *without_animation(notes), unpainted(root) if part is None else Note("remark", UNPAINTED)
-    return Found(replace(drawing, notes=notes), None if framed is EMPTY else framed, len(elements or ()))
+        notes = *without_animation(notes), unpainted_note(root) if part is None else Note("remark", UNPAINTED)
+    return ReadResult(replace(drawing, notes=notes), None if framed is EMPTY else framed, len(elements or ()))
 
 
 def without_animation(notes: tuple[Note, ...]) -> tuple[Note, ...]:
@@ -218,7 +218,7 @@ def without_animation(notes: tuple[Note, ...]) -> tuple[Note, ...]:
     return kept if len(kept) == len(notes) else (*kept, Note("remark", EMPTY_TOO))
 
 
-def drawing_of(scene: Scene, framed: Frame, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:
+def drawing_of(scene: SvgScene, framed: Frame, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:
     """Paint a scene into the frame that its outermost element sets.
 
     Return the map from the unit square to pixels, too, if there is one.
@@ -229,7 +229,7 @@ def drawing_of(scene: Scene, framed: Frame, name: str) -> tuple[Drawing, NDArray
     box: Rectangle = (0.0, 0.0, *size)
     paths, groups = scene.paint(viewport, matrix, box, size)
     drawing = Drawing.from_source(paths, box, name, groups)
-    shown, groups = occupied(drawing.paths, groups)
+    shown, groups = drop_empty_groups(drawing.paths, groups)
     to_source = after(drawing.to_source, matrix.inverse())
     return replace(drawing, paths=shown, groups=groups, to_source=to_source), drawing.to_source
 

@@ -10,7 +10,7 @@ from lxml import etree
 from vexture.base.errors import SourceError, printable, shorten_text
 from vexture.base.notes import MOST_SUBJECTS, Kind, Note, Notes, Subject
 
-__all__ = ["LocatedError", "Report", "described"]
+__all__ = ["LocatedError", "Report", "describe_element"]
 
 Step: TypeAlias = Callable[[etree._Element], etree._Element | None]
 """From an element to another one."""
@@ -27,13 +27,13 @@ class LocatedError(SourceError):
     """An error that names an element."""
 
 
-def described(element: etree._Element) -> str:
+def describe_element(element: etree._Element) -> str:
     """Element as a message names it: by its `id`, or else by its line, and its number of those alike in that.
 
     Examples
     --------
     >>> root = etree.fromstring('<svg><path id="a"/><g><rect/></g><rect/><circle/></svg>')
-    >>> [described(element) for element in root.iter("path", "rect", "circle")]
+    >>> [describe_element(element) for element in root.iter("path", "rect", "circle")]
     ['<path id="a"> in line 1', 'the 1st <rect> in line 1', 'the 2nd <rect> in line 1', '<circle> in line 1']
     """
     name = str(element.tag).rpartition("}")[2]
@@ -44,7 +44,7 @@ def described(element: etree._Element) -> str:
 
 
 def placed_in_line(element: etree._Element) -> str:
-    """Which of the elements of its kind in its line an element is; empty if it is the only one, or they are many."""
+    """Position of an element among those of its kind in its line; empty if it is the only one, or they are many."""
     before = list(islice(beside(element, previous), NEAR))
     after = any(other.tag == element.tag for other in islice(beside(element, following), NEAR))
     count = 1 + sum(other.tag == element.tag for other in before)
@@ -101,38 +101,40 @@ class Report(Notes):
         self._about: dict[tuple[Kind, str], dict[etree._Element, None]] = {}
         self._once = set[tuple[Kind, str, etree._Element]]()
 
-    def left_out(self, what: str, element: etree._Element | None = None) -> None:
+    def left_out(self, message: str, element: etree._Element | None = None) -> None:
         """Note something that is not supported, and so paints nothing or has no effect."""
-        self.count("left out", what, element)
+        self.count("left out", message, element)
 
-    def simplification(self, what: str, element: etree._Element | None = None) -> None:
+    def simplification(self, message: str, element: etree._Element | None = None) -> None:
         """Note something that is in the result, but not as it should be."""
-        self.count("simplified", what, element)
+        self.count("simplified", message, element)
 
     def invalid(self, name: str, value: str, element: etree._Element) -> None:
         """Note a value that the standard does not allow."""
-        self.count("invalid", f"{name}='{' '.join(shorten_text(value, 40).split())}' of {described(element)}", element)
+        self.count(
+            "invalid", f"{name}='{' '.join(shorten_text(value, 40).split())}' of {describe_element(element)}", element
+        )
 
     def missing_character(self, character: str, element: etree._Element | None = None) -> None:
         """Note a character of an element that no font has."""
         super().missing_character(character)
         self.add_about("simplified", BOXED, element)
 
-    def count(self, kind: Kind, what: str, element: etree._Element | None = None) -> None:
+    def count(self, kind: Kind, message: str, element: etree._Element | None = None) -> None:
         """Note something once more, of an element if it is about one."""
-        super().count(kind, what)
-        self.add_about(kind, printable(what), element)
+        super().count(kind, message)
+        self.add_about(kind, printable(message), element)
 
-    def once(self, kind: Kind, what: str, element: etree._Element) -> None:
+    def once(self, kind: Kind, message: str, element: etree._Element) -> None:
         """Note something about an element, but for the first time only, however often it is shown."""
-        if (kind, what, element) not in self._once:
-            self._once.add((kind, what, element))
-            self.count(kind, what, element)
+        if (kind, message, element) not in self._once:
+            self._once.add((kind, message, element))
+            self.count(kind, message, element)
 
-    def add_about(self, kind: Kind, what: str, element: etree._Element | None) -> None:
+    def add_about(self, kind: Kind, message: str, element: etree._Element | None) -> None:
         """Keep that a note is about an element, too."""
         if element is not None:
-            about = self._about.setdefault((kind, what), {})
+            about = self._about.setdefault((kind, message), {})
             if len(about) < MOST_SUBJECTS:
                 about[element] = None
 

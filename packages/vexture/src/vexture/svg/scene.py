@@ -20,10 +20,10 @@ from vexture.drawing.drawing import FillRule, Path
 from vexture.drawing.group import Group
 from vexture.svg.angular import angular_fill, paint_angular
 from vexture.svg.animations import ANIMATIONS
-from vexture.svg.compositing import Veil, grouped, veil_of
+from vexture.svg.compositing import Veil, group_paths, veil_of
 from vexture.svg.css_gradients import background_of
 from vexture.svg.document import HTML, applies, local_name
-from vexture.svg.filters import HIDING, filter_named
+from vexture.svg.filters import HIDING, filter_label
 from vexture.svg.gradients import rows
 from vexture.svg.images import Images, image_sides, paint_image
 from vexture.svg.links import reference
@@ -31,23 +31,23 @@ from vexture.svg.markers import has_markers, markers
 from vexture.svg.masks import MASKING, add_masks, note_outer_units
 from vexture.svg.names import ElementNames
 from vexture.svg.note_elements import Boxes, boxes_of
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.page import ENCLOSED, Page
 from vexture.svg.paint_servers import PaintServers
 from vexture.svg.painter import Painter, Ruler
 from vexture.svg.pattern_tiles import Canvas
-from vexture.svg.report import LocatedError, Report, described
-from vexture.svg.shapes import SHAPES, Shape, shape_outlines
-from vexture.svg.space import Context, Place, Placed, Space, Window
+from vexture.svg.report import LocatedError, Report, describe_element
+from vexture.svg.shapes import SHAPES, ShapeElement, shape_outlines
+from vexture.svg.space import ContentWindow, Context, ElementPlace, PlacedElement, Space
 from vexture.svg.spatial import TRANSFORMS, element_transform
-from vexture.svg.style import Cascade, Style
+from vexture.svg.style import Cascade, ElementStyle
 from vexture.svg.text.typesetter import Typesetter
 from vexture.svg.transform import Identity, Transform, parse_origin
-from vexture.svg.unsupported import name_unseen
+from vexture.svg.unsupported import note_unsupported
 from vexture.svg.values import TooLargeError, Viewport
 from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, parse_fit, view_box, view_transform
 
-__all__ = ["Scene"]
+__all__ = ["SvgScene"]
 
 MOST_USED = 50_000
 """Elements that `use`, clips, markers, masks and first tiles show; each time counts, nested ones as often as deep."""
@@ -73,7 +73,7 @@ BOXED = {"foreignObject": paint_angular, "image": paint_image}
 """Elements that have sides and paint something between them."""
 
 
-class Scene:
+class SvgScene:
     """A document that can be painted: all of it, or the elements in `chosen` with all their content."""
 
     def __init__(
@@ -93,7 +93,7 @@ class Scene:
         self.images = images
         self.cascade: Cascade = Cascade(root, report, page)
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
-        self.style: Style = self.cascade.style(root, self.cascade.initial)
+        self.style: ElementStyle = self.cascade.style(root, self.cascade.initial)
         self.used: int = 0
         self.typesetter: Typesetter = Typesetter(fonts, self.cascade.sheets.font_faces, report)
         self.boxes: Boxes = {}  # of what the notes are about, once it is painted
@@ -115,24 +115,24 @@ class Scene:
         painter = Painter(self.servers, self.report, canvas, self.walk)
         chosen = self.chosen is None or self.root in self.chosen
         called = self.names.of(self.root)
-        place = Place(viewport, Space(), self.style, self.root, chosen=chosen, name=called)
+        place = ElementPlace(viewport, Space(), self.style, self.root, chosen=chosen, name=called)
         self.walk(self.inside_root(place, painter, matrix, frame, size), painter)
         self.boxes = boxes_of(self.report.elements, painter.paths, painter.places)
-        return grouped(painter.paths, painter.veils)
+        return group_paths(painter.paths, painter.veils)
 
     def inside_root(
         self,
-        place: Place,
+        place: ElementPlace,
         painter: Painter,
         content: Transform,
         frame: Rectangle | None,
         size: tuple[float, float] | None,
-    ) -> list[Placed]:
-        """What the outermost element shows at a place, in whose space its background fills `frame`.
+    ) -> list[PlacedElement]:
+        """Content of the outermost element at a place, in whose space its background fills `frame`.
 
         `content` maps the user units inside it to those of the place, and `size` is that of its viewport there.
         """
-        name_unseen(self.root, self.style, self.servers, self.report, self.chosen)
+        note_unsupported(self.root, self.style, self.servers, self.report, self.chosen)
         opacity = self.style.opacity("opacity")
         if self.style["display"].lower() == "none" or opacity == 0.0 or not self.note_effects(self.root, self.style):
             return []
@@ -143,7 +143,7 @@ class Scene:
         note_outer_units(self, self.root, self.style, size)
         place, stack = add_masks(self, self.root, place)
         if place.chosen and frame is not None:
-            whole, into = [Outline.rectangle(*frame).loop], rows(around.whole.inverse())
+            whole, into = [ShapeOutline.rectangle(*frame).loop], rows(around.whole.inverse())
             for paint in background_of(self.style, frame):
                 painter.add(whole, replace(place, space=around), FillRule.NONZERO, paint.after(into), place.name)
         return [*stack, *((child, place) for child in reversed(self.root))]
@@ -158,18 +158,18 @@ class Scene:
         """
         if size is not None and not self.style.own.keys().isdisjoint(TRANSFORMS):
             own = {"transform-origin": "center", **self.style.own, "transform-box": "view-box"}
-            box = Place(Viewport(*size, self.style.font_size), around)
+            box = ElementPlace(Viewport(*size, self.style.font_size), around)
             try:
                 matrix = self.transform(self.root, replace(self.style, own=own), box)
-                inner = around.moved(matrix)
-                return inner.window((0.0, 0.0, *size), content) if is_cut else inner.moved(content)
+                inner = around.with_transform(matrix)
+                return inner.window((0.0, 0.0, *size), content) if is_cut else inner.with_transform(content)
             except TooLargeError as error:
                 self.report.left_out(f"transform of the outermost <svg>: {error}", self.root)
-        return around.moved(content)
+        return around.with_transform(content)
 
-    def paint_embedded(self, root: etree._Element, place: Place, painter: Painter) -> None:
+    def paint_embedded(self, root: etree._Element, place: ElementPlace, painter: Painter) -> None:
         """Paint another document at a place inside its viewport; nothing of this one applies in it."""
-        scene = Scene(root, self.report, self.images.inside, fonts=self.typesetter.files)
+        scene = SvgScene(root, self.report, self.images.inside, fonts=self.typesetter.files)
         scene.used = self.used
         size, content = (place.viewport.width, place.viewport.height), Identity
         box = scene.view(root)
@@ -185,7 +185,7 @@ class Scene:
         scene.walk(scene.inside_root(place, own, content, (0.0, 0.0, *size), size), own)
         painter.segments, self.used = own.segments, scene.used
 
-    def walk(self, stack: list[Placed], painter: Painter) -> None:
+    def walk(self, stack: list[PlacedElement], painter: Painter) -> None:
         """Paint all elements of a stack, the last one first, with what they show."""
         while stack:
             check_time()
@@ -198,21 +198,21 @@ class Scene:
             except LocatedError:
                 raise
             except TooLargeError as error:
-                self.report.left_out(f"{described(element)}: {error}", element)
+                self.report.left_out(f"{describe_element(element)}: {error}", element)
             except SourceError as error:
-                raise LocatedError(f"{described(element)}: {error}") from None
+                raise LocatedError(f"{describe_element(element)}: {error}") from None
 
     def check_used(self, more: int, masks: int) -> None:
-        """Raise a `SourceError` if so many more elements are too many; `masks` as in `Place`."""
+        """Raise a `SourceError` if so many more elements are too many; `masks` as in `ElementPlace`."""
         if self.used + more > MOST_USED:
             what = "<use>, clips, markers, masks and patterns show" if masks else "<use> shows"
             raise SourceError(f"{what} more than {MOST_USED:,} elements (a use bomb?); draw fewer copies")
 
-    def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Placed]:
+    def visit(self, element: etree._Element, place: ElementPlace, painter: Painter) -> list[PlacedElement]:
         """Paint an element, or return the elements that it shows."""
         name = local_name(element)
         if name is None and (str(element.tag).rpartition("}")[2] in DRAWN or str(element.tag).startswith(HTML)):
-            self.report.left_out(f"{described(element)}, of another namespace", element)
+            self.report.left_out(f"{describe_element(element)}, of another namespace", element)
         if name is None or name in UNPAINTED or (name == "symbol" and place.use is None) or not applies(element):
             return []
         chosen = place.chosen or (self.chosen is not None and element in self.chosen)
@@ -232,14 +232,14 @@ class Scene:
         matrix = self.transform(element, style, place)
         if place.depth >= DEEPEST:
             raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
-        space, depth = place.space.moved(matrix), place.depth + 1
+        space, depth = place.space.with_transform(matrix), place.depth + 1
         veil = veil_of(style, place.veil, place.is_clip)
         inner = replace(place, space=space, style=style, element=element, outer=place, depth=depth)
         called, is_instance = place.named(self.names.of(element), name == "use")
         inner = replace(inner, use=None, chosen=chosen, veil=veil, name=called, is_instance=is_instance)
-        shown = list[Placed]()
+        shown = list[PlacedElement]()
         if name == "use":  # its clips and masks move along
-            inner = replace(inner, space=space.moved(Identity.translate(*inner.position)))
+            inner = replace(inner, space=space.with_transform(Identity.translate(*inner.position)))
         if name in ("svg", "symbol"):  # as in browsers, its clips and masks are in the units of its content
             window = self.window(element, style, self.sides(inner, place.use))
             if window is None:
@@ -249,7 +249,7 @@ class Scene:
             inner, shown = add_masks(self, element, inner, ("clip-path",) if inner.is_clip else tuple(MASKING))
         return [*shown, *self.content(element, inner, painter)]
 
-    def content(self, element: etree._Element, inner: Place, painter: Painter) -> list[Placed]:
+    def content(self, element: etree._Element, inner: ElementPlace, painter: Painter) -> list[PlacedElement]:
         """Paint a shape, or return the elements that another one shows; `inner` is the place inside."""
         name = local_name(element) or ""
         if name in SHAPES:
@@ -261,20 +261,20 @@ class Scene:
             return []
         if name in BOXED:
             if isinstance(painter, Ruler):
-                painter.measure(inner, Outline.rectangle(*image_sides(inner, (0.0, 0.0))))
+                painter.measure(inner, ShapeOutline.rectangle(*image_sides(inner, (0.0, 0.0))))
             elif not inner.is_clip:
                 BOXED[name](self, element, inner, painter)
             return []
         if name == "use":
             return self.use_target(element, inner)
-        return [(child, inner) for child in (switched(element) if name == "switch" else element)]
+        return [(child, inner) for child in (switch_children(element) if name == "switch" else element)]
 
-    def extent(self, element: etree._Element, place: Place) -> Rectangle | None:
+    def extent(self, element: etree._Element, place: ElementPlace) -> Rectangle | None:
         """As `around`, without strokes; None if the box has no area."""
         box = self.around(element, place)
         return box if box is not None and min(box[2:]) > 0.0 else None
 
-    def around(self, element: etree._Element, place: Place, stroked: bool = False) -> Rectangle | None:
+    def around(self, element: etree._Element, place: ElementPlace, stroked: bool = False) -> Rectangle | None:
         """Bounding box of what an element shows, without masks, in the units of the place inside it; None if empty."""
         silent = copy(self)
         silent.report = Report()
@@ -288,12 +288,12 @@ class Scene:
         left, top, right, bottom = bounds(np.concatenate(ruler.corners))
         return left, top, right - left, bottom - top
 
-    def box(self, place: Place) -> Outline:
+    def box(self, place: ElementPlace) -> ShapeOutline:
         """Outline of the bounding box of what the element at a place shows; a point if it has no area."""
         assert place.element is not None
-        return Outline.rectangle(*(self.extent(place.element, place) or (0.0, 0.0, 0.0, 0.0)))
+        return ShapeOutline.rectangle(*(self.extent(place.element, place) or (0.0, 0.0, 0.0, 0.0)))
 
-    def use_target(self, element: etree._Element, place: Place) -> list[Placed]:
+    def use_target(self, element: etree._Element, place: ElementPlace) -> list[PlacedElement]:
         """Return the element that a `use` shows."""
         link = reference(element) or ""
         target = self.servers.target(link)
@@ -301,12 +301,12 @@ class Scene:
             self.report.left_out(f"<use> of '{link[:40]}', which is not in the drawing", element)
             return []
         if place.inside(target):
-            self.report.left_out(f"{described(element)} that shows itself", element)
+            self.report.left_out(f"{describe_element(element)} that shows itself", element)
             return []
         context = Context(place, cache(lambda: [self.box(place)]))
         return [(target, replace(place, used=True, use=place.style, context=context))]
 
-    def sides(self, place: Place, use: Style | None) -> Rectangle:
+    def sides(self, place: ElementPlace, use: ElementStyle | None) -> Rectangle:
         """Viewport of a nested `<svg>` or a shown `<symbol>`, of which a `use` may give the size."""
         style = place.style
         sides = []
@@ -316,8 +316,8 @@ class Scene:
             sides.append(whole if auto else place.viewport.length(text, whole, style.font_size) or 0.0)
         return *place.position, sides[0], sides[1]
 
-    def window(self, element: etree._Element, style: Style, sides: Rectangle) -> Window | None:
-        """How an element with sides shows its content; None if it shows nothing."""
+    def window(self, element: etree._Element, style: ElementStyle, sides: Rectangle) -> ContentWindow | None:
+        """Viewport of an element with sides; None if it shows nothing."""
         x, y, width, height = sides
         if width <= 0.0 or height <= 0.0:
             return None
@@ -325,7 +325,7 @@ class Scene:
         if min(box[2:]) < THINNEST:
             return None
         content = Identity.translate(x, y).transform(self.fit(element, box, width, height))
-        return Window(None if style["overflow"].lower() in ("visible", "auto") else sides, content, box[2:])
+        return ContentWindow(None if style["overflow"].lower() in ("visible", "auto") else sides, content, box[2:])
 
     def view(self, element: etree._Element) -> Rectangle | None:
         """The `viewBox` of an element; None without a valid one."""
@@ -346,13 +346,13 @@ class Scene:
             fit = parsed or CENTRED
         return view_transform(box, fit, width, height)
 
-    def transform(self, element: etree._Element, style: Style, place: Place) -> Transform:
+    def transform(self, element: etree._Element, style: ElementStyle, place: ElementPlace) -> Transform:
         """Transform of an element by its properties, about its origin."""
         if style.own.keys().isdisjoint(TRANSFORMS):
             return Identity
         left, top, width, height = 0.0, 0.0, place.viewport.width, place.viewport.height
         if style["transform-box"].lower() != "view-box":
-            shape = Shape(element, style, place.viewport, inf, self.report)
+            shape = ShapeElement(element, style, place.viewport, inf, self.report)
             outlines = shape_outlines(shape) if local_name(element) in SHAPES else []
             if outlines:
                 left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
@@ -377,14 +377,14 @@ class Scene:
         x, y = left + origin[0], top + origin[1]
         return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
 
-    def note_effects(self, element: etree._Element, style: Style) -> bool:
+    def note_effects(self, element: etree._Element, style: ElementStyle) -> bool:
         """Note a filter or a motion, which are not supported; return whether anything is seen with the filter."""
         if style["offset-path"].lower() != "none":
             self.report.left_out("offset-path", element)
         value = style["filter"]
         if value.lower() == "none":
             return True
-        named = filter_named(value, self.servers)
+        named = filter_label(value, self.servers)
         if named is None:
             self.report.invalid("filter", value, element)
         elif named != HIDING:
@@ -392,7 +392,7 @@ class Scene:
         return named != HIDING
 
 
-def switched(switch: etree._Element) -> list[etree._Element]:
+def switch_children(switch: etree._Element) -> list[etree._Element]:
     """The child that a `switch` shows: the first that applies and is drawn; without one, all, for their notes."""
     children = [child for child in switch if local_name(child) is not None and applies(child)]
     return [child for child in children if local_name(child) in DRAWN][:1] or children

@@ -18,12 +18,12 @@ from vexture.svg.viewport import Rectangle, view_box
 __all__ = [
     "UNPAINTED",
     "Node",
-    "Part",
+    "SelectedPart",
     "chosen",
     "nothing_painted",
     "symbol_alone",
     "symbols_of",
-    "unpainted",
+    "unpainted_note",
     "with_symbols_used",
 ]
 
@@ -46,7 +46,7 @@ FRAME = ("viewBox", "width", "height", "preserveAspectRatio")
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class SelectedPart:
     """Elements of a document that are to be painted."""
 
     elements: set[etree._Element]
@@ -118,18 +118,19 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
         cut = isinstance(error, AttributeError)  # what cssselect2 raises for :nth-child(2n+)
         reason = "it breaks off" if cut else shorten_text(str(error.args[-1] if error.args else error), LONGEST_NAMED)
         raise ParameterError(
-            f"`select` {named(select)} is no CSS selector ({reason}); write it like '#id', '.class' or 'g > path'"
+            f"`select` {format_selector(select)} is no CSS selector ({reason}); "
+            "write it like '#id', '.class' or 'g > path'"
         ) from None
     except (RecursionError, MemoryError):
-        raise LimitError(f"`select` {named(select)} nests brackets too deeply; simplify it") from None
+        raise LimitError(f"`select` {format_selector(select)} nests brackets too deeply; simplify it") from None
     if not found:
         raise LimitError(
-            f"`select` {named(select)} matches no element; name one of the file's ids, classes or elements"
+            f"`select` {format_selector(select)} matches no element; name one of the file's ids, classes or elements"
         )
     return found
 
 
-def with_symbols_used(root: etree._Element, found: set[etree._Element]) -> Part:
+def with_symbols_used(root: etree._Element, found: set[etree._Element]) -> SelectedPart:
     """Chosen elements, with an element `use` in place of each `symbol` that the document does not use.
 
     A single one fills the drawing: its viewBox becomes that of the document, which is changed.
@@ -145,10 +146,12 @@ def with_symbols_used(root: etree._Element, found: set[etree._Element]) -> Part:
     symbols = [one for one in found if local_name(one) == "symbol" and f"#{one.get('id')}" not in used]
     if len(found) == 1 and symbols:
         return symbol_alone(root, symbols[0])
-    return Part(found.difference(symbols) | {use_of(root, symbol, number) for number, symbol in enumerate(symbols)})
+    return SelectedPart(
+        found.difference(symbols) | {use_of(root, symbol, number) for number, symbol in enumerate(symbols)}
+    )
 
 
-def symbol_alone(root: etree._Element, symbol: etree._Element) -> Part:
+def symbol_alone(root: etree._Element, symbol: etree._Element) -> SelectedPart:
     """An element `use` of a symbol, which fills the drawing, as an `<svg>` with the symbol's viewBox alone does.
 
     A symbol without a viewBox has a frame of its width and height. What hides a sprite in a page, or gives it no size
@@ -166,10 +169,10 @@ def symbol_alone(root: etree._Element, symbol: etree._Element) -> Part:
     use = use_of(root, symbol, 0)
     if box is None and sides is None:
         add_style(symbol, "overflow:visible")
-        return Part({use}, is_unframed=True)
+        return SelectedPart({use}, is_unframed=True)
     placed: Rectangle = box or (0.0, 0.0, *(sides or (0.0, 0.0)))
     add_style(use, *(f"{name}:{side!r}px" for name, side in zip(("x", "y", "width", "height"), placed, strict=True)))
-    return Part({use})
+    return SelectedPart({use})
 
 
 def own_sides(symbol: etree._Element) -> tuple[float, float] | None:
@@ -200,7 +203,7 @@ def use_of(root: etree._Element, symbol: etree._Element, number: int) -> etree._
     return use
 
 
-def unpainted(root: etree._Element) -> Note:
+def unpainted_note(root: etree._Element) -> Note:
     """Note about a document that paints nothing: of a sprite, one about its symbols, which are left out."""
     names = [f"#{name}" for name in symbols_of(root)]
     if not names:
@@ -224,10 +227,12 @@ def symbols_of(root: etree._Element) -> dict[str, etree._Element]:
 def nothing_painted(select: str, count: int) -> LimitError:
     """Error for a selector whose elements paint nothing."""
     elements = "1 element that paints" if count == 1 else f"{count} elements that paint"
-    return LimitError(f"`select` {named(select)} matches {elements} nothing; choose some that are filled or stroked")
+    return LimitError(
+        f"`select` {format_selector(select)} matches {elements} nothing; choose some that are filled or stroked"
+    )
 
 
-def named(select: str) -> str:
+def format_selector(select: str) -> str:
     """Selector as a message names it."""
     text = " ".join(select.split())
     return repr(shorten_text(text, LONGEST_NAMED))

@@ -10,13 +10,13 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import arc_cubics, ellipse_cubics
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.path_data import NUMBER, POINTS, path_outlines
 from vexture.svg.report import Report
-from vexture.svg.style import Style
+from vexture.svg.style import ElementStyle
 from vexture.svg.values import LARGEST, TooLargeError, Viewport
 
-__all__ = ["SHAPES", "Shape", "check", "path_data", "shape_outlines"]
+__all__ = ["SHAPES", "ShapeElement", "check", "path_data", "shape_outlines"]
 
 CSS_PATH = re.compile(r"path\(\s*(?:(?:nonzero|evenodd)\s*,\s*)?(['\"])(.*)\1\s*\)", re.DOTALL)
 HORIZONTAL = frozenset({"x", "cx", "rx", "width", "x1", "x2"})
@@ -24,11 +24,11 @@ VERTICAL = frozenset({"y", "cy", "ry", "height", "y1", "y2"})
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
+class ShapeElement:
     """A shape element and what its geometry depends on."""
 
     element: etree._Element
-    style: Style
+    style: ElementStyle
     viewport: Viewport  # percentages refer to it
     tolerance: float  # largest distance of a cubic from its arc, in user units
     report: Report
@@ -56,7 +56,7 @@ class Shape:
         return self.viewport.length(text, whole, self.style.font_size)
 
 
-def shape_outlines(shape: Shape) -> list[Outline]:
+def shape_outlines(shape: ShapeElement) -> list[ShapeOutline]:
     """Outlines of a shape in its own user units; a `TooLargeError` if a coordinate exceeds `LARGEST`."""
     outlines = SHAPES[etree.QName(shape.element).localname](shape)
     for outline in outlines:
@@ -71,7 +71,7 @@ def check(coordinates: NDArray[np.float64]) -> None:
         raise TooLargeError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
 
 
-def path_data(shape: Shape) -> str:
+def path_data(shape: ShapeElement) -> str:
     """Path data of `<path>`, empty without."""
     data = shape.style["d"]
     if css := CSS_PATH.fullmatch(data):
@@ -79,7 +79,7 @@ def path_data(shape: Shape) -> str:
     return "" if data == "none" else data
 
 
-def path(shape: Shape) -> list[Outline]:
+def path(shape: ShapeElement) -> list[ShapeOutline]:
     """Outlines of `<path>`, up to the first error in its data."""
     data = path_data(shape)
     outlines, valid = path_outlines(data, shape.tolerance)
@@ -88,7 +88,7 @@ def path(shape: Shape) -> list[Outline]:
     return outlines
 
 
-def rect(shape: Shape) -> list[Outline]:
+def rect(shape: ShapeElement) -> list[ShapeOutline]:
     """Outline of `<rect>`, clockwise on the screen, from the right end of its top left corner."""
     x, y = shape.length("x") or 0.0, shape.length("y") or 0.0
     width, height = shape.length("width") or 0.0, shape.length("height") or 0.0
@@ -98,7 +98,7 @@ def rect(shape: Shape) -> list[Outline]:
     rx, ry = min(rx, width / 2.0), min(ry, height / 2.0)
     right, bottom = x + width, y + height
     if rx <= 0.0 or ry <= 0.0:
-        return [Outline.rectangle(x, y, width, height)]
+        return [ShapeOutline.rectangle(x, y, width, height)]
     at = (x + rx, y)
     cubics = []
     for side, corner in (
@@ -111,41 +111,41 @@ def rect(shape: Shape) -> list[Outline]:
         for step in line + arc_cubics(side, (rx, ry), 0.0, False, True, corner, shape.tolerance):
             cubics.append((*at, *step))
             at = step[4:]
-    return [Outline(np.array(cubics).reshape(-1, 4, 2), closed=True)]
+    return [ShapeOutline(np.array(cubics).reshape(-1, 4, 2), closed=True)]
 
 
-def corner_radii(shape: Shape) -> tuple[float, float]:
+def corner_radii(shape: ShapeElement) -> tuple[float, float]:
     """`rx` and `ry`, where "auto" takes the other's value."""
     rx, ry = shape.length("rx"), shape.length("ry")
     return (rx if rx is not None else ry) or 0.0, (ry if ry is not None else rx) or 0.0
 
 
-def circle(shape: Shape) -> list[Outline]:
+def circle(shape: ShapeElement) -> list[ShapeOutline]:
     """Outline of `<circle>`."""
     radius = shape.length("r") or 0.0
     return round_outline(shape, radius, radius)
 
 
-def ellipse(shape: Shape) -> list[Outline]:
+def ellipse(shape: ShapeElement) -> list[ShapeOutline]:
     """Outline of `<ellipse>`."""
     return round_outline(shape, *corner_radii(shape))
 
 
-def round_outline(shape: Shape, rx: float, ry: float) -> list[Outline]:
+def round_outline(shape: ShapeElement, rx: float, ry: float) -> list[ShapeOutline]:
     """Whole ellipse around `cx` and `cy`."""
     if rx <= 0.0 or ry <= 0.0:
         return []
     center = shape.length("cx") or 0.0, shape.length("cy") or 0.0
-    return [Outline(ellipse_cubics(center, (rx, ry), shape.tolerance), closed=True)]
+    return [ShapeOutline(ellipse_cubics(center, (rx, ry), shape.tolerance), closed=True)]
 
 
-def line(shape: Shape) -> list[Outline]:
+def line(shape: ShapeElement) -> list[ShapeOutline]:
     """Outline of `<line>`."""
     ends = [(shape.attribute(f"x{n}"), shape.attribute(f"y{n}")) for n in (1, 2)]
-    return [Outline.polygon(np.array(ends), closed=False)]
+    return [ShapeOutline.polygon(np.array(ends), closed=False)]
 
 
-def corners(shape: Shape, closed: bool) -> list[Outline]:
+def corners(shape: ShapeElement, closed: bool) -> list[ShapeOutline]:
     """Straight sides through `points`, up to the first error in them."""
     text = shape.element.get("points", "")
     match = POINTS.match(text)
@@ -154,10 +154,10 @@ def corners(shape: Shape, closed: bool) -> list[Outline]:
         shape.report.invalid("points", f"...{text[valid:]}", shape.element)
     coordinates = np.array(re.findall(NUMBER, text[:valid]), dtype=np.float64)
     check(coordinates)
-    return [Outline.polygon(coordinates.reshape(-1, 2), closed)] if len(coordinates) > 2 else []
+    return [ShapeOutline.polygon(coordinates.reshape(-1, 2), closed)] if len(coordinates) > 2 else []
 
 
-SHAPES: dict[str, Callable[[Shape], list[Outline]]] = {
+SHAPES: dict[str, Callable[[ShapeElement], list[ShapeOutline]]] = {
     "path": path,
     "rect": rect,
     "circle": circle,

@@ -1,4 +1,4 @@
-"""Where an element stands: its user units, the viewports that clip it, and the style that it inherits."""
+"""The context of an element: its user units, the viewports that clip it, and the style that it inherits."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from vexture.base.errors import SourceError
 from vexture.bezier.clip import clip_contour
 from vexture.svg.compositing import Veil
-from vexture.svg.outline import Outline
-from vexture.svg.style import INITIAL, Style
-from vexture.svg.transform import Identity, Transform, mapped
+from vexture.svg.outline import ShapeOutline
+from vexture.svg.style import INITIAL, ElementStyle
+from vexture.svg.transform import Identity, Transform, map_points
 from vexture.svg.values import LARGEST, TooLargeError, Viewport
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["SMALLEST", "Context", "Place", "Placed", "Space", "Window"]
+__all__ = ["SMALLEST", "ContentWindow", "Context", "ElementPlace", "PlacedElement", "Space"]
 
 MOST_MASKS = 32
 """Clips, markers, masks and patterns in one another."""
@@ -40,7 +40,7 @@ class Space:
         a, b, c, d = self.whole[:4]
         return bool(abs(a * d - b * c) < SMALLEST)
 
-    def moved(self, matrix: Transform) -> "Space":
+    def with_transform(self, matrix: Transform) -> "Space":
         """Coordinate system of an element with a transform."""
         whole = self.whole.transform(matrix)
         if not max(map(abs, whole)) <= LARGEST:
@@ -49,14 +49,14 @@ class Space:
 
     def window(self, visible: Rectangle, matrix: Transform) -> "Space":
         """Coordinate system inside a viewport that shows only `visible`, given in these coordinates."""
-        return replace(self.moved(matrix), matrix=matrix, clip=visible, outer=self)
+        return replace(self.with_transform(matrix), matrix=matrix, clip=visible, outer=self)
 
     def to_drawing(self, contour: NDArray[np.float64]) -> NDArray[np.float64]:
         """Map a contour to the drawing's coordinates and clip it; empty if nothing is left."""
         space: Space | None = self
         while space is not None:
             if space.matrix != Identity:
-                contour = mapped(contour, space.matrix)
+                contour = map_points(contour, space.matrix)
             if space.clip is not None and len(contour):
                 x, y, width, height = space.clip
                 contour = clip_contour(contour, (x, y), (x + width, y + height))
@@ -65,17 +65,17 @@ class Space:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Place:
+class ElementPlace:
     """The context of an element in the drawing; `use` puts the same element in several places."""
 
     viewport: Viewport  # percentages refer to it
     space: Space  # the user units
-    style: Style = INITIAL  # style to inherit
+    style: ElementStyle = INITIAL  # style to inherit
     element: etree._Element | None = None  # the parent, or the `use` that shows it
-    outer: "Place | None" = None  # the place of `element`
+    outer: "ElementPlace | None" = None  # the place of `element`
     depth: int = 0  # number of elements around it
     used: bool = False  # whether one of them is a `use`
-    use: Style | None = None  # style of the `use` whose target stands here
+    use: ElementStyle | None = None  # style of the `use` whose target stands here
     chosen: bool = True  # whether elements here are painted
     veil: Veil | None = None  # the innermost one around it
     is_clip: bool = False  # whether only the outlines of shapes here count
@@ -109,7 +109,7 @@ class Place:
 
     def inside(self, element: etree._Element) -> bool:
         """Whether an element is around this place."""
-        place: Place | None = self
+        place: ElementPlace | None = self
         while place is not None:
             if place.element is element:
                 return True
@@ -121,26 +121,26 @@ class Place:
 class Context:
     """An element that has markers, or a `use`: its paints lie as it does (SVG 2, 13.2)."""
 
-    place: Place  # inside it, with its style
-    outlines: Callable[[], list[Outline]]  # of which gradients and patterns may need the bounding box
+    place: ElementPlace  # inside it, with its style
+    outlines: Callable[[], list[ShapeOutline]]  # of which gradients and patterns may need the bounding box
 
 
 @dataclass(frozen=True, slots=True)
-class Window:
+class ContentWindow:
     """A viewport, and how it shows its content."""
 
     visible: Rectangle | None  # None if its content may reach beyond
     content: Transform  # from the units of its content to those around it
     size: tuple[float, float]  # to which percentages in its content refer
 
-    def within(self, place: Place) -> Place:
+    def within(self, place: ElementPlace) -> ElementPlace:
         """The place inside it, if it stands at a place."""
-        space = place.space.moved(self.content)
+        space = place.space.with_transform(self.content)
         if self.visible is not None:
             space = place.space.window(self.visible, self.content)
         width, height = self.size
         return replace(place, viewport=replace(place.viewport, width=width, height=height), space=space)
 
 
-Placed = tuple[etree._Element, Place]
+PlacedElement = tuple[etree._Element, ElementPlace]
 """An element, and the place around it."""

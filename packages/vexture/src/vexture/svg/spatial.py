@@ -8,11 +8,11 @@ import numpy as np
 import tinycss2
 from numpy.typing import NDArray
 
-from vexture.drawing.calculation import parsed
+from vexture.drawing.calculation import parse_tokens
 from vexture.svg.transform import Identity, Length, Transform, angle, parse_transform, single_transform
 from vexture.svg.values import number, words
 
-__all__ = ["TRANSFORMS", "Attribute", "css_transform", "element_transform", "seen"]
+__all__ = ["TRANSFORMS", "Attribute", "css_transform", "element_transform", "to_plane"]
 
 TRANSFORMS: Final = ("translate", "rotate", "scale", "transform")
 """Properties that move an element, in the order in which they do (CSS Transforms 2, 6)."""
@@ -48,9 +48,9 @@ def element_transform(values: Mapping[str, str], length: Length) -> tuple[Transf
         if one is None:
             invalid.append(name)
         else:
-            matrix = lifted(one) if isinstance(one, Transform) else one
+            matrix = to_space(one) if isinstance(one, Transform) else one
             product = matrix if product is None else np.einsum("ij,jk->ik", product, matrix)
-    flat, deep = (Identity, False) if product is None else seen(about_depth(product, values, length))
+    flat, deep = (Identity, False) if product is None else to_plane(about_depth(product, values, length))
     return flat, invalid, deep
 
 
@@ -58,7 +58,11 @@ def about_depth(matrix: Spatial, values: Mapping[str, str], length: Length) -> S
     """A map about the third part of `transform-origin`; the other two move what is seen as they move the plane."""
     parts = words(values.get("transform-origin", ""))
     depth = length(parts[2], 0) if len(parts) == 3 else None
-    return np.einsum("ij,jk,kl->il", moved(0.0, 0.0, depth), matrix, moved(0.0, 0.0, -depth)) if depth else matrix
+    return (
+        np.einsum("ij,jk,kl->il", translation(0.0, 0.0, depth), matrix, translation(0.0, 0.0, -depth))
+        if depth
+        else matrix
+    )
 
 
 def property_transform(name: str, text: str, length: Length) -> Spatial | None:
@@ -68,7 +72,7 @@ def property_transform(name: str, text: str, length: Length) -> Spatial | None:
 
     Examples
     --------
-    >>> seen(property_transform("scale", "200% 3", lambda text, axis: number(text)))[0].transformPoint((1, 1))
+    >>> to_plane(property_transform("scale", "200% 3", lambda text, axis: number(text)))[0].transformPoint((1, 1))
     (2.0, 3.0)
     """
     if name == "transform":
@@ -77,7 +81,7 @@ def property_transform(name: str, text: str, length: Length) -> Spatial | None:
     if parts == ["none"]:
         return np.eye(4)
     if name == "rotate":
-        return turned(parts)
+        return parse_rotation(parts)
     if name == "translate":
         return function("translate3d" if len(parts) == 3 else name, parts, length)
     return function("scale3d" if len(parts) == 3 else name, parts, length)
@@ -89,13 +93,13 @@ def css_transform(text: str, length: Length) -> Spatial | None:
     Examples
     --------
     >>> value = "translate3d(1px, 0, 7px) rotateX(180deg) scale(50%)"
-    >>> seen(css_transform(value, lambda text, axis: number(text.removesuffix("px"))))[0].transformPoint((2, 2))
+    >>> to_plane(css_transform(value, lambda text, axis: number(text.removesuffix("px"))))[0].transformPoint((2, 2))
     (2.0, -1.0)
     """
     if text.strip().lower() in ("", "none"):
         return np.eye(4)
     product: Spatial = np.eye(4)
-    tokens = parsed(text.strip())
+    tokens = parse_tokens(text.strip())
     if not tokens:
         return None
     for token in tokens:
@@ -138,9 +142,9 @@ def of_values(name: str, values: list[float]) -> Spatial | None:
     """One function of a list with its arguments, lengths in user units and angles in radians."""
     match name, values:
         case "translate3d", [x, y, z]:
-            return moved(x, y, z)
+            return translation(x, y, z)
         case "translatez", [z]:
-            return moved(0.0, 0.0, z)
+            return translation(0.0, 0.0, z)
         case "scale3d", [x, y, z]:
             return np.diag([x, y, z, 1.0])
         case "scalez", [z]:
@@ -159,7 +163,7 @@ def of_values(name: str, values: list[float]) -> Spatial | None:
             return None
     texts = [f"{value!r}rad" if name.startswith(("rotate", "skew")) else repr(value) for value in values]
     flat = single_transform(name, texts, lambda text, axis: number(text))
-    return None if flat is None else lifted(flat)
+    return None if flat is None else to_space(flat)
 
 
 def factor(text: str) -> float | None:
@@ -168,26 +172,26 @@ def factor(text: str) -> float | None:
     return value / 100.0 if value is not None and text.endswith("%") else value
 
 
-def moved(x: float, y: float, z: float) -> Spatial:
+def translation(x: float, y: float, z: float) -> Spatial:
     """A map that moves."""
     matrix = np.eye(4)
     matrix[:3, 3] = x, y, z
     return matrix
 
 
-def lifted(flat: Transform) -> Spatial:
+def to_space(flat: Transform) -> Spatial:
     """A map of the plane as one of space."""
     a, b, c, d, e, f = flat
     return np.array([[a, c, 0.0, e], [b, d, 0.0, f], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
 
 
-def seen(matrix: Spatial) -> tuple[Transform, bool]:
-    """What a map of space does to the plane, seen straight from above, and whether it has a perspective beside."""
+def to_plane(matrix: Spatial) -> tuple[Transform, bool]:
+    """The effect of a map of space on the plane, seen straight from above, and whether it has a perspective beside."""
     (a, c, _, e), (b, d, _, f), _, last = matrix.tolist()
     return Transform(a, b, c, d, e, f), (last[0], last[1], last[3]) != (0.0, 0.0, 1.0)
 
 
-def turned(parts: list[str]) -> Spatial | None:
+def parse_rotation(parts: list[str]) -> Spatial | None:
     """Turn by an angle, which may be before or after its axis."""
     if not parts:
         return None

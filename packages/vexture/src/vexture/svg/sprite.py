@@ -20,7 +20,7 @@ from vexture.svg.images import Images
 from vexture.svg.links import Links, reference
 from vexture.svg.page import Page, unused_colors
 from vexture.svg.read import Request, read_document
-from vexture.svg.select import Part, symbol_alone, symbols_of
+from vexture.svg.select import SelectedPart, symbol_alone, symbols_of
 
 __all__ = ["symbol_drawings"]
 
@@ -47,14 +47,14 @@ def symbol_drawings(
     >>> [drawing.name for drawing in symbol_drawings(sprite, "arrows.svg")]
     ['up', 'down']
     """
-    named, page = "id" if names is None else names, Page.of(page_colors)
+    named, page = "id" if names is None else names, Page.from_colors(page_colors)
     with about(source):
         root = parse_svg(decompress(content))
     of_file = (*unread_symbols(root), *unused_colors(page, root))  # the first drawing has them
     sprite = Sprite(root)
     for name in sprite.symbols:
         check_time(source)
-        alone = partial(alone_in, name=name)
+        alone = partial(symbol_part, name=name)
         with about(f"{source}#{name}"):
             request = Request(sprite.document(name), name, alone, named, fonts, images or Images(), page)
             drawing = read_document(request).drawing
@@ -74,8 +74,8 @@ def unread_symbols(root: etree._Element) -> tuple[Note, ...]:
     return notes.in_order
 
 
-def alone_in(root: etree._Element, name: str) -> Part:
-    """What to paint in a document that is there for a symbol."""
+def symbol_part(root: etree._Element, name: str) -> SelectedPart:
+    """The part to paint of a document that holds one symbol."""
     return symbol_alone(root, symbols_of(root)[name])
 
 
@@ -135,7 +135,7 @@ class Sprite:
 
 
 def links_of(element: etree._Element) -> Iterator[str]:
-    """What may be links to other elements, in the attributes of an element or the text of a style sheet."""
+    """Texts that may be links to other elements, in the attributes of an element or the text of a style sheet."""
     link = reference(element)
     if link is not None:
         yield link

@@ -19,7 +19,7 @@ from vexture.base.tolerance import ROUND
 from vexture.bezier.bounds import bounds
 from vexture.bezier.convert import conic_cubics, straight
 from vexture.bezier.reduce import reduce_contour
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 
 __all__ = ["Stroke", "arc_length", "stroke_contours"]
 
@@ -54,7 +54,7 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 @dataclass(frozen=True, slots=True)
 class Stroke:
-    """How a line is drawn, in the units of its path."""
+    """Style of a stroke, in the units of its path."""
 
     width: float
     cap: str = "butt"  # "butt", "round" or "square"
@@ -74,7 +74,7 @@ def arc_length(cubics: NDArray[np.float64]) -> float:
     return float(lengths.sum())
 
 
-def stroke_contours(outlines: list[Outline], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
+def stroke_contours(outlines: list[ShapeOutline], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
     """Contours of the stroke of the outlines, to fill by the non-zero rule.
 
     `size` is the drawing's size in the units of the outlines; it sets the accuracy. Raises a `SourceError` if there are
@@ -88,19 +88,19 @@ def stroke_contours(outlines: list[Outline], stroke: Stroke, size: float) -> lis
     array([10.,  2.])
     """
     if sum(len(outline.cubics) for outline in outlines) > KEPT_CUBICS:
-        return traced(outlines, stroke, size)
+        return compute_contours(outlines, stroke, size)
     key = tuple((outline.cubics.tobytes(), outline.closed) for outline in outlines)
-    return [contour.copy() for contour in kept(key, stroke, size)]
+    return [contour.copy() for contour in cached_contours(key, stroke, size)]
 
 
 @lru_cache(KEPT)
-def kept(outlines: tuple[tuple[bytes, bool], ...], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
+def cached_contours(outlines: tuple[tuple[bytes, bool], ...], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
     """As `stroke_contours`: what `use` and markers show, they often show at thousands of places."""
-    read = [Outline(np.frombuffer(cubics).reshape(-1, 4, 2), closed) for cubics, closed in outlines]
-    return traced(read, stroke, size)
+    read = [ShapeOutline(np.frombuffer(cubics).reshape(-1, 4, 2), closed) for cubics, closed in outlines]
+    return compute_contours(read, stroke, size)
 
 
-def traced(outlines: Sequence[Outline], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
+def compute_contours(outlines: Sequence[ShapeOutline], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
     """As `stroke_contours`, made anew."""
     together = np.concatenate([outline.cubics for outline in outlines])
     if stroke.dashes:
@@ -174,11 +174,11 @@ def read(path: pathops.Path) -> list[NDArray[np.float64]]:
             p1, p2, weight = complex(*arguments[0]), complex(*arguments[1]), arguments[2]
             contours[-1] += conic_cubics(contours[-1][-1], p1, p2, weight, REFINED)
         elif verb != pathops.PathVerb.CLOSE:
-            contours[-1] += raised([contours[-1][-1], *(complex(*point) for point in arguments)])
+            contours[-1] += raise_degree([contours[-1][-1], *(complex(*point) for point in arguments)])
     return [closed_contour(points) for points in contours if len(points) > 1]
 
 
-def raised(points: list[complex]) -> list[complex]:
+def raise_degree(points: list[complex]) -> list[complex]:
     """P1, P2 and P3 of the cubic that equals a line, quadratic or cubic."""
     start, end = points[0], points[-1]
     if len(points) == 2:
@@ -193,6 +193,6 @@ def closed_contour(points: list[complex]) -> NDArray[np.float64]:
     if abs(points[-1] - points[0]) < SHORTEST:
         points[-1] = points[0]
     else:
-        points = points + raised([points[-1], points[0]])
+        points = points + raise_degree([points[-1], points[0]])
     flat = np.array(points).view(np.float64).reshape(-1, 2)
     return np.concatenate([flat[:-1:3, None], flat[1:].reshape(-1, 3, 2)], axis=1)

@@ -10,7 +10,7 @@ from lxml import etree
 
 from vexture.drawing.colors import BLACK, Color, parse_color, parse_paint
 from vexture.svg.animations import names_in, values_by_element, visible_value
-from vexture.svg.declarations import Declaration, expanded, longhands, read_style
+from vexture.svg.declarations import Declaration, expand_declaration, longhands, read_style
 from vexture.svg.document import XML, local_name
 from vexture.svg.font_values import SPACINGS, SYSTEM_FONTS, font_weight, in_pixels, text_size
 from vexture.svg.media import Medium
@@ -18,12 +18,12 @@ from vexture.svg.page import Page
 from vexture.svg.properties import CSS_ONLY, KEYWORDS, PROPERTIES, UNSET
 from vexture.svg.report import Report
 from vexture.svg.spatial import Attribute
-from vexture.svg.stylesheets import Sheets
+from vexture.svg.stylesheets import StyleSheets
 from vexture.svg.values import INITIAL_SIZE, Viewport, fraction
-from vexture.svg.variables import computed, refers, substituted, unknown
+from vexture.svg.variables import compute_variables, refers, substitute, unknown
 from vexture.svg.viewport import own_size
 
-__all__ = ["INITIAL", "Cascade", "Style"]
+__all__ = ["INITIAL", "Cascade", "ElementStyle"]
 
 NOT_SUPPORTED = re.compile(
     r"(?<![\w-])(?:alpha|attr|calc-size|contrast-color|device-cmyk|env|if|progress|random|sibling-(?:count|index))\(",
@@ -53,7 +53,7 @@ CLIPPED = frozenset({"foreignObject", "image", "marker", "pattern", "svg", "symb
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Style:
+class ElementStyle:
     """Values of all properties at one element, as text."""
 
     inherited: dict[str, str]  # inherited properties that differ from their initial values, and custom ones
@@ -69,7 +69,7 @@ class Style:
         value = fraction(self[name])
         return 1.0 if value is None else value
 
-    def computed(self, name: str) -> str:
+    def inherited_value(self, name: str) -> str:
         """Value of a property as it is inherited."""
         return f"{self.font_size!r}px" if name == "font-size" else self[name]
 
@@ -90,7 +90,7 @@ class Style:
         return color if isinstance(color, Color) else None
 
 
-INITIAL = Style({}, {}, INITIAL_SIZE)
+INITIAL = ElementStyle({}, {}, INITIAL_SIZE)
 """Style that the outermost element inherits where nothing is around it."""
 
 
@@ -101,22 +101,22 @@ class Cascade:
         self.root = root
         self.report = report
         self.page = page
-        self.initial: Style = replace(INITIAL, inherited=page.inherited)  # that the root inherits
+        self.initial: ElementStyle = replace(INITIAL, inherited=page.inherited)  # that the root inherits
         self.broken = dict[str, str]()  # custom properties without a value, as they are written
         size = own_size(root)
         self.view = Viewport(*size)  # to which fonts refer
-        self.sheets = Sheets(root, report, Medium(*size))
+        self.sheets = StyleSheets(root, report, Medium(*size))
         self.animated = values_by_element(root)
         self.reveals = False  # whether anything is drawn as only an animation shows it
 
-    def style(self, element: etree._Element, parent: Style) -> Style:
+    def style(self, element: etree._Element, parent: ElementStyle) -> ElementStyle:
         """Style of an element; `parent` is the style of its parent, or of the `use` that shows it."""
-        declared = self.declared(element)
+        declared = self.declarations_of(element)
         variables = {one.name: one.value for one in declared if one.name.startswith("--")}
-        inherited = computed(variables, parent.inherited) if variables else parent.inherited
+        inherited = compute_variables(variables, parent.inherited) if variables else parent.inherited
         self.broken.update((name, value) for name, value in variables.items() if name not in inherited)
         own = dict[str, str]()
-        for name, value in self.specified(element, declared, inherited, parent).items():
+        for name, value in self.winning_values(element, declared, inherited, parent).items():
             keyword = value.lower()
             entry = PROPERTIES[name]
             if keyword in UNSET or (keyword == "inherit" and entry.inherited):
@@ -146,10 +146,10 @@ class Cascade:
             for name in SPACINGS:
                 if inherited.get(name) != parent.inherited.get(name):
                     inherited[name] = in_pixels(inherited[name], font_size, self.view)
-        return Style(inherited, own, font_size)
+        return ElementStyle(inherited, own, font_size)
 
-    def specified(
-        self, element: etree._Element, declared: list[Declaration], variables: Mapping[str, str], parent: Style
+    def winning_values(
+        self, element: etree._Element, declared: list[Declaration], variables: Mapping[str, str], parent: ElementStyle
     ) -> dict[str, str]:
         """Winning declaration of each property; that of an animation where the own one hides the element."""
         found = self.said(element, declared, variables)
@@ -160,24 +160,24 @@ class Cascade:
             for name in values.keys() & PROPERTIES.keys() - lasting:
                 base = self.value_without(name, found, parent)
                 dashes = self.value_without("stroke-dasharray", found, parent)
-                texts = [substituted(text, variables.get) or "" for text in values[name]]
+                texts = [substitute(text, variables.get) or "" for text in values[name]]
                 shown = visible_value(name, base, filter(PROPERTIES[name].allows, texts), dashes)
                 if shown is not None:
                     found[name] = shown
                     self.reveals = True
         return found
 
-    def value_without(self, name: str, found: Mapping[str, str], parent: Style) -> str:
+    def value_without(self, name: str, found: Mapping[str, str], parent: ElementStyle) -> str:
         """Value that a property has without animations, where its declarations are `found`."""
         text = found.get(name, "unset").lower()
         if text == "inherit" or (text in UNSET and PROPERTIES[name].inherited):
-            return parent.computed(name)
+            return parent.inherited_value(name)
         return PROPERTIES[name].initial if text in KEYWORDS else found[name]
 
     def said(
         self, element: etree._Element, declared: list[Declaration], variables: Mapping[str, str]
     ) -> dict[str, str]:
-        """What an element says: by attributes, and over them what is declared, in rising precedence."""
+        """Values that an element sets by attributes, and over them those that are declared, in rising precedence."""
         found: dict[str, str] = {}
         kind = local_name(element) or ""
         if kind in CLIPPED and element is not self.root:
@@ -214,11 +214,11 @@ class Cascade:
         value = value.strip()
         pairs = [(name, value)] if name in PROPERTIES else []
         if refers(value):
-            text = substituted(value, variables.get)
+            text = substitute(value, variables.get)
             found.update(dict.fromkeys(longhands(name), "unset"))
             if text is None and self.note_unknown(name, value, element, variables):
                 return
-            pairs = [] if text is None else [*expanded(name, text)]
+            pairs = [] if text is None else [*expand_declaration(name, text)]
         for longhand, part in pairs:
             if PROPERTIES[longhand].allows(part) or part.lower() in KEYWORDS:
                 found[longhand] = part
@@ -232,10 +232,10 @@ class Cascade:
 
         Of one that is declared, those are noted that its own value lacks. One that refers to itself lacks none.
         """
-        sample = substituted(value, lambda each: variables.get(each, "black")) or ""
+        sample = substitute(value, lambda each: variables.get(each, "black")) or ""
         helps = any(
             PROPERTIES[longhand].accepts in (parse_color, parse_paint) and PROPERTIES[longhand].allows(part)
-            for longhand, part in expanded(name, sample)
+            for longhand, part in expand_declaration(name, sample)
         )
         names, known = unknown(value, variables.get), set[str]()
         ends = list[str]()
@@ -247,7 +247,7 @@ class Cascade:
                 names += unknown(written, variables.get)
                 ends += [] if written else [each]
         for each in sorted(ends):
-            self.report.once("invalid", self.page.lost(f"var({each})", helps=helps), element)
+            self.report.once("invalid", self.page.describe_missing(f"var({each})", helps=helps), element)
         return bool(ends)
 
     def refuse(self, name: str, value: str, element: etree._Element) -> None:
@@ -260,11 +260,11 @@ class Cascade:
         else:
             self.report.left_out(f"{match[0].lower()}) in {name}", element)
 
-    def declared(self, element: etree._Element) -> list[Declaration]:
-        """What the style sheets and the `style` attribute declare, in rising precedence (CSS Cascade 5, 6.1)."""
+    def declarations_of(self, element: etree._Element) -> list[Declaration]:
+        """Declarations of the style sheets and the `style` attribute, in rising precedence (CSS Cascade 5, 6.1)."""
         text = element.get("style", "")
         own = [*read_style(text)] if text else []
-        ruled = [*self.sheets.declared(element)]
+        ruled = [*self.sheets.declarations_of(element)]
         if not self.sheets.has_layers and not any(one.value.lower() == BACK for _, one in ruled) and BACK not in text:
             found = [one for _, one in ruled] + own
             return sorted(found, key=attrgetter("important")) if any(one.important for one in found) else found
@@ -284,7 +284,7 @@ def rolled_back(ranked: list[tuple[tuple[bool, float], Declaration]]) -> list[De
     return [one for _, one in found]
 
 
-def absolute(color: str, parent: Style) -> str:
+def absolute(color: str, parent: ElementStyle) -> str:
     """Text of a value of `color` that depends on the parent's."""
     (red, green, blue), alpha = parent.solid(color) or BLACK
     return f"color(srgb {red!r} {green!r} {blue!r} / {alpha!r})"

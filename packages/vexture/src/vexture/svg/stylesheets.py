@@ -9,24 +9,24 @@ import tinycss2
 from lxml import etree
 
 from vexture.base.errors import shorten_text
-from vexture.drawing.calculation import separated
+from vexture.drawing.calculation import split_arguments
 from vexture.svg.animations import KEYFRAMES, Values, read_keyframes
 from vexture.svg.css_names import is_other_property
 from vexture.svg.declarations import (
     Declaration,
     canonical,
-    expanded,
+    expand_declaration,
     longhands,
     read_declaration,
     read_descriptors,
     tokens,
 )
-from vexture.svg.media import Answer, Medium, condition, shown, word
+from vexture.svg.media import Answer, Medium, condition, significant_tokens, word
 from vexture.svg.properties import PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.select import Node
 
-__all__ = ["FontFace", "Sheets"]
+__all__ = ["FontFace", "StyleSheets"]
 
 UNREADABLE = (cssselect2.SelectorError, SyntaxError, AttributeError, NotImplementedError, RecursionError, MemoryError)
 """What cssselect2 raises for selectors that it cannot read."""
@@ -66,7 +66,7 @@ class Around(NamedTuple):
     text: str
 
 
-class Sheets:
+class StyleSheets:
     """The `<style>` elements of a document; `medium` is what it is shown in."""
 
     def __init__(self, root: etree._Element, report: Report, medium: Medium) -> None:
@@ -90,18 +90,18 @@ class Sheets:
                 self.add_rules(tinycss2.parse_stylesheet(tokens(sheet.text or ""), True, True), ())
         for wrapper in Node.from_xml_root(root).iter_subtree():
             self.wrappers[wrapper.etree_element] = wrapper
-        self.ranks = {layer: rank for rank, layer in enumerate(sorted(self.layers, key=self.standing))}
+        self.ranks = {layer: rank for rank, layer in enumerate(sorted(self.layers, key=self.layer_order))}
 
     @property
     def has_layers(self) -> bool:
         """Whether there are layers."""
         return len(self.layers) > 1
 
-    def standing(self, layer: Layer) -> tuple[float, ...]:
-        """What layers are sorted by: what is in none comes after all that are in one (CSS Cascade 5, 6.4.3)."""
+    def layer_order(self, layer: Layer) -> tuple[float, ...]:
+        """Sort key of a layer: rules in none come after all that are in one (CSS Cascade 5, 6.4.3)."""
         return *(self.layers[layer[:depth]] for depth in range(1, len(layer) + 1)), inf
 
-    def declared(self, element: etree._Element) -> Iterator[tuple[float, Declaration]]:
+    def declarations_of(self, element: etree._Element) -> Iterator[tuple[float, Declaration]]:
         """Yield what the rules say of an element, in rising specificity, each with the rank of its layer."""
         if self.matcher is not None and element in self.wrappers:  # not one that stands for a shape of CSS
             for _, _, pseudo, (declarations, layer) in self.matcher.match(self.wrappers[element]):
@@ -127,14 +127,14 @@ class Sheets:
             if copies and len(text) + copies * len(parent) > LONGEST:
                 raise SyntaxError
             if copies:
-                text = nested(rule.prelude, parent, around is not None)
-            selectors = self.compiled(text)
+                text = nested_selector(rule.prelude, parent, around is not None)
+            selectors = self.compile_selectors(text)
         except UNREADABLE:
-            self.report.left_out(f"CSS selector '{spelled(rule.prelude)}', which cannot be read", self.element)
+            self.report.left_out(f"CSS selector '{format_tokens(rule.prelude)}', which cannot be read", self.element)
             return
         self.add_block(rule.content, layer, Around(selectors, text))
 
-    def compiled(self, text: str) -> list[Any]:
+    def compile_selectors(self, text: str) -> list[Any]:
         """Selectors of a list; unknown ones in `:is()` and `:where()` match nothing (Selectors 4, 4.2)."""
         try:
             return list(cssselect2.compile_selector_list(text, self.prefixes))
@@ -178,11 +178,11 @@ class Sheets:
             if self.holds(rule.prelude, "@media {}"):
                 self.add_content(rule.content, layer, around)
         elif name == "supports" and rule.content is not None:
-            answer = condition(shown(rule.prelude), supported)
+            answer = condition(significant_tokens(rule.prelude), is_supported)
             if answer:
                 self.add_content(rule.content, layer, around)
             elif answer is None:
-                self.report.left_out(f"@supports {spelled(rule.prelude)}", self.element)
+                self.report.left_out(f"@supports {format_tokens(rule.prelude)}", self.element)
         elif name == "namespace":
             self.add_namespace(rule)
         elif name not in SILENT:
@@ -190,16 +190,16 @@ class Sheets:
 
     def add_namespace(self, rule: Any) -> None:
         """Remember the prefix of a namespace; one without a prefix is that of the drawing, or else of nothing in it."""
-        prefix, *values = shown(rule.prelude) or [None]
+        prefix, *values = significant_tokens(rule.prelude) or [None]
         if values and prefix.type == "ident":
             value = values[0]
             self.prefixes[prefix.value] = value.arguments[0].value if value.type == "function" else value.value
 
-    def holds(self, queries: list[Any], said: str) -> bool:
+    def holds(self, queries: list[Any], message: str) -> bool:
         """Whether media queries hold; those that are not known are named."""
         answer = self.medium.holds(queries)
         if answer is None:
-            self.report.left_out(said.format(spelled(queries)), self.element)
+            self.report.left_out(message.format(format_tokens(queries)), self.element)
         return answer is True
 
     def add_content(self, content: list[Any], layer: Layer, around: Around | None) -> None:
@@ -211,7 +211,7 @@ class Sheets:
 
     def add_layers(self, rule: Any, layer: Layer, around: Around | None) -> None:
         """Add the layers that a rule names, in their order, and the rules inside it."""
-        names = [tinycss2.serialize(part).strip() for part in separated(rule.prelude)]
+        names = [tinycss2.serialize(part).strip() for part in split_arguments(rule.prelude)]
         for name in names:
             inner = layer
             for part in name.split(".") if name else [f" {len(self.layers)}"]:  # one without a name is like no other
@@ -227,7 +227,7 @@ def declarations(content: Any) -> Iterator[Declaration]:
         yield from read_declaration(name, value, important)
 
 
-def spelled(tokens: list[Any]) -> str:
+def format_tokens(tokens: list[Any]) -> str:
     """The begin of some tokens, for a note."""
     try:
         text = str(tinycss2.serialize(tokens))
@@ -236,10 +236,10 @@ def spelled(tokens: list[Any]) -> str:
     return shorten_text(" ".join(text.split()), LONGEST_NAMED)
 
 
-def nested(prelude: list[Any], around: str, is_relative: bool) -> str:
+def nested_selector(prelude: list[Any], around: str, is_relative: bool) -> str:
     """Selector of a rule inside another one, whose selector is `around` (CSS Nesting 1)."""
     found = list[str]()
-    for part in separated(prelude):
+    for part in split_arguments(prelude):
         text = with_parent(part, around).strip()
         bare = PARENT not in tinycss2.serialize(part) or text.startswith(COMBINATORS)
         found.append(f":is({around}) {text}" if is_relative and bare else text)
@@ -251,7 +251,7 @@ def forgiving(tokens: list[Any], prefixes: dict[str, str]) -> list[Any]:
     found = list[Any]()
     for token in tokens:
         if token.type == "function" and token.lower_name in FORGIVING:
-            parts = [forgiving(part, prefixes) for part in separated(token.arguments)]
+            parts = [forgiving(part, prefixes) for part in split_arguments(token.arguments)]
             known = [part for part in parts if is_selector(part, prefixes)] or [NOTHING]
             text = ",".join(str(tinycss2.serialize(part)) for part in known)
             found += tinycss2.parse_component_value_list(f"{token.name}({text})")
@@ -273,15 +273,15 @@ def with_parent(prelude: list[Any], around: str) -> str:
     return "".join(found)
 
 
-def supported(token: Any) -> Answer:
+def is_supported(token: Any) -> Answer:
     """Whether a condition of `@supports` holds: a declaration or a selector, as browsers know them."""
     if token.type == "function":
         return is_selector(token.arguments) if token.lower_name == "selector" else None
     if token.type != "() block":
         return None
-    inside = shown(token.content)
+    inside = significant_tokens(token.content)
     if inside and (inside[0].type in ("() block", "function") or word(inside[0]) == "not"):
-        return condition(inside, supported)
+        return condition(inside, is_supported)
     name, colon, value = (part.strip() for part in tinycss2.serialize(token.content).partition(":"))
     if not colon:
         return None
@@ -290,7 +290,7 @@ def supported(token: Any) -> Answer:
     known = canonical(name)
     if not longhands(known):
         return is_other_property(name.lower())  # its value is taken for one of those that it may have
-    pairs = [*expanded(known, value)]
+    pairs = [*expand_declaration(known, value)]
     return bool(pairs) and all(PROPERTIES[longhand].allows(part) for longhand, part in pairs)
 
 

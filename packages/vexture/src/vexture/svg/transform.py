@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing.calculation import ANGLE, calculated
+from vexture.drawing.calculation import ANGLE, calculate
 from vexture.svg.path_data import GAP, NUMBER, SPACE
 from vexture.svg.values import number, words
 
@@ -19,7 +19,7 @@ __all__ = [
     "Transform",
     "about_origin",
     "angle",
-    "mapped",
+    "map_points",
     "parse_origin",
     "parse_transform",
     "scale_of",
@@ -74,7 +74,7 @@ Length = Callable[[str, int], float | None]
 def angle(text: str) -> float | None:
     """Angle in radians; None if the text is no angle."""
     match = WRITTEN_ANGLE.fullmatch(text)
-    found = calculated(text, lambda value, unit: None) if match is None else None
+    found = calculate(text, lambda value, unit: None) if match is None else None
     if found is not None:
         return radians(found.value) if found.kind == ANGLE else None
     unit = TURN.get(match[2].lower()) if match else None
@@ -176,7 +176,7 @@ def about_origin(matrix: Transform, text: str, length: Length) -> Transform:
     return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
 
 
-def mapped(cubics: NDArray[np.float64], matrix: Transform) -> NDArray[np.float64]:
+def map_points(cubics: NDArray[np.float64], matrix: Transform) -> NDArray[np.float64]:
     """Apply an affine map to points (..., 2).
 
     A matrix product may round the same point differently at two places of an array, hence the explicit sums.

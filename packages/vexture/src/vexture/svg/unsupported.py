@@ -1,4 +1,4 @@
-"""What an SVG holds beside shapes, wherever it stands: animation, scripts, views and cursors, each named once."""
+"""Parts of an SVG that are not shapes, wherever they are: animation, scripts, views and cursors, each named once."""
 
 import re
 from collections.abc import Callable
@@ -14,9 +14,9 @@ from vexture.svg.document import local_name
 from vexture.svg.links import reference
 from vexture.svg.paint_servers import PaintServers
 from vexture.svg.report import Report
-from vexture.svg.style import Style
+from vexture.svg.style import ElementStyle
 
-__all__ = ["ANIMATION", "name_unseen"]
+__all__ = ["ANIMATION", "note_unsupported"]
 
 ANIMATION: Final = "animation"
 """What a note calls it."""
@@ -46,8 +46,8 @@ STYLESHEET: Final = re.compile(r"""<\?xml-stylesheet\s[^>]*?\bhref\s*=\s*(['"])(
 """The link of a processing instruction (xml-stylesheet 1.0)."""
 
 
-def name_unseen(
-    root: etree._Element, style: Style, servers: PaintServers, report: Report, chosen: set[etree._Element] | None
+def note_unsupported(
+    root: etree._Element, style: ElementStyle, servers: PaintServers, report: Report, chosen: set[etree._Element] | None
 ) -> None:
     """Note what is not seen of a document, or of the elements in `chosen` with all their content.
 
@@ -63,7 +63,7 @@ def name_unseen(
         if match is not None:
             report.left_out(f"style sheet '{shorten_text(match[2], 40)}'", root)
     remarks = set[str]()
-    moved_by_sheets = animated(servers)
+    moved_by_sheets = animation_test(servers)
     for top in [root] if chosen is None else chosen:
         for element in top.iter("*"):
             name = local_name(element)
@@ -80,7 +80,7 @@ def name_unseen(
         report.remark(REMARKS[remark])
 
 
-def animated(servers: PaintServers) -> Callable[[etree._Element], bool]:
+def animation_test(servers: PaintServers) -> Callable[[etree._Element], bool]:
     """Return the function that tells whether an element is animated by a style sheet, and notes nothing."""
     cascade = copy(servers.cascade)
     cascade.report = Report()

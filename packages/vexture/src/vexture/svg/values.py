@@ -7,7 +7,7 @@ from math import hypot, isnan
 from typing import Final
 
 from vexture.base.errors import SourceError
-from vexture.drawing.calculation import LENGTH, NUMBER, PERCENT, Quantity, calculated
+from vexture.drawing.calculation import LENGTH, NUMBER, PERCENT, Quantity, calculate
 from vexture.svg.path_data import NUMBER as DIGITS
 
 __all__ = [
@@ -16,7 +16,7 @@ __all__ = [
     "SEPARATOR",
     "TooLargeError",
     "Viewport",
-    "bounded",
+    "bounded_number",
     "fraction",
     "is_relative",
     "number",
@@ -70,9 +70,9 @@ def number(text: str) -> float | None:
     """
     match = WRITTEN.fullmatch(text)
     if match is None:
-        found = calculated(text, lambda value, unit: None)
-        return bounded(found.value) if found is not None and found.kind == NUMBER else None
-    return None if match[2] else bounded(match[1])
+        found = calculate(text, lambda value, unit: None)
+        return bounded_number(found.value) if found is not None and found.kind == NUMBER else None
+    return None if match[2] else bounded_number(match[1])
 
 
 def numbers(text: str) -> list[float] | None:
@@ -106,7 +106,7 @@ def is_relative(text: str) -> bool:
     return RELATIVE.search(text) is not None
 
 
-def bounded(number: str | float) -> float:
+def bounded_number(number: str | float) -> float:
     """Value of a number; a `TooLargeError` if it is one."""
     value = float(number)
     if isnan(value):  # of a calculation
@@ -126,14 +126,14 @@ def fraction(text: str) -> float | None:
     """
     match = WRITTEN.fullmatch(text)
     if match is None:
-        found = calculated(text, lambda value, unit: Quantity(value, PERCENT) if unit == "%" else None)
+        found = calculate(text, lambda value, unit: Quantity(value, PERCENT) if unit == "%" else None)
         if found is None or found.kind not in (NUMBER, PERCENT):
             return None
-        value, is_percentage = bounded(found.value), found.kind == PERCENT
+        value, is_percentage = bounded_number(found.value), found.kind == PERCENT
     elif match[2] not in ("", "%"):
         return None
     else:
-        value, is_percentage = bounded(match[1]), bool(match[2])
+        value, is_percentage = bounded_number(match[1]), bool(match[2])
     return min(max(value / (100.0 if is_percentage else 1.0), 0.0), 1.0)
 
 
@@ -165,10 +165,10 @@ class Viewport:
         """
         match = WRITTEN.fullmatch(text)
         if match is None:
-            found = calculated(text, lambda value, unit: self.quantity(value, unit, whole, font_size))
-            return bounded(found.value) if found is not None and found.kind in (NUMBER, LENGTH) else None
+            found = calculate(text, lambda value, unit: self.quantity(value, unit, whole, font_size))
+            return bounded_number(found.value) if found is not None and found.kind in (NUMBER, LENGTH) else None
         factor = self.factor(match[2].lower(), whole, font_size)
-        return None if factor is None else bounded(match[1]) * factor
+        return None if factor is None else bounded_number(match[1]) * factor
 
     def quantity(self, value: float, unit: str, whole: float, font_size: float) -> Quantity | None:
         """Length of a number and a unit, for a calculation."""

@@ -8,7 +8,7 @@ import tinycss2
 
 from vexture.base.deadline import check_time
 
-__all__ = ["computed", "refers", "substituted", "unknown"]
+__all__ = ["compute_variables", "refers", "substitute", "unknown"]
 
 LONGEST: Final = 100_000
 """Characters of a value. One that becomes longer is not valid, so that references cannot multiply (a bomb)."""
@@ -31,16 +31,16 @@ def refers(value: str) -> bool:
     return "(" in value and "var(" in value.lower()
 
 
-def substituted(value: str, get: Get) -> str | None:
+def substitute(value: str, get: Get) -> str | None:
     """A value with what its references refer to, or their fallbacks; None if one of them has neither.
 
     Examples
     --------
-    >>> substituted("1px solid var(--edge, var(--ink))", {"--ink": "#123"}.get)
+    >>> substitute("1px solid var(--edge, var(--ink))", {"--ink": "#123"}.get)
     '1px solid #123'
     """
     try:
-        return filled(parsed(value), get).strip()
+        return fill_references(parse_tokens(value), get).strip()
     except UnknownError:
         return None
 
@@ -54,7 +54,7 @@ def unknown(value: str, get: Get) -> list[str]:
     ['--ink']
     """
     try:
-        return list(dict.fromkeys(unknown_in(parsed(value), get)))
+        return list(dict.fromkeys(unknown_in(parse_tokens(value), get)))
     except UnknownError:
         return []
 
@@ -70,7 +70,7 @@ def unknown_in(tokens: list[Any], get: Get) -> Iterator[str]:
             yield from unknown_in(getattr(token, "arguments", None) or getattr(token, "content", None) or [], get)
 
 
-def parsed(value: str) -> list[Any]:
+def parse_tokens(value: str) -> list[Any]:
     """Tokens of a value."""
     try:
         return list(tinycss2.parse_component_value_list(value, skip_comments=True))
@@ -78,7 +78,7 @@ def parsed(value: str) -> list[Any]:
         raise UnknownError from None
 
 
-def filled(tokens: list[Any], get: Get) -> str:
+def fill_references(tokens: list[Any], get: Get) -> str:
     """Text of tokens with what their references refer to."""
     found, length = list[str](), 0
     before = None
@@ -98,22 +98,22 @@ def filled(tokens: list[Any], get: Get) -> str:
 def inside(token: Any, get: Get) -> str:
     """Text of a token that is no reference itself."""
     if token.type == "function":
-        return f"{tinycss2.serialize([token]).partition('(')[0]}({filled(token.arguments, get)})"
+        return f"{tinycss2.serialize([token]).partition('(')[0]}({fill_references(token.arguments, get)})"
     if token.type in BRACKETS:
         opening, closing = BRACKETS[token.type]
-        return f"{opening}{filled(token.content, get)}{closing}"
+        return f"{opening}{fill_references(token.content, get)}{closing}"
     return str(tinycss2.serialize([token]))
 
 
 def replacement(token: Any, get: Get) -> str:
-    """What a reference stands for."""
+    """Text that a reference stands for."""
     name, fallback = reference(token)
     value = get(name)
     if value is not None:
         return value
     if fallback is None:
         raise UnknownError
-    return filled(fallback, get).strip()
+    return fill_references(fallback, get).strip()
 
 
 def reference(token: Any) -> tuple[str, list[Any] | None]:
@@ -135,19 +135,19 @@ def names_in(tokens: list[Any]) -> Iterator[str]:
         yield from names_in(getattr(token, "arguments", None) or getattr(token, "content", None) or [])
 
 
-def computed(own: Mapping[str, str], inherited: Mapping[str, str]) -> dict[str, str]:
+def compute_variables(values: Mapping[str, str], inherited: Mapping[str, str]) -> dict[str, str]:
     """Custom properties of an element: those that it declares, as written, over those that it inherits.
 
     One that refers to itself, also by way of others, has no value, nor has one whose reference has none.
 
     Examples
     --------
-    >>> computed({"--a": "var(--b) 1px", "--c": "var(--d, 1)", "--d": "var(--c)"}, {"--b": "red"})
+    >>> compute_variables({"--a": "var(--b) 1px", "--c": "var(--d, 1)", "--d": "var(--c)"}, {"--b": "red"})
     {'--b': 'red', '--a': 'red 1px'}
     """
     found = {**inherited}
     declared = dict[str, str]()
-    for name, value in own.items():
+    for name, value in values.items():
         keyword = value.lower()
         if keyword == "initial":
             found.pop(name, None)
@@ -155,8 +155,8 @@ def computed(own: Mapping[str, str], inherited: Mapping[str, str]) -> dict[str, 
             found.pop(name, None)
             declared[name] = value
     edges = {name: edges_of(value) for name, value in declared.items()}
-    for name in ordered({name: names & declared.keys() for name, names in edges.items() if names is not None}):
-        text = substituted(declared[name], found.get) if refers(declared[name]) else declared[name]
+    for name in dependency_order({name: names & declared.keys() for name, names in edges.items() if names is not None}):
+        text = substitute(declared[name], found.get) if refers(declared[name]) else declared[name]
         if text is not None:
             found[name] = text
     return found
@@ -165,12 +165,12 @@ def computed(own: Mapping[str, str], inherited: Mapping[str, str]) -> dict[str, 
 def edges_of(value: str) -> set[str] | None:
     """Names that a value refers to; None if it is not valid."""
     try:
-        return set(names_in(parsed(value))) if refers(value) else set()
+        return set(names_in(parse_tokens(value))) if refers(value) else set()
     except UnknownError:
         return None
 
 
-def ordered(edges: dict[str, set[str]]) -> Iterator[str]:
+def dependency_order(edges: dict[str, set[str]]) -> Iterator[str]:
     """Names after those that they refer to, without those that refer to themselves."""
     lost = set[str]()
     while True:

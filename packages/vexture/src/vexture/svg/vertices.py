@@ -8,8 +8,8 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
-from vexture.svg.path_data import Pen, Point
-from vexture.svg.shapes import Shape, check, path_data, shape_outlines
+from vexture.svg.path_data import PathPen, Point
+from vexture.svg.shapes import ShapeElement, check, path_data, shape_outlines
 
 __all__ = ["vertices"]
 
@@ -24,14 +24,16 @@ class Vertices(NamedTuple):
     angles: NDArray[np.float64]  # (n,), radians from the x axis to the y axis
 
 
-def vertices(shape: Shape) -> Vertices:
+def vertices(shape: ShapeElement) -> Vertices:
     """Vertices of a path, a line, a polyline or a polygon; a closed part has its first one again as its last one."""
     if etree.QName(shape.element).localname == "path":
         pen = Segments(inf)
         pen.follow(path_data(shape))
         parts = pen.parts
     else:
-        parts = [Part((x, y), o.cubics, o.closed) for o in shape_outlines(shape) for x, y in o.cubics[:1, 0].tolist()]
+        parts = [
+            Subpath((x, y), o.cubics, o.closed) for o in shape_outlines(shape) for x, y in o.cubics[:1, 0].tolist()
+        ]
     if not parts:
         return Vertices(np.empty((0, 2)), np.empty(0))
     points = np.concatenate([part.points for part in parts])
@@ -39,7 +41,7 @@ def vertices(shape: Shape) -> Vertices:
     return Vertices(points, np.concatenate([part.angles for part in parts]))
 
 
-class Part(NamedTuple):
+class Subpath(NamedTuple):
     """A subpath, of one curve for each segment."""
 
     start: Point
@@ -67,12 +69,12 @@ class Part(NamedTuple):
         return halfway[1:] if self.joined else halfway
 
 
-class Segments(Pen):
+class Segments(PathPen):
     """Keeps each segment as one curve with its directions at both ends, and what paints nothing, too."""
 
     def __init__(self, tolerance: float) -> None:
         super().__init__(tolerance)
-        self.parts: list[Part] = []
+        self.parts: list[Subpath] = []
         self.joined: bool = False
 
     def draw(self, letter: str, text: str) -> None:
@@ -96,7 +98,7 @@ class Segments(Pen):
     def finish(self, closed: bool) -> None:
         """Store the part, if there is one; it may be a point."""
         if self.down:
-            self.parts.append(Part(self.start, np.array(self.cubics).reshape(-1, 4, 2), closed, self.joined))
+            self.parts.append(Subpath(self.start, np.array(self.cubics).reshape(-1, 4, 2), closed, self.joined))
             self.cubics, self.joined = [], closed
 
 

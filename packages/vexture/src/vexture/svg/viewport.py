@@ -1,4 +1,4 @@
-"""How a viewport shows its content: `viewBox` and `preserveAspectRatio` (SVG 2, 8.2)."""
+"""Mapping of content into a viewport: `viewBox` and `preserveAspectRatio` (SVG 2, 8.2)."""
 
 import re
 from typing import Final, NamedTuple
@@ -12,8 +12,8 @@ __all__ = [
     "ANONYMOUS",
     "CENTRED",
     "THINNEST",
-    "Fit",
     "Rectangle",
+    "ViewBoxFit",
     "own_size",
     "parse_fit",
     "view_box",
@@ -24,8 +24,8 @@ Rectangle = tuple[float, float, float, float]
 """Least x, least y, width and height."""
 
 
-class Fit(NamedTuple):
-    """How a view box is fitted into a viewport of another shape."""
+class ViewBoxFit(NamedTuple):
+    """Alignment of a view box in a viewport of another shape."""
 
     across: float  # part of the spare room on the left, 0..1
     down: float  # part of the spare room above, 0..1
@@ -38,7 +38,7 @@ THINNEST: Final = 1e-9
 ANONYMOUS: Final = (300.0, 150.0)
 """Pixels: the size of a drawing without one as an image (CSS 2.1, 10.3.2)."""
 
-CENTRED = Fit(0.5, 0.5, "meet")
+CENTRED = ViewBoxFit(0.5, 0.5, "meet")
 """Default of the standard."""
 
 PART = {"min": 0.0, "mid": 0.5, "max": 1.0}
@@ -60,7 +60,7 @@ def view_box(text: str) -> Rectangle | None:
     return x, y, width, height
 
 
-def parse_fit(text: str) -> Fit | None:
+def parse_fit(text: str) -> ViewBoxFit | None:
     """Parse `preserveAspectRatio`; None if it is not valid.
 
     Examples
@@ -73,16 +73,16 @@ def parse_fit(text: str) -> Fit | None:
         return None
     none, across, down, rule = match.groups()
     if none:
-        return Fit(0.5, 0.5, "none")
-    return Fit(PART[across.lower()], PART[down.lower()], (rule or "meet").lower())
+        return ViewBoxFit(0.5, 0.5, "none")
+    return ViewBoxFit(PART[across.lower()], PART[down.lower()], (rule or "meet").lower())
 
 
-def view_transform(box: Rectangle, fit: Fit, width: float, height: float) -> Transform:
+def view_transform(box: Rectangle, fit: ViewBoxFit, width: float, height: float) -> Transform:
     """Map of a view box into a viewport of a size whose least corner is the origin.
 
     Examples
     --------
-    >>> tuple(view_transform((0, 0, 10, 10), Fit(1.0, 0.0, "meet"), 40, 20))
+    >>> tuple(view_transform((0, 0, 10, 10), ViewBoxFit(1.0, 0.0, "meet"), 40, 20))
     (2.0, 0, 0, 2.0, 20.0, 0.0)
     """
     x, y, box_width, box_height = box

@@ -16,11 +16,11 @@ __all__ = [
     "OFF_THE_LINE",
     "along",
     "background_of",
-    "binned",
+    "bin_colours",
     "flat_colours",
     "is_flat",
     "noise",
-    "smoothed",
+    "smooth",
 ]
 
 MOST_COLOURS: Final = 24
@@ -79,16 +79,16 @@ def flat_colours(
     colours = [] if background is None else [background]
     most = MOST_COLOURS + len(colours)
     flat = is_flat(image) & ~is_shaded
-    for colour in binned(image[flat])[0]:
+    for colour in bin_colours(image[flat])[0]:
         if len(colours) < most and all(np.linalg.norm(colour - other) > APART for other in colours):
             colours.append(colour)
-    everything = binned(image[~is_shaded])
+    everything = bin_colours(image[~is_shaded])
     if len(everything[0]) > MOST_COLOURS:
-        near = _share_near(*everything, _stacked(colours)) * (flat.size - is_shaded.sum())
+        near = _share_near(*everything, _stack(colours)) * (flat.size - is_shaded.sum())
         if near + is_shaded.sum() < MOSTLY * flat.size:
             return None
-    means, counts = binned(image[~flat & ~is_shaded], LEAST * flat.size)
-    off = _off_the_lines(means, np.concatenate([_stacked(colours), shades]))
+    means, counts = bin_colours(image[~flat & ~is_shaded], LEAST * flat.size)
+    off = _off_the_lines(means, np.concatenate([_stack(colours), shades]))
     while len(means) and (off > OFF_THE_LINE).any():
         if len(colours) >= most:
             if counts[off > OFF_THE_LINE].sum() > MOST_UNEXPLAINED * flat.size:
@@ -98,10 +98,10 @@ def flat_colours(
         for other in (found, *colours, *shades):
             off = np.minimum(off, along(means, found, other)[1])
         colours.append(found)
-    return np.rint(_stacked(colours))
+    return np.rint(_stack(colours))
 
 
-def _stacked(colours: list[Colours]) -> Colours:
+def _stack(colours: list[Colours]) -> Colours:
     return np.array(colours, np.float32).reshape(-1, 4)
 
 
@@ -123,7 +123,7 @@ def is_flat(image: Image) -> NDArray[np.bool_]:
     return np.asarray((high - low <= LEVEL).all(axis=2), np.bool_)
 
 
-def binned(pixels: NDArray[np.float32], least: float = 0.0) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
+def bin_colours(pixels: NDArray[np.float32], least: float = 0.0) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
     """Means of similar colours and the number of pixels of each, by frequency."""
     if not len(pixels):
         return np.empty((0, 4), np.float32), np.empty(0, np.intp)
@@ -160,7 +160,7 @@ def along(pixels: NDArray[np.float32], a: Colours, b: Colours) -> tuple[NDArray[
     return share, np.sqrt(np.einsum("ij,ij->i", away, away), dtype=np.float32)
 
 
-def smoothed(image: Image, area: NDArray[np.bool_]) -> Image:
+def smooth(image: Image, area: NDArray[np.bool_]) -> Image:
     """Means of the pixels of an area that are no farther than one from each."""
     weight = area.astype(np.float32)[..., None]
     values = np.concatenate([image * weight, weight], axis=2)
@@ -176,11 +176,11 @@ def noise(image: Image, area: NDArray[np.bool_]) -> float:
     rows = np.flatnonzero(area.any(axis=1))
     middle = int(rows[len(rows) // 2])
     box = slice(max(middle - NOISE_ROWS, 0), middle + NOISE_ROWS + 1)
-    off = np.abs(smoothed(image[box], area[box]) - image[box])[area[box]]
+    off = np.abs(smooth(image[box], area[box]) - image[box])[area[box]]
     return float(off.max(axis=1).mean())
 
 
-def widened(mask: NDArray[np.bool_], by: int = 1) -> NDArray[np.bool_]:
+def dilate(mask: NDArray[np.bool_], by: int = 1) -> NDArray[np.bool_]:
     """Mask dilated by a number of pixels, also diagonally."""
     for _ in range(by):
         rows = np.copy(mask)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.errors import LimitError
-from vexture.tracing.colours import widened
+from vexture.tracing.colours import dilate
 from vexture.tracing.mixture import Mixture
 from vexture.tracing.outline import outline
 from vexture.tracing.shading import Tone
@@ -39,7 +39,7 @@ in all directions, outlines that almost coincide would cross one another."""
 
 
 @dataclass(frozen=True, slots=True)
-class Painted:
+class PaintedTone:
     """A tone as it is painted: over `depth` others, and below those in `above`, under which it extends."""
 
     number: int
@@ -63,7 +63,7 @@ def document_of(tones: Sequence[Tone], parts: Mixture, first: int, speckle: int)
     above = np.zeros((height, width), np.float32)
     for one in reversed(order):
         own = parts.of(one.number)
-        mask = parts.of(one.number, *one.above) + above * widened(own >= np.where(parts.soft, MEETING, 0.5))
+        mask = parts.of(one.number, *one.above) + above * dilate(own >= np.where(parts.soft, MEETING, 0.5))
         if tones[one.number].is_opaque:
             above += own  # nothing extends under a translucent colour, which would show it
         paths = outline(mask, factor, factor * speckle)
@@ -84,7 +84,7 @@ def _group(tone: Tone, number: int, factor: int) -> str:
     return f'<g fill="#{red:02x}{green:02x}{blue:02x}" fill-opacity="{opacity}">'
 
 
-def over_one_another(tones: Sequence[Tone], parts: Mixture, first: int) -> list[Painted]:
+def over_one_another(tones: Sequence[Tone], parts: Mixture, first: int) -> list[PaintedTone]:
     """Tones with what they are painted over.
 
     Translucent colours beside one another leave a light or dark line between them, since no two outlines are quite the
@@ -110,7 +110,7 @@ def over_one_another(tones: Sequence[Tone], parts: Mixture, first: int) -> list[
             below = lower[below]
             above[below].add(number)
             depth[number] += 1
-    return [Painted(n, paint[n], depth[n], frozenset(above[n])) for n in kinds]
+    return [PaintedTone(n, paint[n], depth[n], frozenset(above[n])) for n in kinds]
 
 
 def _is_soft(tone: Tone) -> bool:
@@ -130,7 +130,7 @@ def _over(colour: NDArray[np.float32], below: NDArray[np.float32]) -> NDArray[np
 
 
 def _contacts(number: NDArray[np.int16], count: int) -> NDArray[np.intp]:
-    """How many pixels of each two numbers are beside one another, (count, count)."""
+    """Number of places where a pixel of one number is beside one of another, (count, count)."""
     found = np.zeros(count * count, np.intp)
     for a, b in ((number[1:], number[:-1]), (number[:, 1:], number[:, :-1])):
         found += np.bincount((a.astype(np.intp) * count + b).ravel(), minlength=count * count)

@@ -171,7 +171,7 @@ def _least(terms: Floats) -> Floats:
     return np.asarray(np.linalg.eigh(np.einsum("ni,nj->ij", terms, terms))[1][:, 0], np.float64)
 
 
-def _with_stops(to_ramp: Floats, radial: bool, x: Floats, y: Floats, own: Floats) -> Fade:
+def _with_stops(to_ramp: Floats, radial: bool, x: Floats, y: Floats, colours: Floats) -> Fade:
     """Gradient whose stops follow the mean colours of the pixels; the map need not lead to 0..1."""
     place = Fade(to_ramp, radial, np.zeros(1), np.zeros((1, 4))).place(x, y)
     beyond = BEYOND * float(np.linalg.norm(to_ramp[: 1 + radial, :2], 2))
@@ -183,12 +183,12 @@ def _with_stops(to_ramp: Floats, radial: bool, x: Floats, y: Floats, own: Floats
     which = np.minimum((place - first) / max(1.0 - first, 1e-9) * BINS, BINS - 1).astype(np.intp)
     count = np.bincount(which, minlength=BINS)
     known = count > 0
-    means = [np.bincount(which, values, BINS)[known] / count[known] for values in (place, *own.T)]
-    offsets, levels = _continued(means[0], np.stack(means[1:], axis=1), first)
+    means = [np.bincount(which, values, BINS)[known] / count[known] for values in (place, *colours.T)]
+    offsets, levels = _extend(means[0], np.stack(means[1:], axis=1), first)
     return Fade(to_ramp, radial, *_stops(offsets, levels))
 
 
-def _continued(offsets: Floats, levels: Floats, low: float) -> tuple[Floats, Floats]:
+def _extend(offsets: Floats, levels: Floats, low: float) -> tuple[Floats, Floats]:
     """A profile that is continued to both ends of the ramp, and the colours kept in their range."""
     if len(offsets) < 2:
         return offsets, levels

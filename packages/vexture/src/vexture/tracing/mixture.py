@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.errors import LimitError
-from vexture.tracing.colours import APART, OFF_THE_LINE, Colours, Image, along, widened
+from vexture.tracing.colours import APART, OFF_THE_LINE, Colours, Image, along, dilate
 from vexture.tracing.shading import NONE_HERE, Shading, Tone
 
 __all__ = ["Mixture", "mixture"]
@@ -50,11 +50,11 @@ class Mixture(NamedTuple):
             return share
         (top, left), (bottom, right) = inside.min(axis=0), inside.max(axis=0) + 1 + len(KERNEL)
         box = (slice(max(top - len(KERNEL), 0), bottom), slice(max(left - len(KERNEL), 0), right))
-        share[box] = np.where(self.soft[box], _blurred(share[box]), share[box])
+        share[box] = np.where(self.soft[box], _blur(share[box]), share[box])
         return share
 
 
-def _blurred(share: NDArray[np.float32]) -> NDArray[np.float32]:
+def _blur(share: NDArray[np.float32]) -> NDArray[np.float32]:
     """Means of the pixels around each, by `KERNEL`."""
     for axis in (0, 1):
         size, reach = share.shape[axis], len(KERNEL) // 2
@@ -104,7 +104,7 @@ def mixture(image: Image, flat: Colours, shading: Shading) -> Mixture:
             best[chosen], one[chosen], other[chosen], part[chosen] = off[closer], a, b, share[closer]
     second, shares = first.copy(), np.ones(first.shape, np.float32)
     first[place], second[place], shares[place] = one, other, part
-    return Mixture(first, second, shares, shading.even & widened(is_shaded, len(KERNEL) // 2))
+    return Mixture(first, second, shares, shading.even & dilate(is_shaded, len(KERNEL) // 2))
 
 
 def _pairs(tones: tuple[Tone, ...]) -> list[tuple[int, int]]:
@@ -160,7 +160,7 @@ def _nearest(image: Image, colours: Colours) -> tuple[NDArray[np.int16], NDArray
 
 def _solid(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Morphological opening of a mask by a square of 3 x 3 pixels."""
-    return widened(~widened(~np.pad(mask, 1, mode="edge")))[1:-1, 1:-1]
+    return dilate(~dilate(~np.pad(mask, 1, mode="edge")))[1:-1, 1:-1]
 
 
 def _passed_on_the_way(colours: Colours, first: NDArray[np.int16], pure: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -174,7 +174,7 @@ def _passed_on_the_way(colours: Colours, first: NDArray[np.int16], pure: NDArray
                 between.setdefault(number, []).append((a, b))
     own = [pure & (first == number) for number in range(len(colours))]
     sure = [_solid(mask) if number in between else mask for number, mask in enumerate(own)]
-    reach = [widened(mask, 2) for mask in sure]
+    reach = [dilate(mask, 2) for mask in sure]
     for number, pairs in between.items():
         thin = own[number] & ~sure[number]
         for a, b in pairs:

@@ -46,21 +46,21 @@ def outline(share: NDArray[np.float32], factor: int, speckle: int) -> str:
         return ""
     top, left = np.maximum(inside.min(axis=0) - 2, 0)
     bottom, right = inside.max(axis=0) + 3
-    text = _traced(_enlarged(share[top:bottom, left:right], factor), speckle)
+    text = _trace_mask(_enlarge(share[top:bottom, left:right], factor), speckle)
     x, y = factor * left, factor * top
     return "".join(
-        f'<path d="{_moved(data, x + float(across), y + float(down))}"/>'
+        f'<path d="{_move(data, x + float(across), y + float(down))}"/>'
         for data, across, down in TRACED_PATH.findall(text)
     )
 
 
-def _moved(data: str, x: float, y: float) -> str:
+def _move(data: str, x: float, y: float) -> str:
     """Path data of absolute points, moved. A `transform` would move gradients, too."""
     by = cycle((x, y))
     return NUMBER.sub(lambda found: str(float(found[0]) + next(by)), data)
 
 
-def _enlarged(share: NDArray[np.float32], factor: int) -> NDArray[np.bool_]:
+def _enlarge(share: NDArray[np.float32], factor: int) -> NDArray[np.bool_]:
     """Enlarged mask of where a share is at least one half, `OUTWARD` smaller on all sides."""
     from PIL import Image
 
@@ -73,7 +73,7 @@ def _enlarged(share: NDArray[np.float32], factor: int) -> NDArray[np.bool_]:
     return np.asarray(smooth - 0.5 >= OUTWARD * slope, np.bool_)
 
 
-def _traced(mask: NDArray[np.bool_], speckle: int) -> str:
+def _trace_mask(mask: NDArray[np.bool_], speckle: int) -> str:
     """SVG of a mask by vtracer.
 
     vtracer scans the mask by rows, begins a piece at each pixel without one to the left or above, and panics at more

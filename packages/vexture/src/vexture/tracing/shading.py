@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.tracing.colours import Colours, Image, binned, is_flat, noise, smoothed, widened
+from vexture.tracing.colours import Colours, Image, bin_colours, dilate, is_flat, noise, smooth
 from vexture.tracing.fades import Fade, fade_of
 
 __all__ = ["NONE_HERE", "Shading", "Tone", "nearest", "shading_of", "steps_of"]
@@ -60,7 +60,7 @@ NONE_HERE: Final = -1
 
 
 class Tone(NamedTuple):
-    """What an area is painted with: a premultiplied colour, or a gradient and its mean."""
+    """The paint of an area: a premultiplied colour, or a gradient and its mean."""
 
     colour: Colours
     fade: Fade | None = None
@@ -100,7 +100,7 @@ def shading_of(image: Image, background: Colours | None) -> Shading:
     left = np.zeros_like(even)
     wide = pieces(own)
     for piece in (wide, pieces(own & flat)):
-        for area in _shaded(image, piece):
+        for area in _shaded_areas(image, piece):
             area &= number == NONE_HERE
             fade = fade_of(image, area) if len(tones) < MOST_AREAS and area.sum() >= LEAST_AREA else None
             if fade is not None:
@@ -116,9 +116,7 @@ def shading_of(image: Image, background: Colours | None) -> Shading:
             free &= _differs(image, background, NEAR_BACKGROUND)
             steps = steps[_differs(steps, background, NEAR_BACKGROUND)]
         if len(steps):
-            _number_steps(
-                number, len(tones), np.where(left[..., None], smoothed(image, left), image), left, free, steps
-            )
+            _number_steps(number, len(tones), np.where(left[..., None], smooth(image, left), image), left, free, steps)
         tones += [Tone(colour) for colour in steps]
     return Shading(tuple(tones), number, even)
 
@@ -132,19 +130,19 @@ def _number_steps(
     steps: Colours,
 ) -> None:
     """Number the pixels of an area that is drawn in steps, and around it those of nearly the same colours."""
-    around = area | (widened(area, GROWTH) & free)
+    around = area | (dilate(area, GROWTH) & free)
     values = image[around]
     which = nearest(values, steps)
     alike = np.zeros_like(area)
     alike[around] = np.linalg.norm(values - steps[which], axis=1) <= ALIKE
     grown = area
     for _ in range(GROWTH):
-        grown = area | (widened(grown) & alike)
+        grown = area | (dilate(grown) & alike)
     number[around] = np.where(grown[around], first + which, number[around])
 
 
 def _number(
-    number: NDArray[np.int16], own: int, image: Image, area: NDArray[np.bool_], fade: Fade, background: Colours | None
+    number: NDArray[np.int16], tone: int, image: Image, area: NDArray[np.bool_], fade: Fade, background: Colours | None
 ) -> None:
     """Number the pixels of a gradient: those of its area, and around it all that have its colours, too."""
     box = tuple(
@@ -156,14 +154,14 @@ def _number(
     levels = fade.at(columns.ravel() + box[1].start + 0.5, rows.ravel() + box[0].start + 0.5).reshape(pixels.shape)
     alike = (shown == NONE_HERE) & ~_differs(pixels, levels, fade.off)
     for _ in range(GROWTH):
-        grown = grown | (widened(grown) & alike)
+        grown = grown | (dilate(grown) & alike)
     if background is not None:
         grown = grown & _differs(levels, background, NEAR_BACKGROUND)
-    shown[grown] = own
+    shown[grown] = tone
 
 
 def _differs(colours: Colours, others: Colours, by: float) -> NDArray[np.bool_]:
-    """Which colours, in the last axis, differ from others in any channel."""
+    """Colours, in the last axis, that differ from others in any channel."""
     return np.asarray((np.abs(colours - others) > by).any(axis=-1), np.bool_)
 
 
@@ -204,7 +202,7 @@ def pieces(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
             parent = parent[parent]
 
 
-def _shaded(image: Image, piece: NDArray[np.intp]) -> Iterator[NDArray[np.bool_]]:
+def _shaded_areas(image: Image, piece: NDArray[np.intp]) -> Iterator[NDArray[np.bool_]]:
     """Areas whose colours differ, the largest first."""
     count = np.bincount(piece.ravel())
     count[0] = 0
@@ -225,7 +223,7 @@ def _shaded(image: Image, piece: NDArray[np.intp]) -> Iterator[NDArray[np.bool_]
 
 def steps_of(pixels: Colours, most: int) -> Colours:
     """Few colours for many: the worst group of them is split, until what is left is small or there are enough."""
-    means, counts = binned(pixels)
+    means, counts = bin_colours(pixels)
     group = np.zeros(len(means), np.intp)
     spread = [_spread(means, counts)]
     while len(spread) < most and sum(spread) > STEP * STEP * counts.sum():

@@ -86,9 +86,9 @@ def _has_smooth_edges(cells: Pixels) -> bool:
     )
 
 
-def _is_between(own: NDArray[np.float32], a: NDArray[np.float32], b: NDArray[np.float32]) -> NDArray[np.bool_]:
-    """Where a colour is a mixture of two that differ from it and from one another."""
-    way, away = b - a, own - a
+def _is_between(colour: NDArray[np.float32], a: NDArray[np.float32], b: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """True where a colour is a mixture of two that differ from it and from one another."""
+    way, away = b - a, colour - a
     length = np.linalg.norm(way, axis=2)
     share = (away * way).sum(axis=2) / np.maximum(length * length, 1e-9)
     off = np.linalg.norm(away - share[..., None] * way, axis=2)

@@ -85,12 +85,12 @@ def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = N
 
 def image_drawing(source: str | os.PathLike[str] | bytes, name: str) -> Drawing:
     """Drawing of `read_image`, without a warning: the notes are in the drawing."""
-    return _traced(pixels_of(source), name)
+    return _trace_pixels(pixels_of(source), name)
 
 
 def embedded_image(content: bytes) -> Drawing:
     """Drawing of a picture in another drawing: as `image_drawing`, with its background, unless that is transparent."""
-    return _traced(pixels_of(content), "image", whole=True)
+    return _trace_pixels(pixels_of(content), "image", whole=True)
 
 
 def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
@@ -133,7 +133,7 @@ def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
     ['#000000']
     """
     with about(name):
-        drawing = _traced(_as_pixels(np.asarray(image)), name)
+        drawing = _trace_pixels(_as_pixels(np.asarray(image)), name)
     warn_of(name, drawing.notes)
     return drawing
 
@@ -154,14 +154,14 @@ def _as_pixels(image: NDArray[Any]) -> NDArray[np.uint8]:
     return np.concatenate([image, opaque], axis=2) if image.shape[2] == 3 else image
 
 
-def _traced(pixels: NDArray[np.uint8], name: str, *, whole: bool = False) -> Drawing:
+def _trace_pixels(pixels: NDArray[np.uint8], name: str, *, whole: bool = False) -> Drawing:
     """Trace 8-bit sRGB and opacity, (height, width, 4); `whole` with an opaque background."""
     notes = Notes()
     cells = cells_of(pixels)
     if cells is None:
         document, size, has_background = _smooth_document(pixels, whole, notes)
     else:
-        document, has_background = squares_document(cells, background_of(_reduced(cells, LONGEST)), whole)
+        document, has_background = squares_document(cells, background_of(_reduce(cells, LONGEST)), whole)
         size = (cells.shape[1], cells.shape[0])
     drawing = svg_drawing(document, f"{name}.svg")
     if not drawing.paths:
@@ -174,7 +174,7 @@ def _traced(pixels: NDArray[np.uint8], name: str, *, whole: bool = False) -> Dra
 
 def _smooth_document(pixels: NDArray[np.uint8], whole: bool, notes: Notes) -> tuple[bytes, tuple[int, int], bool]:
     """SVG of a picture with smooth edges, its size, and whether it has a background."""
-    image = _reduced(pixels, LONGEST)
+    image = _reduce(pixels, LONGEST)
     background = background_of(image)
     shading = shading_of(image, background)
     flat = flat_colours(image, background, shading.number != NONE_HERE, shading.samples)
@@ -188,13 +188,13 @@ def _smooth_document(pixels: NDArray[np.uint8], whole: bool, notes: Notes) -> tu
         tones = [*map(Tone, flat), *shading.tones]
         document, size = document_of(tones, mixture(image, flat, shading), first, 1)
     except LimitError:
-        tones, parts = _posterised(_reduced(pixels, PHOTO_LONGEST), background)
+        tones, parts = _posterise(_reduce(pixels, PHOTO_LONGEST), background)
         document, size = document_of(tones, parts, first, PHOTO_SPECKLE)
         notes.remark(f"is no drawing of a few colours and gradients, so it is traced coarsely, in {len(tones) - first}")
     return document, size, background is not None
 
 
-def _reduced(pixels: NDArray[np.uint8], longest: int) -> NDArray[np.float32]:
+def _reduce(pixels: NDArray[np.uint8], longest: int) -> NDArray[np.float32]:
     """Premultiplied levels of a picture, reduced to a longest side."""
     from PIL import Image
 
@@ -207,7 +207,7 @@ def _reduced(pixels: NDArray[np.uint8], longest: int) -> NDArray[np.float32]:
     return np.asarray(picture, np.float32)
 
 
-def _posterised(image: NDArray[np.float32], background: NDArray[np.float32] | None) -> tuple[list[Tone], Mixture]:
+def _posterise(image: NDArray[np.float32], background: NDArray[np.float32] | None) -> tuple[list[Tone], Mixture]:
     """A few colours for a photograph, the background first, and which of them each pixel has when it is smoothed."""
     from PIL import Image, ImageFilter
 

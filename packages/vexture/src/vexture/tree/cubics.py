@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing.contours import Closed, joined, together
+from vexture.drawing.contours import Closed, join_contours, together
 from vexture.drawing.drawing import Drawing, FillRule
 
 __all__ = ["cubics_and_paths", "gather"]
@@ -42,7 +42,7 @@ def cubics_and_paths(
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Cubics of some paths, and the path of each."""
     lengths = [sum(map(len, contours)) for contours in of_paths]
-    return joined(together(of_paths)), np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
+    return join_contours(together(of_paths)), np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
 
 
 def _all_differ(contours: Sequence[NDArray[np.float64]]) -> bool:

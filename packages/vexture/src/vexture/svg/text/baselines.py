@@ -1,4 +1,4 @@
-"""How far clusters are moved from the line by `dominant-baseline`, `alignment-baseline` and `baseline-shift`.
+"""Offsets of clusters from the line by `dominant-baseline`, `alignment-baseline` and `baseline-shift`.
 
 SVG 2, 11.10.2, and CSS Inline Layout 3. Lengths are in user units; what is above the alphabetic baseline is below 0.
 """
@@ -6,7 +6,7 @@ SVG 2, 11.10.2, and CSS Inline Layout 3. Lengths are in user units; what is abov
 from typing import Final
 
 from vexture.svg.document import local_name
-from vexture.svg.text.runs import Cluster
+from vexture.svg.text.runs import GlyphCluster
 from vexture.svg.text.tree import Span
 
 __all__ = ["baseline", "extent"]
@@ -18,9 +18,9 @@ OVER: Final = frozenset({"before-edge", "text-before-edge", "text-top"})
 UNDER: Final = frozenset({"after-edge", "text-after-edge", "text-bottom", "ideographic"})
 
 
-def baseline(cluster: Cluster, vertical: bool) -> float:
-    """How far a cluster is moved down; in vertical text, those on their side lie on its middle."""
-    shift = sum(shifted(span, cluster) for span in cluster.span.around)
+def baseline(cluster: GlyphCluster, vertical: bool) -> float:
+    """Distance by which a cluster is moved down; in vertical text, those on their side lie on its middle."""
+    shift = sum(baseline_shift(span, cluster) for span in cluster.span.around)
     if vertical:
         return (0.0 if cluster.upright else height("central", cluster)) - shift
     name = cluster.span.place.style["alignment-baseline"].lower()
@@ -38,7 +38,7 @@ def dominant(span: Span) -> str:
     return "auto"
 
 
-def height(name: str, cluster: Cluster) -> float:
+def height(name: str, cluster: GlyphCluster) -> float:
     """Height of a baseline of a cluster's face over the alphabetic one."""
     over, under = extent(cluster)
     if name in OVER:
@@ -52,13 +52,13 @@ def height(name: str, cluster: Cluster) -> float:
     return over * {"hanging": HANGING, "mathematical": MATHEMATICAL}.get(name, 0.0)
 
 
-def extent(cluster: Cluster) -> tuple[float, float]:
+def extent(cluster: GlyphCluster) -> tuple[float, float]:
     """Ascent and descent of a cluster's face."""
     return cluster.face.ascender * cluster.scale, -cluster.face.descender * cluster.scale
 
 
-def shifted(span: Span, cluster: Cluster) -> float:
-    """How far `baseline-shift` of a span moves it up."""
+def baseline_shift(span: Span, cluster: GlyphCluster) -> float:
+    """Distance by which `baseline-shift` of a span moves it up."""
     text = span.place.style["baseline-shift"].lower()
     if text in ("baseline", "top", "center", "bottom") or local_name(span.element) == "text":
         return 0.0

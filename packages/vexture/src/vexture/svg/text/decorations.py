@@ -9,16 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing.colors import parse_color
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.report import Report
-from vexture.svg.space import Place
+from vexture.svg.space import ElementPlace
 from vexture.svg.strokes import Stroke, stroke_contours
 from vexture.svg.text.baselines import extent
-from vexture.svg.text.runs import Cluster
+from vexture.svg.text.runs import GlyphCluster
 from vexture.svg.text.tree import Span
-from vexture.svg.transform import Transform, mapped
+from vexture.svg.transform import Transform, map_points
 
-__all__ = ["WORDS", "Decoration", "Member", "decorated", "decoration"]
+__all__ = ["WORDS", "Decoration", "Member", "decoration", "line_outlines"]
 
 WORDS: Final = ("underline", "overline", "line-through")
 STYLES: Final = ("solid", "dashed", "dotted", "double", "wavy")
@@ -48,42 +48,42 @@ WAVE, HEIGHT = 6.0, 1.5
 MOST_PERIODS: Final = 2_000
 """Dashes or waves along a line; one of more is plain, as no eye tells them apart."""
 
-Member = tuple[Cluster, Transform, bool]
+Member = tuple[GlyphCluster, Transform, bool]
 """A cluster that is shown, its matrix, and whether a line begins at it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Decoration:
-    """How the lines of a span are painted."""
+    """Style of the lines of a span."""
 
-    place: Place  # with the style that paints them
+    place: ElementPlace  # with the style that paints them
     style: str  # one of `STYLES`
     thickness: float | None  # user units; None for what the font says
 
 
 def decoration(span: Span, word: str, report: Report) -> Decoration | None:
-    """How a line of a span is painted: as the nearest element that declares it; None without one.
+    """Style of a line of a span: as the nearest element that declares it; None without one.
 
     A line that is declared outside the text is painted as the text is.
     """
-    place: Place | None = span.place
+    place: ElementPlace | None = span.place
     text = next(each for each in span.around if each.outer is None).place
     inside = True
     while place is not None:
         if word in words_of(place, DECORATION):
             own = replace(place if inside else text, name=span.place.name, chosen=True, veil=span.place.veil)
-            return looking(own, place, report)
+            return read_decoration(own, place, report)
         inside = inside and place is not text
         place = place.outer
     return None
 
 
-def words_of(place: Place, properties: Sequence[str]) -> list[str]:
+def words_of(place: ElementPlace, properties: Sequence[str]) -> list[str]:
     """Words of some properties at a place; a function with its arguments is one."""
     return WORD.findall(" ".join(place.style[name][:LONGEST] for name in properties).lower())
 
 
-def looking(own: Place, place: Place, report: Report) -> Decoration:
+def read_decoration(target: ElementPlace, place: ElementPlace, report: Report) -> Decoration:
     """A decoration that is painted at its own place, with the look that another one declares.
 
     A colour is that of all of the line, which then has no stroke.
@@ -96,7 +96,7 @@ def looking(own: Place, place: Place, report: Report) -> Decoration:
             style = word
         elif word not in USUAL and parse_color(word) is not None:
             paint = {"fill": word, "fill-opacity": "1", "stroke": "none"}
-            own = replace(own, style=replace(own.style, inherited=own.style.inherited | paint))
+            target = replace(target, style=replace(target.style, inherited=target.style.inherited | paint))
         elif word not in USUAL:
             length = place.viewport.length(word, size, size)
             thickness = length if length is not None and length > 0.0 else thickness
@@ -106,15 +106,15 @@ def looking(own: Place, place: Place, report: Report) -> Decoration:
     if unknown:
         what = f"text-decoration {' '.join(unknown)[:40]}"
         report.simplification(f"{what} drawn where and as the font says", place.element)
-    return Decoration(own, style, thickness)
+    return Decoration(target, style, thickness)
 
 
-def decorated(held: Sequence[Member], word: str, decor: Decoration, vertical: bool) -> tuple[Outline, ...]:
+def line_outlines(members: Sequence[Member], word: str, decor: Decoration, vertical: bool) -> tuple[ShapeOutline, ...]:
     """The lines of a kind along the clusters of a span."""
-    outlines: list[Outline] = []
-    begin: tuple[Cluster, Transform] | None = None
+    outlines: list[ShapeOutline] = []
+    begin: tuple[GlyphCluster, Transform] | None = None
     width = 0.0
-    for cluster, matrix, begins in [*held, (None, None, True)]:
+    for cluster, matrix, begins in [*members, (None, None, True)]:
         if begins and begin is not None:
             outlines += line(begin[0], begin[1], width, word, decor, vertical)
         if cluster is None or matrix is None:
@@ -126,8 +126,8 @@ def decorated(held: Sequence[Member], word: str, decor: Decoration, vertical: bo
 
 
 def line(
-    cluster: Cluster, matrix: Transform, width: float, word: str, decor: Decoration, vertical: bool
-) -> list[Outline]:
+    cluster: GlyphCluster, matrix: Transform, width: float, word: str, decor: Decoration, vertical: bool
+) -> list[ShapeOutline]:
     """A line of a width that begins at a cluster."""
     over, under = extent(cluster)
     position, usual = (part * cluster.scale for part in cluster.face.underline)
@@ -142,7 +142,7 @@ def line(
         matrix, position = matrix.rotate(np.pi / 2.0), position - (over - under) / 2.0
     right = width / cluster.stretch
     contours = looks(decor, -position, right, thickness, word)
-    return [Outline(mapped(contour, matrix), closed=True) for contour in contours]
+    return [ShapeOutline(map_points(contour, matrix), closed=True) for contour in contours]
 
 
 def looks(decor: Decoration, y: float, right: float, thickness: float, word: str) -> list[NDArray[np.float64]]:
@@ -160,7 +160,7 @@ def looks(decor: Decoration, y: float, right: float, thickness: float, word: str
         return stroke_contours([wave(right, y, thickness)], Stroke(thickness, join="round"), size)
     if decor.style in DASHES:
         dash, gap = (part * thickness for part in DASHES[decor.style])
-        middle = Outline.polygon(np.array([(0.0, y), (right, y)]), closed=False)
+        middle = ShapeOutline.polygon(np.array([(0.0, y), (right, y)]), closed=False)
         cap = "butt" if dash else "round"
         offset = 0.0 if dash else -thickness / 2.0
         stroke = Stroke(thickness, cap, dashes=(dash or thickness * TINY, gap), dash_offset=offset)
@@ -170,10 +170,10 @@ def looks(decor: Decoration, y: float, right: float, thickness: float, word: str
 
 def bar(right: float, y: float, thickness: float) -> NDArray[np.float64]:
     """Contour of a line that is thick to both sides of a height."""
-    return Outline.rectangle(0.0, y - thickness / 2.0, right, thickness).cubics
+    return ShapeOutline.rectangle(0.0, y - thickness / 2.0, right, thickness).cubics
 
 
-def wave(right: float, y: float, thickness: float) -> Outline:
+def wave(right: float, y: float, thickness: float) -> ShapeOutline:
     """Half waves about a height, as many as fit, the first one downwards."""
     count = max(1, round(right / (WAVE * thickness / 2.0)))
     ends = np.linspace(0.0, right, count + 1)
@@ -182,4 +182,4 @@ def wave(right: float, y: float, thickness: float) -> Outline:
     middles = (ends[:-1] + ends[1:]) / 2.0
     flat = np.full(count, y)
     points = [(ends[:-1], flat), (middles, arms), (middles, arms), (ends[1:], flat)]
-    return Outline(np.stack([np.stack(point, axis=1) for point in points], axis=1), closed=False)
+    return ShapeOutline(np.stack([np.stack(point, axis=1) for point in points], axis=1), closed=False)

@@ -1,4 +1,4 @@
-"""Which font a span wants, by its style (CSS Fonts 4)."""
+"""The font query of a span, by its style (CSS Fonts 4)."""
 
 import re
 from dataclasses import dataclass
@@ -8,10 +8,10 @@ from lxml import etree
 
 from vexture.svg.document import language
 from vexture.svg.font_values import font_weight
-from vexture.svg.style import Style
+from vexture.svg.style import ElementStyle
 from vexture.svg.values import number
 
-__all__ = ["GENERIC", "SMALL", "Wanted", "wanted"]
+__all__ = ["GENERIC", "SMALL", "FontQuery", "query_of"]
 
 GENERIC: Final = frozenset(
     {
@@ -69,8 +69,8 @@ LONGEST: Final = 2_000
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
-    """What characters want of a font; those that want the same are shaped together."""
+class FontQuery:
+    """The font that characters ask for; those with equal queries are shaped together."""
 
     families: tuple[str, ...]
     weight: float
@@ -84,9 +84,9 @@ class Wanted:
     synthesis: frozenset[str]  # of "weight", "style" and "small-caps"
 
 
-def wanted(style: Style, element: etree._Element) -> Wanted:
-    """What the characters of an element with a style want."""
-    return Wanted(
+def query_of(style: ElementStyle, element: etree._Element) -> FontQuery:
+    """Font query of the characters of an element with a style."""
+    return FontQuery(
         families(style["font-family"]),
         font_weight(style["font-weight"]),
         style["font-style"].split()[0].lower(),
@@ -121,7 +121,7 @@ def stretch(text: str) -> float:
     return STRETCHES.get(text) or number(text.rstrip("%")) or STRETCHES["normal"]
 
 
-def features(style: Style) -> tuple[str, ...]:
+def features(style: ElementStyle) -> tuple[str, ...]:
     """OpenType features that a style turns on, or off: these begin with a minus."""
     found: list[str] = []
     for name in ("", "-caps", "-ligatures", "-numeric", "-position"):

@@ -1,4 +1,4 @@
-"""Where the clusters of a text go (SVG 2, 11.5): spaces, `textLength`, chunks with their anchors, and paths."""
+"""Positions of the clusters of a text (SVG 2, 11.5): spaces, `textLength`, chunks with their anchors, and paths."""
 
 from bisect import bisect_left
 from collections.abc import Sequence
@@ -7,17 +7,17 @@ from itertools import accumulate, pairwise
 from math import pi, radians
 from typing import Final
 
-from vexture.fonts.levels import CURSIVE, reordered
+from vexture.fonts.levels import CURSIVE, visual_order
 from vexture.svg.document import local_name
 from vexture.svg.report import Report
-from vexture.svg.style import Style
+from vexture.svg.style import ElementStyle
 from vexture.svg.text.baselines import baseline
-from vexture.svg.text.runs import Cluster
+from vexture.svg.text.runs import GlyphCluster
 from vexture.svg.text.track import Track
 from vexture.svg.text.tree import Characters, Span
 from vexture.svg.transform import Identity, Transform
 
-__all__ = ["Chunk", "is_vertical", "laid_out"]
+__all__ = ["TextChunk", "is_vertical", "lay_out"]
 
 SEPARATORS: Final = frozenset(" \u00a0\u1361\U00010100\U00010101\U0001039f\U0001091f")
 """Characters between words (CSS Text 3, 7.1)."""
@@ -31,43 +31,43 @@ ANCHORS: Final = {"start": 0.0, "middle": 0.5, "end": 1.0}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Chunk:
+class TextChunk:
     """Clusters that follow one another from a position of their own, in visual order, and the place of each.
 
     A cluster's matrix leads from its own coordinates, with its origin at (0, 0), its advance along x and y down, to
     those of the text. `moved` says whether it does not simply follow the cluster before it.
     """
 
-    clusters: tuple[Cluster, ...]
+    clusters: tuple[GlyphCluster, ...]
     matrices: tuple[Transform, ...]
     moved: tuple[bool, ...]
 
 
-def is_vertical(style: Style) -> bool:
+def is_vertical(style: ElementStyle) -> bool:
     """Whether a text runs from top to bottom."""
     return style["writing-mode"].lower() in VERTICAL
 
 
-def laid_out(found: Characters, made: list[Cluster], vertical: bool, report: Report) -> list[Chunk]:
-    """Chunks of a text with all clusters in their places; `made` are they in logical order."""
+def lay_out(found: Characters, clusters: list[GlyphCluster], vertical: bool, report: Report) -> list[TextChunk]:
+    """Chunks of a text with all clusters in their places; `clusters` are they in logical order."""
     edges = {at for at in range(len(found.text)) if found.starts_chunk(at)}
-    groups: list[list[Cluster]] = []
-    for cluster in made:
+    groups: list[list[GlyphCluster]] = []
+    for cluster in clusters:
         if not groups or (cluster.start in edges and cluster.start != groups[-1][-1].start):
             groups.append([])
         groups[-1].append(cluster)
     for group in groups:
         space(found, group)
-    fit(found, made, vertical, report)
+    fit(found, clusters, vertical, report)
     chunks, at = [], (0.0, 0.0)
     for group in groups:
-        visual = [group[k] for k in reordered([cluster.level for cluster in group])]
+        visual = [group[k] for k in visual_order([cluster.level for cluster in group])]
         chunk, at = chunk_of(found, group[0].start, visual, vertical, at)
         chunks.append(chunk)
     return chunks
 
 
-def space(found: Characters, group: Sequence[Cluster]) -> None:
+def space(found: Characters, group: Sequence[GlyphCluster]) -> None:
     """Add the spaces of `letter-spacing` and `word-spacing` to the clusters of a chunk, in logical order."""
     for cluster in group:
         style = cluster.span.place.style
@@ -84,16 +84,16 @@ def pixels(spacing: str) -> float:
     return 0.0 if spacing == "normal" else float(spacing)
 
 
-def fit(found: Characters, made: Sequence[Cluster], vertical: bool, report: Report) -> None:
+def fit(found: Characters, clusters: Sequence[GlyphCluster], vertical: bool, report: Report) -> None:
     """Fit the clusters of each element with a `textLength` into that, the innermost elements first (SVG 2, 11.5)."""
-    starts = [cluster.start for cluster in made]
+    starts = [cluster.start for cluster in clusters]
     for span in reversed(found.spans):
         text = span.element.get("textLength")
         if text is None or local_name(span.element) == "a":
             continue
         place = span.place
         length = place.viewport.length(text, place.viewport.width, place.style.font_size)
-        inside = made[bisect_left(starts, span.start) : bisect_left(starts, span.end)]
+        inside = clusters[bisect_left(starts, span.start) : bisect_left(starts, span.end)]
         if length is None or length < 0.0:
             report.invalid("textLength", text, span.element)
             continue
@@ -101,7 +101,7 @@ def fit(found: Characters, made: Sequence[Cluster], vertical: bool, report: Repo
             fit_span(span, inside, length, found.dy if vertical else found.dx)
 
 
-def fit_span(span: Span, inside: Sequence[Cluster], length: float, shifts: dict[int, float]) -> None:
+def fit_span(span: Span, inside: Sequence[GlyphCluster], length: float, shifts: dict[int, float]) -> None:
     """Fit clusters into a length; those that are fitted into that of an element inside already move together.
 
     The last one has a gap behind it too, as in browsers; an anchor does not see it. `shifts` are those along the text
@@ -131,8 +131,8 @@ def fit_span(span: Span, inside: Sequence[Cluster], length: float, shifts: dict[
 
 
 def chunk_of(
-    found: Characters, first: int, visual: Sequence[Cluster], vertical: bool, at: tuple[float, float]
-) -> tuple[Chunk, tuple[float, float]]:
+    found: Characters, first: int, visual: Sequence[GlyphCluster], vertical: bool, at: tuple[float, float]
+) -> tuple[TextChunk, tuple[float, float]]:
     """Chunk of clusters in visual order that begins at a character, and where what follows it goes on from `at`."""
     style, track = found.holders[first].place.style, found.holders[first].track
     steps = shifts(found, visual, vertical)
@@ -151,18 +151,18 @@ def chunk_of(
         along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
         turn = radians(found.rotate.get(cluster.start, 0.0))
         matrix = flow.translate(along, across + baseline(cluster, vertical))
-        matrices.append(matrix.rotate(turn).transform(own(cluster)))
+        matrices.append(matrix.rotate(turn).transform(cluster_transform(cluster)))
         moved.append(bool(dx or dy or turn))
         along += cluster.advance
     dx, dy = steps[-1]
     along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
     end = flow.transformPoint((along, across))  # type: ignore[attr-defined]
-    return Chunk(tuple(visual), tuple(matrices), tuple(moved)), end
+    return TextChunk(tuple(visual), tuple(matrices), tuple(moved)), end
 
 
 def on_track(
-    found: Characters, visual: Sequence[Cluster], vertical: bool, track: Track, along: float
-) -> tuple[Chunk, tuple[float, float]]:
+    found: Characters, visual: Sequence[GlyphCluster], vertical: bool, track: Track, along: float
+) -> tuple[TextChunk, tuple[float, float]]:
     """Chunk along a path from a distance, each cluster turned about the middle of its advance; see `chunk_of`.
 
     What follows a path goes on from its end (SVG 2, 11.5, "Position on path").
@@ -179,19 +179,19 @@ def on_track(
             turn = radians(found.rotate.get(cluster.start, 0.0))
             matrix = Identity.translate(point.x, point.y).rotate(point.turn)
             matrix = matrix.translate(-half, across + baseline(cluster, vertical))
-            matrices.append(matrix.rotate(turn).transform(own(cluster)))
+            matrices.append(matrix.rotate(turn).transform(cluster_transform(cluster)))
         along += cluster.advance
-    return Chunk(tuple(visual), tuple(matrices), (True,) * len(visual)), track.end
+    return TextChunk(tuple(visual), tuple(matrices), (True,) * len(visual)), track.end
 
 
-def own(cluster: Cluster) -> Transform:
-    """What stretches a cluster, and turns it where it stands upright in vertical text."""
+def cluster_transform(cluster: GlyphCluster) -> Transform:
+    """Transform that stretches a cluster, and turns it where it stands upright in vertical text."""
     matrix = Identity.scale(cluster.stretch, 1.0)
     return matrix.rotate(-pi / 2.0) if cluster.upright else matrix
 
 
-def shifts(found: Characters, visual: Sequence[Cluster], vertical: bool) -> list[tuple[float, float]]:
-    """What `dx` and `dy` add before each cluster of a chunk, and behind the last one.
+def shifts(found: Characters, visual: Sequence[GlyphCluster], vertical: bool) -> list[tuple[float, float]]:
+    """Shifts that `dx` and `dy` add before each cluster of a chunk, and behind the last one.
 
     Each character is shifted by the sum of those up to it in logical order, whatever its direction, and a cluster as
     its first one (SVG 2, 11.5, "Adjust positions: dx, dy"). The chunk starts where its first character is shifted to.

@@ -1,4 +1,4 @@
-"""What a text paints: outlines and glyphs in colour, each with the style that paints it."""
+"""The painted parts of a text: outlines and glyphs in colour, each with the style that paints it."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -9,36 +9,36 @@ from numpy.typing import NDArray
 
 from vexture.base.deadline import check_time
 from vexture.bezier.bounds import bounds
-from vexture.fonts.layers import Layers
-from vexture.svg.outline import Outline
+from vexture.fonts.layers import GlyphLayers
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.report import Report
-from vexture.svg.space import Place
+from vexture.svg.space import ElementPlace
 from vexture.svg.strokes import Stroke, stroke_contours
 from vexture.svg.text.baselines import extent
-from vexture.svg.text.decorations import WORDS, Decoration, Member, decorated, decoration
-from vexture.svg.text.layout import Chunk
-from vexture.svg.text.runs import Cluster
+from vexture.svg.text.decorations import WORDS, Decoration, Member, decoration, line_outlines
+from vexture.svg.text.layout import TextChunk
+from vexture.svg.text.runs import GlyphCluster
 from vexture.svg.text.tree import Span
-from vexture.svg.transform import Identity, Transform, mapped
+from vexture.svg.transform import Identity, Transform, map_points
 
-__all__ = ["Piece", "cells", "pieces"]
+__all__ = ["TextPiece", "cells", "pieces"]
 
 EMBOLDENING: Final = ((9.0, 1 / 24), (36.0, 1 / 32))
 """Font sizes, and of each the width by which a face is made bolder as a part of it: what Skia does."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Piece:
+class TextPiece:
     """Outlines, or a glyph in colour, that are painted with the style of a place."""
 
-    place: Place
-    outlines: tuple[Outline, ...] = ()
-    layers: Layers | None = None
+    place: ElementPlace
+    outlines: tuple[ShapeOutline, ...] = ()
+    layers: GlyphLayers | None = None
     matrix: Transform = Identity  # of the layers, to the units of the place
 
 
-def pieces(chunks: Sequence[Chunk], vertical: bool, report: Report) -> Iterator[Piece]:
-    """What a text paints, in painting order (CSS Text Decoration 3, 2.4)."""
+def pieces(chunks: Sequence[TextChunk], vertical: bool, report: Report) -> Iterator[TextPiece]:
+    """The painted parts of a text, in painting order (CSS Text Decoration 3, 2.4)."""
     for chunk in chunks:
         for span, held in members(chunk):
             check_time()
@@ -46,9 +46,9 @@ def pieces(chunks: Sequence[Chunk], vertical: bool, report: Report) -> Iterator[
                 continue
             lines = {word: decoration(span, word, report) for word in WORDS}
             for word in WORDS[:2]:
-                yield from lined(held, word, lines[word], vertical)
-            yield from painted(span, held, report)
-            yield from lined(held, WORDS[2], lines[WORDS[2]], vertical)
+                yield from line_pieces(held, word, lines[word], vertical)
+            yield from glyph_pieces(span, held, report)
+            yield from line_pieces(held, WORDS[2], lines[WORDS[2]], vertical)
 
 
 def is_hidden(span: Span) -> bool:
@@ -59,17 +59,17 @@ def is_hidden(span: Span) -> bool:
     return not place.is_clip and any(around.place.style.opacity("opacity") == 0.0 for around in span.around)
 
 
-def lined(held: Sequence[Member], word: str, decor: Decoration | None, vertical: bool) -> Iterator[Piece]:
+def line_pieces(members: Sequence[Member], word: str, decor: Decoration | None, vertical: bool) -> Iterator[TextPiece]:
     """The lines of a kind along the clusters of a span."""
-    outlines = decorated(held, word, decor, vertical) if decor is not None else ()
+    outlines = line_outlines(members, word, decor, vertical) if decor is not None else ()
     if decor is not None and outlines:
-        yield Piece(decor.place, outlines)
+        yield TextPiece(decor.place, outlines)
 
 
-def members(chunk: Chunk) -> list[tuple[Span, list[Member]]]:
+def members(chunk: TextChunk) -> list[tuple[Span, list[Member]]]:
     """Stretches of one element in a chunk, in logical order, and the clusters of each in visual order."""
     stretches: list[tuple[Span, list[Member]]] = []
-    homes: dict[Cluster, list[Member]] = {}
+    homes: dict[GlyphCluster, list[Member]] = {}
     for cluster in sorted(chunk.clusters, key=lambda one: one.start):
         if not stretches or stretches[-1][0] is not cluster.span:
             stretches.append((cluster.span, []))
@@ -82,10 +82,10 @@ def members(chunk: Chunk) -> list[tuple[Span, list[Member]]]:
     return stretches
 
 
-def painted(span: Span, held: Sequence[Member], report: Report) -> Iterator[Piece]:
+def glyph_pieces(span: Span, members: Sequence[Member], report: Report) -> Iterator[TextPiece]:
     """The glyphs of a span: outlines together, and each in colour by itself."""
-    together: list[Outline] = []
-    for cluster, matrix, _ in held:
+    together: list[ShapeOutline] = []
+    for cluster, matrix, _ in members:
         style = span.place.style
         color = (style.solid(style["fill"]) or style.color).rgb  # a colour font's own colour, as in browsers
         x = y = 0.0
@@ -98,26 +98,26 @@ def painted(span: Span, held: Sequence[Member], report: Report) -> Iterator[Piec
             layers = cluster.face.layers(glyph.glyph, color)
             if layers is not None and not span.place.is_clip:
                 if together:
-                    yield Piece(span.place, tuple(together))
+                    yield TextPiece(span.place, tuple(together))
                     together = []
-                yield Piece(span.place, layers=layers, matrix=units)
+                yield TextPiece(span.place, layers=layers, matrix=units)
                 continue
             contours = list(cluster.face.outline(glyph.glyph))
             if not contours and (missing := cluster.face.missing(glyph.glyph)):
                 report.left_out(missing, span.element)
             if cluster.bolder and contours:
-                contours += emboldened(contours, cluster)
-            together += [Outline(mapped(contour, units), closed=True) for contour in contours]
+                contours += bold_strokes(contours, cluster)
+            together += [ShapeOutline(map_points(contour, units), closed=True) for contour in contours]
     if together:
-        yield Piece(span.place, tuple(together))
+        yield TextPiece(span.place, tuple(together))
 
 
-def emboldened(contours: list[NDArray[np.float64]], cluster: Cluster) -> list[NDArray[np.float64]]:
+def bold_strokes(contours: list[NDArray[np.float64]], cluster: GlyphCluster) -> list[NDArray[np.float64]]:
     """Strokes that make contours bolder, in font units; they wind as the contours do."""
     em = cluster.face.units_per_em
     sizes, parts = zip(*EMBOLDENING, strict=True)
     width = em * float(np.interp(em * cluster.scale, sizes, parts))
-    outlines = [Outline(contour, closed=True) for contour in contours]
+    outlines = [ShapeOutline(contour, closed=True) for contour in contours]
     strokes = stroke_contours(outlines, Stroke(width, join="miter"), float(em))
     areas = [sum(map(turning, shapes)) for shapes in (contours, strokes)]
     return strokes if areas[0] * areas[1] > 0.0 else [stroke[::-1, ::-1] for stroke in strokes]
@@ -129,7 +129,7 @@ def turning(contour: NDArray[np.float64]) -> float:
     return float((x0 * y1 - x1 * y0).sum())
 
 
-def cells(chunks: Sequence[Chunk]) -> Outline | None:
+def cells(chunks: Sequence[TextChunk]) -> ShapeOutline | None:
     """Outline of the box around the cells of all glyphs (SVG 2, 11.10.3); None if there is none."""
     corners = []
     for chunk in chunks:
@@ -138,9 +138,9 @@ def cells(chunks: Sequence[Chunk]) -> Outline | None:
                 over, under = extent(cluster)
                 right = cluster.width / cluster.stretch
                 cell = np.array([(0.0, -over), (right, -over), (right, under), (0.0, under)])
-                corners.append(mapped(cell, matrix))
+                corners.append(map_points(cell, matrix))
     if not corners:
         return None
     points = np.concatenate(corners)
     left, top, right, bottom = bounds(np.repeat(points[:, None], 4, axis=1))
-    return Outline.polygon(np.array([(left, top), (right, top), (right, bottom), (left, bottom)]), closed=True)
+    return ShapeOutline.polygon(np.array([(left, top), (right, top), (right, bottom), (left, bottom)]), closed=True)

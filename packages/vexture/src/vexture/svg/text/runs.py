@@ -12,13 +12,13 @@ from vexture.base.deadline import check_time
 from vexture.fonts.face import Face
 from vexture.fonts.levels import is_upright, levels, scripts
 from vexture.fonts.library import Fonts
-from vexture.fonts.lines import belongs, is_seen, named
+from vexture.fonts.lines import belongs, describe_character, is_seen
 from vexture.fonts.shaping import Glyph, shape
 from vexture.svg.report import Report
-from vexture.svg.text.font_query import GENERIC, SMALL, Wanted, wanted
+from vexture.svg.text.font_query import GENERIC, SMALL, FontQuery, query_of
 from vexture.svg.text.tree import Characters, Span
 
-__all__ = ["Cluster", "Faces", "clusters"]
+__all__ = ["GlyphCluster", "TextFaces", "clusters"]
 
 SMALLER: Final = 0.7
 """Size of a capital that stands for a small one of a font without (as browsers do)."""
@@ -35,7 +35,7 @@ POP: Final = "\u202c"
 
 
 @dataclass(slots=True, eq=False)
-class Cluster:
+class GlyphCluster:
     """Glyphs that belong together, and where they go; lengths are in user units."""
 
     span: Span
@@ -58,10 +58,10 @@ class Cluster:
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
-    """What the characters of one run have in common."""
+class RunKind:
+    """The properties that all characters of one run share."""
 
-    wanted: Wanted
+    wanted: FontQuery
     face: Face
     level: int
     script: str
@@ -69,7 +69,7 @@ class Kind:
     small: bool  # whether its capitals are small ones
 
 
-class Faces:
+class TextFaces:
     """The faces that a drawing's texts use."""
 
     def __init__(self, fonts: Fonts, report: Report) -> None:
@@ -81,12 +81,12 @@ class Faces:
         self.small: dict[Face, bool] = {}
         self.noted: set[tuple[str, etree._Element]] = set()  # for the text that is set now
 
-    def of(self, want: Wanted) -> Iterator[Face]:
+    def of(self, want: FontQuery) -> Iterator[Face]:
         """Faces in the order in which a text tries them."""
         key = (want.families, want.weight, want.style, want.stretch, want.variations)
         if key not in self.known:
-            faces = self.fonts.faces(*asked(want))
-            self.known[key] = ([], (varied(face, want.variations) for face in faces))
+            faces = self.fonts.faces(*library_query(want))
+            self.known[key] = ([], (with_variations(face, want.variations) for face in faces))
         listed, others = self.known[key]
         at = 0
         while True:
@@ -98,7 +98,7 @@ class Faces:
             yield listed[at]
             at += 1
 
-    def choose(self, want: Wanted, character: str) -> Face | None:
+    def choose(self, want: FontQuery, character: str) -> Face | None:
         """The first face that has a character; None if none has."""
         key = (want.families, want.weight, want.style, want.stretch, want.variations, character)
         if key not in self.found:
@@ -107,7 +107,7 @@ class Faces:
             self.found[key] = next((face for face in self.of(want) if face.has(code)), None)
         return self.found[key]
 
-    def first(self, want: Wanted) -> Face | None:
+    def first(self, want: FontQuery) -> Face | None:
         """The first face of all."""
         return next(self.of(want), None)
 
@@ -118,16 +118,18 @@ class Faces:
             self.small[face] = plain != small
         return self.small[face]
 
-    def note(self, want: Wanted, face: Face, character: str, element: etree._Element) -> None:
+    def note(self, want: FontQuery, face: Face, character: str, element: etree._Element) -> None:
         """Note once for an element a family that is not there, or lacks a character."""
         families = [family for family in want.families if family not in GENERIC]
-        if asked(want) not in self.counts:
-            self.counts[asked(want)] = self.fonts.count_named(*asked(want))
-        if not families or face in islice(self.of(want), self.counts[asked(want)]):
+        if library_query(want) not in self.counts:
+            self.counts[library_query(want)] = self.fonts.count_named(*library_query(want))
+        if not families or face in islice(self.of(want), self.counts[library_query(want)]):
             return
-        if self.fonts.count_named(families, *asked(want)[1:]):
+        if self.fonts.count_named(families, *library_query(want)[1:]):
             used = self.first(want)
-            what = f"{named(character)}, which {families[0][:40] if used is None else used.family!r} lacks,"
+            what = (
+                f"{describe_character(character)}, which {families[0][:40] if used is None else used.family!r} lacks,"
+            )
         else:
             what = f"font {families[0][:40]!r}"
             if (what, element) in self.noted:  # of which other characters are in another font
@@ -135,55 +137,55 @@ class Faces:
             self.noted.add((what, element))
         self.note_once(self.report.simplification, f"{what} drawn in {face.family}", element)
 
-    def note_once(self, how: Callable[[str, etree._Element], None], what: str, element: etree._Element) -> None:
+    def note_once(self, report: Callable[[str, etree._Element], None], message: str, element: etree._Element) -> None:
         """Note something once for an element of a text."""
-        if (what, element) not in self.noted:
-            self.noted.add((what, element))
-            how(what, element)
+        if (message, element) not in self.noted:
+            self.noted.add((message, element))
+            report(message, element)
 
 
-def asked(want: Wanted) -> tuple[tuple[str, ...], int, str, float]:
-    """How `Fonts` is asked for a font."""
+def library_query(want: FontQuery) -> tuple[tuple[str, ...], int, str, float]:
+    """Arguments of `Fonts.faces` for a font query."""
     return want.families, round(want.weight), want.style, want.stretch
 
 
-def varied(face: Face, variations: tuple[tuple[str, float], ...]) -> Face:
+def with_variations(face: Face, variations: tuple[tuple[str, float], ...]) -> Face:
     """A face with places on its axes, those outside moved to their ends."""
     axes = face.axes
     places = {tag: min(max(value, axes[tag][0]), axes[tag][1]) for tag, value in variations if tag in axes}
     return replace(face, variations=tuple(sorted((dict(face.variations) | places).items()))) if places else face
 
 
-def clusters(found: Characters, faces: Faces, vertical: bool) -> list[Cluster]:
+def clusters(found: Characters, faces: TextFaces, vertical: bool) -> list[GlyphCluster]:
     """Clusters of all characters, in logical order."""
     if not found.text:
         return []
-    wants = wants_of(found.spans)
+    wants = queries_of(found.spans)
     kinds = kinds_of(found, [wants[span] for span in found.holders], faces, vertical)
     edges = [at for at in range(1, len(kinds)) if kinds[at] != kinds[at - 1] or found.starts_chunk(at)]
-    made: list[Cluster] = []
+    made: list[GlyphCluster] = []
     for start, end in pairwise([0, *edges, len(kinds)]):
         kind = kinds[start]
         if kind is not None:
-            made += shaped(found, kind, start, end, faces, vertical)
+            made += shape_run(found, kind, start, end, faces, vertical)
     return sorted(made, key=lambda cluster: cluster.start)
 
 
-def wants_of(spans: Sequence[Span]) -> dict[Span, Wanted]:
-    """What each span wants; what is equal is one object."""
-    same: dict[Wanted, Wanted] = {}
+def queries_of(spans: Sequence[Span]) -> dict[Span, FontQuery]:
+    """Font query of each span; equal ones are one object."""
+    same: dict[FontQuery, FontQuery] = {}
     found = {}
     for span in spans:
-        want = wanted(span.place.style, span.element)
+        want = query_of(span.place.style, span.element)
         found[span] = same.setdefault(want, want)
     return found
 
 
-def kinds_of(found: Characters, wants: list[Wanted], faces: Faces, vertical: bool) -> list[Kind | None]:
+def kinds_of(found: Characters, wants: list[FontQuery], faces: TextFaces, vertical: bool) -> list[RunKind | None]:
     """Kind of each character; None of those that show nothing: of no size, or without any font."""
     heads = [characters[0] for characters in found.text]  # one of each, after which all that it becomes goes
     embedding = levels(heads, base_level(found.spans[0]), controls(found.spans))
-    kinds: list[Kind | None] = []
+    kinds: list[RunKind | None] = []
     last: Face | None = None
     for at, (character, script) in enumerate(zip(heads, scripts(heads), strict=True)):
         want = wants[at]
@@ -200,7 +202,7 @@ def kinds_of(found: Characters, wants: list[Wanted], faces: Faces, vertical: boo
             and (character.upper() != character or "c2sc" in want.features)
             and not faces.has_small(face)
         )
-        kinds.append(Kind(want, face, embedding[at], script, vertical and stands(character, style), small))
+        kinds.append(RunKind(want, face, embedding[at], script, vertical and stands(character, style), small))
     return kinds
 
 
@@ -217,7 +219,9 @@ def stands(character: str, style: object) -> bool:
     return is_upright(character)
 
 
-def face_of(want: Wanted, character: str, faces: Faces, last: Face | None, element: etree._Element) -> Face | None:
+def face_of(
+    want: FontQuery, character: str, faces: TextFaces, last: Face | None, element: etree._Element
+) -> Face | None:
     """Face of a character in an element; `last` is that of the one before it, if both want the same."""
     if last is not None and belongs(character, last):
         return last
@@ -265,7 +269,9 @@ def ends_of(starts: Sequence[int], places: Sequence[int], end: int) -> dict[int,
     return ends
 
 
-def shaped(found: Characters, kind: Kind, start: int, end: int, faces: Faces, vertical: bool) -> Iterator[Cluster]:
+def shape_run(
+    found: Characters, kind: RunKind, start: int, end: int, faces: TextFaces, vertical: bool
+) -> Iterator[GlyphCluster]:
     """Clusters of characters of one kind, in logical order."""
     check_time()
     want, face = kind.wanted, kind.face
@@ -289,7 +295,7 @@ def shaped(found: Characters, kind: Kind, start: int, end: int, faces: Faces, ve
     bolder = want.weight >= BOLD and face.weight < BOLD and "weight" in want.synthesis
     for at, members in together.items():
         advance = sum(-glyph.advance[1] if kind.upright else glyph.advance[0] for glyph in members) * scale
-        yield Cluster(
+        yield GlyphCluster(
             found.holders[places[at]],
             places[at],
             ends[at],

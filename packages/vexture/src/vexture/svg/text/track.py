@@ -13,16 +13,16 @@ from vexture.base.tolerance import ROUND
 from vexture.bezier.points import points_along
 from vexture.svg.document import local_name
 from vexture.svg.links import reference
-from vexture.svg.masks import Measured
-from vexture.svg.outline import Outline
+from vexture.svg.masks import MeasuredScene
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.path_data import path_outlines
-from vexture.svg.report import described
-from vexture.svg.shapes import SHAPES, Shape, shape_outlines
-from vexture.svg.space import Place
-from vexture.svg.transform import mapped
+from vexture.svg.report import describe_element
+from vexture.svg.shapes import SHAPES, ShapeElement, shape_outlines
+from vexture.svg.space import ElementPlace
+from vexture.svg.transform import map_points
 from vexture.svg.values import number
 
-__all__ = ["Point", "Track", "read_track"]
+__all__ = ["Track", "TrackPoint", "read_track"]
 
 STEPS: Final = 64
 """Chords for each cubic: they are shorter than their arc by less than 1 / (24 STEPS^2) of it times its turn squared."""
@@ -35,7 +35,7 @@ MOST_CUBICS: Final = 5_000
 """Of a path that a text follows."""
 
 
-class Point(NamedTuple):
+class TrackPoint(NamedTuple):
     """A place on a path, and its direction in radians."""
 
     x: float
@@ -59,7 +59,7 @@ class Track:
 
     @property
     def end(self) -> tuple[float, float]:
-        """Where it ends."""
+        """Its last point."""
         x, y = self.chords[-1, 1].tolist()
         return x, y
 
@@ -68,7 +68,7 @@ class Track:
         before = np.concatenate([[0.0], self.distances[:-1]])
         return Track(self.chords[::-1, ::-1], self.turns[::-1, ::-1] + pi, (self.length - before)[::-1])
 
-    def at(self, distance: float) -> Point | None:
+    def at(self, distance: float) -> TrackPoint | None:
         """The place at a distance; None beyond its ends."""
         if not 0.0 <= distance <= self.length:
             return None
@@ -76,20 +76,20 @@ class Track:
         (x0, y0), (x1, y1) = self.chords[k].tolist()
         first, second = self.turns[k].tolist()
         part = 1.0 - (float(self.distances[k]) - distance) / hypot(x1 - x0, y1 - y0)
-        return Point(x0 + part * (x1 - x0), y0 + part * (y1 - y0), first + part * (second - first))
+        return TrackPoint(x0 + part * (x1 - x0), y0 + part * (y1 - y0), first + part * (second - first))
 
 
-def read_track(scene: Measured, element: etree._Element, place: Place) -> Track | None:
+def read_track(scene: MeasuredScene, element: etree._Element, place: ElementPlace) -> Track | None:
     """The path of a `textPath`; None, with a note, if it has none."""
     check_time()
     outlines, whole = outlines_of(scene, element, place)
     if not outlines:
-        scene.report.left_out(f"{described(element)} without a path", element)
+        scene.report.left_out(f"{describe_element(element)} without a path", element)
         return None
     count = sum(len(outline.cubics) for outline in outlines)
     if count > MOST_CUBICS:
         scene.report.left_out(
-            f"{described(element)}, of a path of {count:,} cubics; the limit is {MOST_CUBICS:,}", element
+            f"{describe_element(element)}, of a path of {count:,} cubics; the limit is {MOST_CUBICS:,}", element
         )
         return None
     for name, usual in (("method", "align"), ("spacing", "exact")):
@@ -104,7 +104,9 @@ def read_track(scene: Measured, element: etree._Element, place: Place) -> Track 
     return replace(track, start=offset(scene, element, place, track.length, whole))
 
 
-def outlines_of(scene: Measured, element: etree._Element, place: Place) -> tuple[list[Outline], float | None]:
+def outlines_of(
+    scene: MeasuredScene, element: etree._Element, place: ElementPlace
+) -> tuple[list[ShapeOutline], float | None]:
     """Outlines that a `textPath` follows, in the units of its text, and the `pathLength` of their element."""
     data = element.get("path")
     if data is not None:
@@ -117,14 +119,14 @@ def outlines_of(scene: Measured, element: etree._Element, place: Place) -> tuple
     if target is None or local_name(target) not in SHAPES:
         return [], None
     style = scene.servers.style_of(target)
-    shape = Shape(target, style, place.viewport, ROUND * place.viewport.diagonal, scene.report)
+    shape = ShapeElement(target, style, place.viewport, ROUND * place.viewport.diagonal, scene.report)
     outlines = shape_outlines(shape)
     matrix = scene.transform(target, style, place)
     whole = number(target.get("pathLength", ""))
-    return [Outline(mapped(outline.cubics, matrix), outline.closed) for outline in outlines], whole
+    return [ShapeOutline(map_points(outline.cubics, matrix), outline.closed) for outline in outlines], whole
 
 
-def track_of(outlines: list[Outline]) -> Track | None:
+def track_of(outlines: list[ShapeOutline]) -> Track | None:
     """A path as a text follows it; None without length."""
     cubics = np.concatenate([outline.loop if outline.closed else outline.cubics for outline in outlines])
     points = points_along(cubics, PLACES)
@@ -142,8 +144,10 @@ def track_of(outlines: list[Outline]) -> Track | None:
     return Track(chords[real], (straight + away)[real], np.cumsum(lengths[real]))
 
 
-def offset(scene: Measured, element: etree._Element, place: Place, length: float, whole: float | None) -> float:
-    """Where a text starts along a path of a length, by `startOffset`; `whole` is its `pathLength`."""
+def offset(
+    scene: MeasuredScene, element: etree._Element, place: ElementPlace, length: float, whole: float | None
+) -> float:
+    """Distance at which a text starts along a path of a length, by `startOffset`; `whole` is its `pathLength`."""
     text = element.get("startOffset")
     if text is None:
         return 0.0

@@ -14,16 +14,16 @@ from vexture.svg.animations import ANIMATIONS
 from vexture.svg.compositing import Veil
 from vexture.svg.document import applies, language, local_name
 from vexture.svg.links import reference
-from vexture.svg.masks import Measured
+from vexture.svg.masks import MeasuredScene
 from vexture.svg.names import ElementNames
 from vexture.svg.properties import BLENDS
-from vexture.svg.report import described
-from vexture.svg.space import Place
-from vexture.svg.style import Style
+from vexture.svg.report import describe_element
+from vexture.svg.space import ElementPlace
+from vexture.svg.style import ElementStyle
 from vexture.svg.text.track import Track, read_track
 from vexture.svg.values import SEPARATOR, number
 
-__all__ = ["Characters", "Setting", "Span", "characters"]
+__all__ = ["Characters", "Span", "TextScene", "characters"]
 
 DOTTED: Final = ("az", "tr")
 """Languages in which an i keeps its dot, or its lack of one, as a capital."""
@@ -60,8 +60,8 @@ POSITIONED: Final = frozenset({"text", "tref", "tspan"})
 """Elements that place single characters."""
 
 
-class Setting(Measured, Protocol):
-    """What is needed of a scene."""
+class TextScene(MeasuredScene, Protocol):
+    """The part of a scene that texts need."""
 
     names: ElementNames
     chosen: set[etree._Element] | None
@@ -71,7 +71,7 @@ class Setting(Measured, Protocol):
 class Span:
     """An element of a text, and which characters are in it."""
 
-    place: Place  # inside it, with its style and name
+    place: ElementPlace  # inside it, with its style and name
     outer: "Span | None"
     start: int
     end: int = 0
@@ -122,7 +122,7 @@ class Characters:
                 character = " "
             else:
                 goes_on = text[at + 1 : at + 2].isalpha()
-                character = transformed(character, transform, self.in_word(), goes_on, dotted)
+                character = transform_character(character, transform, self.in_word(), goes_on, dotted)
                 self.after_space = False
             self.text.append(character)
             self.holders.append(span)
@@ -153,31 +153,31 @@ class Characters:
         return at == 0 or at in self.x or at in self.y or (self.holders[at].track is not self.holders[at - 1].track)
 
 
-def transformed(character: str, how: str, in_word: bool, goes_on: bool, dotted: bool = False) -> str:
-    """What `text-transform` makes of a character, such as SS of ß.
+def transform_character(character: str, mode: str, in_word: bool, goes_on: bool, dotted: bool = False) -> str:
+    """Apply `text-transform` to a character, such as SS of ß.
 
     `in_word` tells whether a word goes on with it, `goes_on` whether a letter comes next, and `dotted` whether the text
     is of a language of `DOTTED`.
 
     Examples
     --------
-    >>> transformed("ß", "uppercase", True, True), transformed("ǆ", "capitalize", False, True)
+    >>> transform_character("ß", "uppercase", True, True), transformed("ǆ", "capitalize", False, True)
     ('SS', 'ǅ')
-    >>> transformed("Σ", "lowercase", True, False), transformed("Σ", "lowercase", True, True)
+    >>> transform_character("Σ", "lowercase", True, False), transformed("Σ", "lowercase", True, True)
     ('ς', 'σ')
     """
-    if dotted and (how == "uppercase" or (how == "capitalize" and not in_word)) and character == "i":
+    if dotted and (mode == "uppercase" or (mode == "capitalize" and not in_word)) and character == "i":
         return "İ"
-    if dotted and how == "lowercase" and character in "Iİ":
+    if dotted and mode == "lowercase" and character in "Iİ":
         return "ı" if character == "I" else "i"
-    if how == "uppercase":
+    if mode == "uppercase":
         return character.upper()
-    if how == "lowercase":
+    if mode == "lowercase":
         return FINAL_SIGMA if character == SIGMA and in_word and not goes_on else character.lower()
-    return character.title() if how == "capitalize" and not in_word else character
+    return character.title() if mode == "capitalize" and not in_word else character
 
 
-def characters(scene: Setting, element: etree._Element, place: Place, count: int) -> Characters:
+def characters(scene: TextScene, element: etree._Element, place: ElementPlace, count: int) -> Characters:
     """Characters of a text element at a place with its style; `count` are those before."""
     found = Characters(count=count)
     read(scene, found, Span(replace(place, element=element), None, 0))
@@ -188,7 +188,7 @@ def characters(scene: Setting, element: etree._Element, place: Place, count: int
     return found
 
 
-def read(scene: Setting, found: Characters, span: Span) -> None:
+def read(scene: TextScene, found: Characters, span: Span) -> None:
     """Add the characters of a span."""
     check_time()
     element = span.element
@@ -196,7 +196,7 @@ def read(scene: Setting, found: Characters, span: Span) -> None:
     found.spans.append(span)
     found.add_one()
     is_reference = local_name(element) == "tref"
-    found.add(referenced(scene, element) if is_reference else element.text or "", span)
+    found.add(referenced_text(scene, element) if is_reference else element.text or "", span)
     for child in () if is_reference else element:
         name = local_name(child)
         if name in PARTS and applies(child):
@@ -209,7 +209,7 @@ def read(scene: Setting, found: Characters, span: Span) -> None:
     span.end = len(found.text)
 
 
-def referenced(scene: Setting, element: etree._Element) -> str:
+def referenced_text(scene: TextScene, element: etree._Element) -> str:
     """All characters of the element that a `tref` refers to (SVG 1.1, 10.6)."""
     link = reference(element) or ""
     target = scene.servers.target(link)
@@ -219,7 +219,7 @@ def referenced(scene: Setting, element: etree._Element) -> str:
     return str(target.xpath("string()"))
 
 
-def note_ignored(scene: Setting, span: Span) -> None:
+def note_ignored(scene: TextScene, span: Span) -> None:
     """Note what an element asks of its characters that they do not get."""
     style, outer = span.place.style, None if span.outer is None else span.outer.place.style
     kerning = style["kerning"]
@@ -240,7 +240,7 @@ def note_ignored(scene: Setting, span: Span) -> None:
         scene.report.simplification("writing-mode sideways-lr drawn as sideways-rl", span.element)
 
 
-def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Span | None:
+def part(scene: TextScene, element: etree._Element, outer: Span, start: int) -> Span | None:
     """The span of an element in a text; None if it shows nothing."""
     style = scene.cascade.style(element, outer.place.style)
     if style["display"].lower() == "none":
@@ -256,12 +256,12 @@ def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Sp
         name=called,
         is_instance=is_instance,
         chosen=chosen,
-        veil=faded(style, outer.place),
+        veil=part_veil(style, outer.place),
     )
     track = outer.track
     if local_name(element) == "textPath":
         if any(local_name(span.element) not in ("a", "text") for span in outer.around):
-            scene.report.left_out(f"{described(element)}, which is not a child of <text>", element)
+            scene.report.left_out(f"{describe_element(element)}, which is not a child of <text>", element)
             return None
         track = read_track(scene, element, place)
         if track is None:
@@ -269,7 +269,7 @@ def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Sp
     return Span(place, outer, start, track=track)
 
 
-def faded(style: Style, around: Place) -> Veil | None:
+def part_veil(style: ElementStyle, around: ElementPlace) -> Veil | None:
     """The veil of a part of a text: browsers composite one as they do any element, but for clips, masks and filters."""
     opacity, blend = style.opacity("opacity"), BLENDS[style["mix-blend-mode"].lower()]
     if around.is_clip or (opacity == 1.0 and blend is Blend.NORMAL):
@@ -277,7 +277,7 @@ def faded(style: Style, around: Place) -> Veil | None:
     return Veil(around.veil, opacity, blend)
 
 
-def position(scene: Setting, found: Characters, span: Span) -> None:
+def position(scene: TextScene, found: Characters, span: Span) -> None:
     """Read the positions that an element gives its characters; inner elements come later, and override them."""
     view, font_size = span.place.viewport, span.place.style.font_size
     for name, places, whole in (
@@ -298,7 +298,7 @@ def position(scene: Setting, found: Characters, span: Span) -> None:
         read_list(scene, span, "rotate", turns, found.rotate)
 
 
-def read_list(scene: Setting, span: Span, name: str, values: list[float | None], places: dict[int, float]) -> None:
+def read_list(scene: TextScene, span: Span, name: str, values: list[float | None], places: dict[int, float]) -> None:
     """Give the characters of a span the values of a list."""
     values = values[: span.end - span.start]
     if None in values:

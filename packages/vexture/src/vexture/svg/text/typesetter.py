@@ -9,25 +9,25 @@ from typing import TYPE_CHECKING
 from lxml import etree
 
 from vexture.base.errors import DeviceError
-from vexture.svg.outline import Outline
+from vexture.svg.outline import ShapeOutline
 from vexture.svg.report import Report
-from vexture.svg.space import Place
+from vexture.svg.space import ElementPlace
 from vexture.svg.stylesheets import FontFace
 
 if TYPE_CHECKING:  # imported at run time for drawings with texts only
-    from vexture.svg.text.pieces import Piece
-    from vexture.svg.text.runs import Faces
-    from vexture.svg.text.tree import Setting
+    from vexture.svg.text.pieces import TextPiece
+    from vexture.svg.text.runs import TextFaces
+    from vexture.svg.text.tree import TextScene
 
 __all__ = ["Text", "Typesetter"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Text:
-    """What a text paints, and the box around the cells of its glyphs."""
+    """The painted parts of a text, and the box around the cells of its glyphs."""
 
-    pieces: "tuple[Piece, ...]" = ()
-    box: Outline | None = None
+    pieces: "tuple[TextPiece, ...]" = ()
+    box: ShapeOutline | None = None
 
 
 class Typesetter:
@@ -40,18 +40,18 @@ class Typesetter:
         self.count: int = 0  # of characters set so far
 
     @cached_property
-    def faces(self) -> "Faces":
+    def faces(self) -> "TextFaces":
         """The faces of the drawing; raises a `DeviceError` without HarfBuzz."""
         from vexture.fonts.library import Fonts
         from vexture.svg.text.embedded import embedded_fonts
-        from vexture.svg.text.runs import Faces
+        from vexture.svg.text.runs import TextFaces
 
         embedded = embedded_fonts(self.font_faces, Fonts(self.files), self.report)
-        return Faces(Fonts(self.files, embedded), self.report)
+        return TextFaces(Fonts(self.files, embedded), self.report)
 
-    def text(self, scene: "Setting", element: etree._Element, place: Place) -> Text:
-        """What a text element paints at a place with its style."""
-        from vexture.svg.text.layout import is_vertical, laid_out
+    def text(self, scene: "TextScene", element: etree._Element, place: ElementPlace) -> Text:
+        """Set a text element at a place with its style."""
+        from vexture.svg.text.layout import is_vertical, lay_out
         from vexture.svg.text.pieces import cells, pieces
         from vexture.svg.text.runs import clusters
         from vexture.svg.text.tree import characters
@@ -66,5 +66,5 @@ class Typesetter:
         except DeviceError as error:
             scene.report.left_out(f"<text>: {error}", element)
             return Text()
-        chunks = laid_out(found, made, vertical, scene.report)
+        chunks = lay_out(found, made, vertical, scene.report)
         return Text(tuple(pieces(chunks, vertical, scene.report)), cells(chunks))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from vexture.bezier.convert import ellipse_cubics, line_cubics, turn_steps
 from vexture.drawing.paint import Affine, Gradient, Spread, Stop
-from vexture.drawing.unit_square import clipped
+from vexture.drawing.unit_square import clip_contours
 
 __all__ = ["Bands", "bands_of"]
 
@@ -310,7 +310,7 @@ def _from_ramp(gradient: Gradient, contour: NDArray[np.float64], box: Box) -> ND
     contour = (contour - (c, f)) @ np.linalg.inv([[a, b], [d, e]]).T
     if (contour.min(axis=(0, 1)) >= box[1]).any() or (contour.max(axis=(0, 1)) <= box[0]).any():
         return contour[:0]
-    contour, _ = clipped(contour, np.array([len(contour)]), box[0], box[1])
+    contour, _ = clip_contours(contour, np.array([len(contour)]), box[0], box[1])
     contour[:, 3] = np.roll(contour[:, 0], -1, axis=0)
     return contour
 
