@@ -1,6 +1,7 @@
 """The same drawing becomes the same bytes: in every run, in every thread and process, on every machine.
 
-`python tests/test_same_bytes.py` writes `same_bytes.txt` again, for a change that is meant to change what is made. The
+`python tests/core/conversion/test_same_bytes.py` writes `same_bytes.txt` again, for a change that is meant to change
+what is made. The
 file lists SHA-256 digests as `sha256sum` does. The digest named zlib is of the drawings' own text, deflated: zlib's
 successors deflate the same texels to other bytes, and textures are not compared there.
 """
@@ -20,7 +21,7 @@ from vexture.fold.shore import fold_of_shore
 
 DRAWINGS = sorted((Path(__file__).parents[3] / "examples" / "shapes").glob("*.svg"))
 KNOWN = Path(__file__).with_name("same_bytes.txt")
-RENEW = f"python tests/{Path(__file__).name}"
+RENEW = f"python tests/core/conversion/{Path(__file__).name}"
 
 
 def line(data, name):

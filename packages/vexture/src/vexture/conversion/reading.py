@@ -243,5 +243,6 @@ def _is_drawing(source: Place | bytes) -> bool:
 def content_of(path: str | os.PathLike[str]) -> bytes:
     """Content of a file as `read_bytes` has it; a zip of a FileGDB, or of a shapefile and the files beside it."""
     with about(os.fspath(path)):
-        several = is_geodatabase(path) or start_of(path).startswith(SHAPEFILE)
-        return (geographic_reader().pack(Path(path)) if several and not is_stream(path) else None) or read_bytes(path)
+        if not is_stream(path) and (is_geodatabase(path) or start_of(path).startswith(SHAPEFILE)):
+            return geographic_reader().pack(Path(path)) or read_bytes(path)
+        return read_bytes(path)

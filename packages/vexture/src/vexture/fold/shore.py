@@ -1,5 +1,6 @@
 """Folds that move a shoreline up and down the beach."""
 
+import math
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -42,6 +43,9 @@ WAVES: Final = ((0.19, 0.83, 0.37, 0.1), (0.15, -0.41, 1.13, 0.6), (0.07, 2.3, 1
 GRAIN: Final = 2.0**20
 MOMENTS: Final = 1024
 """Steps of displacements in a side, and of phases in a period: the rounding is invisible and cuts the file to 1/3."""
+
+cos, exp, sin = (np.vectorize(function, otypes=[float]) for function in (math.cos, math.exp, math.sin))
+"""Those of the C library: NumPy's differ in the last bit from one processor to another, and so would files."""
 
 TIMES: Final = 16
 """Times in half a period at which the gradient is measured."""
@@ -140,7 +144,7 @@ def _blur(size: int, reach: float) -> NDArray[np.float64]:
     """Matrix of a Gaussian blur of a column of texels, whose border values extend beyond it."""
     far = int(np.ceil(4.0 * reach * size))
     steps = np.arange(-far, far + 1)
-    weights = np.exp(-0.5 * (steps / (reach * size)) ** 2)
+    weights = exp(-0.5 * (steps / (reach * size)) ** 2)
     matrix = np.zeros((size, size))
     for step, weight in zip(steps, weights / weights.sum(), strict=True):
         np.add.at(matrix, (np.arange(size), np.clip(np.arange(size) + step, 0, size - 1)), weight)
@@ -171,7 +175,7 @@ def _phases(size: int, amplitude: float) -> NDArray[np.float64]:
     slope = sum(2.0 * np.pi * height * float(np.hypot(right, up)) for height, right, up, _ in WAVES)
     phases = np.zeros((size, size))
     for height, right, up, start in WAVES:
-        phases += height * np.sin(2.0 * np.pi * (right * x + up * y + start))
+        phases += height * sin(2.0 * np.pi * (right * x + up * y + start))
     return min(1.0, PHASE_SLOPE / (2.0 * np.pi * amplitude * slope)) * phases
 
 
@@ -187,12 +191,12 @@ def _steepest(displacement: NDArray[np.float64], phase: NDArray[np.float64]) -> 
     right, up = np.broadcast_to((1.0, 0.0), places.shape), np.broadcast_to((0.0, 1.0), places.shape)
     turn = 2.0 * np.pi * phase[..., None]
     parts = []
-    for share in (np.cos(turn), -np.sin(turn)):
+    for share in (cos(turn), -sin(turn)):
         found = folded(displacement * share, "none", base, places, right, up)
         parts.append(np.stack([found.dx - right, found.dy - up], axis=2))
     most = 0.0
     for angle in np.pi * np.arange(TIMES) / TIMES:
-        gradient = np.sin(angle) * parts[0] + np.cos(angle) * parts[1]
+        gradient = sin(angle) * parts[0] + cos(angle) * parts[1]
         a, b, c, d = (gradient[:, i, j] for i in (0, 1) for j in (0, 1))
         largest = 0.5 * (np.hypot(a + d, c - b) + np.hypot(a - d, b + c))
         most = max(most, float(largest.max()))
