@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from vexture.base.errors import SourceError
 from vexture.bezier.convert import line_cubics
+from vexture.drawing import contours
 from vexture.drawing.contours import check_contours, join_contours, ring_contours
-from vexture.drawing.drawing import contours
 
 
 @given(st.lists(st.integers(1, 5), min_size=1, max_size=8), st.integers(0, 3), st.randoms())

@@ -1,0 +1,19 @@
+"""A plugin of pytest that hides vexture-geo and vexture-evidence: `pytest -p core_alone tests/core` needs neither."""
+
+import importlib.metadata
+import sys
+
+HIDDEN = ("vexture_geo", "vexture_evidence")
+for name in HIDDEN:
+    sys.modules[name] = None  # type: ignore[assignment]  # an import raises ModuleNotFoundError
+
+entry_points = importlib.metadata.entry_points
+
+
+def of_others(**selection: str) -> importlib.metadata.EntryPoints:
+    """Return the entry points that the hidden packages do not have."""
+    found = entry_points(**selection)
+    return importlib.metadata.EntryPoints(point for point in found if point.module.partition(".")[0] not in HIDDEN)
+
+
+importlib.metadata.entry_points = of_others
