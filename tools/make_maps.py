@@ -20,7 +20,7 @@ from gallery_data import COUNTIES, WORLD  # noqa: E402
 from vexture.base.notes import Notes  # noqa: E402
 from vexture.renderers.view import window  # noqa: E402
 from vexture_geo.maps import MapLayer, Scale, convert_map  # noqa: E402
-from vexture_geo.maps.place import placed  # noqa: E402
+from vexture_geo.maps.place import place_features  # noqa: E402
 from vexture_geo.vector.features import read_features  # noqa: E402
 
 __all__ = ["main"]
@@ -41,7 +41,7 @@ FAR_STATES: Final = ("02", "15", "60", "66", "69", "72", "78")
 
 def areas(file: Path, layer: str) -> Any:
     """Features with their areas in square kilometres; those around a pole are closed, as in maps."""
-    placed_there = placed(read_features(file, layer=layer, notes=Notes()), EQUAL_AREA, Notes())
+    placed_there = place_features(read_features(file, layer=layer, notes=Notes()), EQUAL_AREA, Notes())
     square_metres = np.bincount(placed_there.feature, shapely.area(placed_there.rings.shapes), len(placed_there))
     frame = geopandas.read_file(file, layer=layer).set_crs("EPSG:4326", allow_override=True)
     return frame.assign(area=square_metres / 1e6)

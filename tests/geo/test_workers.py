@@ -15,7 +15,7 @@ from vexture import DeviceError
 from vexture.base import workers
 from vexture.base.workers import Cluster, InProcess, Processes
 from vexture_geo.flood.options import FloodOptions
-from vexture_geo.flood.server import make
+from vexture_geo.flood.server import make_flood
 
 
 def test_results_are_in_order_from_several_processes():
@@ -60,7 +60,7 @@ def test_steps_of_a_flood_are_the_same_from_several_processes(tmp_path, monkeypa
         x, y = np.meshgrid(np.arange(columns), np.arange(rows))
         ponds = np.sin(x * np.pi / 10) * np.sin(y * np.pi / 10)  # of a radius of five cells
         file["depth"][:] = [np.maximum(ponds + level, 0.0) for level in (0.0, 0.2)]
-    here, there = (make(FloodOptions(run, variable="depth", workers=count), print).shapes for count in (1, 2))
+    here, there = (make_flood(FloodOptions(run, variable="depth", workers=count), print).shapes for count in (1, 2))
     assert [list(shape.views) for shape in here] == 2 * [["depth", "classes", "level"]]
     assert [shape.version for shape in here] == [shape.version for shape in there]
 
@@ -136,6 +136,6 @@ def test_a_scheduler_that_is_not_there_is_named(tmp_path, address, monkeypatch):
 
 def test_who_does_the_work_is_as_asked(tmp_path):
     path = tmp_path / "run.nc"
-    assert isinstance(FloodOptions(path).who(), InProcess)
-    assert isinstance(FloodOptions(path, workers=2).who(), Processes)
-    assert isinstance(FloodOptions(path, scheduler="tcp://x:1").who(), Cluster)
+    assert isinstance(FloodOptions(path).executor(), InProcess)
+    assert isinstance(FloodOptions(path, workers=2).executor(), Processes)
+    assert isinstance(FloodOptions(path, scheduler="tcp://x:1").executor(), Cluster)

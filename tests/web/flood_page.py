@@ -169,7 +169,7 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
     depths = np.maximum(0.0, level - over_frame(COLUMNS, ROWS))
     deepest = float(depths.max())
     surface = WaterSurface(np.where(depths > 0.0, level, np.nan), depths > 0.0)
-    levels, level_facts = surface.encoded()
+    levels, level_facts = surface.encode_png()
     rated = np.linspace(0.0, RATING, COLUMNS) * level / LEVELS[-1]
     hazards = np.where(depths > 0.0, 1.0 + np.round(rated / UNIT), 0.0)
     return {

@@ -6,7 +6,7 @@ import shapely
 
 from vexture import window
 from vexture.renderers.accumulate import Sides, render_sides
-from vexture_geo.base.rings import oriented, rings_of
+from vexture_geo.base.rings import orient_rings, rings_of
 
 SIZE = (7, 5)
 ROUNDING = 1e-6
@@ -15,7 +15,7 @@ ROUNDING = 1e-6
 
 def sides_of(polygons):
     """Sides of polygons, each of its own colour."""
-    rings = oriented(rings_of(np.asarray(polygons, object), str, np.arange(len(polygons))))
+    rings = orient_rings(rings_of(np.asarray(polygons, object), str, np.arange(len(polygons))))
     owner = np.repeat(rings.feature[rings.polygon], np.diff(rings.ends, prepend=0))
     return Sides(rings.points, rings.points[rings.following], owner)
 

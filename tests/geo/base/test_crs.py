@@ -9,29 +9,29 @@ from vexture.base.errors import ParameterError, SourceError
 from vexture_geo.base.crs import (
     UNPLACED,
     MissingReferenceError,
-    chosen_crs,
+    choose_crs,
     frame_around,
     period,
     same_system,
-    transformed,
-    transformed_bounds,
+    transform_bounds,
+    transform_points,
 )
 
 
 def test_the_users_word_stands_above_that_of_the_file():
-    assert chosen_crs("EPSG:28992", "EPSG:32610") == "EPSG:28992"
-    assert chosen_crs(None, "epsg:32610") == "EPSG:32610"
-    assert chosen_crs("28992", None) == "EPSG:28992"
+    assert choose_crs("EPSG:28992", "EPSG:32610") == "EPSG:28992"
+    assert choose_crs(None, "epsg:32610") == "EPSG:32610"
+    assert choose_crs("28992", None) == "EPSG:28992"
     with pytest.raises(MissingReferenceError, match="give `crs` EPSG"):
-        chosen_crs(None, None)
+        choose_crs(None, None)
     assert issubclass(MissingReferenceError, SourceError)
 
 
 def test_a_system_that_no_authority_knows_is_kept_as_wkt():
-    own = chosen_crs("+proj=tmerc +lat_0=12 +lon_0=34 +x_0=1000 +ellps=bessel +units=m", None)
+    own = choose_crs("+proj=tmerc +lat_0=12 +lon_0=34 +x_0=1000 +ellps=bessel +units=m", None)
     assert own.startswith("PROJCRS[")
-    assert chosen_crs(own, None) == own
-    np.testing.assert_allclose(transformed(np.array([[1000.0, 0.0]]), own, own), [[1000, 0]])
+    assert choose_crs(own, None) == own
+    np.testing.assert_allclose(transform_points(np.array([[1000.0, 0.0]]), own, own), [[1000, 0]])
 
 
 @pytest.mark.parametrize(
@@ -47,22 +47,22 @@ def test_a_system_that_no_authority_knows_is_kept_as_wkt():
 )
 def test_a_text_that_is_no_system_of_a_plane_is_refused(text, line):
     with pytest.raises(ParameterError, match=line) as raised:
-        chosen_crs(text, None)
+        choose_crs(text, None)
     assert "\n" not in str(raised.value)
     with pytest.raises(SourceError, match=line):
-        chosen_crs(None, text)
+        choose_crs(None, text)
 
 
 def test_a_compound_system_is_its_plane():
-    assert chosen_crs("EPSG:7415", None) == "EPSG:28992"
+    assert choose_crs("EPSG:7415", None) == "EPSG:28992"
 
 
 def test_coordinates_are_x_and_y_whatever_the_systems_axes_say():
     delft = np.array([[4.3571, 52.0116]])
-    expected = transformed(delft, "OGC:CRS84", "EPSG:28992")
+    expected = transform_points(delft, "OGC:CRS84", "EPSG:28992")
     np.testing.assert_allclose(expected, [[84500, 447500]], atol=1500)
-    np.testing.assert_allclose(transformed(delft, "EPSG:4326", "EPSG:28992"), expected)
-    np.testing.assert_allclose(transformed(expected, "EPSG:28992", "EPSG:4326"), delft, atol=1e-8)
+    np.testing.assert_allclose(transform_points(delft, "EPSG:4326", "EPSG:28992"), expected)
+    np.testing.assert_allclose(transform_points(expected, "EPSG:28992", "EPSG:4326"), delft, atol=1e-8)
     assert same_system("OGC:CRS84", "EPSG:4326")
     assert not same_system("EPSG:32610", "EPSG:32611")
 
@@ -79,7 +79,7 @@ def test_a_frame_in_degrees_is_as_large_as_the_same_one_in_metres(longitude, lat
     own = f"+proj=aeqd +lon_0={longitude + 0.005} +lat_0={latitude + 0.005} +ellps=WGS84"
     sides = np.array([[0, 0.005], [0.01, 0.005], [0.005, 0], [0.005, 0.01]])
     corners = sides + np.array([longitude, latitude])
-    west, east, south, north = transformed(corners, "EPSG:4326", own)
+    west, east, south, north = transform_points(corners, "EPSG:4326", own)
     np.testing.assert_allclose(frame.metres, [np.hypot(*(east - west)), np.hypot(*(north - south))], rtol=1e-6)
 
 
@@ -112,11 +112,11 @@ def test_bounds_that_hold_nothing_are_refused(bounds, crs, line):
 
 
 def test_points_without_an_image_are_infinite_and_bounds_without_one_are_none():
-    assert np.isinf(transformed(np.array([[0.0, 95.0]]), "EPSG:4326", "EPSG:32610")).all()
-    west, south, east, north = transformed_bounds((4e5, 6e6, 9e5, 6.5e6), "EPSG:32601", "EPSG:4326")
+    assert np.isinf(transform_points(np.array([[0.0, 95.0]]), "EPSG:4326", "EPSG:32610")).all()
+    west, south, east, north = transform_bounds((4e5, 6e6, 9e5, 6.5e6), "EPSG:32601", "EPSG:4326")
     assert -180 <= west < east < -160
-    west, south, east, north = transformed_bounds((1e5, 6e6, 9e5, 6.5e6), "EPSG:32660", "EPSG:4326")
+    west, south, east, north = transform_bounds((1e5, 6e6, 9e5, 6.5e6), "EPSG:32660", "EPSG:4326")
     assert 170 < west < 180 < east < 190
     assert 53 < south < north < 60
     with pytest.raises(SourceError, match="`crs`"):
-        transformed(np.zeros((1, 2)), UNPLACED, "EPSG:4326")
+        transform_points(np.zeros((1, 2)), UNPLACED, "EPSG:4326")

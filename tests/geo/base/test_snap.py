@@ -13,7 +13,7 @@ from vexture.base.errors import ParameterError
 from vexture.base.notes import Notes
 from vexture.conversion.reading import read_drawing
 from vexture.tree.planar.build import build_map
-from vexture_geo.base.snap import DEFAULT_SNAP, MOST_SNAP, snapped
+from vexture_geo.base.snap import DEFAULT_SNAP, MOST_SNAP, snap_borders
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
@@ -46,7 +46,7 @@ def geojson(rings, colours=True):
 def snap(rings, distance=None, size=1.0):
     notes = Notes()
     ends = np.cumsum([len(ring) for ring in rings])
-    points, after = snapped(np.concatenate(rings), ends, size, distance, notes)
+    points, after = snap_borders(np.concatenate(rings), ends, size, distance, notes)
     return np.split(points, after[:-1]), notes.in_order
 
 

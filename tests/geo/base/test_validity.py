@@ -6,7 +6,7 @@ import shapely
 
 from vexture.base.notes import Notes
 from vexture_geo.base import validity
-from vexture_geo.base.rings import repaired, rings_of
+from vexture_geo.base.rings import repair_rings, rings_of
 
 
 @pytest.fixture
@@ -39,7 +39,7 @@ BROKEN = {
 def test_ring_by_ring_is_as_geos_has_it(holes, ring_by_ring):
     shape = holed(holes)
     assert not shape.is_valid
-    found = validity.made_valid(np.array([shape]))[0]
+    found = validity.make_valid(np.array([shape]))[0]
     wanted = shapely.make_valid(shape, method="structure", keep_collapsed=False)
     assert found.is_valid
     assert shapely.symmetric_difference(found, wanted).area == pytest.approx(0.0, abs=1e-9)
@@ -51,7 +51,7 @@ def test_thousands_of_holes_are_repaired_ring_by_ring(monkeypatch):
     called = []
     own = shapely.make_valid
     monkeypatch.setattr(shapely, "make_valid", lambda shapes, **how: called.extend(shapes) or own(shapes, **how))
-    found = validity.made_valid(np.array([shape, holed([square(39.5, 20.0)])]))
+    found = validity.make_valid(np.array([shape, holed([square(39.5, 20.0)])]))
     assert max(len(one.interiors) for one in called) == 1
     assert found[0].is_valid
     holes = shapely.union_all([shapely.Polygon(hole) for hole in shape.interiors])
@@ -61,7 +61,7 @@ def test_thousands_of_holes_are_repaired_ring_by_ring(monkeypatch):
 def test_heavy_polygons_come_in_parts(monkeypatch):
     monkeypatch.setattr(validity, "HEAVY", 100)
     rings = rings_of(np.array([holed(LATTICE), shapely.box(50, 0, 60, 10)]), str, np.array([7, 8]))
-    found = repaired(rings, Notes())
+    found = repair_rings(rings, Notes())
     assert set(found.feature) == {7, 8}
     assert len(found.outer) > 4
     assert shapely.is_valid(found.shapes).all()

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from vexture.renderers.exact import render_exact
-from vexture_geo.depth.contours import shored, wet_drawing
+from vexture_geo.depth.contours import shore_values, wet_drawing
 
 HMIN = 0.05  # typed again: the oracle
 T = np.linspace(0.0, 1.0, 24, endpoint=False)[:, None]
@@ -55,8 +55,8 @@ def test_the_shore_of_a_beach_is_found_within_the_cell(angle):
     bed, _ = beach(angle=angle)
     depth, shore = np.maximum(1.5 - bed, 0.0), (1.5 - HMIN) / 0.4
     before, _ = shore_error(depth - HMIN, angle, shore)
-    slope_only, _ = shore_error(shored(depth, HMIN), angle, shore)
-    with_bed, _ = shore_error(shored(depth, HMIN, bed), angle, shore)
+    slope_only, _ = shore_error(shore_values(depth, HMIN), angle, shore)
+    with_bed, _ = shore_error(shore_values(depth, HMIN, bed), angle, shore)
     assert with_bed < 0.12  # of which the fit may have 0.11
     assert slope_only < 0.12
     assert before > 0.2  # straight lines from depths to 0 put it too far out
@@ -68,26 +68,26 @@ def test_however_a_file_writes_dry_the_shore_is_the_same(nothing):
     depth = np.maximum(1.5 - bed, 0.0)
     dry = depth == 0.0
     depth[dry] = nothing
-    assert shore_error(shored(depth, HMIN, bed), 0.4, 1.45 / 0.4)[0] < 0.12
+    assert shore_error(shore_values(depth, HMIN, bed), 0.4, 1.45 / 0.4)[0] < 0.12
 
 
 def test_a_wall_is_halfway_between_wet_and_dry():
     depth = np.where(np.arange(20)[None] < 12, 3.0, 0.0) * np.ones((20, 1))
-    (ring,) = outline(shored(depth, HMIN))
+    (ring,) = outline(shore_values(depth, HMIN))
     assert ring[:, 0].max() == pytest.approx(11.5, abs=1e-6)
 
 
 def test_low_ground_behind_a_dike_stays_dry():
     bed = np.where(np.arange(20)[None] < 12, 0.0, -2.0) * np.ones((20, 1))
     depth = np.where(np.arange(20)[None] < 12, 1.0, 0.0) * np.ones((20, 1))
-    (ring,) = outline(shored(depth, HMIN, bed))
+    (ring,) = outline(shore_values(depth, HMIN, bed))
     assert ring[:, 0].max() == pytest.approx(11.5, abs=1e-6)
 
 
 def test_depths_below_zero_are_taken_at_their_word():
     bed, _ = beach()
     deep = np.abs(1.5 - bed) > HMIN
-    assert (shored(1.5 - bed, HMIN) == 1.5 - bed - HMIN)[deep].all()
+    assert (shore_values(1.5 - bed, HMIN) == 1.5 - bed - HMIN)[deep].all()
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.3, 0.785])
@@ -97,7 +97,7 @@ def test_a_channel_of_one_cell_stays_open(turn):
     across = (y - 24.8) * np.cos(turn) - (x - 24.8) * np.sin(turn)
     ends = np.hypot(x - 24.8, y - 24.8) < 20
     depth = np.where((np.abs(across) <= 0.75) & ends, 2.0, 0.0)
-    found = outline(shored(depth, HMIN))
+    found = outline(shore_values(depth, HMIN))
     assert len(found) == 1
     far = np.hypot(*(found[0] - 24.8).T).max()
     assert far > 18.0
@@ -110,7 +110,7 @@ def test_islands_stay_in_their_lake():
     depth = np.where(np.hypot(x - 30, y - 30) < 22, 2.0, 0.0)
     depth[30, 30] = depth[20:23, 40] = 0.0
     depth[np.hypot(x - 18, y - 30) < 5.2] = 0.0
-    found = outline(shored(depth, HMIN))
+    found = outline(shore_values(depth, HMIN))
     lake = max(map(shapely.Polygon, found), key=lambda polygon: polygon.area)
     assert len(found) == 4
     assert all(shapely.Polygon(ring).within(lake) or shapely.Polygon(ring).equals(lake) for ring in found)
@@ -135,7 +135,7 @@ def test_any_terrain_has_an_outline_near_its_contour(seed, rough, known):
     filter_ = np.exp(-rough * rough * np.hypot(*np.meshgrid(*[np.fft.fftfreq(size) * 2 * np.pi] * 2)) ** 2 / 2)
     bed = np.fft.ifft2(np.fft.fft2(waves) * filter_).real
     depth = np.maximum(-bed / bed.std(), 0.0)
-    above = shored(depth, HMIN, bed / bed.std() if known else None)
+    above = shore_values(depth, HMIN, bed / bed.std() if known else None)
     assert ((above >= 0) == (depth >= HMIN)).all()
     found = outline(above)
     close = outline(above, tolerance=0.05)

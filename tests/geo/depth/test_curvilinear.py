@@ -8,10 +8,10 @@ import xarray
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
 from vexture.renderers.exact import render_exact
-from vexture_geo.base.crs import transformed
+from vexture_geo.base.crs import transform_points
 from vexture_geo.depth.curvilinear import grid_series, places_of_grid
 from vexture_geo.depth.depths import read_depths
-from vexture_geo.depth.netcdf import opened
+from vexture_geo.depth.netcdf import open_dataset
 from vexture_geo.depth.quads import corners_of
 
 MIDDLE, RADIUS, SLOPE = np.array([500_400.0, 4_090_300.0]), 200.0, 0.02
@@ -116,7 +116,7 @@ def test_sfincs(tmp_path, turn):
 @pytest.mark.parametrize(("turn", "cell"), [(0.0, CELL), (30.0, CELL), (30.0, 2.0)])
 def test_a_regular_grid_is_rows_and_columns_however_it_is_turned(tmp_path, turn, cell):
     """It is read as a raster, for a fraction of a mesh's cost, and the rounding to a quarter of a metre is undone."""
-    with opened(sfincs(tmp_path / "map.nc", turn, cell=cell), None) as dataset:
+    with open_dataset(sfincs(tmp_path / "map.nc", turn, cell=cell), None) as dataset:
         series = grid_series(dataset, places_of_grid(dataset, None), None, None, Notes())
     n, m = np.mgrid[0:COUNT, 0:COUNT]
     found = series.lattice.place(np.column_stack([m.ravel(), n.ravel()]).astype(float))
@@ -240,7 +240,7 @@ def roms(path, wet=True, around=0.0, bend=0.25):
     """A grid as ROMS writes it: longitude and latitude, bathymetry, and masks of land and of what is wet now."""
     x, y = places(turn=20.0, bend=bend)
     bed = cone(x, y)
-    lon, lat = transformed(np.column_stack([x.ravel(), y.ravel()]), "EPSG:32610", "EPSG:4326").T
+    lon, lat = transform_points(np.column_stack([x.ravel(), y.ravel()]), "EPSG:32610", "EPSG:4326").T
     lon, lat = (one.reshape(x.shape) for one in (lon + around, lat))
     lon = np.where(lon > 180.0, lon - 360.0, lon)
     dry = np.reshape(LEVELS, (-1, 1, 1)) - bed < 0.1
@@ -280,7 +280,7 @@ def test_roms(tmp_path):
 
 def test_a_slightly_bent_grid_in_degrees_keeps_its_places(tmp_path):
     """Cells are off by a fifteenth of one: of degrees in 64 bits that is no rounding."""
-    with opened(roms(tmp_path / "ocean_his.nc", bend=0.01), None) as dataset:
+    with open_dataset(roms(tmp_path / "ocean_his.nc", bend=0.01), None) as dataset:
         series = grid_series(dataset, places_of_grid(dataset, None), None, None, Notes())
         middles = series.nodes[series.faces].mean(axis=1)
         true = np.column_stack([dataset[name].values.ravel() for name in ("lon_rho", "lat_rho")])

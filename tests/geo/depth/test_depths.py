@@ -176,9 +176,9 @@ def test_another_system_than_the_frames(tmp_path):
     plain = read(tmp_path / "a.nc")
     frame = frame_around((-122.9999, 36.9557, -122.9911, 36.9611), "EPSG:4326")
     turned = read(tmp_path / "a.nc", frame=frame)
-    from vexture_geo.base.crs import transformed
+    from vexture_geo.base.crs import transform_points
 
-    back = transformed(shore(turned.steps[0].drawing), "EPSG:4326", CRS)
+    back = transform_points(shore(turned.steps[0].drawing), "EPSG:4326", CRS)
     away = np.abs(np.hypot(*(back - MIDDLE).T) - RADIUS + 2.5) / 10.0
     assert turned.frame == frame
     assert away.max() < 0.3

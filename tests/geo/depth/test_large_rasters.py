@@ -10,7 +10,7 @@ from floods import BOUNDS, series
 from rasterio.windows import Window
 
 from vexture.base.content import LARGEST_FILE
-from vexture_geo.depth.contours import shored
+from vexture_geo.depth.contours import shore_values
 from vexture_geo.depth.depths import read_depths
 
 SIDE, CELL, WET = 20_000, 2.0, 4_000
@@ -63,6 +63,6 @@ def test_the_shore_does_not_depend_on_the_strips_in_which_it_is_computed(bed):
     random = np.random.default_rng(7)
     depth = np.maximum(random.normal(size=(700, 30)), 0.0)
     ground = random.normal(size=depth.shape) if bed else None
-    whole = shored(depth, 0.05, ground)
-    below = shored(depth[100:], 0.05, ground[100:] if bed else None)
+    whole = shore_values(depth, 0.05, ground)
+    below = shore_values(depth[100:], 0.05, ground[100:] if bed else None)
     np.testing.assert_array_equal(whole[103:], below[3:])

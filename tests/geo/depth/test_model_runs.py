@@ -9,7 +9,7 @@ from vexture.base.errors import SourceError
 from vexture.renderers.exact import render_exact
 from vexture_geo.depth.depths import read_depths
 from vexture_geo.depth.mesh_topology import border_of
-from vexture_geo.depth.triangles import located, outlines_above
+from vexture_geo.depth.triangles import locate_samples, outlines_above
 
 FACES, STEPS = 900, 3
 
@@ -144,7 +144,7 @@ def test_samples_are_located_as_geometry_says(mesh):
     corners = mesh.nodes[faces]
     x = np.linspace(*corners[..., 0].ravel()[[0, -1]], 37)
     y = np.linspace(corners[..., 1].max(), corners[..., 1].min(), 29)
-    samples, triangle, shares = located(corners, x, y)
+    samples, triangle, shares = locate_samples(corners, x, y)
     places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     np.testing.assert_allclose((shares[..., None] * corners[triangle]).sum(axis=1), places[samples], atol=1e-6)
     tree = shapely.STRtree(shapely.polygons(corners))

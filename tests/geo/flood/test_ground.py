@@ -15,7 +15,7 @@ from vexture.drawing.drawing import Drawing
 from vexture_geo.base.extent import Extent, Frame, Step
 from vexture_geo.flood.drawn_ground import DRAWN, drawn_ground
 from vexture_geo.flood.grids import shore_distance
-from vexture_geo.flood.ground import LARGEST_GROUND, encoded, ground_of
+from vexture_geo.flood.ground import LARGEST_GROUND, encode_webp, ground_of
 from vexture_geo.flood.relief import relief_of
 from vexture_geo.flood.views import viewpoint
 
@@ -117,7 +117,7 @@ def test_damaged_picture_is_refused(tmp_path):
 
 def test_encoded_picture_is_small_enough():
     noise = np.random.default_rng(1).integers(0, 256, (1500, 1500, 3), dtype=np.uint8)
-    data = encoded(Image.fromarray(noise))
+    data = encode_webp(Image.fromarray(noise))
     assert len(data) <= LARGEST_GROUND
     assert Image.open(BytesIO(data)).format == "WEBP"
 

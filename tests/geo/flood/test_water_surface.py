@@ -14,7 +14,7 @@ from vexture.drawing.drawing import Drawing
 from vexture_geo.base.extent import Extent, Frame, Step
 from vexture_geo.flood.drawn_ground import drawn_ground
 from vexture_geo.flood.grids import coverage_over
-from vexture_geo.flood.open_water import calmed, open_water, openness_at
+from vexture_geo.flood.open_water import calm_waves, open_water, openness_at
 from vexture_geo.flood.relief import Relief, beyond_of, relief_of
 from vexture_geo.flood.surface import WaterSurface, highest_of, surface_of
 from vexture_geo.flood.views import viewpoint, views_of
@@ -66,7 +66,7 @@ def test_water_stands_at_its_own_level_everywhere(floods, name):
 def test_levels_come_back_from_their_picture():
     levels = np.array([[np.nan, -1.5, 2.0], [0.25, np.nan, 20.0]])
     wet = np.array([[False, True, True], [True, False, False]])
-    png, facts = WaterSurface(levels, wet).encoded()
+    png, facts = WaterSurface(levels, wet).encode_png()
     numbers = np.asarray(Image.open(BytesIO(png))).astype(float)
     np.testing.assert_array_equal((numbers > 0) & (numbers < 32768), wet)
     back = np.where(numbers == 0, np.nan, facts["lowest"] + (numbers % 32768 - 1) * facts["unit"])
@@ -79,7 +79,7 @@ def test_a_dry_step_has_no_levels():
     surface = surface_of(Step(Drawing(())), FRAME, relief, None, HMIN)
     assert np.isnan(surface.levels).all()
     assert highest_of([surface]) is None
-    assert surface.encoded()[1]["lowest"] == 0.0
+    assert surface.encode_png()[1]["lowest"] == 0.0
 
 
 def test_without_depths_water_is_as_high_as_its_shore():
@@ -207,7 +207,7 @@ def test_the_end_of_a_model_in_the_sea_is_no_shore():
     assert beyond[-20:].all()
     assert not beyond[:25].any()
     openness = open_water(sea, frame, sea, beyond)
-    waves = calmed(openness, frame, beyond)
+    waves = calm_waves(openness, frame, beyond)
     places = np.array([(0.5, shore - up), (0.5, south + up), (east - right, 0.5)])
     assert openness_at(waves, frame, places).tolist() == [1.0, 0.0, 0.0]
     views = {view.name: view for view in views_of(extent, openness, highest_of(found), beyond)}

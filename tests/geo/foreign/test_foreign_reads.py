@@ -20,7 +20,7 @@ from vexture.base.notes import Notes
 from vexture.cli.main import main
 from vexture.gltf.model import read_model
 from vexture_geo.base.extent import Frame
-from vexture_geo.flood.ground import _warped
+from vexture_geo.flood.ground import _warp_to_frame
 from vexture_geo.flood.relief import _heights_of
 from vexture_geo.vector.features import feature_batches, read_features
 
@@ -84,10 +84,10 @@ def test_the_ground_leads_nowhere(way, folder, outside):
     from PIL import Image
 
     path = make_source(RELIEFS, way, folder, outside)
-    assert re.search(
-        "secret|is no raster that can be read", one_line(message_of(_heights_of, path, FRAME, (8, 8), None))
-    )
-    assert re.search("secret|damaged GeoTIFF", one_line(message_of(_warped, path, FRAME, Image.new("RGB", (8, 8)))))
+    said = one_line(message_of(_heights_of, path, FRAME, (8, 8), None))
+    assert re.search("secret|is no raster that can be read", said)
+    said = one_line(message_of(_warp_to_frame, path, FRAME, Image.new("RGB", (8, 8))))
+    assert re.search("secret|damaged GeoTIFF", said)
     assert outside.take_accesses() == []
 
 

@@ -13,12 +13,12 @@ from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Paint
 from vexture.tree.planar.build import build_map
 from vexture_geo.maps import MapLayer, convert_map
-from vexture_geo.maps.paths import Fit
+from vexture_geo.maps.paths import MapFit
 from vexture_geo.maps.symbols import CROWD, Symbols
 
 DOT = read_drawing(b'<svg viewBox="0 0 2 2"><circle cx="1" cy="1" r="1"/></svg>')
 COUNT = CROWD + 176
-FIT = Fit((0.0, 0.0, 100.0, 100.0))
+FIT = MapFit((0.0, 0.0, 100.0, 100.0))
 COLOURS = [Paint((part / 4, 0.2, 1.0 - part / 4)) for part in range(5)]
 
 

@@ -6,10 +6,10 @@ import pytest
 import shapely
 
 from vexture.base.notes import Notes
-from vexture_geo.base.crs import transformed
+from vexture_geo.base.crs import transform_points
 from vexture_geo.maps import MapLayer, convert_map
 from vexture_geo.maps.marks import outlines, width_of
-from vexture_geo.maps.place import RADIUS, placed
+from vexture_geo.maps.place import RADIUS, place_features
 from vexture_geo.vector.features import read_features
 
 WORLD = "EPSG:4326"
@@ -51,7 +51,7 @@ def test_what_goes_around_the_world_stays_where_it_is():
 
 def bordered(shapes, crs):
     """The area of the outlines of polygons on a map, less than half a degree wide."""
-    rings = placed(read_features(frame(shapes), notes=Notes()), crs, Notes()).rings
+    rings = place_features(read_features(frame(shapes), notes=Notes()), crs, Notes()).rings
     return shapely.union_all(outlines(rings, width_of("2px", "width"), crs, 0.2 if crs == WORLD else 2e4).shapes)
 
 
@@ -72,7 +72,9 @@ BAND = shapely.box(-179.999, 20, 179, 30)
 def test_a_map_of_the_world_has_no_outlines_where_it_is_cut(crs, across, shapes):
     drawn = bordered(shapes, crs)
     _, south, _, north = shapes[0].bounds
-    *cut, real = transformed(np.array([*((across, y) for y in np.arange(south + 1, north)), (178, south)]), WORLD, crs)
+    *cut, real = transform_points(
+        np.array([*((across, y) for y in np.arange(south + 1, north)), (178, south)]), WORLD, crs
+    )
     assert not shapely.intersects_xy(drawn, *np.transpose(cut)).any()
     assert shapely.intersects_xy(drawn, *real)
 
@@ -80,12 +82,12 @@ def test_a_map_of_the_world_has_no_outlines_where_it_is_cut(crs, across, shapes)
 def test_neither_a_pole_nor_the_equator_around_a_hemisphere_is_a_border():
     ice = shapely.box(-180, -90, 180, -70)
     for crs in (WORLD, "EPSG:8857"):
-        pole, coast = transformed(np.array([(10.0, -90.0), (10.0, -70.0)]), WORLD, crs)
+        pole, coast = transform_points(np.array([(10.0, -90.0), (10.0, -70.0)]), WORLD, crs)
         drawn = bordered([ice], crs)
         assert not shapely.intersects_xy(drawn, *pole)
         assert shapely.intersects_xy(drawn, *coast)
     africa = shapely.box(10, -30, 40, 30)
     drawn = bordered([africa, shapely.box(-100, -80, -90, -70)], "EPSG:3031")
-    equator, side = transformed(np.array([(25.0, -0.001), (10.0, -20.0)]), WORLD, "EPSG:3031")
+    equator, side = transform_points(np.array([(25.0, -0.001), (10.0, -20.0)]), WORLD, "EPSG:3031")
     assert not shapely.intersects_xy(drawn, *equator)
     assert shapely.intersects_xy(drawn, *side)

@@ -227,8 +227,8 @@ def test_borders_that_are_equal_are_not_touched_and_others_are(monkeypatch):
     from vexture_geo.maps import coverage
 
     source, snapped = cells(60), []
-    real = coverage.shared
-    monkeypatch.setattr(coverage, "shared", lambda *given, **told: snapped.append(1) or real(*given, **told))
+    real = coverage.snap_rings
+    monkeypatch.setattr(coverage, "snap_rings", lambda *given, **told: snapped.append(1) or real(*given, **told))
     assert mapped(source).conversion.notes == ()
     assert not snapped, "nothing was amiss"
     off = source.geometry.values.copy()

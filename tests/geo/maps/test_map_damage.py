@@ -13,8 +13,8 @@ from vexture.base.errors import ParameterError, SourceError
 from vexture.base.notes import Notes
 from vexture.cli.main import main
 from vexture_geo.maps import MapLayer, convert_map
-from vexture_geo.maps.place import placed
-from vexture_geo.vector.feature_tables import Choice, chunks_of
+from vexture_geo.maps.place import place_features
+from vexture_geo.vector.feature_tables import FeatureQuery, chunks_of
 from vexture_geo.vector.features import read_features
 
 METRES = "EPSG:28992"
@@ -65,8 +65,8 @@ def test_arcs_that_a_topology_does_not_have_are_said():
     assert "the file is damaged: a geometry refers to arcs that it does not have (2)" in map(str, notes.in_order)
     whole = Notes()
     read_features(topology([[0]], [[-1]]), notes=whole)
-    assert whole.in_order == ()
-    (_, *later) = chunks_of(topology(*[[[0]]] * 3, [[7]]), Choice(), 2)
+    assert whole.listed == ()
+    (_, *later) = chunks_of(topology(*[[[0]]] * 3, [[7]]), FeatureQuery(), 2)
     assert [chunk.damaged for chunk in later] == [0]
 
 
@@ -83,7 +83,7 @@ def test_metres_beside_places_of_zero_are_no_degrees(kind):
 def test_a_place_that_is_none_is_told_by_the_feature_and_its_coordinates():
     points = frame([shapely.Point(4, 52), shapely.Point(84000, 447000), shapely.Point(5, 53)], "EPSG:4326")
     notes = Notes()
-    placed(read_features(points, notes=notes), "EPSG:3857", notes)
+    place_features(read_features(points, notes=notes), "EPSG:3857", notes)
     assert [str(note) for note in notes.in_order] == [
         "point beyond the map",
         "a place such as 84000,447000 is no longitude and latitude; correct it, or name the system that all are in by "

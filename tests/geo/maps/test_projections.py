@@ -7,11 +7,11 @@ import shapely
 
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
-from vexture_geo.base.crs import transformed
+from vexture_geo.base.crs import transform_points
 from vexture_geo.maps import MapLayer, convert_map
 from vexture_geo.maps.domain import domain_of
-from vexture_geo.maps.lines import there_and_back, way_there
-from vexture_geo.maps.place import placed
+from vexture_geo.maps.lines import lines_along, rings_along
+from vexture_geo.maps.place import place_features
 from vexture_geo.vector.features import Lines, read_features
 
 WORLD = "EPSG:4326"
@@ -25,7 +25,9 @@ def frame(shapes, crs=WORLD, **columns):
 def in_system(shapes, crs, source=WORLD):
     """Features of shapes in another system, and the notes."""
     notes = Notes()
-    return placed(read_features(frame(shapes, source), notes=notes), crs, notes), [str(note) for note in notes.in_order]
+    return place_features(read_features(frame(shapes, source), notes=notes), crs, notes), [
+        str(note) for note in notes.in_order
+    ]
 
 
 RUSSIA = shapely.box(30, 50, 190, 75)
@@ -41,7 +43,7 @@ def test_what_lies_across_the_edge_of_a_map_is_on_both_sides_of_it(crs):
     edge = shapely.union_all([tree.geometries[0], tree.geometries[1], tree.geometries[2]])
     clear = shapely.distance(shapely.boundary(edge), shapely.points(places)) > 0.5
     inside = shapely.contains_xy(edge, *places.T)
-    found = shapely.contains_xy(shapely.union_all(rings.shapes), *transformed(places, WORLD, crs).T)
+    found = shapely.contains_xy(shapely.union_all(rings.shapes), *transform_points(places, WORLD, crs).T)
     assert (found == inside)[clear].all()
 
 
@@ -51,7 +53,7 @@ def test_an_interrupted_map_is_cut_at_its_lobes(crs):
     features, said = in_system([*world, shapely.LineString([(-170, 61), (0, 61), (170, 61)])], crs)
     assert not said
     places = np.random.default_rng(3).uniform((-179.9, -89.0), (179.9, 89.0), (3000, 2))
-    on_map, shapes = transformed(places, WORLD, crs), shapely.union_all(features.rings.shapes)
+    on_map, shapes = transform_points(places, WORLD, crs), shapely.union_all(features.rings.shapes)
     clear = shapely.distance(shapely.union_all(shapely.boundary(world)), shapely.points(places)) > 0.5
     inside = shapely.contains_xy(shapely.union_all(world), *places.T)
     assert (shapely.contains_xy(shapes, *on_map.T) == inside)[clear].all()
@@ -74,21 +76,21 @@ def test_what_lies_across_a_tear_at_no_meridian_is_told(crs):
 def test_a_map_around_a_pole_is_its_hemisphere(crs, side):
     around = shapely.transform(ANTARCTICA, lambda places: places * (1, -side))
     features, said = in_system([around, shapely.box(10, -30, 50, 30)], crs)
-    pole = transformed(
+    pole = transform_points(
         np.array([[0.0, side * 90.0], [77.0, side * 80.0], [180.0, side * 80.0], [0.0, side * 62.0]]), WORLD, crs
     )
-    (land,) = features.rings.taken(np.flatnonzero(features.feature == 0)).shapes
+    (land,) = features.rings.take(np.flatnonzero(features.feature == 0)).shapes
     assert shapely.contains_xy(land, *pole.T).tolist() == [True, True, True, False]
-    back = transformed(features.rings.points, crs, WORLD)
+    back = transform_points(features.rings.points, crs, WORLD)
     assert (side * back[:, 1]).min() > -1e-6
-    equator = np.hypot(*transformed(np.array([[30.0, 0.0]]), WORLD, crs)[0])
+    equator = np.hypot(*transform_points(np.array([[30.0, 0.0]]), WORLD, crs)[0])
     assert np.hypot(*features.rings.points.T).max() == pytest.approx(equator, rel=1e-5)
     assert any("cut off at the equator" in line for line in said)
 
 
 def test_a_band_around_the_world_is_a_ring_around_its_pole():
     features, _ = in_system([shapely.box(-180, -90, 180, -60)], SOUTH)
-    radius = np.hypot(*transformed(np.array([[0.0, -60.0]]), WORLD, SOUTH)[0])
+    radius = np.hypot(*transform_points(np.array([[0.0, -60.0]]), WORLD, SOUTH)[0])
     assert shapely.area(features.rings.shapes).sum() == pytest.approx(np.pi * radius**2, rel=1e-4)
 
 
@@ -101,7 +103,7 @@ def test_domains():
 def test_a_line_is_curved_where_a_map_bends_it_and_parted_where_it_is_torn():
     parallel = shapely.LineString([(-60, 60), (60, 60)])
     features, _ = in_system([parallel], "EPSG:3035")
-    truth = transformed(np.stack([np.linspace(-60, 60, 2001), np.full(2001, 60.0)], axis=1), WORLD, "EPSG:3035")
+    truth = transform_points(np.stack([np.linspace(-60, 60, 2001), np.full(2001, 60.0)], axis=1), WORLD, "EPSG:3035")
     line = shapely.LineString(features.lines.points)
     assert shapely.hausdorff_distance(line, shapely.LineString(truth)) < 2e-5 * np.ptp(truth[:, 0])
     across, _ = in_system([shapely.LineString([(170, 10), (-170, 10)])], EQUAL_EARTH)
@@ -120,9 +122,9 @@ def test_lines_on_web_mercator_go_on_beyond_the_antimeridian_and_end_at_its_edge
 
 def test_there_and_back():
     lines = Lines(np.arange(10.0).reshape(5, 2), np.array([2, 5]), np.array([4, 7]))
-    rings = there_and_back(lines)
+    rings = rings_along(lines)
     assert rings.points[:, 0].tolist() == [0, 2, 4, 6, 8, 6]
-    again = way_there(rings)
+    again = lines_along(rings)
     assert (again.points == lines.points).all()
     assert again.ends.tolist() == [2, 5]
     assert again.feature.tolist() == [4, 7]
@@ -139,7 +141,7 @@ def test_the_world_on_a_map_of_a_country_is_cut_to_where_that_is_used():
 def test_a_projected_source_is_on_a_map_of_the_world():
     done = convert_map([MapLayer(frame([shapely.box(0, 3e5, 2e5, 6e5)], "EPSG:28992"))], crs=EQUAL_EARTH)
     (root,) = done.conversion.texture.roots
-    place = transformed(np.array([[1e5, 4.5e5]]), "EPSG:28992", EQUAL_EARTH)
+    place = transform_points(np.array([[1e5, 4.5e5]]), "EPSG:28992", EQUAL_EARTH)
     assert done.conversion.texture.element_at((place - root.to_source[:, 2]) / root.to_source[0, 0]).name == ["0"]
 
 
@@ -176,10 +178,10 @@ def test_a_map_of_one_side_of_the_globe_is_cut_at_its_rim(crs, middle, radius):
     ]
     world.remove(ANTARCTICA)
     clear = seen & (shapely.distance(shapely.union_all(shapely.boundary(world)), shapely.points(places)) > 0.5)
-    found = shapely.contains_xy(shapely.union_all(features.rings.shapes), *transformed(places, WORLD, crs).T)
+    found = shapely.contains_xy(shapely.union_all(features.rings.shapes), *transform_points(places, WORLD, crs).T)
     assert (found == shapely.contains_xy(shapely.union_all(world), *places.T))[clear].all()
     assert shapely.is_valid(features.rings.shapes).all()
-    line = cap.distance(transformed(features.lines.points, crs, WORLD))
+    line = cap.distance(transform_points(features.lines.points, crs, WORLD))
     assert len(line) > 2
     assert line.max() < cap.radius + 0.05
     assert not in_system([shapely.box(middle[0], middle[1] - 3, middle[0] + 1, middle[1] - 1)], crs)[1]

@@ -7,7 +7,7 @@ from vexture.base.errors import SourceError
 from vexture.conversion.reading import read_drawing
 from vexture.drawing.drawing import Path
 from vexture.drawing.paint import Paint
-from vexture_geo.maps.paths import Fit
+from vexture_geo.maps.paths import MapFit
 from vexture_geo.maps.symbols import Symbols
 
 SYMBOL = read_drawing(
@@ -19,7 +19,7 @@ SIZES = np.array([1.0, 2.0, 0.3])
 
 def test_symbols_that_are_placed_together_are_those_placed_alone():
     symbols = Symbols(SYMBOL, POINTS, SIZES, ["a", "b", "c"], [None, Paint((0.0, 1.0, 0.0)), None])
-    fit = Fit((0.0, 0.0, 50.0, 50.0))
+    fit = MapFit((0.0, 0.0, 50.0, 50.0))
     placed = [*symbols.paths(fit)]
     assert [path.element for path in placed] == [name for name in "abc" for _ in SYMBOL.paths]
     expected = [(path, point, size) for point, size in zip(POINTS, SIZES, strict=True) for path in SYMBOL.paths]

@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from vexture.base.notes import Notes
-from vexture_geo.maps.place import placed
+from vexture_geo.maps.place import place_features
 from vexture_geo.vector.features import read_features
 
 BOXES = [(165.0, -20.0, 190.0, 15.0), (-40.0, 30.0, -20.0, 50.0), (-190.0, 50.0, -160.0, 70.0), (0.0, 0.0, 5.0, 5.0)]
@@ -28,7 +28,7 @@ def wrapped(box):
 @pytest.mark.parametrize("crs", ["EPSG:8857", "+proj=eqearth +lon_0=150", "EPSG:5070", "ESRI:54034"])
 def test_a_map_that_keeps_areas_keeps_them_where_it_is_torn(crs):
     frame = geopandas.GeoDataFrame(geometry=[*map(wrapped, BOXES), CAP], crs="EPSG:4326")
-    rings = placed(read_features(frame, notes=Notes()), crs, Notes()).rings
+    rings = place_features(read_features(frame, notes=Notes()), crs, Notes()).rings
     shapes = rings.shapes
     found = np.bincount(rings.feature, shapely.area(shapes))
     true = [*map(area, BOXES), area((-180.0, -90.0, 180.0, -70.0))]

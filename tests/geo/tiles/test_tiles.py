@@ -14,14 +14,14 @@ from tile_sources import batches_of, cells, write_source
 
 from vexture import ParameterError, SourceError
 from vexture_geo.base import validity
-from vexture_geo.base.crs import transformed
+from vexture_geo.base.crs import transform_points
 from vexture_geo.base.rings import cut, rings_of
 from vexture_geo.tiles import generalise
 from vexture_geo.tiles.build import make_tiles
-from vexture_geo.tiles.generalise import dissolved, generalised
+from vexture_geo.tiles.generalise import dissolve, generalise_polygons
 from vexture_geo.tiles.grid import CRS, HALF, MARGIN, Tile, last_zoom, pixel, span, zooms_of
 from vexture_geo.tiles.options import TileOptions
-from vexture_geo.tiles.pieces import Pieces
+from vexture_geo.tiles.pieces import FeaturePieces
 
 BOX = (4.0, 51.0, 6.0, 53.0)
 ZOOM = 8
@@ -29,7 +29,9 @@ LAST = last_zoom(ZOOM, 2)
 
 
 def pieces_of(shapes):
-    return Pieces(np.arange(len(shapes)), np.array([str(k) for k in range(len(shapes))], object), np.array(shapes))
+    return FeaturePieces(
+        np.arange(len(shapes)), np.array([str(k) for k in range(len(shapes))], object), np.array(shapes)
+    )
 
 
 def tiles_of(path):
@@ -90,7 +92,7 @@ def test_a_reader_of_pmtiles_reads_it(archive):
 def test_each_tile_names_the_features_that_are_there(archive, parcels):
     """At random points that are not within the tolerance of a border, for the sharpest views."""
     shapes, ids = parcels
-    projected = shapely.transform(shapes, lambda points: transformed(points, "EPSG:4326", CRS))
+    projected = shapely.transform(shapes, lambda points: transform_points(points, "EPSG:4326", CRS))
     tree, borders = shapely.STRtree(projected), shapely.STRtree(shapely.boundary(projected))
     rng = np.random.default_rng(3)
     checked = 0
@@ -183,7 +185,7 @@ def test_beyond_the_worlds_border_there_is_nothing(tmp_path):
 
 def test_small_features_become_part_of_neighbours():
     shapes = cells(2000, (0.0, 0.0, 1000.0, 1000.0))
-    found = generalised(pieces_of(shapes), (-1.0, -1.0, 1001.0, 1001.0), 1.0, 2000.0)
+    found = generalise_polygons(pieces_of(shapes), (-1.0, -1.0, 1001.0, 1001.0), 1.0, 2000.0)
     assert len(found) < 500
     assert shapely.area(found.shapes).min() >= 1000.0
     whole = shapely.union_all(found.shapes)
@@ -201,7 +203,7 @@ def town():
 @pytest.mark.parametrize("pixel", [40.0, 100.0, 170.0, 600.0])
 def test_a_town_of_small_blocks_is_seen_from_afar(pixel):
     box = (-10_240.0, -10_240.0, 10_240.0, 10_240.0)
-    found = generalised(town(), box, 0.24 * pixel, pixel**2)
+    found = generalise_polygons(town(), box, 0.24 * pixel, pixel**2)
     area = shapely.area(found.shapes)
     blocks = shapely.area(shapely.intersection(found.shapes, shapely.box(-pixel, -pixel, 1800.0, 1800.0))).sum()
     assert blocks == pytest.approx(36**2 * 900.0, rel=0.02)
@@ -212,7 +214,7 @@ def test_a_town_of_small_blocks_is_seen_from_afar(pixel):
     border = 4.0 * pixel * round(600.0 / (4.0 * pixel))
     near = (border - 8.0 * pixel, -10_240.0, border + 8.0 * pixel, 10_240.0)
     tiles = [(-10_240.0, box[1], border + 16.0 * pixel, box[3]), (border - 16.0 * pixel, box[1], 10_240.0, box[3])]
-    one, other = (generalised(town().within(tile), tile, 0.24 * pixel, pixel**2).within(near) for tile in tiles)
+    one, other = (generalise_polygons(town().within(tile), tile, 0.24 * pixel, pixel**2).within(near) for tile in tiles)
     assert set(shapely.to_wkb(one.shapes)) == set(shapely.to_wkb(other.shapes))
     assert len(one)
 
@@ -222,9 +224,9 @@ def test_a_ring_that_touches_itself_may_vanish():
     tiny, large = [(0.0, 0.0), (0.1, 0.1), (0.0, 0.1)], [(0.0, 0.0), (-3.0, 0.3), (-3.0, -0.3)]
     shape = shapely.Polygon([*tiny, *large, (0.0, 0.0)])
     far = shapely.box(10.0, 10.0, 20.0, 20.0)
-    found = generalised(pieces_of([shape, far]), (-50.0, -50.0, 50.0, 50.0), 1.0, 0.001)
+    found = generalise_polygons(pieces_of([shape, far]), (-50.0, -50.0, 50.0, 50.0), 1.0, 0.001)
     assert shapely.area(found.shapes).max() == pytest.approx(100.0)
-    assert len(Pieces.of_bytes(found.to_bytes())) == len(found)
+    assert len(FeaturePieces.of_bytes(found.to_bytes())) == len(found)
 
 
 def test_a_corner_beside_the_side_of_a_box_is_cut():
@@ -250,7 +252,7 @@ def test_borders_move_no_farther_than_the_tolerance():
     radius = 100.0 + np.cumsum(np.random.default_rng(5).normal(0.0, 0.05, len(angle)))
     lake = shapely.Polygon(np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1))
     land = shapely.Polygon([(-200, -200), (200, -200), (200, 200), (-200, 200)], [lake.exterior.coords])
-    found = generalised(pieces_of([lake, land]), (-300.0, -300.0, 300.0, 300.0), 0.5, 1.0)
+    found = generalise_polygons(pieces_of([lake, land]), (-300.0, -300.0, 300.0, 300.0), 0.5, 1.0)
     assert found.points < 800
     assert shapely.area(found.shapes).sum() == pytest.approx(160_000.0, abs=1e-6)
     for shape in found.shapes[:1]:
@@ -302,7 +304,7 @@ def test_many_points_are_simplified_in_parts(monkeypatch):
     assert pieces.points > 50_000
     tracemalloc.start()
     box = (-1.0, -1.0, 1001.0, 1001.0)
-    found = dissolved(generalised(pieces, box, 1.0, 0.0))
+    found = dissolve(generalise_polygons(pieces, box, 1.0, 0.0))
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 100 * pieces.points
@@ -322,7 +324,7 @@ def test_a_polygon_of_many_holes_is_parted_and_keeps_them(monkeypatch):
     teeth = shapely.box(np.arange(6) * 16.0 + 11.9, 30.0, np.arange(6) * 16.0 + 12.9, 200.0)
     gaps = shapely.union_all(np.append(teeth[::2], shapely.affinity.translate(shapely.union_all(teeth[1::2]), 0, -135)))
     whole = shapely.box(0.0, 0.0, 97.0, 97.0) - shapely.union_all([shapely.union_all(holes), gaps])
-    parts = np.array(validity.parted(whole))
+    parts = np.array(validity.split_heavy(whole))
     assert len(parts) > 20
     assert not validity.is_heavy(parts).any()
     assert shapely.is_valid(parts).all()
@@ -369,7 +371,7 @@ def test_land_that_jumps_over_the_antimeridian_is_whole(tmp_path):
     texture = loaded(tile)
     places = np.array([(40.0, 65.0), (40.0, 69.05), (175.0, 66.0), (-176.0, 66.5), (0.0, 66.0), (-100.0, 69.0)])
     to = texture.roots[0].to_source
-    unit = (transformed(places, "EPSG:4326", CRS) - to[:, 2]) / to[:, :2].diagonal()
+    unit = (transform_points(places, "EPSG:4326", CRS) - to[:, 2]) / to[:, :2].diagonal()
     assert texture.element_at(unit).name.tolist() == ["land"] * 4 + [""] * 2
 
 
@@ -394,5 +396,5 @@ def test_land_around_a_pole_is_there(ice, tmp_path):
     on = [(0.0, -70.5), (179.9, -75.5), (-179.9, -75.5), (90.0, -84.0)]
     off = [(105.0, -81.0), (0.0, -69.5), (179.9, -74.5)]
     to = texture.roots[0].to_source
-    unit = (transformed(np.array(on + off), "EPSG:4326", CRS) - to[:, 2]) / to[:, :2].diagonal()
+    unit = (transform_points(np.array(on + off), "EPSG:4326", CRS) - to[:, 2]) / to[:, :2].diagonal()
     assert texture.element_at(unit).name.tolist() == ["ice"] * 4 + [""] * 3

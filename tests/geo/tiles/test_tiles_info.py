@@ -17,7 +17,7 @@ from tile_sources import cells, write_source
 
 from vexture.cli.main import main
 from vexture_geo.maps.colours import Scale
-from vexture_geo.tiles.attributes import Look
+from vexture_geo.tiles.attributes import TileStyle
 from vexture_geo.tiles.build import make_tiles
 from vexture_geo.tiles.options import TileOptions
 
@@ -53,7 +53,7 @@ def source(tmp_path_factory):
 @pytest.fixture(scope="module")
 def archive(source, tmp_path_factory):
     output = tmp_path_factory.mktemp("made") / "parcels.pmtiles"
-    look = Look(Scale("parcel", "categories"), table="parquet")
+    look = TileStyle(Scale("parcel", "categories"), table="parquet")
     options = TileOptions(max_zoom=ZOOM, id="parcel", name="Parcels", attribution="a survey", look=look)
     make_tiles(source, output, options)
     return output
@@ -62,7 +62,7 @@ def archive(source, tmp_path_factory):
 @pytest.fixture(scope="module")
 def folder(source, tmp_path_factory):
     output = tmp_path_factory.mktemp("made") / "parcels"
-    make_tiles(source, output, TileOptions(max_zoom=ZOOM, id="parcel", look=Look(table="arrow")))
+    make_tiles(source, output, TileOptions(max_zoom=ZOOM, id="parcel", look=TileStyle(table="arrow")))
     return output
 
 

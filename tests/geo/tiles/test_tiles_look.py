@@ -22,9 +22,9 @@ from vexture.base.errors import DeviceError, LimitError
 from vexture.base.notes import Notes
 from vexture.cli.main import main
 from vexture.texture.load import texture_from
-from vexture_geo.base.crs import transformed
+from vexture_geo.base.crs import transform_points
 from vexture_geo.maps.colours import Scale, colours_of
-from vexture_geo.tiles.attributes import Look
+from vexture_geo.tiles.attributes import TileStyle
 from vexture_geo.tiles.build import make_tiles
 from vexture_geo.tiles.grid import CRS
 from vexture_geo.tiles.options import TileOptions
@@ -32,7 +32,7 @@ from vexture_geo.tiles.options import TileOptions
 COUNT = 12
 VALUES = [None, *range(1, COUNT)]
 BY_VALUE = Scale("value", classes=3, no_data="#ff000080")
-LOOK = Look(BY_VALUE, table="parquet")
+LOOK = TileStyle(BY_VALUE, table="parquet")
 
 
 def write(path, shapes, **columns):
@@ -86,7 +86,7 @@ def test_features_have_the_colours_of_their_attribute_in_all_tiles(source, tmp_p
 
 
 def test_a_folder_has_its_table_within_and_one_colour_is_that_of_all(source, tmp_path):
-    made(source, tmp_path / "out", Look(fill="teal", columns=("value",), table="arrow"))
+    made(source, tmp_path / "out", TileStyle(fill="teal", columns=("value",), table="arrow"))
     about = json.loads((tmp_path / "out" / "tiles.json").read_text())["vexture"]
     assert about["table"] == "table.arrow"
     assert "legends" not in about
@@ -149,8 +149,8 @@ def overlapping(request, tmp_path):
 )
 def test_overlaps_are_in_an_order_that_is_not_that_of_the_file(overlapping, order, seen, tmp_path):
     places = [(172.5, 1.5), (177.0, 6.0), (-179.5, 6.0), (-178.0, 6.0), (163.0, 7.0), (152.0, 5.0)]
-    metres = transformed(np.array(places), "EPSG:4326", CRS)
-    made(overlapping, tmp_path / "made.pmtiles", Look(order=order))
+    metres = transform_points(np.array(places), "EPSG:4326", CRS)
+    made(overlapping, tmp_path / "made.pmtiles", TileStyle(order=order))
     checked = 0
     with (tmp_path / "made.pmtiles").open("rb") as file:
         for (z, _, _), data in all_tiles(MmapSource(file)):
@@ -166,9 +166,12 @@ def test_overlaps_are_in_an_order_that_is_not_that_of_the_file(overlapping, orde
 @pytest.mark.parametrize(
     ("look", "says"),
     [
-        (Look(Scale("height")), "parcels.geojson: it has no column 'height' for `color`; there are: parcel, value"),
-        (Look(order="height"), "parcels.geojson: it has no column 'height' for `order`; there are: parcel, value"),
-        (Look(Scale("parcel", "equal"), table="parquet"), "holds string, not numbers; give `scale` categories"),
+        (
+            TileStyle(Scale("height")),
+            "parcels.geojson: it has no column 'height' for `color`; there are: parcel, value",
+        ),
+        (TileStyle(order="height"), "parcels.geojson: it has no column 'height' for `order`; there are: parcel, value"),
+        (TileStyle(Scale("parcel", "equal"), table="parquet"), "holds string, not numbers; give `scale` categories"),
     ],
 )
 def test_columns_that_cannot_be_colours_are_named_and_nothing_stays(source, tmp_path, look, says):
@@ -181,10 +184,10 @@ def test_columns_that_cannot_be_colours_are_named_and_nothing_stays(source, tmp_
 @pytest.mark.parametrize(
     ("look", "says"),
     [
-        (Look(BY_VALUE, fill="red"), "`color` and `fill` exclude each other"),
-        (Look(fill="reddish"), "`fill` is 'reddish'; give a CSS colour"),
-        (Look(Scale("value", palette="nope")), "the `palette` 'nope' is unknown"),
-        (Look(Scale("value", "steps")), "`scale` is 'steps'"),
+        (TileStyle(BY_VALUE, fill="red"), "`color` and `fill` exclude each other"),
+        (TileStyle(fill="reddish"), "`fill` is 'reddish'; give a CSS colour"),
+        (TileStyle(Scale("value", palette="nope")), "the `palette` 'nope' is unknown"),
+        (TileStyle(Scale("value", "steps")), "`scale` is 'steps'"),
     ],
 )
 def test_looks_are_refused_before_anything_is_read(look, says):
@@ -224,14 +227,14 @@ def test_no_processes_are_refused(source, tmp_path):
 def test_lines_and_points_are_left_out_and_said(tmp_path):
     shapes = [shapely.box(4, 51, 5, 52), shapely.LineString([(4, 51), (5, 52)]), shapely.Point(4, 52)]
     mixed = write(tmp_path / "mixed.geojson", shapes, parcel=["a", "b", "c"])
-    (note,) = made(mixed, tmp_path / "mixed.pmtiles", Look()).notes
+    (note,) = made(mixed, tmp_path / "mixed.pmtiles", TileStyle()).notes
     assert note.count == 2
     assert note.message == "a line or point is left out, as tiles have polygons only: vexture map draws them"
     lines = write(tmp_path / "lines.geojson", shapes[1:], parcel=["b", "c"])
     with pytest.raises(
         SourceError, match=r"lines\.geojson: it has lines or points \(2\), but no polygon, .* draw it by"
     ):
-        made(lines, tmp_path / "lines.pmtiles", Look())
+        made(lines, tmp_path / "lines.pmtiles", TileStyle())
 
 
 def test_a_wrong_scheduler_is_refused_before_anything_is_begun(source, tmp_path):

@@ -11,7 +11,7 @@ from vexture.base.errors import LimitError
 from vexture.base.notes import Notes
 from vexture.base.tolerance import ROUND
 from vexture_geo.vector import curves
-from vexture_geo.vector.curves import BROKEN, straightened
+from vexture_geo.vector.curves import BROKEN, straighten_curves
 from vexture_geo.vector.features import read_features
 from vexture_geo.vector.vectors import read_areas
 
@@ -34,7 +34,7 @@ def faces(kind, *rings):
 
 
 def made(*shapes):
-    return shapely.from_wkb(straightened(np.array(shapes, object)))
+    return shapely.from_wkb(straighten_curves(np.array(shapes, object)))
 
 
 CIRCLE = points(ARCS, (0, 0), (2, 2), (4, 0), (2, -2), (0, 0))
@@ -105,7 +105,7 @@ def test_damaged_curves_are_left_out_and_named():
     for _ in range(40):
         deep = parted(12, deep)
     many = pack("<BII", 1, 10, 2**31)
-    shapes = straightened(np.array([cut, even, deep, many, CAP, None, pack("<BI", 1, 8)], object))
+    shapes = straighten_curves(np.array([cut, even, deep, many, CAP, None, pack("<BI", 1, 8)], object))
     assert [place for place, shape in enumerate(shapes) if shape == BROKEN] == [0, 1, 2, 3, 6]
     assert shapely.from_wkb(shapes[4]).is_valid
     assert shapely.from_wkb(BROKEN, on_invalid="fix") is None

@@ -10,7 +10,7 @@ import shapely
 
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
-from vexture_geo.vector.feature_tables import Choice, chunks_of
+from vexture_geo.vector.feature_tables import FeatureQuery, chunks_of
 from vexture_geo.vector.features import read_features
 
 SQUARE, NOTCHED = (
@@ -52,7 +52,7 @@ def saved(place, geometry, about=None, name="geometry", **metadata):
 
 
 def shapes_of(place, batch=None):
-    chunks = list(chunks_of(place, Choice(), batch))
+    chunks = list(chunks_of(place, FeatureQuery(), batch))
     return shapely.from_wkb(np.concatenate([chunk.shapes for chunk in chunks]))
 
 

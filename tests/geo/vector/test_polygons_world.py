@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 import vexture
 from vexture.base.errors import SourceError, SourceWarning
-from vexture_geo.base.crs import frame_around, transformed
+from vexture_geo.base.crs import frame_around, transform_points
 from vexture_geo.base.extent import Frame
-from vexture_geo.base.longitudes import closed_over_poles, jumping, unwrapped
+from vexture_geo.base.longitudes import close_over_poles, jumping, unwrap_rings
 from vexture_geo.base.rings import rings_of
 from vexture_geo.readers import read_extent
 
@@ -27,13 +27,13 @@ def test_a_frame_decides_and_the_data_is_transformed_into_it(tmp_path):
     assert extent.frame == frame
     drawing = only(extent)
     corners = np.concatenate([ring.coords[:-1] for ring in (LAKE.exterior, LAKE.interiors[0], POND.exterior)])
-    expected = transformed(corners, UTM, "EPSG:4326")
+    expected = transform_points(corners, UTM, "EPSG:4326")
     found = np.concatenate(drawing.paths[0].contours)[:, 0] @ drawing.to_source[:, :2].T + drawing.to_source[:, 2]
     gaps = np.hypot(*(found[:, None] - expected).T).min(axis=1)
     assert gaps.max() < 1e-12 * 180
     texture = vexture.convert(drawing)
     ground = np.array([[588000.0, 4090500.0], [589000.0, 4091200.0], [592500.0, 4090300.0], [591500.0, 4090300.0]])
-    places = (transformed(ground, UTM, "EPSG:4326") - drawing.to_source[:, 2]) / drawing.to_source.diagonal()
+    places = (transform_points(ground, UTM, "EPSG:4326") - drawing.to_source[:, 2]) / drawing.to_source.diagonal()
     assert texture.contains(places).tolist() == [True, False, True, False]
 
 
@@ -52,7 +52,7 @@ def test_a_long_side_that_bends_in_the_frames_system_is_followed(tmp_path):
     drawing = only(read_extent(path, "europe.gpkg", frame=frame_around((2.5e6, 1.5e6, 7e6, 6e6), "EPSG:3035")))
     assert 20 < drawing.segments < 4000
     rim = shapely.get_coordinates(shapely.segmentize(box, 0.5))
-    exact = shapely.Polygon(transformed(rim, "EPSG:4326", "EPSG:3035"))
+    exact = shapely.Polygon(transform_points(rim, "EPSG:4326", "EPSG:3035"))
     square = shapely.box(*(drawing.to_source @ (0, 0, 1)), *(drawing.to_source @ (1, 1, 1)))
     gap = shapely.hausdorff_distance(land(drawing), shapely.intersection(exact, square), densify=0.01)
     assert gap < 1e-4 * 4.8e6
@@ -151,7 +151,7 @@ def test_polygons_cut_at_the_antimeridian_are_put_together(tmp_path):
 
 def test_a_frame_in_metres_may_lie_across_the_antimeridian(tmp_path):
     path = file(tmp_path, "fiji.gpkg", [shapely.Polygon(TAVEUNI)], "EPSG:4326")
-    corners = transformed(np.array(TAVEUNI), "EPSG:4326", "EPSG:3460")
+    corners = transform_points(np.array(TAVEUNI), "EPSG:4326", "EPSG:3460")
     (west, south), (east, north) = corners.min(axis=0), corners.max(axis=0)
     drawing = only(read_extent(path, "fiji.gpkg", frame=frame_around((west, south, east, north), "EPSG:3460")))
     assert same(drawing, shapely.Polygon(corners), 1e-3)
@@ -186,17 +186,17 @@ def test_a_map_of_the_world_is_no_ring_across_the_antimeridian(tmp_path):
 def test_sides_around_the_whole_world_keep_their_length(corners):
     shape = shapely.Polygon(corners)
     rings = rings_of(np.array([shape, shapely.reverse(shape)]), str)
-    for found in unwrapped(rings, 360.0).shapes:
+    for found in unwrap_rings(rings, 360.0).shapes:
         assert found.equals(shape)
     assert not jumping(rings, 360.0).any()
-    assert closed_over_poles(rings, 360.0)[1] == 0
+    assert close_over_poles(rings, 360.0)[1] == 0
 
 
 def test_a_ring_that_changes_the_side_of_the_antimeridian_on_it_lies_across_it():
     corners = [(170, 60), (180, 60), (-180, 60), (-170, 60), (-170, 70), (-180, 70), (180, 70), (170, 70)]
     stairs = [*corners[:2], (180, 61), (-180, 61), (-180, 62), (-170, 62), *corners[4:]]
     rings = rings_of(np.array([shapely.Polygon(corners), shapely.Polygon(stairs)]), str)
-    across, steps = unwrapped(rings, 360.0).shapes
+    across, steps = unwrap_rings(rings, 360.0).shapes
     assert across.equals(shapely.box(170, 60, 190, 70))
     assert steps.bounds == (170, 60, 190, 70)
     assert steps.is_valid
@@ -205,7 +205,7 @@ def test_a_ring_that_changes_the_side_of_the_antimeridian_on_it_lies_across_it()
 def test_a_coast_that_jumps_twice_beside_the_edge_of_a_map_keeps_its_pole():
     coast = [(180, -80), (-179, -79), (179, -78), *((lon, -70) for lon in range(170, -180, -10)), (-180, -80)]
     rings = rings_of(np.array([shapely.Polygon([(-180, -90), (180, -90), *coast])]), str)
-    (found,) = unwrapped(rings, 360.0).shapes
+    (found,) = unwrap_rings(rings, 360.0).shapes
     assert found.bounds == (-180, -90, 181, -70)
     assert found.is_valid
 
@@ -220,7 +220,7 @@ def test_a_ring_around_a_pole_is_refused_by_name(tmp_path):
     assert same(only(read_extent(path, "disc.gpkg")), disc)
     part = only(read_extent(path, "disc.gpkg", frame=frame_around((0, 80, 10, 85), "EPSG:4326")))
     assert land(part).bounds[1] == pytest.approx(
-        transformed(np.array([[0, 1e6]]), "EPSG:3413", "EPSG:4326")[0, 1], 1e-3
+        transform_points(np.array([[0, 1e6]]), "EPSG:3413", "EPSG:4326")[0, 1], 1e-3
     )
     with pytest.raises(SourceError, match="ring 1 goes around a pole"):
         read_extent(path, "disc.gpkg", frame=frame_around((-180, 70, 180, 90), "EPSG:4326"))

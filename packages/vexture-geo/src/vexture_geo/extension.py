@@ -18,18 +18,18 @@ Source: TypeAlias = str | os.PathLike[str] | bytes
 def unpack(source: Source, file_name: str) -> Source:
     """Return the source or, of a zip, what it holds; refuse formats of flood models that are not read."""
     from vexture_geo.base.foreign import refuse_foreign
-    from vexture_geo.vector.archives import unzipped
+    from vexture_geo.vector.archives import unzip
 
-    held = unzipped(source)
+    held = unzip(source)
     refuse_foreign(start_of(held), file_name)
     return held
 
 
 def pack(path: Path) -> bytes | None:
     """Pack a shapefile or FileGDB, which is several files, into one zip; return None for anything else."""
-    from vexture_geo.vector.archives import whole
+    from vexture_geo.vector.archives import pack_parts
 
-    return whole(path)
+    return pack_parts(path)
 
 
 def read_drawing(

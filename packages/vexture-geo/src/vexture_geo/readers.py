@@ -157,14 +157,14 @@ def _refuse(options: dict[str, str | float | None], kind: str) -> None:
             raise ParameterError(f"{option} {value!r} is for {kind}; leave it out")
 
 
-def read_first_step(source: Place | bytes, shown: str, snap: float | None) -> "Drawing":
+def read_first_step(source: Place | bytes, file_name: str, snap: float | None) -> "Drawing":
     """Read the wet areas at the first time; the file need not be georeferenced."""
     from vexture_geo.base.crs import UNPLACED, MissingReferenceError
 
     try:
-        extent = extent_of(source, shown, snap=snap)
+        extent = extent_of(source, file_name, snap=snap)
     except MissingReferenceError:
-        extent = extent_of(source, shown, crs=UNPLACED, snap=snap)
+        extent = extent_of(source, file_name, crs=UNPLACED, snap=snap)
     drawing, count = extent.steps[0].drawing, len(extent.steps)
     if count == 1:
         return drawing

@@ -43,8 +43,8 @@ def held(monkeypatch):
     """Conversions that wait for an event."""
     import vexture_geo.maps.notebook.map_widget as module
 
-    go, real = threading.Event(), module._sent
-    monkeypatch.setattr(module, "_sent", lambda made: go.wait(30) and real(made))
+    go, real = threading.Event(), module._encode
+    monkeypatch.setattr(module, "_encode", lambda made: go.wait(30) and real(made))
     yield go
     go.set()
 
@@ -129,7 +129,7 @@ def test_a_conversion_that_fails_says_so_in_the_page_and_in_python(monkeypatch):
 
     chart = shown(tolerance=0.0, max_seconds=5.0)
     assert chart.texture is not None
-    monkeypatch.setattr(module, "_sent", lambda made: {}["a name"])
+    monkeypatch.setattr(module, "_encode", lambda made: {}["a name"])
     failing = shown()
     with pytest.raises(KeyError, match="a name"):
         failing.texture  # noqa: B018  # raises
@@ -191,7 +191,7 @@ def test_a_map_that_is_converted_before_the_call_is_over_arrives(monkeypatch):
             super().__init__(*given)
             self._thread.join(0.5)
 
-    monkeypatch.setattr(module, "_sent", lambda _: pytest.fail("nothing is converted"))
+    monkeypatch.setattr(module, "_encode", lambda _: pytest.fail("nothing is converted"))
     monkeypatch.setattr(module, "Pending", Late)
     chart = shown()
     chart._pending._thread.join(10.0)

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import Final
 
 from vexture.base.errors import ParameterError, SourceError
-from vexture_geo.base.crs import UNPLACED, chosen_crs, like_degrees, shown_system, system, transformed_bounds
+from vexture_geo.base.crs import UNPLACED, choose_crs, format_system, like_degrees, system, transform_bounds
 from vexture_geo.base.extent import Bounds
 from vexture_geo.base.lengths import NO_UNIT, metres_in
 
@@ -38,21 +38,21 @@ def refuse_other_units(chosen: str, found: str | None, unit: str, box: Bounds, *
     `chosen` is the system that counts and, where that is one that the user gives, `found` the one that the file names.
     `unit` is that of the coordinates as the file writes it, and `box` are their bounds.
     """
-    shown = _shown(box)
+    shown = _format_box(box)
     if unit.lower() in RADIANS:
         raise SourceError(f"the coordinates {shown} are in {unit!r}; write them in degrees, or in metres of a plane")
     if system(chosen).is_geographic:
         if is_given and unit.lower() not in NO_UNIT and metres_in(unit) is not None:
             raise ParameterError(
-                f"`crs` {shown_system(chosen)} is in degrees, and the coordinates {shown} are in {unit!r}; name the "
+                f"`crs` {format_system(chosen)} is in degrees, and the coordinates {shown} are in {unit!r}; name the "
                 "system that they are in by `crs` EPSG:..."
             )
         return
     own = _degrees(found) if is_given else None
     if ("degree" in unit.lower() or own) and like_degrees(box):
-        remedy = f"{'leave it out or ' if own or is_given else ''}give `crs` {shown_system(own or DEGREES)}"
+        remedy = f"{'leave it out or ' if own or is_given else ''}give `crs` {format_system(own or DEGREES)}"
         raise (ParameterError if is_given else SourceError)(
-            f"{_named(chosen, is_given)} is not in degrees, and the coordinates {shown} are; {remedy}"
+            f"{_name_system(chosen, is_given)} is not in degrees, and the coordinates {shown} are; {remedy}"
         )
     refuse_degrees(chosen, box, is_given=is_given)
 
@@ -80,8 +80,8 @@ def refuse_degrees(chosen: str, box: Bounds, *, is_given: bool, near: float = 0.
     else:
         return
     raise (ParameterError if is_given else SourceError)(
-        f"the coordinates {_shown(box)} look like degrees, and {_named(chosen, is_given)} is not in degrees: {why}; "
-        f"give `crs` {DEGREES}" + (", or leave it out if the file names its own" if is_given else "")
+        f"the coordinates {_format_box(box)} look like degrees, and {_name_system(chosen, is_given)} is not in "
+        f"degrees: {why}; give `crs` {DEGREES}" + (", or leave it out if the file names its own" if is_given else "")
     )
 
 
@@ -106,7 +106,7 @@ def _area(crs: str) -> Bounds | None:
     if area is None:
         code = system(crs).to_epsg(min_confidence=LIKELY)
         area = None if code is None else system(f"EPSG:{code}").area_of_use
-    return None if area is None else transformed_bounds(area.bounds, DEGREES, crs)
+    return None if area is None else transform_bounds(area.bounds, DEGREES, crs)
 
 
 def _degrees(found: str | None) -> str | None:
@@ -115,12 +115,12 @@ def _degrees(found: str | None) -> str | None:
         is_geographic = found is not None and found != UNPLACED and system(found).is_geographic
     except ParameterError:  # which is what the user's system is given for
         return None
-    return chosen_crs(None, found) if is_geographic else None
+    return choose_crs(None, found) if is_geographic else None
 
 
-def _named(chosen: str, is_given: bool) -> str:
-    return f"{'`crs`' if is_given else 'its system'} {shown_system(chosen)}"
+def _name_system(chosen: str, is_given: bool) -> str:
+    return f"{'`crs`' if is_given else 'its system'} {format_system(chosen)}"
 
 
-def _shown(box: Bounds) -> str:
+def _format_box(box: Bounds) -> str:
     return ",".join(f"{value:.6g}" for value in box)

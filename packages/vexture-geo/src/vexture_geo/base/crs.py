@@ -25,7 +25,9 @@ __all__ = [
     "UNPLACED",
     "MissingReferenceError",
     "are_degrees",
-    "chosen_crs",
+    "choose_crs",
+    "format_bounds",
+    "format_system",
     "frame_around",
     "frame_of",
     "gis_packages",
@@ -33,11 +35,9 @@ __all__ = [
     "period",
     "refuse_metres",
     "same_system",
-    "shown_bounds",
-    "shown_system",
     "system",
-    "transformed",
-    "transformed_bounds",
+    "transform_bounds",
+    "transform_points",
 ]
 
 UNPLACED: Final = (
@@ -85,14 +85,14 @@ def gis_packages() -> Iterator[None]:
         raise DeviceError(f"geographic data needs the package {error.name}: pip install 'vexture[gis]'") from None
 
 
-def chosen_crs(given: str | None, found: str | None) -> str:
+def choose_crs(crs_option: str | None, found: str | None) -> str:
     """Reference system of coordinates: the one that the user gives, else the one that the file names.
 
     The result is ``EPSG:32610`` or the like if an authority knows the system, else WKT. An invalid text of the user
     raises `ParameterError`, one of the file `SourceError`.
     """
-    if given:
-        return _shortest(_text_of(given))
+    if crs_option:
+        return _shortest(_text_of(crs_option))
     if not found:
         raise MissingReferenceError("it names no reference system of its coordinates; give `crs` EPSG:...")
     refuse_files_of_system(found)
@@ -101,11 +101,11 @@ def chosen_crs(given: str | None, found: str | None) -> str:
         return _shortest(found)
 
 
-def _text_of(given: Any) -> str:
+def _text_of(value: Any) -> str:
     """Text of a system, of which the number in the list of EPSG, or an object of pyproj, will do."""
-    if isinstance(given, str):
-        return given
-    return f"EPSG:{given}" if isinstance(given, int) or not hasattr(given, "to_wkt") else str(given.to_wkt())
+    if isinstance(value, str):
+        return value
+    return f"EPSG:{value}" if isinstance(value, int) or not hasattr(value, "to_wkt") else str(value.to_wkt())
 
 
 @contextmanager
@@ -158,13 +158,13 @@ def period(crs: str) -> float | None:
     return round(2.0 * pi / found.axis_info[0].unit_conversion_factor, 9) if found.is_geographic else None
 
 
-def shown_bounds(bounds: Bounds, crs: str) -> str:
+def format_bounds(bounds: Bounds, crs: str) -> str:
     """Bounds for a message: ``4,52,4.12346,53 (EPSG:4326)``."""
     numbers = ",".join(f"{value:.0f}" if 1e5 <= abs(value) < 1e12 else f"{value:.6g}" for value in bounds)
-    return f"{numbers} ({shown_system(crs)})"
+    return f"{numbers} ({format_system(crs)})"
 
 
-def shown_system(crs: str) -> str:
+def format_system(crs: str) -> str:
     """Name of a system for a message."""
     return crs if len(crs) <= 40 else system(crs).name
 
@@ -185,11 +185,13 @@ def are_degrees(points: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
 
 
 def refuse_metres(
-    points: NDArray[np.float64], crs: str, what: str, error: type[Exception] = SourceError, *, name: str = "crs"
+    points: NDArray[np.float64], crs: str, subject: str, error: type[Exception] = SourceError, *, name: str = "crs"
 ) -> None:
     """Refuse coordinates that cannot be degrees in a geographic system; `name` is the parameter for another one."""
     if not are_degrees(points, crs).all():
-        raise error(f"{what} cannot be longitudes and latitudes; name the system that they are in by `{name}` EPSG:...")
+        raise error(
+            f"{subject} cannot be longitudes and latitudes; name the system that they are in by `{name}` EPSG:..."
+        )
 
 
 def like_degrees(bounds: Bounds) -> bool:
@@ -224,7 +226,7 @@ def frame_around(bounds: Bounds, crs: str) -> Frame:
     crs = _shortest(crs)
     west, south, east, north = map(float, bounds)
     turn = period(crs)
-    shown = shown_bounds((west, south, east, north), crs)
+    shown = format_bounds((west, south, east, north), crs)
     if not np.isfinite([west, south, east, north]).all():
         raise ParameterError(f"the bounds {shown} hold a number that is not finite; give west,south,east,north")
     refuse_metres(np.array([[west, south], [east, north]]), crs, f"the bounds {shown}", ParameterError)
@@ -260,7 +262,7 @@ def same_system(one: str, other: str) -> bool:
     return one == other or system(one).equals(system(other), ignore_axis_order=True)
 
 
-def transformed(points: NDArray[np.float64], start: str, end: str) -> NDArray[np.float64]:
+def transform_points(points: NDArray[np.float64], start: str, end: str) -> NDArray[np.float64]:
     """Points, (n, 2), of one system in another; infinite where they have no image."""
     if not len(points) or same_system(start, end):
         return points
@@ -273,7 +275,7 @@ def transformed(points: NDArray[np.float64], start: str, end: str) -> NDArray[np
     return np.stack(transformer.transform(unique.real, unique.imag), axis=1)[place]
 
 
-def transformed_bounds(bounds: Bounds, start: str, end: str) -> Bounds | None:
+def transform_bounds(bounds: Bounds, start: str, end: str) -> Bounds | None:
     """Bounds of a rectangle's image in another system; None where it has none.
 
     In a geographic system, east may be beyond half a turn.

@@ -7,7 +7,7 @@ from typing import Any, Final
 from vexture.base.content import SHAPEFILE
 from vexture.base.errors import SourceError, reason_of
 
-__all__ = ["HEADER", "damaged_netcdf", "missing_arcs", "refuse_cut"]
+__all__ = ["HEADER", "missing_arcs", "netcdf_error", "refuse_cut"]
 
 HEADER: Final = 100
 """Bytes at the start of a .shp and of a .shx, which say how long it is."""
@@ -68,14 +68,14 @@ def _numbers(arcs: Any) -> list[int]:
     return found
 
 
-def damaged_netcdf(error: Exception, place: str) -> SourceError:
+def netcdf_error(error: Exception, place: str) -> SourceError:
     """What to raise for what netCDF4, h5py or xarray raise about a file that they cannot read.
 
     The netCDF library uses errors of the system for sizes and types in a header that cannot be.
 
     Examples
     --------
-    >>> print(damaged_netcdf(OSError(7, "Argument list too long"), "a.nc"))
+    >>> print(netcdf_error(OSError(7, "Argument list too long"), "a.nc"))
     the NetCDF file is damaged (its header says what cannot be); write it again
     """
     if isinstance(error, OSError) and error.errno in (E2BIG, EINVAL):

@@ -11,7 +11,7 @@ import numpy as np
 from vexture.base.errors import SourceError, shorten_text
 from vexture_geo.base.lengths import metres_in
 
-__all__ = ["MOST_RANGES", "DepthRange", "has_flags", "ranges_of_flags", "shown_range", "wet_ranges"]
+__all__ = ["MOST_RANGES", "DepthRange", "format_range", "has_flags", "ranges_of_flags", "wet_ranges"]
 
 BOUNDS: Final = ("flag_bounds", "class_bounds")
 """Attributes that name the variable of the bounds of the classes."""
@@ -108,7 +108,7 @@ def _wrong(values: list[float], ranges: list[DepthRange | None], meanings: list[
     known = sorted(one for one in ranges if one is not None)
     for one, other in pairwise(known):
         if one.high > other.low + TOUCHING:
-            return f"{shown_range(one)} and {shown_range(other)} overlap"
+            return f"{format_range(one)} and {format_range(other)} overlap"
     return ""
 
 
@@ -123,12 +123,12 @@ def wet_ranges(ranges: Sequence[DepthRange], hmin: float) -> tuple[DepthRange, .
     return tuple(sorted(one for one in ranges if (one.low > 0.0 and one.high > hmin) or one.high == inf))
 
 
-def shown_range(one: DepthRange) -> str:
+def format_range(one: DepthRange) -> str:
     """A range in a message.
 
     Examples
     --------
-    >>> shown_range(DepthRange(0.5, 2.0)), shown_range(DepthRange(4.0, inf)), shown_range(DepthRange(-inf, 0.02))
+    >>> format_range(DepthRange(0.5, 2.0)), shown_range(DepthRange(4.0, inf)), shown_range(DepthRange(-inf, 0.02))
     ('0.5 to 2 m', 'over 4 m', 'below 0.02 m')
     """
     if one.high == inf:

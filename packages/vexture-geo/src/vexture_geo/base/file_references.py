@@ -58,7 +58,7 @@ def refuse_files_of_system(text: str) -> None:
     for named in texts:
         if PLACE.search(named.strip(" \"'@")):
             raise SourceError(
-                f"its reference system names {_shown(named)!r}, and no other file is read; write the file with a "
+                f"its reference system names {_format_text(named)!r}, and no other file is read; write the file with a "
                 "system that has a code, EPSG:..."
             )
 
@@ -102,7 +102,7 @@ def refuse_files_of_json(content: bytes) -> None:
 def refuse_link(link: str) -> NoReturn:
     """Raise a `SourceError` about GeoJSON whose reference system is somewhere else."""
     raise SourceError(
-        f"its crs is a link to {_shown(link)!r}, and nothing is fetched; name the system: "
+        f"its crs is a link to {_format_text(link)!r}, and nothing is fetched; name the system: "
         '{"type": "name", "properties": {"name": "EPSG:..."}}'
     )
 
@@ -117,5 +117,5 @@ def _all_texts(value: Any) -> Iterator[str]:
             left += one.values() if isinstance(one, dict) else one
 
 
-def _shown(text: str) -> str:
+def _format_text(text: str) -> str:
     return printable(shorten_text(" ".join(text.split()).strip(" \"'@"), SHOWN))

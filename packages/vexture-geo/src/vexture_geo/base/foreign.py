@@ -84,8 +84,8 @@ def refuse_foreign_dataset(dataset: Any) -> None:
         raise _foreign("a result of 3Di", "write the depth as GeoTIFF by threedidepth, or by the QGIS plug-in of 3Di")
 
 
-def _foreign(what: str, remedy: str) -> SourceError:
-    return SourceError(f"it is {what}, which is not read; {remedy}")
+def _foreign(description: str, remedy: str) -> SourceError:
+    return SourceError(f"it is {description}, which is not read; {remedy}")
 
 
 def _text(value: Any) -> str:

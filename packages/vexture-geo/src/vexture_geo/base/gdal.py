@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Final
 
 from vexture.base.content import ESRI_GRID, NETCDF, TIFF, start_of
 from vexture.base.errors import DeviceError, SourceError, printable, reason_of, shorten_text
-from vexture_geo.base.damage import damaged_netcdf
+from vexture_geo.base.damage import netcdf_error
 from vexture_geo.base.file_references import refuse_files_of_system
 from vexture_geo.base.hdf5 import refuse_links_of_netcdf
 from vexture_geo.base.quiet_output import quiet_output
@@ -21,7 +21,7 @@ from vexture_geo.base.quiet_output import quiet_output
 if TYPE_CHECKING:
     from rasterio import DatasetReader
 
-__all__ = ["opened_grib", "opened_raster", "plain_place", "raster_errors", "vector_formats"]
+__all__ = ["open_grib", "open_raster", "plain_place", "raster_errors", "vector_formats"]
 
 CACHE: Final = 128 * 2**20
 """Bytes of blocks that GDAL keeps, which by default takes a twentieth of the memory. A row of blocks of a raster of
@@ -95,7 +95,7 @@ def gdal(**options: str) -> Iterator[None]:
 
 
 @contextmanager
-def opened_raster(source: str | os.PathLike[str] | bytes, *, others: bool = False) -> Iterator["DatasetReader"]:
+def open_raster(source: str | os.PathLike[str] | bytes, *, others: bool = False) -> Iterator["DatasetReader"]:
     """Open a GeoTIFF or, with `others`, a grid of Esri (.asc, .flt) or of NetCDF, which leads to no other file.
 
     Raises a `SourceError` that names the link if it does, and what rasterio raises if it cannot be opened.
@@ -129,7 +129,7 @@ def opened_raster(source: str | os.PathLike[str] | bytes, *, others: bool = Fals
 
 
 @contextmanager
-def opened_grib(content: bytes) -> Iterator["DatasetReader"]:
+def open_grib(content: bytes) -> Iterator["DatasetReader"]:
     """Open the content of a file of GRIB, with units as they are written, and without an index of its messages.
 
     Raises what rasterio raises if it cannot be opened.
@@ -252,7 +252,7 @@ def _refuse_systems_of_netcdf(path: Path) -> None:
                     if any(word in name.lower() for word in SYSTEMS):
                         refuse_files_of_system(str(one.getncattr(name)))
     except (OSError, RuntimeError, ValueError, AttributeError) as error:  # netCDF4 raises all of them
-        raise damaged_netcdf(error, str(path)) from None
+        raise netcdf_error(error, str(path)) from None
 
 
 def _link(name: str, value: str) -> str:

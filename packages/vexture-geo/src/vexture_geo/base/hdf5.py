@@ -15,7 +15,7 @@ import numpy as np
 from vexture.base.content import NETCDF, start_of
 from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError, SourceError, printable, shorten_text
-from vexture_geo.base.damage import damaged_netcdf
+from vexture_geo.base.damage import netcdf_error
 
 if TYPE_CHECKING:
     from h5py.h5d import DatasetID
@@ -53,7 +53,7 @@ def refuse_links_of_netcdf(path: str | os.PathLike[str]) -> None:
     except (SourceError, LimitError):
         raise
     except Exception as error:  # h5py raises any type of exception for a damaged file
-        raise damaged_netcdf(error, str(path)) from None
+        raise netcdf_error(error, str(path)) from None
 
 
 def _look_at_all(root: "GroupID") -> None:
@@ -68,14 +68,14 @@ def _look_at_all(root: "GroupID") -> None:
         if address in seen:
             continue
         seen.add(address)
-        left += [(each, f"{name} (referred to)") for each in _referred(one, name)]
+        left += [(each, f"{name} (referred to)") for each in _referenced_objects(one, name)]
         if isinstance(one, h5d.DatasetID):
             _refuse_elsewhere(one, name)
         elif isinstance(one, h5g.GroupID):
             left += _members(one, name)
 
 
-def _members(group: "GroupID", of: str) -> list[tuple[Any, str]]:
+def _members(group: "GroupID", parent: str) -> list[tuple[Any, str]]:
     """The objects of a group, of which none is opened through a link that leads out."""
     from h5py import h5l, h5o
 
@@ -83,14 +83,14 @@ def _members(group: "GroupID", of: str) -> list[tuple[Any, str]]:
     group.links.iterate(names.append)
     found = []
     for raw in names:
-        name = f"{of}/{raw.decode(errors='replace')}".removeprefix("/")
+        name = f"{parent}/{raw.decode(errors='replace')}".removeprefix("/")
         kind = group.links.get_info(raw).type
         if kind == h5l.TYPE_HARD:
             found.append((h5o.open(group, raw), name))
         elif kind == h5l.TYPE_EXTERNAL:
             _refuse(name, "is", group.links.get_val(raw)[0])
         elif kind != h5l.TYPE_SOFT:  # which is another name in this file
-            raise SourceError(f"{_shown(name)!r} is a link of an unknown kind, {kind}; write the file without it")
+            raise SourceError(f"{_format_text(name)!r} is a link of an unknown kind, {kind}; write the file without it")
     return found
 
 
@@ -108,7 +108,7 @@ def _refuse_elsewhere(dataset: "DatasetID", name: str) -> None:
     _refuse_references(dataset.get_type(), name)
 
 
-def _referred(one: Any, name: str) -> Iterator[Any]:
+def _referenced_objects(one: Any, name: str) -> Iterator[Any]:
     """Objects that the attributes of an object refer to, as those of a variable do to its dimensions."""
     import h5py
     from h5py import h5a, h5r
@@ -144,17 +144,17 @@ def _refuse_references(kind: "TypeID", name: str) -> None:
             left.append(kind.get_super())
         elif what == h5t.REFERENCE and not any(kind.equal(each) for each in inside):
             raise SourceError(
-                f"{_shown(name)!r} has references that can lead to other files, and no other file is read; "
+                f"{_format_text(name)!r} has references that can lead to other files, and no other file is read; "
                 "write the file without them"
             )
 
 
-def _refuse(name: str, how: str, link: str | bytes) -> None:
+def _refuse(name: str, relation: str, link: str | bytes) -> None:
     raise SourceError(
-        f"{_shown(name)!r} {how} in another file, {_shown(os.fsdecode(link))!r}, and no other file is read; write the "
-        "values into this one, for instance by xarray's load() and to_netcdf()"
+        f"{_format_text(name)!r} {relation} in another file, {_format_text(os.fsdecode(link))!r}, and no other file is "
+        "read; write the values into this one, for instance by xarray's load() and to_netcdf()"
     )
 
 
-def _shown(text: str) -> str:
+def _format_text(text: str) -> str:
     return printable(shorten_text(text, SHOWN))

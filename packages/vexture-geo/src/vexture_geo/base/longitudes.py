@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
 from vexture_geo.base.rings import Rings, rings_of
-from vexture_geo.base.validity import made_valid
+from vexture_geo.base.validity import make_valid
 
-__all__ = ["FULL_TURN", "closed_over_poles", "jumping", "narrower", "note_short_ways", "unwrapped"]
+__all__ = ["FULL_TURN", "close_over_poles", "jumping", "narrower", "note_short_ways", "unwrap_rings"]
 
 FULL_TURN: Final = 1.0 - 1e-9
 """Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
@@ -78,7 +78,7 @@ def _continuous(points: NDArray[np.float64], turns: NDArray[np.float64], turn: f
     return points - np.stack([turn * before, np.zeros(len(points))], axis=1)
 
 
-def unwrapped(rings: Rings, turn: float) -> Rings:
+def unwrap_rings(rings: Rings, turn: float) -> Rings:
     """Rings of longitudes without jumps: they exceed half a turn where they cross the antimeridian.
 
     A side of more than half a turn is read as one that goes the other way around the world, but one of a whole turn
@@ -98,7 +98,7 @@ def unwrapped(rings: Rings, turn: float) -> Rings:
     lows, highs = boxes[:, 0, 0] + shift, boxes[:, 1, 0] + shift
     if highs.max() - lows.min() >= min(turn / 2, boxes[:, 1, 0].max() - boxes[:, 0, 0].min()):
         return rings
-    return rings.shifted(shift[rings.polygon])
+    return rings.shift_east(shift[rings.polygon])
 
 
 def note_short_ways(steps: NDArray[np.float64], turn: float, notes: Notes) -> None:
@@ -154,7 +154,7 @@ def _without_jumps(rings: Rings, jumps: _Jumps, turn: float) -> Rings:
     """Rings without the jumps of their sides."""
     pole = jumps.net != 0.0
     if pole.any():
-        where = rings.where(int(rings.starts[int(pole.argmax())]))
+        where = rings.ring_name(int(rings.starts[int(pole.argmax())]))
         raise SourceError(
             f"{where} goes around a pole, where longitudes have no inside; cut it along the antimeridian or give the "
             "data in a polar reference system"
@@ -165,10 +165,10 @@ def _without_jumps(rings: Rings, jumps: _Jumps, turn: float) -> Rings:
     unwound = replace(rings, points=points)
     middle = (np.minimum.reduceat(points[:, 0], rings.starts) + np.maximum.reduceat(points[:, 0], rings.starts)) / 2
     own = middle[rings.outer][rings.polygon]
-    return unwound.shifted(turn * np.rint((own - middle) / turn))
+    return unwound.shift_east(turn * np.rint((own - middle) / turn))
 
 
-def closed_over_poles(rings: Rings, turn: float) -> tuple[Rings, int]:
+def close_over_poles(rings: Rings, turn: float) -> tuple[Rings, int]:
     """Rings of which none goes around a pole, and how many polygons had one; they come last.
 
     The area within a ring around a pole, in longitudes of period `turn`, is all that lies between it and that pole. A
@@ -179,7 +179,7 @@ def closed_over_poles(rings: Rings, turn: float) -> tuple[Rings, int]:
     --------
     >>> import shapely
     >>> ice = shapely.Polygon([(longitude, -70.0) for longitude in range(-170, 180, 20)])
-    >>> found, count = closed_over_poles(rings_of(np.array([ice]), str), 360.0)
+    >>> found, count = close_over_poles(rings_of(np.array([ice]), str), 360.0)
     >>> count, float(shapely.area(found.shapes)[0]), found.box
     (1, 7200.0, (-180.0, -90.0, 180.0, -70.0))
     """
@@ -191,17 +191,17 @@ def closed_over_poles(rings: Rings, turn: float) -> tuple[Rings, int]:
     if not polar.any():
         return rings, 0
     places = np.flatnonzero(polar)
-    made = np.array([_closed(rings, int(place), jumps.turns, turn) for place in places], object)
+    made = np.array([_close_polygon(rings, int(place), jumps.turns, turn) for place in places], object)
     import shapely
 
     parts, owner = shapely.get_parts(made, return_index=True)
     whole = places[owner]
     feature = None if rings.feature is None else rings.feature[whole]
     closed = rings_of(parts, lambda index: rings.place(int(whole[index])), feature)
-    return rings.taken(np.flatnonzero(~polar)).joined(closed), len(places)
+    return rings.take(np.flatnonzero(~polar)).concatenate(closed), len(places)
 
 
-def _closed(rings: Rings, polygon: int, turns: NDArray[np.float64], turn: float) -> Any:
+def _close_polygon(rings: Rings, polygon: int, turns: NDArray[np.float64], turn: float) -> Any:
     """A polygon with its rings closed."""
     import shapely
 
@@ -209,7 +209,7 @@ def _closed(rings: Rings, polygon: int, turns: NDArray[np.float64], turn: float)
     for ring in np.flatnonzero(rings.polygon == polygon):
         here = slice(rings.starts[ring], rings.ends[ring])
         area = shapely.Polygon(_over_pole(rings.points[here], turns[here], turn))
-        areas.append(area if area.is_valid else made_valid(np.array([area]))[0])
+        areas.append(area if area.is_valid else make_valid(np.array([area]))[0])
     return reduce(shapely.symmetric_difference, areas)
 
 

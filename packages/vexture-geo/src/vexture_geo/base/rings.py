@@ -13,19 +13,19 @@ from vexture.base.errors import SourceError, reason_of
 from vexture.base.notes import Notes
 from vexture.base.tolerance import ROUND
 from vexture_geo.base.extent import LARGEST, Bounds
-from vexture_geo.base.snap import snapped
-from vexture_geo.base.validity import is_heavy, made_valid, parted
+from vexture_geo.base.snap import snap_borders
+from vexture_geo.base.validity import is_heavy, make_valid, split_heavy
 
 __all__ = [
     "Rings",
-    "clipped",
+    "clip_polygons",
     "cut",
-    "moved",
-    "oriented",
+    "map_rings",
+    "orient_rings",
     "refuse_far",
-    "repaired",
+    "repair_rings",
     "rings_of",
-    "shared",
+    "snap_rings",
     "within",
 ]
 
@@ -95,7 +95,7 @@ class Rings:
         (west, south), (east, north) = self.boxes[:, 0].min(axis=0), self.boxes[:, 1].max(axis=0)
         return (float(west), float(south), float(east), float(north))
 
-    def where(self, point: int) -> str:
+    def ring_name(self, point: int) -> str:
         """Name of the ring of a point, for messages."""
         ring = int(np.searchsorted(self.ends, point, side="right"))
         polygon = int(self.polygon[ring])
@@ -103,7 +103,7 @@ class Rings:
         place = self.place(polygon)
         return f"{place}, {number}" if place else number
 
-    def taken(self, polygons: NDArray[np.intp]) -> "Rings":
+    def take(self, polygons: NDArray[np.intp]) -> "Rings":
         """Some of the polygons, by their indices."""
         counts = np.diff(np.append(self.outer, len(self.ends)))[polygons]
         rings = _runs(self.outer[polygons], counts)
@@ -113,7 +113,7 @@ class Rings:
         feature = None if self.feature is None else self.feature[polygons]
         return Rings(points, np.cumsum(lengths), owner, lambda index: self.place(int(polygons[index])), feature)
 
-    def joined(self, other: "Rings") -> "Rings":
+    def concatenate(self, other: "Rings") -> "Rings":
         """These polygons and then the others."""
         own = len(self.outer)
         return Rings(
@@ -124,7 +124,7 @@ class Rings:
             None if self.feature is None or other.feature is None else np.append(self.feature, other.feature),
         )
 
-    def shifted(self, shift: NDArray[np.float64]) -> "Rings":
+    def shift_east(self, shift: NDArray[np.float64]) -> "Rings":
         """Rings moved along x, each by its own distance, (r,)."""
         points = self.points.copy()
         points[:, 0] += np.repeat(shift, self.ends - self.starts)
@@ -170,10 +170,10 @@ def refuse_far(rings: Rings, remedy: str) -> None:
     if not near.all():
         point = int(near.argmin())
         x, y = rings.points[point]
-        raise SourceError(f"{rings.where(point)}: a point is at {x:g},{y:g}; the limit is {LARGEST:g}; {remedy}")
+        raise SourceError(f"{rings.ring_name(point)}: a point is at {x:g},{y:g}; the limit is {LARGEST:g}; {remedy}")
 
 
-def repaired(rings: Rings, notes: Notes) -> Rings:
+def repair_rings(rings: Rings, notes: Notes) -> Rings:
     """Valid polygons: shapely repairs those whose rings cross or leave their outer ring. Heavy ones come in parts.
 
     Polygons that enclose no area are left out, with a note.
@@ -190,8 +190,8 @@ def repaired(rings: Rings, notes: Notes) -> Rings:
     for index in broken:
         _refuse_tangle(shapes[index], rings.place(int(index)))
         try:
-            whole = made_valid(shapes[index : index + 1])[0]
-            made.append(shapely.geometrycollections(parted(whole)))
+            whole = make_valid(shapes[index : index + 1])[0]
+            made.append(shapely.geometrycollections(split_heavy(whole)))
         except shapely.errors.GEOSException as error:
             place = rings.place(int(index)) or "its polygon"
             raise SourceError(f"{place} cannot be repaired ({reason_of(error)}); correct its rings") from None
@@ -200,7 +200,7 @@ def repaired(rings: Rings, notes: Notes) -> Rings:
         notes.left_out("polygon that encloses nothing")
     feature = None if rings.feature is None else rings.feature[broken[owner]]
     mended = rings_of(pieces, lambda index: rings.place(int(broken[owner[index]])), feature)
-    return rings.taken(np.flatnonzero(valid)).joined(mended)
+    return rings.take(np.flatnonzero(valid)).concatenate(mended)
 
 
 def _refuse_tangle(shape: Any, place: str) -> None:
@@ -241,14 +241,14 @@ def within(rings: Rings, box: Bounds, turn: float | None) -> Rings:
         if inside.all() and found is None:
             found = rings
         elif inside.any() or found is None:
-            part = rings.taken(np.flatnonzero(inside))
-            part = part.shifted(np.full(len(part.ends), shift))
-            found = part if found is None else found.joined(part)
+            part = rings.take(np.flatnonzero(inside))
+            part = part.shift_east(np.full(len(part.ends), shift))
+            found = part if found is None else found.concatenate(part)
     assert found is not None
     return found
 
 
-def clipped(shapes: NDArray[Any], box: Bounds) -> NDArray[Any]:
+def clip_polygons(shapes: NDArray[Any], box: Bounds) -> NDArray[Any]:
     """Parts of polygons in a box; those that the fast way fails at, as it does at some corners, by the slow one."""
     import shapely
 
@@ -258,7 +258,7 @@ def clipped(shapes: NDArray[Any], box: Bounds) -> NDArray[Any]:
         if len(shapes) == 1:
             return np.asarray(shapely.intersection(shapely.make_valid(shapes), shapely.box(*box)))
         middle = len(shapes) // 2
-        return np.concatenate([clipped(shapes[:middle], box), clipped(shapes[middle:], box)])
+        return np.concatenate([clip_polygons(shapes[:middle], box), clip_polygons(shapes[middle:], box)])
 
 
 def cut(rings: Rings, box: Bounds) -> Rings:
@@ -267,14 +267,14 @@ def cut(rings: Rings, box: Bounds) -> Rings:
     if not beyond.any():
         return rings
     leaving = np.flatnonzero(beyond)
-    pieces, owner = _polygons(clipped(rings.taken(leaving).shapes, box))
+    pieces, owner = _polygons(clip_polygons(rings.take(leaving).shapes, box))
     feature = None if rings.feature is None else rings.feature[leaving[owner]]
-    return rings.taken(np.flatnonzero(~beyond)).joined(
+    return rings.take(np.flatnonzero(~beyond)).concatenate(
         rings_of(pieces, lambda index: rings.place(int(leaving[owner[index]])), feature)
     )
 
 
-def moved(
+def map_rings(
     rings: Rings,
     mapping: Callable[[NDArray[np.float64]], NDArray[np.float64]],
     box: Bounds,
@@ -304,7 +304,7 @@ def moved(
     return replace(rings, points=image, ends=ends)
 
 
-def oriented(rings: Rings) -> Rings:
+def orient_rings(rings: Rings) -> Rings:
     """Rings with outer ones counter-clockwise and holes clockwise, so that winding numbers count the polygons."""
     if not len(rings.ends):
         return rings
@@ -320,9 +320,9 @@ def oriented(rings: Rings) -> Rings:
     return replace(rings, points=rings.points[index])
 
 
-def shared(rings: Rings, size: float, snap: float | None, notes: Notes, **told: Any) -> Rings:
-    """Polygons whose borders are identical where they differ by `snap`; see `snapped`."""
-    points, ends = snapped(rings.points, rings.ends, size, snap, notes, **told)
+def snap_rings(rings: Rings, size: float, snap: float | None, notes: Notes, **options: Any) -> Rings:
+    """Polygons whose borders are identical where they differ by `snap`; see `snap_borders`."""
+    points, ends = snap_borders(rings.points, rings.ends, size, snap, notes, **options)
     full = np.diff(ends, prepend=0) > 0
     whole = full[rings.outer][rings.polygon]  # a polygon without an outer ring has no holes either
     if whole.all() and full.all():

@@ -14,7 +14,7 @@ from vexture.base.deadline import check_time
 from vexture.base.errors import ParameterError, format_count
 from vexture.base.notes import Notes
 
-__all__ = ["DEFAULT_SNAP", "MOST_SNAP", "snapped"]
+__all__ = ["DEFAULT_SNAP", "MOST_SNAP", "snap_borders"]
 
 DEFAULT_SNAP: Final = 3e-6
 """Parts of the drawing's larger side: corners that are each off by 1e-6 come together. `UNSEEN` is seven times this."""
@@ -47,11 +47,11 @@ class _Corners(NamedTuple):
     ids: Numbers  # (n,): the corner at each place of the rings, one ring after another
     ring: Numbers  # (n,): the ring of each place
 
-    def owners(self, of: Numbers, count: int) -> Numbers:
+    def owners(self, thing: Numbers, count: int) -> Numbers:
         """The only ring of each of some things, (count,), where place k is at thing `of[k]`; -1 of several rings."""
         least, most = np.full(count, len(self.ring)), np.full(count, -1)
-        np.minimum.at(least, of, self.ring)
-        np.maximum.at(most, of, self.ring)
+        np.minimum.at(least, thing, self.ring)
+        np.maximum.at(most, thing, self.ring)
         return np.where(least == most, least, -1)
 
     def following(self) -> Numbers:
@@ -66,8 +66,15 @@ class _TooDenseError(Exception):
     """More corners lie within the distance than snapping is meant for."""
 
 
-def snapped(
-    points: Points, ends: Numbers, size: float, snap: float | None, notes: Notes, *, unit: str = "", told: float = NOISE
+def snap_borders(
+    points: Points,
+    ends: Numbers,
+    size: float,
+    snap: float | None,
+    notes: Notes,
+    *,
+    unit: str = "",
+    noticeable: float = NOISE,
 ) -> tuple[Points, Numbers]:
     """Rings whose corners and sides within a distance of those of other rings are identical with them.
 
@@ -82,7 +89,8 @@ def snapped(
     snap : float or None
         The distance, in parts of that side: 0 does nothing, None is the default, 3e-6.
     notes : Notes
-        Gets a remark if something moves by more than `told`, in parts of that side; by default, than rounding does.
+        Gets a remark if something moves by more than `noticeable`, in parts of that side; by default, than
+        rounding does.
     unit : str
         Of the points, for the remark.
 
@@ -100,7 +108,7 @@ def snapped(
     Examples
     --------
     >>> left, right = [(0, 0), (1, 0), (1, 1), (0, 1)], [(1.001, 0), (2, 0), (2, 2), (1.001, 2)]
-    >>> points, ends = snapped(np.array([*left, *right], float), np.array([4, 8]), 2.0, 0.001, Notes())
+    >>> points, ends = snap_borders(np.array([*left, *right], float), np.array([4, 8]), 2.0, 0.001, Notes())
     >>> points[ends[0] :].tolist()
     [[1.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.001, 2.0], [1.0, 1.0]]
     """
@@ -110,20 +118,20 @@ def snapped(
     if distance == 0.0 or len(ends) < 2:
         return points, ends
     try:
-        corners, moved, farthest = _snapped(points, ends, distance * size, NOISE * size)
+        corners, moved, farthest = _snap_corners(points, ends, distance * size, NOISE * size)
     except _TooDenseError:
         notes.remark(f"its corners are too near one another to snap borders within {distance:g}; give a smaller `snap`")
         return points, ends
     if farthest <= NOISE * size:
         return points, ends
-    if farthest > told * size:
+    if farthest > noticeable * size:
         part = f"{farthest / size:.1g} of the drawing's size"
         by = f"{farthest:.2g} {unit} ({part})" if unit else part
         notes.remark(f"{format_count(moved, 'corner')} snapped to borders beside them, by up to {by}")
     return corners.points[corners.ids], np.searchsorted(corners.ring, np.arange(len(ends)), side="right")
 
 
-def _snapped(points: Points, ends: Numbers, distance: float, noise: float) -> tuple[_Corners, int, float]:
+def _snap_corners(points: Points, ends: Numbers, distance: float, noise: float) -> tuple[_Corners, int, float]:
     """New corners; how many moved, or were added to sides, by more than `noise`; how far at most."""
     places = np.ascontiguousarray(points + 0.0).view(np.complex128).ravel()  # no -0.0: equal corners have equal bits
     unique, ids = np.unique(places, return_inverse=True)

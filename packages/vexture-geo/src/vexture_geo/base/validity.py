@@ -5,7 +5,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["is_heavy", "made_valid", "parted", "united"]
+__all__ = ["is_heavy", "make_valid", "split_heavy", "unite_polygons"]
 
 MANY_HOLES: Final = 500
 """Holes above which GEOS's own repair is not used: by their square, it takes minutes for the lakes of a continent."""
@@ -25,7 +25,7 @@ def is_heavy(shapes: NDArray[Any]) -> NDArray[np.bool_]:
     return heavy
 
 
-def parted(shape: Any) -> list[Any]:
+def split_heavy(shape: Any) -> list[Any]:
     """Parts of a valid geometry's polygons, side by side: those that are heavy are halved until none is."""
     import shapely
 
@@ -42,11 +42,11 @@ def parted(shape: Any) -> list[Any]:
         else:
             halves = [(west, south, east, y), (west, y, east, north)]
         for half in halves:
-            waiting.extend(_clipped(part, half))
+            waiting.extend(_clip_polygon(part, half))
     return done
 
 
-def _clipped(shape: Any, box: tuple[float, float, float, float]) -> NDArray[Any]:
+def _clip_polygon(shape: Any, box: tuple[float, float, float, float]) -> NDArray[Any]:
     """Polygons of a valid one in a box; holes within it are not cut, but given to the part in which they lie.
 
     GEOS looks for that part at each corner of each, which takes ten times as long.
@@ -68,7 +68,7 @@ def _clipped(shape: Any, box: tuple[float, float, float, float]) -> NDArray[Any]
     return np.asarray(parts)
 
 
-def made_valid(shapes: NDArray[Any]) -> NDArray[Any]:
+def make_valid(shapes: NDArray[Any]) -> NDArray[Any]:
     """Valid geometries with the area of polygons: that of their outer rings without that of their holes.
 
     What is valid already comes back with the same area. Raises a `shapely.errors.GEOSException` for what cannot be
@@ -78,7 +78,7 @@ def made_valid(shapes: NDArray[Any]) -> NDArray[Any]:
     --------
     >>> import shapely
     >>> bow = shapely.Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])
-    >>> found = made_valid(np.array([bow]))[0]
+    >>> found = make_valid(np.array([bow]))[0]
     >>> found.is_valid, round(found.area, 9)
     (True, 2.0)
     """
@@ -92,14 +92,14 @@ def made_valid(shapes: NDArray[Any]) -> NDArray[Any]:
     return made
 
 
-def united(shapes: NDArray[Any]) -> Any:
+def unite_polygons(shapes: NDArray[Any]) -> Any:
     """The union of polygons, also of those that clipping has left with a corner on a side."""
     import shapely
 
     try:
         return shapely.union_all(shapes)
     except shapely.errors.GEOSException:
-        return shapely.union_all(made_valid(np.asarray(shapes, object)))
+        return shapely.union_all(make_valid(np.asarray(shapes, object)))
 
 
 def _by_rings(shape: Any) -> Any:

@@ -121,22 +121,22 @@ def flood(
         refuse_stream(source, "the extent")
         many = (os.cpu_count() or 1) if workers is None else workers
         asked = FloodOptions(source, bounds=box, depths=classes, workers=many, **parameters)
-        from vexture_geo.flood.server import Made, Serving, export, serve
+        from vexture_geo.flood.server import ReadyFlood, ServerOptions, export, serve
 
         if not serving:
-            made, sizes = export(asked, output, filmed, print_message, _tracked)
+            made, sizes = export(asked, output, filmed, print_message, _track_frames)
             for path, written in sizes.items():
-                echo(f"{path}: {made.described}, {written} bytes")
+                echo(f"{path}: {made.summary}, {written} bytes")
             return
 
-        def show(where: str, made: Made) -> None:
-            echo(f"vexture: {where} shows {made.described}; Ctrl-C ends it")
+        def show(address: str, flood: ReadyFlood) -> None:
+            echo(f"vexture: {address} shows {flood.summary}; Ctrl-C ends it")
 
         if follow is not None:
             from vexture_geo.depth.appended_steps import share_files
 
             share_files()
-        serve(asked, Serving(host, port, token_file, follow is not None, keep), say=print_message, show=show)
+        serve(asked, ServerOptions(host, port, token_file, follow is not None, keep), report=print_message, show=show)
 
 
 def _video(path: Path | None, size: str | None, **given: Any) -> VideoOptions | None:
@@ -150,7 +150,7 @@ def _video(path: Path | None, size: str | None, **given: Any) -> VideoOptions | 
     return VideoOptions(path, **chosen)
 
 
-def _tracked(numbers: Sequence[int]) -> Iterator[int]:
+def _track_frames(numbers: Sequence[int]) -> Iterator[int]:
     """Go through the frames of a video; a terminal shows how far it is."""
     from rich.console import Console
     from rich.progress import Progress

@@ -84,7 +84,7 @@ def map(
         check_targets(targets, sources)
         names = ", ".join(str(source) for source in sources)
         given = (sources, [read_stream(source) for source in sources], output, symbol, table, options)
-        files, facts, notes = apart(_made, *given, name=names, seconds=options["max_seconds"])
+        files, facts, notes = apart(_make_files, *given, name=names, seconds=options["max_seconds"])
         write_together(files)
         if as_json:
             import json
@@ -97,7 +97,7 @@ def map(
         echo(f"{shown}: {format_count(facts['features'], 'feature')}, {size} bytes, {perf_counter() - start:.1f} s")
 
 
-def _made(
+def _make_files(
     sources: tuple[Path, ...],
     contents: list[bytes | None],
     output: Path,

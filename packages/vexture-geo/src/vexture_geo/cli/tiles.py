@@ -15,7 +15,7 @@ from vexture.cli.options import PATH, refuse_stream
 from vexture_geo.cli.colour_options import colour_options, columns_of, refuse_idle_colours, scale_of
 
 if TYPE_CHECKING:
-    from vexture_geo.tiles.build import Told
+    from vexture_geo.tiles.build import Report
     from vexture_geo.tiles.options import TileOptions
 
 __all__ = ["tiles"]
@@ -57,7 +57,7 @@ def tiles(source: Path, output: Path, **options: Any) -> None:
     where it was when the same command runs again.
     """
     with one_line():
-        from vexture_geo.tiles.build import make_tiles, unfinished
+        from vexture_geo.tiles.build import describe_unfinished, make_tiles
 
         quiet = options.pop("quiet")
         refuse_stream(source, "source")
@@ -66,7 +66,7 @@ def tiles(source: Path, output: Path, **options: Any) -> None:
             with ExitStack() as opened:
                 made = make_tiles(source, output, asked, _progress(opened, quiet))
         except KeyboardInterrupt:
-            print_message(f"interrupted; {unfinished(output)}")
+            print_message(f"interrupted; {describe_unfinished(output)}")
             sys.exit(INTERRUPTED)
         if not quiet:
             say_notes(source, made.notes)
@@ -76,7 +76,7 @@ def tiles(source: Path, output: Path, **options: Any) -> None:
 
 def _asked(options: dict[str, Any]) -> "TileOptions":
     """What the options ask for."""
-    from vexture_geo.tiles.attributes import Look
+    from vexture_geo.tiles.attributes import TileStyle
     from vexture_geo.tiles.options import TileOptions
 
     own = ("color", "scale", "classes", "palette", "no_data", "fill", "columns", "order", "table")
@@ -84,13 +84,13 @@ def _asked(options: dict[str, Any]) -> "TileOptions":
     if given["color"] is None:
         refuse_idle_colours(given)
     scale, columns = scale_of(given["color"], given), columns_of(given["columns"])
-    look = Look(scale, given["fill"], columns, given["order"], given["table"])
+    look = TileStyle(scale, given["fill"], columns, given["order"], given["table"])
     processes = options.pop("processes")
     processes = os.cpu_count() or 1 if processes is None else processes
     return TileOptions(look=look, processes=processes, **options)
 
 
-def _progress(opened: ExitStack, quiet: bool) -> "Told":
+def _progress(opened: ExitStack, quiet: bool) -> "Report":
     """What hears how far the work is; a terminal shows it."""
     if quiet or not sys.stderr.isatty():
         return lambda *_: None

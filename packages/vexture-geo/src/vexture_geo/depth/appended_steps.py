@@ -19,33 +19,33 @@ from vexture_geo.depth.depths import DepthsInFrame, depths_in_frame
 from vexture_geo.depth.partitions import partitions_beside
 from vexture_geo.depth.series import Reading
 
-__all__ = ["Change", "Known", "Run", "files_of", "growing", "share_files", "whole_run"]
+__all__ = ["GrowingFile", "KnownStep", "StepChange", "files_of", "open_growing", "share_files", "whole_run"]
 
 
-class Known(NamedTuple):
+class KnownStep(NamedTuple):
     """What is remembered of a step: its time, and a digest of its values."""
 
     time: datetime | None
     digest: str
 
 
-class Change(NamedTuple):
+class StepChange(NamedTuple):
     """A step that is new or has changed; `bed` is the bed at its time over the frame, if the file has it."""
 
     number: int  # from 0
-    known: Known
+    known: KnownStep
     step: Step
     bed: NDArray[np.float32] | None
 
 
-class Run:
+class GrowingFile:
     """An open file that grows.
 
     `known` are the steps that are there still: all that were known, or none if the run has started over, with fewer
     steps or other times.
     """
 
-    def __init__(self, placed: DepthsInFrame, known: Sequence[Known], rewritten: bool) -> None:
+    def __init__(self, placed: DepthsInFrame, known: Sequence[KnownStep], rewritten: bool) -> None:
         self._placed, self._rewritten = placed, rewritten
         times = tuple(step.time for step in known)
         if any(times) and not any(placed.times):
@@ -54,7 +54,7 @@ class Run:
         self.known = () if self.started_over else tuple(known)
         self.times = placed.times
 
-    def changes(self) -> Iterator[Change]:
+    def changes(self) -> Iterator[StepChange]:
         """Steps that have changed and those that are new, in order.
 
         The last steps count only when they hold a number: a model first writes the time of a step, then its values.
@@ -70,9 +70,9 @@ class Run:
                 empty.append(number)
                 continue
             for before in empty:
-                yield self._made(before, self._placed.values(before))
+                yield self._make_change(before, self._placed.values(before))
             empty.clear()
-            yield self._made(number, reading)
+            yield self._make_change(number, reading)
 
     def _suspects(self) -> range:
         """Known steps that may have changed.
@@ -85,19 +85,19 @@ class Run:
             return range(0)
         return range(old)
 
-    def _change(self, number: int) -> Change | None:
+    def _change(self, number: int) -> StepChange | None:
         """A known step, if its values are others."""
         reading = self._placed.values(number)
         if _digest(reading) == self.known[number].digest:
             return None
         if not np.isfinite(reading.depth).any():
             raise SourceError(f"step {number + 1} holds no number any more")  # for the moment: it is written again
-        return self._made(number, reading)
+        return self._make_change(number, reading)
 
-    def _made(self, number: int, reading: Reading) -> Change:
-        known = Known(self.times[number], _digest(reading))
+    def _make_change(self, number: int, reading: Reading) -> StepChange:
+        known = KnownStep(self.times[number], _digest(reading))
         ground = None if reading.bed is None else self._placed.heights(reading.bed)
-        return Change(number, known, self._placed.step(number, reading), ground)
+        return StepChange(number, known, self._placed.step(number, reading), ground)
 
 
 def share_files() -> None:
@@ -114,19 +114,19 @@ def files_of(path: Path) -> list[Path]:
 
 
 @contextmanager
-def growing(
-    path: Path, *, frame: Frame | None, known: Sequence[Known] = (), rewritten: bool = False, **options: Any
-) -> Iterator[Run]:
+def open_growing(
+    path: Path, *, frame: Frame | None, known: Sequence[KnownStep] = (), rewritten: bool = False, **options: Any
+) -> Iterator[GrowingFile]:
     """Open a NetCDF file that grows; `options` and errors as those of `depths.depths_in_frame`.
 
     `rewritten` says that the file may be another one than that of the `known` steps.
     """
-    with _opened(path, frame, options) as placed:
-        yield Run(placed, known, rewritten)
+    with _open_growing(path, frame, options) as placed:
+        yield GrowingFile(placed, known, rewritten)
 
 
 @gis_packages()
-def whole_run(path: Path, *, bounds: Bounds | None, **options: Any) -> tuple[Extent, tuple[Known, ...]]:
+def whole_run(path: Path, *, bounds: Bounds | None, **options: Any) -> tuple[Extent, tuple[KnownStep, ...]]:
     """All steps that a file holds now, in a frame of its own, and what to remember of them.
 
     Raises
@@ -136,8 +136,8 @@ def whole_run(path: Path, *, bounds: Bounds | None, **options: Any) -> tuple[Ext
     ParameterError
         If it is of another kind, or the options do not fit it.
     """
-    with _opened(path, None, {"bounds": bounds, **options}) as placed:
-        changes = list(Run(placed, (), False).changes())
+    with _open_growing(path, None, {"bounds": bounds, **options}) as placed:
+        changes = list(GrowingFile(placed, (), False).changes())
         if not changes:
             raise placed.without_numbers()
         bed = next((change.bed for change in changes if change.bed is not None), None)
@@ -146,7 +146,7 @@ def whole_run(path: Path, *, bounds: Bounds | None, **options: Any) -> tuple[Ext
 
 
 @contextmanager
-def _opened(path: Path, frame: Frame | None, options: dict[str, Any]) -> Iterator[DepthsInFrame]:
+def _open_growing(path: Path, frame: Frame | None, options: dict[str, Any]) -> Iterator[DepthsInFrame]:
     if path.exists() and not path.is_file():
         raise ParameterError("is no file; name the NetCDF file that the model writes")
     start = start_of(path)

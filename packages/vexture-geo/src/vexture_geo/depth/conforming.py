@@ -77,7 +77,7 @@ def conforming(nodes: Places, faces: Faces) -> Conforming:
         first[some] = some[_alike(nodes[some], near)]
         if (first[some] < some).any():
             whole = _without_repeats(np.where(whole >= 0, first[whole], -1).astype(np.int32))
-        whole = _divided(nodes, whole, near)
+        whole = _divide_faces(nodes, whole, near)
     if whole is faces:
         return Conforming(nodes, faces, None)
     used = np.unique(whole[whole >= 0])
@@ -122,18 +122,18 @@ def _alike(points: Places, near: float) -> NDArray[np.intp]:
     return np.asarray(kept[first][rank[place]])
 
 
-def _divided(nodes: Places, faces: Faces, near: float) -> Faces:
+def _divide_faces(nodes: Places, faces: Faces, near: float) -> Faces:
     """Faces with the nodes amid their sides, and amid the halves of these, as corners."""
     for _ in range(DEEPEST):
         check_time()
-        halved = _halved(nodes, faces, near)
+        halved = _split_sides(nodes, faces, near)
         if halved is faces:
             break
         faces = halved
     return faces
 
 
-def _halved(nodes: Places, faces: Faces, near: float) -> Faces:
+def _split_sides(nodes: Places, faces: Faces, near: float) -> Faces:
     """Faces with the nodes amid their sides as corners; the same if there are none, or too many for a face."""
     border = border_of(faces, len(nodes))
     if not border.any():  # faces that lie on one another
@@ -147,7 +147,7 @@ def _halved(nodes: Places, faces: Faces, near: float) -> Faces:
     rows = np.flatnonzero((amid >= 0).any(axis=1))
     if not len(rows):
         return faces
-    wider = _packed(np.stack([faces[rows], amid[rows]], axis=2).reshape(len(rows), -1))
+    wider = _pack_faces(np.stack([faces[rows], amid[rows]], axis=2).reshape(len(rows), -1))
     columns = max(faces.shape[1], wider.shape[1])
     if columns > MOST_CORNERS:
         return faces
@@ -161,10 +161,10 @@ def _without_repeats(faces: Faces) -> Faces:
     """Faces without corners that are the same node as the next; the same if there are none."""
     again = (faces >= 0) & (faces == after_each(faces))
     again[~((faces >= 0) & ~again).any(axis=1), 0] = False  # all of its corners are one node
-    return _packed(np.where(again, -1, faces)) if again.any() else faces
+    return _pack_faces(np.where(again, -1, faces)) if again.any() else faces
 
 
-def _packed(faces: Faces) -> Faces:
+def _pack_faces(faces: Faces) -> Faces:
     """Faces with their nodes at the start of each row, and as many columns as the largest has nodes."""
     order = np.argsort(faces < 0, axis=1, kind="stable")
     most = int((faces >= 0).sum(axis=1).max())

@@ -12,7 +12,7 @@ from vexture.base.tolerance import HMIN
 from vexture.bezier.points import points_along
 from vexture.drawing.drawing import Drawing, FillRule, Path
 
-__all__ = ["Ring", "above_dry", "fitted_drawing", "shored", "wet_drawing"]
+__all__ = ["Ring", "above_dry", "fit_drawing", "shore_values", "wet_drawing"]
 
 TOLERANCE: Final = 0.55
 """Cells. Largest distance of the fitted shoreline from the contour: the staircase of a raster is half a cell high."""
@@ -45,7 +45,7 @@ class Ring(NamedTuple):
 Map = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
-def shored(
+def shore_values(
     depth: NDArray[np.float64], hmin: float = HMIN, bed: NDArray[np.float64] | None = None
 ) -> NDArray[np.float64]:
     """Depths less `hmin`, negative on land, so that linear interpolation gives 0 at the shore.
@@ -61,19 +61,19 @@ def shored(
 
     Examples
     --------
-    >>> shored(np.array([[2.0, 1.0, 0.0], [2.0, 1.0, 0.0]]), 0.4)[0]  # a beach that falls by 1 in a cell
+    >>> shore_values(np.array([[2.0, 1.0, 0.0], [2.0, 1.0, 0.0]]), 0.4)[0]  # a beach that falls by 1 in a cell
     array([ 1.6,  0.6, -0.4])
     """
     strips = []
     for first in range(0, max(1, len(depth)), STRIP):  # in strips, for little memory
         part = slice(max(0, first - REACH), first + STRIP + REACH)
-        strip = _shored(depth[part], hmin, None if bed is None else bed[part])
+        strip = _strip_values(depth[part], hmin, None if bed is None else bed[part])
         strips.append(strip[first - part.start :][:STRIP])
     return np.concatenate(strips)
 
 
-def _shored(depth: NDArray[np.float64], hmin: float, bed: NDArray[np.float64] | None) -> NDArray[np.float64]:
-    """Values of `shored`, of which each depends on cells of at most `REACH` rows away."""
+def _strip_values(depth: NDArray[np.float64], hmin: float, bed: NDArray[np.float64] | None) -> NDArray[np.float64]:
+    """Values of `shore_values`, of which each depends on cells of at most `REACH` rows away."""
     known, above = above_dry(depth, hmin)
     wet = known & (above >= 0.0)
     rows, columns = depth.shape
@@ -127,7 +127,7 @@ def wet_drawing(
     beyond: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0),
     tolerance: float = TOLERANCE,
 ) -> Drawing:
-    """Area where a grid of values, as `shored` gives it, is above 0, its outline fitted by cubics.
+    """Area where a grid of values, as `shore_values` gives it, is above 0, its outline fitted by cubics.
 
     `to_unit` maps positions in the grid, (n, 2) columns and rows, to the unit square. The border values extend by
     `beyond` cells over the grid's left, first, right and last edge. The tolerance is in cells.
@@ -138,15 +138,15 @@ def wet_drawing(
         [Ring(to_unit(ring), _cell(ring, to_unit), _ends(ring, border)) for ring in polygon]
         for polygon in _polygons(above, border)
     ]
-    return fitted_drawing(polygons, tolerance)
+    return fit_drawing(polygons, tolerance)
 
 
-def fitted_drawing(polygons: Iterable[list[Ring]], tolerance: float = TOLERANCE) -> Drawing:
+def fit_drawing(polygons: Iterable[list[Ring]], tolerance: float = TOLERANCE) -> Drawing:
     """Polygons as a drawing, clipped to the unit square, their rings fitted by cubics within `tolerance` cells.
 
     The rings of a polygon do not intersect; its outer ring comes first, and the holes run the other way.
     """
-    contours = [contour for polygon in polygons for contour in _fitted(polygon, tolerance)]
+    contours = [contour for polygon in polygons for contour in _fit_polygon(polygon, tolerance)]
     if not contours:
         return Drawing(())
     turned = tuple(contour * (1.0, -1.0) + (0.0, 1.0) for contour in contours)
@@ -167,7 +167,7 @@ def _polygons(above: NDArray[np.float64], border: tuple[float, float, float, flo
     return [[ring[a : b - 1] for a, b in pairwise(cut.tolist())] for ring, cut in zip(points, offsets, strict=True)]
 
 
-def _fitted(polygon: list[Ring], tolerance: float) -> list[NDArray[np.float64]]:
+def _fit_polygon(polygon: list[Ring], tolerance: float) -> list[NDArray[np.float64]]:
     """Cubics of a polygon's rings, which intersect neither themselves nor one another."""
     from vexture.bezier.fit_closed import fit_closed
 

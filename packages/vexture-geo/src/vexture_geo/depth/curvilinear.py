@@ -21,7 +21,7 @@ from vexture_geo.depth.quads import corners_of, without_fill
 from vexture_geo.depth.series import Lattice, Reading, Series, Values
 from vexture_geo.depth.speeds import speed_of
 from vexture_geo.depth.ugrid import MOST_FACES
-from vexture_geo.depth.variables import depths_of, has_depths, loaded, reader_of, refuse_layers, time_axis, unit_of
+from vexture_geo.depth.variables import depths_of, has_depths, load_values, reader_of, refuse_layers, time_axis, unit_of
 
 __all__ = ["grid_series", "places_of_grid"]
 
@@ -163,7 +163,7 @@ def _coordinates(dataset: Any, places: GridPlaces) -> tuple[Values, Values, int]
     rows, columns = (int(dataset.sizes[dim]) for dim in places[:2])
     stride = int(np.ceil(np.sqrt(rows * columns / MOST_FACES)))
     x, y = (
-        loaded(dataset[key].transpose(*places[:2])[::stride, ::stride]).astype(np.float64)
+        load_values(dataset[key].transpose(*places[:2])[::stride, ::stride]).astype(np.float64)
         for key in (places.x, places.y)
     )
     x, y = without_fill(x, y)
@@ -217,7 +217,7 @@ def _mesh(
     """Nodes, (n, 2), and a face for each known cell, with its bounds in the file as corners, else those amid cells."""
     bounds = [str(dataset[key].attrs.get("bounds", "")) for key in (places.x, places.y)]
     if all(key in dataset.variables and dataset[key].shape == (*known.shape, 4) for key in bounds):
-        corners = np.stack([loaded(dataset[key])[known] for key in bounds], axis=-1).astype(np.float64)
+        corners = np.stack([load_values(dataset[key])[known] for key in bounds], axis=-1).astype(np.float64)
         if np.isfinite(corners).all():
             own = np.arange(4 * len(corners), dtype=np.int32).reshape(-1, 4)
             nodes, faces, _ = conforming(corners.reshape(-1, 2), own)

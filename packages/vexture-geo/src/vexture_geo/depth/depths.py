@@ -16,7 +16,7 @@ from vexture.base.tolerance import HMIN
 from vexture.base.workers import InProcess, Workers
 from vexture.drawing.drawing import Drawing
 from vexture_geo.base.coordinate_units import refuse_other_units
-from vexture_geo.base.crs import chosen_crs, frame_of, gis_packages, period
+from vexture_geo.base.crs import choose_crs, frame_of, gis_packages, period
 from vexture_geo.base.datasets import is_dataset
 from vexture_geo.base.extent import Bounds, DepthClasses, Extent, Frame, Step
 from vexture_geo.base.foreign import refuse_foreign_dataset
@@ -24,7 +24,7 @@ from vexture_geo.depth.esri_grids import is_esri_text, refuse_marked
 from vexture_geo.depth.mesh import MeshInFrame, MeshSeries
 from vexture_geo.depth.raster import RasterInFrame
 from vexture_geo.depth.series import Reading, Series, Values
-from vexture_geo.depth.water_masks import ToldWater, told_water
+from vexture_geo.depth.water_masks import WaterRanks, water_ranks
 
 __all__ = ["DepthsInFrame", "depths_in_frame", "read_depths"]
 
@@ -76,7 +76,7 @@ class DepthsInFrame:
         self.frame, self.times, self.variable = frame, series.times, series.variable
         self._name, self._hmin, self._depths, self._notes = name, hmin, depths, notes
         readings = (self._placed.read(number).plausible.depth for number in range(len(self.times)))
-        self._told: ToldWater | None = told_water(series.meaning, readings, hmin, depths, notes)
+        self._told: WaterRanks | None = water_ranks(series.meaning, readings, hmin, depths, notes)
 
     @property
     def notes(self) -> tuple[Note, ...]:
@@ -91,29 +91,29 @@ class DepthsInFrame:
         """The step of these values."""
         depth, bed, speed = reading
         if self._told is not None:
-            return self._told_step(number, depth, self._told)
-        drawing, *deeper = self._framed(self._placed.drawings(depth, bed, self._hmin, self._depths))
+            return self._ranks_step(number, depth, self._told)
+        drawing, *deeper = self._place_in_frame(self._placed.drawings(depth, bed, self._hmin, self._depths))
         over = self.grid(np.where(depth < 0.0, 0.0, depth))
         if bed is not None:  # the depth upon the heights that the page has, below the same level
             over = np.where(over > 0.0, np.maximum(over + self.grid(bed) - self.heights(bed), 0.0), over)
         return Step(drawing, self.times[number], over, tuple(deeper), None if speed is None else self.grid(speed))
 
-    def _told_step(self, number: int, values: Values, told: ToldWater) -> Step:
+    def _ranks_step(self, number: int, values: Values, water: WaterRanks) -> Step:
         """The step of numbers that say where water is, and in which class, but no depth."""
         areas: list[Drawing] = []
-        ranks = told.ranks(values)
-        wet = [ranks >= least for least in told.leasts]
+        ranks = water.ranks(values)
+        wet = [ranks >= least for least in water.leasts]
         for at, marked in enumerate(wet):
             same = at > 0 and np.array_equal(marked, wet[at - 1])
             areas.append(areas[-1] if same else self._placed.drawings(np.where(marked, 1.0, 0.0), None, 0.5, ())[0])
-        drawing, *deeper = self._framed(areas)
+        drawing, *deeper = self._place_in_frame(areas)
         classes = None
-        if told.ranges:
-            over = [self.grid(np.where(ranks >= rank, 1.0, 0.0)) >= 0.5 for rank in range(1, len(told.ranges) + 1)]
-            classes = DepthClasses(told.ranges, np.sum(over, axis=0, dtype=np.uint8), told.contours)
+        if water.ranges:
+            over = [self.grid(np.where(ranks >= rank, 1.0, 0.0)) >= 0.5 for rank in range(1, len(water.ranges) + 1)]
+            classes = DepthClasses(water.ranges, np.sum(over, axis=0, dtype=np.uint8), water.contours)
         return Step(drawing, self.times[number], deeper=tuple(deeper), classes=classes)
 
-    def _framed(self, areas: list[Drawing]) -> list[Drawing]:
+    def _place_in_frame(self, areas: list[Drawing]) -> list[Drawing]:
         return [
             replace(area, to_source=self.frame.to_source, name=self._name, crs=self.frame.crs, notes=self.notes)
             for area in areas
@@ -155,8 +155,8 @@ def depths_in_frame(
         if not depth > hmin or not np.isfinite(depth):
             raise ParameterError(f"`depths` holds {depth:g} m; all must be above `hmin`, {hmin:g} m")
     notes = Notes()
-    with _opened(source if is_dataset(source) else unpack_source(source), time_dim, variable, notes) as series:
-        system = chosen_crs(crs, series.crs)
+    with _open_series(source if is_dataset(source) else unpack_source(source), time_dim, variable, notes) as series:
+        system = choose_crs(crs, series.crs)
         refuse_other_units(system, series.crs, series.unit, series.box, is_given=crs is not None)
         if frame is None:
             frame = frame_of(bounds, _whole(series.box, system), system)
@@ -164,13 +164,15 @@ def depths_in_frame(
 
 
 @contextmanager
-def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Iterator[Series | MeshSeries]:
+def _open_series(
+    source: Any, time_dim: str | None, variable: str | None, notes: Notes
+) -> Iterator[Series | MeshSeries]:
     """Open a file of the format that its first bytes show, or a dataset of xarray."""
     start = b"" if is_dataset(source) else start_of(source)
     if is_dataset(source):
-        from vexture_geo.depth.netcdf import opened
+        from vexture_geo.depth.netcdf import open_dataset
 
-        with opened(source, time_dim) as dataset:
+        with open_dataset(source, time_dim) as dataset:
             yield _series_of(dataset, time_dim, variable, notes)
     elif start.startswith(TIFF) or _is_esri_grid(start, source):
         from vexture_geo.depth.geotiff import open_geotiff
@@ -178,21 +180,21 @@ def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Note
         with open_geotiff(source, time_dim, variable, notes) as series:
             yield series
     elif start.startswith(NETCDF):
-        from vexture_geo.depth.netcdf import opened
-        from vexture_geo.depth.partitions import merged_partitions, partitions_beside
+        from vexture_geo.depth.netcdf import open_dataset
+        from vexture_geo.depth.partitions import open_partitions, partitions_beside
 
         partitions = [] if isinstance(source, bytes) else partitions_beside(Path(source))
         if partitions:
-            with merged_partitions(partitions, time_dim, variable, notes) as run:
+            with open_partitions(partitions, time_dim, variable, notes) as run:
                 yield run
             return
-        with opened(source, time_dim) as dataset:
+        with open_dataset(source, time_dim) as dataset:
             yield _series_of(dataset, time_dim, variable, notes)
     elif start.startswith(GRIB):
-        from vexture_geo.depth.grib import opened_fields
-        from vexture_geo.depth.netcdf import opened
+        from vexture_geo.depth.grib import open_fields
+        from vexture_geo.depth.netcdf import open_dataset
 
-        with opened_fields(source, variable, notes) as fields, opened(fields, time_dim) as dataset:
+        with open_fields(source, variable, notes) as fields, open_dataset(fields, time_dim) as dataset:
             yield _series_of(dataset, time_dim, variable, notes)
     elif not start:
         raise SourceError("it cannot be opened or is empty; choose another file")

@@ -12,13 +12,13 @@ import numpy as np
 from vexture.base.content import TIFF, start_of
 from vexture.base.errors import ParameterError, SourceError, reason_of
 from vexture.base.notes import Notes
-from vexture_geo.base.gdal import opened_raster, raster_errors
+from vexture_geo.base.gdal import open_raster, raster_errors
 from vexture_geo.base.lengths import NO_UNIT, metres_in
 from vexture_geo.base.time_texts import rising_moments
 from vexture_geo.depth.esri_grids import refuse_other_count, refuse_other_size
 from vexture_geo.depth.implicit_no_data import codes_of_integers, without_undeclared
 from vexture_geo.depth.series import Lattice, Meaning, Reading, Series, Values
-from vexture_geo.depth.variables import listed
+from vexture_geo.depth.variables import list_names
 
 if TYPE_CHECKING:
     from rasterio import DatasetReader
@@ -44,7 +44,7 @@ def open_geotiff(
         refuse_other_size(Path(os.fspath(source)))  # type: ignore[arg-type]
     with ExitStack() as stack:
         try:
-            file = stack.enter_context(opened_raster(source, others=True))
+            file = stack.enter_context(open_raster(source, others=True))
         except raster_errors() as error:
             what = "GeoTIFF" if start_of(source).startswith(TIFF) else "a grid of Esri"
             if is_floats:
@@ -97,7 +97,7 @@ def _times(file: "DatasetReader", bands: Sequence[int], notes: Notes) -> tuple[d
     times = rising_moments(texts) if len(bands) > 1 else None
     if times is None and len(bands) > 1 and any(texts):
         notes.remark(
-            f"its steps are numbered: descriptions of its bands ({listed(texts)}) are no rising times; write "
+            f"its steps are numbered: descriptions of its bands ({list_names(texts)}) are no rising times; write "
             "2026-01-01T06:00 or the like"
         )
     return times or (None,) * len(bands)

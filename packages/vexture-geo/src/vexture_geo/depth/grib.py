@@ -16,15 +16,15 @@ from vexture.base.content import LARGEST_FILE, read_bytes
 from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError, ParameterError, SourceError
 from vexture.base.notes import Notes
-from vexture_geo.base.gdal import opened_grib, raster_errors
+from vexture_geo.base.gdal import open_grib, raster_errors
 from vexture_geo.base.quiet_output import quiet_output
-from vexture_geo.depth.grib_messages import checked_fields
-from vexture_geo.depth.variables import listed
+from vexture_geo.depth.grib_messages import count_fields
+from vexture_geo.depth.variables import list_names
 
 if TYPE_CHECKING:
     from rasterio import DatasetReader
 
-__all__ = ["opened_fields"]
+__all__ = ["open_fields"]
 
 DEPTHS: Final = {"water depth": "sea_floor_depth_below_sea_surface"}
 LEVELS: Final = dict.fromkeys(
@@ -57,16 +57,16 @@ class Field(NamedTuple):
 
 
 @contextmanager
-def opened_fields(source: bytes | str | os.PathLike[str], variable: str | None, notes: Notes) -> Iterator[Any]:
+def open_fields(source: bytes | str | os.PathLike[str], variable: str | None, notes: Notes) -> Iterator[Any]:
     """Open the fields of depths, of water levels, of the bed and of what `variable` names as a dataset.
 
     A field is decoded when its values are asked for.
     """
     content = _content(source)
-    held = checked_fields(content)
+    held = count_fields(content)
     with ExitStack() as stack:
         try:
-            file = stack.enter_context(opened_grib(content))
+            file = stack.enter_context(open_grib(content))
         except raster_errors():
             raise SourceError("GDAL cannot read its grid; write it as NetCDF: cdo -f nc copy IN OUT") from None
         if file.count < held:
@@ -93,7 +93,7 @@ def _dataset(file: "DatasetReader", variable: str | None) -> Any:
     coordinates = _coordinates(file)
     dims: dict[tuple[float | None, ...], str] = {}
     variables = {}
-    for name, fields in _chosen(_named(_fields(file)), variable).items():
+    for name, fields in _choose_fields(_group_by_name(_fields(file)), variable).items():
         times = tuple(field.seconds for field in fields)
         if any(one == other for one, other in pairwise(times)):
             raise SourceError(
@@ -138,7 +138,7 @@ def _fields(file: "DatasetReader") -> list[Field]:
     return sorted(found, key=lambda field: field.seconds or 0.0)
 
 
-def _named(fields: Sequence[Field]) -> dict[str, list[Field]]:
+def _group_by_name(fields: Sequence[Field]) -> dict[str, list[Field]]:
     """Fields by the names of their parameters, with the level where a parameter has several."""
     found: dict[tuple[str, str], list[Field]] = {}
     for field in fields:
@@ -150,13 +150,13 @@ def _named(fields: Sequence[Field]) -> dict[str, list[Field]]:
     }
 
 
-def _chosen(found: dict[str, list[Field]], variable: str | None) -> dict[str, list[Field]]:
+def _choose_fields(found: dict[str, list[Field]], variable: str | None) -> dict[str, list[Field]]:
     """The variables that are known, and the one that the user names."""
     if variable is not None and variable not in found:
-        raise ParameterError(f"there is no {variable!r}; `variable` may be {listed(found)}")
+        raise ParameterError(f"there is no {variable!r}; `variable` may be {list_names(found)}")
     chosen = {name: fields for name, fields in found.items() if name == variable or fields[0].meaning in STANDARD_NAMES}
     if not chosen:
-        held = listed(f"{name}, {fields[0].meaning} {fields[0].unit}" for name, fields in found.items())
+        held = list_names(f"{name}, {fields[0].meaning} {fields[0].unit}" for name, fields in found.items())
         raise SourceError(
             f"it holds {held}, and no depth of water by the tables of GRIB; `variable` names one that is a depth"
         )

@@ -11,7 +11,7 @@ from vexture.base.content import GRIB
 from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError, SourceError
 
-__all__ = ["checked_fields"]
+__all__ = ["count_fields"]
 
 MOST_FIELDS: Final = 10_000
 """Fields of a file. A year of hours has fewer; GDAL lists all of them before one can be chosen."""
@@ -35,7 +35,7 @@ PLANAR: Final = 100
 ALONE: Final = "write the depths alone into a file: cdo selname,NAME IN OUT"
 
 
-def checked_fields(content: bytes) -> int:
+def count_fields(content: bytes) -> int:
     """Fields of all messages; an error if these break off, are too many or too large, or on different grids."""
     fields, first = 0, b""
     for message in _messages(content):
@@ -47,7 +47,7 @@ def checked_fields(content: bytes) -> int:
                 first = first or grid
                 _check(fields, points, grid == first)
         except IndexError:
-            raise _damaged(message) from None
+            raise _damage_error(message) from None
     return fields
 
 
@@ -77,7 +77,7 @@ def _grids(message: bytes) -> Iterator[tuple[bytes, int]]:
     while message[at : at + len(END)] != END:
         size, number = int.from_bytes(message[at : at + 4]), message[at + 4]
         if size < 5 or at + size > len(message):
-            raise _damaged(message)
+            raise _damage_error(message)
         if number == GRID:
             grid = message[at + 5 : at + size]
             points = int.from_bytes(grid[1:5])
@@ -119,5 +119,5 @@ def _check(fields: int, points: int, same: bool) -> None:
         raise SourceError(f"its fields are on several grids; {ALONE}")
 
 
-def _damaged(message: bytes) -> SourceError:
+def _damage_error(message: bytes) -> SourceError:
     return SourceError(f"a message of {len(message):,} bytes is damaged (its sections do not fill it); copy it again")

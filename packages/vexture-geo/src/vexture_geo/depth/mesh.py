@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing.drawing import Drawing
-from vexture_geo.base.crs import period, transformed
+from vexture_geo.base.crs import period, transform_points
 from vexture_geo.base.extent import Bounds, Frame
-from vexture_geo.depth.contours import Ring, above_dry, fitted_drawing
-from vexture_geo.depth.mesh_topology import Faces, Patch, border_of, touched, touching
+from vexture_geo.depth.contours import Ring, above_dry, fit_drawing
+from vexture_geo.depth.mesh_topology import Faces, Patch, border_of, touched_nodes, touching_faces
 from vexture_geo.depth.raster import grid_places, outside
 from vexture_geo.depth.series import METRES, Meaning, Reading, Values, box_around
-from vexture_geo.depth.triangles import Outline, grid_ranges, located, outlines_above
+from vexture_geo.depth.triangles import LevelOutline, grid_ranges, locate_samples, outlines_above
 
 __all__ = ["MeshInFrame", "MeshSeries"]
 
@@ -61,7 +61,7 @@ class MeshSeries:
         return box_around(self.nodes)
 
 
-class Sampled(NamedTuple):
+class MeshSamples(NamedTuple):
     """Samples of the frame's grid that lie in the mesh; the face of each, and its triangle in a patch of those faces.
 
     `nodes` are the numbers of the patch's nodes, `corners` those of the triangle's corners in the patch, and `shares`
@@ -88,11 +88,11 @@ class MeshInFrame:
         if not (near & (high > (x0, y0)).all(axis=1) & (low < (x1, y1)).all(axis=1)).any():
             raise outside(frame, series.box, system)
         kept = np.flatnonzero(near)
-        self._patch, numbers = Patch.of(series.faces[kept], len(nodes))
+        self._patch, numbers = Patch.select(series.faces[kept], len(nodes))
         self._nodes = nodes[numbers]
         self._chosen = kept if series.on_faces else numbers
         self._border = border_of(self._patch.faces, self._patch.count)
-        self._sampled = self._located(low[kept], high[kept])
+        self._sampled = self._locate_samples(low[kept], high[kept])
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_series": None}  # a copy in another process reads nothing
@@ -105,21 +105,21 @@ class MeshInFrame:
         """The area under water, and those under at least so much."""
         known, above = above_dry(depth, hmin)
         more = [least - hmin for least in (hmin, *depths)]
-        crossed = [self._crossed(known & (above > least)) for least in more]
+        crossed = [self._crossed_faces(known & (above > least)) for least in more]
         around = self._around_faces(np.logical_or.reduce(crossed))
-        part, numbers = Patch.of(self._patch.faces[around], self._patch.count)
+        part, numbers = Patch.select(self._patch.faces[around], self._patch.count)
         chosen = around if self._on_faces else numbers
-        shored = self._shored(part, depth[chosen], None if bed is None else bed[chosen], hmin)
+        shored = self._shore_values(part, depth[chosen], None if bed is None else bed[chosen], hmin)
         values = self._everywhere(part, shored)
         fans = part.fans()
         points = np.concatenate([self._nodes[numbers], part.on_faces(self._nodes[numbers])])
         border = self._border[around]
         return [
-            self._outlined(points, values - least, fans, border, inner[around])
+            self._outline_drawing(points, values - least, fans, border, inner[around])
             for least, inner in zip(more, crossed, strict=True)
         ]
 
-    def _outlined(
+    def _outline_drawing(
         self,
         points: NDArray[np.float64],
         values: Values,
@@ -133,30 +133,30 @@ class MeshInFrame:
         sides = np.zeros((int(inner.sum()), 3), np.bool_)
         sides[:, 1] = border[face[inner], column[inner]]
         found = outlines_above(points, corners[inner], values, sides)
-        return fitted_drawing(_grouped([self._ring(outline) for outline in found if len(outline.points) > 2]))
+        return fit_drawing(_group_rings([self._ring(outline) for outline in found if len(outline.points) > 2]))
 
     def heights(self, values: Values) -> NDArray[np.float32]:
         """As `grid`, which is linear in each triangle."""
         return self.grid(values)
 
-    def _crossed(self, wet: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    def _crossed_faces(self, wet: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Which faces an outline of what is wet can cross or follow."""
         faces, count = self._patch.faces, self._patch.count
         if self._on_faces:
-            crossed = touching(faces, touched(faces, wet, count) & touched(faces, ~wet, count))
+            crossed = touching_faces(faces, touched_nodes(faces, wet, count) & touched_nodes(faces, ~wet, count))
         else:
-            crossed = touching(faces, np.append(wet, False)) & touching(faces, np.append(~wet, False))
+            crossed = touching_faces(faces, np.append(wet, False)) & touching_faces(faces, np.append(~wet, False))
         return crossed | self._border.any(axis=1)
 
     def _around_faces(self, crossed: NDArray[np.bool_]) -> NDArray[np.intp]:
         """Numbers of all faces that the values of some of them depend on."""
         faces, count = self._patch.faces, self._patch.count
-        around = touching(faces, touched(faces, crossed, count))
+        around = touching_faces(faces, touched_nodes(faces, crossed, count))
         if self._on_faces:  # values at nodes are of the faces around, and those of dry faces of the faces around them
-            around = touching(faces, touched(faces, around, count))
+            around = touching_faces(faces, touched_nodes(faces, around, count))
         return np.flatnonzero(around)
 
-    def _shored(self, part: Patch, depth: Values, bed: Values | None, hmin: float) -> Values:
+    def _shore_values(self, part: Patch, depth: Values, bed: Values | None, hmin: float) -> Values:
         """Depths less `hmin`, negative on dry faces or nodes beside wet ones; see `contours.shored`.
 
         Where the bed is known, from the mean water level around; else, and at walls, the shore is halfway.
@@ -180,7 +180,7 @@ class MeshInFrame:
             return np.concatenate([np.nan_to_num(part.on_nodes(values), nan=-1.0), values])
         return np.concatenate([values, part.on_faces(values)])
 
-    def _ring(self, outline: Outline) -> Ring:
+    def _ring(self, outline: LevelOutline) -> Ring:
         """Ring of an outline; where the mesh's border is that of the frame, the ring extends outside the square."""
         points = outline.points.copy()
         for axis in range(2):
@@ -196,17 +196,17 @@ class MeshInFrame:
         bent = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) > 1e-3 * np.hypot(*a.T) * np.hypot(*b.T)
         return Ring(points, outline.cell, ends | (outline.border & bent))
 
-    def _located(self, low: NDArray[np.float64], high: NDArray[np.float64]) -> Sampled:
+    def _locate_samples(self, low: NDArray[np.float64], high: NDArray[np.float64]) -> MeshSamples:
         """Samples of the frame's grid in the mesh; the faces are in boxes from `low` to `high`."""
         places, (_, columns) = grid_places(self._frame)
         x, y = places[:columns, 0], places[::columns, 1]
         first, last = grid_ranges(low, high, x, y)
         some = np.flatnonzero((last >= first).all(axis=1))
-        part, numbers = Patch.of(self._patch.faces[some], self._patch.count)
+        part, numbers = Patch.select(self._patch.faces[some], self._patch.count)
         corners, face, _ = part.fans()
         points = np.concatenate([self._nodes[numbers], part.on_faces(self._nodes[numbers])])
-        samples, triangle, shares = located(points[corners], x, y)
-        return Sampled(samples, some[face[triangle]], part, numbers, corners[triangle], shares)
+        samples, triangle, shares = locate_samples(points[corners], x, y)
+        return MeshSamples(samples, some[face[triangle]], part, numbers, corners[triangle], shares)
 
     def grid(self, values: Values) -> NDArray[np.float32]:
         """Values over the frame, the northernmost row first: of the face, or linear between nodes; NaN beyond."""
@@ -223,7 +223,7 @@ class MeshInFrame:
 
 def _in_square(places: NDArray[np.float64], system: str, frame: Frame) -> NDArray[np.float64]:
     """Places, (n, 2), of a reference system in the unit square of a frame."""
-    nodes = transformed(places, system, frame.crs)
+    nodes = transform_points(places, system, frame.crs)
     turn = period(frame.crs)
     if turn:
         middle = (frame.bounds[0] + frame.bounds[2]) / 2
@@ -266,7 +266,7 @@ def _beside(across: NDArray[np.float64], along: NDArray[np.float64], border: NDA
     return beside
 
 
-def _grouped(rings: list[Ring]) -> list[list[Ring]]:
+def _group_rings(rings: list[Ring]) -> list[list[Ring]]:
     """Rings by polygon: each counter-clockwise ring, and the holes in it."""
     import shapely
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Faces", "Patch", "after_each", "border_of", "counter_clockwise", "touched", "touching"]
+__all__ = ["Faces", "Patch", "after_each", "border_of", "counter_clockwise", "touched_nodes", "touching_faces"]
 
 Faces = NDArray[np.int32]
 """Numbers of the nodes of each face, (m, k), and -1 at the end of a row where the face has fewer than k."""
@@ -57,7 +57,7 @@ def border_of(faces: Faces, count: int) -> NDArray[np.bool_]:
     return border
 
 
-def touched(faces: Faces, chosen: NDArray[Any] | slice, count: int) -> NDArray[np.bool_]:
+def touched_nodes(faces: Faces, chosen: NDArray[Any] | slice, count: int) -> NDArray[np.bool_]:
     """Which of `count` nodes are nodes of the chosen faces, and False after them, for the number -1."""
     marks = np.zeros(count + 1, np.bool_)
     marks[faces[chosen]] = True
@@ -65,8 +65,8 @@ def touched(faces: Faces, chosen: NDArray[Any] | slice, count: int) -> NDArray[n
     return marks
 
 
-def touching(faces: Faces, marks: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Faces that have marked nodes; marks as `touched` gives them."""
+def touching_faces(faces: Faces, marks: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Faces that have marked nodes; marks as `touched_nodes` gives them."""
     found = marks[faces[:, 0]]
     for column in faces.T[1:]:
         found |= marks[column]
@@ -81,9 +81,9 @@ class Patch:
     count: int
 
     @classmethod
-    def of(cls, faces: Faces, count: int) -> tuple["Patch", NDArray[np.int64]]:
+    def select(cls, faces: Faces, count: int) -> tuple["Patch", NDArray[np.int64]]:
         """Patch of faces that name some of `count` nodes, and the numbers that its nodes had."""
-        marks = touched(faces, slice(None), count)
+        marks = touched_nodes(faces, slice(None), count)
         old = np.flatnonzero(marks)
         numbers = np.full(count + 1, -1, np.int32)
         numbers[old] = np.arange(len(old))

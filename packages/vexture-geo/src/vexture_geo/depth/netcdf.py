@@ -15,7 +15,7 @@ import numpy as np
 from vexture.base.errors import LimitError, ParameterError, SourceError
 from vexture.base.notes import Notes
 from vexture_geo.base.crs import system
-from vexture_geo.base.damage import damaged_netcdf
+from vexture_geo.base.damage import netcdf_error
 from vexture_geo.base.datasets import dataset_of, is_dataset
 from vexture_geo.base.file_references import refuse_files_of_system
 from vexture_geo.base.foreign import refuse_foreign_hdf5
@@ -24,9 +24,9 @@ from vexture_geo.base.lengths import NO_UNIT, metres_in
 from vexture_geo.base.time_texts import rising_moments
 from vexture_geo.depth.series import Lattice, Reading, Series, Values
 from vexture_geo.depth.speeds import speed_of
-from vexture_geo.depth.variables import depths_of, listed, loaded, refuse_layers, time_axis, unit_of
+from vexture_geo.depth.variables import depths_of, list_names, load_values, refuse_layers, time_axis, unit_of
 
-__all__ = ["axes_of", "crs_of", "opened", "points_east", "points_north", "series_of", "times_of"]
+__all__ = ["axes_of", "crs_of", "open_dataset", "points_east", "points_north", "series_of", "times_of"]
 
 EAST: Final = {"x", "lon", "longitude", "easting", "xc", "mx", "m", "column", "columns", "col"}
 NORTH: Final = {"y", "lat", "latitude", "northing", "yc", "my", "n", "row", "rows"}
@@ -52,13 +52,13 @@ LEAST_CODE: Final = 1024
 
 
 @contextmanager
-def opened(source: Any, time_dim: str | None) -> Iterator[Any]:
+def open_dataset(source: Any, time_dim: str | None) -> Iterator[Any]:
     """Dataset of a file or of its content, by xarray, with times not decoded; one that is open stays so."""
     with ExitStack() as stack:
         dataset = dataset_of(source) if is_dataset(source) else stack.enter_context(_file(source, stack))
         if time_dim is not None and time_dim not in dataset.dims:
             raise ParameterError(
-                f"there is no dimension {time_dim!r}; it has {listed(dataset.dims)}; choose another `time_dim`"
+                f"there is no dimension {time_dim!r}; it has {list_names(dataset.dims)}; choose another `time_dim`"
             )
         yield dataset
 
@@ -84,7 +84,7 @@ def _file(source: bytes | str | os.PathLike[str], stack: ExitStack) -> Any:
                 place, engine="netcdf4", decode_times=False, cache=False, drop_variables=_counts(place)
             )
     except Exception as error:  # xarray and netCDF4 raise any type of exception for a damaged file
-        raise damaged_netcdf(error, place) from None
+        raise netcdf_error(error, place) from None
 
 
 def _counts(place: str) -> list[str]:
@@ -193,7 +193,7 @@ def _axis(dataset: Any, dim: str) -> Values:
         raise SourceError(
             f"dimension {dim!r} has no coordinates; write them into the file: along it, or two for each cell"
         )
-    places: Values = loaded(along).astype(np.float64)
+    places: Values = load_values(along).astype(np.float64)
     if not np.isfinite(places).all():
         raise SourceError(
             f"coordinate {along.name!r} is not finite at position {int(np.argmin(np.isfinite(places))) + 1}"
@@ -225,8 +225,8 @@ def times_of(dataset: Any, dim: str | None, notes: Notes) -> tuple[datetime | No
     if count > MOST_STEPS:
         raise LimitError(f"dimension {dim!r} has {count:,} steps; the limit is {MOST_STEPS:,}; write fewer")
     if dim not in dataset.variables or dataset[dim].ndim != 1 or dataset[dim].dtype.kind not in "iuf":
-        return _written(dataset, dim, count, notes)
-    places = loaded(dataset[dim]).astype(np.float64)
+        return _written_times(dataset, dim, count, notes)
+    places = load_values(dataset[dim]).astype(np.float64)
     if not np.isfinite(places).all():
         missing = int(np.argmin(np.isfinite(places))) + 1
         raise SourceError(
@@ -244,7 +244,7 @@ def times_of(dataset: Any, dim: str | None, notes: Notes) -> tuple[datetime | No
         )
     unit, calendar = unit_of(dataset[dim]), str(dataset[dim].attrs.get("calendar", "standard"))
     if " since " not in unit:
-        return _numbered(count, f"{dim!r} is in {unit!r}, since no date" if unit not in ("", "1") else "", notes)
+        return _number_steps(count, f"{dim!r} is in {unit!r}, since no date" if unit not in ("", "1") else "", notes)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -252,9 +252,11 @@ def times_of(dataset: Any, dim: str | None, notes: Notes) -> tuple[datetime | No
         found = tuple(_moment(time) for time in decoded)
     except Exception:  # a calendar without such a date, or text that is none
         if calendar.lower() in OURS:
-            return _numbered(count, f"{dim!r} has dates that are none of ours ({unit!r})", notes)
+            return _number_steps(count, f"{dim!r} has dates that are none of ours ({unit!r})", notes)
         why = f"{dim!r} has dates that are none of ours, by its calendar {calendar!r}"
-        return _numbered(count, why, notes, "write times of the calendar 'standard', as xarray's convert_calendar does")
+        return _number_steps(
+            count, why, notes, "write times of the calendar 'standard', as xarray's convert_calendar does"
+        )
     if calendar.lower() == JULIAN:
         notes.remark(
             f"{dim!r} has dates of the calendar {calendar!r}, 13 days before ours in this century, left as they are"
@@ -262,15 +264,17 @@ def times_of(dataset: Any, dim: str | None, notes: Notes) -> tuple[datetime | No
     return found
 
 
-def _written(dataset: Any, dim: str, count: int, notes: Notes) -> tuple[datetime | None, ...]:
+def _written_times(dataset: Any, dim: str, count: int, notes: Notes) -> tuple[datetime | None, ...]:
     """Times that a file has as texts along a dimension."""
     if dim not in dataset.variables or dataset[dim].ndim != 1 or dataset[dim].dtype.kind not in "SUO":
         return (None,) * count
-    texts = [one.decode(errors="replace") if isinstance(one, bytes) else str(one) for one in loaded(dataset[dim])]
-    return rising_moments(texts) or _numbered(count, f"{dim!r} holds texts that are no times ({listed(texts)})", notes)
+    texts = [one.decode(errors="replace") if isinstance(one, bytes) else str(one) for one in load_values(dataset[dim])]
+    return rising_moments(texts) or _number_steps(
+        count, f"{dim!r} holds texts that are no times ({list_names(texts)})", notes
+    )
 
 
-def _numbered(count: int, why: str, notes: Notes, remedy: str = SINCE) -> tuple[None, ...]:
+def _number_steps(count: int, why: str, notes: Notes, remedy: str = SINCE) -> tuple[None, ...]:
     """Steps without dates; a note says why, if there are several and the file says anything of their times."""
     if count > 1 and why:
         notes.remark(f"its steps are numbered: {why}; {remedy}")
@@ -305,7 +309,7 @@ def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
                 return str(CRS.from_cf(dict(about)).to_wkt())
             except Exception:  # pyproj raises any type of exception for invalid attributes
                 return f"grid_mapping_name={UNNAMED.sub('_', str(about['grid_mapping_name']))}"
-    numbers = [int(loaded(one)) for one in known if one.ndim == 0 and one.dtype.kind in "iu"]
+    numbers = [int(load_values(one)) for one in known if one.ndim == 0 and one.dtype.kind in "iu"]
     if any(number >= LEAST_CODE for number in numbers):
         return f"EPSG:{max(numbers)}"
     degrees = [

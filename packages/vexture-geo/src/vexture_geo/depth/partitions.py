@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
 from vexture_geo.depth.mesh import MeshSeries
-from vexture_geo.depth.netcdf import opened
+from vexture_geo.depth.netcdf import open_dataset
 from vexture_geo.depth.series import Reading, Values
 from vexture_geo.depth.ugrid import mesh_series
-from vexture_geo.depth.variables import loaded
+from vexture_geo.depth.variables import load_values
 
-__all__ = ["merged_partitions", "partitions_beside"]
+__all__ = ["open_partitions", "partitions_beside"]
 
 NAME: Final = re.compile(r"(.+_)(\d{4})(_map\.nc)")
 """How D-Flow FM names the map file of a partition."""
@@ -43,7 +43,7 @@ def partitions_beside(path: Path) -> list[Path]:
 
 
 @contextmanager
-def merged_partitions(
+def open_partitions(
     paths: Sequence[Path], time_dim: str | None, variable: str | None, notes: Notes
 ) -> Iterator[MeshSeries]:
     """Open the map files of a run as one mesh.
@@ -57,7 +57,7 @@ def merged_partitions(
         parts, owned, domains = [], [], set()
         numbers = [_number(path) for path in paths]
         for path, number in zip(paths, numbers, strict=True):
-            dataset = stack.enter_context(opened(path, time_dim))
+            dataset = stack.enter_context(open_dataset(path, time_dim))
             part = mesh_series(dataset, time_dim, variable, notes)
             domain = _domain(dataset, len(part.faces))
             if domain is None and len(paths) == 1:
@@ -79,10 +79,10 @@ def merged_partitions(
             raise SourceError("its partitions have different classes of depth; write all of them in one run")
         if len({part.times for part in parts}) > 1:
             raise SourceError("its partitions have different times; write all of them in one run")
-        yield _merged(parts, owned)
+        yield _merge_meshes(parts, owned)
 
 
-def _joined(values: Sequence[Values | None]) -> Values | None:
+def _concatenate(values: Sequence[Values | None]) -> Values | None:
     """Values of all parts; None if one of them has none."""
     known = [one for one in values if one is not None]
     return np.concatenate(known) if len(known) == len(values) else None
@@ -98,11 +98,11 @@ def _domain(dataset: Any, faces: int) -> NDArray[np.int64] | None:
     """Partition of each face; None if the file does not say it."""
     for name in dataset.variables:
         if str(name).endswith(DOMAIN) and dataset[name].shape == (faces,):
-            return np.asarray(loaded(dataset[name]), np.int64)
+            return np.asarray(load_values(dataset[name]), np.int64)
     return None
 
 
-def _merged(parts: Sequence[MeshSeries], owned: Sequence[NDArray[np.bool_]]) -> MeshSeries:
+def _merge_meshes(parts: Sequence[MeshSeries], owned: Sequence[NDArray[np.bool_]]) -> MeshSeries:
     """One mesh of the faces that the parts own; nodes at one place, bit for bit, are one."""
     places, numbers = np.unique(np.concatenate([part.nodes for part in parts]), axis=0, return_inverse=True)
     starts = np.cumsum([0, *(len(part.nodes) for part in parts)])
@@ -115,7 +115,7 @@ def _merged(parts: Sequence[MeshSeries], owned: Sequence[NDArray[np.bool_]]) -> 
 
     def read(step: int) -> Reading:
         read = [part.read(step).at(own) for part, own in zip(parts, owned, strict=True)]
-        return Reading(*map(_joined, zip(*read, strict=True)))  # type: ignore[arg-type]
+        return Reading(*map(_concatenate, zip(*read, strict=True)))  # type: ignore[arg-type]
 
     first = parts[0]
     return MeshSeries(

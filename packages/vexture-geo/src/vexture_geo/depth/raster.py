@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
 from vexture.drawing.drawing import Drawing
-from vexture_geo.base.crs import period, shown_bounds, transformed, transformed_bounds
+from vexture_geo.base.crs import format_bounds, period, transform_bounds, transform_points
 from vexture_geo.base.extent import Bounds, Frame, bounds_of_square
-from vexture_geo.depth.contours import shored, wet_drawing
+from vexture_geo.depth.contours import shore_values, wet_drawing
 from vexture_geo.depth.series import Lattice, Reading, Series, Values
 
 __all__ = ["RasterInFrame", "grid_places", "outside"]
@@ -33,7 +33,7 @@ class RasterInFrame:
     def __init__(self, series: Series, system: str, frame: Frame, notes: Notes) -> None:
         self._series, self._system, self._frame = series, system, frame
         self._scale, self._offset = frame.to_source[:, :2].diagonal(), frame.to_source[:, 2]
-        whole = _turned(series.lattice, system, frame)
+        whole = _turn_lattice(series.lattice, system, frame)
         self._rows, self._columns = _window(whole, system, frame, notes)
         self._lattice = replace(whole, x=whole.x[self._columns], y=whole.y[self._rows])
         self._beyond = self._cells_beyond()
@@ -47,7 +47,7 @@ class RasterInFrame:
 
     def drawings(self, depth: Values, bed: Values | None, hmin: float, depths: Sequence[float]) -> list[Drawing]:
         """The area under water, and those under at least so much."""
-        above = shored(depth, hmin, bed)
+        above = shore_values(depth, hmin, bed)
         return [wet_drawing(above + hmin - least, self._to_unit, self._beyond) for least in (hmin, *depths)]
 
     def grid(self, values: Values) -> NDArray[np.float32]:
@@ -76,12 +76,12 @@ class RasterInFrame:
 
     def _to_unit(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
         """Positions of the lattice, (n, 2), in the unit square."""
-        points = transformed(self._lattice.place(positions), self._system, self._frame.crs)
+        points = transform_points(self._lattice.place(positions), self._system, self._frame.crs)
         return (points - self._offset) / self._scale
 
     def _positions(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
         """Inverse of `_to_unit`."""
-        points = transformed(places * self._scale + self._offset, self._frame.crs, self._system)
+        points = transform_points(places * self._scale + self._offset, self._frame.crs, self._system)
         return self._lattice.find(points)
 
     def _cells_beyond(self) -> tuple[float, float, float, float]:
@@ -114,15 +114,15 @@ def grid_places(frame: Frame) -> tuple[NDArray[np.float64], tuple[int, int]]:
 def outside(frame: Frame, box: Bounds, system: str) -> SourceError:
     """Error of a file that covers nothing of the frame."""
     return SourceError(
-        f"nothing of it is within the bounds {shown_bounds(frame.bounds, frame.crs)}: "
-        f"it covers {shown_bounds(box, system)}; give other `bounds`"
+        f"nothing of it is within the bounds {format_bounds(frame.bounds, frame.crs)}: "
+        f"it covers {format_bounds(box, system)}; give other `bounds`"
     )
 
 
-def _turned(lattice: Lattice, system: str, frame: Frame) -> Lattice:
+def _turn_lattice(lattice: Lattice, system: str, frame: Frame) -> Lattice:
     """Lattice, moved by a full turn of longitude if it then overlaps the frame."""
     turn = period(system)
-    square = transformed_bounds(frame.bounds, frame.crs, system)
+    square = transform_bounds(frame.bounds, frame.crs, system)
     if not turn or square is None:
         return lattice
     east = np.array([[0.0, 0.0, turn], [0.0, 0.0, 0.0]])
@@ -132,7 +132,7 @@ def _turned(lattice: Lattice, system: str, frame: Frame) -> Lattice:
 
 def _window(lattice: Lattice, system: str, frame: Frame, notes: Notes) -> tuple[slice, slice]:
     """Rows and columns that the unit square needs, with a stride if there are too many."""
-    square = transformed_bounds(bounds_of_square(frame), frame.crs, system)
+    square = transform_bounds(bounds_of_square(frame), frame.crs, system)
     if square is None:
         raise outside(frame, lattice.box, system)
     places = lattice.find(Lattice.outline(*square))

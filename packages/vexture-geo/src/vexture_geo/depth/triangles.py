@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vexture.base.deadline import check_time
 
-__all__ = ["Outline", "grid_ranges", "located", "outlines_above"]
+__all__ = ["LevelOutline", "grid_ranges", "locate_samples", "outlines_above"]
 
 AT_ONCE: Final = 2**20
 """Pairs of triangles and samples that are looked at together: they need 100 bytes each."""
@@ -16,7 +16,7 @@ ON_SIDE: Final = 1e-9
 """Share of a triangle by which a sample on its side may be outside, by rounding."""
 
 
-class Outline(NamedTuple):
+class LevelOutline(NamedTuple):
     """A closed ring, with the area above 0 to its left; the first of its points, (n, 2), is not repeated at the end.
 
     `border` marks points on the border of the mesh; `cell` is the length of the shorter edges crossed.
@@ -32,7 +32,7 @@ def outlines_above(
     triangles: NDArray[np.int64],
     values: NDArray[np.float64],
     border: NDArray[np.bool_] | None = None,
-) -> list[Outline]:
+) -> list[LevelOutline]:
     """Outlines of the area where values at points are above 0, linear between the corners of triangles.
 
     The corners of a triangle, (m, 3) numbers of points, are in counter-clockwise order. `border`, (m, 3), are the sides
@@ -74,10 +74,10 @@ def outlines_above(
     along = np.zeros(len(places), np.bool_)
     along[start[outer]] = along[end[outer]] = along[crossing[outer]] = True
     lengths = np.concatenate([np.full(len(points), np.nan), np.hypot(*side.T)])
-    return [Outline(places[ring], along[ring], _cell(lengths[ring], places[ring])) for ring in rings]
+    return [LevelOutline(places[ring], along[ring], _cell(lengths[ring], places[ring])) for ring in rings]
 
 
-def located(
+def locate_samples(
     corners: NDArray[np.float64], x: NDArray[np.float64], y: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
     """Samples of a grid that lie in triangles, the triangle of each, and the shares of its corners, (n, 3).
@@ -87,7 +87,7 @@ def located(
 
     Examples
     --------
-    >>> located(np.array([[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]]), np.array([0.5, 1.5]), np.array([1.5, 0.5]))[0]
+    >>> locate_samples(np.array([[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]]), np.array([0.5, 1.5]), np.array([1.5, 0.5]))[0]
     array([0, 2, 3])
     """
     first, last = grid_ranges(corners.min(axis=1), corners.max(axis=1), x, y)
@@ -126,7 +126,7 @@ def located(
 def grid_ranges(
     low: NDArray[np.float64], high: NDArray[np.float64], x: NDArray[np.float64], y: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """First and last column and row of a grid, as `located` takes it, in boxes from `low` to `high`, (m, 2)."""
+    """First and last column and row of a grid, as `locate_samples` takes it, in boxes from `low` to `high`, (m, 2)."""
     firsts, lasts = [], []
     for axis, places in enumerate((x, y)):
         step = places[1] - places[0] if len(places) > 1 else 1.0

@@ -17,8 +17,8 @@ from vexture_geo.depth.speeds import speed_of
 from vexture_geo.depth.variables import (
     depths_of,
     has_depths,
-    listed,
-    loaded,
+    list_names,
+    load_values,
     reader_of,
     refuse_layers,
     time_axis,
@@ -51,7 +51,7 @@ def name_of_mesh(dataset: Any) -> str:
         if _is_mesh(dataset[name]) and dataset[name].attrs.get("topology_dimension", 2) == 2
     ]
     if len(names) != 1:
-        raise SourceError(f"it has {len(names)} meshes of faces ({listed(names)}); write a file with one")
+        raise SourceError(f"it has {len(names)} meshes of faces ({list_names(names)}); write a file with one")
     return names[0]
 
 
@@ -60,7 +60,7 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes:
     mesh = name_of_mesh(dataset)
     try:
         axes, connections, places = _parts(dataset, mesh)
-        nodes = np.column_stack([loaded(axis) for axis in axes]).astype(np.float64)
+        nodes = np.column_stack([load_values(axis) for axis in axes]).astype(np.float64)
         faces = _faces(connections, len(nodes))
     except (SourceError, LimitError):
         raise
@@ -70,7 +70,7 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes:
         raise SourceError("its mesh has no faces, or names nodes that do not exist; write it again")
     units = unit_of(axes[0])
     nodes, kept = faces_unwrapped(nodes, faces, are_degrees="degree" in units.lower(), notes=notes)
-    kept = _taken(kept, faces_once(faces if kept is None else faces[kept], notes))
+    kept = _select_faces(kept, faces_once(faces if kept is None else faces[kept], notes))
     whole = conforming(nodes, faces if kept is None else faces[kept])
     candidates = [
         str(name)
@@ -109,9 +109,9 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes:
     return MeshSeries(whole.nodes, turned, on_faces, crs, name, times, read, meaning, units)
 
 
-def _taken(some: NDArray[np.intp] | None, of: NDArray[np.intp] | None) -> NDArray[np.intp] | None:
+def _select_faces(some: NDArray[np.intp] | None, among: NDArray[np.intp] | None) -> NDArray[np.intp] | None:
     """Numbers of some of the faces that were kept; None where all of them are."""
-    return some if of is None else (of if some is None else some[of])
+    return some if among is None else (among if some is None else some[among])
 
 
 def _parts(dataset: Any, mesh: str) -> tuple[list[Any], Any, tuple[str, str]]:
@@ -134,7 +134,7 @@ def _parts(dataset: Any, mesh: str) -> tuple[list[Any], Any, tuple[str, str]]:
 
 def _faces(connections: Any, count: int) -> Faces:
     """Numbers of the nodes of faces, from 0, and -1 where a face has fewer."""
-    numbers: NDArray[Any] = loaded(connections)
+    numbers: NDArray[Any] = load_values(connections)
     with np.errstate(invalid="ignore"):
         known = np.isfinite(numbers) & (numbers >= 0)
     used = numbers[known]

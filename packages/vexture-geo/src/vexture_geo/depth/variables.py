@@ -19,8 +19,8 @@ __all__ = [
     "depths_of",
     "has_depths",
     "known_as",
-    "listed",
-    "loaded",
+    "list_names",
+    "load_values",
     "reader_of",
     "refuse_layers",
     "time_axis",
@@ -93,14 +93,14 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None, notes: 
     bed = _bed(dataset, candidates)
     read_bed = reader_of(dataset[bed], _sign(dataset, bed), notes) if bed is not None else None
     if variable is not None and variable not in candidates:
-        raise ParameterError(f"there are no depths in {variable!r}; `variable` may be {listed(candidates)}")
+        raise ParameterError(f"there are no depths in {variable!r}; `variable` may be {list_names(candidates)}")
     level = _level(dataset, candidates)
-    chosen = _chosen(dataset, candidates, bed, level) if variable is None else variable
-    is_level = chosen == level or (_is(dataset, chosen, LEVELS) and not _named(chosen, DEPTHS))
+    chosen = _choose_variable(dataset, candidates, bed, level) if variable is None else variable
+    is_level = chosen == level or (_is(dataset, chosen, LEVELS) and not _has_name(chosen, DEPTHS))
     if chosen == bed or (is_level and read_bed is None):
         what = "heights of the bed" if chosen == bed else "water levels, and no variable holds heights of the bed"
         others = [name for name in candidates if name not in (bed, level)]
-        remedy = f"`variable` may be {listed(others)}" if others else "write depths into the file"
+        remedy = f"`variable` may be {list_names(others)}" if others else "write depths into the file"
         raise (SourceError if variable is None else ParameterError)(f"{chosen!r} holds {what}; {remedy}")
     for name in (chosen, bed if is_level else None):
         if name is not None and metres_in(unit_of(dataset[name])) is None:
@@ -172,7 +172,7 @@ def has_depths(dataset: Any, candidates: list[str]) -> bool:
     return both or any(_is(dataset, name, DEPTHS) for name in candidates if name != bed)
 
 
-def _chosen(dataset: Any, candidates: list[str], bed: str | None, level: str | None) -> str:
+def _choose_variable(dataset: Any, candidates: list[str], bed: str | None, level: str | None) -> str:
     """Variable that holds depths, or the water level above a known bed.
 
     The one with the most times: models write the largest depth of a run beside the levels of all its times.
@@ -185,12 +185,12 @@ def _chosen(dataset: Any, candidates: list[str], bed: str | None, level: str | N
     choice = [name for name in choice if metres_in(unit_of(dataset[name])) is not None] or choice
     if not choice and level is None:
         raise SourceError(
-            f"no variable is on rows and columns; it has {listed(dataset.data_vars)}; write x and y, the coordinates "
-            "of columns and rows, into the file, as to_netcdf of xarray does"
+            f"no variable is on rows and columns; it has {list_names(dataset.data_vars)}; write x and y, the "
+            "coordinates of columns and rows, into the file, as to_netcdf of xarray does"
         )
     choice = choice or [level or ""]
     if len(choice) > 1:
-        raise LimitError(f"depths may be in {listed(choice)}; choose one by `variable`")
+        raise LimitError(f"depths may be in {list_names(choice)}; choose one by `variable`")
     return choice[0]
 
 
@@ -222,20 +222,20 @@ def reader_of(
     metres = metres_in(unit_of(variable)) or 1.0 if unit is None else unit
     last: list[tuple[Any, Values]] = []
 
-    def again(places: dict[Any, Any], order: tuple[str, ...]) -> Values:
+    def read_again(places: dict[Any, Any], order: tuple[str, ...]) -> Values:
         key = ({dim: place for dim, place in places.items() if dim in variable.dims}, order)
         if not last or last[0][0] != key:
             last[:] = [(key, sign * metres * _read(variable, places, order, metres, notes, are_depths))]
         return last[0][1]
 
-    return again
+    return read_again
 
 
 def _bed(dataset: Any, candidates: list[str]) -> str | None:
     """Variable of the heights of the bed, or of its depths below their zero."""
     if (above := _bed_and_level(dataset, candidates)) is not None:
         return above[0]
-    described = [name for name in candidates if _is(dataset, name, DEPTHS) and _sounded(dataset, name)]
+    described = [name for name in candidates if _is(dataset, name, DEPTHS) and _is_sounded(dataset, name)]
     known = BEDS[0] | SOUNDINGS[0], BEDS[1] | SOUNDINGS[1]
     found = known_as(dataset, candidates, known)
     return described[0] if found is None and len(described) == 1 else found
@@ -250,8 +250,8 @@ def _level(dataset: Any, candidates: list[str]) -> str | None:
 def _bed_and_level(dataset: Any, candidates: list[str]) -> tuple[str, str] | None:
     """A bed called a depth, and a level called an elevation, as SCHISM has them: the level has times, the bed none."""
     moving = {name: time_axis(dataset, dataset[name].dims, None) is not None for name in candidates}
-    beds = [name for name in candidates if _named(name, DEPTHS) and not moving[name]]
-    levels = [name for name in candidates if _named(name, (RISING, set())) and moving[name]]
+    beds = [name for name in candidates if _has_name(name, DEPTHS) and not moving[name]]
+    levels = [name for name in candidates if _has_name(name, (RISING, set())) and moving[name]]
     return (beds[0], levels[0]) if len(beds) == len(levels) == 1 else None
 
 
@@ -262,15 +262,15 @@ def _sign(dataset: Any, bed: str) -> float:
     return -1.0 if str(dataset[bed].attrs.get("positive", "down" if sounded else "up")).lower() == "down" else 1.0
 
 
-def _sounded(dataset: Any, name: str) -> bool:
+def _is_sounded(dataset: Any, name: str) -> bool:
     return SOUNDED.search(str(dataset[name].attrs.get("long_name", ""))) is not None
 
 
 def _is(dataset: Any, name: str, known: tuple[set[str], set[str]]) -> bool:
-    return _named(name, known) or _standard(dataset, name) in known[1]
+    return _has_name(name, known) or _standard(dataset, name) in known[1]
 
 
-def _named(name: str, known: tuple[set[str], set[str]]) -> bool:
+def _has_name(name: str, known: tuple[set[str], set[str]]) -> bool:
     return MESH.sub("", name).lower().replace("_", "").replace("-", "") in known[0]
 
 
@@ -285,7 +285,7 @@ def known_as(dataset: Any, candidates: list[str], known: tuple[set[str], set[str
 
     That of the level at the step before has the same standard name.
     """
-    found = _longest(dataset, [name for name in candidates if _named(name, known)])
+    found = _longest(dataset, [name for name in candidates if _has_name(name, known)])
     found = found or _longest(dataset, [name for name in candidates if _standard(dataset, name) in known[1]])
     return found[0] if len(found) == 1 else None
 
@@ -307,12 +307,12 @@ def refuse_layers(dataset: Any, name: str, known: tuple[str | None, ...]) -> Non
     extra = [dim for dim in dataset[name].dims if dim not in known and dataset.sizes[dim] > 1]
     if extra:
         raise SourceError(
-            f"variable {name!r} also has the dimension {listed(extra)} ({dataset.sizes[extra[0]]} long); "
+            f"variable {name!r} also has the dimension {list_names(extra)} ({dataset.sizes[extra[0]]} long); "
             "write a file with one layer, or name another `variable`"
         )
 
 
-def loaded(variable: Any) -> Any:
+def load_values(variable: Any) -> Any:
     """Values of a variable."""
     try:
         with warnings.catch_warnings():
@@ -336,12 +336,12 @@ def _read(
     extra = [dim for dim in taken.dims if dim not in order]
     if any(taken.sizes[dim] > 1 for dim in extra):
         raise SourceError(
-            f"variable {variable.name!r} also has the dimension {listed(extra)}, which the depths have not; "
+            f"variable {variable.name!r} also has the dimension {list_names(extra)}, which the depths have not; "
             "write one that has none but theirs"
         )
     taken = taken.squeeze(extra)
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
-        values: Values = loaded(taken.transpose(*order)).astype(np.float64)
+        values: Values = load_values(taken.transpose(*order)).astype(np.float64)
     if has_flags(variable):
         return values
     name = repr(str(variable.name))
@@ -353,7 +353,7 @@ def unit_of(variable: Any) -> str:
     return str(variable.attrs.get("units", "")).strip()
 
 
-def listed(names: Any) -> str:
+def list_names(names: Any) -> str:
     """The first eight names, for a message."""
     shown = [repr(str(name)) for name in names]
     return ", ".join(shown[:8]) + (f" and {len(shown) - 8} more" if len(shown) > 8 else "") or "none"

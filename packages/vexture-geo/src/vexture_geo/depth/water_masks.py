@@ -9,10 +9,10 @@ import numpy as np
 
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
-from vexture_geo.base.depth_ranges import DepthRange, shown_range, wet_ranges
+from vexture_geo.base.depth_ranges import DepthRange, format_range, wet_ranges
 from vexture_geo.depth.series import Meaning, Values
 
-__all__ = ["ToldWater", "told_water"]
+__all__ = ["WaterRanks", "water_ranks"]
 
 MARKS: Final = (0.0, 1.0, 255.0)
 """Numbers of masks: 0 is dry, 1 is wet; 255 is wet where there is no 1, and else unknown."""
@@ -25,7 +25,7 @@ SAME: Final = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class ToldWater:
+class WaterRanks:
     """How numbers become ranks: 0 where it is dry or unknown, 1 for the first of the `ranges`, or for a mask's water.
 
     `wet` is the first number of water, and `mark` the only one of a mask. `leasts` are the ranks from which areas
@@ -45,9 +45,9 @@ class ToldWater:
         return np.where(np.isfinite(values), np.maximum(values - self.wet + 1.0, 0.0), 0.0)
 
 
-def told_water(
+def water_ranks(
     meaning: Meaning, steps: Iterable[Values], hmin: float, depths: Sequence[float], notes: Notes
-) -> ToldWater | None:
+) -> WaterRanks | None:
     """What the numbers of a file say where they are no depths; None if they are.
 
     `steps` are those of all times, read as far as they are looked at. Notes take what was chosen. Raises a
@@ -61,10 +61,10 @@ def told_water(
     if marks:
         mark = 1.0 if 1.0 in marks else 255.0
         notes.remark(
-            f"its numbers are only {_listed(sorted({0.0, *marks}))}: {mark:g} is read as water of no known depth; "
-            "if they are depths, write their unit into the file, such as m"
+            f"its numbers are only {_list_numbers(sorted({0.0, *marks}))}: {mark:g} is read as water of no known "
+            "depth; if they are depths, write their unit into the file, such as m"
         )
-        return ToldWater(mark, mark=mark)
+        return WaterRanks(mark, mark=mark)
     if meaning.are_colors:
         raise SourceError(
             "its numbers are those of colours, and no depths; give depths in metres, or a mask of 0 and 1; a picture "
@@ -89,22 +89,24 @@ def _marks(steps: Iterable[Values]) -> set[float]:
     return found
 
 
-def _of_classes(ranges: tuple[DepthRange, ...], hmin: float, depths: Sequence[float], notes: Notes) -> ToldWater:
+def _of_classes(ranges: tuple[DepthRange, ...], hmin: float, depths: Sequence[float], notes: Notes) -> WaterRanks:
     """Ranks of classes of water."""
     wet = wet_ranges(ranges, hmin)
     if not wet:
-        told = ", ".join(map(shown_range, ranges))
+        told = ", ".join(map(format_range, ranges))
         raise SourceError(f"its classes ({told}) are all below `hmin`, {hmin:g} m; choose a smaller one")
     dry = len(ranges) - len(wet)
     wet_from = float(dry + 1)
     if len(wet) == 1 and wet[0].low <= 0.0:
         notes.remark("it says where it is wet, and no depths")
-        return ToldWater(wet_from)
-    notes.remark(f"it holds classes of depth, from {shown_range(wet[0])} to {shown_range(wet[-1])}: depths are ranges")
+        return WaterRanks(wet_from)
+    notes.remark(
+        f"it holds classes of depth, from {format_range(wet[0])} to {format_range(wet[-1])}: depths are ranges"
+    )
     if dry and ranges[dry - 1].high > hmin:
-        notes.remark(f"its class {shown_range(ranges[dry - 1])} holds dry ground too, and counts as dry")
+        notes.remark(f"its class {format_range(ranges[dry - 1])} holds dry ground too, and counts as dry")
     if wet[0].low < hmin:
-        notes.remark(f"its class {shown_range(wet[0])} counts as water, with `hmin` {hmin:g} m in it")
+        notes.remark(f"its class {format_range(wet[0])} counts as water, with `hmin` {hmin:g} m in it")
     lows = [one.low for one in wet]
     inner = lows[1:]
     contours = [low for low in inner if any(isclose(low, depth, abs_tol=SAME) for depth in depths)]
@@ -113,11 +115,11 @@ def _of_classes(ranges: tuple[DepthRange, ...], hmin: float, depths: Sequence[fl
             contours = inner
         elif not contours:
             contours = [inner[len(inner) * k // MOST_CLASSES] for k in range(1, MOST_CLASSES)]
-        notes.remark(f"maps of its classes have borders at {_listed(contours)} m, where the file has them")
-    return ToldWater(wet_from, None, wet, tuple(contours), (1, *(1 + lows.index(contour) for contour in contours)))
+        notes.remark(f"maps of its classes have borders at {_list_numbers(contours)} m, where the file has them")
+    return WaterRanks(wet_from, None, wet, tuple(contours), (1, *(1 + lows.index(contour) for contour in contours)))
 
 
-def _listed(numbers: Sequence[float]) -> str:
+def _list_numbers(numbers: Sequence[float]) -> str:
     """Numbers in a sentence."""
     told = [f"{number:g}" for number in numbers]
     return told[0] if len(told) == 1 else f"{', '.join(told[:-1])} and {told[-1]}"

@@ -75,7 +75,7 @@ class FloodConversion:
         hazard = hazard_png(step, self.relief.heights.shape[::-1], self.hmin)
         if hazard is not None:
             views["hazard"] = PublishedFile(hazard, "image/png", ".png")
-        level, level_facts = surface.encoded()
+        level, level_facts = surface.encode_png()
         views["level"] = PublishedFile(level, "image/png", ".png")
         facts = {
             **shape.facts,
@@ -92,9 +92,9 @@ class FloodConversion:
         }
         return replace(shape, facts=facts, views=views)
 
-    def converted(self, given: tuple[Step, WaterSurface, str, str]) -> PublishedShape:
+    def convert_one(self, arguments: tuple[Step, WaterSurface, str, str]) -> PublishedShape:
         """Shape of one step, as `step` makes it."""
-        return self.step(*given)
+        return self.step(*arguments)
 
     def shape_of(self, data: bytes, name: str) -> PublishedShape:
         """Shape of an upload: a step in any format, or a texture that was made in this frame."""

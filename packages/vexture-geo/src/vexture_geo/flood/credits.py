@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from vexture.base.content import NETCDF, TIFF
-from vexture_geo.base.gdal import opened_raster
+from vexture_geo.base.gdal import open_raster
 from vexture_geo.base.hdf5 import refuse_links_of_netcdf
 
 __all__ = ["Credits", "credits_among", "credits_of"]
@@ -79,7 +79,7 @@ def _attributes(path: Path) -> Mapping[str, Any]:
 
 
 def _tags(path: Path) -> Mapping[str, Any]:
-    with opened_raster(path) as raster:
+    with open_raster(path) as raster:
         tags: Mapping[str, Any] = raster.tags()
         return tags
 

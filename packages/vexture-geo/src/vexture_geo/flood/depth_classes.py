@@ -34,7 +34,7 @@ def _parts(color: str) -> list[int]:
     return [int(color[k : k + 2], 16) for k in (1, 3, 5)]
 
 
-def _painted(color: str) -> Paint:
+def _paint_of(color: str) -> Paint:
     red, green, blue = (part / 255.0 for part in _parts(color))
     return Paint((red, green, blue))
 
@@ -68,7 +68,7 @@ def class_drawing(step: Step, depths: tuple[float, ...], hmin: float, name: str)
     areas = (step.drawing, *step.deeper)
     colors = colors_of(len(depths))[-len(areas) :]
     paths = (
-        replace(path, paint=_painted(color), element=color)
+        replace(path, paint=_paint_of(color), element=color)
         for area, color in zip(areas, colors, strict=True)
         for path in area.paths
     )

@@ -34,14 +34,14 @@ def deepest(depth: NDArray[np.float32]) -> float:
 
 def depth_png(depth: NDArray[np.float32]) -> bytes:
     """Depths in metres as a 16-bit gray PNG, which `CODE` reads: 0 is dry or unknown, and wet pixels are at least 1."""
-    metres = _thinned(np.where(np.isfinite(depth), np.maximum(depth, 0.0), 0.0).astype(np.float64))
+    metres = _thin_grid(np.where(np.isfinite(depth), np.maximum(depth, 0.0), 0.0).astype(np.float64))
     numbers = np.rint(np.arcsinh(metres / SCALE) / STEP)
     return _png(np.where(metres > 0.0, np.clip(numbers, 1.0, 65535.0), 0.0).astype(np.uint16))
 
 
 def ranks_png(classes: DepthClasses) -> bytes:
     """Ranks of classes of depth as an 8-bit gray PNG: 0 is dry or unknown."""
-    return _png(_thinned(classes.ranks))
+    return _png(_thin_grid(classes.ranks))
 
 
 def ranges_as_json(classes: DepthClasses) -> list[list[float | None]]:
@@ -49,7 +49,7 @@ def ranges_as_json(classes: DepthClasses) -> list[list[float | None]]:
     return [[low, high if np.isfinite(high) else None] for low, high in classes.ranges]
 
 
-def _thinned(grid: NDArray[Any]) -> NDArray[Any]:
+def _thin_grid(grid: NDArray[Any]) -> NDArray[Any]:
     """Every second, third or further sample of a grid that is too large."""
     stride = -(-max(grid.shape) // PIXELS)
     return np.ascontiguousarray(grid[stride // 2 :: stride, stride // 2 :: stride])

@@ -47,7 +47,7 @@ def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
     frame = extent.frame
     size, longest = size_for(frame, DRAWN), max(frame.metres)
     rough = noise(size, 8)
-    height = _enlarged(relief.heights, size)
+    height = _enlarge(relief.heights, size)
     top = max(float(relief.heights.max()), 1e-6)
     first, most = first_wet(extent), widest(extent)
     if first is None or most is None:
@@ -60,7 +60,7 @@ def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
         shore = shore_distance(
             (coverage_over(first.drawing, frame.box, coarse) >= 0.5) | cells_of(beyond, coarse), cell
         )
-        distance = _enlarged(shore, size)  # metres, positive on land
+        distance = _enlarge(shore, size)  # metres, positive on land
     away = np.maximum(distance, 0.0) / (BEACH * longest)
     land = _blend(WET_SAND, SAND, away, 0.02, 0.12)
     land = _blend(land, GRASS, away + 0.5 * rough, 0.8, 1.6)
@@ -73,7 +73,7 @@ def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
     return Image.fromarray(np.clip(np.rint(shown * bright[..., None]), 0, 255).astype(np.uint8))
 
 
-def _enlarged(grid: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.float64]:
+def _enlarge(grid: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.float64]:
     from PIL import Image
 
     return np.asarray(Image.fromarray(grid.astype(np.float32)).resize(size, Image.Resampling.BICUBIC), np.float64)

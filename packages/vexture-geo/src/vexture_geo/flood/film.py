@@ -13,7 +13,7 @@ from typing import Any, Final
 from vexture.base.errors import DeviceError, ParameterError, reason_of
 from vexture_geo.flood.video_options import VideoOptions
 
-__all__ = ["Film", "filming", "video_packages"]
+__all__ = ["Film", "open_film", "video_packages"]
 
 PROGRAMS: Final = (
     "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "microsoft-edge",
@@ -73,7 +73,7 @@ class Film:
 
 
 @contextmanager
-def filming(page: bytes, options: VideoOptions) -> Iterator[Film]:
+def open_film(page: bytes, options: VideoOptions) -> Iterator[Film]:
     """Open a page of a flood, all of it in one file, in a browser.
 
     Raises
@@ -91,13 +91,13 @@ def filming(page: bytes, options: VideoOptions) -> Iterator[Film]:
         try:
             for flags in DRIVERS:
                 browser = _browser(started.chromium, (*FLAGS, *flags))
-                opened, trouble = _opened(browser, f"{file.as_uri()}?bare", options.size)
+                opened, trouble = _open_page(browser, f"{file.as_uri()}?bare", options.size)
                 if not trouble:
                     break
                 browser.close()
             else:
                 raise DeviceError(f"the browser cannot draw the page: {trouble}")
-            yield _shown(opened, options)
+            yield _prepare_film(opened, options)
             browser.close()
         except Error as error:
             raise DeviceError(f"the browser cannot draw the page ({reason_of(error)}); use another one") from None
@@ -117,7 +117,7 @@ def _browser(kind: Any, flags: Sequence[str]) -> Any:
         ) from None
 
 
-def _opened(browser: Any, address: str, size: tuple[int, int]) -> tuple[Any, str]:
+def _open_page(browser: Any, address: str, size: tuple[int, int]) -> tuple[Any, str]:
     """Open the page; why it draws nothing, if so."""
     width, height = size
     page = browser.new_page(viewport={"width": width, "height": height})
@@ -127,7 +127,7 @@ def _opened(browser: Any, address: str, size: tuple[int, int]) -> tuple[Any, str
     return page, trouble.first.inner_text() if trouble.count() else ""
 
 
-def _shown(page: Any, options: VideoOptions) -> Film:
+def _prepare_film(page: Any, options: VideoOptions) -> Film:
     """Choose the view and the colours of a page."""
     if options.view is not None:
         views = page.evaluate("vexture.flood.views")

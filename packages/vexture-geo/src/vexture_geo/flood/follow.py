@@ -16,13 +16,13 @@ from vexture.server.published import PublishedShape
 from vexture.server.worker import Worker
 from vexture_geo.base.crs import MissingReferenceError
 from vexture_geo.base.extent import Bounds, Extent
-from vexture_geo.depth.appended_steps import Change, Known, Run, files_of, growing, whole_run
+from vexture_geo.depth.appended_steps import GrowingFile, KnownStep, StepChange, files_of, open_growing, whole_run
 from vexture_geo.depth.netcdf import MOST_STEPS
 from vexture_geo.flood.conversion import FloodConversion
 from vexture_geo.flood.credits import Credits, credits_of
 from vexture_geo.flood.scene import labels, step_names
 
-__all__ = ["NAMES", "FollowedRun", "Start", "first_steps", "follow", "is_made_of", "marked"]
+__all__ = ["NAMES", "FollowedRun", "Start", "first_steps", "follow", "is_made_of", "with_digest"]
 
 NAMES: Final = step_names(MOST_STEPS)
 """Of the steps of a followed run: its first ones have names that fit all that may come."""
@@ -52,7 +52,7 @@ class Start(NamedTuple):
     """What a followed file held when it was read first."""
 
     extent: Extent
-    known: tuple[Known, ...]
+    known: tuple[KnownStep, ...]
     credits: Credits
     stamp: _Stamp
 
@@ -81,11 +81,11 @@ class _Found(NamedTuple):
     """Steps that were converted together; `is_whole` if there are no more."""
 
     started_over: bool
-    steps: list[tuple[int, Known, PublishedShape]]
+    steps: list[tuple[int, KnownStep, PublishedShape]]
     is_whole: bool
 
 
-def first_steps(run: FollowedRun, bounds: Bounds | None, say: Say) -> Start:
+def first_steps(run: FollowedRun, bounds: Bounds | None, report: Say) -> Start:
     """Wait until a file holds a step that can be read; errors that time does not mend are raised."""
     told = False
     with about(str(run.path)):
@@ -97,7 +97,7 @@ def first_steps(run: FollowedRun, bounds: Bounds | None, say: Say) -> Start:
                 raise
             except (SourceError, OSError, RuntimeError) as error:  # netCDF4 raises all of them
                 if not told:
-                    say(f"{run.path}: waiting for its first step ({_reason(error)}); Ctrl-C ends it")
+                    report(f"{run.path}: waiting for its first step ({_reason(error)}); Ctrl-C ends it")
                     told = True
             again = time.monotonic() + RETRY_SECONDS  # a lock is given up without a change of the file
             while run.stamp == stamp and time.monotonic() < again:
@@ -110,14 +110,14 @@ async def follow(
     fresh: Sequence[PublishedShape],
     conversion: FloodConversion,
     shelf: LimitedShapes,
-    say: Say,
+    report: Say,
 ) -> None:
     """Publish each new step of a run, and each that has changed; ends only when it is cancelled.
 
     `fresh` are those of the first steps that are on the shelf, but not kept yet.
     """
     worker = Worker()
-    follower = _Follower(run, start, conversion, shelf, say, worker)
+    follower = _Follower(run, start, conversion, shelf, report, worker)
     try:
         await follower.keep(fresh)
         await follower.run()
@@ -132,12 +132,12 @@ class _Follower:
         start: Start,
         conversion: FloodConversion,
         shelf: LimitedShapes,
-        say: Say,
+        report: Say,
         worker: Worker,
     ) -> None:
         self._run, self._conversion, self._shelf, self._worker = run, conversion, shelf, worker
         self._known, self._stamp = list(start.known), start.stamp
-        self._say, self._said = say, set[str]()
+        self._report, self._said = report, set[str]()
 
     async def keep(self, fresh: Sequence[PublishedShape]) -> None:
         """Keep the first steps, and none of an earlier run that had more."""
@@ -146,7 +146,7 @@ class _Follower:
                 await self._shelf.publish(shape)
             await self._withdraw_from(len(self._known))
         except EXPECTED as error:
-            self._tell(str(error))
+            self._report_once(str(error))
 
     async def run(self) -> None:
         """Look at the file again and again; the first time it is read in any case, and the process is warm then."""
@@ -157,27 +157,27 @@ class _Follower:
             if self._run.stamp == self._stamp and not is_first:
                 continue
             is_first = False
-            stamp = await self._settled()
+            stamp = await self._wait_until_settled()
             try:
                 await self._take(rewritten=_inodes(stamp) != _inodes(self._stamp))
             except (*EXPECTED, BrokenProcessPool, MemoryError) as error:
                 if isinstance(error, BrokenProcessPool):
                     self._worker.kill()
                 if has_failed:  # once is no trouble: the model may have been writing
-                    self._tell(f"{self._run.path}: no newer step was read ({_reason(error)}); it is tried again")
+                    self._report_once(f"{self._run.path}: no newer step was read ({_reason(error)}); it is tried again")
                 has_failed = True
                 await asyncio.sleep(pause)
                 pause = min(2.0 * pause, LONGEST_RETRY)
             else:
                 self._stamp, pause, has_failed = stamp, RETRY_SECONDS, False
 
-    def _tell(self, line: str) -> None:
+    def _report_once(self, line: str) -> None:
         """Say a line once."""
         if line not in self._said:
             self._said.add(line)
-            self._say(line)
+            self._report(line)
 
-    async def _settled(self) -> _Stamp:
+    async def _wait_until_settled(self) -> _Stamp:
         """How the file is when it does not change for a moment: half of a step is not shown."""
         stamp = self._run.stamp
         for _ in range(SETTLING_LOOKS):
@@ -195,7 +195,7 @@ class _Follower:
             if found.started_over and not found.steps:
                 return
             if found.started_over:
-                self._tell_again(f"{self._run.path}: the run has started over; so does the page")
+                self._repeat(f"{self._run.path}: the run has started over; so does the page")
                 self._known.clear()
             for place, (number, known, shape) in enumerate(found.steps):
                 await self._shelf.publish(shape)
@@ -204,8 +204,8 @@ class _Follower:
                     await self._withdraw_from(1)
             is_whole = found.is_whole
 
-    def _tell_again(self, line: str) -> None:
-        self._say(line)
+    def _repeat(self, line: str) -> None:
+        self._report(line)
         self._said.clear()
 
     async def _withdraw_from(self, number: int) -> None:
@@ -213,12 +213,12 @@ class _Follower:
             await self._shelf.withdraw(name)
 
 
-def _newer(run: FollowedRun, conversion: FloodConversion, known: Sequence[Known], rewritten: bool) -> _Found:
+def _newer(run: FollowedRun, conversion: FloodConversion, known: Sequence[KnownStep], rewritten: bool) -> _Found:
     """Convert what is new in a file, in the process; after some time the rest is left to another call."""
     load_kernels()
     begun = time.monotonic()
-    steps: list[tuple[int, Known, PublishedShape]] = []
-    with growing(run.path, frame=conversion.frame, known=known, rewritten=rewritten, **run.options) as opened:
+    steps: list[tuple[int, KnownStep, PublishedShape]] = []
+    with open_growing(run.path, frame=conversion.frame, known=known, rewritten=rewritten, **run.options) as opened:
         for change in opened.changes():
             steps.append((change.number, change.known, _shape(change, opened, conversion)))
             if time.monotonic() > begun + BATCH_SECONDS:
@@ -226,17 +226,17 @@ def _newer(run: FollowedRun, conversion: FloodConversion, known: Sequence[Known]
         return _Found(opened.started_over, steps, True)
 
 
-def _shape(change: Change, run: Run, conversion: FloodConversion) -> PublishedShape:
+def _shape(change: StepChange, run: GrowingFile, conversion: FloodConversion) -> PublishedShape:
     label = labels(run.times[: change.number + 1])[-1]
-    return marked(conversion.later(change.step, change.bed, NAMES[change.number], label), change.known)
+    return with_digest(conversion.later(change.step, change.bed, NAMES[change.number], label), change.known)
 
 
-def marked(shape: PublishedShape, known: Known) -> PublishedShape:
+def with_digest(shape: PublishedShape, known: KnownStep) -> PublishedShape:
     """A shape that says what it was made of."""
     return replace(shape, facts={**shape.facts, CONTENT: known.digest})
 
 
-def is_made_of(shape: PublishedShape, known: Known) -> bool:
+def is_made_of(shape: PublishedShape, known: KnownStep) -> bool:
     """Whether a shape says that it was made of these values, at this time."""
     time = None if known.time is None else known.time.isoformat()
     return (shape.facts.get(CONTENT), shape.facts.get("time")) == (known.digest, time)

@@ -9,7 +9,15 @@ from vexture.drawing.drawing import Drawing
 from vexture_geo.base.extent import Bounds, Frame
 
 __all__ = [
-    "coarser", "coverage_over", "distance_to", "filled", "mean_of", "noise", "pixels_to", "sampled", "shore_distance",
+    "coarser",
+    "coverage_over",
+    "distance_to",
+    "fill_unknown",
+    "mean_of",
+    "noise",
+    "pixels_to",
+    "sample_grid",
+    "shore_distance",
     "size_for",
 ]  # fmt: skip
 
@@ -85,14 +93,14 @@ def distance_to(marked: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray
     return np.sqrt(squares)
 
 
-def sampled(grid: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float64]:
+def sample_grid(grid: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float64]:
     """Values at `size` columns and rows of points from corner to corner, interpolated between the middles of cells.
 
     NaN is unknown. A point between known and unknown cells has the value of the known ones.
 
     Examples
     --------
-    >>> sampled(np.array([[0.0, 2.0]]), (3, 2))
+    >>> sample_grid(np.array([[0.0, 2.0]]), (3, 2))
     array([[0., 1., 2.],
            [0., 1., 2.]])
     """
@@ -132,7 +140,7 @@ def mean_of(values: NDArray[np.float64], axis: int | tuple[int, ...]) -> NDArray
         return np.asarray(np.where(known, values, 0.0).sum(axis) / known.sum(axis))
 
 
-def filled(grid: NDArray[np.float64]) -> NDArray[np.float64]:
+def fill_unknown(grid: NDArray[np.float64]) -> NDArray[np.float64]:
     """Grid with its unknown values, NaN, filled in from the nearest known ones and slightly smoothed."""
     from rasterio.fill import fillnodata
 

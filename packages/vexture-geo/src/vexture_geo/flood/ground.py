@@ -10,14 +10,14 @@ import numpy as np
 from vexture.base.content import TIFF, about
 from vexture.base.errors import LimitError, SourceError, reason_of
 from vexture_geo.base.extent import Frame
-from vexture_geo.base.gdal import opened_raster
+from vexture_geo.base.gdal import open_raster
 from vexture_geo.flood.grids import pixels_to, size_for
 from vexture_geo.flood.scene import PageNote
 
 if TYPE_CHECKING:
     from PIL import Image
 
-__all__ = ["GROUND_TYPE", "LARGEST_GROUND", "encoded", "ground_of"]
+__all__ = ["GROUND_TYPE", "LARGEST_GROUND", "encode_webp", "ground_of"]
 
 GROUND_TYPE: Final = "image/webp"
 
@@ -52,8 +52,8 @@ def ground_of(
     except OSError as error:
         raise SourceError(f"`ground` {path}: cannot be read ({error.strerror}); name another picture") from None
     if start in TIFF:
-        return _warped(path, frame, drawn)
-    picture = _opened(path)
+        return _warp_to_frame(path, frame, drawn)
+    picture = _open_picture(path)
     notes, remedy = [], "`bounds` says which box it shows."
     if not bounds_given:
         notes.append(PageNote(f"{path.name} is assumed to show exactly the box of the extent.", remedy))
@@ -61,10 +61,10 @@ def ground_of(
     if not 0.9 < (picture.width / picture.height) / (width / height) < 1.1:
         pixels = f"{picture.width} x {picture.height} pixels"
         notes.append(PageNote(f"{path.name}, {pixels}, is stretched to {width:.0f} x {height:.0f} m.", remedy))
-    return _over(drawn, _resized(picture, *_size(frame, max(picture.size)))), notes
+    return _over(drawn, _resize(picture, *_size(frame, max(picture.size)))), notes
 
 
-def encoded(picture: "Image.Image") -> bytes:
+def encode_webp(picture: "Image.Image") -> bytes:
     """WebP of a picture within `LARGEST_GROUND` bytes."""
     while True:
         for quality in QUALITIES:
@@ -72,10 +72,10 @@ def encoded(picture: "Image.Image") -> bytes:
             picture.save(out, format="WEBP", quality=quality, method=4)
             if out.tell() <= LARGEST_GROUND:
                 return out.getvalue()
-        picture = _resized(picture, max(1, 3 * picture.width // 4), max(1, 3 * picture.height // 4))
+        picture = _resize(picture, max(1, 3 * picture.width // 4), max(1, 3 * picture.height // 4))
 
 
-def _opened(path: Path) -> "Image.Image":
+def _open_picture(path: Path) -> "Image.Image":
     """A picture in RGBA; one that is too large is refused before it is decoded."""
     from PIL import Image, ImageOps, UnidentifiedImageError
 
@@ -97,13 +97,13 @@ def _opened(path: Path) -> "Image.Image":
         raise SourceError(f"`ground` {path}: is {reason}; give a PNG, JPEG, WebP or GeoTIFF") from None
 
 
-def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[PageNote]]:
+def _warp_to_frame(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[PageNote]]:
     """A GeoTIFF warped to the frame, over the drawn ground."""
     from PIL import Image
     from rasterio.errors import CRSError, RasterioError, RasterioIOError
 
     try:
-        with warnings.catch_warnings(action="ignore"), about(f"`ground` {path}"), opened_raster(path) as raster:
+        with warnings.catch_warnings(action="ignore"), about(f"`ground` {path}"), open_raster(path) as raster:
             if raster.crs is None:
                 raise SourceError(
                     "says no reference system; write it into the file (gdal_edit.py -a_srs EPSG:...), or save it as a "
@@ -121,7 +121,7 @@ def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Imag
         share = 100.0 * (alpha > 0).mean()
         notes.append(PageNote(f"{path.name} shows {share:.0f}% of the frame; the rest of the ground is drawn.", ""))
     if bands.dtype != np.uint8:
-        bands = _stretched(bands, alpha > 0)
+        bands = _stretch_brightness(bands, alpha > 0)
         notes.append(PageNote(f"{path.name} has more than 8 bits a channel; its brightness is stretched.", ""))
     colours = bands[:3] if len(bands) >= 3 else np.repeat(bands[:1], 3, axis=0)
     picture = np.concatenate([colours, alpha[None]]).transpose(1, 2, 0)
@@ -162,7 +162,7 @@ def _bands_over(raster: Any, frame: Frame) -> tuple[Any, Any]:
     return bands, alpha
 
 
-def _stretched(bands: Any, known: Any) -> Any:
+def _stretch_brightness(bands: Any, known: Any) -> Any:
     values = bands[:, known].astype(np.float64)
     values = values[np.isfinite(values)]
     low, high = np.percentile(values, SHOWN_PERCENTILES) if len(values) else (0.0, 1.0)
@@ -183,7 +183,7 @@ def _size(frame: Frame, longest: int) -> tuple[int, int]:
     return size_for(frame, max(16, min(longest, LONGEST)), least=1)
 
 
-def _resized(picture: "Image.Image", width: int, height: int) -> "Image.Image":
+def _resize(picture: "Image.Image", width: int, height: int) -> "Image.Image":
     from PIL import Image
 
     return picture.resize((width, height), Image.Resampling.LANCZOS)

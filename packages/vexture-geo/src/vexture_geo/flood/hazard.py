@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture_geo.base.extent import Step
-from vexture_geo.flood.grids import coarser, sampled
+from vexture_geo.flood.grids import coarser, sample_grid
 
 __all__ = ["HAZARDS", "UNIT", "HazardClass", "hazard_png", "rating"]
 
@@ -63,7 +63,7 @@ def hazard_png(step: Step, size: tuple[int, int], hmin: float) -> bytes | None:
     found = np.where(step.depth >= hmin, rating(step.depth, step.speed), np.nan)
     if not np.isfinite(found).any():
         return None
-    numbers = np.clip(np.rint(sampled(coarser(found, size), size) / UNIT) + 1.0, 1.0, 255.0)
+    numbers = np.clip(np.rint(sample_grid(coarser(found, size), size) / UNIT) + 1.0, 1.0, 255.0)
     out = BytesIO()
     Image.fromarray(np.nan_to_num(numbers, nan=0.0).astype(np.uint8)).save(out, format="PNG", optimize=True)
     return out.getvalue()

@@ -11,7 +11,7 @@ from vexture.drawing.drawing import Drawing
 from vexture_geo.base.extent import Frame
 from vexture_geo.flood.grids import coverage_over, distance_to, size_for
 
-__all__ = ["calmed", "cells_of", "open_water", "openness_at", "openness_png"]
+__all__ = ["calm_waves", "cells_of", "open_water", "openness_at", "openness_png"]
 
 SAMPLES: Final = 256
 """Most samples on the longer side."""
@@ -51,7 +51,7 @@ def open_water(
     cell = (frame.metres[0] / size[0], frame.metres[1] / size[1])
     wet = (coverage_over(drawing, frame.box, size) >= 0.5) | cells_of(beyond, size)
     radius, margin, core = _middles(_within(wet, cell), cell, RADIUS)
-    core = _joined(np.pad(_wide(wet, cell), margin, mode="edge") & core, core)
+    core = _grow_seeds(np.pad(_wide(wet, cell), margin, mode="edge") & core, core)
     if not core.any():
         return np.zeros(wet.shape)
     away = (distance_to(core, cell) - radius)[margin:-margin, margin:-margin] / longest
@@ -87,7 +87,7 @@ def _wide(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.bool_
     return np.asarray(inside.repeat(every, axis=0).repeat(every, axis=1)[: wet.shape[0], : wet.shape[1]])
 
 
-def calmed(openness: NDArray[np.float64], frame: Frame, beyond: NDArray[np.bool_] | None) -> NDArray[np.float64]:
+def calm_waves(openness: NDArray[np.float64], frame: Frame, beyond: NDArray[np.bool_] | None) -> NDArray[np.float64]:
     """Openness without waves where the source ends in the sea: its end is no shore."""
     if beyond is None:
         return openness
@@ -126,7 +126,7 @@ def _around(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return np.asarray(np.any([padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)], axis=0))
 
 
-def _joined(seeds: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _grow_seeds(seeds: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Cells that seeds reach without leaving `inside` (morphological reconstruction, Vincent 1993)."""
     while True:
         grown = seeds.copy()

@@ -73,7 +73,7 @@ class FloodOptions:
         if self.workers < 1:
             raise ParameterError(f"`workers` {self.workers}: it is a number of processes, 1 or more")
 
-    def who(self) -> "Workers":
+    def executor(self) -> "Workers":
         """Who converts the steps: the workers of a scheduler, several processes, or this one."""
         from vexture.base.workers import Cluster, InProcess, Processes
 

@@ -146,7 +146,7 @@ def flood_page(
     from vexture_geo.base.datasets import is_dataset
     from vexture_geo.base.extent import Extent
     from vexture_geo.flood.credits import Credits
-    from vexture_geo.flood.server import make, page_of
+    from vexture_geo.flood.server import make_flood, page_of
 
     if not height > 0:
         raise ParameterError(f"`height` is {height}; it is a number of pixels above 0")
@@ -166,14 +166,14 @@ def flood_page(
         given = source, Credits()
     else:
         given = _read(source, asked)
-    made = make(asked, lambda _: None, given=given)  # the notes are on the page
-    return FloodPage(page_of(made).decode(), made.flood.title, made.described, height)
+    made = make_flood(asked, lambda _: None, source=given)  # the notes are on the page
+    return FloodPage(page_of(made).decode(), made.flood.title, made.summary, height)
 
 
-def _read(source: Any, asked: FloodOptions) -> "tuple[Extent, Credits]":
+def _read(source: Any, options: FloodOptions) -> "tuple[Extent, Credits]":
     """A source as an extent, and what it says of itself."""
     from vexture_geo.flood.credits import credits_among, credits_of
     from vexture_geo.readers import read_extent
 
-    extent = read_extent(source, bounds=asked.bounds, crs=asked.crs, hmin=asked.hmin, **asked.reading)
-    return extent, credits_among(source.attrs) if hasattr(source, "attrs") else credits_of(asked.extent)
+    extent = read_extent(source, bounds=options.bounds, crs=options.crs, hmin=options.hmin, **options.reading)
+    return extent, credits_among(source.attrs) if hasattr(source, "attrs") else credits_of(options.extent)

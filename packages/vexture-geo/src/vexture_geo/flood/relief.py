@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from vexture.base.content import about
 from vexture.base.errors import SourceError, reason_of
 from vexture_geo.base.extent import Extent, Frame, Step
-from vexture_geo.base.gdal import opened_raster
+from vexture_geo.base.gdal import open_raster
 from vexture_geo.base.lengths import metres_in
-from vexture_geo.flood.grids import coverage_over, filled, noise, pixels_to, sampled, shore_distance, size_for
+from vexture_geo.flood.grids import coverage_over, fill_unknown, noise, pixels_to, sample_grid, shore_distance, size_for
 
 __all__ = ["Relief", "beyond_of", "first_wet", "relief_of", "wet_samples", "widest"]
 
@@ -94,15 +94,15 @@ def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) 
     """
     size = size_for(extent.frame, SAMPLES)
     first = first_wet(extent)
-    made_up = _invented(extent, size)
+    made_up = _invent_heights(extent, size)
     if path is not None:
         measured = _heights_of(path, extent.frame, size, crs)
     elif extent.bed is not None and np.isfinite(extent.bed).any():
-        measured = sampled(extent.bed, size)
+        measured = sample_grid(extent.bed, size)
     else:
         return Relief(made_up, True)
     known = np.isfinite(measured)
-    heights = filled(measured)
+    heights = fill_unknown(measured)
     if first is None:
         still = float(heights.min())
         return Relief(heights - still, False, float(known.mean()), still)
@@ -112,7 +112,7 @@ def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) 
     heights[wet & ~known] = np.minimum(heights, made_up)[wet & ~known]
     if path is None:
         for step in (first, widest(extent)):
-            heights = _dug(heights, still, extent, step)
+            heights = _dig_rivers(heights, still, extent, step)
     return Relief(heights, False, float((known | wet).mean()), still)
 
 
@@ -125,7 +125,7 @@ def beyond_of(extent: Extent, relief: Relief) -> NDArray[np.bool_] | None:
         return None
     rows, columns = relief.heights.shape
     low = relief.heights < 0.0
-    beyond = ~np.isfinite(sampled(extent.bed, (columns, rows))) & low
+    beyond = ~np.isfinite(sample_grid(extent.bed, (columns, rows))) & low
     for _ in range(ENDS):
         padded = np.pad(beyond, 1)
         beyond |= low & (padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:])
@@ -139,12 +139,12 @@ def wet_samples(step: Step, frame: Frame, size: tuple[int, int]) -> NDArray[np.b
     return coverage_over(step.drawing, (x0 - half_x, y0 - half_y, x1 + half_x, y1 + half_y), size) >= 0.5
 
 
-def _dug(heights: NDArray[np.float64], still: float, extent: Extent, step: Step | None) -> NDArray[np.float64]:
+def _dig_rivers(heights: NDArray[np.float64], still: float, extent: Extent, step: Step | None) -> NDArray[np.float64]:
     """Heights with the beds of narrow rivers, which their banks would hide: where it is wet, of wet cells alone."""
     if step is None or step.depth is None or extent.bed is None:
         return heights
     size = (heights.shape[1], heights.shape[0])
-    bottom = sampled(np.where(step.depth > 0.0, extent.bed, np.nan), size) - still
+    bottom = sample_grid(np.where(step.depth > 0.0, extent.bed, np.nan), size) - still
     return np.where(wet_samples(step, extent.frame, size), np.fmin(heights, bottom), heights)
 
 
@@ -160,7 +160,7 @@ def _shore_level(heights: NDArray[np.float64], wet: NDArray[np.bool_], known: ND
     return float(heights[wet].max()) if wet.any() else float(heights.min())
 
 
-def _invented(extent: Extent, size: tuple[int, int]) -> NDArray[np.float64]:
+def _invent_heights(extent: Extent, size: tuple[int, int]) -> NDArray[np.float64]:
     """Land that rises and a sea floor that falls with the distance to the shore; real depths where they are known."""
     frame = extent.frame
     longest = max(frame.metres)
@@ -173,18 +173,19 @@ def _invented(extent: Extent, size: tuple[int, int]) -> NDArray[np.float64]:
     to_first = shore_distance(wet, cell)
     to_most = shore_distance(wet | wet_samples(most, frame, size), cell)
     rise, fall = (
-        _risen(np.maximum(far, 0.0) / longest, reach) for far, reach in ((to_most, LAND_REACH), (-to_first, SEA_REACH))
+        _beach_profile(np.maximum(far, 0.0) / longest, reach)
+        for far, reach in ((to_most, LAND_REACH), (-to_first, SEA_REACH))
     )
     plain = np.clip(to_first / (to_first + np.abs(to_most) + 1e-9 * longest), 0.0, 1.0)
     land = LAND_RISE * longest * rise * (1.0 + ROUGHNESS * rough) + PLAIN_RISE * longest * plain
     sea = -SEA_FALL * longest * fall * (1.0 + ROUGHNESS * rough)
     if first.depth is not None and np.isfinite(first.depth).any():
-        depth = sampled(first.depth, size)
+        depth = sample_grid(first.depth, size)
         sea = np.where(np.isfinite(depth), -depth, sea)
     return np.where(wet, sea, land)
 
 
-def _risen(distance: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
+def _beach_profile(distance: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
     """Profile from 0 to 1 with the distance, level at the shore, as a beach is."""
     return np.asarray((1.0 - np.exp(-distance / reach)) * distance / (distance + BEACH))
 
@@ -204,7 +205,7 @@ def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None
         with (
             warnings.catch_warnings(action="ignore"),
             about(f"`relief` {path}"),
-            opened_raster(path, others=True) as raster,
+            open_raster(path, others=True) as raster,
         ):
             if not raster.count:
                 choices = ", ".join(one.rpartition(":")[2] for one in raster.subdatasets[:8])

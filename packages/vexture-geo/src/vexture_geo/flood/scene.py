@@ -9,14 +9,14 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture_geo.base.crs import UNPLACED, system, transformed
+from vexture_geo.base.crs import UNPLACED, system, transform_points
 from vexture_geo.base.extent import Frame
 from vexture_geo.flood.credits import Credits
 from vexture_geo.flood.depth_classes import colors_of
 from vexture_geo.flood.hazard import HAZARDS
 from vexture_geo.flood.open_water import openness_png
 from vexture_geo.flood.relief import Relief
-from vexture_geo.flood.views import View
+from vexture_geo.flood.views import FloodView
 
 __all__ = ["PREFIX", "Flood", "PageNote", "labels", "scene", "step_names"]
 
@@ -59,7 +59,7 @@ class Flood:
     relief: Relief
     fold: bytes | None
     openness: NDArray[np.float64] | None
-    views: tuple[View, ...]
+    views: tuple[FloodView, ...]
     notes: tuple[PageNote, ...]
 
 
@@ -73,7 +73,7 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
     return {
         "title": flood.title,
         "credits": flood.credits.as_json(),
-        "depths": _colored(flood.depths, flood.end),
+        "depths": _colour_classes(flood.depths, flood.end),
         "arrivals": colors_of(ARRIVALS)[::-1],
         "hazards": [{"from": least, "color": color, "text": text} for least, color, text in HAZARDS],
         "steps": list(steps),
@@ -96,7 +96,7 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
     }
 
 
-def _colored(depths: tuple[float, ...], end: float) -> list[dict[str, Any]]:
+def _colour_classes(depths: tuple[float, ...], end: float) -> list[dict[str, Any]]:
     """Classes of depth, in metres from which they begin, with their colours, and the end of the last if it has one."""
     found: list[dict[str, Any]] = [
         {"from": depth, "color": color} for depth, color in zip(depths, colors_of(len(depths)), strict=True)
@@ -115,7 +115,7 @@ def _geodetic(frame: Frame) -> dict[str, Any] | None:
         return None
     west, south, east, north = frame.bounds
     x, y = np.meshgrid(np.linspace(west, east, GEODETIC), np.linspace(north, south, GEODETIC))
-    places = transformed(np.stack([x.ravel(), y.ravel()], axis=1), frame.crs, "EPSG:4326")
+    places = transform_points(np.stack([x.ravel(), y.ravel()], axis=1), frame.crs, "EPSG:4326")
     if not np.isfinite(places).all():
         return None
     return {"columns": GEODETIC, "rows": GEODETIC, "places": np.round(places, 8).ravel().tolist()}

@@ -32,12 +32,12 @@ if TYPE_CHECKING:  # at run time only what a flood needs is imported
 
     from vexture_geo.flood.follow import Start
     from vexture_geo.flood.relief import Relief
-    from vexture_geo.flood.store import KeptWater
+    from vexture_geo.flood.store import FloodStore
     from vexture_geo.flood.surface import WaterSurface
     from vexture_geo.flood.video import Track
     from vexture_geo.flood.video_options import VideoOptions
 
-__all__ = ["Made", "Serving", "Written", "export", "make", "page_of", "serve"]
+__all__ = ["ReadyFlood", "ServerOptions", "WrittenFlood", "export", "make_flood", "page_of", "serve"]
 
 GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 
@@ -56,7 +56,7 @@ Say = Callable[[str], None]
 """Takes a line for the user."""
 
 
-class Made(NamedTuple):
+class ReadyFlood(NamedTuple):
     """A flood that is ready to be shown."""
 
     flood: Flood
@@ -69,7 +69,7 @@ class Made(NamedTuple):
         return sum(len(shape.texture.data) for shape in self.shapes)
 
     @property
-    def described(self) -> str:
+    def summary(self) -> str:
         """One line about it."""
         count = len(self.shapes)
         dry = sum(bool(shape.facts["dry"]) for shape in self.shapes)
@@ -77,77 +77,77 @@ class Made(NamedTuple):
         return told + (f", {'nothing' if dry == count else f'in {dry} nothing'} under water" if dry else "")
 
 
-class Written(NamedTuple):
+class WrittenFlood(NamedTuple):
     """A flood that was written into files, and their sizes in bytes."""
 
-    made: Made
+    made: ReadyFlood
     sizes: dict[Path, int]
 
 
-def make(
-    asked: FloodOptions,
-    say: Say,
+def make_flood(
+    options: FloodOptions,
+    report: Say,
     start: "Start | None" = None,
-    kept: "KeptWater | None" = None,
-    given: tuple[Extent, Credits] | None = None,
-) -> Made:
-    """Read all files of a flood and convert them; `say` gets warnings and notes for the user.
+    store: "FloodStore | None" = None,
+    source: tuple[Extent, Credits] | None = None,
+) -> ReadyFlood:
+    """Read all files of a flood and convert them; `report` gets warnings and notes for the user.
 
-    Of a followed run, `start` are its first steps. What of them is `kept` already is not converted again. What is
-    `given`, an extent and its credits, is not read.
+    Of a followed run, `start` are its first steps. What of them is `store` already is not converted again. What is
+    `source`, an extent and its credits, is not read.
     """
     from vexture_geo.flood.credits import credits_of
     from vexture_geo.flood.depth_classes import classes_shown
     from vexture_geo.flood.drawn_ground import drawn_ground
-    from vexture_geo.flood.ground import encoded, ground_of
-    from vexture_geo.flood.open_water import calmed
+    from vexture_geo.flood.ground import encode_webp, ground_of
+    from vexture_geo.flood.open_water import calm_waves
     from vexture_geo.flood.relief import beyond_of, relief_of
     from vexture_geo.flood.surface import highest_of, surface_of
     from vexture_geo.flood.views import views_of
 
     if start is not None:
-        given = start.extent, start.credits
-    extent, credits = given or (_read(asked), credits_of(asked.extent))
-    if line := line_of(str(asked.extent), extent.notes):
-        say(f"warning: {line}")
+        source = start.extent, start.credits
+    extent, credits = source or (_read(options), credits_of(options.extent))
+    if line := line_of(str(options.extent), extent.notes):
+        report(f"warning: {line}")
     frame = extent.frame
-    amplitude = asked.amplitude_in(max(frame.metres))
+    amplitude = options.amplitude_in(max(frame.metres))
 
     def heights() -> "Relief":
-        return relief_of(extent, asked.relief, asked.crs)
+        return relief_of(extent, options.relief, options.crs)
 
-    relief = heights() if kept is None else kept.relief(asked, extent, heights)
+    relief = heights() if store is None else store.relief(options, extent, heights)
     first = extent.steps[0]
-    depths = classes_shown(first, asked.depths)
-    conversion = FloodConversion(frame, asked.hmin, asked.reading, relief, depths, extent.bed)
+    depths = classes_shown(first, options.depths)
+    conversion = FloodConversion(frame, options.hmin, options.reading, relief, depths, extent.bed)
     picture, told = drawn_ground(extent, relief), [DRAWN]
-    if asked.ground is not None:
-        picture, told = ground_of(asked.ground, frame, picture, bounds_given=asked.bounds is not None)
+    if options.ground is not None:
+        picture, told = ground_of(options.ground, frame, picture, bounds_given=options.bounds is not None)
     notes = [*([INVENTED] if relief.invented else []), *told]
-    surfaces = [surface_of(step, frame, relief, extent.bed, asked.hmin) for step in extent.steps]
-    shapes = _shapes(conversion, extent, surfaces, start, kept, asked.who())
+    surfaces = [surface_of(step, frame, relief, extent.bed, options.hmin) for step in extent.steps]
+    shapes = _shapes(conversion, extent, surfaces, start, store, options.executor())
     beyond = beyond_of(extent, relief)
-    fold, openness, told = _shore(asked, extent, amplitude, beyond)
+    fold, openness, told = _shore(options, extent, amplitude, beyond)
     notes += told if start is None else [note for note in told if note is not DRY]  # water may come
     if relief.known < WHOLE:
         notes.append(PageNote(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
-    credits = credits.with_given(title=asked.title, source=asked.source, licence=asked.licence)
+    credits = credits.with_given(title=options.title, source=options.source, licence=options.licence)
     flood = Flood(
-        title=credits.title or asked.extent.name.partition(".")[0] or PREFIX,
+        title=credits.title or options.extent.name.partition(".")[0] or PREFIX,
         credits=credits,
         depths=depths,
         end=first.classes.ranges[-1].high if first.classes else inf,
         frame=frame,
-        ground=encoded(picture),
+        ground=encode_webp(picture),
         relief=relief,
         fold=fold,
-        openness=None if openness is None else calmed(openness, frame, beyond),
+        openness=None if openness is None else calm_waves(openness, frame, beyond),
         views=views_of(extent, openness, highest_of(surfaces), beyond),
-        notes=(*_on_page(asked.extent.name, extent.notes), *notes),
+        notes=(*_on_page(options.extent.name, extent.notes), *notes),
     )
     for note in notes:
-        say(" ".join(("note:", *filter(None, note))))
-    return Made(flood, conversion, shapes)
+        report(" ".join(("note:", *filter(None, note))))
+    return ReadyFlood(flood, conversion, shapes)
 
 
 def _on_page(name: str, notes: Sequence[Note]) -> Iterator[PageNote]:
@@ -163,30 +163,30 @@ def _shapes(
     extent: Extent,
     surfaces: "Sequence[WaterSurface]",
     start: "Start | None",
-    kept: "KeptWater | None",
+    store: "FloodStore | None",
     workers: Workers,
 ) -> list[PublishedShape]:
     """Shapes of the steps; of a followed run those are not converted that are kept and have not changed."""
-    from vexture_geo.flood.follow import NAMES, is_made_of, marked
+    from vexture_geo.flood.follow import NAMES, is_made_of, with_digest
 
     steps, told = extent.steps, labels([step.time for step in extent.steps])
     if start is None:
         named = zip(steps, surfaces, step_names(len(steps)), told, strict=True)
-        return list(workers.map(FloodConversion.converted, conversion, named, len(steps)))
+        return list(workers.map(FloodConversion.convert_one, conversion, named, len(steps)))
     shapes = []
     for step, surface, name, label, known in zip(steps, surfaces, NAMES, told, start.known, strict=False):
-        before = None if kept is None else kept.shape(name)
+        before = None if store is None else store.shape(name)
         if before is None or not is_made_of(before, known):
-            before = marked(conversion.step(step, surface, name, label), known)
+            before = with_digest(conversion.step(step, surface, name, label), known)
         shapes.append(before)
     return shapes
 
 
 def _shore(
-    asked: FloodOptions, extent: Extent, amplitude: float, beyond: NDArray[np.bool_] | None
+    options: FloodOptions, extent: Extent, amplitude: float, beyond: NDArray[np.bool_] | None
 ) -> tuple[bytes | None, NDArray[np.float64] | None, list[PageNote]]:
     """File that moves the shore, where there are waves, and remarks about both."""
-    from vexture_geo.flood.open_water import calmed, open_water
+    from vexture_geo.flood.open_water import calm_waves, open_water
     from vexture_geo.flood.relief import first_wet, widest
 
     first, most = first_wet(extent), widest(extent)
@@ -195,32 +195,32 @@ def _shore(
     openness = open_water(first.drawing, extent.frame, most.drawing, beyond)
     if amplitude and openness.any():
         fold, reached = _fold(
-            first.drawing, calmed(openness, extent.frame, beyond), amplitude, asked.period, extent.frame
+            first.drawing, calm_waves(openness, extent.frame, beyond), amplitude, options.period, extent.frame
         )
-        if asked.amplitude is None or reached >= LESS * amplitude:
+        if options.amplitude is None or reached >= LESS * amplitude:
             return fold, openness, []
         told = f"Waves run up {reached:.3g} m: {amplitude:.3g} m would turn the shore over."
         return fold, openness, [PageNote(told, "")]
-    return None, openness, [SHELTERED] if asked.amplitude else []
+    return None, openness, [SHELTERED] if options.amplitude else []
 
 
-def _read(asked: FloodOptions) -> Extent:
+def _read(options: FloodOptions) -> Extent:
     from vexture_geo.readers import extent_of
 
-    if asked.extent.is_dir():
-        raise SourceError(f"`extent` {asked.extent}: is a folder; name a file in it that says where water is")
-    if not asked.extent.is_file():
-        raise SourceError(f"`extent` {asked.extent}: there is no such file; name one that says where water is")
-    named = str(asked.extent)
+    if options.extent.is_dir():
+        raise SourceError(f"`extent` {options.extent}: is a folder; name a file in it that says where water is")
+    if not options.extent.is_file():
+        raise SourceError(f"`extent` {options.extent}: there is no such file; name one that says where water is")
+    named = str(options.extent)
     with about(named):
         return extent_of(
-            asked.extent,
+            options.extent,
             named,
-            bounds=asked.bounds,
-            crs=asked.crs,
-            hmin=asked.hmin,
-            workers=asked.who(),
-            **asked.reading,
+            bounds=options.bounds,
+            crs=options.crs,
+            hmin=options.hmin,
+            workers=options.executor(),
+            **options.reading,
         )
 
 
@@ -241,7 +241,9 @@ def _fold(
     return fold.to_ktx2(), float(np.hypot(fold.displacement[..., 0], fold.displacement[..., 1]).max()) / share
 
 
-def export(asked: FloodOptions, output: Path | None, video: "VideoOptions | None", say: Say, track: "Track") -> Written:
+def export(
+    options: FloodOptions, output: Path | None, video: "VideoOptions | None", report: Say, track: "Track"
+) -> WrittenFlood:
     """Write one page that needs nothing else, a video of it, or both.
 
     `track` goes through the frames of the video, and may show how far it is.
@@ -252,26 +254,26 @@ def export(asked: FloodOptions, output: Path | None, video: "VideoOptions | None
     if output is not None:
         check_output(output, FLOOD)
     if video is not None:
-        from vexture_geo.flood.video import film
+        from vexture_geo.flood.video import make_video
 
         writable(video.path.parent)
-    made = make(asked, say)
+    made = make_flood(options, report)
     page = page_of(made)
     files = {} if output is None else {output: page}
     if video is not None:
-        files[video.path] = film(page, video, made.flood.title, track)
+        files[video.path] = make_video(page, video, made.flood.title, track)
     write_together(files)
-    return Written(made, {path: len(data) for path, data in files.items()})
+    return WrittenFlood(made, {path: len(data) for path, data in files.items()})
 
 
-def page_of(made: Made) -> bytes:
+def page_of(ready: ReadyFlood) -> bytes:
     """One page that needs nothing else."""
     from vexture_geo.flood.ground import GROUND_TYPE
 
-    flood = made.flood
+    flood = ready.flood
     told = scene(
         flood,
-        [manifest(shape, None, {}, address=data_address) for shape in made.shapes],
+        [manifest(shape, None, {}, address=data_address) for shape in ready.shapes],
         data_address(PublishedFile(flood.ground, GROUND_TYPE, "")),
         None if flood.fold is None else data_address(PublishedFile(flood.fold, TEXTURE_TYPE, "")),
     )
@@ -279,7 +281,7 @@ def page_of(made: Made) -> bytes:
 
 
 @dataclass(frozen=True, slots=True)
-class Serving:
+class ServerOptions:
     """How a flood is served.
 
     Without a token nothing can be pushed, and only requests to the server's own address are answered. With `follows`
@@ -299,27 +301,31 @@ class Serving:
             )
 
 
-def serve(asked: FloodOptions, how: Serving, *, say: Say, show: Callable[[str, Made], None]) -> None:
+def serve(
+    options: FloodOptions, server_options: ServerOptions, *, report: Say, show: Callable[[str, ReadyFlood], None]
+) -> None:
     """Serve a flood until Ctrl-C or SIGTERM.
 
-    `say` takes warnings and notes for the user, `show` the address and what is shown there.
+    `report` takes warnings and notes for the user, `show` the address and what is shown there.
     """
     from vexture.server.listen import bind
     from vexture.server.tokens import read_token
-    from vexture_geo.flood.store import KeptWater
+    from vexture_geo.flood.store import FloodStore
 
     built(FLOOD.script, FLOOD.package)
-    token = None if how.token_file is None else read_token(how.token_file)
+    token = None if server_options.token_file is None else read_token(server_options.token_file)
     limits = Limits()
-    with closing(bind(how.host, how.port)) as taken, ExitStack() as stack:
+    with closing(bind(server_options.host, server_options.port)) as taken, ExitStack() as stack:
         kept = None
-        if how.keep is not None:
-            kept = KeptWater(how.keep, limits, say)
+        if server_options.keep is not None:
+            kept = FloodStore(server_options.keep, limits, report)
             stack.callback(kept.release)
-        _serve(asked, how, token, taken, LimitedShapes(limits) if kept is None else kept, kept, say, show)
+        _serve(
+            options, server_options, token, taken, LimitedShapes(limits) if kept is None else kept, kept, report, show
+        )
 
 
-def _put(shapes: Sequence[PublishedShape], shelf: LimitedShapes, *, over: bool) -> list[PublishedShape]:
+def _publish_shapes(shapes: Sequence[PublishedShape], shelf: LimitedShapes, *, over: bool) -> list[PublishedShape]:
     """Put shapes on a shelf, over what is there or beside it: what was pushed is newer; those that were not there."""
     fresh = [shape for shape in shapes if shelf.shape(shape.name) is not shape]
     for shape in fresh:
@@ -329,14 +335,14 @@ def _put(shapes: Sequence[PublishedShape], shelf: LimitedShapes, *, over: bool) 
 
 
 def _serve(
-    asked: FloodOptions,
-    how: Serving,
+    options: FloodOptions,
+    server_options: ServerOptions,
     token: str | None,
-    taken: "socket",
+    socket: "socket",
     shelf: LimitedShapes,
-    kept: "KeptWater | None",
-    say: Say,
-    show: Callable[[str, Made], None],
+    store: "FloodStore | None",
+    report: Say,
+    show: Callable[[str, ReadyFlood], None],
 ) -> None:
     from vexture.pages.page_routes import page_routes
     from vexture.server.converter import BusyError, Converter
@@ -346,12 +352,12 @@ def _serve(
     from vexture_geo.flood.follow import FollowedRun, first_steps, follow
     from vexture_geo.flood.ground import GROUND_TYPE
 
-    run = FollowedRun(asked.extent, {"crs": asked.crs, "hmin": asked.hmin, **asked.reading})
-    start = first_steps(run, asked.bounds, say) if how.follows else None
-    made = make(asked, say, start, kept)
+    run = FollowedRun(options.extent, {"crs": options.crs, "hmin": options.hmin, **options.reading})
+    start = first_steps(run, options.bounds, report) if server_options.follows else None
+    made = make_flood(options, report, start, store)
     if shelf.names:
-        say(f"{how.keep}: {format_count(len(shelf.names), 'step')} from before")
-    fresh = _put(made.shapes, shelf, over=start is not None)
+        report(f"{server_options.keep}: {format_count(len(shelf.names), 'step')} from before")
+    fresh = _publish_shapes(made.shapes, shelf, over=start is not None)
     flood, limits = made.flood, Limits()
     converter = Converter(limits, made.conversion)
 
@@ -360,7 +366,7 @@ def _serve(
             with suppress(BusyError):
                 await converter.warm()
         if start is not None:
-            await follow(run, start, fresh, made.conversion, shelf, say)
+            await follow(run, start, fresh, made.conversion, shelf, report)
 
     def stop() -> None:
         shelf.close()
@@ -381,8 +387,8 @@ def _serve(
             *publishing_routes(shelf, converter, limits, token),
         ],
         limits,
-        only_at=None if token else how.host,
+        only_at=None if token else server_options.host,
         lifespan=background(work) if token or start else None,
     )
-    show(listen(taken), made)
-    serve_until_stopped(app, taken, stop, limits)
+    show(listen(socket), made)
+    serve_until_stopped(app, socket, stop, limits)

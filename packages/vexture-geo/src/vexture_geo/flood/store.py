@@ -17,7 +17,7 @@ from vexture_geo.base.extent import Extent
 from vexture_geo.flood.options import FloodOptions
 from vexture_geo.flood.relief import Relief
 
-__all__ = ["KeptWater"]
+__all__ = ["FloodStore"]
 
 RECORD, GROUND = "flood.json", "ground.npz"
 
@@ -36,19 +36,19 @@ MOST_SHOWN: Final = 60
 REMEDY: Final = "choose another folder"
 
 
-class KeptWater(Folder):
+class FloodStore(Folder):
     """The pushed and followed steps of one flood.
 
     Beside them is what they belong to: the frame, and the relief on which their levels stand. An invented relief
     depends on the steps that there were at the first start of the server, so later starts take the one that is kept.
     """
 
-    def __init__(self, path: Path, limits: Limits, say: Callable[[str], None]) -> None:
-        super().__init__(path, limits, say)
+    def __init__(self, path: Path, limits: Limits, report: Callable[[str], None]) -> None:
+        super().__init__(path, limits, report)
         self._place = path / STATE
 
-    def relief(self, asked: FloodOptions, extent: Extent, made: Callable[[], Relief]) -> Relief:
-        """The ground that is kept or, in a new folder, the one that is `made`, which is kept from then on.
+    def relief(self, options: FloodOptions, extent: Extent, make_relief: Callable[[], Relief]) -> Relief:
+        """The ground that is kept or, in a new folder, the one that is `make_relief`, which is kept from then on.
 
         Raises
         ------
@@ -57,7 +57,7 @@ class KeptWater(Folder):
         DeviceError
             If it cannot be read or written.
         """
-        facts = json.loads(json.dumps(_facts(asked, extent)))  # numbers as they come back
+        facts = json.loads(json.dumps(_facts(options, extent)))  # numbers as they come back
         try:
             before = json.loads((self._place / RECORD).read_bytes())
             if not isinstance(before, dict):
@@ -65,12 +65,12 @@ class KeptWater(Folder):
         except FileNotFoundError:
             if self.names:
                 raise ParameterError(f"`keep` {self._path}: holds shapes of another server; {REMEDY}") from None
-            return self._written(facts, made())
+            return self._write_relief(facts, make_relief())
         except (OSError, ValueError) as error:
-            raise self._damaged(RECORD, error) from None
+            raise self._damage_error(RECORD, error) from None
         for what, name in NAMED.items():
             if before.get(what) != facts[what]:
-                there, here = (shorten_text(_shown(one), MOST_SHOWN) for one in (before.get(what), facts[what]))
+                there, here = (shorten_text(_format_fact(one), MOST_SHOWN) for one in (before.get(what), facts[what]))
                 line = f"holds water of another flood: its {name} is {there}, here it is {here}; {REMEDY}"
                 raise ParameterError(f"`keep` {self._path}: {line}")
         return self._read_relief()
@@ -81,9 +81,9 @@ class KeptWater(Folder):
                 invented, known, still = kept["numbers"].tolist()
                 return Relief(kept["heights"], bool(invented), known, still)
         except Exception as error:  # of a damaged file NumPy and zipfile raise any type of exception
-            raise self._damaged(GROUND, error) from None
+            raise self._damage_error(GROUND, error) from None
 
-    def _written(self, facts: dict[str, Any], relief: Relief) -> Relief:
+    def _write_relief(self, facts: dict[str, Any], relief: Relief) -> Relief:
         out = BytesIO()
         np.savez(out, heights=relief.heights, numbers=np.array([relief.invented, relief.known, relief.still]))
         files = {self._place / GROUND: out.getvalue(), self._place / RECORD: json.dumps(facts).encode()}
@@ -93,24 +93,24 @@ class KeptWater(Folder):
             raise DeviceError(f"`keep` {self._path}: cannot be written ({error.strerror}); {REMEDY}") from None
         return relief
 
-    def _damaged(self, name: str, error: Exception) -> DeviceError:
+    def _damage_error(self, name: str, error: Exception) -> DeviceError:
         return DeviceError(f"`keep` {self._place / name}: is damaged ({reason_of(error)}); {REMEDY}")
 
 
-def _facts(asked: FloodOptions, extent: Extent) -> dict[str, Any]:
+def _facts(options: FloodOptions, extent: Extent) -> dict[str, Any]:
     """What water on a server belongs to."""
     frame = extent.frame
-    if asked.relief is not None:
-        digest = hashlib.sha256(asked.relief.read_bytes()).hexdigest()
-        ground = f"the heights of {asked.relief.name} ({digest[:8]})"
+    if options.relief is not None:
+        digest = hashlib.sha256(options.relief.read_bytes()).hexdigest()
+        ground = f"the heights of {options.relief.name} ({digest[:8]})"
     elif extent.bed is not None and np.isfinite(extent.bed).any():
         ground = f"the bed of the data ({hashlib.sha256(extent.bed.tobytes()).hexdigest()[:8]})"
     else:
         ground = "invented"
     place = {"bounds": frame.bounds, "crs": frame.crs, "metres": frame.metres}
-    return {**place, "hmin": asked.hmin, "depths": asked.depths, "ground": ground}
+    return {**place, "hmin": options.hmin, "depths": options.depths, "ground": ground}
 
 
-def _shown(value: Any) -> str:
+def _format_fact(value: Any) -> str:
     """A fact in a message."""
     return ",".join(f"{one:.10g}" for one in value) if isinstance(value, list) else str(value)

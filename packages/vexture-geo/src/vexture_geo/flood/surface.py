@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture_geo.base.extent import DepthClasses, Frame, Step
-from vexture_geo.flood.grids import coarser, mean_of, sampled
+from vexture_geo.flood.grids import coarser, mean_of, sample_grid
 from vexture_geo.flood.relief import Relief, wet_samples
 
 __all__ = ["WaterSurface", "highest_of", "surface_of"]
@@ -38,7 +38,7 @@ class WaterSurface:
     levels: NDArray[np.float64]
     wet: NDArray[np.bool_]
 
-    def encoded(self) -> tuple[bytes, dict[str, float]]:
+    def encode_png(self) -> tuple[bytes, dict[str, float]]:
         """16-bit gray PNG, and the facts to read it.
 
         1 is `lowest`, each further step is `unit`. Beside the water the same numbers are raised by `BESIDE`; 0 is no
@@ -68,14 +68,14 @@ def surface_of(step: Step, frame: Frame, relief: Relief, bed: NDArray[np.float32
     known = step.depth if step.classes is None else _about(step.classes)
     depth = None if known is None else np.where(known >= hmin, known, np.nan)
     if depth is not None and bed is not None and step.classes is None and not relief.invented:
-        levels = sampled(coarser(bed + depth, size), size) - relief.still
+        levels = sample_grid(coarser(bed + depth, size), size) - relief.still
     elif depth is not None and not relief.invented:
-        levels = relief.heights + sampled(coarser(depth, size), size)
-        levels = _smoothed(np.where(wet, levels, np.nan), SMOOTH)
+        levels = relief.heights + sample_grid(coarser(depth, size), size)
+        levels = _smooth(np.where(wet, levels, np.nan), SMOOTH)
     else:
         levels = _from_shores(relief.heights, wet)
-    levels = np.where(wet | np.isfinite(levels), _filled_at(levels, wet), np.nan)
-    return WaterSurface(_widened(levels, BEYOND), wet)
+    levels = np.where(wet | np.isfinite(levels), _fill_wet(levels, wet), np.nan)
+    return WaterSurface(_widen(levels, BEYOND), wet)
 
 
 def _about(classes: DepthClasses) -> NDArray[np.float32]:
@@ -102,31 +102,31 @@ def _around(levels: NDArray[np.float64]) -> NDArray[np.float64]:
     return mean_of(np.stack(shifted), 0)
 
 
-def _widened(levels: NDArray[np.float64], samples: int) -> NDArray[np.float64]:
+def _widen(levels: NDArray[np.float64], samples: int) -> NDArray[np.float64]:
     for _ in range(samples):
         levels = np.where(np.isfinite(levels), levels, _around(levels))
     return levels
 
 
-def _smoothed(levels: NDArray[np.float64], passes: int) -> NDArray[np.float64]:
+def _smooth(levels: NDArray[np.float64], passes: int) -> NDArray[np.float64]:
     for _ in range(passes):
         levels = np.where(np.isfinite(levels), _around(levels), np.nan)
     return levels
 
 
-def _filled_at(levels: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _fill_wet(levels: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Levels, and where it is wet without one, those around it."""
-    return _filled(levels) if (wet & ~np.isfinite(levels)).any() else levels
+    return _fill_gaps(levels) if (wet & ~np.isfinite(levels)).any() else levels
 
 
-def _filled(levels: NDArray[np.float64]) -> NDArray[np.float64]:
+def _fill_gaps(levels: NDArray[np.float64]) -> NDArray[np.float64]:
     """Levels, and where there are none, means of those around, over larger and larger blocks (a push-pull pyramid)."""
     rows, columns = levels.shape
     if np.isfinite(levels).all() or rows * columns == 1:
         return levels
     even = np.pad(levels, [(0, rows % 2), (0, columns % 2)], constant_values=np.nan)
     blocks = even.reshape(even.shape[0] // 2, 2, even.shape[1] // 2, 2)
-    coarse = _filled(mean_of(blocks, (1, 3)))
+    coarse = _fill_gaps(mean_of(blocks, (1, 3)))
     return np.where(
         np.isfinite(levels), levels, _around(np.kron(coarse, np.ones((2, 2))).astype(np.float64))[:rows, :columns]
     )

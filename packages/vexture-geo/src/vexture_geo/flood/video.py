@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from vexture.base.errors import DeviceError
-from vexture_geo.flood.film import Film, filming, video_packages
+from vexture_geo.flood.film import Film, open_film, video_packages
 from vexture_geo.flood.video_options import VideoOptions
 
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture
 
-__all__ = ["Track", "film"]
+__all__ = ["Track", "make_video"]
 
 Track = Callable[[Sequence[int]], Iterator[int]]
 """Goes through numbers and shows how far it is."""
@@ -34,7 +34,7 @@ SAMPLES: Final = 5
 COLOURS: Final = 256
 
 
-def film(page: bytes, options: VideoOptions, title: str, track: Track) -> bytes:
+def make_video(page: bytes, options: VideoOptions, title: str, track: Track) -> bytes:
     """Return a video of all steps of a page that is whole in one file.
 
     Raises
@@ -47,21 +47,21 @@ def film(page: bytes, options: VideoOptions, title: str, track: Track) -> bytes:
     with video_packages():
         if not options.is_gif:
             import av  # noqa: F401  # before a browser is started
-        with filming(page, options) as shown:
+        with open_film(page, options) as shown:
             return _gif(shown, options, track) if options.is_gif else _video(shown, options, title, track)
 
 
-def _picture(shown: Film, options: VideoOptions, steps: Sequence[int], number: int) -> "Picture":
+def _picture(film: Film, options: VideoOptions, steps: Sequence[int], number: int) -> "Picture":
     from PIL import Image
 
-    return Image.open(BytesIO(shown.frame(steps[number], float(number / options.rate)))).convert("RGB")
+    return Image.open(BytesIO(film.frame(steps[number], float(number / options.rate)))).convert("RGB")
 
 
-def _video(shown: Film, options: VideoOptions, title: str, track: Track) -> bytes:
+def _video(film: Film, options: VideoOptions, title: str, track: Track) -> bytes:
     import av
 
     container, codec, tuning = CODECS[options.path.suffix.lower()]
-    steps = options.frames(shown.steps)
+    steps = options.frames(film.steps)
     out = BytesIO()
     with av.open(out, "w", format=container) as file:
         file.metadata["title"] = title
@@ -74,7 +74,7 @@ def _video(shown: Film, options: VideoOptions, title: str, track: Track) -> byte
         context = stream.codec_context
         context.colorspace = context.color_primaries = context.color_trc = context.color_range = REC_709
         for number in track(range(len(steps))):
-            pixels = np.asarray(_picture(shown, options, steps, number))
+            pixels = np.asarray(_picture(film, options, steps, number))
             frame = av.VideoFrame.from_ndarray(pixels, format="rgb24")
             frame = frame.reformat(format="yuv420p", dst_colorspace=REC_709, dst_color_range=REC_709)
             frame.pts, frame.time_base = number, 1 / options.rate
@@ -83,17 +83,17 @@ def _video(shown: Film, options: VideoOptions, title: str, track: Track) -> byte
     return out.getvalue()
 
 
-def _gif(shown: Film, options: VideoOptions, track: Track) -> bytes:
+def _gif(film: Film, options: VideoOptions, track: Track) -> bytes:
     from PIL import Image
 
-    steps = options.frames(shown.steps)
+    steps = options.frames(film.steps)
     chosen = np.unique(np.linspace(0, len(steps) - 1, SAMPLES).astype(int)).tolist()
-    sampled = [np.asarray(_picture(shown, options, steps, number)) for number in chosen]
+    sampled = [np.asarray(_picture(film, options, steps, number)) for number in chosen]
     palette = Image.fromarray(np.concatenate(sampled)).quantize(COLOURS, Image.Quantize.FASTOCTREE)  # keeps rare ones
 
     def frames() -> "Iterator[Picture]":
         for number in track(range(len(steps))):
-            yield _picture(shown, options, steps, number).quantize(palette=palette)
+            yield _picture(film, options, steps, number).quantize(palette=palette)
 
     ends = [round(100 * number / options.rate) for number in range(len(steps) + 1)]  # hundredths of a second
     rest = frames()

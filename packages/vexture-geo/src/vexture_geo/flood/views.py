@@ -11,7 +11,7 @@ from vexture_geo.flood.grids import coverage_over, size_for
 from vexture_geo.flood.open_water import cells_of, openness_at
 from vexture_geo.flood.relief import first_wet, widest
 
-__all__ = ["Shore", "View", "viewpoint", "views_of"]
+__all__ = ["FloodView", "Shore", "viewpoint", "views_of"]
 
 CELLS: Final = 96
 """Cells of the search grid on the frame's longer side."""
@@ -48,7 +48,7 @@ LOCAL: Final = 1 / 300
 """Radius in which the direction of the shore is measured, as a share of the frame."""
 
 
-class View(NamedTuple):
+class FloodView(NamedTuple):
     """Something to look at.
 
     `place` is where one stands, or what one looks at, and `toward` the unit vector from there to the water, in
@@ -80,7 +80,7 @@ def views_of(
     openness: NDArray[np.float64] | None,
     highest: NDArray[np.float64] | None,
     beyond: NDArray[np.bool_] | None = None,
-) -> tuple[View, ...]:
+) -> tuple[FloodView, ...]:
     """Views beyond those of the whole box, by what is there, the farthest first.
 
     `openness` says where waves are (`vexture_geo.flood.open_water`), `highest` the highest level of all steps, NaN
@@ -96,10 +96,10 @@ def views_of(
 
     def add(name: str, kind: str, shore: Shore | None, reach: float) -> None:
         if shore is not None:
-            views.append(View(name, kind, *shore, reach, _level_near(highest, frame, shore.place)))
+            views.append(FloodView(name, kind, *shore, reach, _level_near(highest, frame, shore.place)))
 
     at_rest, safe = (viewpoint(step.drawing, frame, beyond=beyond) for step in (first, most))
-    flooded = _flooded(first.drawing, most.drawing, frame)
+    flooded = _flooded_land(first.drawing, most.drawing, frame)
     if flooded is not None:
         place, share, is_town = flooded
         toward = at_rest.seaward if at_rest else (0.0, -1.0)
@@ -161,7 +161,7 @@ def _level_near(levels: NDArray[np.float64], frame: Frame, place: tuple[float, f
     return float(known.max()) if known.size else 0.0
 
 
-def _flooded(first: Drawing, most: Drawing, frame: Frame) -> tuple[tuple[float, float], float, bool] | None:
+def _flooded_land(first: Drawing, most: Drawing, frame: Frame) -> tuple[tuple[float, float], float, bool] | None:
     """Middle of the flooded land, half its size as a share of the longer side, and whether it stands between buildings.
 
     The middle is the flooded place with the most flooded land around it. Water that stands around many islands stands
@@ -173,7 +173,7 @@ def _flooded(first: Drawing, most: Drawing, frame: Frame) -> tuple[tuple[float, 
     flooded = np.clip(after - before, 0.0, 1.0)
     if flooded.mean() < LEAST_FLOODED:
         return None
-    around = _blurred(flooded, REACH) * (flooded >= flooded.max() / 2.0)
+    around = _blur(flooded, REACH) * (flooded >= flooded.max() / 2.0)
     row, column = np.unravel_index(int(np.argmax(around)), around.shape)
     place = (x0 + (float(column) + 0.5) * (x1 - x0) / size[0], y1 - (float(row) + 0.5) * (y1 - y0) / size[1])
     islands = sum(len(path.contours) for path in most.paths)
@@ -181,7 +181,7 @@ def _flooded(first: Drawing, most: Drawing, frame: Frame) -> tuple[tuple[float, 
     return place, share, islands >= TOWN_ISLANDS
 
 
-def _blurred(grid: NDArray[np.float64], reach: int) -> NDArray[np.float64]:
+def _blur(grid: NDArray[np.float64], reach: int) -> NDArray[np.float64]:
     """Means over boxes of cells, one axis after the other; beyond the grid there is nothing."""
     width = 2 * reach + 1
     for axis in (0, 1):
@@ -208,7 +208,7 @@ def _best(wet: NDArray[np.float32], dry: NDArray[np.float32] | None) -> tuple[in
     around = np.stack([padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]])
     shore = (wet < 0.5) & (around.max(axis=0) >= 0.5)
     if dry is not None:
-        shore = (dry < 0.05) & (_blurred((wet >= 0.5).astype(np.float64), BEHIND) > 0.0)
+        shore = (dry < 0.05) & (_blur((wet >= 0.5).astype(np.float64), BEHIND) > 0.0)
     inner = np.zeros_like(shore)
     inner[EDGE:-EDGE, EDGE:-EDGE] = True
     places = np.argwhere(shore & inner)

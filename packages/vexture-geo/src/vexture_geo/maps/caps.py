@@ -7,9 +7,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture_geo.base.crs import system, transformed
+from vexture_geo.base.crs import system, transform_points
 from vexture_geo.base.rings import Rings, rings_of, within
-from vexture_geo.maps.lines import lines_changed
+from vexture_geo.maps.lines import change_lines
 from vexture_geo.vector.features import Lines
 
 __all__ = ["Cap", "cap_of"]
@@ -99,7 +99,7 @@ class Cap:
         leaving = np.flatnonzero(beyond)
         parts, owner = _polygons(shapely.intersection(shapes[leaving], self.area))
         feature = None if rings.feature is None else rings.feature[leaving[owner]]
-        return rings.taken(np.flatnonzero(~beyond)).joined(
+        return rings.take(np.flatnonzero(~beyond)).concatenate(
             rings_of(parts, lambda index: rings.place(int(leaving[owner[index]])), feature)
         )
 
@@ -113,7 +113,7 @@ class Cap:
         if not self.pole:
             rims = np.array(area.exterior.coords) + np.outer((-1, 0, 1), (360.0, 0.0))[:, None]
             area = shapely.union_all(shapely.polygons(rims))
-        return lines_changed(lines, lambda shapes: np.asarray(shapely.intersection(shapes, area)))
+        return change_lines(lines, lambda shapes: np.asarray(shapely.intersection(shapes, area)))
 
 
 def _polygons(shapes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
@@ -143,6 +143,6 @@ def cap_of(crs: str, longitude: float) -> Cap | None:
     low, high = 0.0, 90.0 + BESIDE
     for _ in range(20):
         half = (low + high) / 2
-        rim = transformed(Cap(longitude, latitude, half).rim(36), WORLD, crs)
+        rim = transform_points(Cap(longitude, latitude, half).rim(36), WORLD, crs)
         low, high = (half, high) if np.isfinite(rim).all() else (low, half)
     return Cap(longitude, latitude, round(min(low - BESIDE, MOST.get(name.partition(" ")[0], 90.0)), 3))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vexture.base.errors import DeviceError, ParameterError
 from vexture.base.labels import texts_of
 from vexture.base.notes import Notes
-from vexture_geo.maps.measures import BREAKS, Measure, breaks_of, distinct, measured
+from vexture_geo.maps.measures import BREAKS, Measure, breaks_of, distinct, measure_of
 
 if TYPE_CHECKING:
     import pyarrow
@@ -99,7 +99,7 @@ def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba
             f"it has no column {scale.column!r} for `color`; there are: {', '.join(table.column_names)}"
         )
     column = table.column(scale.column)
-    measure, kind = measured(column), scale.kind
+    measure, kind = measure_of(column), scale.kind
     if kind == "auto":
         few = measure is None or (measure.unit != "" and len(np.unique(_known(measure))) <= scale.classes)
         kind = "categories" if few else "quantiles"
@@ -184,7 +184,7 @@ def _full(name: Any, catalog: Any) -> Any:
         return name
 
 
-def _sampled(palette: Any, at: NDArray[np.float64]) -> Rgba:
+def _sample_palette(palette: Any, at: NDArray[np.float64]) -> Rgba:
     return np.clip(np.asarray(palette(at), np.float64).reshape(-1, 4), 0.0, 1.0)
 
 
@@ -195,7 +195,7 @@ def _classes(
     values, known = measure.values, _known(measure)
     are_whole = breaks is None and measure.are_whole
     breaks = distinct(_found_breaks(measure, kind, scale.classes) if breaks is None else breaks)
-    colours = _sampled(_palette(scale.palette, SEQUENTIAL), np.linspace(0.0, 1.0, len(breaks) + 1))
+    colours = _sample_palette(_palette(scale.palette, SEQUENTIAL), np.linspace(0.0, 1.0, len(breaks) + 1))
     number = np.searchsorted(breaks, values, side="right")
     rgba = colours[number]
     rgba[~np.isfinite(values)] = np.nan
@@ -203,7 +203,7 @@ def _classes(
     edges.append(float(max(known.max(), edges[-1])))
     counts = np.bincount(number[np.isfinite(values)], minlength=len(colours))
     labels = _of_whole(measure, edges) if are_whole else _ranges(measure, edges, counts)
-    told = [measure.told(edge) for edge in edges]
+    told = [measure.json_value(edge) for edge in edges]
     entries = [
         {"color": hex_of(colour), "label": label, "from": low, "to": high, "count": int(count)}
         for colour, label, (low, high), count in zip(colours, labels, pairwise(told), counts, strict=True)
@@ -251,14 +251,14 @@ def _continuous(measure: Measure, scale: Scale) -> tuple[Rgba, list[dict[str, An
     low, high = float(known.min()), float(known.max())
     palette = _palette(scale.palette, SEQUENTIAL)
     part = np.where(np.isfinite(values), (values - low) / ((high - low) or 1.0), 0.0)
-    rgba = _sampled(palette, part)
+    rgba = _sample_palette(palette, part)
     rgba[~np.isfinite(values)] = np.nan
     at = np.linspace(low, high, STOPS)
     held: list[float] = (np.unique(np.rint(at)) if measure.are_whole else at).tolist()
     shown = {label: at for at, label in reversed(list(enumerate(measure.texts(held))))}  # the first of each
-    colours = _sampled(palette, (np.array(held) - low) / ((high - low) or 1.0))
+    colours = _sample_palette(palette, (np.array(held) - low) / ((high - low) or 1.0))
     return rgba, [
-        {"color": hex_of(colours[at]), "label": label, "value": measure.told(held[at])}
+        {"color": hex_of(colours[at]), "label": label, "value": measure.json_value(held[at])}
         for label, at in sorted(shown.items(), key=lambda item: item[1])
     ]
 
@@ -289,7 +289,7 @@ def _categories(
     counts = Counter(value for value in values if value is not None)
     own = [value for value in order if value in counts]
     if palette.interpolation == "linear":
-        stops = _sampled(palette, np.linspace(0.0, 1.0, max(len(own), 1)))
+        stops = _sample_palette(palette, np.linspace(0.0, 1.0, max(len(own), 1)))
     if rare := max(len(own) - len(stops), 0):
         notes.remark(
             f"{len(own)} categories of {scale.column!r}, but {len(stops)} colours: the {rare} least common ones share "

@@ -12,15 +12,15 @@ from vexture.base.errors import LimitError, ParameterError, SourceError
 from vexture.base.layout import MOST_PAINTS
 from vexture.conversion.pipeline import Conversion, run
 from vexture.drawing.drawing import Drawing, Path
-from vexture_geo.maps.coverage import covering, ranks
+from vexture_geo.maps.coverage import clean_coverage, ranks
 from vexture_geo.maps.paths import area_paths
 from vexture_geo.maps.place import MERCATOR, unit_of
-from vexture_geo.maps.prepare import FILL, INK, MapLayer, Prepared, in_memory, prepared
+from vexture_geo.maps.prepare import FILL, INK, MapLayer, Prepared, in_memory, prepare_layers
 
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["DEFAULT_SIZE", "Map", "convert_map", "converted"]
+__all__ = ["DEFAULT_SIZE", "Map", "convert_map", "convert_prepared"]
 
 DEFAULT_SIZE: Final = 1024
 """Pixels of the map's larger side, to which widths in pixels refer."""
@@ -83,11 +83,11 @@ def convert_map(
     SourceError, ParameterError, LimitError
         Each in a line that says what to do.
     """
-    ready = prepared(layers, crs=crs, size=size, name=name, max_seconds=max_seconds)
-    return converted(ready, snap=snap, restyle=restyle, tolerance=tolerance, max_seconds=max_seconds)
+    ready = prepare_layers(layers, crs=crs, size=size, name=name, max_seconds=max_seconds)
+    return convert_prepared(ready, snap=snap, restyle=restyle, tolerance=tolerance, max_seconds=max_seconds)
 
 
-def converted(
+def convert_prepared(
     ready: Prepared,
     *,
     snap: float | None = None,
@@ -127,7 +127,7 @@ def _drawing(ready: Prepared, snap: float | None) -> Drawing:
             rank = ranks(one.features, one.layer.order)
         ordered = one.layer.order is not None
         known: dict[str, Any] = {"names": one.names, "unit": unit_of(ready.crs), "is_ordered": ordered}
-        rings = covering(one.features.rings, rank, fit.scale, snap, ready.notes, **known)
+        rings = clean_coverage(one.features.rings, rank, fit.scale, snap, ready.notes, **known)
         paths += area_paths(rings, one.names, one.colours(FILL), rank, fit)
         border = one.outline
         paths += area_paths(border.rings, np.array([border.name], object), border.rgba, np.zeros(1, np.int64), fit)

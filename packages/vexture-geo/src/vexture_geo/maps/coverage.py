@@ -7,18 +7,18 @@ from numpy.typing import NDArray
 
 from vexture.base.errors import ParameterError
 from vexture.base.notes import Notes
-from vexture_geo.base.rings import Rings, rings_of, shared
+from vexture_geo.base.rings import Rings, rings_of, snap_rings
 from vexture_geo.base.snap import DEFAULT_SNAP, MOST_SNAP
-from vexture_geo.base.validity import made_valid
+from vexture_geo.base.validity import make_valid
 from vexture_geo.vector.features import Features
 
-__all__ = ["covering", "ranks", "ranks_by_area"]
+__all__ = ["clean_coverage", "ranks", "ranks_by_area"]
 
 NOISE: Final = 1e-9
 """Parts of the map's larger side: overlaps of less area than this times that side squared are not counted."""
 
 
-def covering(
+def clean_coverage(
     rings: Rings,
     rank: NDArray[np.int64],
     size: float,
@@ -55,10 +55,10 @@ def covering(
         return rings  # one feature has no neighbours
     if 0.0 < width <= MOST_SNAP * size and _is_clean(rings, width):
         return rings
-    rings = shared(rings, size, snap, notes, unit=unit, told=DEFAULT_SNAP * (1.0 + 1e-9))
+    rings = snap_rings(rings, size, snap, notes, unit=unit, noticeable=DEFAULT_SNAP * (1.0 + 1e-9))
     if snap == 0.0 or len(rings.outer) < 2:
         return rings
-    return _cleaned(rings, rank, size, width, notes, names, is_ordered)
+    return _close_gaps(rings, rank, size, width, notes, names, is_ordered)
 
 
 def _is_clean(rings: Rings, width: float) -> bool:
@@ -74,7 +74,7 @@ def _is_clean(rings: Rings, width: float) -> bool:
         return False
 
 
-def _cleaned(
+def _close_gaps(
     rings: Rings,
     rank: NDArray[np.int64],
     size: float,
@@ -89,7 +89,7 @@ def _cleaned(
     assert rings.feature is not None
     shapes = rings.shapes
     wrong = ~shapely.is_valid(shapes)
-    shapes[wrong] = made_valid(shapes[wrong])
+    shapes[wrong] = make_valid(shapes[wrong])
     try:
         found = shapely.coverage_invalid_edges(shapes, gap_width=width)
         amiss = ~shapely.is_empty(found)
@@ -102,14 +102,14 @@ def _cleaned(
         notes.remark("gaps between its polygons are as they were: they could not be closed")
         return rings
     change = shapely.area(clean) - shapely.area(shapes)
-    _say(change / size**2, names[rings.feature], notes, is_ordered)
+    _note_changes(change / size**2, names[rings.feature], notes, is_ordered)
     parts, owner = shapely.get_parts(clean, return_index=True)
     keep = (shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)
     origin = owner[keep]
     return rings_of(parts[keep], lambda index: rings.place(int(origin[index])), rings.feature[origin])
 
 
-def _say(change: NDArray[np.float64], names: NDArray[Any], notes: Notes, is_ordered: bool) -> None:
+def _note_changes(change: NDArray[np.float64], names: NDArray[Any], notes: Notes, is_ordered: bool) -> None:
     """Note which polygons lost or won an area, in parts of the square around the map."""
     if not is_ordered:
         below = "a polygon lies below others that overlap it: `order` says which is above"

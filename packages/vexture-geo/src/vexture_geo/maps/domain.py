@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture_geo.base.crs import system, transformed
+from vexture_geo.base.crs import system, transform_points
 from vexture_geo.base.extent import Bounds
 from vexture_geo.base.rings import Rings, cut, rings_of, within
 from vexture_geo.maps.caps import WORLD, Cap, cap_of
@@ -109,7 +109,7 @@ def domain_of(crs: str) -> Domain | None:
         return Domain((-EVER, -POLE, EVER, POLE), cap.pole, cap)
     for pole in (POLE, -POLE):
         around = np.array([(longitude, 8 / 9 * pole) for longitude in (0.0, 90.0, 180.0, 270.0)])
-        center, *ring = transformed(np.concatenate([[(0.0, pole)], around]), WORLD, crs)
+        center, *ring = transform_points(np.concatenate([[(0.0, pole)], around]), WORLD, crs)
         with np.errstate(invalid="ignore"):
             radii = np.hypot(*(np.array(ring) - center).T)
             opposite = np.abs((ring[0] + ring[2]) / 2 - center).max()
@@ -117,7 +117,7 @@ def domain_of(crs: str) -> Domain | None:
             return Domain((-EVER, min(pole, 0.0), EVER, max(pole, 0.0)), pole)
     half = TURN / 2 - BESIDE
     sides = np.array([(middle + side * half, latitude) for latitude in (-40.0, 0.0, 40.0) for side in (-1.0, 1.0)])
-    places = transformed(sides, WORLD, crs)
+    places = transform_points(sides, WORLD, crs)
     with np.errstate(invalid="ignore"):  # not a number where there is no image
         gaps = np.hypot(*(places[1::2] - places[::2]).T)
     if gaps.max() < NEAR * np.abs(places).max():
@@ -145,7 +145,7 @@ def _gaps(crs: str, meridians: NDArray[np.float64], latitudes: NDArray[np.float6
     """How far places beside meridians are apart on a map, in parts of its size; 0 where one has no image."""
     both = [np.stack([meridians + side, latitudes], axis=1) for side in (-BESIDE, BESIDE)]
     ends = np.array([(meridians[0], 0.0), (meridians[-1], 0.0)])
-    west, east, corners = np.split(transformed(np.concatenate([*both, ends]), WORLD, crs), [len(meridians), -2])
+    west, east, corners = np.split(transform_points(np.concatenate([*both, ends]), WORLD, crs), [len(meridians), -2])
     with np.errstate(invalid="ignore"):
         gaps = np.hypot(*(east - west).T) / np.hypot(*(corners[1] - corners[0]))
     return np.where(np.isfinite(gaps), gaps, 0.0)
@@ -211,9 +211,9 @@ def cut_open(rings: Rings, slits: tuple[Bounds, ...]) -> Rings:
     if not crossing.any():
         return rings
     leaving = np.flatnonzero(crossing)
-    parts, owner = shapely.get_parts(without(slits)(rings.taken(leaving).shapes), return_index=True)
+    parts, owner = shapely.get_parts(without(slits)(rings.take(leaving).shapes), return_index=True)
     feature = None if rings.feature is None else rings.feature[leaving[owner]]
-    return rings.taken(np.flatnonzero(~crossing)).joined(
+    return rings.take(np.flatnonzero(~crossing)).concatenate(
         rings_of(parts, lambda index: rings.place(int(leaving[owner[index]])), feature)
     )
 
@@ -229,7 +229,7 @@ def without(slits: tuple[Bounds, ...]) -> Callable[[NDArray[Any]], NDArray[Any]]
 def torn_sides(rings: Rings, crs: str) -> NDArray[np.bool_]:
     """Whether a map is torn across the side after each point, in longitude and latitude."""
     first, last = rings.points.copy(), rings.points[rings.following]
-    places = transformed(rings.points, WORLD, crs)
+    places = transform_points(rings.points, WORLD, crs)
     known = places[np.isfinite(places).all(axis=1)]
     least = JUMP * float(np.ptp(known, axis=0).max()) if len(known) else np.inf
     with np.errstate(invalid="ignore"):
@@ -237,7 +237,7 @@ def torn_sides(rings: Rings, crs: str) -> NDArray[np.bool_]:
         for _ in range(HALVINGS if torn.any() else 0):
             west, east = first[torn], last[torn]
             half = (west + east) / 2
-            there = np.split(transformed(np.concatenate([west, half, east]), WORLD, crs), 3)
+            there = np.split(transform_points(np.concatenate([west, half, east]), WORLD, crs), 3)
             gaps = np.hypot(*(there[1] - there[0]).T), np.hypot(*(there[2] - there[1]).T)
             is_first = gaps[0] >= gaps[1]
             first[torn] = np.where(is_first[:, None], west, half)

@@ -8,12 +8,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture_geo.base.crs import period, same_system, transformed
+from vexture_geo.base.crs import period, same_system, transform_points
 from vexture_geo.maps.domain import POLE, TURN, WORLD, domain_of, is_wide, within_turn
 from vexture_geo.maps.place import MERCATOR, RADIUS
 from vexture_geo.vector.features import Features, Lines, Points
 
-__all__ = ["along_edge", "together"]
+__all__ = ["along_edge", "move_together"]
 
 NEAR: Final = 1e-4
 """Degrees: what is nearer to the edge lies on it. Maps end a little before the meridian where they are torn."""
@@ -25,7 +25,7 @@ ROUNDED: Final = 1e-9
 """Parts of the world by which rounding moves its edge."""
 
 
-def together(layers: list[Features], crs: str) -> list[Features]:
+def move_together(layers: list[Features], crs: str) -> list[Features]:
     """Features of a map on one side of the antimeridian, if they all lie near it: on that where most corners are."""
     turn = _turn(crs)
     if turn is None:
@@ -33,10 +33,10 @@ def together(layers: list[Features], crs: str) -> list[Features]:
     reach = np.concatenate([_reach(features) for features in layers])
     shift = _shift(reach, turn)
     if len(reach) and turn / 2 < np.ptp(reach) > np.ptp(reach + shift[:, None]) < turn / 2:
-        layers = [_shifted(features, lambda own: _shift(own, turn)) for features in layers]
+        layers = [_shift_features(features, lambda own: _shift(own, turn)) for features in layers]
     x = np.concatenate([part[:, 0] for f in layers for part in (f.rings.points, f.lines.points, f.points.points)])
     away = turn * np.rint(np.median(x) / turn) if len(x) else 0.0
-    return [_shifted(features, lambda own: np.full(len(own), -away)) for features in layers] if away else layers
+    return [_shift_features(features, lambda own: np.full(len(own), -away)) for features in layers] if away else layers
 
 
 def _turn(crs: str) -> float | None:
@@ -63,11 +63,11 @@ def _of_lines(lines: Lines) -> NDArray[np.float64]:
     return np.stack([np.minimum.reduceat(x, starts), np.maximum.reduceat(x, starts)], axis=1)
 
 
-def _shifted(features: Features, shift: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Features:
+def _shift_features(features: Features, shift: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Features:
     """Features moved along x, each part as `shift` tells of its west and east."""
     rings, lines, points = features.rings, features.lines, features.points
     if len(rings.ends):
-        rings = rings.shifted(shift(rings.boxes[:, :, 0])[rings.polygon])
+        rings = rings.shift_east(shift(rings.boxes[:, :, 0])[rings.polygon])
     if len(lines.ends):
         own = np.repeat(shift(_of_lines(lines)), np.diff(lines.ends, prepend=0))
         lines = Lines(lines.points + np.stack([own, np.zeros(len(own))], axis=1), lines.ends, lines.feature)
@@ -83,7 +83,7 @@ def along_edge(sides: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
         high, widest, places = turn / 2 if same_system(crs, MERCATOR) else turn / 4, turn / 2, points
         on = np.abs(np.abs(points) - (turn / 2, high)) <= ROUNDED * turn
     elif is_wide(crs) and (domain := domain_of(crs)) is not None:
-        middle, degrees = (domain.box[0] + domain.box[2]) / 2, transformed(points, crs, WORLD)
+        middle, degrees = (domain.box[0] + domain.box[2]) / 2, transform_points(points, crs, WORLD)
         # what the map shows, and no place has by rounding, is at its edge
         degrees[~np.isfinite(degrees).all(axis=1)] = (middle + TURN / 2, 0.0)
         longitude = within_turn(degrees - (middle, 0.0))[:, 0]

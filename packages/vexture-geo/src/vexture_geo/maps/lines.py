@@ -12,10 +12,10 @@ from vexture_geo.base.longitudes import FULL_TURN
 from vexture_geo.base.rings import Rings
 from vexture_geo.vector.features import Lines
 
-__all__ = ["continuous", "lines_changed", "lines_in_box", "there_and_back", "thicker", "way_there"]
+__all__ = ["change_lines", "densify", "lines_along", "lines_in_box", "rings_along", "unwrap_lines"]
 
 
-def continuous(lines: Lines, turn: float) -> Lines:
+def unwrap_lines(lines: Lines, turn: float) -> Lines:
     """Lines of which no side is longer than half a turn: they go on beyond the antimeridian.
 
     A side of a whole turn goes around the world, as a parallel does, unless the line comes from or goes on to places
@@ -24,10 +24,10 @@ def continuous(lines: Lines, turn: float) -> Lines:
     Examples
     --------
     >>> across = Lines(np.array([[179.0, 0.0], [-179.0, 1.0]]), np.array([2]), np.array([0]))
-    >>> continuous(across, 360.0).points.tolist()
+    >>> unwrap_lines(across, 360.0).points.tolist()
     [[179.0, 0.0], [181.0, 1.0]]
     >>> equator = Lines(np.array([[-180.0, 0.0], [180.0, 0.0]]), np.array([2]), np.array([0]))
-    >>> continuous(equator, 360.0).points.tolist()
+    >>> unwrap_lines(equator, 360.0).points.tolist()
     [[-180.0, 0.0], [180.0, 0.0]]
     """
     if not len(lines.ends):
@@ -66,7 +66,7 @@ def lines_in_box(lines: Lines, box: Bounds, turn: float | None) -> Lines:
     return Lines(points, np.searchsorted(owner, np.arange(len(parts)), side="right"), np.concatenate(feature))
 
 
-def lines_changed(lines: Lines, change: Callable[[NDArray[Any]], NDArray[Any]]) -> Lines:
+def change_lines(lines: Lines, change: Callable[[NDArray[Any]], NDArray[Any]]) -> Lines:
     """What a change of shapely's lines leaves of each."""
     import shapely
 
@@ -78,7 +78,7 @@ def lines_changed(lines: Lines, change: Callable[[NDArray[Any]], NDArray[Any]]) 
     return Lines(points, np.searchsorted(owner, np.arange(len(parts)), side="right"), lines.feature[of])
 
 
-def thicker(rings: Rings, longest: float) -> Rings:
+def densify(rings: Rings, longest: float) -> Rings:
     """Rings with middles in their sides until none is longer: equal sides of neighbours stay equal, bit for bit."""
     points, ends = rings.points, rings.ends
     while len(points):
@@ -94,7 +94,7 @@ def thicker(rings: Rings, longest: float) -> Rings:
     return replace(rings, points=points, ends=ends)
 
 
-def there_and_back(lines: Lines) -> Rings:
+def rings_along(lines: Lines) -> Rings:
     """Rings that follow lines to their ends and back again: what bends rings bends lines, too."""
     lengths = np.diff(lines.ends, prepend=0)
     starts = lines.ends - lengths
@@ -106,8 +106,8 @@ def there_and_back(lines: Lines) -> Rings:
     return Rings(lines.points[index], np.cumsum(sizes), owner, lambda line: f"line {line + 1}", lines.feature)
 
 
-def way_there(rings: Rings) -> Lines:
-    """The lines of `there_and_back`."""
+def lines_along(rings: Rings) -> Lines:
+    """The lines of `rings_along`."""
     assert rings.feature is not None
     sizes = rings.ends - rings.starts
     lengths = sizes // 2 + 1

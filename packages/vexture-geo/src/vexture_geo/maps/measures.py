@@ -13,7 +13,7 @@ from vexture.base.errors import ParameterError
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["BREAKS", "Measure", "breaks_of", "distinct", "measured"]
+__all__ = ["BREAKS", "Measure", "breaks_of", "distinct", "measure_of"]
 
 DIGITS: Final = range(6, 13)
 """Significant digits of numbers in a legend: as few as tell them apart; what more would tell apart is noise."""
@@ -48,7 +48,7 @@ class Measure:
         known = self.values[np.isfinite(self.values)]
         return bool((known == np.rint(known)).all() and np.abs(known).max() < MOST_WHOLE)
 
-    def told(self, number: float) -> float | str:
+    def json_value(self, number: float) -> float | str:
         """A number for JSON; a time in ISO 8601."""
         return self._time(number) if self.unit else number
 
@@ -66,13 +66,13 @@ class Measure:
         most = len(distinct(np.array(numbers)))
         tried = ([_text(number, digits) for number in numbers] for digits in DIGITS)
         found = next(texts for texts in tried if len(set(texts)) == most)
-        return [_grouped(text) for text in found] if max(map(abs, numbers), default=0.0) >= GROUPED else found
+        return [_group_digits(text) for text in found] if max(map(abs, numbers), default=0.0) >= GROUPED else found
 
     def _time(self, number: float) -> str:
         return str(np.array(round(number)).astype(f"datetime64[{self.unit}]")).replace("T", " ")
 
 
-def measured(column: "pyarrow.ChunkedArray") -> Measure | None:
+def measure_of(column: "pyarrow.ChunkedArray") -> Measure | None:
     """What a column of numbers, dates or times measures; None of other columns."""
     import pyarrow as pa
     import pyarrow.compute as pc
@@ -125,7 +125,7 @@ def _text(number: float, digits: int) -> str:
     return f"{number:.0f}" if 10**digits <= abs(number) < MOST_WHOLE else f"{number:.{digits}g}"
 
 
-def _grouped(text: str) -> str:
+def _group_digits(text: str) -> str:
     """A number with marks of thousands; one with an exponent as it is."""
     found: Any = PLAIN.fullmatch(text)
     return text if found is None else f"{found[1]}{int(found[2]):,}{found[3] or ''}"

@@ -10,12 +10,12 @@ from vexture.drawing.contours import ring_contours
 from vexture.drawing.drawing import FillRule, Path
 from vexture.drawing.paint import Paint
 from vexture_geo.base.extent import Bounds
-from vexture_geo.base.rings import Rings, oriented
+from vexture_geo.base.rings import Rings, orient_rings
 
-__all__ = ["Fit", "area_paths"]
+__all__ = ["MapFit", "area_paths"]
 
 
-class Fit:
+class MapFit:
     """The box of a map in the middle of the unit square, at its own aspect ratio."""
 
     def __init__(self, box: Bounds) -> None:
@@ -35,12 +35,12 @@ class Fit:
 
 
 def area_paths(
-    rings: Rings, names: NDArray[Any], rgba: NDArray[np.float64], rank: NDArray[np.int64], fit: Fit
+    rings: Rings, names: NDArray[Any], rgba: NDArray[np.float64], rank: NDArray[np.int64], fit: MapFit
 ) -> Iterator[Path]:
     """A path of each feature's polygons, in the order of their ranks."""
     if not len(rings.ends):
         return
-    rings = oriented(rings)
+    rings = orient_rings(rings)
     assert rings.feature is not None
     contours = ring_contours(fit.inward(rings.points), rings.ends)
     owner = rings.feature[rings.polygon]

@@ -11,17 +11,17 @@ from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
 from vexture_geo.base.crs import (
     are_degrees,
+    format_bounds,
+    format_system,
     period,
     refuse_metres,
     same_system,
-    shown_bounds,
-    shown_system,
     system,
-    transformed,
+    transform_points,
 )
 from vexture_geo.base.extent import Bounds
-from vexture_geo.base.longitudes import jumping, note_short_ways, unwrapped
-from vexture_geo.base.rings import Rings, moved, refuse_far, repaired
+from vexture_geo.base.longitudes import jumping, note_short_ways, unwrap_rings
+from vexture_geo.base.rings import Rings, map_rings, refuse_far, repair_rings
 from vexture_geo.maps.caps import Cap
 from vexture_geo.maps.domain import (
     EVER,
@@ -38,10 +38,10 @@ from vexture_geo.maps.domain import (
     within_turn,
     without,
 )
-from vexture_geo.maps.lines import continuous, lines_changed, lines_in_box, there_and_back, thicker, way_there
+from vexture_geo.maps.lines import change_lines, densify, lines_along, lines_in_box, rings_along, unwrap_lines
 from vexture_geo.vector.features import Features, Lines, Points
 
-__all__ = ["MERCATOR", "RADIUS", "placed", "unit_of", "units_per_metre"]
+__all__ = ["MERCATOR", "RADIUS", "place_features", "unit_of", "units_per_metre"]
 
 MERCATOR: Final = "EPSG:3857"
 RADIUS: Final = 6378137.0
@@ -70,22 +70,22 @@ DEGREE: Final = 111_320.0
 Move = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
-def placed(features: Features, crs: str, notes: Notes) -> Features:
+def place_features(features: Features, crs: str, notes: Notes) -> Features:
     """Features in another reference system; what has no place there is cut off or left out, with a note."""
     rings, turn = features.rings, period(features.crs)
     if turn:
         for marks in (features.lines, features.points):
             _refuse_metres_of_marks(marks, features, notes)
     if turn and len(rings.ends):
-        what = f"the coordinates {shown_bounds(rings.box, features.crs)}"
+        what = f"the coordinates {format_bounds(rings.box, features.crs)}"
         refuse_metres(rings.points, features.crs, what, name="source_crs")
         jumps = jumping(rings, turn).any()
         note_short_ways(rings.steps, turn, notes)
-        rings = unwrapped(rings, turn)
-        rings = repaired(rings, notes) if jumps else rings
+        rings = unwrap_rings(rings, turn)
+        rings = repair_rings(rings, notes) if jumps else rings
     if turn:
         note_short_ways(features.lines.steps, turn, notes)
-        features = replace(features, rings=rings, lines=continuous(features.lines, turn))
+        features = replace(features, rings=rings, lines=unwrap_lines(features.lines, turn))
     if same_system(crs, features.crs):
         wide = turn is not None and len(rings.ends) > 0 and rings.box[2] - rings.box[0] > turn
         return (
@@ -93,7 +93,7 @@ def placed(features: Features, crs: str, notes: Notes) -> Features:
         )
     if same_system(crs, MERCATOR):
         return _on_mercator(features, notes)
-    return _projected(features, crs, notes)
+    return _project(features, crs, notes)
 
 
 def _refuse_metres_of_marks(marks: Lines | Points, features: Features, notes: Notes) -> None:
@@ -105,7 +105,7 @@ def _refuse_metres_of_marks(marks: Lines | Points, features: Features, notes: No
     first = points[wrong][:1]
     if wrong.sum() > len(points) / 2:
         box = (*points.min(axis=0).tolist(), *points.max(axis=0).tolist())
-        refuse_metres(first, features.crs, f"the coordinates {shown_bounds(box, features.crs)}", name="source_crs")
+        refuse_metres(first, features.crs, f"the coordinates {format_bounds(box, features.crs)}", name="source_crs")
     owner = marks.feature
     if isinstance(marks, Lines):
         owner = owner[np.searchsorted(marks.ends, np.arange(len(points)), side="right")]
@@ -115,29 +115,29 @@ def _refuse_metres_of_marks(marks: Lines | Points, features: Features, notes: No
 
 
 def _mover(start: str, end: str, before: Move = lambda points: points) -> Move:
-    return lambda points: transformed(before(points), start, end)
+    return lambda points: transform_points(before(points), start, end)
 
 
-def _projected(features: Features, crs: str, notes: Notes) -> Features:
+def _project(features: Features, crs: str, notes: Notes) -> Features:
     """Features on another map, cut where it is torn."""
     domain = domain_of(crs)
     if domain is not None and period(features.crs) is None and is_wide(crs):
         features = _in_degrees(features)
     if period(features.crs) == TURN:
         features = features if domain is None else _within(features, domain, notes)
-        lines = way_there(thicker(there_and_back(features.lines), LONGEST))
-        features = replace(features, rings=thicker(features.rings, LONGEST), lines=lines)
+        lines = lines_along(densify(rings_along(features.lines), LONGEST))
+        features = replace(features, rings=densify(features.rings, LONGEST), lines=lines)
         if is_wide(crs):
-            _say_torn(features, crs, notes)
+            _note_torn(features, crs, notes)
     move, rings = _mover(features.crs, crs), features.rings
     is_around = domain is not None and domain.pole != 0.0 and period(features.crs) == TURN
     if is_around:  # both sides of the antimeridian are one, bit for bit
         move = _mover(features.crs, crs, within_turn)
     if len(rings.ends):
         rings = _usable(rings, features.crs, crs, move, notes)
-        rings = repaired(rings, notes) if is_around else rings
+        rings = repair_rings(rings, notes) if is_around else rings
     else:
-        _say_far(np.concatenate([features.lines.points, features.points.points]), features.crs, crs, notes)
+        _note_far(np.concatenate([features.lines.points, features.points.points]), features.crs, crs, notes)
     lines, points = _marks(features, move, notes)
     return replace(features, rings=rings, crs=crs, lines=lines, points=points)
 
@@ -147,11 +147,11 @@ def _in_degrees(features: Features) -> Features:
     move = _mover(features.crs, WORLD)
     rings, lines = features.rings, features.lines
     if len(rings.ends):
-        rings = _mapped(rings, move, DEGREES)
+        rings = _map_finely(rings, move, DEGREES)
         refuse_far(rings, f"it has no longitude and latitude; correct it, or the `source_crs` {features.crs[:40]}")
-        rings = unwrapped(rings, TURN)
+        rings = unwrap_rings(rings, TURN)
     if len(lines.ends):
-        lines = continuous(way_there(_mapped(there_and_back(lines), move, DEGREES)), TURN)
+        lines = unwrap_lines(lines_along(_map_finely(rings_along(lines), move, DEGREES)), TURN)
     points = Points(move(features.points.points), features.points.feature)
     return replace(features, rings=rings, crs=WORLD, lines=lines, points=points)
 
@@ -163,42 +163,42 @@ def _within(features: Features, domain: Domain, notes: Notes) -> Features:
     rings = in_box(features.rings, domain.box, domain.turn)
     lines, points = lines_in_box(features.lines, domain.box, domain.turn), features.points
     if domain.pole:
-        points = _points_where(points, points.points[:, 1] * domain.pole >= 0.0, notes)
+        points = _select_points(points, points.points[:, 1] * domain.pole >= 0.0, notes)
         if rings is not features.rings or lines is not features.lines:
             notes.remark("the map shows the hemisphere around its pole: it is cut off at the equator")
     if domain.slits and len(rings.ends):
         rings = cut_open(rings, domain.slits)
     if domain.slits and len(lines.ends):
-        lines = lines_changed(lines, without(domain.slits))
+        lines = change_lines(lines, without(domain.slits))
     return replace(features, rings=rings, lines=lines, points=points)
 
 
 def _within_cap(features: Features, cap: Cap, notes: Notes) -> Features:
     """What of features a map shows that looks at the globe from one side."""
     rings, lines = cap.of_rings(features.rings), cap.of_lines(features.lines)
-    points = _points_where(features.points, cap.distance(features.points.points) <= cap.radius, notes)
+    points = _select_points(features.points, cap.distance(features.points.points) <= cap.radius, notes)
     if rings is not features.rings or lines is not features.lines:
         middle = f"latitude {cap.latitude:.4g}, longitude {cap.longitude:.4g}"
         notes.remark(f"the map shows one side of the globe: it is cut off {cap.radius:.3g} degrees from {middle}")
     return replace(features, rings=rings, lines=lines, points=points)
 
 
-def _points_where(points: Points, there: NDArray[np.bool_], notes: Notes) -> Points:
+def _select_points(points: Points, is_shown: NDArray[np.bool_], notes: Notes) -> Points:
     """The points that a map shows."""
-    for _ in range(int((~there).sum())):
+    for _ in range(int((~is_shown).sum())):
         notes.left_out(BEYOND_POINT)
-    return Points(points.points[there], points.feature[there])
+    return Points(points.points[is_shown], points.feature[is_shown])
 
 
-def _say_torn(features: Features, crs: str, notes: Notes) -> None:
+def _note_torn(features: Features, crs: str, notes: Notes) -> None:
     """Note which features, in longitude and latitude, lie across a tear that is at no meridian."""
     parts = [features.rings] if len(features.rings.ends) else []
-    parts += [there_and_back(features.lines)] if len(features.lines.ends) else []
+    parts += [rings_along(features.lines)] if len(features.lines.ends) else []
     for rings in parts:
         assert rings.feature is not None
         ring = np.searchsorted(rings.ends, np.flatnonzero(torn_sides(rings, crs)), side="right")
         wrong = np.unique(rings.feature[rings.polygon[ring]])
-        said = f"a feature lies where {_named(crs)} is torn, and is smeared over the map; choose another `crs`"
+        said = f"a feature lies where {_system_name(crs)} is torn, and is smeared over the map; choose another `crs`"
         notes.features("remark", said, features.ids[wrong])
 
 
@@ -246,37 +246,38 @@ def _mercator(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _usable(rings: Rings, start: str, end: str, move: Move, notes: Notes) -> Rings:
     """Polygons moved; if some have no image, or one that is much too large, only those in the system's area of use."""
-    rings_there = _mapped(rings, move, None)
+    rings_there = _map_finely(rings, move, None)
     finite = bool(np.isfinite(rings_there.points).all())
     area = system(end).area_of_use
     if finite and (area is None or period(start) != TURN or not is_strained(rings.points, end)):
-        _say_far(rings.boxes.reshape(-1, 2), start, end, notes)
+        _note_far(rings.boxes.reshape(-1, 2), start, end, notes)
         return rings_there
     if area is not None:
         box = _area(area.bounds, start)
-        rings_there = _mapped(in_box(rings, box, period(start)), move, None)
-        notes.remark(f"it is cut off at the area of use of {shown_system(end)}")
+        rings_there = _map_finely(in_box(rings, box, period(start)), move, None)
+        notes.remark(f"it is cut off at the area of use of {format_system(end)}")
     if area is None or not len(rings_there.ends) or not np.isfinite(rings_there.points).all():
         raise SourceError(
-            f"it has no place in {_named(end)}, or some of it has none; choose another `crs`, or features by `where`"
+            f"it has no place in {_system_name(end)}, or some of it has none; choose another `crs`, or features by "
+            "`where`"
         )
     return rings_there
 
 
-def _say_far(points: NDArray[np.float64], start: str, end: str, notes: Notes) -> None:
+def _note_far(points: NDArray[np.float64], start: str, end: str, notes: Notes) -> None:
     """Note that a map is not meant for some places; one around a pole is known to show a hemisphere."""
     area, domain = system(end).area_of_use, domain_of(end)
-    if area is not None and not (domain and domain.pole) and is_far(transformed(points, start, WORLD), end):
+    if area is not None and not (domain and domain.pole) and is_far(transform_points(points, start, WORLD), end):
         name = area.name.rstrip(".") if len(area.name) <= MOST_LETTERS else f"{area.name[:MOST_LETTERS]}..."
         notes.remark(
-            f"some of it is far outside of the area of use of {shown_system(end)} ({name}), where shapes and sizes may "
-            "be wrong; choose another `crs`"
+            f"some of it is far outside of the area of use of {format_system(end)} ({name}), where shapes and sizes "
+            "may be wrong; choose another `crs`"
         )
 
 
-def _named(crs: str) -> str:
+def _system_name(crs: str) -> str:
     """A system that has a name."""
-    name = shown_system(crs)
+    name = format_system(crs)
     return "this system" if name == "unknown" else name
 
 
@@ -284,11 +285,11 @@ def _area(bounds: Bounds, crs: str) -> Bounds:
     """An area of use in another system; it may go on beyond the antimeridian."""
     west, south, east, north = bounds
     corners = np.array([(west, south), (east + TURN * (east < west), north)], np.float64)
-    (west, south), (east, north) = (corners if period(crs) == TURN else transformed(corners, WORLD, crs)).tolist()
+    (west, south), (east, north) = (corners if period(crs) == TURN else transform_points(corners, WORLD, crs)).tolist()
     return (west, south, east, north)
 
 
-def _mapped(rings: Rings, move: Move, size: NDArray[np.float64] | None) -> Rings:
+def _map_finely(rings: Rings, move: Move, size: NDArray[np.float64] | None) -> Rings:
     """Rings with more points where a mapped side is no longer straight."""
     image = move(rings.points)
     known = image[np.isfinite(image).all(axis=1)]
@@ -296,18 +297,18 @@ def _mapped(rings: Rings, move: Move, size: NDArray[np.float64] | None) -> Rings
         return replace(rings, points=image)
     low, high = known.min(axis=0), known.max(axis=0)
     sides = np.maximum(high - low, 1e-9) if size is None else size
-    return moved(rings, move, EVERYWHERE, sides)
+    return map_rings(rings, move, EVERYWHERE, sides)
 
 
 def _marks(features: Features, move: Move, notes: Notes, *, is_bent: bool = True) -> tuple[Lines, Points]:
     """Lines, curved where the map bends them, and points; those without an image are left out."""
     lines, spots = features.lines, features.points
     if len(lines.ends):
-        there_back = there_and_back(lines)
+        there_back = rings_along(lines)
         moved_rings = (
-            _mapped(there_back, move, None) if is_bent else replace(there_back, points=move(there_back.points))
+            _map_finely(there_back, move, None) if is_bent else replace(there_back, points=move(there_back.points))
         )
-        lines = way_there(moved_rings)
+        lines = lines_along(moved_rings)
     points = lines.points
     owner = np.repeat(np.arange(len(lines.ends)), np.diff(lines.ends, prepend=0))
     lost = np.zeros(len(lines.ends), np.bool_)

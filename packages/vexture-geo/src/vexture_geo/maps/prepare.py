@@ -15,15 +15,15 @@ from vexture.base.errors import LimitError, ParameterError, SourceError
 from vexture.base.notes import Notes
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Paint
-from vexture_geo.base.crs import UNPLACED, chosen_crs, gis_packages, same_system
+from vexture_geo.base.crs import UNPLACED, choose_crs, gis_packages, same_system
 from vexture_geo.base.rings import Rings
 from vexture_geo.maps.colours import Scale, colours_of, rgba_of
-from vexture_geo.maps.edges import together
+from vexture_geo.maps.edges import move_together
 from vexture_geo.maps.marks import outlines, strokes, width_of, widths_at
-from vexture_geo.maps.paths import Fit
-from vexture_geo.maps.place import MERCATOR, placed
+from vexture_geo.maps.paths import MapFit
+from vexture_geo.maps.place import MERCATOR, place_features
 from vexture_geo.maps.symbols import Symbols
-from vexture_geo.maps.times import Steps, Times, coloured_steps, with_steps
+from vexture_geo.maps.times import Steps, Times, colour_steps, with_steps
 from vexture_geo.vector.features import ID, Features, read_features
 from vexture_geo.vector.tables import with_legends
 from vexture_geo.vector.vectors import is_memory
@@ -31,7 +31,7 @@ from vexture_geo.vector.vectors import is_memory
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["DOT", "FILL", "INK", "MapLayer", "Prepared", "in_memory", "prepared"]
+__all__ = ["DOT", "FILL", "INK", "MapLayer", "Prepared", "in_memory", "prepare_layers"]
 
 FILL, INK, DOT = "#c3cdd6", "#404a54", "#d55e00"
 """Colours of areas, lines and points that none is given for."""
@@ -112,7 +112,7 @@ class MapLayer:
 
 
 @dataclass(frozen=True, eq=False)
-class Outline:
+class LayerOutline:
     """Area of the borders of a layer, the name of its element, and its colour, (1, 4)."""
 
     rings: Rings
@@ -120,11 +120,11 @@ class Outline:
     rgba: NDArray[np.float64] = field(default_factory=lambda: np.zeros((1, 4)))
 
 
-NO_OUTLINE: Final = Outline(NO_LINES)
+NO_OUTLINE: Final = LayerOutline(NO_LINES)
 
 
 @dataclass(frozen=True, eq=False)
-class Painted:
+class PaintedLayer:
     """Features in the map's reference system, with their names in the texture, their colours, and areas of marks."""
 
     layer: MapLayer
@@ -135,7 +135,7 @@ class Painted:
     names: NDArray[Any]
     rgba: NDArray[np.float64] | None
     steps: Steps | None
-    outline: Outline
+    outline: LayerOutline
     lines: Rings
     symbols: Symbols | None
 
@@ -164,8 +164,8 @@ class Prepared:
         Of what was read; the conversion adds to them.
     """
 
-    layers: tuple[Painted, ...]
-    fit: Fit
+    layers: tuple[PaintedLayer, ...]
+    fit: MapFit
     legends: tuple[dict[str, Any], ...]
     table: "pyarrow.Table"
     crs: str
@@ -173,7 +173,7 @@ class Prepared:
     notes: Notes
 
     @property
-    def steps(self) -> tuple[Painted, Steps] | None:
+    def steps(self) -> tuple[PaintedLayer, Steps] | None:
         """The layer that changes with time, and its colours at each step."""
         return next(((one, one.steps) for one in self.layers if one.steps is not None), None)
 
@@ -195,7 +195,7 @@ def in_memory() -> Iterator[None]:
 
 
 @gis_packages()
-def prepared(
+def prepare_layers(
     layers: Sequence[MapLayer], *, crs: str, size: int | Box, name: str | None, max_seconds: float
 ) -> Prepared:
     """Read layers; parameters and errors are those of `vexture_geo.maps.convert_map`.
@@ -209,11 +209,11 @@ def prepared(
     if not isinstance(size, tuple) and (not isinstance(size, int) or size < 1):
         raise ParameterError(f"`size` is {size!r}; it must be a whole number of pixels, 1 or more")
     notes = Notes()
-    layers, crs = _planar(layers, chosen_crs(crs, None), notes)
+    layers, crs = _planar(layers, choose_crs(crs, None), notes)
     with within(max_seconds), in_memory():
-        placed_there = together([_read(layer, crs, notes) for layer in layers], crs)
-        painted, legends = _coloured(list(zip(layers, placed_there, strict=True)), notes)
-        marked, fit = _marked(painted, crs, size, notes)
+        placed_there = move_together([_read(layer, crs, notes) for layer in layers], crs)
+        painted, legends = _colour_layers(list(zip(layers, placed_there, strict=True)), notes)
+        marked, fit = _add_marks(painted, crs, size, notes)
     table = _table(painted, legends)
     return Prepared(marked, fit, tuple(legends), table, crs, name or layers[0].name, notes)
 
@@ -241,7 +241,7 @@ def _read(layer: MapLayer, crs: str, notes: Notes) -> Features:
             raise SourceError(f"{reason}; there is nothing to draw")
         if not (len(features.rings.ends) or len(features.lines.ends) or len(features.points.points)):
             raise SourceError("none of its features has a geometry that can be drawn; there is nothing to draw")
-        return placed(features, crs, notes)
+        return place_features(features, crs, notes)
 
 
 def _columns(layer: MapLayer) -> tuple[str, ...] | None:
@@ -250,12 +250,14 @@ def _columns(layer: MapLayer) -> tuple[str, ...] | None:
         return None
     stepped = layer.times is not None
     needed = (layer.color.column if layer.color and not stepped else None, layer.order)
-    steps = layer.times.named() if layer.times is not None else ()
+    steps = layer.times.column_names() if layer.times is not None else ()
     own = (name for name in needed if name not in (None, ID))  # ids are there in any case
     return tuple(dict.fromkeys([*layer.columns, *steps, *own]))
 
 
-def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list[Painted], list[dict[str, Any]]]:
+def _colour_layers(
+    read: list[tuple[MapLayer, Features]], notes: Notes
+) -> tuple[list[PaintedLayer], list[dict[str, Any]]]:
     """Names and colours of all features; ids that two layers share get the layer's name before them."""
     if sum(layer.times is not None for layer, _ in read) > 1:
         raise ParameterError("`times` is given for several sources; give it for one, and '' for the others")
@@ -269,14 +271,14 @@ def _coloured(read: list[tuple[MapLayer, Features]], notes: Notes) -> tuple[list
         rgba, steps, legend = None, None, None
         with about(layer.name):
             if layer.times is not None:
-                features, steps, legend = _stepped(layer, layer.times, features, notes)
+                features, steps, legend = _add_steps(layer, layer.times, features, notes)
                 rgba = steps.rgba[0]
             elif layer.color is not None:
                 features.refuse_numbers(layer.color.column)
                 rgba, legend = colours_of(features.table, layer.color, notes)
         if legend is not None:
             legends.append({"layer": label, **legend})
-        painted.append(Painted(layer, label, features, names, rgba, steps, NO_OUTLINE, NO_LINES, None))
+        painted.append(PaintedLayer(layer, label, features, names, rgba, steps, NO_OUTLINE, NO_LINES, None))
     return painted, legends
 
 
@@ -292,18 +294,22 @@ def _labels(layers: Sequence[MapLayer]) -> list[str]:
     return labels
 
 
-def _stepped(layer: MapLayer, times: Times, features: Features, notes: Notes) -> tuple[Features, Steps, dict[str, Any]]:
+def _add_steps(
+    layer: MapLayer, times: Times, features: Features, notes: Notes
+) -> tuple[Features, Steps, dict[str, Any]]:
     """Features with the values of all steps, their colours at each, and the legend of these."""
     features, columns, labels, title = with_steps(features, times, notes)
     scale = replace(layer.color or Scale(""), column=title)
-    steps, legend = coloured_steps(features.table, columns, labels, scale, notes)
+    steps, legend = colour_steps(features.table, columns, labels, scale, notes)
     if layer.columns is not None and times.is_pattern:
         kept = {"id", *layer.columns, *columns, layer.order, layer.id}
         features = replace(features, table=features.table.select([n for n in features.table.column_names if n in kept]))
     return features, steps, legend
 
 
-def _marked(painted: list[Painted], crs: str, size: int | Box, notes: Notes) -> tuple[tuple[Painted, ...], Fit]:
+def _add_marks(
+    painted: list[PaintedLayer], crs: str, size: int | Box, notes: Notes
+) -> tuple[tuple[PaintedLayer, ...], MapFit]:
     """Layers with the areas of their lines and points, and the box of all."""
     boxes = [np.concatenate([f.rings.points, f.lines.points, f.points.points]) for f in (p.features for p in painted)]
     every = np.concatenate(boxes)
@@ -324,23 +330,25 @@ def _marked(painted: list[Painted], crs: str, size: int | Box, notes: Notes) -> 
     low, high = np.min(reach, axis=0), np.max(reach, axis=0)
     if not (high > low).all():
         raise SourceError("it has no area on the map; give polygons, or points that differ")
-    return tuple(marked), Fit((*map(float, low), *map(float, high)))  # type: ignore[arg-type]
+    return tuple(marked), MapFit((*map(float, low), *map(float, high)))  # type: ignore[arg-type]
 
 
-def _outline(one: Painted, is_named: bool, taken: set[str], crs: str, pixel: float, notes: Notes) -> Outline:
+def _outline(
+    one: PaintedLayer, is_named: bool, used_names: set[str], crs: str, pixel: float, notes: Notes
+) -> LayerOutline:
     """The borders of a layer; the name of their element is that of no feature."""
     layer, rings = one.layer, one.features.rings
     width = width_of(layer.outline_width, "outline_width")
     if layer.outline is None or not len(rings.ends):
         return NO_OUTLINE
     name = f"{one.label}:outline" if is_named else "outline"
-    while name in taken:
+    while name in used_names:
         notes.remark(f"a feature is named {name!r} already, so the element of outlines is '{name}_'")
         name += "_"
-    return Outline(outlines(rings, width, crs, pixel), name, rgba_of(layer.outline, "outline")[None])
+    return LayerOutline(outlines(rings, width, crs, pixel), name, rgba_of(layer.outline, "outline")[None])
 
 
-def _symbols(one: Painted, crs: str, pixel: float) -> Symbols | None:
+def _symbols(one: PaintedLayer, crs: str, pixel: float) -> Symbols | None:
     """The symbols of a layer's points, if it has any."""
     points, layer = one.features.points, one.layer
     if not len(points.points):
@@ -361,7 +369,7 @@ def _dot() -> Drawing:
     return read(b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 2 2"><circle cx="1" cy="1" r="1"/></svg>')
 
 
-def _table(painted: list[Painted], legends: list[dict[str, Any]]) -> "pyarrow.Table":
+def _table(painted: list[PaintedLayer], legends: list[dict[str, Any]]) -> "pyarrow.Table":
     """Attributes of all layers: `id` is the element's name in the texture; of several layers, `layer` is its name."""
     import pyarrow as pa
 

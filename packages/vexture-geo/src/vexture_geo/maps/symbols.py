@@ -12,7 +12,7 @@ from vexture.base.errors import SourceError
 from vexture.bezier.cover import DIRECTIONS, cover_cells, cut_outlines, find_reach
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Paint
-from vexture_geo.maps.paths import Fit
+from vexture_geo.maps.paths import MapFit
 
 __all__ = ["Symbols"]
 
@@ -87,7 +87,7 @@ class Symbols:
                 high.append(places.max(axis=0))
         return np.array([np.min(low, axis=0), np.max(high, axis=0)]) if low and len(self) else np.empty((0, 2))
 
-    def paths(self, fit: Fit) -> Iterator[Path]:
+    def paths(self, fit: MapFit) -> Iterator[Path]:
         """The paths, in the unit square, whole."""
         copies = []
         for path in self.symbol.paths:
@@ -99,7 +99,7 @@ class Symbols:
                 contours = () if moved is None else tuple(moved[number, start:end] for start, end in spans)
                 yield Path.unchecked(contours, rule, paint or own, element=name)
 
-    def seen_paths(self, fit: Fit) -> Iterator[Path]:
+    def seen_paths(self, fit: MapFit) -> Iterator[Path]:
         """The paths, in the unit square; where many convex ones crowd, without most of what later ones hide.
 
         A path of which nothing is seen has no contours: its element is there, as that of any feature.
@@ -115,7 +115,7 @@ class Symbols:
         outlines = fit.inward(self._copies(path))
         middles = fit.inward((circles.middle - 0.5) * self.sizes[:, None] + self.points)
         inner = self.sizes * circles.inner / fit.scale * [opaque[id(paint)] for paint in paints]
-        cubics, ends, hides = _seen(outlines, middles, inner, self.sizes * circles.outer / fit.scale)
+        cubics, ends, hides = _cut_hidden(outlines, middles, inner, self.sizes * circles.outer / fit.scale)
         spans = pairwise([0, *ends.tolist()])
         for name, paint, (start, end), one_hides in zip(self.names, paints, spans, hides.tolist(), strict=True):
             contours = (cubics[start:end],) if end > start else ()
@@ -144,7 +144,7 @@ def _circles(symbol: Drawing) -> _Circles | None:
         return None
     fine = contours[0]
     for _ in range(3):
-        fine = _halved(fine)
+        fine = _halve_cubics(fine)
     start, end = fine[:, 0], fine[:, 3]
     middle = (start.min(axis=0) + start.max(axis=0)) / 2
     chord = end - start
@@ -155,7 +155,7 @@ def _circles(symbol: Drawing) -> _Circles | None:
     return _Circles(middle, float(far.min()) * INNER if is_inside else 0.0, outer / INNER)
 
 
-def _halved(cubics: NDArray[np.float64]) -> NDArray[np.float64]:
+def _halve_cubics(cubics: NDArray[np.float64]) -> NDArray[np.float64]:
     """Both halves of each cubic, by de Casteljau's algorithm."""
     a, b, c, d = cubics.transpose(1, 0, 2)
     p, q, r = (a + b) / 2, (b + c) / 2, (c + d) / 2
@@ -164,7 +164,7 @@ def _halved(cubics: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([a, p, s, m, m, t, r, d], axis=1).reshape(-1, 4, 2)
 
 
-def _seen(
+def _cut_hidden(
     outlines: NDArray[np.float64], middles: NDArray[np.float64], inner: NDArray[np.float64], outer: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
     """What is left of outlines (n, m, 4, 2), the place after the last cubic of each, and which of them hide others."""

@@ -21,7 +21,7 @@ from vexture_geo.vector.frames import arrow_of
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["STEP_COLUMNS", "Steps", "Times", "coloured_steps", "with_steps"]
+__all__ = ["STEP_COLUMNS", "Steps", "Times", "colour_steps", "with_steps"]
 
 TABLES: Final = (".parquet", ".arrow", ".feather", ".csv")
 ANY: Final = "*"
@@ -91,7 +91,7 @@ class Times:
                     f"no column is like {self.source!r} of `times`; there are: {', '.join(names[:12])}"
                 )
             return found
-        wanted = list(self.named())
+        wanted = list(self.column_names())
         for name in wanted:
             if name not in names:
                 raise ParameterError(f"it has no column {name!r} for `times`; there are: {', '.join(names[:12])}")
@@ -99,7 +99,7 @@ class Times:
             raise ParameterError(f"`times` names a column twice: {', '.join(wanted)[:80]}; name each once")
         return wanted
 
-    def named(self) -> tuple[str, ...]:
+    def column_names(self) -> tuple[str, ...]:
         """Columns that are named one by one."""
         if self.is_table or self.is_pattern:
             return ()
@@ -150,7 +150,7 @@ class Steps:
 def with_steps(features: Features, times: Times, notes: Notes) -> tuple[Features, list[str], tuple[str, ...], str]:
     """Features with a column of values for each step; the columns, the steps' names, and what the values are called."""
     if times.is_table:
-        columns, found, title = _joined(features, times.source, notes)
+        columns, found, title = _join_values(features, times.source, notes)
         table = features.table
         for name, values in columns.items():
             table = table.append_column(name, values)
@@ -171,7 +171,7 @@ def with_steps(features: Features, times: Times, notes: Notes) -> tuple[Features
     return features, names, labels, title
 
 
-def coloured_steps(
+def colour_steps(
     table: "pyarrow.Table", columns: Sequence[str], labels: tuple[str, ...], scale: Scale, notes: Notes
 ) -> tuple[Steps, dict[str, Any]]:
     """Colours of the rows of a table at each step, on one scale of all values; and its legend."""
@@ -194,7 +194,7 @@ def _natural(name: str) -> list[tuple[int, Any]]:
     return [(0, int(part)) if part.isdecimal() else (1, part) for part in DIGITS.split(name) if part]
 
 
-def _joined(features: Features, source: Any, notes: Notes) -> tuple[dict[str, Any], tuple[str, ...], str]:
+def _join_values(features: Features, source: Any, notes: Notes) -> tuple[dict[str, Any], tuple[str, ...], str]:
     """Columns of a table's values, one for each of its times; the times, and the name of the values."""
     import pyarrow as pa
 
@@ -207,7 +207,7 @@ def _joined(features: Features, source: Any, notes: Notes) -> tuple[dict[str, An
     if not labels:
         raise SourceError("no row of the table of `times` has a time; fill in the column time")
     notes.remark("a row of the table of times has no time, and does not count", int((steps < 0).sum()))
-    codes, ids = _coded(table.column(ID), ID)
+    codes, ids = _encode_values(table.column(ID), ID)
     notes.remark("a row of the table of times has no id, and does not count", int((codes < 0).sum()))
     row_of = {name: row for row, name in enumerate(features.ids.tolist())}
     texts = texts_of(ids.to_pylist())
@@ -234,7 +234,7 @@ def _joined(features: Features, source: Any, notes: Notes) -> tuple[dict[str, An
     return columns, labels, others[0]
 
 
-def _coded(column: Any, name: str) -> tuple[NDArray[np.int64], Any]:
+def _encode_values(column: Any, name: str) -> tuple[NDArray[np.int64], Any]:
     """The place of each value of a column among those that there are, -1 where there is none; and these."""
     import pyarrow as pa
 
@@ -253,7 +253,7 @@ def _steps(column: Any) -> tuple[NDArray[np.int64], tuple[str, ...]]:
     """The step of each row, -1 where it has no time, and the names of the steps."""
     import pyarrow as pa
 
-    codes, coded = _coded(column, TIME)
+    codes, coded = _encode_values(column, TIME)
     times = coded.to_pylist()
     used = [code for code in np.unique(codes).tolist() if code >= 0 and texts_of([times[code]])[0]]
     if not (pa.types.is_dictionary(column.type) and column.type.ordered):
@@ -275,9 +275,9 @@ def _keys(times: list[Any]) -> list[Any]:
     return [_natural(time) for time in times] if np.isnan(numbers).any() else numbers
 
 
-def _free(name: str, taken: set[str]) -> str:
+def _free(name: str, used_names: set[str]) -> str:
     """A name that no column has."""
-    while name in taken:
+    while name in used_names:
         name += "_"
     return name
 

@@ -164,7 +164,7 @@ def _fill(partial: Path, runs: Runs, contents: "Mapping[str, Content]") -> int:
             path = partial / str(z) / str(x) / f"{y}{PACKED_SUFFIX}"
             path.parent.mkdir(parents=True, exist_ok=True)
             if digest in first_of:
-                _linked(first_of[digest], path)
+                _link_file(first_of[digest], path)
                 continue
             path.write_bytes(contents[digest].read())
             first_of[digest] = path
@@ -172,7 +172,7 @@ def _fill(partial: Path, runs: Runs, contents: "Mapping[str, Content]") -> int:
     return size
 
 
-def _linked(path: Path, other: Path) -> None:
+def _link_file(path: Path, other: Path) -> None:
     """The same file once more, on disks that can do that."""
     with suppress(OSError):
         os.link(path, other)

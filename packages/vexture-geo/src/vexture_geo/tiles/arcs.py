@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from vexture_geo.base.extent import Bounds
 from vexture_geo.tiles.shared_borders import Corners, corners_of
 
-__all__ = ["simplified"]
+__all__ = ["simplify_borders"]
 
 
-def simplified(shapes: NDArray[Any], box: Bounds, tolerance: float, least: float) -> NDArray[Any]:
+def simplify_borders(shapes: NDArray[Any], box: Bounds, tolerance: float, least: float) -> NDArray[Any]:
     """Polygons, (n,), of which no border moves farther than a tolerance; empty where nothing is left.
 
     Douglas and Peucker's way for each arc. Corners on the sides of the box stay; holes of less than an area go.
@@ -20,7 +20,7 @@ def simplified(shapes: NDArray[Any], box: Bounds, tolerance: float, least: float
 
     corners = corners_of(shapes)
     is_node = _nodes(corners, box)
-    rolled = _rolled(corners, is_node)
+    rolled = _roll_rings(corners, is_node)
     index, arc, backwards, ring = _arcs(corners, rolled, is_node)
     lines = shapely.linestrings(corners.points[corners.ids[index]], indices=arc)
     points, line = shapely.get_coordinates(
@@ -56,7 +56,7 @@ def _nodes(corners: Corners, box: Bounds) -> NDArray[np.bool_]:
     return is_node
 
 
-def _rolled(corners: Corners, is_node: NDArray[np.bool_]) -> NDArray[np.intp]:
+def _roll_rings(corners: Corners, is_node: NDArray[np.bool_]) -> NDArray[np.intp]:
     """Places of all rings, each from its first node on."""
     here = is_node[corners.ids]
     place = np.arange(len(here))

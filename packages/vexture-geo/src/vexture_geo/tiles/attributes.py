@@ -12,21 +12,21 @@ from numpy.typing import NDArray
 from vexture.base.errors import ParameterError
 from vexture.base.notes import Notes
 from vexture_geo.maps.colours import Scale, check_scale, colours_of, rgba_of
-from vexture_geo.tiles.texture import GREY, packed
+from vexture_geo.tiles.texture import GREY, pack_colours
 from vexture_geo.vector.features import ID
 from vexture_geo.vector.tables import TABLES, cast, with_legends, write_batches
 
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["Attributes", "Look", "paints_of", "write_table"]
+__all__ = ["Attributes", "TileStyle", "paints_of", "write_table"]
 
 ROWS, PAINTS = "attributes.arrow", "paints.npy"
 """Files in the folder of an unfinished pyramid."""
 
 
 @dataclass(frozen=True)
-class Look:
+class TileStyle:
     """What is kept of features beside their shapes.
 
     Parameters
@@ -83,7 +83,7 @@ class Look:
 class Attributes:
     """The attributes of a source in a folder: written as they come, in batches; those of colours stay in memory."""
 
-    def __init__(self, folder: Path, look: Look) -> None:
+    def __init__(self, folder: Path, look: TileStyle) -> None:
         self._folder, self._look = folder, look
         self._coloured: list[pyarrow.ChunkedArray] = []
         self._writer: Any = None
@@ -119,7 +119,7 @@ class Attributes:
             table = pa.table({look.color.column: pa.chunked_array(values, self._coloured[0].type)})
             rgba, legend = colours_of(table, look.color, notes)
             legends = [{"layer": layer, **legend}]
-        np.save(self._folder / PAINTS, packed(rgba))
+        np.save(self._folder / PAINTS, pack_colours(rgba))
         return legends
 
 

@@ -19,15 +19,15 @@ from vexture_geo.tiles.attributes import Attributes, paints_of, write_table
 from vexture_geo.tiles.grid import HALF, MARGIN, TILE_PIXELS, Tile, last_zoom
 from vexture_geo.tiles.options import TileOptions, digest_of
 from vexture_geo.tiles.order import Order, ranks_of
-from vexture_geo.tiles.partitions import Part, partitioned
-from vexture_geo.tiles.pieces import Pieces
+from vexture_geo.tiles.partitions import SourcePart, partition_source
+from vexture_geo.tiles.pieces import FeaturePieces
 from vexture_geo.tiles.store import SUFFIX, Store
-from vexture_geo.tiles.subtree import Job, Made, done
+from vexture_geo.tiles.subtree import Job, JobResult, run_job
 from vexture_geo.tiles.world import in_world
 from vexture_geo.vector.tables import check_targets
 from vexture_geo.vector.vectors import is_memory
 
-__all__ = ["VERSION", "MadeTiles", "make_tiles", "unfinished"]
+__all__ = ["VERSION", "TilesSummary", "describe_unfinished", "make_tiles"]
 
 VERSION: Final = 7
 """Of what is kept of unfinished pyramids; what another one wrote is not used."""
@@ -38,15 +38,15 @@ FULL: Final = (errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)
 MOVES: Final = 0.25
 """Pixels: what a border is off at most, at the zoom of its tile."""
 
-Work = Callable[[Iterator[Job], int], Iterator[Made]]
+Work = Callable[[Iterator[Job], int], Iterator[JobResult]]
 """Does pieces of work, so many of them, in order."""
 
-Told = Callable[[str, int, int], None]
+Report = Callable[[str, int, int], None]
 """Hears what is done, how much of it, and of how much; 0 if nobody knows."""
 
 
 @dataclass(frozen=True)
-class MadeTiles:
+class TilesSummary:
     """What was made."""
 
     tiles: int
@@ -57,8 +57,8 @@ class MadeTiles:
 
 
 def make_tiles(
-    source: Any, output: Path, options: TileOptions, told: Told = lambda *_: None, batches: Any = None
-) -> MadeTiles:
+    source: Any, output: Path, options: TileOptions, report: Report = lambda *_: None, batches: Any = None
+) -> TilesSummary:
     """Make the pyramid of a source, as PMTiles or a folder.
 
     Parameters
@@ -68,7 +68,7 @@ def make_tiles(
     output : Path
         A file ``.pmtiles``, or a folder. The table of attributes is beside the one, and in the other.
     options : TileOptions
-    told : callable
+    report : callable
         Hears how far the work is.
     batches : callable or None
         Makes an iterator of the source's features, in place of that function.
@@ -87,13 +87,13 @@ def make_tiles(
     key = {"version": VERSION, "source": digest_of(Path(source)), **options.key}
     store = Store(output.with_name(output.name + SUFFIX), key)
     try:
-        facts = store.read_parts() or _read(source, store, options, told, batches)
+        facts = store.read_parts() or _read(source, store, options, report, batches)
         if facts["bounds"] is None:
             store.remove()
             raise SourceError(f"{source}: {_why_empty(facts, options.where)}")
-        parts = [Part(Tile(*tile), weight) for *tile, weight in facts["parts"]]
-        _work(store, parts, options, told)
-        made = _written(store, output, options, facts)
+        parts = [SourcePart(Tile(*tile), weight) for *tile, weight in facts["parts"]]
+        _work(store, parts, options, report)
+        made = _write_output(store, output, options, facts)
     except BaseException as error:
         store.close()
         if not store.has_parts:
@@ -102,7 +102,7 @@ def make_tiles(
             raise
         if isinstance(error, Exception) and (kind_and_reason := _reason(error, output)) is not None:
             kind, reason = kind_and_reason
-            raise kind(f"{reason}; {unfinished(output)}") from None
+            raise kind(f"{reason}; {describe_unfinished(output)}") from None
         raise
     store.remove()
     return made
@@ -124,7 +124,7 @@ def _reason(error: Exception, output: Path) -> tuple[type[VextureError], str] | 
     return None
 
 
-def unfinished(output: Path) -> str:
+def describe_unfinished(output: Path) -> str:
     """What is left of a pyramid that was not finished, and what to do with it."""
     folder = output.with_name(output.name + SUFFIX)
     if not folder.exists():
@@ -132,7 +132,7 @@ def unfinished(output: Path) -> str:
     return f"what is finished is in {folder}, and the same command goes on from there"
 
 
-def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: Any) -> Any:
+def _read(source: Any, store: Store, options: TileOptions, report: Report, batches: Any) -> Any:
     """Part the source, and return what is known of it."""
     import shapely
 
@@ -142,7 +142,7 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
     count, boxes, others = 0, [], 0
     attributes, order = Attributes(store.folder, options.look), Order(options.look.order)
 
-    def pieces() -> Iterator[Pieces]:
+    def pieces() -> Iterator[FeaturePieces]:
         nonlocal count, others
         for features in batches(source, **options.reading, notes=notes):
             attributes.add(features)
@@ -150,13 +150,13 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
             found = in_world(features, count, options.max_zoom, notes)
             order.add(features, found, count)
             count += len(features.ids)
-            told("reading features", count, 0)
+            report("reading features", count, 0)
             if len(found):
                 boxes.append(shapely.total_bounds(found.shapes))
                 yield found
 
-    with _named(source, options):
-        parts = partitioned(pieces(), store.sources, last_zoom(options.max_zoom, options.step), options.step)
+    with _name_errors(source, options):
+        parts = partition_source(pieces(), store.sources, last_zoom(options.max_zoom, options.step), options.step)
         legends = attributes.close(options.layer or Path(source).name.partition(".")[0], notes)
         order.write(store.folder)
     box = shapely.total_bounds(shapely.box(*zip(*boxes, strict=True))).tolist() if boxes else None
@@ -170,7 +170,7 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
 
 
 @contextmanager
-def _named(source: Any, options: TileOptions) -> Iterator[None]:
+def _name_errors(source: Any, options: TileOptions) -> Iterator[None]:
     """Put the name of the source in front of errors about it; columns may be read for colours or the order only."""
     look = options.look
     columns = {"color": look.color and look.color.column, "order": look.order}
@@ -185,27 +185,27 @@ def _named(source: Any, options: TileOptions) -> Iterator[None]:
             raise type(error)(str(error).replace("`crs`", "`source_crs`")) from None
 
 
-def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> None:
+def _work(store: Store, parts: list[SourcePart], options: TileOptions, report: Report) -> None:
     """Do all the work that is not done: the parts, zoom by zoom the geometry, and then the tiles of all these zooms."""
     leaves = {part.tile for part in parts}
     pyramid = options.pyramid(paints_of(store.folder), ranks_of(store.folder))
 
-    def work(jobs: Iterator[Job], count: int) -> Iterator[Made]:
-        return options.who().map(done, pyramid, jobs, count)
+    def work(jobs: Iterator[Job], count: int) -> Iterator[JobResult]:
+        return options.executor().map(run_job, pyramid, jobs, count)
 
     def leaf(tile: Tile) -> Job:
         return Job("leaf", tile, ((store.sources / f"{tile.name}.parquet").read_bytes(),))
 
-    _all(store, "leaf", [part.tile for part in sorted(parts, key=lambda part: -part.weight)], leaf, work, told)
+    _do_all(store, "leaf", [part.tile for part in sorted(parts, key=lambda part: -part.weight)], leaf, work, report)
     above = [zoom for zoom in options.coarse if zoom < max(tile.z for tile in leaves)]
     inner = {zoom: sorted({tile.parent(zoom) for tile in leaves if tile.z > zoom}) for zoom in above}
 
     def join(tile: Tile) -> Job:
-        names = [_kept(store, part) for part in tile.below(options.step)]
+        names = [_geometry_name(store, part) for part in tile.below(options.step)]
         return Job("join", tile, tuple(store.geometry(name) for name in names if name))
 
     for zoom in reversed(above):
-        _all(store, "join", inner[zoom], join, work, told)
+        _do_all(store, "join", inner[zoom], join, work, report)
 
     def one(tile: Tile) -> Job:
         around = [(tile, 0.0), *tile.around()]
@@ -213,17 +213,19 @@ def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> 
         return Job("tile", tile, tuple(data for data, _ in found), tuple(shift for _, shift in found))
 
     # all at once, those of low zooms first, which have most in them: no worker waits for them at the end of each zoom
-    _all(store, "tile", [tile for zoom in above if zoom >= options.min_zoom for tile in inner[zoom]], one, work, told)
+    _do_all(
+        store, "tile", [tile for zoom in above if zoom >= options.min_zoom for tile in inner[zoom]], one, work, report
+    )
 
 
-def _kept(store: Store, tile: Tile) -> str | None:
+def _geometry_name(store: Store, tile: Tile) -> str | None:
     """Name of the work that made the geometry of a tile; None if nothing is there."""
     return next((name for kind in ("leaf", "join") if store.has(name := f"{kind}-{tile.name}")), None)
 
 
 def _around(store: Store, leaves: set[Tile], tile: Tile) -> bytes | None:
     """Geometry that holds a tile: its own, or the source in the part in which it lies."""
-    if name := _kept(store, tile):
+    if name := _geometry_name(store, tile):
         data = store.geometry(name)
         if data:
             return data
@@ -233,21 +235,21 @@ def _around(store: Store, leaves: set[Tile], tile: Tile) -> bytes | None:
     return None
 
 
-def _all(store: Store, kind: str, tiles: list[Tile], job: Callable[[Tile], Job], work: Work, told: Told) -> None:
+def _do_all(store: Store, kind: str, tiles: list[Tile], job: Callable[[Tile], Job], work: Work, report: Report) -> None:
     """Do all work of a kind that is not done."""
     missing = [tile for tile in tiles if not store.has(f"{kind}-{tile.name}")]
     before = len(tiles) - len(missing)
     made = work((job(tile) for tile in missing), len(missing))
     for number, (tile, found) in enumerate(zip(missing, made, strict=True), before + 1):
         store.add(f"{kind}-{tile.name}", found)
-        told(WORDS[kind], number, len(tiles))
+        report(WORDS[kind], number, len(tiles))
 
 
 WORDS: Final = {"leaf": "parts", "join": "generalising", "tile": "tiles"}
 """Kinds of work, for people."""
 
 
-def _written(store: Store, output: Path, options: TileOptions, facts: Any) -> MadeTiles:
+def _write_output(store: Store, output: Path, options: TileOptions, facts: Any) -> TilesSummary:
     """Write the output."""
     runs, contents = store.tiles()
     zooms = options.zooms
@@ -263,13 +265,13 @@ def _written(store: Store, output: Path, options: TileOptions, facts: Any) -> Ma
     write = write_archive if output.suffix.lower() == ARCHIVE else write_folder
     size = write(output, runs, contents, zooms, _degrees(facts["bounds"]), about, extra)
     notes = tuple(Note(*note) for note in facts["notes"])
-    return MadeTiles(sum(count for _, count, _ in runs), len(contents), size, facts["features"], notes)
+    return TilesSummary(sum(count for _, count, _ in runs), len(contents), size, facts["features"], notes)
 
 
-def _why_empty(facts: Any, where: str | None) -> str:
+def _why_empty(facts: Any, condition: str | None) -> str:
     """Why there is nothing for tiles, and what to do."""
     if not facts["features"]:
-        return f"no feature meets `where` {where!r}; correct it" if where else "it has no features; give some"
+        return f"no feature meets `where` {condition!r}; correct it" if condition else "it has no features; give some"
     if others := facts["others"]:
         return f"it has lines or points ({others}), but no polygon, and tiles have only these; draw it by vexture map"
     return "it has no polygon in the tiles' projection; give polygons"

@@ -33,7 +33,7 @@ Bytes = Callable[[int, int], bytes]
 
 
 @dataclass
-class Level:
+class ZoomCount:
     """What is counted of the tiles of a zoom."""
 
     tiles: int = 0
@@ -46,7 +46,7 @@ class Level:
 
 
 @dataclass(frozen=True)
-class Tiles:
+class TileCount:
     """What is counted of tiles: equal ones are one content, and `bytes` those of the archive or of all contents."""
 
     tiles: int
@@ -54,7 +54,7 @@ class Tiles:
     bytes: int
     largest: str
     largest_bytes: int
-    levels: dict[int, Level]
+    levels: dict[int, ZoomCount]
 
 
 def is_pyramid(path: Path) -> bool:
@@ -97,12 +97,12 @@ def facts_of(path: Path) -> dict[str, Any]:
     facts["largest"] = {"tile": found.largest, "bytes": found.largest_bytes} if found.tiles else None
     table = own.get("table")
     facts["table"] = table
-    facts["features"], facts["columns"] = _told_by(table and (path if path.is_dir() else path.parent) / table)
+    facts["features"], facts["columns"] = _table_facts(table and (path if path.is_dir() else path.parent) / table)
     facts["legends"] = own.get("legends", [])
     return facts
 
 
-def _checked(path: Path, about: Any) -> dict[str, Any]:
+def _check_metadata(path: Path, about: Any) -> dict[str, Any]:
     """Metadata, if they are those of a pyramid of vexture."""
     known: dict[str, Any] = about if isinstance(about, dict) else {}
     own = known["vexture"] if isinstance(known.get("vexture"), dict) else {}
@@ -129,7 +129,7 @@ def _is_box(bounds: Any) -> bool:
     return isinstance(bounds, list) and len(bounds) == 4 and all(isinstance(value, int | float) for value in bounds)
 
 
-def _of_archive(path: Path) -> tuple[dict[str, Any], list[float], Tiles]:
+def _of_archive(path: Path) -> tuple[dict[str, Any], list[float], TileCount]:
     """Metadata, bounds and tiles of an archive."""
     from pmtiles.tile import Compression, SpecVersionUnsupported, TileType, deserialize_header
 
@@ -151,8 +151,8 @@ def _of_archive(path: Path) -> tuple[dict[str, Any], list[float], Tiles]:
                     raise FormatError(f"{path}: its tiles are {kind}, not textures; give a pyramid of vexture tiles")
                 text = read(header["metadata_offset"], header["metadata_length"])
                 text = decompress(text) if header["internal_compression"] is Compression.GZIP else text
-                about = _checked(path, json.loads(text))
-                found = _counted(header, read, size)
+                about = _check_metadata(path, json.loads(text))
+                found = _count_tiles(header, read, size)
             except SpecVersionUnsupported:
                 raise FormatError(f"{path}: is PMTiles {content[7]}; this program reads version 3; {REMEDY}") from None
             except SourceError as error:
@@ -167,12 +167,12 @@ DAMAGED: Final = (ValueError, EOFError, IndexError, OverflowError, gzip.BadGzipF
 """What reading damaged bytes raises."""
 
 
-def _counted(header: Any, read: Bytes, size: int) -> Tiles:
+def _count_tiles(header: Any, read: Bytes, size: int) -> TileCount:
     """Count the tiles of an archive."""
     from pmtiles.tile import tileid_to_zxy
 
     count, longest, largest, places = 0, 0, 0, set()
-    levels: defaultdict[int, Level] = defaultdict(Level)
+    levels: defaultdict[int, ZoomCount] = defaultdict(ZoomCount)
     for entry in _entries(header, read, header["root_offset"], header["root_length"], 0):
         end = header["tile_data_offset"] + entry.offset + entry.length
         if end > size:
@@ -183,7 +183,7 @@ def _counted(header: Any, read: Bytes, size: int) -> Tiles:
             levels[zoom].add(tiles, entry.offset, entry.length)
         if entry.length > longest:
             longest, largest = entry.length, entry.tile_id
-    return Tiles(count, len(places), size, "/".join(map(str, tileid_to_zxy(largest))), longest, levels)
+    return TileCount(count, len(places), size, "/".join(map(str, tileid_to_zxy(largest))), longest, levels)
 
 
 def _zooms(tile: int, count: int) -> Iterator[tuple[int, int]]:
@@ -209,17 +209,17 @@ def _entries(header: Any, read: Bytes, offset: int, length: int, depth: int) -> 
             yield from _entries(header, read, below, entry.length, depth + 1)
 
 
-def _of_folder(path: Path) -> tuple[dict[str, Any], Any, Tiles]:
+def _of_folder(path: Path) -> tuple[dict[str, Any], Any, TileCount]:
     """Metadata, bounds and tiles of a folder."""
     listed = path / LISTED
     try:
-        about = _checked(listed, json.loads(listed.read_bytes()))
+        about = _check_metadata(listed, json.loads(listed.read_bytes()))
     except (ValueError, RecursionError) as error:
         raise FormatError(f"{listed}: is no TileJSON ({reason_of(error)}); {REMEDY}") from None
     files = sorted(path.glob(f"[0-9]*/[0-9]*/[0-9]*{PACKED_SUFFIX}"))
     sizes: dict[bytes, int] = {}
     known: dict[tuple[int, int], bytes] = {}
-    levels: defaultdict[int, Level] = defaultdict(Level)
+    levels: defaultdict[int, ZoomCount] = defaultdict(ZoomCount)
     longest, largest = 0, ""
     for file in files:
         told = file.stat()
@@ -232,10 +232,10 @@ def _of_folder(path: Path) -> tuple[dict[str, Any], Any, Tiles]:
             longest, largest = told.st_size, file.relative_to(path).with_suffix("").as_posix()
     bounds = about.get("bounds")
     box = bounds if _is_box(bounds) else None
-    return about, box, Tiles(len(files), len(sizes), sum(sizes.values()), largest, longest, levels)
+    return about, box, TileCount(len(files), len(sizes), sum(sizes.values()), largest, longest, levels)
 
 
-def _told_by(table: Path | None) -> tuple[int | None, list[str] | None]:
+def _table_facts(table: Path | None) -> tuple[int | None, list[str] | None]:
     """Number of features and names of their attributes, as a table tells; None if it is not there, or not readable."""
     if table is None or not table.is_file():
         return None, None

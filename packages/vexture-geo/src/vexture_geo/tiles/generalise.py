@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture_geo.base.extent import Bounds
-from vexture_geo.base.validity import made_valid, united
-from vexture_geo.tiles.arcs import simplified
-from vexture_geo.tiles.pieces import Pieces, joined
+from vexture_geo.base.validity import make_valid, unite_polygons
+from vexture_geo.tiles.arcs import simplify_borders
+from vexture_geo.tiles.pieces import FeaturePieces, join_pieces
 from vexture_geo.tiles.shared_borders import shared_lengths
-from vexture_geo.tiles.tiny_polygons import gathered
+from vexture_geo.tiles.tiny_polygons import aggregate
 
-__all__ = ["dissolved", "generalised"]
+__all__ = ["dissolve", "generalise_polygons"]
 
 MOST_ROUNDS: Final = 32
 """In each of them, small polygons become part of larger ones beside them."""
@@ -28,7 +28,7 @@ DEEPEST: Final = 8
 """Times that the box of more points is quartered."""
 
 
-def generalised(pieces: Pieces, box: Bounds, tolerance: float, least: float) -> Pieces:
+def generalise_polygons(pieces: FeaturePieces, box: Bounds, tolerance: float, least: float) -> FeaturePieces:
     """Polygons for pixels of some size.
 
     Parameters
@@ -46,53 +46,53 @@ def generalised(pieces: Pieces, box: Bounds, tolerance: float, least: float) -> 
     """
     if tolerance > 0.0 and pieces.points > MOST_POINTS:
         tolerance /= 2.0  # a half here, a half below
-        pieces = _thinned(pieces, box, tolerance, DEEPEST)
-    return _generalised(pieces, box, tolerance, least)
+        pieces = _thin(pieces, box, tolerance, DEEPEST)
+    return _generalise_at_once(pieces, box, tolerance, least)
 
 
-def _thinned(pieces: Pieces, box: Bounds, tolerance: float, depth: int) -> Pieces:
+def _thin(pieces: FeaturePieces, box: Bounds, tolerance: float, depth: int) -> FeaturePieces:
     """Polygons with fewer points, made in parts of the box, so that memory is for the points of one."""
     if pieces.points <= MOST_POINTS or depth == 0:
-        return _generalised(pieces, box, tolerance, 0.0)
+        return _generalise_at_once(pieces, box, tolerance, 0.0)
     x, y = (box[0] + box[2]) / 2.0, (box[1] + box[3]) / 2.0
     quarters = [
         (west, south, east, north)
         for west, east in ((box[0], x), (x, box[2]))
         for south, north in ((box[1], y), (y, box[3]))
     ]
-    return joined([_thinned(pieces.within(quarter), quarter, tolerance, depth - 1) for quarter in quarters])
+    return join_pieces([_thin(pieces.within(quarter), quarter, tolerance, depth - 1) for quarter in quarters])
 
 
-def _generalised(pieces: Pieces, box: Bounds, tolerance: float, least: float) -> Pieces:
+def _generalise_at_once(pieces: FeaturePieces, box: Bounds, tolerance: float, least: float) -> FeaturePieces:
     """As above, of all at once."""
     import shapely
 
-    kept, specks = _merged(dissolved(pieces), box, least)
+    kept, specks = _merge_small(dissolve(pieces), box, least)
     if len(kept):
-        shapes = _repaired(simplified(kept.shapes, box, tolerance, least))
+        shapes = _repair(simplify_borders(kept.shapes, box, tolerance, least))
         if least == 0.0:
             gone = shapely.is_empty(shapes)
             shapes[gone] = kept.shapes[gone]
         kept = kept.with_shapes(shapes)
-    return joined([kept, gathered(specks, least)]) if len(specks) else kept
+    return join_pieces([kept, aggregate(specks, least)]) if len(specks) else kept
 
 
-def _repaired(shapes: NDArray[Any]) -> NDArray[Any]:
+def _repair(shapes: NDArray[Any]) -> NDArray[Any]:
     """The polygons; those whose rings cross are valid then."""
     import shapely
 
     broken = np.flatnonzero(~shapely.is_valid(shapes))
     if len(broken):
-        shapes[broken] = made_valid(shapes[broken])
+        shapes[broken] = make_valid(shapes[broken])
     return shapes
 
 
-def dissolved(pieces: Pieces) -> Pieces:
+def dissolve(pieces: FeaturePieces) -> FeaturePieces:
     """Polygons of which those of one feature do not touch."""
-    return _united(pieces, np.unique(pieces.order, return_inverse=True)[1])
+    return _unite_groups(pieces, np.unique(pieces.order, return_inverse=True)[1])
 
 
-def _united(pieces: Pieces, group: NDArray[np.intp]) -> Pieces:
+def _unite_groups(pieces: FeaturePieces, group: NDArray[np.intp]) -> FeaturePieces:
     """One shape for each group of pieces; it is of the feature of the group's first piece."""
     if not len(pieces):
         return pieces
@@ -103,15 +103,15 @@ def _united(pieces: Pieces, group: NDArray[np.intp]) -> Pieces:
     shapes = pieces.shapes[first].copy()
     for place in np.flatnonzero(counts > 1).tolist():
         members = order[starts[place] : starts[place] + counts[place]]
-        shapes[place] = united(pieces.shapes[members])
-    return pieces.taken(first).with_shapes(shapes)
+        shapes[place] = unite_polygons(pieces.shapes[members])
+    return pieces.take(first).with_shapes(shapes)
 
 
-def _merged(pieces: Pieces, box: Bounds, least: float) -> tuple[Pieces, Pieces]:
+def _merge_small(pieces: FeaturePieces, box: Bounds, least: float) -> tuple[FeaturePieces, FeaturePieces]:
     """Polygons without those that are too small, which are part of a neighbour; and those that have none."""
     import shapely
 
-    none = pieces.taken(np.zeros(len(pieces), np.bool_))
+    none = pieces.take(np.zeros(len(pieces), np.bool_))
     if not len(pieces):
         return pieces, none
     area = shapely.area(pieces.shapes)
@@ -125,7 +125,9 @@ def _merged(pieces: Pieces, box: Bounds, least: float) -> tuple[Pieces, Pieces]:
     several = np.flatnonzero(stays & (sizes > 1))
     several = several[np.argsort(label[several] != several, kind="stable")]  # whose feature it is comes first
     groups = np.unique(label[several], return_inverse=True)[1]
-    return joined([pieces.taken(stays & (sizes == 1)), _united(pieces.taken(several), groups)]), pieces.taken(~stays)
+    return join_pieces([pieces.take(stays & (sizes == 1)), _unite_groups(pieces.take(several), groups)]), pieces.take(
+        ~stays
+    )
 
 
 def _labels(

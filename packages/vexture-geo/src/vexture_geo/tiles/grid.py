@@ -20,7 +20,7 @@ __all__ = [
     "last_zoom",
     "pixel",
     "span",
-    "widened",
+    "widen_box",
     "zooms_of",
 ]
 
@@ -132,7 +132,7 @@ def span(tile: Tile, z: int) -> tuple[int, int]:
     return _before(z) + ((tile.number - _before(tile.z)) << shift), 1 << shift
 
 
-def widened(box: Bounds, by: float) -> Bounds:
+def widen_box(box: Bounds, by: float) -> Bounds:
     """A box with a margin."""
     return (box[0] - by, box[1] - by, box[2] + by, box[3] + by)
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vexture.base.errors import ParameterError, SourceError
 from vexture.base.workers import Cluster, InProcess, Processes, Workers
-from vexture_geo.tiles.attributes import Look
+from vexture_geo.tiles.attributes import TileStyle
 from vexture_geo.tiles.grid import check_zooms, coarse, zooms_of
 from vexture_geo.tiles.subtree import Pyramid
 
@@ -51,7 +51,7 @@ class TileOptions:
     source_crs: str | None = None
     name: str = ""
     attribution: str = ""
-    look: Look = field(default_factory=Look)
+    look: TileStyle = field(default_factory=TileStyle)
     processes: int = 1
     scheduler: str | None = None
 
@@ -96,7 +96,7 @@ class TileOptions:
         if self.scheduler is not None:
             Cluster(self.scheduler).check()
 
-    def who(self) -> Workers:
+    def executor(self) -> Workers:
         """Who does the work."""
         if self.scheduler is not None:
             return Cluster(self.scheduler)

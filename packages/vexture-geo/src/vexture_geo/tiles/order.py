@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vexture_geo.maps.coverage import ranks, ranks_by_area
 from vexture_geo.tiles.grid import HALF
-from vexture_geo.tiles.pieces import Pieces
+from vexture_geo.tiles.pieces import FeaturePieces
 
 __all__ = ["Order", "ranks_of"]
 
@@ -28,7 +28,7 @@ class Order:
         self._values: list[Any] = []
         self._features: Any = None
 
-    def add(self, features: Any, found: Pieces, first: int) -> None:
+    def add(self, features: Any, found: FeaturePieces, first: int) -> None:
         """Append features, which are numbered from `first`, and their pieces in the world."""
         if self._column is None:
             import shapely

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from vexture_geo.tiles.grid import MARGIN, Tile, widened
-from vexture_geo.tiles.pieces import Pieces, joined, schema
+from vexture_geo.tiles.grid import MARGIN, Tile, widen_box
+from vexture_geo.tiles.pieces import FeaturePieces, join_pieces, schema
 
-__all__ = ["Part", "partitioned", "split"]
+__all__ = ["SourcePart", "partition_source", "split"]
 
 WEIGHT: Final = 200_000
 """Points of a part, above which it is split: some seconds of work."""
@@ -24,7 +24,7 @@ DEEPEST: Final = 6
 
 
 @dataclass(frozen=True)
-class Part:
+class SourcePart:
     """A tile, and how much work is in it."""
 
     tile: Tile
@@ -36,12 +36,12 @@ class _File:
 
     def __init__(self, folder: Path, tile: Tile, finest: float) -> None:
         self._path, self._tile, self._finest = folder / f"{tile.name}.parquet", tile, finest
-        self._waiting: list[Pieces] = []
+        self._waiting: list[FeaturePieces] = []
         self._points = 0
         self._writer: Any = None
         self.weight = 0.0
 
-    def add(self, pieces: Pieces) -> None:
+    def add(self, pieces: FeaturePieces) -> None:
         """Append pieces."""
         import shapely
 
@@ -57,19 +57,19 @@ class _File:
 
         if self._writer is None:
             self._writer = pq.ParquetWriter(self._path, schema())
-        self._writer.write_table(joined(self._waiting).to_table())
+        self._writer.write_table(join_pieces(self._waiting).to_table())
         self._waiting, self._points = [], 0
 
-    def close(self) -> Part:
+    def close(self) -> SourcePart:
         """Write what is in memory."""
         self._flush()
         self._writer.close()
-        return Part(self._tile, self.weight)
+        return SourcePart(self._tile, self.weight)
 
 
-def partitioned(
-    source: Iterable[Pieces], folder: Path, most: int, step: int, told: Callable[[str], None] = lambda _: None
-) -> list[Part]:
+def partition_source(
+    source: Iterable[FeaturePieces], folder: Path, most: int, step: int, report: Callable[[str], None] = lambda _: None
+) -> list[SourcePart]:
     """Write the pieces of a source into files of a folder, and return what parts there are, in order.
 
     `most` is the largest zoom of tiles, and parts are tiles of zooms that `step` divides.
@@ -84,14 +84,14 @@ def partitioned(
             found.append(part)
             continue
         path = folder / f"{part.tile.name}.parquet"
-        told(f"parts: {len(found) + len(waiting) + 1}")
+        report(f"parts: {len(found) + len(waiting) + 1}")
         waiting += split(_batches(path), part.tile, below, folder, most)
         path.unlink()
     found.sort(key=lambda part: part.tile)
     return found
 
 
-def _steps(part: Part, most: int, step: int) -> int:
+def _steps(part: SourcePart, most: int, step: int) -> int:
     """Zooms to go down to parts that are small enough."""
     steps = 0
     while part.weight > WEIGHT << 2 * steps and steps < DEEPEST and part.tile.z + steps + step <= most:
@@ -99,12 +99,12 @@ def _steps(part: Part, most: int, step: int) -> int:
     return steps
 
 
-def split(source: Iterable[Pieces], tile: Tile, steps: int, folder: Path, most: int) -> list[Part]:
+def split(source: Iterable[FeaturePieces], tile: Tile, steps: int, folder: Path, most: int) -> list[SourcePart]:
     """Parts of a tile, some zooms below, as files of a folder."""
     return _spread(source, tile, steps, folder, most)
 
 
-def _spread(source: Iterable[Pieces], tile: Tile, steps: int, folder: Path, most: int) -> list[Part]:
+def _spread(source: Iterable[FeaturePieces], tile: Tile, steps: int, folder: Path, most: int) -> list[SourcePart]:
     files: dict[Tile, _File] = {}
     finest = Tile(most, 0, 0).side
     try:
@@ -118,9 +118,9 @@ def _spread(source: Iterable[Pieces], tile: Tile, steps: int, folder: Path, most
     return found
 
 
-def _parts(pieces: Pieces, tile: Tile, zoom: int) -> Iterator[tuple[Tile, Pieces]]:
+def _parts(pieces: FeaturePieces, tile: Tile, zoom: int) -> Iterator[tuple[Tile, FeaturePieces]]:
     """What of pieces is in the tiles of a zoom, and around them."""
-    inside = pieces.within(widened(tile.box, MARGIN * Tile(zoom, 0, 0).side))
+    inside = pieces.within(widen_box(tile.box, MARGIN * Tile(zoom, 0, 0).side))
     if not len(inside):
         return
     if tile.z == zoom:
@@ -130,10 +130,10 @@ def _parts(pieces: Pieces, tile: Tile, zoom: int) -> Iterator[tuple[Tile, Pieces
         yield from _parts(inside, part, zoom)
 
 
-def _batches(path: Path) -> Iterator[Pieces]:
+def _batches(path: Path) -> Iterator[FeaturePieces]:
     """Pieces of a file, some at a time."""
     import pyarrow.parquet as pq
 
     with pq.ParquetFile(path) as file:
         for number in range(file.num_row_groups):
-            yield Pieces.of_table(file.read_row_group(number, use_threads=False))
+            yield FeaturePieces.of_table(file.read_row_group(number, use_threads=False))

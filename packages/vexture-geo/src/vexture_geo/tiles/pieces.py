@@ -8,16 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture_geo.base.extent import Bounds
-from vexture_geo.base.rings import clipped
+from vexture_geo.base.rings import clip_polygons
 
-__all__ = ["SCHEMA_NAMES", "Pieces", "joined", "schema"]
+__all__ = ["SCHEMA_NAMES", "FeaturePieces", "join_pieces", "schema"]
 
 SCHEMA_NAMES: Final = ("order", "id", "geometry")
 """Columns: the number of the feature in the source, its id, and a polygon in WKB."""
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
+class FeaturePieces:
     """Polygons, (n,), in no order; `order` is the feature of each by its number in the source, `ids` its id."""
 
     order: NDArray[np.int64]
@@ -27,11 +27,11 @@ class Pieces:
     def __len__(self) -> int:
         return len(self.order)
 
-    def taken(self, which: NDArray[Any]) -> "Pieces":
+    def take(self, selection: NDArray[Any]) -> "FeaturePieces":
         """Some of them, by a mask or their places."""
-        return Pieces(self.order[which], self.ids[which], self.shapes[which])
+        return FeaturePieces(self.order[selection], self.ids[selection], self.shapes[selection])
 
-    def with_shapes(self, shapes: NDArray[Any]) -> "Pieces":
+    def with_shapes(self, shapes: NDArray[Any]) -> "FeaturePieces":
         """Other shapes of the same features: their polygons, if there are any."""
         import shapely
 
@@ -41,22 +41,22 @@ class Pieces:
             parts, inner = shapely.get_parts(parts, return_index=True)
             owner, kinds = owner[inner], shapely.get_type_id(parts)
         areal = (kinds == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)
-        return Pieces(self.order[owner[areal]], self.ids[owner[areal]], parts[areal])
+        return FeaturePieces(self.order[owner[areal]], self.ids[owner[areal]], parts[areal])
 
-    def within(self, box: Bounds) -> "Pieces":
+    def within(self, box: Bounds) -> "FeaturePieces":
         """What of them is in a box; whole polygons stay as they are, bit for bit."""
         import shapely
 
         bounds = shapely.bounds(self.shapes).reshape(-1, 4)
         reaches = (bounds[:, :2] < box[2:]).all(axis=1) & (bounds[:, 2:] > box[:2]).all(axis=1)
         if not reaches.any():
-            return self.taken(reaches)
-        found, bounds = self.taken(reaches), bounds[reaches]
+            return self.take(reaches)
+        found, bounds = self.take(reaches), bounds[reaches]
         leaves = (bounds[:, :2] < box[:2]).any(axis=1) | (bounds[:, 2:] > box[2:]).any(axis=1)
         if not leaves.any():
             return found
         shapes = found.shapes.copy()
-        shapes[leaves] = clipped(shapes[leaves], box)
+        shapes[leaves] = clip_polygons(shapes[leaves], box)
         return found.with_shapes(shapes)
 
     @property
@@ -75,7 +75,7 @@ class Pieces:
         return pa.table([pa.array(self.order), pa.array(self.ids, pa.string()), geometry], schema=schema())
 
     @classmethod
-    def of_table(cls, table: Any) -> "Pieces":
+    def of_table(cls, table: Any) -> "FeaturePieces":
         """From a table, or a batch, of Arrow."""
         import shapely
 
@@ -92,20 +92,20 @@ class Pieces:
         return file.getvalue()
 
     @classmethod
-    def of_bytes(cls, data: bytes) -> "Pieces":
+    def of_bytes(cls, data: bytes) -> "FeaturePieces":
         """From a file of Parquet; no threads, as processes may be copied at any moment."""
         import pyarrow.parquet as pq
 
         file = pq.ParquetFile(BytesIO(data))
         groups = range(file.num_row_groups)  # one after another, as their bytes take more memory than shapes do
-        return joined([cls.of_table(file.read_row_group(number, use_threads=False)) for number in groups])
+        return join_pieces([cls.of_table(file.read_row_group(number, use_threads=False)) for number in groups])
 
 
-def joined(parts: "list[Pieces]") -> Pieces:
+def join_pieces(parts: "list[FeaturePieces]") -> FeaturePieces:
     """Several, one after another."""
     if not parts:
-        return Pieces(np.empty(0, np.int64), np.empty(0, object), np.empty(0, object))
-    return Pieces(
+        return FeaturePieces(np.empty(0, np.int64), np.empty(0, object), np.empty(0, object))
+    return FeaturePieces(
         np.concatenate([part.order for part in parts]),
         np.concatenate([part.ids for part in parts]),
         np.concatenate([part.shapes for part in parts]),

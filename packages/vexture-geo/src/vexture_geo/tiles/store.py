@@ -11,7 +11,7 @@ from typing import Any, BinaryIO, Final
 
 from vexture.base.errors import DeviceError
 from vexture.texture.files import TEMPORARY
-from vexture_geo.tiles.subtree import Made
+from vexture_geo.tiles.subtree import JobResult
 
 __all__ = ["SUFFIX", "Content", "Store"]
 
@@ -51,7 +51,7 @@ class Store:
                 raise DeviceError(f"{folder}: it is needed, but holds something else; move it away")
             shutil.rmtree(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        self._lock = _locked(folder)
+        self._lock = _lock(folder)
         if not (folder / KEY).exists():
             self.write(KEY, text.encode())
         self.sources = folder / "source"
@@ -97,16 +97,16 @@ class Store:
         """Whether a piece of work is done."""
         return name in self._known
 
-    def add(self, name: str, made: Made) -> None:
+    def add(self, name: str, result: JobResult) -> None:
         """Keep what a piece of work made."""
         head = json.dumps(
             {
-                "runs": made.runs,
-                "contents": [[digest, len(content)] for digest, content in made.contents.items()],
-                "geometry": len(made.geometry),
+                "runs": result.runs,
+                "contents": [[digest, len(content)] for digest, content in result.contents.items()],
+                "geometry": len(result.geometry),
             }
         )
-        data = b"".join([head.encode(), b"\n", *made.contents.values(), made.geometry])
+        data = b"".join([head.encode(), b"\n", *result.contents.values(), result.geometry])
         self.write(name, data)
         digest = hashlib.sha256(data).hexdigest()
         with (self.folder / JOURNAL).open("a") as file:
@@ -164,7 +164,7 @@ def _digest(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _locked(folder: Path) -> BinaryIO | None:
+def _lock(folder: Path) -> BinaryIO | None:
     """A lock that ends with the process, however it ends."""
     try:
         import fcntl

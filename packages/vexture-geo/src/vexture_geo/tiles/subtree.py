@@ -10,12 +10,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture_geo.tiles.generalise import dissolved, generalised
-from vexture_geo.tiles.grid import MARGIN, Tile, pixel, span, widened
-from vexture_geo.tiles.pieces import Pieces, joined
-from vexture_geo.tiles.texture import covering, tile_texture, uniform_texture
+from vexture_geo.tiles.generalise import dissolve, generalise_polygons
+from vexture_geo.tiles.grid import MARGIN, Tile, pixel, span, widen_box
+from vexture_geo.tiles.pieces import FeaturePieces, join_pieces
+from vexture_geo.tiles.texture import covering_piece, tile_texture, uniform_texture
 
-__all__ = ["Job", "Made", "Pyramid", "done"]
+__all__ = ["Job", "JobResult", "Pyramid", "run_job"]
 
 MOVED: Final = 0.24
 """Pixels by which generalising may move a border at a zoom, with all that was done for higher zooms before."""
@@ -74,7 +74,7 @@ class Job:
 
 
 @dataclass
-class Made:
+class JobResult:
     """What work made: runs of tiles by number, count and digest; the contents by digest; geometry for lower zooms."""
 
     runs: list[tuple[int, int, str]] = field(default_factory=list)
@@ -88,69 +88,71 @@ class Made:
         self.runs.append((first, count, digest))
 
 
-def done(pyramid: Pyramid, job: Job) -> Made:
+def run_job(pyramid: Pyramid, job: Job) -> JobResult:
     """Do a piece of work."""
-    given = [Pieces.of_bytes(part) for part in job.parts]
-    made = Made()
+    given = [FeaturePieces.of_bytes(part) for part in job.parts]
+    made = JobResult()
     if job.kind == "leaf":
         _leaf(pyramid, job.tile, given[0], made)
     elif job.kind == "join":
-        whole = _at_zoom(pyramid, joined(given), job.tile, job.tile.box)
+        whole = _at_zoom(pyramid, join_pieces(given), job.tile, job.tile.box)
         made.geometry = whole.to_bytes()
     else:
-        moved = [_shifted(part, shift) for part, shift in zip(given, job.shifts, strict=True)]
-        box = widened(job.tile.box, MARGIN * job.tile.side)
-        _tile(pyramid, dissolved(joined([part.within(box) for part in moved])), job.tile, made)
+        moved = [_shift(part, shift) for part, shift in zip(given, job.shifts, strict=True)]
+        box = widen_box(job.tile.box, MARGIN * job.tile.side)
+        _tile(pyramid, dissolve(join_pieces([part.within(box) for part in moved])), job.tile, made)
     return made
 
 
-def _leaf(pyramid: Pyramid, tile: Tile, pieces: Pieces, made: Made) -> None:
+def _leaf(pyramid: Pyramid, tile: Tile, pieces: FeaturePieces, result: JobResult) -> None:
     """All tiles in a tile, and its geometry for lower zooms."""
-    around = widened(tile.box, MARGIN * tile.side)
+    around = widen_box(tile.box, MARGIN * tile.side)
     for zoom in pyramid.zooms:
         if zoom >= tile.z:
             least = (LEAST * pixel(zoom)) ** 2 if zoom < pyramid.most else 0.0
             moved = MOVED if zoom < pyramid.most else LAST
-            detail = generalised(pieces, around, moved * pyramid.pixel(zoom), least)
-            _descend(pyramid, detail, tile, zoom, made)
+            detail = generalise_polygons(pieces, around, moved * pyramid.pixel(zoom), least)
+            _descend(pyramid, detail, tile, zoom, result)
     if tile.z > 0:
-        made.geometry = _at_zoom(pyramid, pieces.within(tile.box), tile, tile.box).to_bytes()
+        result.geometry = _at_zoom(pyramid, pieces.within(tile.box), tile, tile.box).to_bytes()
 
 
-def _at_zoom(pyramid: Pyramid, pieces: Pieces, tile: Tile, box: tuple[float, float, float, float]) -> Pieces:
+def _at_zoom(
+    pyramid: Pyramid, pieces: FeaturePieces, tile: Tile, box: tuple[float, float, float, float]
+) -> FeaturePieces:
     """Geometry of a tile at its zoom; with those before, for higher zooms, the tolerances add up to what is allowed."""
     tolerance = MOVED * pixel(tile.z) * (1.0 - 0.5**pyramid.step)
-    return generalised(pieces, box, tolerance, (LEAST * pixel(tile.z)) ** 2)
+    return generalise_polygons(pieces, box, tolerance, (LEAST * pixel(tile.z)) ** 2)
 
 
-def _descend(pyramid: Pyramid, pieces: Pieces, tile: Tile, zoom: int, made: Made) -> None:
+def _descend(pyramid: Pyramid, pieces: FeaturePieces, tile: Tile, zoom: int, result: JobResult) -> None:
     """Tiles of a zoom in a tile, and for each run of those that one feature covers only one."""
-    here = pieces.within(widened(tile.box, MARGIN * tile.side))
+    here = pieces.within(widen_box(tile.box, MARGIN * tile.side))
     if not len(here):
         return
-    if (place := covering(here, tile, pyramid.ranks)) >= 0:
-        made.add(*span(tile, zoom), uniform_texture(here, place, pyramid.paints))
+    if (place := covering_piece(here, tile, pyramid.ranks)) >= 0:
+        result.add(*span(tile, zoom), uniform_texture(here, place, pyramid.paints))
     elif tile.z == zoom:
-        _tile(pyramid, here, tile, made)
+        _tile(pyramid, here, tile, result)
     else:
         for part in tile.below(1):
-            _descend(pyramid, here, part, zoom, made)
+            _descend(pyramid, here, part, zoom, result)
 
 
-def _tile(pyramid: Pyramid, pieces: Pieces, tile: Tile, made: Made) -> None:
+def _tile(pyramid: Pyramid, pieces: FeaturePieces, tile: Tile, result: JobResult) -> None:
     """One tile of what is in its square."""
     least = (LEAST * pixel(tile.z)) ** 2
-    box = widened(tile.box, MARGIN * tile.side)
+    box = widen_box(tile.box, MARGIN * tile.side)
     while tile.z < pyramid.most and len(np.unique(pieces.order)) > CROWDED:
         least *= 2.0
-        pieces = generalised(pieces, box, 0.0, least)
-    if (place := covering(pieces, tile, pyramid.ranks)) >= 0:
-        made.add(tile.number, 1, uniform_texture(pieces, place, pyramid.paints))
+        pieces = generalise_polygons(pieces, box, 0.0, least)
+    if (place := covering_piece(pieces, tile, pyramid.ranks)) >= 0:
+        result.add(tile.number, 1, uniform_texture(pieces, place, pyramid.paints))
     elif len(pieces):
-        made.add(tile.number, 1, tile_texture(pieces, tile, pyramid.paints, pyramid.ranks))
+        result.add(tile.number, 1, tile_texture(pieces, tile, pyramid.paints, pyramid.ranks))
 
 
-def _shifted(pieces: Pieces, by: float) -> Pieces:
+def _shift(pieces: FeaturePieces, by: float) -> FeaturePieces:
     """Pieces moved to the east."""
     import shapely
 

@@ -15,10 +15,10 @@ from vexture.texture.encode import encode
 from vexture.texture.root import Root
 from vexture.tree.planar.build import build_map
 from vexture.tree.planar.style import style_of
-from vexture_geo.tiles.grid import CRS, MARGIN, Tile, widened
-from vexture_geo.tiles.pieces import Pieces
+from vexture_geo.tiles.grid import CRS, MARGIN, Tile, widen_box
+from vexture_geo.tiles.pieces import FeaturePieces
 
-__all__ = ["GREY", "ROOT", "covering", "packed", "tile_texture", "uniform_texture"]
+__all__ = ["GREY", "ROOT", "covering_piece", "pack_colours", "tile_texture", "uniform_texture"]
 
 ROOT: Final = "map"
 """Name of the map of polygons in each tile."""
@@ -41,10 +41,10 @@ MOST_FEATURES: Final = MOST_PAINTS - 1
 
 def square_of(tile: Tile) -> tuple[float, float, float, float]:
     """The box of a tile's unit square: wider than the tile."""
-    return widened(tile.box, MARGIN * tile.side)
+    return widen_box(tile.box, MARGIN * tile.side)
 
 
-def covering(pieces: Pieces, tile: Tile, ranks: NDArray[np.uint32]) -> int:
+def covering_piece(pieces: FeaturePieces, tile: Tile, ranks: NDArray[np.uint32]) -> int:
     """Place of the piece that covers the square of a tile and is topmost; -1 if none does."""
     if not len(pieces):
         return -1
@@ -55,7 +55,7 @@ def covering(pieces: Pieces, tile: Tile, ranks: NDArray[np.uint32]) -> int:
     return int(top[full.argmax()]) if full.any() else -1
 
 
-def packed(rgba: ArrayLike) -> NDArray[np.uint32]:
+def pack_colours(rgba: ArrayLike) -> NDArray[np.uint32]:
     """Colours and opacities, (n, 4), as a number each."""
     parts = np.rint(np.asarray(rgba, np.float64).clip(0.0, 1.0) * LEVELS).astype("u1")
     return np.ascontiguousarray(parts).view("<u4").ravel().astype(np.uint32)
@@ -68,7 +68,7 @@ def _paint(paints: NDArray[np.uint32], feature: int) -> Paint:
     return Paint((red, green, blue), opacity)
 
 
-def tile_texture(pieces: Pieces, tile: Tile, paints: NDArray[np.uint32], ranks: NDArray[np.uint32]) -> bytes:
+def tile_texture(pieces: FeaturePieces, tile: Tile, paints: NDArray[np.uint32], ranks: NDArray[np.uint32]) -> bytes:
     """File of the texture of what is in a tile's square, in the colours and the order of the source's features.
 
     Raises a `LimitError` if it has too many features.
@@ -76,18 +76,18 @@ def tile_texture(pieces: Pieces, tile: Tile, paints: NDArray[np.uint32], ranks: 
     box = square_of(tile)
     size = box[2] - box[0]
     to_source = np.array([[size, 0.0, box[0]], [0.0, size, box[1]]])
-    return _written(Drawing(_paths(pieces, box, size, paints, ranks), to_source, ROOT, CRS))
+    return _write_texture(Drawing(_paths(pieces, box, size, paints, ranks), to_source, ROOT, CRS))
 
 
-def uniform_texture(pieces: Pieces, place: int, paints: NDArray[np.uint32]) -> bytes:
+def uniform_texture(pieces: FeaturePieces, place: int, paints: NDArray[np.uint32]) -> bytes:
     """File of the texture of a tile in which one piece is everywhere: it names no place, so that all are equal."""
     corners = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
     square = line_cubics(corners, np.roll(corners, -1, axis=0))
     path = Path((square,), paint=_paint(paints, int(pieces.order[place])), element=str(pieces.ids[place]))
-    return _written(Drawing((path,), IDENTITY.copy(), ROOT))
+    return _write_texture(Drawing((path,), IDENTITY.copy(), ROOT))
 
 
-def _written(drawing: Drawing) -> bytes:
+def _write_texture(drawing: Drawing) -> bytes:
     # borders are simplified already, and to merge more of their sides into curves would take twice as long
     planar = build_map(drawing, precision=PRECISION, restyle=True)
     assert planar is not None
@@ -97,7 +97,7 @@ def _written(drawing: Drawing) -> bytes:
 
 
 def _paths(
-    pieces: Pieces,
+    pieces: FeaturePieces,
     box: tuple[float, float, float, float],
     size: float,
     paints: NDArray[np.uint32],
@@ -120,10 +120,10 @@ def _paths(
     sides = line_cubics(unit[:-1][inner], unit[1:][inner])
     contours = np.split(sides, np.flatnonzero(np.diff(ring[:-1][inner])) + 1)
     of = [_paint(paints, feature) for feature in features.tolist()]
-    return _grouped(contours, number[by_feature][owner], names, of)
+    return _group_paths(contours, number[by_feature][owner], names, of)
 
 
-def _grouped(
+def _group_paths(
     contours: list[NDArray[np.float64]], feature: NDArray[np.intp], names: NDArray[np.object_], paints: list[Paint]
 ) -> tuple[Path, ...]:
     ends = np.searchsorted(feature, np.arange(len(names)), side="right").tolist()

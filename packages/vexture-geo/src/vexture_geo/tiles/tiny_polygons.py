@@ -9,9 +9,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture_geo.tiles.pieces import Pieces, joined
+from vexture_geo.tiles.pieces import FeaturePieces, join_pieces
 
-__all__ = ["gathered"]
+__all__ = ["aggregate"]
 
 CELLS: Final = (1, 2, 4)
 """Pixels across the cells in which specks are gathered; those that are too few in one are gathered in a larger one."""
@@ -20,7 +20,7 @@ SHARE: Final = 0.25
 """Of a pixel's area: of a cell whose specks have less in all, no square is made."""
 
 
-def gathered(specks: Pieces, least: float) -> Pieces:
+def aggregate(specks: FeaturePieces, least: float) -> FeaturePieces:
     """Squares in place of specks, each where they are and of the feature that has most of it.
 
     Parameters
@@ -34,8 +34,8 @@ def gathered(specks: Pieces, least: float) -> Pieces:
     --------
     >>> import shapely
     >>> shapes = shapely.box([0.0, 5.0, 75.0], [0.0, 0.0, 0.0], [4.0, 9.0, 75.5], [4.0, 4.0, 0.5])
-    >>> specks = Pieces(np.arange(3), np.array(["a", "b", "far"], object), shapes)
-    >>> found = gathered(specks, 100.0)
+    >>> specks = FeaturePieces(np.arange(3), np.array(["a", "b", "far"], object), shapes)
+    >>> found = aggregate(specks, 100.0)
     >>> found.ids.tolist(), shapely.area(found.shapes).round(9).tolist()
     (['a'], [32.0])
     """
@@ -54,15 +54,15 @@ def gathered(specks: Pieces, least: float) -> Pieces:
         at = np.stack([np.bincount(of, area * place, len(cell)) / whole for place in middle.T], axis=1)
         at = np.clip(at, cell * side + half, (cell + 1.0) * side - half)[filled]
         low, high = at - half[filled], at + half[filled]
-        made.append(specks.taken(first[filled]).with_shapes(shapely.box(*low.T, *high.T)))
+        made.append(specks.take(first[filled]).with_shapes(shapely.box(*low.T, *high.T)))
         rest = ~filled[of]
         owner, area, middle = owner[rest], area[rest], middle[rest]
         if not len(owner):
             break
-    return joined(made)
+    return join_pieces(made)
 
 
-def _parts(specks: Pieces, side: float) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+def _parts(specks: FeaturePieces, side: float) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
     """Of each speck, as if it were a square, what is in each cell: whose it is, its area and its middle."""
     import shapely
 

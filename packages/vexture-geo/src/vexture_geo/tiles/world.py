@@ -7,11 +7,11 @@ import numpy as np
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
 from vexture.base.tolerance import ROUND
-from vexture_geo.base.crs import period, refuse_metres, shown_bounds, system, transformed
-from vexture_geo.base.longitudes import note_short_ways, unwrapped
-from vexture_geo.base.rings import Rings, cut, moved, refuse_far, repaired, within
+from vexture_geo.base.crs import format_bounds, period, refuse_metres, system, transform_points
+from vexture_geo.base.longitudes import note_short_ways, unwrap_rings
+from vexture_geo.base.rings import Rings, cut, map_rings, refuse_far, repair_rings, within
 from vexture_geo.tiles.grid import CRS, HALF, LATITUDE, MARGIN, pixel
-from vexture_geo.tiles.pieces import Pieces
+from vexture_geo.tiles.pieces import FeaturePieces
 
 __all__ = ["in_world"]
 
@@ -24,26 +24,26 @@ BEYOND: Final = 2.0 * MARGIN
 DEGREES: Final = "EPSG:4326"
 
 
-def in_world(features: Any, first: int, most: int, notes: Notes) -> Pieces:
+def in_world(features: Any, first: int, most: int, notes: Notes) -> FeaturePieces:
     """Pieces of a batch of features, which are numbered from `first`, for tiles up to a zoom."""
     rings, own = features.rings, features.crs
     if not len(rings.ends):
-        return Pieces(np.empty(0, np.int64), np.empty(0, object), np.empty(0, object))
+        return FeaturePieces(np.empty(0, np.int64), np.empty(0, object), np.empty(0, object))
     refuse_far(rings, "correct it")
     rings = _in_degrees(rings, own, most, notes) if system(own).is_geographic else _in_metres(rings, own, notes)
     feature = np.asarray(rings.feature, np.int64)
     ids = np.asarray(features.ids, object)[feature]
-    return Pieces(feature + first, ids, rings.shapes)
+    return FeaturePieces(feature + first, ids, rings.shapes)
 
 
-def _in_degrees(rings: Rings, own: str, most: int, notes: Notes) -> Rings:
+def _in_degrees(rings: Rings, crs: str, most: int, notes: Notes) -> Rings:
     """Rings of longitudes and latitudes in metres, with copies beyond the antimeridian."""
-    turn = period(own)
+    turn = period(crs)
     assert turn is not None
     degree = turn / 360.0
-    refuse_metres(rings.points, own, f"the coordinates {shown_bounds(rings.box, own)}")
+    refuse_metres(rings.points, crs, f"the coordinates {format_bounds(rings.box, crs)}")
     note_short_ways(rings.steps, turn, notes)
-    rings = repaired(unwrapped(rings, turn), notes)
+    rings = repair_rings(unwrap_rings(rings, turn), notes)
     reach = turn / 2.0 * (1.0 + BEYOND)
     world = (-reach, -LATITUDE * degree, reach, LATITUDE * degree)
     boxes = rings.boxes
@@ -53,28 +53,28 @@ def _in_degrees(rings: Rings, own: str, most: int, notes: Notes) -> Rings:
         return rings
     size = np.full(2, BENT * pixel(most) / ROUND)
     wide = 2.0 * HALF
-    rings = moved(rings, lambda points: _projected(points, own, turn), (-wide, -wide, wide, wide), size)
+    rings = map_rings(rings, lambda points: _project(points, crs, turn), (-wide, -wide, wide, wide), size)
     refuse_far(rings, "correct it")
     return _cut_to_world(rings)
 
 
-def _projected(points: Any, own: str, turn: float) -> Any:
+def _project(points: Any, crs: str, turn: float) -> Any:
     """Points in metres; those beyond the antimeridian stay beyond it."""
     turns = np.rint(points[:, 0] / turn)
-    image = transformed(points - np.stack([turns * turn, np.zeros(len(turns))], axis=1), own, CRS)
+    image = transform_points(points - np.stack([turns * turn, np.zeros(len(turns))], axis=1), crs, CRS)
     return image + np.stack([turns * 2.0 * HALF, np.zeros(len(turns))], axis=1)
 
 
-def _in_metres(rings: Rings, own: str, notes: Notes) -> Rings:
+def _in_metres(rings: Rings, crs: str, notes: Notes) -> Rings:
     """Rings of a projected system in metres of Web Mercator."""
-    rings = repaired(rings, notes)
-    if own != CRS:
+    rings = repair_rings(rings, notes)
+    if crs != CRS:
         size = np.full(2, 1.0)
         wide = 2.0 * HALF
-        rings = moved(rings, lambda points: transformed(points, own, CRS), (-wide, -wide, wide, wide), size)
+        rings = map_rings(rings, lambda points: transform_points(points, crs, CRS), (-wide, -wide, wide, wide), size)
         if not np.isfinite(rings.points).all():
             raise SourceError("it has points without a place in the tiles' projection, EPSG:3857; correct its `crs`")
-        rings = repaired(rings, Notes())
+        rings = repair_rings(rings, Notes())
     rings = within(rings, _world(), 2.0 * HALF)
     return _cut_to_world(rings)
 

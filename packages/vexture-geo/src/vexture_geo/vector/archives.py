@@ -21,12 +21,12 @@ __all__ = [
     "FOLDER",
     "KML",
     "MAIN",
+    "pack_geodatabase",
+    "pack_parts",
+    "pack_shapefile",
     "packed_files",
     "refuse_links_of_folder",
-    "unzipped",
-    "whole",
-    "whole_geodatabase",
-    "whole_shapefile",
+    "unzip",
 ]
 
 PARTS: Final = (".shp", ".shx", ".dbf", ".prj", ".cpg")
@@ -55,7 +55,7 @@ MOST_NAMED: Final = 6
 REMEDY: Final = "zip the .shp, .shx, .dbf and .prj together"
 
 
-def unzipped(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | bytes:
+def unzip(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | bytes:
     """Return the source itself or, of a zip, what it holds: a zip of shapefiles or of a FileGDB alone, or one file.
 
     Raises a `SourceError` if it holds none of them, or is damaged, and a `LimitError` if it holds several.
@@ -66,12 +66,12 @@ def unzipped(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] |
         with zipfile.ZipFile(BytesIO(read_bytes(source))) as archive:
             named = [info for info in archive.infolist() if info.filename]  # a name that is empty is no place, either
             infos = [info for info in named if not info.is_dir() and _is_own(info.filename)]
-            return _held(archive, infos)
+            return _read_contents(archive, infos)
     except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError, OSError, ValueError) as error:
         raise SourceError(f"the zip is damaged or encrypted ({reason_of(error)}); zip its files again") from None
 
 
-def _held(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> bytes:
+def _read_contents(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> bytes:
     """What a zip holds, by the names of its files."""
     shapes = [info for info in infos if _suffix(info.filename) in PARTS]
     if any(_suffix(info.filename) == PARTS[0] for info in shapes):
@@ -85,17 +85,17 @@ def _held(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> bytes:
     main = [info for info in singles if PurePosixPath(info.filename).name.lower() == MAIN]
     texts = [info for info in singles if _suffix(info.filename) == KML]
     if main and len(texts) > 1:  # a KMZ may be in parts, to which its main one links
-        return _packed({info.filename: read for info, read in _read(archive, texts)})
+        return _pack_files({info.filename: read for info, read in _read(archive, texts)})
     depths = [info.filename for info in infos if _suffix(info.filename) in DEPTHS]
     if depths and not singles:
-        raise SourceError(f"{_shown(depths[0])} is not read in a zip; unzip it, and give the file itself")
+        raise SourceError(f"{_format_name(depths[0])} is not read in a zip; unzip it, and give the file itself")
     if not singles:
         raise SourceError(f"the zip holds no shapefile (.shp), FileGDB (.gdb) or other geographic data; {REMEDY}")
     chosen = main[:1] or singles
     _only({PurePosixPath(info.filename) for info in chosen}, "files")
     ((_, content),) = _read(archive, chosen[:1])
     if content.startswith(ZIP):
-        raise SourceError(f"{_shown(chosen[0].filename)} in the zip is a zip itself; unpack it")
+        raise SourceError(f"{_format_name(chosen[0].filename)} in the zip is a zip itself; unpack it")
     return content
 
 
@@ -112,13 +112,13 @@ def _suffix(name: str) -> str:
 def _only(places: Iterable[PurePosixPath], kind: str) -> list[PurePosixPath]:
     found = sorted(places)
     if len(found) > 1:
-        shown = ", ".join(_shown(str(place)) for place in found[:MOST_NAMED])
+        shown = ", ".join(_format_name(str(place)) for place in found[:MOST_NAMED])
         more = ", ..." if len(found) > MOST_NAMED else ""
         raise LimitError(f"the zip holds {len(found)} {kind} that can be read: {shown}{more}; zip one of them")
     return found
 
 
-def _shown(name: str) -> str:
+def _format_name(name: str) -> str:
     return printable(name)
 
 
@@ -129,7 +129,7 @@ def _read(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> list[tuple[
     return [(info, archive.read(info)) for info in infos]
 
 
-def whole_shapefile(path: Path) -> bytes:
+def pack_shapefile(path: Path) -> bytes:
     """Content of a ``.shp`` and of the files beside it, in one zip; equal files give equal bytes."""
     try:
         beside = {each.name.lower(): each for each in path.parent.iterdir()}
@@ -139,16 +139,16 @@ def whole_shapefile(path: Path) -> bytes:
     return _shapefiles({f"{path.stem}{part}": read_bytes(each) for part, each in found.items() if each is not None})
 
 
-def whole(path: Path) -> bytes | None:
+def pack_parts(path: Path) -> bytes | None:
     """A shapefile or FileGDB of several files as one zip; None of anything else."""
     if is_stream(path):
         return None
     if is_geodatabase(path):
-        return whole_geodatabase(path)
-    return whole_shapefile(path) if start_of(path).startswith(SHAPEFILE) else None
+        return pack_geodatabase(path)
+    return pack_shapefile(path) if start_of(path).startswith(SHAPEFILE) else None
 
 
-def whole_geodatabase(path: Path) -> bytes:
+def pack_geodatabase(path: Path) -> bytes:
     """Content of the folder of a FileGDB, in one zip; equal files give equal bytes."""
     refuse_links_of_folder(path)
     files = {}
@@ -172,7 +172,7 @@ def refuse_links_of_folder(path: Path) -> None:
 
 
 def packed_files(content: bytes) -> tuple[str, dict[str, bytes]]:
-    """What a zip that `whole` or `unzipped` made is, by a suffix (``.shp``, ``.gdb`` or ``.kml``), and its files."""
+    """What a zip that `pack_parts` or `unzip` made is, by a suffix (``.shp``, ``.gdb`` or ``.kml``), and its files."""
     with zipfile.ZipFile(BytesIO(content)) as archive:
         files = {name: archive.read(name) for name in archive.namelist()}
     if all(_suffix(name) == KML for name in files):
@@ -183,7 +183,7 @@ def packed_files(content: bytes) -> tuple[str, dict[str, bytes]]:
 
 def _geodatabase(files: dict[str, bytes]) -> bytes:
     """Files of a FileGDB in one zip."""
-    return _packed({f"a{FOLDER}/{name}": content for name, content in files.items() if NAME.fullmatch(name)})
+    return _pack_files({f"a{FOLDER}/{name}": content for name, content in files.items() if NAME.fullmatch(name)})
 
 
 def _shapefiles(files: dict[str, bytes]) -> bytes:
@@ -195,10 +195,10 @@ def _shapefiles(files: dict[str, bytes]) -> bytes:
         for name in (f"{stem}.shp", f"{stem}.shx"):
             refuse_cut(name, named[name], len(named[name]))
         refuse_files_of_system(named.get(f"{stem}.prj", b"").decode(errors="replace"))
-    return _packed(named)
+    return _pack_files(named)
 
 
-def _packed(files: dict[str, bytes]) -> bytes:
+def _pack_files(files: dict[str, bytes]) -> bytes:
     packed = BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
         for name, content in files.items():

@@ -22,7 +22,7 @@ from vexture_geo.vector.wkt import wkb_of_texts
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["TableFile", "is_table", "opened_table"]
+__all__ = ["TableFile", "is_table", "open_table"]
 
 GEOMETRY: Final = "geometry"
 """Name of the geometries of CSV; a column that has it already has a longer one."""
@@ -80,7 +80,7 @@ def _is_csv(source: str | os.PathLike[str] | bytes, start: bytes) -> bool:
     return header_of(start).has_places or (is_named and bool(header_of(start).names))
 
 
-def opened_table(source: str | os.PathLike[str] | bytes) -> Any:
+def open_table(source: str | os.PathLike[str] | bytes) -> Any:
     """A `pyarrow.parquet.ParquetFile`, or what is read alike."""
     import pyarrow.parquet as pq
 

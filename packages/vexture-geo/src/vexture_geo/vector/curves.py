@@ -12,7 +12,7 @@ from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError
 from vexture.base.tolerance import ROUND
 
-__all__ = ["BROKEN", "straightened"]
+__all__ = ["BROKEN", "straighten_curves"]
 
 HEAD: Final = 5
 """Bytes of a geometry that say of what kind it is."""
@@ -106,7 +106,7 @@ class _Reader:
         return found[:, :2].astype(np.float64)
 
 
-def straightened(shapes: NDArray[Any]) -> NDArray[Any]:
+def straighten_curves(shapes: NDArray[Any]) -> NDArray[Any]:
     """Geometries in WKB without curves; those that have some lose z and m, and damaged ones of a curved kind all.
 
     Chords are nearer to their arc than `ROUND` of the extent of all curves. An arc has the same ones in either
@@ -172,10 +172,10 @@ class _Chords:
         if kind == POINT:
             return head + shape.rings[0].tobytes()
         if kind == LINE:
-            return head + _counted(self._line(shape))
+            return head + _counted_points(self._line(shape))
         if kind == POLYGON:
             rings = [self._line(part) for part in shape.parts] if shape.kind == CURVED else shape.rings
-            return head + pack("<I", len(rings)) + b"".join(map(_counted, rings))
+            return head + pack("<I", len(rings)) + b"".join(map(_counted_points, rings))
         return head + pack("<I", len(shape.parts)) + b"".join(map(self.written, shape.parts))
 
     def _line(self, shape: _Shape) -> NDArray[np.float64]:
@@ -219,7 +219,7 @@ class _Chords:
         return np.concatenate([made, points[-1:]])
 
 
-def _counted(points: NDArray[np.float64]) -> bytes:
+def _counted_points(points: NDArray[np.float64]) -> bytes:
     return pack("<I", len(points)) + points.tobytes()
 
 

@@ -63,7 +63,7 @@ def refuse_links_of_database(source: str | os.PathLike[str] | bytes) -> str:
     when it opens it, whichever layer is wanted.
     """
     try:
-        with closing(_opened(source)) as base:
+        with closing(_open_database(source)) as base:
             known = [tuple(map(_text, row)) for row in base.execute("SELECT type, name, sql FROM sqlite_master")]
             for kind, name, sql in known:
                 _refuse_statement(kind, name, sql)
@@ -97,7 +97,7 @@ def _refuse_systems(base: sqlite3.Connection, table: str) -> None:
             refuse_files_of_system(_text(row[place]))
 
 
-def _opened(source: str | os.PathLike[str] | bytes) -> sqlite3.Connection:
+def _open_database(source: str | os.PathLike[str] | bytes) -> sqlite3.Connection:
     """A database of which nothing is believed, nor changed."""
     if isinstance(source, bytes):
         base = sqlite3.connect(":memory:")
@@ -113,13 +113,13 @@ def _opened(source: str | os.PathLike[str] | bytes) -> sqlite3.Connection:
 def _refuse_statement(kind: str, name: str, sql: str) -> None:
     if VIRTUAL.match(sql) and not INDEX.match(sql):
         made_of = re.split(r"\busing\b", sql, maxsplit=1, flags=re.IGNORECASE)[-1]
-        raise SourceError(f"its table {_shown(name)!r} is made of {_shown(made_of)!r}, {REFUSED}")
+        raise SourceError(f"its table {_format_text(name)!r} is made of {_format_text(made_of)!r}, {REFUSED}")
     found = OUTSIDE.search(sql)
     if found:
-        raise SourceError(f"its {kind} {_shown(name)!r} reads {_shown(sql[found.start() :])!r}, {REFUSED}")
+        raise SourceError(f"its {kind} {_format_text(name)!r} reads {_format_text(sql[found.start() :])!r}, {REFUSED}")
 
 
-def _shown(text: str) -> str:
+def _format_text(text: str) -> str:
     return printable(shorten_text(" ".join(text.split()), SHOWN))
 
 

@@ -14,19 +14,19 @@ from vexture.base.content import VECTOR_FILES, unpack_source
 from vexture.base.errors import ParameterError, SourceError, shorten_text
 from vexture_geo.base.damage import missing_arcs
 from vexture_geo.base.extent import Bounds
-from vexture_geo.vector.archives import unzipped
-from vexture_geo.vector.arrow_files import is_table, opened_table
+from vexture_geo.vector.archives import unzip
+from vexture_geo.vector.arrow_files import is_table, open_table
 from vexture_geo.vector.feature_ids import ids_of_json, with_ids
 from vexture_geo.vector.frames import arrow_of, check_texts, labels_of
 from vexture_geo.vector.geojson import WORLD
 from vexture_geo.vector.geoparquet import GeometryColumn, geometry_column, objects_of
-from vexture_geo.vector.vector_files import VectorFile, opened_vectors
-from vexture_geo.vector.vectors import chosen_layer, gdal_errors, layers_of
+from vexture_geo.vector.vector_files import VectorFile, open_vectors
+from vexture_geo.vector.vectors import choose_layer, gdal_errors, layers_of
 
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["Choice", "Chunk", "chunks_of"]
+__all__ = ["FeatureChunk", "FeatureQuery", "chunks_of"]
 
 PART: Final = 16_384
 """Features of which a condition chooses some, before more are read."""
@@ -41,7 +41,7 @@ READ: Final = f"give a file of GeoJSON, TopoJSON, {VECTOR_FILES}"
 
 
 @dataclass(frozen=True)
-class Choice:
+class FeatureQuery:
     """What of a source is read."""
 
     layer: str | None = None
@@ -50,7 +50,7 @@ class Choice:
     columns: tuple[str, ...] | None = None
     bounds: Bounds | None = None
 
-    def kept(self, names: list[str]) -> list[str]:
+    def select_columns(self, names: list[str]) -> list[str]:
         """The columns to read of those that there are; `ParameterError` if one is missing."""
         for parameter, wanted in (("id", () if self.id is None else (self.id,)), ("columns", self.columns or ())):
             for name in wanted:
@@ -61,7 +61,7 @@ class Choice:
 
 
 @dataclass(frozen=True, eq=False)
-class Chunk:
+class FeatureChunk:
     """Some features: attributes, geometries (WKB, or shapely's if `parsed`) and their numbers in the source."""
 
     table: "pyarrow.Table"
@@ -91,7 +91,7 @@ class Chunk:
     remarks: Mapping[str, int] = field(default_factory=dict)
     """What is to be told of the source, and how often: for instance, links that nobody reads."""
 
-    def taken(self, rows: NDArray[np.intp]) -> "Chunk":
+    def take(self, rows: NDArray[np.intp]) -> "FeatureChunk":
         """Some of the rows, all of which are in bounds."""
         labels = None if self.labels is None else self.labels[rows]
         part = replace(self, table=self.table.take(rows), shapes=self.shapes[rows], numbers=self.numbers[rows])
@@ -105,22 +105,22 @@ class Chunk:
         return self.fallback if degrees else None
 
 
-def chunks_of(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
+def chunks_of(source: Any, choice: FeatureQuery, batch: int | None) -> Iterator[FeatureChunk]:
     """The features of a source, at most `batch` at once, or all in one chunk."""
     if hasattr(source, "geometry") and hasattr(source, "crs"):
         yield from _split(_frame(source, choice), batch)
         return
     if not isinstance(source, str | bytes | os.PathLike):
         raise ParameterError(f"`source` is a {type(source).__name__}; {READ}, or a GeoDataFrame")
-    source = unzipped(unpack_source(source))
+    source = unzip(unpack_source(source))
     if is_table(source):
         yield from _parquet(source, choice, batch)
         return
-    with opened_vectors(source) as file:
+    with open_vectors(source) as file:
         yield from _gdal(file, choice, batch)
 
 
-def _gdal(file: VectorFile, choice: Choice, batch: int | None) -> Iterator[Chunk]:
+def _gdal(file: VectorFile, choice: FeatureQuery, batch: int | None) -> Iterator[FeatureChunk]:
     import pyarrow as pa
     from pyogrio import raw, read_info
 
@@ -130,10 +130,10 @@ def _gdal(file: VectorFile, choice: Choice, batch: int | None) -> Iterator[Chunk
         layers = [layer for layer in found if layer.kind is not None]
         if found and not layers:
             raise SourceError(f"it has no geometries, only a table ({found[0].name}); give the file of its places")
-        number = chosen_layer(layers, choice.layer, any_kind=True).number
+        number = choose_layer(layers, choice.layer, any_kind=True).number
         info = read_info(content, layer=number)
     names = [str(each) for each in info["fields"]]
-    columns = choice.kept(names)
+    columns = choice.select_columns(names)
     may_have_ids = is_json and choice.id is None
     ids = ids_of_json(content, "id" in names) if may_have_ids and isinstance(content, bytes) else {}
     own = "id" if may_have_ids and "id" in names and not ids else choice.id
@@ -166,24 +166,24 @@ def _arrow_chunk(
     table: "pyarrow.Table",
     number: str,
     geometry: str,
-    own: str | None,
+    id_column: str | None,
     topology: bool,
     is_json: bool,
     crs: str | None,
     damaged: int,
-) -> Chunk:
+) -> FeatureChunk:
     """A table of GDAL: its own number comes before attributes of that name, and its geometry after them."""
     first, last = table.schema.get_all_field_indices(number)[0], table.schema.get_all_field_indices(geometry)[-1]
     numbers = np.asarray(table.column(first).to_numpy(), np.int64)
     shapes = objects_of(table.column(last))
     kept = table.remove_column(last).remove_column(first)
     check_texts(kept)
-    return Chunk(
+    return FeatureChunk(
         kept,
         shapes,
         numbers,
         crs,
-        own,
+        id_column,
         bounded=True,
         fallback=WORLD if topology else None,
         is_told=crs is not None and not is_json,
@@ -192,31 +192,31 @@ def _arrow_chunk(
 
 
 @contextmanager
-def _condition(where: str | None, names: list[str]) -> Iterator[None]:
+def _condition(condition: str | None, names: list[str]) -> Iterator[None]:
     """Say of a condition that GDAL refuses which columns there are."""
     try:
         yield
     except SourceError as error:
-        if where is None or not any(sign in str(error) for sign in REFUSALS):
+        if condition is None or not any(sign in str(error) for sign in REFUSALS):
             raise
-        raise ParameterError(_refused(where, names)) from None
+        raise ParameterError(_refusal(condition, names)) from None
 
 
-def _refused(where: str, names: list[str]) -> str:
+def _refusal(condition: str, names: list[str]) -> str:
     shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
-    return f"`where` {where!r} is no condition on its columns; there are: {shown or 'none'}"
+    return f"`where` {condition!r} is no condition on its columns; there are: {shown or 'none'}"
 
 
-def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
+def _parquet(source: Any, choice: FeatureQuery, batch: int | None) -> Iterator[FeatureChunk]:
     import pyarrow as pa
 
     if choice.layer is not None:
         raise ParameterError(f"a table has no layers, so none {choice.layer!r}; leave `layer` out")
     try:
-        file = opened_table(source)
+        file = open_table(source)
         geometry = geometry_column(file)
         names = [name for name in file.schema_arrow.names if name != geometry.name]
-        columns = choice.kept(names)
+        columns = choice.select_columns(names)
         used = names if choice.where is not None else columns  # a condition may need any of them
         wanted = [*used, geometry.name]
         if batch is None and choice.where is None:
@@ -248,15 +248,15 @@ def _parquet_chunk(
     numbers: NDArray[np.int64],
     geometry: GeometryColumn,
     columns: list[str],
-    choice: Choice,
-) -> Chunk:
+    choice: FeatureQuery,
+) -> FeatureChunk:
     shapes, crs = geometry.shapes(table), geometry.crs
     told = dict.fromkeys(geometry.remarks, 1)
     is_told = crs not in (None, WORLD)
-    return Chunk(table.select(columns), shapes, numbers, crs, choice.id, is_told=is_told, remarks=told)
+    return FeatureChunk(table.select(columns), shapes, numbers, crs, choice.id, is_told=is_told, remarks=told)
 
 
-def _rows_where(table: "pyarrow.Table", where: str) -> NDArray[np.intp]:
+def _rows_where(table: "pyarrow.Table", condition: str) -> NDArray[np.intp]:
     """Rows for which a condition in SQL holds."""
     import duckdb
     import pyarrow as pa
@@ -266,13 +266,13 @@ def _rows_where(table: "pyarrow.Table", where: str) -> NDArray[np.intp]:
     with duckdb.connect(config={"enable_external_access": False, "threads": 1}) as connection:
         connection.register("features", numbered)
         try:
-            found = connection.execute(f"SELECT {number} FROM features WHERE ({where})").fetchnumpy()[number]
+            found = connection.execute(f"SELECT {number} FROM features WHERE ({condition})").fetchnumpy()[number]
         except duckdb.Error:
-            raise ParameterError(_refused(where, table.column_names)) from None
+            raise ParameterError(_refusal(condition, table.column_names)) from None
     return np.sort(np.asarray(found, np.intp))
 
 
-def _frame(frame: Any, choice: Choice) -> Chunk:
+def _frame(frame: Any, choice: FeatureQuery) -> FeatureChunk:
     """A GeoDataFrame."""
     import pyarrow as pa
 
@@ -292,16 +292,18 @@ def _frame(frame: Any, choice: Choice) -> Chunk:
         others = {name: arrow_of(level.to_series()) for name, level in levels.items() if name not in columns} | others
     if labels is not None and choice.id == frame.index.name and choice.id not in others:
         choice = replace(choice, id=None)
-    columns = choice.kept([*others])
+    columns = choice.select_columns([*others])
     table = pa.table(others) if others else pa.table({"row": np.arange(len(shapes))})
     rows = np.arange(len(shapes)) if choice.where is None else _rows_where(table, choice.where)
     crs = None if frame.crs is None else str(frame.crs.to_wkt())
     part = table.take(rows).select(columns)
-    chunk = Chunk(part, shapes[rows], rows.astype(np.int64), crs, choice.id, parsed=True, is_told=crs is not None)
+    chunk = FeatureChunk(
+        part, shapes[rows], rows.astype(np.int64), crs, choice.id, parsed=True, is_told=crs is not None
+    )
     return replace(chunk, labels=None if labels is None else labels[rows], unlabelled=why)
 
 
-def _split(chunk: Chunk, batch: int | None) -> Iterator[Chunk]:
+def _split(chunk: FeatureChunk, batch: int | None) -> Iterator[FeatureChunk]:
     """Runs of a chunk's rows."""
     step = batch or max(len(chunk.numbers), 1)
     for first in range(0, max(len(chunk.numbers), 1), step):

@@ -12,14 +12,14 @@ from vexture.base.labels import texts_of
 from vexture.base.notes import Notes
 from vexture.base.tolerance import UNSEEN
 from vexture_geo.base.coordinate_units import refuse_degrees
-from vexture_geo.base.crs import MissingReferenceError, chosen_crs, gis_packages, period, same_system, shown_system
+from vexture_geo.base.crs import MissingReferenceError, choose_crs, format_system, gis_packages, period, same_system
 from vexture_geo.base.extent import Bounds
-from vexture_geo.base.longitudes import closed_over_poles, jumping
-from vexture_geo.base.rings import Rings, refuse_far, repaired, rings_of
+from vexture_geo.base.longitudes import close_over_poles, jumping
+from vexture_geo.base.rings import Rings, refuse_far, repair_rings, rings_of
 from vexture_geo.vector.feature_ids import names_beside_id
-from vexture_geo.vector.feature_tables import Choice, Chunk, chunks_of
+from vexture_geo.vector.feature_tables import FeatureChunk, FeatureQuery, chunks_of
 from vexture_geo.vector.geojson import UNLOCATED, WORLD
-from vexture_geo.vector.vectors import DAMAGED, parsed_wkb, parts_of
+from vexture_geo.vector.vectors import DAMAGED, parse_wkb, parts_of
 
 if TYPE_CHECKING:
     import pyarrow
@@ -147,7 +147,7 @@ def read_features(
     ParameterError
         If a layer, a column or the condition is unknown to it.
     """
-    choice = Choice(layer, where, id, None if columns is None else tuple(columns), bounds)
+    choice = FeatureQuery(layer, where, id, None if columns is None else tuple(columns), bounds)
     (chunk,) = chunks_of(source, choice, None)
     return _features(chunk, choice, crs, {}, notes)
 
@@ -168,14 +168,16 @@ def feature_batches(
     """Read features as `read_features` does, at most `batch` at once; files that are read as a whole are small."""
     if batch < 1:
         raise ParameterError(f"`batch` is {batch}; it must be 1 or more features")
-    choice = Choice(layer, where, id, None if columns is None else tuple(columns), bounds)
+    choice = FeatureQuery(layer, where, id, None if columns is None else tuple(columns), bounds)
     seen: dict[str, int] = {}
     for chunk in chunks_of(source, choice, batch):
         yield _features(chunk, choice, crs, seen, notes)
 
 
-def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int], notes: Notes) -> Features:
-    """Features of a chunk; `seen` counts the ids of those before it."""
+def _features(
+    chunk: FeatureChunk, choice: FeatureQuery, crs: str | None, counts: dict[str, int], notes: Notes
+) -> Features:
+    """Features of a chunk; `counts` counts the ids of those before it."""
     import shapely
 
     notes.remark("the file is damaged: a geometry refers to arcs that it does not have", chunk.damaged)
@@ -187,7 +189,7 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
         given = ~(shapely.is_missing(chunk.shapes) | shapely.is_empty(chunk.shapes))
         whole, owner, damaged = chunk.shapes[given], np.flatnonzero(given), np.zeros(0, np.intp)
     else:
-        whole, owner, damaged = parsed_wkb(chunk.shapes, Notes())
+        whole, owner, damaged = parse_wkb(chunk.shapes, Notes())
     unlocated = np.setdiff1d(np.arange(len(chunk.shapes)), np.concatenate([owner, damaged]))
     if choice.bounds is not None and not chunk.bounded:
         west, south, east, north = choice.bounds
@@ -198,10 +200,10 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
         for message, lost in ((UNLOCATED, unlocated), (DAMAGED, damaged)):
             for _ in range(len(lost)):
                 notes.left_out(message)
-        chunk, unlocated, damaged = chunk.taken(kept), unlocated[:0], damaged[:0]
+        chunk, unlocated, damaged = chunk.take(kept), unlocated[:0], damaged[:0]
     parts, of = parts_of(whole)
     kinds, feature = shapely.get_type_id(parts), owner[of].astype(np.intp)
-    ids = _ids(chunk, choice, seen, notes)
+    ids = _ids(chunk, choice, counts, notes)
     notes.features("left out", UNLOCATED, ids[unlocated])
     notes.features("left out", DAMAGED, ids[damaged])
     short = _short(parts, notes)
@@ -222,19 +224,19 @@ def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int
     return Features(rings, ids, _table(chunk, ids), system, _lines(parts[lines], feature[lines]), points, numbered)
 
 
-def _system(chunk: Chunk, rings: Rings, given: str | None, notes: Notes) -> str:
+def _system(chunk: FeatureChunk, rings: Rings, crs_option: str | None, notes: Notes) -> str:
     """Reference system of a chunk: that which its source names, or else the one that is given for it."""
     found = chunk.crs(rings.points)
-    if given is None or not chunk.is_told:
+    if crs_option is None or not chunk.is_told:
         try:
-            return chosen_crs(given, found)
+            return choose_crs(crs_option, found)
         except MissingReferenceError as error:
             if not chunk.parsed:
                 raise
             raise MissingReferenceError(f"{error}, or set it by set_crs") from None
-    system = chosen_crs(None, found)
-    if not same_system(other := chosen_crs(given, None), system):
-        own, unused = shown_system(system), shown_system(other)
+    system = choose_crs(None, found)
+    if not same_system(other := choose_crs(crs_option, None), system):
+        own, unused = format_system(system), format_system(other)
         notes.remark(f"it names its own reference system, {own}, so {unused} is not used for it")
     return system
 
@@ -247,19 +249,19 @@ def _valid(rings: Rings, turn: float | None, ids: NDArray[Any], notes: Notes) ->
         return rings
     later = np.zeros(len(rings.outer), np.bool_)
     if turn:
-        rings, polar = closed_over_poles(rings, turn)
+        rings, polar = close_over_poles(rings, turn)
         notes.remark("a polygon around a pole is closed along the antimeridian", polar)
         later = jumping(rings, turn)
-    here = rings.taken(np.flatnonzero(~later)) if later.any() else rings
+    here = rings.take(np.flatnonzero(~later)) if later.any() else rings
     wrong = ~shapely.is_valid(here.shapes)
     if wrong.any():
         assert here.feature is not None
         owner, before = here.feature[wrong], _areas(here, len(ids))
-        here = repaired(here, notes)
+        here = repair_rings(here, notes)
         change = np.abs(_areas(here, len(ids)) - before)[owner]
         seen = change > (UNSEEN / 10 * np.ptp(rings.points, axis=0).max()) ** 2
         notes.features("remark", "a polygon that crossed or overlapped itself is repaired", ids[owner[seen]])
-    return here.joined(rings.taken(np.flatnonzero(later))) if later.any() else here
+    return here.concatenate(rings.take(np.flatnonzero(later))) if later.any() else here
 
 
 def _areas(rings: Rings, count: int) -> NDArray[np.float64]:
@@ -289,7 +291,7 @@ def _lines(lines: NDArray[Any], feature: NDArray[np.intp]) -> Lines:
     return Lines(points, np.searchsorted(owner, np.arange(len(lines)), side="right"), feature)
 
 
-def _ids(chunk: Chunk, choice: Choice, seen: dict[str, int], notes: Notes) -> NDArray[Any]:
+def _ids(chunk: FeatureChunk, choice: FeatureQuery, counts: dict[str, int], notes: Notes) -> NDArray[Any]:
     """The id of each feature as a text; one that was there before gets a number."""
     if chunk.id_column is None and chunk.labels is not None:
         return chunk.labels
@@ -301,12 +303,12 @@ def _ids(chunk: Chunk, choice: Choice, seen: dict[str, int], notes: Notes) -> ND
         name = f"#{number}" if value is None or value == "" else value
         if name != value:
             none.append(name)
-        is_again = bool(before := seen.get(name, 0))
-        seen[name] = before + 1
-        while before and (name := f"{value}#{before + 1}") in seen:
+        is_again = bool(before := counts.get(name, 0))
+        counts[name] = before + 1
+        while before and (name := f"{value}#{before + 1}") in counts:
             before += 1
         if before:
-            seen[name] = 1
+            counts[name] = 1
         if is_again:
             again.append(name)
         texts.append(name)
@@ -315,7 +317,7 @@ def _ids(chunk: Chunk, choice: Choice, seen: dict[str, int], notes: Notes) -> ND
     return np.array(texts, object)
 
 
-def _table(chunk: Chunk, ids: NDArray[Any]) -> "pyarrow.Table":
+def _table(chunk: FeatureChunk, ids: NDArray[Any]) -> "pyarrow.Table":
     """Attributes with the column `id` first."""
     import pyarrow as pa
 

@@ -20,10 +20,10 @@ from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.drawing.paint import BLACK, Paint
 from vexture_geo.base.extent import LARGEST
 from vexture_geo.base.file_references import LINK_TYPES, refuse_link
-from vexture_geo.base.snap import snapped
+from vexture_geo.base.snap import snap_borders
 from vexture_geo.vector.sequences import one_json
 
-__all__ = ["UNLOCATED", "WORLD", "Area", "areas_of", "geojson_drawing", "met", "read_geojson"]
+__all__ = ["UNLOCATED", "WORLD", "Area", "areas_of", "geojson_drawing", "omissions", "read_geojson"]
 
 MOST_POSITIONS: Final = 20_000_000
 MOST_NESTED: Final = 32
@@ -43,7 +43,7 @@ WITHOUT_AREA: Final = ("Point", "MultiPoint", "LineString", "MultiLineString")
 Ring = NDArray[np.float64]
 
 
-class Look(NamedTuple):
+class AreaStyle(NamedTuple):
     """What all polygons of a feature have: its paint, and its name in drawings."""
 
     paint: Paint = BLACK
@@ -54,7 +54,7 @@ class Area(NamedTuple):
     """One polygon: its rings in the units of the file, y up, its look, and its name in messages."""
 
     rings: list[Ring]
-    look: Look
+    look: AreaStyle
     where: str
 
 
@@ -122,16 +122,16 @@ def read_geojson(
 def geojson_drawing(content: bytes, name: str, *, names: str | None = None, snap: float | None = None) -> Drawing:
     """Read GeoJSON, plain or gzipped, as `read_geojson` does, but without a warning: all notes are in the drawing."""
     notes = Notes()
-    value = _parsed(one_json(decompress(content)))
+    value = _parse_object(one_json(decompress(content)))
     reader = _Reader(notes, names)
     areas = list(reader.areas(value))
     if not areas:
-        raise SourceError(f"it holds no polygon to fill{met(notes)}; give Polygon or MultiPolygon geometries")
+        raise SourceError(f"it holds no polygon to fill{omissions(notes)}; give Polygon or MultiPolygon geometries")
     reader.check_names()
     points = np.concatenate([ring for area in areas for ring in area.rings])
     low, high = points.min(axis=0), points.max(axis=0)
     width, height = (float(side) for side in high - low)
-    rings = _snapped(areas, max(width, height), snap, notes)
+    rings = _snap_areas(areas, max(width, height), snap, notes)
     paths = [
         Path(tuple(map(_contour, own)), FillRule.EVENODD, area.look.paint, element=area.look.element)
         for area, own in zip(areas, rings, strict=True)
@@ -143,27 +143,27 @@ def geojson_drawing(content: bytes, name: str, *, names: str | None = None, snap
     return replace(drawing, to_source=turned, crs=_crs(value.get("crs")), notes=notes.in_order)
 
 
-def _snapped(areas: list[Area], size: float, snap: float | None, notes: Notes) -> list[list[Ring]]:
+def _snap_areas(areas: list[Area], size: float, snap: float | None, notes: Notes) -> list[list[Ring]]:
     """Rings of each area, with shared borders."""
     rings = [ring for area in areas for ring in area.rings]
-    points, ends = snapped(np.concatenate(rings), np.cumsum([len(ring) for ring in rings]), size, snap, notes)
+    points, ends = snap_borders(np.concatenate(rings), np.cumsum([len(ring) for ring in rings]), size, snap, notes)
     each = iter(np.split(points, ends[:-1]))
     return [[ring for _ in area.rings if len(ring := next(each))] for area in areas]
 
 
 def areas_of(content: bytes, notes: Notes) -> tuple[list[Area], str]:
     """Areas of a file's content, not gzipped, and the reference system of their coordinates."""
-    value = _parsed(content)
+    value = _parse_object(content)
     return list(_Reader(notes).areas(value)), _crs(value.get("crs"))
 
 
-def met(notes: Notes) -> str:
+def omissions(notes: Notes) -> str:
     """What was left out, in parentheses, for the message that no polygon is left."""
     line = line_of("met", notes.in_order).removeprefix("met: ")
     return f" ({line})" if line else ""
 
 
-def _parsed(content: bytes) -> dict[str, Any]:
+def _parse_object(content: bytes) -> dict[str, Any]:
     """Object of a JSON text."""
     try:
         value = json.loads(content.removeprefix(BYTE_ORDER_MARK))
@@ -195,7 +195,9 @@ class _Reader:
         """Areas of the outermost object."""
         kind = value.get("type")
         if kind != "FeatureCollection":
-            yield from self._feature(value, "the feature") if kind == "Feature" else self._geometry(value, "", Look())
+            yield from (
+                self._feature(value, "the feature") if kind == "Feature" else self._geometry(value, "", AreaStyle())
+            )
             return
         features = value.get("features")
         if not isinstance(features, list):
@@ -203,20 +205,20 @@ class _Reader:
         for number, feature in enumerate(features, 1):
             yield from self._feature(feature, f"feature {number}")
 
-    def _feature(self, value: Any, where: str) -> Iterator[Area]:
+    def _feature(self, value: Any, place: str) -> Iterator[Area]:
         if not isinstance(value, dict) or value.get("type") != "Feature":
-            raise SourceError(f"{where} is not of the type Feature; correct it")
+            raise SourceError(f"{place} is not of the type Feature; correct it")
         if value.get("geometry") is None:  # RFC 7946, 3.2: an unlocated feature
             self._notes.left_out(UNLOCATED)
         else:
             properties = value.get("properties")
-            look = Look(self._paint(properties), self._element(value.get("id"), properties))
-            yield from self._geometry(value["geometry"], where, look)
+            look = AreaStyle(self._paint(properties), self._element(value.get("id"), properties))
+            yield from self._geometry(value["geometry"], place, look)
 
-    def _geometry(self, value: Any, where: str, look: Look, depth: int = 0) -> Iterator[Area]:
-        """Areas of a geometry; `where` names the place in messages."""
+    def _geometry(self, value: Any, place: str, look: AreaStyle, depth: int = 0) -> Iterator[Area]:
+        """Areas of a geometry; `place` names the place in messages."""
         if not isinstance(value, dict):
-            raise SourceError(f"{_at(where, 'the geometry')} is a {type(value).__name__}, not an object; correct it")
+            raise SourceError(f"{_at(place, 'the geometry')} is a {type(value).__name__}, not an object; correct it")
         kind = value.get("type")
         content = value.get("geometries" if kind == "GeometryCollection" else "coordinates")
         if kind in WITHOUT_AREA:
@@ -224,38 +226,38 @@ class _Reader:
             return
         if kind not in ("Polygon", "MultiPolygon", "GeometryCollection"):
             hint = "convert TopoJSON to GeoJSON" if kind == "Topology" else "see RFC 7946, 1.4"
-            raise SourceError(f"{_at(where, 'type')} {_shown(kind)} is none that GeoJSON knows; {hint}")
+            raise SourceError(f"{_at(place, 'type')} {_format_value(kind)} is none that GeoJSON knows; {hint}")
         if not isinstance(content, list):
-            raise SourceError(f"{_at(where, kind)} has no list of its parts; correct it")
+            raise SourceError(f"{_at(place, kind)} has no list of its parts; correct it")
         if kind == "Polygon":
-            yield from self._polygon(content, where, look)
+            yield from self._polygon(content, place, look)
         elif kind == "MultiPolygon":
             for number, rings in enumerate(content, 1):
-                yield from self._polygon(rings, _at(where, f"polygon {number}"), look)
+                yield from self._polygon(rings, _at(place, f"polygon {number}"), look)
         elif depth == MOST_NESTED:
-            raise SourceError(f"{_at(where, kind)} is nested more than {MOST_NESTED} deep; flatten it")
+            raise SourceError(f"{_at(place, kind)} is nested more than {MOST_NESTED} deep; flatten it")
         else:
             for number, part in enumerate(content, 1):
-                yield from self._geometry(part, _at(where, f"geometry {number}"), look, depth + 1)
+                yield from self._geometry(part, _at(place, f"geometry {number}"), look, depth + 1)
 
-    def _polygon(self, rings: Any, where: str, look: Look) -> Iterator[Area]:
+    def _polygon(self, rings: Any, place: str, look: AreaStyle) -> Iterator[Area]:
         if not isinstance(rings, list):
-            raise SourceError(f"{_at(where, 'the polygon')} is a {type(rings).__name__}, not a list of rings")
-        read = [self._ring(ring, _at(where, f"ring {number}")) for number, ring in enumerate(rings, 1)]
+            raise SourceError(f"{_at(place, 'the polygon')} is a {type(rings).__name__}, not a list of rings")
+        read = [self._ring(ring, _at(place, f"ring {number}")) for number, ring in enumerate(rings, 1)]
         kept = [ring for ring in read if ring is not None]
         if kept:
-            yield Area(kept, look, where)
+            yield Area(kept, look, place)
 
-    def _ring(self, ring: Any, where: str) -> Ring | None:
+    def _ring(self, ring: Any, place: str) -> Ring | None:
         """Positions of a ring, the first not repeated at the end; None of fewer than three."""
         if not isinstance(ring, list):
-            raise SourceError(f"{where} is a {type(ring).__name__}, not a list of positions; correct it")
+            raise SourceError(f"{place} is a {type(ring).__name__}, not a list of positions; correct it")
         self._positions += len(ring)
         if self._positions > MOST_POSITIONS:
-            raise SourceError(f"{where} is beyond the limit of {MOST_POSITIONS:,} positions; simplify or split it")
+            raise SourceError(f"{place} is beyond the limit of {MOST_POSITIONS:,} positions; simplify or split it")
         points = _usual(ring)
         if points is None:
-            points = _position_by_position(ring, where)
+            points = _position_by_position(ring, place)
         if len(points) > 1 and (points[0] == points[-1]).all():
             points = points[:-1]
         if len(points) < 3:
@@ -283,11 +285,11 @@ class _Reader:
         fill, opacity = properties.get("fill", "#000"), properties.get("fill-opacity", 1)
         match = COLOR.fullmatch(fill) if isinstance(fill, str) else None
         if match is None:
-            self._notes.left_out(f"fill {_shown(fill)} (colours are #rgb or #rrggbb)")
+            self._notes.left_out(f"fill {_format_value(fill)} (colours are #rgb or #rrggbb)")
         if "stroke" in properties:
             self._notes.left_out("stroke of a feature")
         if type(opacity) not in NUMBERS or not 0 <= opacity <= 1:
-            self._notes.left_out(f"fill-opacity {_shown(opacity)}")
+            self._notes.left_out(f"fill-opacity {_format_value(opacity)}")
             opacity = 1
         digits = match[1] if match else "000"
         step = len(digits) // 3
@@ -310,11 +312,11 @@ def _usual(ring: list[Any]) -> Ring | None:
     return points if bool((np.abs(points) <= LARGEST).all()) else None
 
 
-def _position_by_position(ring: list[Any], where: str) -> Ring:
+def _position_by_position(ring: list[Any], place: str) -> Ring:
     """Positions of any ring, or an error that names the invalid one."""
     for number, position in enumerate(ring, 1):
         if not isinstance(position, list) or len(position) < 2 or any(type(c) not in NUMBERS for c in position[:2]):
-            raise SourceError(f"{where}, position {number} is {_shown(position)}; it must be two numbers")
+            raise SourceError(f"{place}, position {number} is {_format_value(position)}; it must be two numbers")
     try:
         points = np.array([position[:2] for position in ring], np.float64).reshape(-1, 2)
     except OverflowError:  # an integer beyond all floats
@@ -323,7 +325,7 @@ def _position_by_position(ring: list[Any], where: str) -> Ring:
     if bad.any():
         number = int(bad.argmax()) + 1
         raise SourceError(
-            f"{where}, position {number} is {_shown(ring[number - 1])}; give finite numbers up to {LARGEST:g}"
+            f"{place}, position {number} is {_format_value(ring[number - 1])}; give finite numbers up to {LARGEST:g}"
         )
     return points
 
@@ -334,11 +336,11 @@ def _contour(ring: Ring) -> NDArray[np.float64]:
     return line_cubics(turned, np.roll(turned, -1, axis=0))
 
 
-def _at(where: str, what: str) -> str:
-    return f"{where}, {what}" if where else what
+def _at(place: str, part: str) -> str:
+    return f"{place}, {part}" if place else part
 
 
-def _shown(value: Any) -> str:
+def _format_value(value: Any) -> str:
     """A value for a message: short, in one line."""
     if isinstance(value, dict):
         return "an object"

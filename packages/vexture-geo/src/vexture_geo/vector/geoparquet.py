@@ -89,7 +89,7 @@ def geometry_column(file: Any) -> GeometryColumn:
     for field in schema:
         extension, about = _extension(field)
         if extension.startswith(EXTENSION):
-            return _checked(field.name, extension.removeprefix(EXTENSION), *about)
+            return _make_column(field.name, extension.removeprefix(EXTENSION), *about)
     return _of_name(schema)
 
 
@@ -104,10 +104,10 @@ def _of_metadata(geo: bytes, schema: "pyarrow.Schema") -> GeometryColumn:
         raise SourceError('the metadata "geo" of the table are damaged; save it again') from None
     if name not in schema.names:
         raise SourceError(f"its metadata name a column of geometries, {name!r:.60}, that it does not have; {REMEDY}")
-    return _checked(str(name), encoding, crs, edges)
+    return _make_column(str(name), encoding, crs, edges)
 
 
-def _checked(name: str, encoding: str, crs: Any, edges: Any) -> GeometryColumn:
+def _make_column(name: str, encoding: str, crs: Any, edges: Any) -> GeometryColumn:
     """A column of an encoding that is known."""
     if encoding not in (WKB, WKT, *DEPTHS):
         raise SourceError(f"its geometries are {encoding!r:.60}; {REMEDY}")

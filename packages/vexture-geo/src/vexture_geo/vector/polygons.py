@@ -18,26 +18,26 @@ from vexture.drawing.unit_square import clip_contours, tidy_contours
 from vexture_geo.base.coordinate_units import refuse_other_units
 from vexture_geo.base.crs import (
     UNPLACED,
-    chosen_crs,
+    choose_crs,
+    format_bounds,
+    format_system,
     frame_of,
     gis_packages,
     like_degrees,
     period,
     refuse_metres,
     same_system,
-    shown_bounds,
-    shown_system,
     system,
-    transformed,
-    transformed_bounds,
+    transform_bounds,
+    transform_points,
 )
 from vexture_geo.base.extent import Bounds, Extent, Frame, Step, bounds_of_square
-from vexture_geo.base.longitudes import note_short_ways, unwrapped
-from vexture_geo.base.rings import Rings, cut, moved, oriented, refuse_far, repaired, shared, within
-from vexture_geo.vector.archives import unzipped
+from vexture_geo.base.longitudes import note_short_ways, unwrap_rings
+from vexture_geo.base.rings import Rings, cut, map_rings, orient_rings, refuse_far, repair_rings, snap_rings, within
+from vexture_geo.vector.archives import unzip
 from vexture_geo.vector.arrow_files import is_table
-from vexture_geo.vector.feature_tables import Choice, chunks_of
-from vexture_geo.vector.geojson import UNLOCATED, WORLD, met
+from vexture_geo.vector.feature_tables import FeatureQuery, chunks_of
+from vexture_geo.vector.geojson import UNLOCATED, WORLD, omissions
 from vexture_geo.vector.vectors import areas_of_wkb, read_areas
 
 __all__ = ["read_polygons"]
@@ -65,26 +65,26 @@ def read_polygons(
     """
     notes = Notes()
     rings, named = _areas(source, file_name, layer, notes)
-    own = chosen_crs(crs, named)
+    own = choose_crs(crs, named)
     refuse_far(rings, "correct it")
     turn = period(own)
     if turn and len(rings.ends):
-        refuse_metres(rings.points, own, f"the coordinates {shown_bounds(rings.box, own)}")
+        refuse_metres(rings.points, own, f"the coordinates {format_bounds(rings.box, own)}")
         note_short_ways(rings.steps, turn, notes)
-        rings = unwrapped(rings, turn)
+        rings = unwrap_rings(rings, turn)
     if len(rings.ends):
         said = None if named == WORLD else named  # GeoJSON that names no system may be a plane of its own
         refuse_other_units(own, said, "", rings.box, is_given=crs is not None)
-        rings = repaired(rings, notes)
+        rings = repair_rings(rings, notes)
     # features without geometry are an empty flood; anything else without polygons is a mistake
     if not len(rings.ends) and any(note.message != UNLOCATED for note in notes.in_order):
-        raise SourceError(f"it holds no polygon{met(notes)}; give polygons of what is under water")
+        raise SourceError(f"it holds no polygon{omissions(notes)}; give polygons of what is under water")
     if frame is None:
         if bounds is None and not len(rings.ends):
             raise SourceError("it holds no polygon; for an empty flood, give `bounds`")
         frame = frame_of(bounds, bounds or rings.box, own)
-    rings = shared(_placed(rings, own, frame), float(np.abs(frame.to_source[:, :2]).max()), snap, notes)
-    drawing = _drawn(rings, frame, FilePath(file_name).stem)
+    rings = snap_rings(_place_rings(rings, own, frame), float(np.abs(frame.to_source[:, :2]).max()), snap, notes)
+    drawing = _draw_rings(rings, frame, FilePath(file_name).stem)
     return Extent(frame, (Step(replace(drawing, notes=notes.in_order)),), notes=notes.in_order)
 
 
@@ -92,7 +92,7 @@ def _areas(
     source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, notes: Notes
 ) -> tuple[Rings, str | None]:
     """Polygons of any file, in its own coordinates, and the reference system that it names."""
-    source = unzipped(unpack_source(source))
+    source = unzip(unpack_source(source))
     if not is_table(source):
         if not is_geodatabase(source) and kind_of(start_of(source), file_name) is FileKind.SVG:  # by no other sign
             raise SourceError(
@@ -100,51 +100,51 @@ def _areas(
                 "convert it to one of them"
             )
         return read_areas(source, file_name, layer, notes)
-    (chunk,) = chunks_of(source, Choice(layer, columns=()), None)
+    (chunk,) = chunks_of(source, FeatureQuery(layer, columns=()), None)
     rings = areas_of_wkb(chunk.shapes, notes)
     return rings, chunk.crs(rings.points)
 
 
-def _placed(rings: Rings, own: str, frame: Frame) -> Rings:
+def _place_rings(rings: Rings, crs: str, frame: Frame) -> Rings:
     """Rings near a frame, in its reference system."""
     if not len(rings.ends):
         return rings
     before, turn, square = rings, period(frame.crs), bounds_of_square(frame)
-    if not same_system(own, frame.crs):
-        reach = transformed_bounds(bounds_of_square(frame, BEYOND), frame.crs, own)
+    if not same_system(crs, frame.crs):
+        reach = transform_bounds(bounds_of_square(frame, BEYOND), frame.crs, crs)
         if reach is not None:
-            rings = cut(within(rings, reach, period(own)), reach)
+            rings = cut(within(rings, reach, period(crs)), reach)
         sides = frame.to_source[:, :2].diagonal()
-        rings = moved(rings, lambda points: transformed(points, own, frame.crs), square, sides)
+        rings = map_rings(rings, lambda points: transform_points(points, crs, frame.crs), square, sides)
         refuse_far(
             rings,
-            f"it has no place in the reference system of the frame, {shown_system(frame.crs)}; choose other bounds",
+            f"it has no place in the reference system of the frame, {format_system(frame.crs)}; choose other bounds",
         )
         if turn:
-            rings = unwrapped(rings, turn)
+            rings = unwrap_rings(rings, turn)
     if not len(within(rings, frame.bounds, turn).ends):
-        raise SourceError(_outside(before, own, frame))
+        raise SourceError(_outside(before, crs, frame))
     return within(rings, square, turn)
 
 
-def _outside(rings: Rings, own: str, frame: Frame) -> str:
+def _outside(rings: Rings, crs: str, frame: Frame) -> str:
     """Message that no polygon lies within the bounds, with the likely reason."""
     extent, bounds = rings.box, frame.bounds
-    text = f"its extent {shown_bounds(extent, own)} is outside of the bounds {shown_bounds(bounds, frame.crs)}"
+    text = f"its extent {format_bounds(extent, crs)} is outside of the bounds {format_bounds(bounds, frame.crs)}"
     degrees, wanted = like_degrees(extent), like_degrees(bounds)
-    if degrees and not system(own).is_geographic:
+    if degrees and not system(crs).is_geographic:
         return f"{text}; its coordinates look like degrees: give `crs` EPSG:4326"
     if wanted and not system(frame.crs).is_geographic:
-        return f"{text}; the bounds look like degrees: give them in the units of {shown_system(frame.crs)}"
+        return f"{text}; the bounds look like degrees: give them in the units of {format_system(frame.crs)}"
     return f"{text}; correct the bounds, or `crs`"
 
 
-def _drawn(rings: Rings, frame: Frame, name: str) -> Drawing:
+def _draw_rings(rings: Rings, frame: Frame, name: str) -> Drawing:
     """Rings as one path in the unit square of a frame."""
     crs = None if frame.crs == UNPLACED else frame.crs
     if not len(rings.ends):
         return Drawing((), frame.to_source, name, crs)
-    turned = oriented(rings)
+    turned = orient_rings(rings)
     start: NDArray[np.float64] = (turned.points - frame.to_source[:, 2]) / frame.to_source.diagonal()
     end = start[turned.following]
     if start.min() >= 0.0 and start.max() <= 1.0 and (np.abs(end - start) > CLOSED).any(axis=1).all():

@@ -35,16 +35,16 @@ from vexture_geo.vector.archives import (
     FOLDER,
     KML,
     MAIN,
+    pack_shapefile,
     packed_files,
     refuse_links_of_folder,
-    unzipped,
-    whole_shapefile,
+    unzip,
 )
 from vexture_geo.vector.databases import as_geopackage, refuse_links_of_database
 from vexture_geo.vector.markup import links_of_markup
 from vexture_geo.vector.sequences import one_json
 
-__all__ = ["JSON", "VectorFile", "opened_vectors"]
+__all__ = ["JSON", "VectorFile", "open_vectors"]
 
 JSON: Final = ("GeoJSON", "TopoJSON")
 SHAPEFILES: Final = ("ESRI Shapefile",)
@@ -81,7 +81,7 @@ class VectorFile:
 
 
 @contextmanager
-def opened_vectors(source: str | os.PathLike[str] | bytes) -> Iterator[VectorFile]:
+def open_vectors(source: str | os.PathLike[str] | bytes) -> Iterator[VectorFile]:
     """A file of features, within this context; a `SourceError` if it is none, or names other files."""
     if is_geodatabase(source):
         place = plain_place(source)
@@ -95,7 +95,7 @@ def opened_vectors(source: str | os.PathLike[str] | bytes) -> Iterator[VectorFil
         yield placed
         return
     with ExitStack() as opened:
-        yield _in_memory(read_bytes(unzipped(source)), opened)
+        yield _in_memory(read_bytes(unzip(source)), opened)
 
 
 def _on_disk(path: Path) -> VectorFile | None:
@@ -106,7 +106,7 @@ def _on_disk(path: Path) -> VectorFile | None:
     size = path.stat().st_size
     if start.startswith(SHAPEFILE):
         if size <= LARGEST_FILE:
-            return VectorFile(whole_shapefile(path), SHAPEFILES)
+            return VectorFile(pack_shapefile(path), SHAPEFILES)
         with path.open("rb") as file:
             refuse_cut(path.name, file.read(HEADER), size)
         for beside in path.parent.iterdir():

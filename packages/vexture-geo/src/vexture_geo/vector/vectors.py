@@ -20,23 +20,23 @@ from vexture.base.errors import LimitError, ParameterError, SourceError
 from vexture.base.notes import Notes
 from vexture_geo.base.gdal import vector_formats
 from vexture_geo.base.rings import Rings, rings_of
-from vexture_geo.vector.archives import unzipped
-from vexture_geo.vector.curves import straightened
+from vexture_geo.vector.archives import unzip
+from vexture_geo.vector.curves import straighten_curves
 from vexture_geo.vector.geojson import UNLOCATED, areas_of
 from vexture_geo.vector.sequences import one_json
-from vexture_geo.vector.vector_files import VectorFile, opened_vectors
+from vexture_geo.vector.vector_files import VectorFile, open_vectors
 
 __all__ = [
     "DAMAGED",
     "Layer",
     "areas_of_wkb",
     "check_memory",
-    "chosen_layer",
+    "choose_layer",
     "gdal_errors",
     "gdal_reason",
     "is_memory",
     "layers_of",
-    "parsed_wkb",
+    "parse_wkb",
     "parts_of",
     "read_areas",
 ]
@@ -86,7 +86,7 @@ def read_areas(
 
     `LimitError` if it has several layers and `layer` is None, `ParameterError` if it has no such layer.
     """
-    source = unzipped(decompress(source) if isinstance(source, bytes) else source)
+    source = unzip(decompress(source) if isinstance(source, bytes) else source)
     kind = FileKind.AREAS if is_geodatabase(source) else kind_of(start_of(source) or read_bytes(source), file_name)
     if kind is FileKind.TEXTURE:
         raise SourceError("is a texture already; give the data that it was made from")
@@ -95,7 +95,7 @@ def read_areas(
             raise ParameterError(f"GeoJSON has no layers, so none {layer!r}; leave `layer` out")
         return _geojson(one_json(read_bytes(source)), notes)
     import_module("pyogrio")  # who lacks it is told so first
-    with opened_vectors(source) as file:
+    with open_vectors(source) as file:
         for link, count in file.links.items():
             notes.remark(link, count)
         return _gdal(file, layer, notes)
@@ -115,17 +115,17 @@ def _gdal(file: VectorFile, layer: str | None, notes: Notes) -> tuple[Rings, str
     from pyogrio import raw
 
     with gdal_errors(file.formats):
-        chosen = chosen_layer(layers_of(file, layer), layer)
+        chosen = choose_layer(layers_of(file, layer), layer)
         meta, _, shapes, _ = raw.read(file.content, layer=chosen.number, columns=[], force_2d=True)
     if shapes is None:
         raise SourceError(f"its layer {chosen.name!r} has no geometries; choose another by `layer`")
     return areas_of_wkb(shapes, notes), meta["crs"]
 
 
-def layers_of(file: VectorFile, wanted: str | None) -> list[Layer]:
+def layers_of(file: VectorFile, name: str | None) -> list[Layer]:
     """Layers to choose from, within `gdal_errors`.
 
-    A format that always has the same layers has those with features, unless one is `wanted`, and none that has the
+    A format that always has the same layers has those with features, unless one is `name`, and none that has the
     points of another: GPX has those of its routes and tracks once more.
     """
     from pyogrio import list_layers, read_info
@@ -134,7 +134,7 @@ def layers_of(file: VectorFile, wanted: str | None) -> list[Layer]:
         Layer(number, OF_MEMORY.sub(UNNAMED, str(name)), None if kind is None else str(kind))
         for number, (name, kind) in enumerate(list_layers(file.content))
     ]
-    if not file.has_fixed_layers or wanted is not None:
+    if not file.has_fixed_layers or name is not None:
         return found
     own = [layer for layer in found if not layer.name.endswith(POINTS_OF_LINES)]
     infos = (read_info(file.content, layer=layer.number, force_feature_count=True) for layer in own)
@@ -187,26 +187,26 @@ def gdal_reason(error: Exception) -> str:
     return text[:160]
 
 
-def chosen_layer(layers: list[Layer], wanted: str | None, *, any_kind: bool = False) -> Layer:
+def choose_layer(layers: list[Layer], name: str | None, *, any_kind: bool = False) -> Layer:
     """The layer to read: one that may hold polygons, unless `any_kind`."""
     areal = [layer for layer in layers if any_kind or any(word in str(layer.kind) for word in AREAL)]
-    if wanted is None:
+    if name is None:
         if len(areal) == 1 or len(layers) == 1:
             return (areal or layers)[0]
         if not layers:
             raise SourceError("it has no layers; save it again")
-        raise LimitError(f"it has {len(areal or layers)} layers; choose one by `layer`: {_named(areal or layers)}")
+        raise LimitError(f"it has {len(areal or layers)} layers; choose one by `layer`: {_join_names(areal or layers)}")
     for layer in layers:
-        if layer.name == wanted:
+        if layer.name == name:
             return layer
-    raise ParameterError(f"it has no layer {wanted!r}; its layers are: {_named(layers)}")
+    raise ParameterError(f"it has no layer {name!r}; its layers are: {_join_names(layers)}")
 
 
-def _named(layers: list[Layer]) -> str:
+def _join_names(layers: list[Layer]) -> str:
     return ", ".join(layer.name for layer in layers[:MOST_NAMED]) + (", ..." if len(layers) > MOST_NAMED else "")
 
 
-def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArray[np.intp], NDArray[np.intp]]:
+def parse_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArray[np.intp], NDArray[np.intp]]:
     """Geometries of WKB as shapely's, and the place of each; what has none is noted and left out.
 
     The places of damaged ones, which are left out as well, come last.
@@ -219,7 +219,7 @@ def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArra
     for _ in range(int((~given).sum())):
         notes.left_out(UNLOCATED)
     feature = np.flatnonzero(given)
-    shapes = straightened(shapes)
+    shapes = straighten_curves(shapes)
     with np.errstate(invalid="ignore"):  # NaN is refused later, with the name of its ring
         whole = shapely.from_wkb(shapes[given], on_invalid="fix")
     broken = shapely.is_missing(whole)
@@ -269,7 +269,7 @@ def areas_of_wkb(shapes: NDArray[Any], notes: Notes) -> Rings:
     """Polygons of geometries in WKB."""
     import shapely
 
-    whole, feature, _ = parsed_wkb(shapes, notes)
+    whole, feature, _ = parse_wkb(shapes, notes)
     parts, owner = parts_of(whole)
     kinds = shapely.get_type_id(parts)
     areal = kinds == shapely.GeometryType.POLYGON

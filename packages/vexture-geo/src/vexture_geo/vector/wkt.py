@@ -48,11 +48,11 @@ def wkb_of_texts(texts: NDArray[Any]) -> NDArray[Any]:
         for place, shape, content in zip(straight, shapes, shapely.to_wkb(shapes), strict=True):
             found[place] = BROKEN if shape is None else content
         for place in others:
-            found[place] = _curved(str(plain[place]))
+            found[place] = _curved_wkb(str(plain[place]))
     return found
 
 
-def _curved(text: str) -> bytes:
+def _curved_wkb(text: str) -> bytes:
     """WKB of one text with curves or surfaces: GEOS writes those in a collection, which shapely has no type for."""
     import shapely
 

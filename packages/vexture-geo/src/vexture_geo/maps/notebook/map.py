@@ -95,23 +95,23 @@ def map(
     from vexture.base.deadline import DEFAULT_SECONDS
     from vexture_geo.maps import MapLayer, Scale
     from vexture_geo.maps.colours import check_scale
-    from vexture_geo.maps.convert import converted
+    from vexture_geo.maps.convert import convert_prepared
     from vexture_geo.maps.notebook.map_arguments import (
         OF_LAYER,
         OF_SCALE,
         OF_STEPS,
         check_source,
-        checked,
         column_of,
+        parse_options,
         size_of,
         times_of,
     )
     from vexture_geo.maps.place import MERCATOR
-    from vexture_geo.maps.prepare import prepared
+    from vexture_geo.maps.prepare import prepare_layers
 
     column = column_of(source, column)
     changing = times_of(source, column, times)
-    given = checked(options, column, legend, has_colours=column is not None or changing is not None)
+    given = parse_options(options, column, legend, has_colours=column is not None or changing is not None)
     check_source(source)
     shown = column if isinstance(column, str) and changing is None else None
     scale = Scale(
@@ -126,10 +126,10 @@ def map(
     size = size_of(given.pop("size", None), width, height)
     seconds = given.get("max_seconds", DEFAULT_SECONDS)
     with renaming({"color": "column"} if changing is None or changing.is_table else OF_STEPS):
-        ready = prepared([layer], name=title, crs=given.pop("crs", MERCATOR), size=size, max_seconds=seconds)
+        ready = prepare_layers([layer], name=title, crs=given.pop("crs", MERCATOR), size=size, max_seconds=seconds)
     asked_at = place_of_caller(1)
     warn_at(asked_at, ready.name, ready.notes.in_order)
     asked = {"width": width, "height": height, "background": background, "view": view}
     traits = {name: value for name, value in asked.items() if value is not None}
-    conversion = partial(converted, ready, **given, capacity=CAPACITY)
+    conversion = partial(convert_prepared, ready, **given, capacity=CAPACITY)
     return MapWidget(ready, scale, conversion, asked_at=asked_at, tooltip=tooltip, has_legend=legend, **traits)

@@ -18,8 +18,8 @@ __all__ = [
     "OF_SCALE",
     "OF_STEPS",
     "check_source",
-    "checked",
     "column_of",
+    "parse_options",
     "size_of",
     "times_of",
 ]
@@ -50,7 +50,7 @@ OWN: Final = {their: own for own, every in THEIRS.items() for their in every}
 """Options of GeoPandas' maps, and what does the same here."""
 
 
-def checked(options: dict[str, Any], column: Any, legend: Any, *, has_colours: bool) -> dict[str, Any]:
+def parse_options(options: dict[str, Any], column: Any, legend: Any, *, has_colours: bool) -> dict[str, Any]:
     """The options that are given: None is the default of each. Refuses what there is not, or what no map can have."""
     known = (*OF_SCALE, *OF_LAYER, *OF_MAP)
     for name in options:

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from vexture.renderers.accumulate import Sides, render_sides
 from vexture.renderers.view import Size, ViewLike
 from vexture.tree.planar.style import round_colours
-from vexture_geo.base.rings import Rings, oriented
+from vexture_geo.base.rings import Rings, orient_rings
 from vexture_geo.maps.colours import rgba_of
-from vexture_geo.maps.paths import Fit
-from vexture_geo.maps.prepare import DOT, FILL, INK, Painted, Prepared
+from vexture_geo.maps.paths import MapFit
+from vexture_geo.maps.prepare import DOT, FILL, INK, PaintedLayer, Prepared
 from vexture_geo.maps.symbols import Symbols
 
 __all__ = ["MapPicture", "map_picture", "plain"]
@@ -83,15 +83,15 @@ def plain(ready: Prepared, rgba: NDArray[np.float64]) -> NDArray[np.float64]:
     return changed
 
 
-def _ring_sides(rings: Rings, fit: Fit) -> Sides:
-    rings = oriented(rings)
+def _ring_sides(rings: Rings, fit: MapFit) -> Sides:
+    rings = orient_rings(rings)
     assert rings.feature is not None
     owner = np.repeat(rings.feature[rings.polygon], np.diff(rings.ends, prepend=0))
     points = fit.inward(rings.points)
     return Sides(points, points[rings.following], owner.astype(np.int64))
 
 
-def _symbols(one: Painted, symbols: Symbols, fit: Fit, rows: NDArray[np.intp]) -> _Sheet:
+def _symbols(one: PaintedLayer, symbols: Symbols, fit: MapFit, rows: NDArray[np.intp]) -> _Sheet:
     """Chords of the symbols of points; each path of a symbol has its own colour."""
     number = dict(zip(one.names.tolist(), rows.tolist(), strict=True))
     paths = [*symbols.paths(fit)]

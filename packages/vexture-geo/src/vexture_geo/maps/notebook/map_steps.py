@@ -13,13 +13,13 @@ from vexture_geo.maps.times import STEP_COLUMNS
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["COLOUR_ONE", "MapSteps", "coded", "steps_of"]
+__all__ = ["COLOUR_ONE", "MapSteps", "encode_colours", "steps_of"]
 
 COLOUR_ONE: Final = 10_000
 """What 1 of a colour is, as it is sent: colours of elements have four digits."""
 
 
-def coded(rgba: NDArray[np.float64]) -> dict[str, bytes]:
+def encode_colours(rgba: NDArray[np.float64]) -> dict[str, bytes]:
     """Colours, (..., 4), as they are sent: each one once, and the place of each among them."""
     whole = np.uint16(np.rint(COLOUR_ONE * rgba))
     unique, places = np.unique(whole.view(np.uint64).ravel(), return_inverse=True)
@@ -45,10 +45,10 @@ class MapSteps:
         rgba[self._rows] = self._steps.at(time)
         return round_colours(rgba)
 
-    def sent(self, rows: NDArray[np.intp]) -> dict[str, Any]:
+    def encode_steps(self, rows: NDArray[np.intp]) -> dict[str, Any]:
         """Colours of some rows of the table at all steps, one step after another; the places are deflated."""
         every = np.stack([self.at(step)[rows] for step in range(len(self.labels))])
-        parts = coded(every)
+        parts = encode_colours(every)
         return {"colors": parts["colors"], "places": zlib.compress(parts["places"])}
 
     def value(self, table: "pyarrow.Table", row: int, time: float) -> tuple[str, Any]:

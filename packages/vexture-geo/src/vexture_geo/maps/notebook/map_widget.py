@@ -25,7 +25,7 @@ from vexture.tree.planar.style import round_colours
 from vexture_geo.maps import Map, Scale
 from vexture_geo.maps.colours import colours_of
 from vexture_geo.maps.notebook.map_picture import map_picture, plain
-from vexture_geo.maps.notebook.map_steps import coded, steps_of
+from vexture_geo.maps.notebook.map_steps import encode_colours, steps_of
 from vexture_geo.maps.notebook.pending import Pending
 from vexture_geo.maps.notebook.tip import Tips
 from vexture_geo.maps.prepare import Prepared
@@ -108,12 +108,12 @@ class MapWidget(VectorWidget):
         self.observe(self._recolour, "column")
         self.observe(self._go, "time")
         self.observe(self._mark, "selected")
-        self.observe(self._tell, "hovered")
+        self.observe(self._update_tip, "hovered")
         self.observe(self._select, "picked")
         self.observe(lambda change: self._send_picture(change["new"]), "_wanted")
         self._lock = threading.RLock()
         with self._lock:  # a small map may arrive before its name is there
-            self._pending = Pending(lambda: _sent(conversion()), self._arrived)
+            self._pending = Pending(lambda: _encode(conversion()), self._show_texture)
 
     @property
     def texture(self) -> Texture:
@@ -121,16 +121,16 @@ class MapWidget(VectorWidget):
         try:
             self._pending.result()
         finally:
-            self._arrived()
+            self._show_texture()
         return super().texture
 
-    def _arrived(self) -> None:
+    def _show_texture(self) -> None:
         """Show the texture in place of the pictures."""
         with self._lock:
             if self._texture is not None or self.comm is None:
                 return
             if self._pending.error is not None:
-                self._failure = _said(self._pending.error)
+                self._failure = _error_message(self._pending.error)
                 return
             made, content = self._pending.result()
             texture = made.conversion.texture
@@ -168,20 +168,20 @@ class MapWidget(VectorWidget):
         timed = self._changing is not None and bool(self.times)
         if timed and self._steps is None:
             assert self._changing is not None
-            self._steps = self._changing.sent(self._style_rows)
+            self._steps = self._changing.encode_steps(self._style_rows)
         elif not timed:
             self._steps = None
-        self._coloring = coded(self._rgba[self._style_rows]) if self._is_recolored and not timed else None
+        self._coloring = encode_colours(self._rgba[self._style_rows]) if self._is_recolored and not timed else None
 
-    def _send_picture(self, wanted: Any) -> None:
+    def _send_picture(self, request: Any) -> None:
         """Send a picture of a view, (x, y, width, height), in so many pixels."""
-        if self._texture is not None or not wanted:
+        if self._texture is not None or not request:
             return
-        size = tuple(max(1, min(MOST_PIXELS, int(side))) for side in wanted["size"])
-        picture = self._sketched((size[0], size[1]), wanted["view"])
-        self._picture = {**wanted, "content": png_of(picture, "transparent", fast=True)}
+        size = tuple(max(1, min(MOST_PIXELS, int(side))) for side in request["size"])
+        picture = self._draw_picture((size[0], size[1]), request["view"])
+        self._picture = {**request, "content": png_of(picture, "transparent", fast=True)}
 
-    def _sketched(self, size: Size, view: Any) -> NDArray[np.float32]:
+    def _draw_picture(self, size: Size, view: Any) -> NDArray[np.float32]:
         """A picture of the map as it was read."""
         changed = {**self.components(self.colors), **self._marked}
         rgba = self._rgba.copy() if changed or self._is_recolored else None
@@ -198,7 +198,7 @@ class MapWidget(VectorWidget):
         """What the widget shows; see `VectorWidget.render`. Before the map is converted it is drawn as it was read."""
         if self._texture is not None:
             return super().render(size)
-        return self._sketched(size or (self.width or PICTURE_WIDTH, self.height), self.view)
+        return self._draw_picture(size or (self.width or PICTURE_WIDTH, self.height), self.view)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write what the widget shows; see `VectorWidget.save`."""
@@ -208,7 +208,7 @@ class MapWidget(VectorWidget):
 
     def only_saved(self) -> dict[str, Any]:
         """What a page tells of features."""
-        return {"_tips": self._tips.saved(self.column, bool(self.times))}
+        return {"_tips": self._tips.as_json(self.column, bool(self.times))}
 
     def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
         """Red, green, blue and opacity of colours by the names of features."""
@@ -268,7 +268,7 @@ class MapWidget(VectorWidget):
             self._mark({"new": self.selected})
             self.legend = _legend(legend) if legend and self._has_legend else None
             self._draw_again()
-        self._tell({"new": self.hovered})
+        self._update_tip({"new": self.hovered})
 
     def _colours_of(self, column: str) -> tuple[NDArray[np.float64], dict[str, Any]]:
         scale = replace(self._scale, column=column)
@@ -285,7 +285,7 @@ class MapWidget(VectorWidget):
             return
         self._rgba, self._is_recolored = self._changing.at(change["new"]), True
         self._draw_again()
-        self._tell({"new": self.hovered})
+        self._update_tip({"new": self.hovered})
 
     def _draw_again(self) -> None:
         """Draw the picture that stands for the texture."""
@@ -299,9 +299,9 @@ class MapWidget(VectorWidget):
         if "name" in change:
             self._draw_again()
 
-    def _tell(self, change: Any) -> None:
+    def _update_tip(self, change: Any) -> None:
         row = self._feature((change["new"] or {}).get("element"))
-        self.tip = [] if row is None else self._tips.of(row, self.column, self.time if self.times else None)
+        self.tip = [] if row is None else self._tips.tip_of(row, self.column, self.time if self.times else None)
 
     def _select(self, change: Any) -> None:
         found = (change["new"] or {}).get("element")
@@ -316,7 +316,7 @@ def _legend(found: dict[str, Any]) -> dict[str, Any]:
     return {"title": found["column"], "kind": found["scale"], "entries": entries}
 
 
-def _said(error: BaseException) -> str:
+def _error_message(error: BaseException) -> str:
     """What went wrong in a line; an error that is none of ours with its class."""
     if isinstance(error, EXPECTED) or not isinstance(error, Exception):
         return str(error)
@@ -329,6 +329,6 @@ def _home(sides: tuple[float, float]) -> Rect:
     return (0.5 - width / 2 - MARGIN, 0.5 - height / 2 - MARGIN, width + 2 * MARGIN, height + 2 * MARGIN)
 
 
-def _sent(made: Map) -> tuple[Map, bytes]:
+def _encode(ready: Map) -> tuple[Map, bytes]:
     """A map, and the bytes that a page gets."""
-    return made, made.conversion.texture.to_ktx2()
+    return ready, ready.conversion.texture.to_ktx2()

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from vexture_geo.maps.notebook.map_steps import MapSteps
 
-__all__ = ["Tips", "shown"]
+__all__ = ["Tips", "format_attribute"]
 
 MOST_TOLD: Final = 12
 """Attributes in a tip."""
@@ -36,7 +36,7 @@ class Tips:
 
     def __init__(self, table: "pyarrow.Table", tooltip: Any, steps: "MapSteps | None") -> None:
         self._table, self._steps = table, steps
-        self._chosen = _chosen(table.column_names, tooltip)
+        self._chosen = _chosen_names(table.column_names, tooltip)
 
     def _names(self, column: str | None) -> list[str]:
         """Attributes that are told: what is shown first, and those of steps only if they are named."""
@@ -46,27 +46,30 @@ class Tips:
         every = [name for name in self._table.column_names if name not in steps and name != column]
         return [*([] if column is None else [column]), *every][:MOST_TOLD]
 
-    def of(self, row: int, column: str | None, time: float | None) -> list[list[str]]:
+    def tip_of(self, row: int, column: str | None, time: float | None) -> list[list[str]]:
         """Names and values of a row, where a column is shown, or a time in steps."""
         values = self._table.slice(row, 1).to_pylist()[0]
-        tip = [[name, shown(values[name])] for name in self._names(column)]
+        tip = [[name, format_attribute(values[name])] for name in self._names(column)]
         if time is None or self._steps is None or self._chosen == []:
             return tip
         name, value = self._steps.value(self._table, row, time)
-        return [[name, shown(value)], *tip]
+        return [[name, format_attribute(value)], *tip]
 
-    def saved(self, column: str | None, is_timed: bool) -> dict[str, Any] | None:
+    def as_json(self, column: str | None, is_timed: bool) -> dict[str, Any] | None:
         """Tips of all features for a page without a kernel: by their names the values, and those of steps."""
         if len(self._table) > MOST_SAVED or self._chosen == []:
             return None
         names = self._names(column)
         steps = list(self._steps.columns) if is_timed and self._steps else []
-        columns = [[shown(value) for value in self._table.column(name).to_pylist()] for name in ("id", *names, *steps)]
+        columns = [
+            [format_attribute(value) for value in self._table.column(name).to_pylist()]
+            for name in ("id", *names, *steps)
+        ]
         ids = self._table.column("id").to_pylist()
         return {"names": names, "values": dict(zip(ids, (row[1:] for row in zip(*columns, strict=True)), strict=True))}
 
 
-def _chosen(names: Sequence[str], tooltip: Any) -> list[str] | None:
+def _chosen_names(names: Sequence[str], tooltip: Any) -> list[str] | None:
     """Attributes that a tip has; None if they are not chosen."""
     if tooltip is True:
         return None
@@ -81,12 +84,12 @@ def _chosen(names: Sequence[str], tooltip: Any) -> list[str] | None:
     return chosen
 
 
-def shown(value: Any) -> str:
+def format_attribute(value: Any) -> str:
     """A value in a tip: a number has no marks of thousands, which legends have, as it may be a year or a code.
 
     Examples
     --------
-    >>> shown(3.0), shown(36061), shown(1234567.891), shown(None)
+    >>> format_attribute(3.0), format_attribute(36061), format_attribute(1234567.891), format_attribute(None)
     ('3', '36061', '1234567.89', '–')
     """
     if value is None or value != value:
