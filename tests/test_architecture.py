@@ -187,6 +187,43 @@ def test_imports_point_one_way(path):
     assert "vexture_evidence" not in path.read_text(encoding="utf-8"), "evidence stands on the library"
 
 
+def documented_folders():
+    """Folders that ARCHITECTURE.md lists, by package, in its order."""
+    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    listed = re.search(r"<!-- folders: .*?```\n(.*?)```", text, re.S)[1]
+    found, package = {}, ""
+    for line in listed.splitlines():
+        name = line.split()[0]
+        if line.startswith(" "):
+            found[package].append(name.rstrip("/"))
+        else:
+            package = name.rstrip("/")
+            found[package] = []
+    return found
+
+
+def test_architecture_lists_the_folders_that_there_are():
+    packages = sorted(path for path in (ROOT / "packages").glob("*/src/vexture*") if path.suffix != ".egg-info")
+    kept_out = {"__pycache__", "compiled"}
+    there = {
+        package.relative_to(ROOT).as_posix(): {path.name for path in package.iterdir() if path.is_dir()} - kept_out
+        for package in packages
+    }
+    documented = documented_folders()
+    documented["packages/vexture-evidence/src/vexture_evidence"].append("shaders")  # of two rivals
+    assert {package: set(folders) for package, folders in documented.items()} == there
+
+
+def test_architecture_lists_folders_in_the_order_of_their_imports():
+    for package, folders in documented_folders().items():
+        prefix = "vexture_geo." if package.endswith("vexture_geo") else ""
+        for number, folder in enumerate(folders):
+            reached = {
+                name.removeprefix(prefix) for name in MAY_IMPORT.get(prefix + folder, ()) if name.startswith(prefix)
+            }
+            assert not reached & set(folders[number + 1 :]), folder
+
+
 def full_name(name):
     return name if name.startswith("vexture_geo") else f"vexture.{name}"
 

@@ -1,4 +1,4 @@
-"""A plugin of pytest that hides vexture-geo and vexture-evidence: `pytest -p core_alone tests/core` needs neither."""
+"""A plugin of pytest that hides vexture-geo and vexture-evidence: `PYTHONPATH=tools pytest -p core_alone tests/core` needs neither."""
 
 import importlib.metadata
 import sys
