@@ -1,9 +1,12 @@
 """Draw the README's pictures by the program itself: `python tools/make_pictures.py` writes docs/pictures/*.png.
 
-A drawing, the tree of cells that it becomes, the pair of textures that holds the tree, and what the shader's mirror
-draws from those textures: magnified, each time around the same point, and at small sizes.
+A logo close to and far away, beside a PNG of as many bytes; a drawing, the tree of cells that it becomes, the pair of
+textures that holds the tree, and what the shader's mirror draws from those textures: magnified, each time around the
+same point, and at small sizes. `python tools/make_pictures.py logo` makes one of the pictures. Logos and icons come
+from npm.
 """
 
+import io
 import sys
 import tempfile
 from pathlib import Path
@@ -18,6 +21,7 @@ from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellTree
 from vexture_evidence.figures.textures import texture_images
 from vexture_evidence.measures.leaves import leaves
+from vexture_evidence.measures.raster import footprint, mip_sides, trilinear
 from vexture_evidence.measures.thesis_decode import decode
 
 __all__ = ["sheet"]
@@ -28,7 +32,10 @@ TARGET = ROOT / "docs" / "pictures" / "first.png"
 PACKED_TARGET = TARGET.with_name("packed.png")
 ICONS_TARGET = TARGET.with_name("icons.png")
 EQUAL_TARGET = TARGET.with_name("equal-bytes.png")
+LOGO_TARGET = TARGET.with_name("logo.png")
 LETTERING = SHAPE.with_name("font.svg")
+LOGO = "python/python-original.svg"  # of devicon
+LOGO_POINT, LOGO_ZOOMS = (0.49951, 0.72263), (1, 10, 300)  # a corner of it
 
 PANEL, GAP, CAPTION = 360, 28, 44  # pixels
 FINER = 4  # times the pixels that lines are drawn in
@@ -155,6 +162,58 @@ def panels() -> list[list[Panel]]:
     ]
 
 
+def paint(colors: NDArray[np.float64] | NDArray[np.float32]) -> Image.Image:
+    """Premultiplied colours on paper."""
+    return Image.fromarray(np.uint8(np.rint(255.0 * np.clip(colors[..., :3] + 1.0 - colors[..., 3:], 0.0, 1.0))))
+
+
+def png_bytes(colors: NDArray[np.float32]) -> bytes:
+    """The PNG of a picture, as small as Pillow makes it."""
+    opacity = colors[..., 3:]
+    straight = np.divide(colors[..., :3], opacity, out=np.zeros_like(colors[..., :3]), where=opacity > 0.0)
+    pixels = np.uint8(np.rint(255.0 * np.clip(np.concatenate([straight, opacity], 2), 0.0, 1.0)))
+    out = io.BytesIO()
+    Image.fromarray(pixels).save(out, "PNG", optimize=True)
+    return out.getvalue()
+
+
+def largest_png(texture: vexture.Texture, limit: int) -> tuple[int, int]:
+    """Side in pixels and size in bytes of the largest PNG of at most `limit` bytes."""
+    side, size = 8, 0
+    while (following := len(png_bytes(texture.render(side + 1)))) <= limit:
+        side, size = side + 1, following
+    return side, size
+
+
+def logo_panels() -> list[list[Panel]]:
+    """A logo drawn from its texture, and from a PNG of as many bytes as a graphics processor filters it."""
+    sys.path.insert(0, str(ROOT / "packages" / "vexture-evidence" / "benchmarks"))
+    import corpora
+
+    texture = vexture.convert(corpora.DEVICON.installed_folder() / corpora.DEVICON.folder / LOGO)
+    assert isinstance(texture, vexture.Texture)
+    with tempfile.TemporaryDirectory() as folder:
+        texture.save(file := Path(folder) / "logo.ktx2")
+        size = file.stat().st_size
+    side, smaller = largest_png(texture, size)
+    levels = [np.uint8(np.rint(255.0 * texture.render(n))) for n in (side, *mip_sides(side))]
+    ours: list[Panel] = []
+    theirs: list[Panel] = []
+    views = [("on a plane", LEANING)]
+    for zoom in LOGO_ZOOMS:
+        x, y = (min(max(middle - 0.5 / zoom, 0.0), 1.0 - 1.0 / zoom) for middle in LOGO_POINT)
+        matrix = window(x, y, 1.0 / zoom, 1.0 / zoom).matrix((PANEL, PANEL))
+        views.append((f"{zoom} times" if zoom > 1 else "the whole logo", matrix))
+    for title, matrix in views:
+        place = footprint((PANEL, PANEL), matrix)
+        channels = [trilinear([level[..., channel] for level in levels], place) for channel in range(4)]
+        filtered = np.where(place.visible[..., None], np.stack(channels, 2) / 255.0, 0.0)
+        ours.append((title, "" if ours else f"vexture: {size:,} bytes", paint(texture.render(PANEL, matrix))))
+        name, text = ("", "") if theirs else ("PNG", f"{side} by {side} pixels: {smaller:,} bytes")
+        theirs.append((name, text, paint(filtered)))
+    return [ours, theirs]
+
+
 def packed_panels() -> list[list[Panel]]:
     """Pictures of the packed encoding: planes seen from the side, maps, deep zoom."""
     sys.path.insert(0, str(ROOT / "packages" / "vexture-evidence" / "benchmarks"))
@@ -207,11 +266,14 @@ def equal_bytes() -> Image.Image:
 
 if __name__ == "__main__":
     TARGET.parent.mkdir(parents=True, exist_ok=True)
-    sheet(panels()).save(TARGET, optimize=True)
-    print(TARGET)
-    sheet(packed_panels()).save(PACKED_TARGET, optimize=True)
-    print(PACKED_TARGET)
-    icons().save(ICONS_TARGET, optimize=True)
-    print(ICONS_TARGET)
-    equal_bytes().save(EQUAL_TARGET, optimize=True)
-    print(EQUAL_TARGET)
+    pictures = {
+        LOGO_TARGET: lambda: sheet(logo_panels()),
+        TARGET: lambda: sheet(panels()),
+        PACKED_TARGET: lambda: sheet(packed_panels()),
+        ICONS_TARGET: icons,
+        EQUAL_TARGET: equal_bytes,
+    }
+    for target, draw_picture in pictures.items():
+        if target.stem in (sys.argv[1:] or [target.stem]):
+            draw_picture().save(target, optimize=True)
+            print(target)

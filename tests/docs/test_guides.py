@@ -35,6 +35,17 @@ def test_the_guide_for_python_does_what_it_says(tmp_path: Path) -> None:
         assert 1 - np.asarray(image).mean() / 255 == pytest.approx(0.24, abs=0.01)
 
 
+def test_the_overview_does_what_it_says(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    folder.mkdir()
+    with Reader(folder) as reader:
+        for block in blocks_of("overview"):
+            reader.take(block)
+    (colours,), (outline,) = (vexture.load(folder / f"{name}.ktx2").roots for name in ("logo", "outline"))
+    assert colours.style is None
+    assert outline.paint is None
+
+
 @pytest.mark.long
 def test_the_guide_for_the_command_line_does_what_it_says(tmp_path: Path) -> None:
     folder = tmp_path / "run"
