@@ -34,7 +34,7 @@ unexport PYTHONDONTWRITEBYTECODE
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo counties docs gallery report viewer test sweep checks checks-web lint kernels test-web bench conformance fuzz dist dist-check clean
+.PHONY: help demo counties docs gallery report viewer test test-core sweep checks checks-web lint kernels test-web bench conformance fuzz dist dist-check clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
@@ -42,6 +42,7 @@ help:
 	@echo 'make gallery  build a site of live, editable examples, with node and npm; it opens from the disk, too'
 	@echo 'make counties  build a page with a map of all counties of the United States, with node and npm'
 	@echo 'make test    lint, types and tests, with all that they need'
+	@echo 'make test-core  the tests of the core, without vexture-geo and vexture-evidence'
 	@echo 'make sweep   the tests that take long and find little that those do not, and 24,000 drawings of others'
 	@echo 'make docs    build the documentation into site/, to be read from the disk'
 	@echo 'make report  measure the tables and figures of the thesis again; the page is demo/report/index.html'
@@ -157,6 +158,11 @@ test: .venv/made
 		$(MAKE) --no-print-directory checks; checked=$$?; \
 		wait $$web && exit $$checked
 	$(PYTEST) -m 'not slow'
+
+# as where only the core is installed; tests that compare with other programs, which vexture-evidence has, say that they
+# are skipped
+test-core: .venv/for-test
+	PYTHONPATH=tools $(PYTEST) -p core_alone -m 'not slow' tests/core
 
 # what `test` leaves out; the drawings come from npm and, on Debian, from apt
 sweep: .venv/for-test $(VIEWER)

@@ -1,4 +1,7 @@
-"""A plugin of pytest that hides vexture-geo and vexture-evidence: `PYTHONPATH=tools pytest -p core_alone tests/core` needs neither."""
+"""A plugin of pytest that hides vexture-geo and vexture-evidence, as where only the core is installed.
+
+PYTHONPATH=tools python -m pytest -p core_alone tests/core
+"""
 
 import importlib.metadata
 import sys

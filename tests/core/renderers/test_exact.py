@@ -25,7 +25,9 @@ from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.renderers.exact import render_exact
 from vexture.renderers.flatten import CHORD_LIMIT
 from vexture.renderers.view import SIZE_LIMIT, fit, window
-from vexture_evidence.measures.peers import skia_path
+
+peers = pytest.importorskip("vexture_evidence.measures.peers", reason="it needs vexture-evidence")
+skia_path = peers.skia_path
 
 PROMISE = 0.03 / 255
 RULES = [FillRule.NONZERO, FillRule.EVENODD]

@@ -8,13 +8,16 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+import pytest
 import resvg
 import skia
 from PIL import Image
 
 from same_fonts import FONTS
 from vexture.drawing.drawing import Drawing
-from vexture_evidence.measures.peers import paint_with_skia
+
+peers = pytest.importorskip("vexture_evidence.measures.peers", reason="it needs vexture-evidence")
+paint_with_skia = peers.paint_with_skia
 
 __all__ = ["difference", "different_part", "render_drawing", "render_file"]
 

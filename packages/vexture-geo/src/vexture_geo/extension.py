@@ -1,4 +1,4 @@
-"""What vexture asks of this package, by the entry point `vexture.readers`: see `vexture.conversion.extensions`."""
+"""Functions that vexture calls here, by the entry point `vexture.readers`: see `vexture.conversion.extensions`."""
 
 import os
 from pathlib import Path

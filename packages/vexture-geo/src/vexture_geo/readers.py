@@ -168,5 +168,5 @@ def read_first_step(source: Place | bytes, file_name: str, snap: float | None) -
     drawing, count = extent.steps[0].drawing, len(extent.steps)
     if count == 1:
         return drawing
-    told = Note("remark", f"it has {count} times, of which the first is read; vexture flood shows all")
-    return replace(drawing, notes=(*drawing.notes, told))
+    note = Note("remark", f"it has {count} times, of which the first is read; vexture flood shows all")
+    return replace(drawing, notes=(*drawing.notes, note))

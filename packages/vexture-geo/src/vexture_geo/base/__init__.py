@@ -1,1 +1,1 @@
-"""What all geographic data share: reference systems, extents, rings, and how GDAL is called."""
+"""Parts that all geographic data share: reference systems, extents, rings, and how GDAL is called."""

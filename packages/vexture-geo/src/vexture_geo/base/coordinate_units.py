@@ -80,8 +80,8 @@ def refuse_degrees(chosen: str, box: Bounds, *, is_given: bool, near: float = 0.
     else:
         return
     raise (ParameterError if is_given else SourceError)(
-        f"the coordinates {_format_box(box)} look like degrees, and {_name_system(chosen, is_given)} is not in "
-        f"degrees: {why}; give `crs` {DEGREES}" + (", or leave it out if the file names its own" if is_given else "")
+        f"the coordinates {_format_box(box)} look like degrees, and {_name_system(chosen, is_given)} is not in degrees"
+        f": {why}; give `crs` {DEGREES}" + (", or leave it out if the file names its own" if is_given else "")
     )
 
 

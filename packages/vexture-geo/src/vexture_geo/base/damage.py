@@ -69,7 +69,7 @@ def _numbers(arcs: Any) -> list[int]:
 
 
 def netcdf_error(error: Exception, place: str) -> SourceError:
-    """What to raise for what netCDF4, h5py or xarray raise about a file that they cannot read.
+    """Error to raise where netCDF4, h5py or xarray cannot read a file.
 
     The netCDF library uses errors of the system for sizes and types in a header that cannot be.
 

@@ -94,7 +94,7 @@ def ranges_of_flags(dataset: Any, name: str, metres: float) -> dict[float, Depth
 
 
 def _wrong(values: list[float], ranges: list[DepthRange | None], meanings: list[str]) -> str:
-    """What is wrong with values of flags and their ranges; empty if nothing is."""
+    """Describe the fault of values of flags and their ranges; return an empty text if there is none."""
     if not values:
         return "flag_values are missing, or no numbers"
     if len(ranges) != len(values):

@@ -96,7 +96,7 @@ class DepthClasses:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Step:
-    """Where water is at one time.
+    """Water at one time.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Extent:
-    """Where water is, in one frame.
+    """Water at one time or several, in one frame.
 
     Parameters
     ----------

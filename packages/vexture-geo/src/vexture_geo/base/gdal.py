@@ -1,4 +1,4 @@
-"""How GDAL reads here: formats by name, no file or address but those that are asked for, little memory, no messages.
+"""Settings of GDAL: formats by name, only the files and addresses requested, little memory, no messages.
 
 What a raster says of other files is refused, and so is a file beside it that GDAL would open and that leads elsewhere.
 """
@@ -173,7 +173,7 @@ def refuse_links_beside(path: Path) -> None:
 
 
 def raster_errors() -> tuple[type[Exception], ...]:
-    """What rasterio raises for a damaged file: errors of GDAL come as they are where it asks for a tag."""
+    """Errors that rasterio raises for a damaged file; where it reads a tag, GDAL's own."""
     from rasterio._err import CPLE_BaseError
     from rasterio.errors import RasterioError
 

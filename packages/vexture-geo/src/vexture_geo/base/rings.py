@@ -77,7 +77,7 @@ class Rings:
 
     @property
     def steps(self) -> NDArray[np.float64]:
-        """How far east the side goes that leaves each point."""
+        """Distance to the east that the side from each point covers."""
         across = self.points[:, 0]
         return np.asarray(across[self.following] - across)
 

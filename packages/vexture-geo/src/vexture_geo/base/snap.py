@@ -89,8 +89,8 @@ def snap_borders(
     snap : float or None
         The distance, in parts of that side: 0 does nothing, None is the default, 3e-6.
     notes : Notes
-        Gets a remark if something moves by more than `noticeable`, in parts of that side; by default, than
-        rounding does.
+        Gets a remark if something moves by more than `noticeable`, in parts of that side; by default,
+        than rounding does.
     unit : str
         Of the points, for the remark.
 

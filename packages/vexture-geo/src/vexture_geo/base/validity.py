@@ -1,4 +1,4 @@
-"""Polygons whose rings cross or touch become valid ones: one home of how, and of its cost."""
+"""Repair of polygons whose rings cross or touch, within bounds of time."""
 
 from typing import Any, Final
 
@@ -16,7 +16,7 @@ to see whether a polygon is valid, and whether it fits to its neighbours."""
 
 
 def is_heavy(shapes: NDArray[Any]) -> NDArray[np.bool_]:
-    """Which polygons are to be parted, before anything is asked of them."""
+    """Mark polygons that must be split before any other operation."""
     import shapely
 
     holes = shapely.get_num_interior_rings(shapes)
@@ -26,7 +26,7 @@ def is_heavy(shapes: NDArray[Any]) -> NDArray[np.bool_]:
 
 
 def split_heavy(shape: Any) -> list[Any]:
-    """Parts of a valid geometry's polygons, side by side: those that are heavy are halved until none is."""
+    """Split a valid geometry's polygons into parts, side by side, until none is heavy."""
     import shapely
 
     waiting, done = list(shapely.get_parts(shapely.get_parts(shape))), []
@@ -93,7 +93,7 @@ def make_valid(shapes: NDArray[Any]) -> NDArray[Any]:
 
 
 def unite_polygons(shapes: NDArray[Any]) -> Any:
-    """The union of polygons, also of those that clipping has left with a corner on a side."""
+    """Unite polygons, also of those that clipping has left with a corner on a side."""
     import shapely
 
     try:

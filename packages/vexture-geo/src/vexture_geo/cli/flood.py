@@ -120,11 +120,11 @@ def flood(
         assert source is not None
         refuse_stream(source, "the extent")
         many = (os.cpu_count() or 1) if workers is None else workers
-        asked = FloodOptions(source, bounds=box, depths=classes, workers=many, **parameters)
+        options = FloodOptions(source, bounds=box, depths=classes, workers=many, **parameters)
         from vexture_geo.flood.server import ReadyFlood, ServerOptions, export, serve
 
         if not serving:
-            made, sizes = export(asked, output, filmed, print_message, _track_frames)
+            made, sizes = export(options, output, filmed, print_message, _track_frames)
             for path, written in sizes.items():
                 echo(f"{path}: {made.summary}, {written} bytes")
             return
@@ -136,11 +136,11 @@ def flood(
             from vexture_geo.depth.appended_steps import share_files
 
             share_files()
-        serve(asked, ServerOptions(host, port, token_file, follow is not None, keep), report=print_message, show=show)
+        serve(options, ServerOptions(host, port, token_file, follow is not None, keep), report=print_message, show=show)
 
 
 def _video(path: Path | None, size: str | None, **given: Any) -> VideoOptions | None:
-    """The video that is asked for; options without one are refused."""
+    """Return the requested video; refuse its options without one."""
     given = {"size": None if size is None else size_of(size), **given}
     chosen = {name: value for name, value in given.items() if value is not None}
     if path is None:

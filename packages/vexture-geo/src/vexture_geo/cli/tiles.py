@@ -61,10 +61,10 @@ def tiles(source: Path, output: Path, **options: Any) -> None:
 
         quiet = options.pop("quiet")
         refuse_stream(source, "source")
-        asked = _asked(options)
+        tile_options = _parse_options(options)
         try:
             with ExitStack() as opened:
-                made = make_tiles(source, output, asked, _progress(opened, quiet))
+                made = make_tiles(source, output, tile_options, _progress(opened, quiet))
         except KeyboardInterrupt:
             print_message(f"interrupted; {describe_unfinished(output)}")
             sys.exit(INTERRUPTED)
@@ -74,13 +74,13 @@ def tiles(source: Path, output: Path, **options: Any) -> None:
             echo(f"{output}: {found}, {made.contents} of them different, {made.bytes} bytes")
 
 
-def _asked(options: dict[str, Any]) -> "TileOptions":
-    """What the options ask for."""
+def _parse_options(options: dict[str, Any]) -> "TileOptions":
+    """Turn the options of the command into those of a pyramid."""
     from vexture_geo.tiles.attributes import TileStyle
     from vexture_geo.tiles.options import TileOptions
 
-    own = ("color", "scale", "classes", "palette", "no_data", "fill", "columns", "order", "table")
-    given = {name: options.pop(name) for name in own}
+    names = ("color", "scale", "classes", "palette", "no_data", "fill", "columns", "order", "table")
+    given = {name: options.pop(name) for name in names}
     if given["color"] is None:
         refuse_idle_colours(given)
     scale, columns = scale_of(given["color"], given), columns_of(given["columns"])
@@ -91,7 +91,7 @@ def _asked(options: dict[str, Any]) -> "TileOptions":
 
 
 def _progress(opened: ExitStack, quiet: bool) -> "Report":
-    """What hears how far the work is; a terminal shows it."""
+    """Return a callback that shows progress on a terminal."""
     if quiet or not sys.stderr.isatty():
         return lambda *_: None
     from rich.console import Console
@@ -100,7 +100,7 @@ def _progress(opened: ExitStack, quiet: bool) -> "Report":
     progress = opened.enter_context(Progress(console=Console(stderr=True), transient=True))
     task = progress.add_task("tiles", total=None)
 
-    def told(what: str, number: int, count: int) -> None:
-        progress.update(task, description=what, completed=number, total=count or None)
+    def update(stage: str, number: int, count: int) -> None:
+        progress.update(task, description=stage, completed=number, total=count or None)
 
-    return told
+    return update

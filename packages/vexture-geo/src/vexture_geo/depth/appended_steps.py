@@ -23,7 +23,7 @@ __all__ = ["GrowingFile", "KnownStep", "StepChange", "files_of", "open_growing",
 
 
 class KnownStep(NamedTuple):
-    """What is remembered of a step: its time, and a digest of its values."""
+    """Record of a step that was read: its time, and a digest of its values."""
 
     time: datetime | None
     digest: str
@@ -127,7 +127,7 @@ def open_growing(
 
 @gis_packages()
 def whole_run(path: Path, *, bounds: Bounds | None, **options: Any) -> tuple[Extent, tuple[KnownStep, ...]]:
-    """All steps that a file holds now, in a frame of its own, and what to remember of them.
+    """All steps that a file holds now, in a frame of its own, and a record of each.
 
     Raises
     ------

@@ -87,7 +87,7 @@ def conforming(nodes: Places, faces: Faces) -> Conforming:
 
 
 def _nearness(nodes: Places, side: float) -> float:
-    """How near nodes at one place may be, with short sides of a length.
+    """Largest distance of nodes at one place, with short sides of a length.
 
     Models that calculate with 32 bits write such numbers as 64: half a metre apart, where y is 5,000 km.
     """

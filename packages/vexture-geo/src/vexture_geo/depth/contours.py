@@ -104,7 +104,7 @@ def _strip_values(depth: NDArray[np.float64], hmin: float, bed: NDArray[np.float
 
 
 def above_dry(depth: NDArray[np.float64], hmin: float) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """Where a depth is known and more than a film, and the depths less `hmin`."""
+    """Return which depths are known and more than a film, and the depths less `hmin`."""
     with np.errstate(invalid="ignore"):
         known = np.isfinite(depth) & ((depth > THIN * hmin) | (depth < 0.0))
     return known, np.where(known, depth, 0.0) - hmin

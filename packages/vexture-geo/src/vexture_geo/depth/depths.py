@@ -80,11 +80,11 @@ class DepthsInFrame:
 
     @property
     def notes(self) -> tuple[Note, ...]:
-        """What was left out, simplified or chosen until now."""
+        """Notes of what was left out, simplified or chosen until now."""
         return self._notes.in_order
 
     def values(self, number: int) -> Reading:
-        """What the file says of a time, near the frame."""
+        """Read the values of a time near the frame."""
         return self._placed.read(number).plausible
 
     def step(self, number: int, reading: Reading) -> Step:
@@ -99,7 +99,7 @@ class DepthsInFrame:
         return Step(drawing, self.times[number], over, tuple(deeper), None if speed is None else self.grid(speed))
 
     def _ranks_step(self, number: int, values: Values, water: WaterRanks) -> Step:
-        """The step of numbers that say where water is, and in which class, but no depth."""
+        """Make a step from numbers that say where water is, and in which class, but no depth."""
         areas: list[Drawing] = []
         ranks = water.ranks(values)
         wet = [ranks >= least for least in water.leasts]

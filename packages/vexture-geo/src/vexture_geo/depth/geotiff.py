@@ -104,7 +104,7 @@ def _times(file: "DatasetReader", bands: Sequence[int], notes: Notes) -> tuple[d
 
 
 def _meaning(file: "DatasetReader", bands: Sequence[int]) -> Meaning:
-    """What the numbers of bands are."""
+    """Meaning of the numbers of bands."""
     from rasterio.enums import ColorInterp
 
     is_picture = {ColorInterp.red, ColorInterp.green, ColorInterp.blue} <= set(file.colorinterp)

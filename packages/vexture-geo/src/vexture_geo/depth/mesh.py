@@ -98,7 +98,7 @@ class MeshInFrame:
         return {**self.__dict__, "_series": None}  # a copy in another process reads nothing
 
     def read(self, step: int) -> Reading:
-        """What the file says of a step, of the faces or nodes near the square."""
+        """Read a step, of the faces or nodes near the square."""
         return self._series.read(step).at(self._chosen)
 
     def drawings(self, depth: Values, bed: Values | None, hmin: float, depths: Sequence[float]) -> list[Drawing]:
@@ -140,7 +140,7 @@ class MeshInFrame:
         return self.grid(values)
 
     def _crossed_faces(self, wet: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Which faces an outline of what is wet can cross or follow."""
+        """Mark faces that an outline of the water can cross or follow."""
         faces, count = self._patch.faces, self._patch.count
         if self._on_faces:
             crossed = touching_faces(faces, touched_nodes(faces, wet, count) & touched_nodes(faces, ~wet, count))
@@ -246,7 +246,7 @@ def _boxes(nodes: NDArray[np.float64], faces: Faces) -> tuple[NDArray[np.float64
 
 
 def _beside(across: NDArray[np.float64], along: NDArray[np.float64], border: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which points of a ring are the mesh's border beside one side of the frame.
+    """Mark points of a ring that are the mesh's border beside one side of the frame.
 
     `across` is how far they are inside the frame, in edges, and `along` their place along that side.
     """

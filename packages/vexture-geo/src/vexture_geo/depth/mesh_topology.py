@@ -58,7 +58,7 @@ def border_of(faces: Faces, count: int) -> NDArray[np.bool_]:
 
 
 def touched_nodes(faces: Faces, chosen: NDArray[Any] | slice, count: int) -> NDArray[np.bool_]:
-    """Which of `count` nodes are nodes of the chosen faces, and False after them, for the number -1."""
+    """Mark those of `count` nodes that are nodes of the chosen faces, and False after them, for the number -1."""
     marks = np.zeros(count + 1, np.bool_)
     marks[faces[chosen]] = True
     marks[count] = False

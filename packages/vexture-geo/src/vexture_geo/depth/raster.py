@@ -42,7 +42,7 @@ class RasterInFrame:
         return {**self.__dict__, "_series": None}  # a copy in another process reads nothing
 
     def read(self, step: int) -> Reading:
-        """What the file says of a step."""
+        """Read a step."""
         return self._series.read(step, self._rows, self._columns)
 
     def drawings(self, depth: Values, bed: Values | None, hmin: float, depths: Sequence[float]) -> list[Drawing]:

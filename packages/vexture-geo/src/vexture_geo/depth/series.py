@@ -24,7 +24,7 @@ MISSING: Final = (-999.0, -9999.0)
 
 
 class Reading(NamedTuple):
-    """What a file says of one step, in metres and seconds: NaN where it is unknown, None what it has not at all.
+    """Values of one step, in metres and seconds: NaN where unknown, None where the file has none.
 
     `bed` is the height of the bed, `speed` that of the water.
     """
@@ -49,7 +49,7 @@ class Reading(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """What the numbers of a file are.
+    """Meaning of the numbers of a file.
 
     They are metres or, with `ranges`, ranks of classes of depth: 1 for the first of them, in their order. `has_unit`
     says that the file names a unit, `are_whole` that they were written as whole numbers, and `are_colors` that they

@@ -64,7 +64,7 @@ def faces_unwrapped(
 
 
 def _jump(nodes: NDArray[np.float64], faces: Faces) -> NDArray[np.bool_]:
-    """Which faces are wider than half a turn."""
+    """Mark faces that are wider than half a turn."""
     low = nodes[faces[:, 0], 0]
     high = low.copy()
     for column in faces.T[1:]:

@@ -158,7 +158,7 @@ def _classes(dataset: Any, name: str, is_level: bool, bed: Reader | None) -> Dep
 
 
 def _meaning(variable: Any) -> Meaning:
-    """What the numbers of a variable are that has no flags."""
+    """Meaning of the numbers of a variable without flags."""
     written = variable.encoding.get("dtype", variable.dtype)
     is_packed = any(key in variable.encoding for key in ("scale_factor", "add_offset"))
     are_whole = np.dtype(written).kind in "iu" and not is_packed
@@ -256,7 +256,7 @@ def _bed_and_level(dataset: Any, candidates: list[str]) -> tuple[str, str] | Non
 
 
 def _sign(dataset: Any, bed: str) -> float:
-    """What makes heights of the values of a bed: -1 where they count downwards, as depths do."""
+    """Factor that turns the values of a bed into heights: -1 where they count downwards, as depths do."""
     is_height = _standard(dataset, bed) in BEDS[1]
     sounded = _is(dataset, bed, SOUNDINGS) or (_is(dataset, bed, DEPTHS) and not is_height)
     return -1.0 if str(dataset[bed].attrs.get("positive", "down" if sounded else "up")).lower() == "down" else 1.0

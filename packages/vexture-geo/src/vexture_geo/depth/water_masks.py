@@ -26,7 +26,7 @@ SAME: Final = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class WaterRanks:
-    """How numbers become ranks: 0 where it is dry or unknown, 1 for the first of the `ranges`, or for a mask's water.
+    """Ranks of numbers: 0 where it is dry or unknown, 1 for the first of the `ranges`, or for a mask's water.
 
     `wet` is the first number of water, and `mark` the only one of a mask. `leasts` are the ranks from which areas
     begin: that of all water, and those of the `contours`.
@@ -48,7 +48,7 @@ class WaterRanks:
 def water_ranks(
     meaning: Meaning, steps: Iterable[Values], hmin: float, depths: Sequence[float], notes: Notes
 ) -> WaterRanks | None:
-    """What the numbers of a file say where they are no depths; None if they are.
+    """Interpret numbers that are no depths; return None if they are depths.
 
     `steps` are those of all times, read as far as they are looked at. Notes take what was chosen. Raises a
     `SourceError` if they say nothing of water.

@@ -1,4 +1,4 @@
-"""What a file says of itself: its title, where it is from, and on which terms it may be shown."""
+"""Credits in a file: its title, its origin, and the terms on which it may be shown."""
 
 import re
 from collections.abc import Mapping
@@ -30,7 +30,7 @@ SYNTHETIC: Final = re.compile(r"\b(synthetic|invented|fictitious|fictional|made[
 
 @dataclass(frozen=True, slots=True)
 class Credits:
-    """What a page says of its data; empty where nothing is known.
+    """Credits that a page shows for its data; empty where nothing is known.
 
     Examples
     --------
@@ -55,7 +55,7 @@ class Credits:
         return replace(self, **{name: text for name, text in given.items() if text is not None})
 
     def as_json(self) -> dict[str, Any]:
-        """What the page takes."""
+        """Return the credits as the page's JSON."""
         return {**asdict(self), "synthetic": self.is_synthetic}
 
 

@@ -49,7 +49,7 @@ Say: TypeAlias = Callable[[str], None]
 
 
 class Start(NamedTuple):
-    """What a followed file held when it was read first."""
+    """First contents of a followed file."""
 
     extent: Extent
     known: tuple[KnownStep, ...]
@@ -66,7 +66,7 @@ class FollowedRun:
 
     @property
     def stamp(self) -> _Stamp:
-        """How its files are now; nothing if there is none."""
+        """State of its files now; empty if there are none."""
         found = []
         for path in files_of(self.path):
             try:
@@ -86,7 +86,7 @@ class _Found(NamedTuple):
 
 
 def first_steps(run: FollowedRun, bounds: Bounds | None, report: Say) -> Start:
-    """Wait until a file holds a step that can be read; errors that time does not mend are raised."""
+    """Wait until a file holds a step that can be read; errors that waiting cannot fix are raised."""
     told = False
     with about(str(run.path)):
         while True:
@@ -172,13 +172,13 @@ class _Follower:
                 self._stamp, pause, has_failed = stamp, RETRY_SECONDS, False
 
     def _report_once(self, line: str) -> None:
-        """Say a line once."""
+        """Report a line once."""
         if line not in self._said:
             self._said.add(line)
             self._report(line)
 
     async def _wait_until_settled(self) -> _Stamp:
-        """How the file is when it does not change for a moment: half of a step is not shown."""
+        """Wait until the file stops changing, so that no half step is shown; return its state."""
         stamp = self._run.stamp
         for _ in range(SETTLING_LOOKS):
             await asyncio.sleep(LOOK_SECONDS)
@@ -232,7 +232,7 @@ def _shape(change: StepChange, run: GrowingFile, conversion: FloodConversion) ->
 
 
 def with_digest(shape: PublishedShape, known: KnownStep) -> PublishedShape:
-    """A shape that says what it was made of."""
+    """Add the digest of its values to a shape."""
     return replace(shape, facts={**shape.facts, CONTENT: known.digest})
 
 
@@ -247,7 +247,7 @@ def _inodes(stamp: _Stamp) -> list[tuple[str, int]]:
 
 
 def _reason(error: Exception) -> str:
-    """What is wrong, without a remedy: who writes the file will mend it."""
+    """Message of an error, without a remedy: the model that writes the file will fix it."""
     if isinstance(error, BrokenProcessPool):
         return "its reader crashed"
     return "out of memory" if isinstance(error, MemoryError) else reason_of(error).partition("; ")[0]

@@ -1,4 +1,4 @@
-"""Where waves meet a shore of open water: not in rivers, harbours and flooded streets, nor in acute corners."""
+"""Shores of open water, where waves arrive: not in rivers, harbours and flooded streets, nor in acute corners."""
 
 import base64
 from io import BytesIO
@@ -62,7 +62,7 @@ def open_water(
 
 
 def _middles(wet: NDArray[np.bool_], cell: tuple[float, float], radius: float) -> tuple[float, int, NDArray[np.bool_]]:
-    """Where discs in the water may have their middles, with a margin around the grid; their radius and the margin."""
+    """Find middles of discs in the water; return their radius, the margin around the grid, and the middles."""
     radius = max(radius, LEAST_CELLS * max(cell))
     margin = int(np.ceil(2.0 * radius / min(cell)))
     return radius, margin, distance_to(~np.pad(wet, margin, mode="edge"), cell) >= radius
@@ -79,7 +79,7 @@ def _within(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.boo
 
 
 def _wide(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.bool_]:
-    """Where the widest disc fits into the water."""
+    """Mark water into which the widest disc fits."""
     every = max(1, int(WIDE / (MOST_CELLS * max(cell))))
     coarse = (every * cell[0], every * cell[1])
     radius, margin, middles = _middles(wet[::every, ::every], coarse, WIDE)
@@ -109,7 +109,7 @@ def cells_of(samples: NDArray[np.bool_] | None, size: tuple[int, int]) -> NDArra
 
 
 def _before_land(away: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Where waves get to from open water, and the first cell of the land behind: the shore runs between.
+    """Find where waves arrive from open water, and the first cell of the land behind: the shore runs between.
 
     They get no farther on their way around land than where they fade without it.
     """

@@ -74,7 +74,7 @@ class FloodOptions:
             raise ParameterError(f"`workers` {self.workers}: it is a number of processes, 1 or more")
 
     def executor(self) -> "Workers":
-        """Who converts the steps: the workers of a scheduler, several processes, or this one."""
+        """Executor of the conversion: the workers of a scheduler, several processes, or this one."""
         from vexture.base.workers import Cluster, InProcess, Processes
 
         if self.scheduler is not None:

@@ -155,7 +155,7 @@ def flood_page(
             raise TypeError(f"`{name}` is {value!r:.80}, but a flood has no such parameter; leave it out")
     named = Path(UNNAMED) if isinstance(source, Extent) or is_dataset(source) else Path(source)
     picture, heights = (None if path is None else Path(path) for path in (ground, relief))
-    asked = FloodOptions(extent=named, ground=picture, relief=heights, depths=classes_of(depths), **options)
+    flood_options = FloodOptions(extent=named, ground=picture, relief=heights, depths=classes_of(depths), **options)
     built(FLOOD.script, FLOOD.package)
     if isinstance(source, Extent):
         for name in READING:
@@ -165,8 +165,8 @@ def flood_page(
                 )
         given = source, Credits()
     else:
-        given = _read(source, asked)
-    made = make_flood(asked, lambda _: None, source=given)  # the notes are on the page
+        given = _read(source, flood_options)
+    made = make_flood(flood_options, lambda _: None, source=given)  # the notes are on the page
     return FloodPage(page_of(made).decode(), made.flood.title, made.summary, height)
 
 

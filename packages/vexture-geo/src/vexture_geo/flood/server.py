@@ -65,16 +65,16 @@ class ReadyFlood(NamedTuple):
 
     @property
     def texture_bytes(self) -> int:
-        """Bytes of all textures: what goes over the wire."""
+        """Bytes of all textures, as they are sent."""
         return sum(len(shape.texture.data) for shape in self.shapes)
 
     @property
     def summary(self) -> str:
-        """One line about it."""
+        """Summary of the flood in one line."""
         count = len(self.shapes)
         dry = sum(bool(shape.facts["dry"]) for shape in self.shapes)
-        told = f"{format_count(count, 'step')}, {self.texture_bytes} bytes of textures"
-        return told + (f", {'nothing' if dry == count else f'in {dry} nothing'} under water" if dry else "")
+        text = f"{format_count(count, 'step')}, {self.texture_bytes} bytes of textures"
+        return text + (f", {'nothing' if dry == count else f'in {dry} nothing'} under water" if dry else "")
 
 
 class WrittenFlood(NamedTuple):
@@ -93,8 +93,8 @@ def make_flood(
 ) -> ReadyFlood:
     """Read all files of a flood and convert them; `report` gets warnings and notes for the user.
 
-    Of a followed run, `start` are its first steps. What of them is `store` already is not converted again. What is
-    `source`, an extent and its credits, is not read.
+    `start` holds the first steps of a followed run; those that the `store` has already are not converted again. With
+    `source`, an extent and its credits, no extent is read.
     """
     from vexture_geo.flood.credits import credits_of
     from vexture_geo.flood.depth_classes import classes_shown
@@ -120,15 +120,15 @@ def make_flood(
     first = extent.steps[0]
     depths = classes_shown(first, options.depths)
     conversion = FloodConversion(frame, options.hmin, options.reading, relief, depths, extent.bed)
-    picture, told = drawn_ground(extent, relief), [DRAWN]
+    picture, ground_notes = drawn_ground(extent, relief), [DRAWN]
     if options.ground is not None:
-        picture, told = ground_of(options.ground, frame, picture, bounds_given=options.bounds is not None)
-    notes = [*([INVENTED] if relief.invented else []), *told]
+        picture, ground_notes = ground_of(options.ground, frame, picture, bounds_given=options.bounds is not None)
+    notes = [*([INVENTED] if relief.invented else []), *ground_notes]
     surfaces = [surface_of(step, frame, relief, extent.bed, options.hmin) for step in extent.steps]
     shapes = _shapes(conversion, extent, surfaces, start, store, options.executor())
     beyond = beyond_of(extent, relief)
-    fold, openness, told = _shore(options, extent, amplitude, beyond)
-    notes += told if start is None else [note for note in told if note is not DRY]  # water may come
+    fold, openness, shore_notes = _shore(options, extent, amplitude, beyond)
+    notes += shore_notes if start is None else [note for note in shore_notes if note is not DRY]  # water may come
     if relief.known < WHOLE:
         notes.append(PageNote(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
     credits = credits.with_given(title=options.title, source=options.source, licence=options.licence)
@@ -151,7 +151,7 @@ def make_flood(
 
 
 def _on_page(name: str, notes: Sequence[Note]) -> Iterator[PageNote]:
-    """What was left out or chosen of a file, for those who look at its page: without what its author can do."""
+    """Notes of a file for those who look at its page: without remedies for its author."""
     for note in notes:
         text, _, remedy = str(note).partition("; ")
         heading = HEADINGS[note.kind]
@@ -166,7 +166,7 @@ def _shapes(
     store: "FloodStore | None",
     workers: Workers,
 ) -> list[PublishedShape]:
-    """Shapes of the steps; of a followed run those are not converted that are kept and have not changed."""
+    """Shapes of the steps; of a followed run, only those that are new or have changed are converted."""
     from vexture_geo.flood.follow import NAMES, is_made_of, with_digest
 
     steps, told = extent.steps, labels([step.time for step in extent.steps])
@@ -271,18 +271,18 @@ def page_of(ready: ReadyFlood) -> bytes:
     from vexture_geo.flood.ground import GROUND_TYPE
 
     flood = ready.flood
-    told = scene(
+    data = scene(
         flood,
         [manifest(shape, None, {}, address=data_address) for shape in ready.shapes],
         data_address(PublishedFile(flood.ground, GROUND_TYPE, "")),
         None if flood.fold is None else data_address(PublishedFile(flood.fold, TEXTURE_TYPE, "")),
     )
-    return whole_page(FLOOD, {"flood": told}, flood.title)
+    return whole_page(FLOOD, {"flood": data}, flood.title)
 
 
 @dataclass(frozen=True, slots=True)
 class ServerOptions:
-    """How a flood is served.
+    """Options of a flood's server.
 
     Without a token nothing can be pushed, and only requests to the server's own address are answered. With `follows`
     the extent is a file that a model writes. In the folder `keep` are pushed and followed steps, for the next start.
@@ -315,18 +315,17 @@ def serve(
     built(FLOOD.script, FLOOD.package)
     token = None if server_options.token_file is None else read_token(server_options.token_file)
     limits = Limits()
-    with closing(bind(server_options.host, server_options.port)) as taken, ExitStack() as stack:
-        kept = None
+    with closing(bind(server_options.host, server_options.port)) as socket, ExitStack() as stack:
+        store = None
         if server_options.keep is not None:
-            kept = FloodStore(server_options.keep, limits, report)
-            stack.callback(kept.release)
-        _serve(
-            options, server_options, token, taken, LimitedShapes(limits) if kept is None else kept, kept, report, show
-        )
+            store = FloodStore(server_options.keep, limits, report)
+            stack.callback(store.release)
+        shelf = LimitedShapes(limits) if store is None else store
+        _serve(options, server_options, token, socket, shelf, store, report, show)
 
 
 def _publish_shapes(shapes: Sequence[PublishedShape], shelf: LimitedShapes, *, over: bool) -> list[PublishedShape]:
-    """Put shapes on a shelf, over what is there or beside it: what was pushed is newer; those that were not there."""
+    """Publish shapes that are new, `over` older ones or not (a pushed shape is newer), and return them."""
     fresh = [shape for shape in shapes if shelf.shape(shape.name) is not shape]
     for shape in fresh:
         if over or shelf.shape(shape.name) is None:
@@ -374,8 +373,8 @@ def _serve(
 
     @lru_cache(1)
     def page(names: tuple[str, ...]) -> bytes:
-        told = scene(flood, names, GROUND_NAME, FOLD_NAME if flood.fold else None)
-        return served_page(FLOOD, {"server": "./", "flood": told}, flood.title)
+        data = scene(flood, names, GROUND_NAME, FOLD_NAME if flood.fold else None)
+        return served_page(FLOOD, {"server": "./", "flood": data}, flood.title)
 
     plain = {"Cache-Control": "no-cache", **NO_SNIFFING}
     app = application(

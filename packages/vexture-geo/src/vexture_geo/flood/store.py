@@ -48,7 +48,7 @@ class FloodStore(Folder):
         self._place = path / STATE
 
     def relief(self, options: FloodOptions, extent: Extent, make_relief: Callable[[], Relief]) -> Relief:
-        """The ground that is kept or, in a new folder, the one that is `make_relief`, which is kept from then on.
+        """Return the stored ground or, in a new folder, store what `make_relief` returns.
 
         Raises
         ------
@@ -98,7 +98,7 @@ class FloodStore(Folder):
 
 
 def _facts(options: FloodOptions, extent: Extent) -> dict[str, Any]:
-    """What water on a server belongs to."""
+    """Facts that tell the flood of a server from others."""
     frame = extent.frame
     if options.relief is not None:
         digest = hashlib.sha256(options.relief.read_bytes()).hexdigest()

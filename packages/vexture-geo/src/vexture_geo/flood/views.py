@@ -1,4 +1,4 @@
-"""What the page looks at, by what is there: a coast, a river, a flooded town; from the air, and from dry ground."""
+"""Views of the page, chosen by the scene: a coast, a river, a flooded town; from the air, and from dry ground."""
 
 from typing import Any, Final, NamedTuple
 
@@ -49,7 +49,7 @@ LOCAL: Final = 1 / 300
 
 
 class FloodView(NamedTuple):
-    """Something to look at.
+    """A view of the page.
 
     `place` is where one stands, or what one looks at, and `toward` the unit vector from there to the water, in
     unit-square units, y up. `reach` is half the size of what is looked at, in metres, and `above` the highest water
@@ -64,7 +64,7 @@ class FloodView(NamedTuple):
     above: float
 
     def as_json(self) -> dict[str, Any]:
-        """What the page takes."""
+        """Return the view as the page's JSON."""
         return {**self._asdict(), "place": list(self.place), "toward": list(self.toward)}
 
 

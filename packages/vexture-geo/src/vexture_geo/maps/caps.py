@@ -86,7 +86,7 @@ class Cap:
         return area
 
     def of_rings(self, rings: Rings) -> Rings:
-        """What of polygons lies in it."""
+        """Clip polygons to the cap."""
         import shapely
 
         if not len(rings.ends):
@@ -104,7 +104,7 @@ class Cap:
         )
 
     def of_lines(self, lines: Lines) -> Lines:
-        """What of lines lies in it."""
+        """Clip lines to the cap."""
         import shapely
 
         if not len(lines.ends) or shapely.covers(self.area, shapely.MultiPoint(lines.points)):
@@ -127,7 +127,7 @@ def _polygons(shapes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
 
 
 def cap_of(crs: str, longitude: float) -> Cap | None:
-    """What a perspective map shows, around a place on its own meridian; None of other maps.
+    """Cap that a perspective map shows, around a place on its own meridian; None for other maps.
 
     Examples
     --------

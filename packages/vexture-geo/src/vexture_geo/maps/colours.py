@@ -57,7 +57,7 @@ Rgba = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Scale:
-    """How a column becomes colours.
+    """Colours of a column's values.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ def clean_coverage(
     snap : float or None
         0 leaves all as it is.
     notes : Notes
-        Gets what was snapped and closed, and which polygons overlap. What the default of `snap` moves is not told.
+        Gets what was snapped and closed, and which polygons overlap. What the default of `snap` moves is not noted.
     names : (f,) array
         The names of the features.
     unit : str

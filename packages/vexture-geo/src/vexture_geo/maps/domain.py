@@ -1,4 +1,4 @@
-"""What of the world a map can show as a whole: up to where it is torn, or the side of it around a pole or a place."""
+"""The part of the world that a map can show as a whole: up to its tear, or the side around a pole or a place."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -92,7 +92,7 @@ class Domain:
 
 @lru_cache(maxsize=64)
 def domain_of(crs: str) -> Domain | None:
-    """What a system can show as a whole; None if its maps are not torn at a meridian.
+    """Part of the world that a system can show as a whole; None if its maps are not torn at a meridian.
 
     Examples
     --------
@@ -126,7 +126,7 @@ def domain_of(crs: str) -> Domain | None:
 
 
 def _slits(crs: str, middle: float) -> tuple[Bounds, ...]:
-    """Where a map is interrupted: at whole degrees from its own meridian, from a pole to where its lobes meet."""
+    """Slits where a map is interrupted: at whole degrees from its own meridian, from a pole to where its lobes meet."""
     meridians = middle + np.arange(1.0 - TURN / 2, TURN / 2)
     found = list[Bounds]()
     for pole in (POLE, -POLE):
@@ -142,7 +142,7 @@ def _slits(crs: str, middle: float) -> tuple[Bounds, ...]:
 
 
 def _gaps(crs: str, meridians: NDArray[np.float64], latitudes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """How far places beside meridians are apart on a map, in parts of its size; 0 where one has no image."""
+    """Distance between places on both sides of meridians on a map, in parts of its size; 0 where one has no image."""
     both = [np.stack([meridians + side, latitudes], axis=1) for side in (-BESIDE, BESIDE)]
     ends = np.array([(meridians[0], 0.0), (meridians[-1], 0.0)])
     west, east, corners = np.split(transform_points(np.concatenate([*both, ends]), WORLD, crs), [len(meridians), -2])
@@ -219,7 +219,7 @@ def cut_open(rings: Rings, slits: tuple[Bounds, ...]) -> Rings:
 
 
 def without(slits: tuple[Bounds, ...]) -> Callable[[NDArray[Any]], NDArray[Any]]:
-    """What takes slits out of polygons or lines."""
+    """Return a function that cuts slits out of polygons or lines."""
     import shapely
 
     whole = shapely.union_all(shapely.box(*np.array(slits).T))

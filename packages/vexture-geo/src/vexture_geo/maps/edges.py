@@ -26,7 +26,7 @@ ROUNDED: Final = 1e-9
 
 
 def move_together(layers: list[Features], crs: str) -> list[Features]:
-    """Features of a map on one side of the antimeridian, if they all lie near it: on that where most corners are."""
+    """Move features to one side of the antimeridian, if they all lie near it: that with most corners."""
     turn = _turn(crs)
     if turn is None:
         return layers
@@ -45,7 +45,7 @@ def _turn(crs: str) -> float | None:
 
 
 def _shift(reach: NDArray[np.float64], turn: float) -> NDArray[np.float64]:
-    """How far to the east things go of which the middle is in the west."""
+    """Distances to the east by which parts move that have their middle in the west."""
     return np.where(reach.mean(axis=1) < 0.0, turn, 0.0)
 
 
@@ -64,7 +64,7 @@ def _of_lines(lines: Lines) -> NDArray[np.float64]:
 
 
 def _shift_features(features: Features, shift: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Features:
-    """Features moved along x, each part as `shift` tells of its west and east."""
+    """Features moved along x, each part by `shift` of its west and east."""
     rings, lines, points = features.rings, features.lines, features.points
     if len(rings.ends):
         rings = rings.shift_east(shift(rings.boxes[:, :, 0])[rings.polygon])

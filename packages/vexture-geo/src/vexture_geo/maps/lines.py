@@ -16,7 +16,7 @@ __all__ = ["change_lines", "densify", "lines_along", "lines_in_box", "rings_alon
 
 
 def unwrap_lines(lines: Lines, turn: float) -> Lines:
-    """Lines of which no side is longer than half a turn: they go on beyond the antimeridian.
+    """Remove jumps of longitude, so that no side is longer than half a turn: they go on beyond the antimeridian.
 
     A side of a whole turn goes around the world, as a parallel does, unless the line comes from or goes on to places
     within it: then it only changes the side of the antimeridian.
@@ -67,7 +67,7 @@ def lines_in_box(lines: Lines, box: Bounds, turn: float | None) -> Lines:
 
 
 def change_lines(lines: Lines, change: Callable[[NDArray[Any]], NDArray[Any]]) -> Lines:
-    """What a change of shapely's lines leaves of each."""
+    """Apply a change to shapely's lines, and keep the lines that are left of each."""
     import shapely
 
     owner = np.repeat(np.arange(len(lines.ends)), np.diff(lines.ends, prepend=0))

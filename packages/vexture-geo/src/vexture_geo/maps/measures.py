@@ -1,4 +1,4 @@
-"""What a column measures: its values as numbers, and numbers as the texts of a legend. Dates are numbers of days."""
+"""Measures in columns: values as numbers, and numbers as the texts of a legend. Dates are numbers of days."""
 
 import re
 from contextlib import suppress
@@ -73,7 +73,7 @@ class Measure:
 
 
 def measure_of(column: "pyarrow.ChunkedArray") -> Measure | None:
-    """What a column of numbers, dates or times measures; None of other columns."""
+    """Measure in a column of numbers, dates or times; None for other columns."""
     import pyarrow as pa
     import pyarrow.compute as pc
 

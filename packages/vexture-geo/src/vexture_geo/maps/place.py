@@ -97,7 +97,7 @@ def place_features(features: Features, crs: str, notes: Notes) -> Features:
 
 
 def _refuse_metres_of_marks(marks: Lines | Points, features: Features, notes: Notes) -> None:
-    """Refuse lines or points most of which cannot be in degrees; tell of others that cannot, which have no place."""
+    """Refuse lines or points most of which cannot be in degrees; note others that cannot, which have no place."""
     points = marks.points
     wrong = ~are_degrees(points, features.crs)
     if not wrong.any():
@@ -157,7 +157,7 @@ def _in_degrees(features: Features) -> Features:
 
 
 def _within(features: Features, domain: Domain, notes: Notes) -> Features:
-    """What of features, in longitude and latitude, a map can show as a whole."""
+    """Clip features, in longitude and latitude, to the part of the world that a map can show."""
     if domain.cap is not None:
         return _within_cap(features, domain.cap, notes)
     rings = in_box(features.rings, domain.box, domain.turn)
@@ -174,7 +174,7 @@ def _within(features: Features, domain: Domain, notes: Notes) -> Features:
 
 
 def _within_cap(features: Features, cap: Cap, notes: Notes) -> Features:
-    """What of features a map shows that looks at the globe from one side."""
+    """Clip features to the cap that a map shows, which looks at the globe from one side."""
     rings, lines = cap.of_rings(features.rings), cap.of_lines(features.lines)
     points = _select_points(features.points, cap.distance(features.points.points) <= cap.radius, notes)
     if rings is not features.rings or lines is not features.lines:
@@ -258,8 +258,8 @@ def _usable(rings: Rings, start: str, end: str, move: Move, notes: Notes) -> Rin
         notes.remark(f"it is cut off at the area of use of {format_system(end)}")
     if area is None or not len(rings_there.ends) or not np.isfinite(rings_there.points).all():
         raise SourceError(
-            f"it has no place in {_system_name(end)}, or some of it has none; choose another `crs`, or features by "
-            "`where`"
+            f"it has no place in {_system_name(end)}, or some of it has none; choose another `crs`, or features "
+            "by `where`"
         )
     return rings_there
 

@@ -167,7 +167,7 @@ def _halve_cubics(cubics: NDArray[np.float64]) -> NDArray[np.float64]:
 def _cut_hidden(
     outlines: NDArray[np.float64], middles: NDArray[np.float64], inner: NDArray[np.float64], outer: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
-    """What is left of outlines (n, m, 4, 2), the place after the last cubic of each, and which of them hide others."""
+    """Visible parts of outlines (n, m, 4, 2), the place after the last cubic of each, and which of them hide others."""
     count = len(outlines)
     low, high = (middles - outer[:, None]).min(axis=0), (middles + outer[:, None]).max(axis=0)
     wide, tall = high - low

@@ -41,7 +41,7 @@ DIGITS: Final = re.compile(r"(\d+)")
 
 @dataclass(frozen=True, eq=False)
 class Times:
-    """What the colours of a layer show at each step of time.
+    """Values that the colours of a layer show at each step of time.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ class Steps:
         return np.asarray(one + share * (following - one))
 
     def as_json(self, names: Sequence[str], legend: dict[str, Any]) -> dict[str, Any]:
-        """What a page needs: ``ids`` and ``colors`` are those of `setTimes` of the npm package's layers."""
+        """Return what a page needs: ``ids`` and ``colors`` are those of `setTimes` of the npm package's layers."""
         coded, place = np.unique(np.round(self.rgba, 4).reshape(-1, 4), axis=0, return_inverse=True)
         words = np.array([hex_of(colour) for colour in coded], object)
         colours = words[place.reshape(self.rgba.shape[:2])].tolist()
@@ -265,7 +265,7 @@ def _steps(column: Any) -> tuple[NDArray[np.int64], tuple[str, ...]]:
 
 
 def _keys(times: list[Any]) -> list[Any]:
-    """What times are sorted by: texts as numbers, or else as the numbers in them."""
+    """Keys to sort times by: texts as numbers, or else as the numbers in them."""
     if not all(isinstance(time, str) for time in times):
         return times
     try:

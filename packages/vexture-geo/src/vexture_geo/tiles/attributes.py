@@ -27,7 +27,7 @@ ROWS, PAINTS = "attributes.arrow", "paints.npy"
 
 @dataclass(frozen=True)
 class TileStyle:
-    """What is kept of features beside their shapes.
+    """Attributes, colours and order of features in a pyramid.
 
     Parameters
     ----------

@@ -42,12 +42,12 @@ Work = Callable[[Iterator[Job], int], Iterator[JobResult]]
 """Does pieces of work, so many of them, in order."""
 
 Report = Callable[[str, int, int], None]
-"""Hears what is done, how much of it, and of how much; 0 if nobody knows."""
+"""Called with the kind of work, the number done, and the number in total; 0 if it is unknown."""
 
 
 @dataclass(frozen=True)
 class TilesSummary:
-    """What was made."""
+    """Counts of a finished pyramid, and notes."""
 
     tiles: int
     contents: int
@@ -69,7 +69,7 @@ def make_tiles(
         A file ``.pmtiles``, or a folder. The table of attributes is beside the one, and in the other.
     options : TileOptions
     report : callable
-        Hears how far the work is.
+        Called with the progress of the work.
     batches : callable or None
         Makes an iterator of the source's features, in place of that function.
 
@@ -78,7 +78,7 @@ def make_tiles(
     SourceError
         If the source cannot be read, or has no polygons.
     DeviceError
-        If the output cannot be written, or who shall do the work is not there.
+        If the output cannot be written, or the executor cannot be reached.
     """
     check_target(output)
     check_targets([output, *([table] if (table := table_of(output, options.look.table)) else [])], [Path(source)])
@@ -109,7 +109,7 @@ def make_tiles(
 
 
 def _reason(error: Exception, output: Path) -> tuple[type[VextureError], str] | None:
-    """What a user can do about an error, and the class of the error that says so; None if nothing."""
+    """Remedy of an error, and the class of error to raise with it; None if there is none."""
     if isinstance(error, VextureError):
         return type(error), str(error)
     if isinstance(error, MemoryError) or is_memory(error) or getattr(error, "errno", None) == errno.ENOMEM:
@@ -125,7 +125,7 @@ def _reason(error: Exception, output: Path) -> tuple[type[VextureError], str] | 
 
 
 def describe_unfinished(output: Path) -> str:
-    """What is left of a pyramid that was not finished, and what to do with it."""
+    """Describe what is left of an unfinished pyramid, and what to do with it."""
     folder = output.with_name(output.name + SUFFIX)
     if not folder.exists():
         return "nothing of it is finished, and reading begins anew"
@@ -133,7 +133,7 @@ def describe_unfinished(output: Path) -> str:
 
 
 def _read(source: Any, store: Store, options: TileOptions, report: Report, batches: Any) -> Any:
-    """Part the source, and return what is known of it."""
+    """Split the source into parts, and return facts about it."""
     import shapely
 
     if batches is None:

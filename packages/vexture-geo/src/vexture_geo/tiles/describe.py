@@ -1,4 +1,4 @@
-"""What a pyramid of tiles is, told from its file or folder."""
+"""Facts about a pyramid of tiles, from its file or folder."""
 
 import gzip
 import hashlib
@@ -34,7 +34,7 @@ Bytes = Callable[[int, int], bytes]
 
 @dataclass
 class ZoomCount:
-    """What is counted of the tiles of a zoom."""
+    """Counts of the tiles of a zoom."""
 
     tiles: int = 0
     sizes: dict[Any, int] = field(default_factory=dict)
@@ -47,7 +47,7 @@ class ZoomCount:
 
 @dataclass(frozen=True)
 class TileCount:
-    """What is counted of tiles: equal ones are one content, and `bytes` those of the archive or of all contents."""
+    """Counts of tiles: equal ones are one content, and `bytes` those of the archive or of all contents."""
 
     tiles: int
     contents: int
@@ -69,7 +69,7 @@ def is_pyramid(path: Path) -> bool:
 
 
 def facts_of(path: Path) -> dict[str, Any]:
-    """What a pyramid is, ready for JSON; what is not known of it is None.
+    """Facts about a pyramid, ready for JSON; unknown ones are None.
 
     Raises
     ------
@@ -119,7 +119,7 @@ def _check_metadata(path: Path, about: Any) -> dict[str, Any]:
 
 
 def _is_legend(legend: Any) -> bool:
-    """Whether a legend has what is told of it."""
+    """Whether a legend has all that is printed of it."""
     texts = isinstance(legend, dict) and all(isinstance(legend.get(key), str) for key in ("layer", "column", "scale"))
     return texts and isinstance(legend.get("entries"), list)
 
@@ -187,7 +187,7 @@ def _count_tiles(header: Any, read: Bytes, size: int) -> TileCount:
 
 
 def _zooms(tile: int, count: int) -> Iterator[tuple[int, int]]:
-    """How many tiles of each zoom there are in a run: the 4^z numbers of zoom z follow those of the zooms before."""
+    """Count the tiles of each zoom in a run: the 4^z numbers of zoom z follow those of the zooms before."""
     while count > 0:
         zoom = (3 * tile + 1).bit_length() - 1 >> 1
         here = min(count, (4 ** (zoom + 1) - 1) // 3 - tile)
@@ -236,7 +236,7 @@ def _of_folder(path: Path) -> tuple[dict[str, Any], Any, TileCount]:
 
 
 def _table_facts(table: Path | None) -> tuple[int | None, list[str] | None]:
-    """Number of features and names of their attributes, as a table tells; None if it is not there, or not readable."""
+    """Number of features and names of their attributes in a table; None if it is missing or not readable."""
     if table is None or not table.is_file():
         return None, None
     import pyarrow as pa
@@ -255,7 +255,7 @@ def _table_facts(table: Path | None) -> tuple[int | None, list[str] | None]:
 
 
 def lines_of(facts: dict[str, Any]) -> Iterator[str]:
-    """Facts about a pyramid for people: one in a line; values that are missing are left out."""
+    """Facts about a pyramid for people, one per line, without missing values."""
     sharp = facts["sharp"]
     zooms = ", ".join(map(str, facts["zooms"])) + (f"; exact up to views of {sharp}" if sharp is not None else "")
     bounds = facts["bounds"] and "west {:.6g}, south {:.6g}, east {:.6g}, north {:.6g}".format(*facts["bounds"])

@@ -41,7 +41,7 @@ def generalise_polygons(pieces: FeaturePieces, box: Bounds, tolerance: float, le
         Metres by which a border may move.
     least : float
         Square metres. A smaller polygon becomes part of the neighbour with which it shares most of its border; those
-        without one are gathered (`vexture_geo.tiles.tiny_polygons`). Smaller holes are filled. With 0, all features
+        without one are aggregated (`vexture_geo.tiles.tiny_polygons`). Smaller holes are filled. With 0, all features
         stay.
     """
     if tolerance > 0.0 and pieces.points > MOST_POINTS:

@@ -1,4 +1,4 @@
-"""What a user chooses of a pyramid."""
+"""Options of a pyramid, as a user chooses them."""
 
 import hashlib
 from dataclasses import dataclass, field
@@ -33,8 +33,8 @@ class TileOptions:
     layer, where, id, source_crs : str or None
         Of the source, as `vexture_geo.vector.features.feature_batches` has them; the last is its `crs`.
     name, attribution : str
-        Told in the metadata.
-    look : Look
+        Written to the metadata.
+    look : TileStyle
         Colours, what is above, and the table of attributes.
     processes : int
         Processes that share the work on this machine.
@@ -88,16 +88,16 @@ class TileOptions:
 
     @property
     def key(self) -> dict[str, Any]:
-        """All that what is finished depends on, besides the source."""
+        """All that finished work depends on, besides the source."""
         return {"zooms": [self.min_zoom, self.max_zoom, self.step], **self.reading, "look": self.look.key}
 
     def check_workers(self) -> None:
-        """Raise a `DeviceError` if who shall do the work is not there."""
+        """Raise a `DeviceError` if the executor cannot be reached."""
         if self.scheduler is not None:
             Cluster(self.scheduler).check()
 
     def executor(self) -> Workers:
-        """Who does the work."""
+        """Executor of the work."""
         if self.scheduler is not None:
             return Cluster(self.scheduler)
         return Processes(self.processes) if self.processes > 1 else InProcess()

@@ -1,4 +1,4 @@
-"""Which features lie above others where they overlap, as in `vexture map`."""
+"""Order of features where they overlap, as in `vexture map`."""
 
 from dataclasses import replace
 from pathlib import Path

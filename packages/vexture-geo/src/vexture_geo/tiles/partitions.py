@@ -119,7 +119,7 @@ def _spread(source: Iterable[FeaturePieces], tile: Tile, steps: int, folder: Pat
 
 
 def _parts(pieces: FeaturePieces, tile: Tile, zoom: int) -> Iterator[tuple[Tile, FeaturePieces]]:
-    """What of pieces is in the tiles of a zoom, and around them."""
+    """Divide pieces among the tiles of a zoom, with what is around each."""
     inside = pieces.within(widen_box(tile.box, MARGIN * Tile(zoom, 0, 0).side))
     if not len(inside):
         return

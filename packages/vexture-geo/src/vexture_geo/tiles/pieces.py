@@ -44,7 +44,7 @@ class FeaturePieces:
         return FeaturePieces(self.order[owner[areal]], self.ids[owner[areal]], parts[areal])
 
     def within(self, box: Bounds) -> "FeaturePieces":
-        """What of them is in a box; whole polygons stay as they are, bit for bit."""
+        """Clip the pieces to a box; whole polygons stay as they are, bit for bit."""
         import shapely
 
         bounds = shapely.bounds(self.shapes).reshape(-1, 4)

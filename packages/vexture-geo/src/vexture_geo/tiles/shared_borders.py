@@ -1,4 +1,4 @@
-"""Which polygons share borders, bit for bit, and how long these are."""
+"""Borders that polygons share, bit for bit, and their lengths."""
 
 from typing import Any, NamedTuple
 

@@ -1,4 +1,4 @@
-"""What is finished of a pyramid, on disk beside it: so that who was killed goes on where it was."""
+"""Finished parts of a pyramid, on disk beside it, so that an interrupted run can resume."""
 
 import hashlib
 import json
@@ -23,7 +23,7 @@ KEY, PARTS, JOURNAL = "key.json", "parts.json", "journal"
 
 @dataclass(frozen=True)
 class Content:
-    """Where the bytes of a tile are."""
+    """Place of a tile's bytes."""
 
     path: Path
     offset: int
@@ -69,7 +69,7 @@ class Store:
             raise
 
     def read_parts(self) -> Any:
-        """What was written about the parts of the source, if all of them are there."""
+        """Read the facts about the parts of the source, if all of them are there."""
         text = _text(self.folder / PARTS)
         if text is None:
             shutil.rmtree(self.sources, ignore_errors=True)
@@ -83,7 +83,7 @@ class Store:
         return (self.folder / PARTS).exists()
 
     def write_parts(self, facts: Any) -> None:
-        """Tell that all parts of the source are there."""
+        """Record that all parts of the source are there."""
         self.write(PARTS, json.dumps(facts).encode())
 
     def _journal(self) -> Iterator[tuple[str, str]]:
@@ -98,7 +98,7 @@ class Store:
         return name in self._known
 
     def add(self, name: str, result: JobResult) -> None:
-        """Keep what a piece of work made."""
+        """Store the result of a piece of work."""
         head = json.dumps(
             {
                 "runs": result.runs,

@@ -32,7 +32,7 @@ CROWDED: Final = 16_000
 
 @dataclass(frozen=True, eq=False)
 class Pyramid:
-    """What all the work shares.
+    """Data that all work shares.
 
     Generalised zooms, those of tiles, the step, the zoom of sharp views, features' colours and their order.
     """
@@ -75,7 +75,7 @@ class Job:
 
 @dataclass
 class JobResult:
-    """What work made: runs of tiles by number, count and digest; the contents by digest; geometry for lower zooms."""
+    """Result of work: runs of tiles by number, count and digest; the contents by digest; geometry for lower zooms."""
 
     runs: list[tuple[int, int, str]] = field(default_factory=list)
     contents: dict[str, bytes] = field(default_factory=dict)

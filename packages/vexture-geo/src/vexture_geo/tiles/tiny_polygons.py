@@ -1,4 +1,4 @@
-"""What is too small to be seen by itself is seen together: squares of the same area in place of many specks.
+"""Polygons too small to be seen one by one: squares of the same area replace many specks.
 
 A town of blocks between streets, or islands, would be nowhere on a map of the country if all that is smaller than a
 pixel went: here, what they cover of each pixel stays covered.

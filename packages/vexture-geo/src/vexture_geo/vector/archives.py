@@ -72,7 +72,7 @@ def unzip(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | by
 
 
 def _read_contents(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> bytes:
-    """What a zip holds, by the names of its files."""
+    """Read the contents of a zip, by the names of its files."""
     shapes = [info for info in infos if _suffix(info.filename) in PARTS]
     if any(_suffix(info.filename) == PARTS[0] for info in shapes):
         return _shapefiles({PurePosixPath(info.filename).name: read for info, read in _read(archive, shapes)})
@@ -172,7 +172,7 @@ def refuse_links_of_folder(path: Path) -> None:
 
 
 def packed_files(content: bytes) -> tuple[str, dict[str, bytes]]:
-    """What a zip that `pack_parts` or `unzip` made is, by a suffix (``.shp``, ``.gdb`` or ``.kml``), and its files."""
+    """Kind of a zip that `pack_parts` or `unzip` made, as a suffix (``.shp``, ``.gdb`` or ``.kml``), and its files."""
     with zipfile.ZipFile(BytesIO(content)) as archive:
         files = {name: archive.read(name) for name in archive.namelist()}
     if all(_suffix(name) == KML for name in files):

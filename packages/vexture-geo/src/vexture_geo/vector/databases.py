@@ -1,4 +1,4 @@
-"""What of a GeoPackage or SpatiaLite could lead out of it: tables that are files elsewhere, systems that name files."""
+"""Parts of a GeoPackage or SpatiaLite that could lead out of it: tables in other files, systems that name files."""
 
 import os
 import re
@@ -98,7 +98,7 @@ def _refuse_systems(base: sqlite3.Connection, table: str) -> None:
 
 
 def _open_database(source: str | os.PathLike[str] | bytes) -> sqlite3.Connection:
-    """A database of which nothing is believed, nor changed."""
+    """Open a database read-only, without trusting its schema."""
     if isinstance(source, bytes):
         base = sqlite3.connect(":memory:")
         base.deserialize(source)

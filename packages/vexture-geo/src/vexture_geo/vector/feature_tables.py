@@ -42,7 +42,7 @@ READ: Final = f"give a file of GeoJSON, TopoJSON, {VECTOR_FILES}"
 
 @dataclass(frozen=True)
 class FeatureQuery:
-    """What of a source is read."""
+    """The part of a source to read."""
 
     layer: str | None = None
     where: str | None = None
@@ -98,7 +98,7 @@ class FeatureChunk:
         return replace(part, labels=labels, bounded=True)
 
     def crs(self, points: NDArray[np.float64]) -> str | None:
-        """What the source says, or what its coordinates allow."""
+        """Reference system that the source names, or that its coordinates allow."""
         if self.system or self.fallback is None:
             return self.system
         degrees = not len(points) or bool((np.abs(points).max(axis=0) <= (360.0, 90.0)).all())
@@ -193,7 +193,7 @@ def _arrow_chunk(
 
 @contextmanager
 def _condition(condition: str | None, names: list[str]) -> Iterator[None]:
-    """Say of a condition that GDAL refuses which columns there are."""
+    """Add the columns there are to GDAL's refusal of a condition."""
     try:
         yield
     except SourceError as error:

@@ -49,7 +49,7 @@ class Lines:
 
     @property
     def steps(self) -> NDArray[np.float64]:
-        """How far east the side goes that ends at each point; 0 for the first of a line."""
+        """Distance to the east that the side to each point covers; 0 for the first of a line."""
         steps = np.diff(self.points[:, 0], prepend=self.points[:1, 0])
         steps[self.ends[:-1]] = 0.0
         return steps
@@ -242,7 +242,7 @@ def _system(chunk: FeatureChunk, rings: Rings, crs_option: str | None, notes: No
 
 
 def _valid(rings: Rings, turn: float | None, ids: NDArray[Any], notes: Notes) -> Rings:
-    """Valid polygons; repairs that can be seen are told. Those that jump over the antimeridian are unwrapped later."""
+    """Valid polygons; visible repairs are noted. Those that jump over the antimeridian are unwrapped later."""
     import shapely
 
     if not len(rings.ends):

@@ -44,7 +44,7 @@ Ring = NDArray[np.float64]
 
 
 class AreaStyle(NamedTuple):
-    """What all polygons of a feature have: its paint, and its name in drawings."""
+    """Style of a feature's polygons: its paint, and its name in drawings."""
 
     paint: Paint = BLACK
     element: str = ""
@@ -158,7 +158,7 @@ def areas_of(content: bytes, notes: Notes) -> tuple[list[Area], str]:
 
 
 def omissions(notes: Notes) -> str:
-    """What was left out, in parentheses, for the message that no polygon is left."""
+    """Summary of what was left out, in parentheses, for the message that no polygon is left."""
     line = line_of("met", notes.in_order).removeprefix("met: ")
     return f" ({line})" if line else ""
 

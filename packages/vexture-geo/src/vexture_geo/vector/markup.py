@@ -21,7 +21,7 @@ SHOWN: Final = 80
 
 
 def links_of_markup(content: bytes, beside: Collection[str] = ()) -> Mapping[str, int]:
-    """What XML names and nobody reads, as texts of notes, and how often; a `SourceError` if it is damaged or has a DTD.
+    """Count links in XML that are not read, as texts of notes; raise a `SourceError` for damage or a DTD.
 
     GDAL stops at damage and keeps what came before it, in silence. A link of KML to a file `beside` it is read.
 

@@ -63,7 +63,7 @@ FLATGEOBUF_HEADER: Final = 16 * 2**20
 
 @dataclass(frozen=True)
 class VectorFile:
-    """What GDAL reads: a file in memory, or its place; the formats that it may be, and what of it is not read."""
+    """A file for GDAL: in memory, or its place; the formats that it may be, and its links that are not read."""
 
     content: bytes | str
     formats: tuple[str, ...]
@@ -149,7 +149,7 @@ def _in_memory(content: bytes, opened: ExitStack) -> VectorFile:
 
 
 def _from_zip(content: bytes, kind: str, files: dict[str, bytes], opened: ExitStack) -> VectorFile:
-    """What GDAL gets of a zip: by a place of its own what it knows only by a name."""
+    """Give GDAL the files of a zip; those that it knows only by a name get a place of their own."""
     if kind == FOLDER:
         folder = Path(opened.enter_context(TemporaryDirectory(prefix="vexture-", suffix=FOLDER)))
         for name, part in files.items():

@@ -173,7 +173,7 @@ def _forget_schemas() -> None:
 
 
 def gdal_reason(error: Exception) -> str:
-    """What GDAL says, without its internals."""
+    """GDAL's message, without its internals."""
     text = " ".join(str(error).split()).rpartition("Raw error: ")[2]
     if isinstance(error, NameError):
         return "its reference system is damaged"

@@ -1,4 +1,4 @@
-"""Arguments of `vexture.map`, as it takes them; wrong ones are refused in a line, before anything is read."""
+"""Arguments of `vexture.map`, as it takes them; wrong ones are refused with one line, before anything is read."""
 
 import os
 from collections.abc import Iterable
@@ -51,7 +51,7 @@ OWN: Final = {their: own for own, every in THEIRS.items() for their in every}
 
 
 def parse_options(options: dict[str, Any], column: Any, legend: Any, *, has_colours: bool) -> dict[str, Any]:
-    """The options that are given: None is the default of each. Refuses what there is not, or what no map can have."""
+    """Check options, and return those that are not None, the default of each; refuse unknown and impossible ones."""
     known = (*OF_SCALE, *OF_LAYER, *OF_MAP)
     for name in options:
         if name not in known:
@@ -119,7 +119,7 @@ def column_of(source: Any, column: Any) -> "str | list[str] | None":
 
 
 def times_of(source: Any, column: str | list[str] | None, times: Any) -> Times | None:
-    """What changes with time, of the columns and the names of steps, or of a table."""
+    """Values that change with time: columns and the names of steps, or a table."""
     names = {str(name) for name in getattr(source, "columns", ())}
     is_column = isinstance(column, str) and column in names  # whatever signs its name has
     several = column is not None and not is_column and (not isinstance(column, str) or Times(column).is_pattern)

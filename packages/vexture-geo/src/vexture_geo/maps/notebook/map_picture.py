@@ -31,7 +31,7 @@ class _Sheet:
 
 @dataclass(frozen=True, eq=False)
 class MapPicture:
-    """What a map shows: its sheets, one above the other."""
+    """Sheets of a map, one above the other."""
 
     sheets: tuple[_Sheet, ...]
 

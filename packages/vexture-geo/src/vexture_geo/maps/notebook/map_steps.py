@@ -1,4 +1,4 @@
-"""Steps of time of a map's widget: the colours of each, as a page gets them once, and what is told of a feature."""
+"""Steps of time of a map's widget: the colours of each, as a page gets them once, and the values in tips."""
 
 import zlib
 from typing import TYPE_CHECKING, Any, Final

@@ -1,4 +1,4 @@
-"""The widget of a map: its column, its selection, and what is told of a feature, as traits."""
+"""The widget of a map: its column, its selection, and the tip of a feature, as traits."""
 
 import os
 import threading
@@ -195,7 +195,7 @@ class MapWidget(VectorWidget):
         return picture
 
     def render(self, size: Size | None = None) -> NDArray[np.float32]:
-        """What the widget shows; see `VectorWidget.render`. Before the map is converted it is drawn as it was read."""
+        """Draw the widget; see `VectorWidget.render`. Before the map is converted, its source is drawn."""
         if self._texture is not None:
             return super().render(size)
         return self._draw_picture(size or (self.width or PICTURE_WIDTH, self.height), self.view)
@@ -207,7 +207,7 @@ class MapWidget(VectorWidget):
         super().save(path)
 
     def only_saved(self) -> dict[str, Any]:
-        """What a page tells of features."""
+        """Tips of features, for a saved page."""
         return {"_tips": self._tips.as_json(self.column, bool(self.times))}
 
     def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
@@ -317,7 +317,7 @@ def _legend(found: dict[str, Any]) -> dict[str, Any]:
 
 
 def _error_message(error: BaseException) -> str:
-    """What went wrong in a line; an error that is none of ours with its class."""
+    """Message of an error, in one line; of a class that is not vexture's, with its name."""
     if isinstance(error, EXPECTED) or not isinstance(error, Exception):
         return str(error)
     return f"{type(error).__name__}: {reason_of(error)}"

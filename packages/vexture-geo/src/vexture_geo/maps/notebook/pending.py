@@ -50,7 +50,7 @@ class Pending(Generic[Result]):
 
     @property
     def error(self) -> BaseException | None:
-        """What went wrong, of a result that is there."""
+        """Error of finished work, if it failed."""
         return self._error
 
     def result(self) -> Result:

@@ -1,4 +1,4 @@
-"""What a tip tells of a feature: names and values of its attributes, as texts."""
+"""Tips of features: names and values of attributes, as texts."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Final
@@ -39,7 +39,7 @@ class Tips:
         self._chosen = _chosen_names(table.column_names, tooltip)
 
     def _names(self, column: str | None) -> list[str]:
-        """Attributes that are told: what is shown first, and those of steps only if they are named."""
+        """Names of a tip's attributes: the column shown comes first, and those of steps only if they are named."""
         if self._chosen is not None:
             return self._chosen
         steps = self._steps.columns if self._steps else ()
