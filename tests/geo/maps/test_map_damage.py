@@ -65,7 +65,7 @@ def test_arcs_that_a_topology_does_not_have_are_said():
     assert "the file is damaged: a geometry refers to arcs that it does not have (2)" in map(str, notes.in_order)
     whole = Notes()
     read_features(topology([[0]], [[-1]]), notes=whole)
-    assert whole.listed == ()
+    assert whole.in_order == ()
     (_, *later) = chunks_of(topology(*[[[0]]] * 3, [[7]]), FeatureQuery(), 2)
     assert [chunk.damaged for chunk in later] == [0]
 
