@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Final
 
 ROOT: Final = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "evidence" / "benchmarks"))
+sys.path.insert(0, str(ROOT / "packages" / "vexture-evidence" / "benchmarks"))
 
 from chromium import chromium  # noqa: E402 - the browser of the benchmarks
 

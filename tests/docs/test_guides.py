@@ -1,6 +1,8 @@
 """The guides run: those that need nothing but a folder here, the others where their browser and their data are."""
 
+import inspect
 import json
+import re
 import subprocess
 import sys
 import tomllib
@@ -44,6 +46,13 @@ def test_the_overview_does_what_it_says(tmp_path: Path) -> None:
     (colours,), (outline,) = (vexture.load(folder / f"{name}.ktx2").roots for name in ("logo", "outline"))
     assert colours.style is None
     assert outline.paint is None
+
+
+def test_the_guide_for_python_lists_the_parameters_of_convert() -> None:
+    text = (GUIDES / "from-python.md").read_text(encoding="utf-8")
+    (listed,) = re.findall(r"The parameters of `convert` are.*?\n\n", text, re.S)
+    parameters = {*inspect.signature(vexture.convert).parameters} - {"source", "encoding", "others"}
+    assert {*re.findall(r"`(\w+)`", listed)} == parameters | {"convert"}
 
 
 @pytest.mark.long
