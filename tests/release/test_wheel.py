@@ -11,12 +11,10 @@ import json
 import os
 import re
 import subprocess
-import sys
 import tarfile
 import urllib.request
 import zipfile
 from collections.abc import Callable
-from importlib.metadata import packages_distributions
 from io import BytesIO
 from pathlib import Path
 
@@ -24,8 +22,8 @@ import numpy as np
 import pytest
 from installed import Installed
 from packaging.metadata import Metadata
-from packaging.utils import canonicalize_name
 from PIL import Image
+from wheel_contents import imported_by, metadata_of, not_required
 
 from compile_kernels import tag
 from dist import COMPILED, build
@@ -85,12 +83,6 @@ def evidence(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def metadata(wheel: Path) -> Metadata:
     return metadata_of(wheel)
-
-
-def metadata_of(wheel: Path) -> Metadata:
-    with zipfile.ZipFile(wheel) as archive:
-        (name,) = (name for name in archive.namelist() if name.endswith(".dist-info/METADATA"))
-        return Metadata.from_email(archive.read(name))
 
 
 @pytest.fixture(scope="module")
@@ -246,37 +238,6 @@ def test_all_that_the_distribution_of_evidence_imports_is_required(
     others = imported_by(evidence) - {"vexture", "vexture_evidence", "vexture_geo"}
     assert {"matplotlib", "numpy"} < others
     assert not_required(others, own, metadata, metadata_of(geo_wheel)) == set()
-
-
-def imported_by(wheel: Path) -> set[str]:
-    """Top-level modules that a wheel's modules import, without those of Python."""
-    imported = set[str]()
-    with zipfile.ZipFile(wheel) as archive:
-        for name in archive.namelist():
-            if name.endswith(".py"):
-                tree = ast.parse(archive.read(name))
-                for node in ast.walk(tree):
-                    if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
-                        node.body = []  # what only checkers of types import
-                for node in ast.walk(tree):
-                    imported |= modules_of(node)
-    return imported - set(sys.stdlib_module_names)
-
-
-def not_required(modules: set[str], *requiring: Metadata) -> set[str]:
-    """Those of the modules that no required distribution has."""
-    homes = packages_distributions()
-    required = {canonicalize_name(needed.name) for one in requiring for needed in one.requires_dist or ()}
-    return {name for name in modules if not required & {canonicalize_name(home) for home in homes.get(name, ())}}
-
-
-def modules_of(node: ast.AST) -> set[str]:
-    """Top-level modules that a statement imports."""
-    if isinstance(node, ast.Import):
-        return {alias.name.partition(".")[0] for alias in node.names}
-    if isinstance(node, ast.ImportFrom) and node.module and not node.level:
-        return {node.module.partition(".")[0]}
-    return set()
 
 
 def test_requirements_agree(vexture: Installed, with_geo: Installed) -> None:

@@ -52,9 +52,9 @@ def error_over_bytes(measured: Sequence[MeasuredRival]) -> "Figure":
     Examples
     --------
     >>> from vexture import Drawing
-    >>> from vexture_evidence.measures.rivals import judge, raster_rival, scene_of
+    >>> from vexture_evidence.measures.rivals import measure_rival, raster_rival, scene_of
     >>> drawing = Drawing.polygon([(0.1, 0.2), (0.9, 0.3), (0.5, 0.8)])
-    >>> found = [judge(raster_rival(drawing, side), scene_of(drawing)) for side in (16, 64)]
+    >>> found = [measure_rival(raster_rival(drawing, side), scene_of(drawing)) for side in (16, 64)]
     >>> error_over_bytes(found).axes[0].get_title(loc="left")
     'whole drawing, 256 px'
     """

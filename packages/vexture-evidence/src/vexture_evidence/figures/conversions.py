@@ -70,7 +70,7 @@ def shorten_name(name: str) -> str:
 
     Examples
     --------
-    >>> shorten_name("duck"), shortened("a drawing with a long name")
+    >>> shorten_name("duck"), shorten_name("a drawing with a long name")
     ('duck', 'a drawing with a lo…')
     """
     return name if len(name) <= NAME else f"{name[: NAME - 1]}…"

@@ -280,9 +280,9 @@ def edited_drawing(before: ThesisTexture, after: EditedTexture, image: NDArray[A
     Examples
     --------
     >>> import vexture
-    >>> from vexture_evidence.measures.editing import edited
+    >>> from vexture_evidence.measures.editing import edit_texture
     >>> half = Drawing.polygon([(0, 0), (1, 0), (1, 0.5), (0, 0.5)])
-    >>> after = edited(half, vexture.convert(half), '<circle cx="0.5" cy="-0.8" r="0.1"/>', 1)
+    >>> after = edit_texture(half, vexture.convert(half), '<circle cx="0.5" cy="-0.8" r="0.1"/>', 1)
     >>> figure = edited_drawing(vexture.convert(half, encoding="thesis"), after, np.ones((4, 4)))
     >>> figure.axes[1].get_title(loc="left")
     'as SVG: 4 cubics'

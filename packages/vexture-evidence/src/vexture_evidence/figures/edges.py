@@ -28,7 +28,7 @@ def edges(rendered: Rendered) -> "Figure":
     Examples
     --------
     >>> from vexture_evidence.measures.renderings import at_edge
-    >>> from vexture_evidence.measures.shape import Shape, example
+    >>> from vexture_evidence.measures.shape import ConvertedDrawing, example
     >>> figure = edges(at_edge(ConvertedDrawing(example("duck")), 8))
     >>> [panel.get_title(loc="left") for panel in figure.axes[:4]]
     ['centre of the pixel', '16 samples', 'packed', 'truth']

@@ -35,7 +35,7 @@ def resolutions(rendered: Sequence[Rendered]) -> "Figure":
     Examples
     --------
     >>> from vexture_evidence.measures.renderings import at_sizes
-    >>> from vexture_evidence.measures.shape import Shape, example
+    >>> from vexture_evidence.measures.shape import ConvertedDrawing, example
     >>> figure = resolutions(at_sizes(ConvertedDrawing(example("duck")), (1, 2)))
     >>> len(figure.axes)  # six rows of two
     12
@@ -85,7 +85,7 @@ def exaggerated_cut_off(pictures: Sequence[AsThesis]) -> "Figure":
     Examples
     --------
     >>> from vexture_evidence.measures.renderings import cut_off_at
-    >>> from vexture_evidence.measures.shape import Shape, example
+    >>> from vexture_evidence.measures.shape import ConvertedDrawing, example
     >>> len(exaggerated_cut_off(cut_off_at(ConvertedDrawing(example("duck")), (8, 16))).axes)
     2
     """

@@ -140,7 +140,7 @@ def count_text(count: int, noun: str) -> str:
 
     Examples
     --------
-    >>> count_text(1, "quad"), number(1200, "curve")
+    >>> count_text(1, "quad"), count_text(1200, "curve")
     ('1 quad', '1,200 curves')
     """
     return f"{count:,} {noun}{'' if count == 1 else 's'}"

@@ -30,7 +30,7 @@ def tolerances(drawing: Drawing, whole: Rendered, close: Rendered, square: tuple
     Examples
     --------
     >>> from vexture_evidence.measures.renderings import with_tolerances
-    >>> from vexture_evidence.measures.shape import Shape, example
+    >>> from vexture_evidence.measures.shape import ConvertedDrawing, example
     >>> duck = ConvertedDrawing(example("duck"))
     >>> _, *pictures = with_tolerances(duck, 32)
     >>> [panel.get_title(loc="left") for panel in tolerances(duck.drawing, *pictures).axes[:3]]

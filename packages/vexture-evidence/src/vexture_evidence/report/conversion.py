@@ -119,7 +119,7 @@ def _speed(side: int | None) -> str:
 
 
 def _without_8_bits(found: list[dict[str, MeasuredConversion]]) -> str:
-    """Why some columns of 8 bits contain dashes; empty if none does."""
+    """Reason why some columns of 8 bits contain dashes; empty if none does."""
     pairs = [one for each in found for way, one in each.items() if way != "packed"]
     if all(one.bytes_8 is not None for one in pairs):
         return ""

@@ -60,7 +60,7 @@ def section(material: Material) -> Section:
 
 
 def _refusal(material: Material) -> str:
-    """Why the thesis's pictures are missing; empty if they are not."""
+    """Reason why the thesis's pictures are missing; empty if they are not."""
     try:
         material.main.way("sampled")
     except LimitError as error:

@@ -128,7 +128,7 @@ def format_range(one: DepthRange) -> str:
 
     Examples
     --------
-    >>> format_range(DepthRange(0.5, 2.0)), shown_range(DepthRange(4.0, inf)), shown_range(DepthRange(-inf, 0.02))
+    >>> format_range(DepthRange(0.5, 2.0)), format_range(DepthRange(4.0, inf)), format_range(DepthRange(-inf, 0.02))
     ('0.5 to 2 m', 'over 4 m', 'below 0.02 m')
     """
     if one.high == inf:

@@ -181,7 +181,7 @@ def raster_errors() -> tuple[type[Exception], ...]:
 
 
 def _why_not(path: Path) -> str:
-    """Why a file beside a raster is not read; empty if it leads nowhere."""
+    """Reason why a file beside a raster is not read; empty if it leads nowhere."""
     import rasterio
 
     start, end = start_of(path), path.suffix.lower()

@@ -274,10 +274,10 @@ def _written_times(dataset: Any, dim: str, count: int, notes: Notes) -> tuple[da
     )
 
 
-def _number_steps(count: int, why: str, notes: Notes, remedy: str = SINCE) -> tuple[None, ...]:
+def _number_steps(count: int, reason: str, notes: Notes, remedy: str = SINCE) -> tuple[None, ...]:
     """Steps without dates; a note says why, if there are several and the file says anything of their times."""
-    if count > 1 and why:
-        notes.remark(f"its steps are numbered: {why}; {remedy}")
+    if count > 1 and reason:
+        notes.remark(f"its steps are numbered: {reason}; {remedy}")
     return (None,) * count
 
 

@@ -269,7 +269,7 @@ def _write_output(store: Store, output: Path, options: TileOptions, facts: Any) 
 
 
 def _why_empty(facts: Any, condition: str | None) -> str:
-    """Why there is nothing for tiles, and what to do."""
+    """Reason why there is nothing for tiles, and what to do."""
     if not facts["features"]:
         return f"no feature meets `where` {condition!r}; correct it" if condition else "it has no features; give some"
     if others := facts["others"]:

@@ -83,7 +83,7 @@ class FeatureChunk:
     """Names that the source has for its features, where no column has their ids: the index of a GeoDataFrame."""
 
     unlabelled: str = ""
-    """Why the index of a GeoDataFrame is not its features' ids."""
+    """Reason why the index of a GeoDataFrame is not its features' ids."""
 
     damaged: int = 0
     """Geometries that are not whole, in the source and not only here."""

@@ -199,7 +199,7 @@ def _entry(file: PublishedFile) -> dict[str, str]:
 
 
 def _reason(error: Exception) -> str:
-    """Why a manifest cannot be read, in a few words."""
+    """Reason why a manifest cannot be read, in a few words."""
     if isinstance(error, OSError):
         return f"{Path(error.filename or '').name}: {error.strerror}"
     return f"it has no {error}" if isinstance(error, KeyError) else " ".join(str(error).split())[:200]

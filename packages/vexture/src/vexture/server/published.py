@@ -160,7 +160,7 @@ class PublishedShapes:
 
     @property
     def notes(self) -> dict[str, str]:
-        """Why the last update of a shape was refused, by the names of those of which it was."""
+        """Reasons why the last update of a shape was refused, by the names of those of which it was."""
         return dict(self._notes)
 
     @property

@@ -134,7 +134,7 @@ def round_box(box: Rectangle) -> Rectangle:
 
     Examples
     --------
-    >>> round_box((1.5, -2.25, 20.0, 20.0)), rounded((0.015, 0.0, 0.5, 0.25))
+    >>> round_box((1.5, -2.25, 20.0, 20.0)), round_box((0.015, 0.0, 0.5, 0.25))
     ((1.0, -3.0, 21.0, 21.0), (0.01, 0.0, 0.51, 0.25))
     """
     x, y, width, height = box

@@ -132,7 +132,7 @@ def image_label(link: str) -> str:
 
     Examples
     --------
-    >>> image_label("pictures/a%20b.png#top"), called("https://example.org/a.png?x=/1"), called("data:,x")
+    >>> image_label("pictures/a%20b.png#top"), image_label("https://example.org/a.png?x=/1"), image_label("data:,x")
     ("image 'a b.png'", "image 'a.png'", 'an embedded image')
     """
     if not is_embedded(link):
@@ -168,7 +168,7 @@ def decode_data_url(link: str) -> bytes:
 
     Examples
     --------
-    >>> decode_data_url("data:image/svg+xml,%3Csvg/%3E"), embedded("data:;base64,PHN2 Zy8+")
+    >>> decode_data_url("data:image/svg+xml,%3Csvg/%3E"), decode_data_url("data:;base64,PHN2 Zy8+")
     (b'<svg/>', b'<svg/>')
     """
     head, comma, body = link.partition("#")[0].partition(",")

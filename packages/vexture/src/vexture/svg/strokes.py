@@ -82,7 +82,7 @@ def stroke_contours(outlines: list[ShapeOutline], stroke: Stroke, size: float) -
 
     Examples
     --------
-    >>> line = Outline.polygon(np.array([[0.0, 0.0], [10.0, 0.0]]), closed=False)
+    >>> line = ShapeOutline.polygon(np.array([[0.0, 0.0], [10.0, 0.0]]), closed=False)
     >>> (contour,) = stroke_contours([line], Stroke(2.0), 10.0)
     >>> np.ptp(contour[:, 0], axis=0).round(6)
     array([10.,  2.])

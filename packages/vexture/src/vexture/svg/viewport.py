@@ -66,7 +66,7 @@ def parse_fit(text: str) -> ViewBoxFit | None:
     Examples
     --------
     >>> parse_fit("xMinYMax slice")
-    Fit(across=0.0, down=1.0, rule='slice')
+    ViewBoxFit(across=0.0, down=1.0, rule='slice')
     """
     match = ASPECT.fullmatch(text)
     if match is None:

@@ -161,9 +161,9 @@ def transform_character(character: str, mode: str, in_word: bool, goes_on: bool,
 
     Examples
     --------
-    >>> transform_character("ß", "uppercase", True, True), transformed("ǆ", "capitalize", False, True)
+    >>> transform_character("ß", "uppercase", True, True), transform_character("ǆ", "capitalize", False, True)
     ('SS', 'ǅ')
-    >>> transform_character("Σ", "lowercase", True, False), transformed("Σ", "lowercase", True, True)
+    >>> transform_character("Σ", "lowercase", True, False), transform_character("Σ", "lowercase", True, True)
     ('ς', 'σ')
     """
     if dotted and (mode == "uppercase" or (mode == "capitalize" and not in_word)) and character == "i":
