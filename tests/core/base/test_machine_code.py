@@ -141,10 +141,10 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 import numpy as np
-from vexture.base.machine_code import described, load
+from vexture.base.machine_code import argument_type, load
 arguments = np.array([0.5, 1.25, -7.75]), 3.0, 2
 kernel = SimpleNamespace(__module__={kernel.__module__!r}, __name__={kernel.__name__!r}, shares=False)
-code = load(kernel, {TEXT!r}, described(arguments), Path({str(folder)!r}))
+code = load(kernel, {TEXT!r}, argument_type(arguments), Path({str(folder)!r}))
 print(code(*arguments)[1:], 'numba' in sys.modules)
 """
     told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)

@@ -32,14 +32,14 @@ from starlette.routing import Route
 from vexture.server.limits import Limits
 from vexture.server.listen import bind, listen, serve_until_stopped
 from vexture.server.routes import application, routes
-from vexture.server.published import TEXTURE_TYPE, File, Shape, Shelf
+from vexture.server.published import TEXTURE_TYPE, PublishedFile, PublishedShape, PublishedShapes
 
 given = json.loads(sys.argv[1])
 files, shapes, size = (given.pop(key) for key in ("files", "shapes", "size"))
 resource.setrlimit(resource.RLIMIT_NOFILE, (files, files))
-shelf = Shelf()
+shelf = PublishedShapes()
 for number in range(shapes):
-    shelf.add(Shape(f"{number:0100}", File(bytes(size), TEXTURE_TYPE, ".ktx2")))
+    shelf.add(PublishedShape(f"{number:0100}", PublishedFile(bytes(size), TEXTURE_TYPE, ".ktx2")))
 taken = bind("127.0.0.1", 0)
 print("serving at", listen(taken), flush=True)
 limits = Limits(**given)
@@ -51,7 +51,7 @@ serve_until_stopped(app, taken, shelf.close, limits)
 FLOOD_PROGRAM = """
 import json, resource, sys
 from vexture.cli.main import main
-from vexture.server import flood
+from vexture_geo.flood import server as flood
 from vexture.server.limits import Limits
 
 limits = json.loads(sys.argv.pop(1))
