@@ -32,6 +32,7 @@ HOMES: Final = {
     "CHANGELOG.md": "project/changelog.md",
     "CONTRIBUTING.md": "project/contributing.md",
     "FORMAT.md": "reference/format.md",
+    "HISTORY.md": "project/history.md",
     "SECURITY.md": "project/security.md",
     "packages/vexture-evidence/benchmarks/README.md": "project/benchmarks.md",
     "examples/counties/README.md": "project/counties.md",
