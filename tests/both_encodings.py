@@ -4,15 +4,13 @@ import pytest
 
 from vexture.texture.decode import decode as decode_packed
 from vexture.texture.encode import encode as encode_packed
-from vexture.texture.texture import Root
+from vexture.texture.root import Root
 from vexture.thesis.encode import encode as encode_thesis
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellTree
 
 thesis_decode = pytest.importorskip("vexture_evidence.measures.thesis_decode", reason="it needs vexture-evidence")
 decode_thesis = thesis_decode.decode
-
-__all__ = ["decode", "encode", "info"]
 
 
 def encode(tree, bits=16, *, to_source, name, crs=None):

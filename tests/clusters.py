@@ -9,8 +9,6 @@ from pathlib import Path
 
 import pytest
 
-__all__ = ["HERE", "cluster_of", "line_of", "scheduler_alone", "start_dask", "workers_of"]
-
 SECONDS = 60
 HERE = ("--host", "127.0.0.1", "--no-dashboard")
 """Options of a scheduler and of workers that nobody else sees."""

@@ -6,8 +6,6 @@ from itertools import product
 
 import numpy as np
 
-__all__ = ["chunks_of", "document_of", "glb_content", "make_room"]
-
 CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))
 """Corners of a square, with texture coordinates that go down, as in glTF."""
 

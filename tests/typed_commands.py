@@ -10,8 +10,6 @@ from pathlib import Path
 
 from vexture.cli.main import main
 
-__all__ = ["run_command"]
-
 
 @contextmanager
 def capture_descriptor(descriptor: int, path: Path) -> Iterator[None]:

@@ -18,8 +18,6 @@ from functools import cache
 from importlib import import_module
 from pathlib import Path
 
-__all__ = ["command"]
-
 MOST_WORDS = 1 << 20
 """Bytes of a command with its environment."""
 

@@ -9,8 +9,6 @@ from collections.abc import Callable
 from difflib import SequenceMatcher
 from typing import Final
 
-__all__ = ["both", "pick_language"]
-
 WORDS: Final = re.compile(r"\w+|[^\w]")
 DEFINITIONS: Final = re.compile(r"(?<=\n\}\n)|(?<=\n\};\n)")
 """Between functions and structures, which end by a brace at the line's begin."""

@@ -25,8 +25,6 @@ import tomllib
 from pathlib import Path
 from typing import Any, Final
 
-__all__ = ["COMPILED", "absolute_links", "build", "epoch"]
-
 ROOT: Final = Path(__file__).resolve().parents[1]
 LINK: Final = re.compile(r"(?<=\]\()(?!\w+:|#)[^)\s]+")
 PICTURES: Final = (".gif", ".jpg", ".png", ".svg", ".webp")

@@ -22,9 +22,6 @@ from mkdocs.structure.files import File, Files
 import js_model
 from js_pages import Book
 
-__all__ = ["HOMES", "command_line", "figures", "javascript", "modules", "on_config", "on_files", "on_page_markdown"]
-__all__ += ["rewrite_links"]
-
 ROOT: Final = Path(__file__).parents[1]
 
 HOMES: Final = {
@@ -188,18 +185,13 @@ def figures() -> list[str]:
     found = []
     for path in sorted((EVIDENCE / "figures").glob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
-        offered = [
-            ast.literal_eval(node.value)
-            for node in tree.body
-            if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__"
-        ]
         found += [
             f"{path.stem}.{node.name}"
             for node in tree.body
             if isinstance(node, ast.FunctionDef)
             and node.returns is not None
             and ast.unparse(node.returns).strip("'\"") == "Figure"
-            and any(node.name in names for names in offered)
+            and not node.name.startswith("_")
         ]
     return found
 
@@ -210,7 +202,7 @@ def figures_page() -> str:
         "# Figures",
         "Each function makes one figure of matplotlib from the library's own data, in a notebook or for a file: "
         "`figure.savefig(...)`. `vexture report` puts them on one page. They are part of the distribution "
-        "`vexture-evidence` (`pip install ./evidence` in a clone).",
+        "`vexture-evidence` (`pip install ./packages/vexture-evidence` in a clone).",
         *(f"::: vexture_evidence.figures.{name}" for name in figures()),
     ]
     return "\n\n".join(parts) + "\n"

@@ -16,8 +16,6 @@ sys.path[:0] = [str(ROOT / "packages" / "vexture-evidence" / "benchmarks"), str(
 
 import corpora  # noqa: E402
 
-__all__ = ["COUNTIES", "ICONS", "SOURCES", "WORLD"]
-
 ICONS: Final = corpora.LUCIDE
 COUNTIES: Final = corpora.Package("us-atlas", "3.0.1", "")
 WORLD: Final = corpora.Package("world-atlas", "2.0.2", "")

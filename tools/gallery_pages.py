@@ -13,8 +13,6 @@ from typing import Any, Final
 ROOT: Final = Path(__file__).resolve().parents[1]
 GALLERY: Final = ROOT / "gallery"
 
-__all__ = ["GALLERY", "ROOT", "Example", "Weight", "examples", "write_index", "write_page"]
-
 BUTTONS: Final = (
     '<button id="run" type="button">Run</button> <button id="reset" type="button" disabled>Reset</button> '
     '<button id="copy" type="button">Copy</button> <span>Ctrl+Enter runs, too</span>'

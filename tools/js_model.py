@@ -11,8 +11,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-__all__ = ["MAIN", "Entry", "entries", "missing", "model"]
-
 TYPEDOC: Final = Path("node_modules", "typedoc", "bin", "typedoc")
 KEPT: Final = Path(".cache", "javascript")
 """Where descriptions are kept, in the repository."""

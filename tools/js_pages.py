@@ -8,8 +8,6 @@ from typing import Any, Final
 from js_model import MAIN
 from js_types import Model, Writer, plain
 
-__all__ = ["Book", "description_of", "find_unlinked", "is_overridden", "members", "names"]
-
 CONSTRUCTOR, METHOD, ACCESSOR, REFERENCE = 512, 2048, 262144, 4194304
 VARIABLE, FUNCTION, CLASS = 32, 64, 128
 KINDS: Final = {VARIABLE: "function", FUNCTION: "function", CLASS: "class"}

@@ -5,8 +5,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
 
-__all__ = ["Model", "Writer", "plain"]
-
 Model = dict[str, Any]
 
 TRIVIAL: Final = {"ArrayBufferLike", "ArrayBuffer"}

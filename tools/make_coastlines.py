@@ -14,8 +14,6 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-__all__ = ["land_in", "ocean"]
-
 TARGET = Path(__file__).parents[1] / "examples" / "coastlines"
 Box = tuple[float, float, float, float]
 COASTS: dict[str, tuple[str, Box]] = {  # degrees: what is shown, and more around it

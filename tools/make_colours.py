@@ -26,8 +26,6 @@ from vexture.drawing.drawing import Drawing  # noqa: E402
 from vexture.drawing.paint import Paint  # noqa: E402
 from vexture.renderers.view import window  # noqa: E402
 
-__all__ = ["main"]
-
 TARGET: Final = ROOT / "docs" / "pictures" / "colours.png"
 FIREFOX: Final = Path("computer", "icons", "firefox.svg")
 """Of openclipart."""

@@ -17,8 +17,6 @@ from chromium import chromium  # noqa: E402 - the browser of the tests
 from make_colours import ROWS, Look, draw_svg, draw_texture  # noqa: E402
 from make_pictures import PANEL, sheet  # noqa: E402
 
-__all__ = ["main"]
-
 TARGET: Final = ROOT / "docs" / "pictures" / "filters.png"
 EMOJI: Final = ("mx-claus-medium", "loudspeaker", "snowflake", "test-tube")
 """Of Fluent Emoji; the last one is furthest from its source."""

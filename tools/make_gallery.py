@@ -29,8 +29,6 @@ from gallery_data import COUNTIES, ICONS, SOURCES, WORLD
 from gallery_pages import GALLERY, ROOT, Example, Weight, command_line, examples, spoken, write_index, write_page
 from vexture.cli.main import main as command
 
-__all__ = ["main"]
-
 WEB: Final = ROOT / "web"
 ENTRIES: Final = ("globe", "gltf", "maplibre", "react", "water", "webgpu")
 """Entries of the npm package beside the main one that the gallery shows."""

@@ -23,8 +23,6 @@ from vexture_geo.maps import MapLayer, Scale, convert_map  # noqa: E402
 from vexture_geo.maps.place import place_features  # noqa: E402
 from vexture_geo.vector.features import read_features  # noqa: E402
 
-__all__ = ["main"]
-
 TARGET: Final = ROOT / "docs" / "pictures" / "maps.png"
 HEIGHT: Final = 330
 """Pixels."""

@@ -10,8 +10,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["fit_coastline", "read_coastline"]
-
 SHAPES = Path(__file__).parents[1] / "examples" / "shapes"
 WEST, EAST, SOUTH, NORTH = -122.24, -121.99, 36.89, 37.09  # degrees: Santa Cruz and the ocean south-west of it
 SIZE = 256.0  # of the drawing, whose window is square on the ground

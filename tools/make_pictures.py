@@ -24,8 +24,6 @@ from vexture_evidence.measures.leaves import leaves
 from vexture_evidence.measures.raster import footprint, mip_sides, trilinear
 from vexture_evidence.measures.thesis_decode import decode
 
-__all__ = ["sheet"]
-
 ROOT = Path(__file__).resolve().parents[1]
 SHAPE = ROOT / "examples" / "shapes" / "duck.svg"
 TARGET = ROOT / "docs" / "pictures" / "first.png"

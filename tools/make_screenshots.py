@@ -28,8 +28,6 @@ from vexture.server.publish_file import VIEWER_PARAMETERS  # noqa: E402
 from vexture_geo.flood.options import FloodOptions  # noqa: E402
 from vexture_geo.flood.server import export as export_flood  # noqa: E402
 
-__all__ = ["main"]
-
 SHAPES: Final = ROOT / "examples" / "shapes"
 PICTURES: Final = ROOT / "docs" / "pictures"
 SIZE: Final = (1080, 700)

@@ -20,8 +20,6 @@ from vexture.thesis import method as thesis_method
 from vexture.thesis.shader_text import FOLD_HEIGHT, PACKAGE, constants
 from wgsl_generator import to_wgsl, with_parameters
 
-__all__ = ["main"]
-
 ROOT: Final = Path(__file__).resolve().parents[1]
 FOLDER: Final = ROOT / "web" / "generated"
 WGSL: Final = ROOT / "packages" / "vexture" / "src" / "vexture" / "shaders" / "wgsl"
@@ -187,7 +185,7 @@ def wraps_module() -> str:
 def layout_module(owner: ModuleType, file: str) -> str:
     """Text of the module with a layout."""
     parts = [HEADER.format(owner=f"packages/vexture/src/vexture/{file}")]
-    for name in owner.__all__:
+    for name in filter(str.isupper, sorted(vars(owner))):
         value = getattr(owner, name)
         text = json.dumps(value)
         frozen = f"Object.freeze({text})" if isinstance(value, tuple | dict) else text

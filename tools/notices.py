@@ -9,8 +9,6 @@ import sys
 from pathlib import Path
 from typing import Final
 
-__all__ = ["bundled_packages", "notices"]
-
 WEB: Final = Path(__file__).resolve().parents[1] / "web"
 OF_PAGES: Final = ("three",)
 """Peers of the npm package that the pages hold."""

@@ -14,8 +14,6 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-__all__ = ["Need", "main"]
-
 ROOT = Path(__file__).resolve().parents[1]
 PIP = (str(ROOT / ".venv" / "bin" / "python"), "-m", "pip", "--version")
 

@@ -12,8 +12,6 @@ from itertools import chain
 from pathlib import Path
 from typing import Final
 
-__all__ = ["disagreements", "notes", "versions"]
-
 ROOT: Final = Path(__file__).resolve().parents[1]
 PROJECT: Final = "pyproject.toml"
 OWNER: Final = f"packages/vexture/{PROJECT}"

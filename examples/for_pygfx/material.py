@@ -9,8 +9,6 @@ from pygfx.renderers.wgpu.shaders.meshshader import MeshShader
 
 import vexture
 
-__all__ = ["VectorMaterial"]
-
 ALPHA_TEST = "do_alpha_test(diffuse_color.a);"
 COVERED = """let at = vec2f(varyings.texcoord.x, 1.0 - varyings.texcoord.y);  // pygfx counts v from the top
     diffuse_color.a *= vextureCoverage(t_vexture, {{ vexture_quad }}u, at, dpdx(at), dpdy(at));

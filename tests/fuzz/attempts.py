@@ -9,8 +9,6 @@ from readers import FindingError, Target, check_line
 
 from vexture.base.errors import EXPECTED, SourceWarning
 
-__all__ = ["attempt", "kind_of_finding", "shrunk"]
-
 VARYING = re.compile(r"[-+]?[0-9][0-9a-fx.e+-]*|'[^']*'|\"[^\"]*\"")
 """Parts of a message that quote the input: two messages that differ in these only are one behaviour."""
 

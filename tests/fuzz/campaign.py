@@ -21,8 +21,6 @@ from javascript import NODE
 from readers import TARGETS
 from worker import LIVE, SECONDS, SHARED_BYTES
 
-__all__ = ["Result", "run_target", "run_worker"]
-
 FINDINGS = Path("fuzz-findings")
 """Folder in the working directory."""
 

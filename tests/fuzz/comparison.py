@@ -26,8 +26,6 @@ from vexture.conversion.reading import read_drawing
 from vexture.drawing.drawing import Drawing
 from vexture.renderers.exact import render_exact_colours
 
-__all__ = ["MOST", "Case", "Compared", "SlowError", "case_of", "compare", "drawn"]
-
 MOST = 2.0
 """Of 255: a larger difference of a component is a finding."""
 

@@ -7,8 +7,6 @@ from importlib import import_module
 from multiprocessing.connection import Connection, wait
 from typing import Any
 
-__all__ = ["answers"]
-
 CONTEXT = multiprocessing.get_context("spawn")
 SLOW = 10.0
 """Times the limit that a step after the first answer may take, such as to minimise a finding."""

@@ -11,8 +11,6 @@ from random import Random
 
 from shadings import Shadings
 
-__all__ = ["FAMILY", "drawing_of"]
-
 FAMILY = "DejaVu Sans"
 """Of all texts, so that every machine draws the same ones."""
 

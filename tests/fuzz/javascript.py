@@ -10,8 +10,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-__all__ = ["NODE", "Loader", "loader"]
-
 NODE = shutil.which("node") if (Path(__file__).parents[2] / "web" / "node_modules" / "three").exists() else None
 """None where Node.js or the packages of web/ are missing."""
 

@@ -19,8 +19,6 @@ from vexture_geo.base.crs import MissingReferenceError
 from vexture_geo.readers import extent_of
 from vexture_geo.vector.features import read_features
 
-__all__ = ["SEEDS", "read_floats", "read_map"]
-
 HEADER_ENDS = b"\n---\n"
 """Between the header and the numbers of a grid of floats, which are two files."""
 

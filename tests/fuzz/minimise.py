@@ -6,8 +6,6 @@ from time import process_time
 
 from lxml import etree
 
-__all__ = ["minimise_svg"]
-
 COMMAND = re.compile(r"(?=[A-Za-z])")
 NUMBER = re.compile(r"-?\d+\.\d+")
 SECONDS = 60.0

@@ -7,8 +7,6 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from random import Random
 
-__all__ = ["MOST_BYTES", "mutate_seed", "png_repaired", "zip_repaired"]
-
 MOST_BYTES = 1 << 17
 """Of an input: faults of reading show in small files, and small files are read more often in a second."""
 

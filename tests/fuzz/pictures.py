@@ -26,8 +26,6 @@ from minimise import minimise_svg
 
 from vexture.base.errors import EXPECTED
 
-__all__ = ["Figures", "describe_finding", "examine_seed", "finding_of", "smallest"]
-
 FOLDER = Path("fuzz-findings") / "pictures"
 BOUNDS = (0.25, 0.5, 1.0, 2.0, 5.0, 20.0, 100.0)
 """Of 255: classes of the histogram."""

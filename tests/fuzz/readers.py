@@ -38,10 +38,9 @@ from vexture.svg.transform import parse_origin, parse_transform
 from vexture.svg.values import Viewport, fraction, number
 from vexture.svg.viewport import parse_fit, view_box
 from vexture.texture.load import texture_from
-from vexture.texture.texture import Root, Texture
+from vexture.texture.root import Root
+from vexture.texture.texture import Texture
 from vexture.thesis.texture import load as load_thesis
-
-__all__ = ["CORPUS", "TARGETS", "FindingError", "Target"]
 
 CORPUS = Path(__file__).parent / "corpus"
 ROOT = Path(__file__).parents[2]

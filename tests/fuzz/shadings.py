@@ -3,8 +3,6 @@
 from collections.abc import Callable
 from random import Random
 
-__all__ = ["Shadings"]
-
 
 class Shadings:
     """The gradients of a drawing."""

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Gradient, Spread
 
-__all__ = ["SIZES", "Sight", "sight_of"]
-
 SIZES = (37, 61, 113, 199)
 TILT = 6.0
 

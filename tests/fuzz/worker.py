@@ -19,8 +19,6 @@ from attempts import attempt, kind_of_finding, shrunk
 from mutate import MOST_BYTES, mutate_seed
 from readers import TARGETS, FindingError
 
-__all__ = ["LIVE", "SECONDS", "SHARED_BYTES"]
-
 SECONDS = 10.0
 """Of the processor, for one input; a target may have more."""
 

@@ -16,8 +16,6 @@ from typing import Any
 
 from guides import free_port
 
-__all__ = ["OpenNotebook", "jupyter_lab", "write_notebook"]
-
 PATIENCE = 60
 """Seconds that a server may take to answer."""
 

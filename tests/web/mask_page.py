@@ -15,7 +15,8 @@ import vexture
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Paint
 from vexture.texture.encode import encode
-from vexture.texture.texture import Root, Texture
+from vexture.texture.root import Root
+from vexture.texture.texture import Texture
 from vexture.tree.build import build_tree
 from vexture.tree.planar.build import build_map
 

@@ -3,8 +3,6 @@
 from collections import defaultdict
 from typing import Any
 
-__all__ = ["PagePool"]
-
 PATIENCE = 120_000
 """Milliseconds that a page waits, unless the test says otherwise: a software driver may compile a shader for long."""
 

@@ -2,8 +2,6 @@
 
 from typing import Any
 
-__all__ = ["drawn", "quiet"]
-
 
 def drawn(page: Any) -> None:
     """Wait until all that was asked for is on the screen.

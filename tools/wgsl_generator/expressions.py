@@ -37,8 +37,6 @@ from wgsl_generator.syntax import (
     Unary,
 )
 
-__all__ = ["FRAGMENT_NAME", "Expressions", "Typed"]
-
 FRAGMENT_NAME: Final = "vexture_fragment"
 """The fragment's place, as a parameter."""
 

@@ -26,8 +26,6 @@ from wgsl_generator.syntax import (
     Uniform,
 )
 
-__all__ = ["LONGER", "Assumed", "Facts", "Form", "assumed_in", "changed_in", "facts_of", "root_of", "walk"]
-
 LONGER: Final = "From"
 """Ends the name of that of a function's two forms that is given more, since WGSL has one function of a name."""
 

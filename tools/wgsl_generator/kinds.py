@@ -3,25 +3,6 @@
 import re
 from typing import Final
 
-__all__ = [
-    "COMPARISONS",
-    "COMPONENTWISE",
-    "RENAMED",
-    "RESERVED",
-    "SAMPLED",
-    "SAMPLER",
-    "TEXTURES",
-    "TO_FLOAT",
-    "array_of",
-    "component_of",
-    "join_values",
-    "size_of",
-    "type_of",
-    "vector_of",
-    "wgsl_name",
-    "wgsl_type",
-]
-
 
 def words_of(text: str) -> frozenset[str]:
     """Words between spaces."""

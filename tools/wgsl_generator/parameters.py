@@ -7,8 +7,6 @@ from wgsl_generator.parser import parse
 from wgsl_generator.syntax import FRAGMENT
 from wgsl_generator.tokens import Token, tokens_of
 
-__all__ = ["with_parameters"]
-
 
 def with_parameters(text: str) -> str:
     r"""Return a text in which each function is given the uniforms that it reads, before all else.

@@ -45,8 +45,6 @@ from wgsl_generator.syntax import (
 )
 from wgsl_generator.tokens import Token, tokens_of
 
-__all__ = ["LEVELS", "parse"]
-
 LEVELS: Final = (
     ("||",),
     ("^^",),

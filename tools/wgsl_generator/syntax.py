@@ -7,46 +7,6 @@ Names of types are those of GLSL, as ``uvec4`` or ``vec2[3]``. All nodes know th
 from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias
 
-__all__ = [
-    "FRAGMENT",
-    "Array",
-    "Assign",
-    "Binary",
-    "Block",
-    "Branch",
-    "Call",
-    "Case",
-    "Choice",
-    "Conditional",
-    "Constant",
-    "Declare",
-    "Default",
-    "Define",
-    "Evaluate",
-    "Expression",
-    "Field",
-    "For",
-    "Function",
-    "If",
-    "Index",
-    "Item",
-    "Jump",
-    "Member",
-    "Name",
-    "Number",
-    "Parameter",
-    "Remarks",
-    "Return",
-    "Statement",
-    "Step",
-    "Struct",
-    "Switch",
-    "Top",
-    "Unary",
-    "Uniform",
-    "While",
-]
-
 FRAGMENT: Final = "gl_FragCoord"
 """The fragment's place: what else a shader is given, it is given by uniforms."""
 

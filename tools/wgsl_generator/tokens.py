@@ -6,8 +6,6 @@ from typing import Final
 
 from vexture.renderers.shader_error import ShaderError
 
-__all__ = ["Token", "tokens_of"]
-
 TOKEN: Final = re.compile(
     r"(?P<comment>//[^\n]*)|(?P<directive>^[ \t]*#[^\n]*)|(?P<space>[ \t\r]+)|(?P<line>\n)"
     r"|(?P<number>0[xX][0-9a-fA-F]+u?|(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?u?)|(?P<name>[A-Za-z_]\w*)"

@@ -43,8 +43,6 @@ from wgsl_generator.syntax import (
     While,
 )
 
-__all__ = ["written"]
-
 WIDTH: Final = 120
 INDENT: Final = "    "
 NO_BREAK: Final = "\0"  # instead of a space

@@ -11,8 +11,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-__all__ = ["CHROMIUM", "FLAGS", "ROOT", "WEB", "bundle", "chromium", "serve_folder"]
-
 ROOT: Final = Path(__file__).parents[3]
 WEB: Final = ROOT / "web"
 

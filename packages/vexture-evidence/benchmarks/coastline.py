@@ -31,8 +31,6 @@ from vexture.texture.texture import Root
 from vexture.tree.build import build_tree
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["conversion", "rings_of", "shoreline"]
-
 STAGES = ("reading", "drawing", "tree", "texture", "file")
 WORLD = (np.array([-180.0, -90.0]), 540.0)
 """Least longitude and latitude, and the degrees of a side: rings run past the antimeridian."""

@@ -37,8 +37,6 @@ from vexture_evidence.measures.gpu_model import FAMILIES
 from vexture_evidence.measures.machine import machine_facts, machine_line
 from vexture_evidence.measures.programs import Program, driver, seconds
 
-__all__ = ["CostSet"]
-
 READ_AT: Final = 256
 """Pixels across the picture whose texels are counted."""
 

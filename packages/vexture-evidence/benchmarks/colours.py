@@ -35,8 +35,6 @@ from vexture.renderers.view import ViewLike
 from vexture.svg.read import read_svg, svg_drawing
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["ColourSet", "checkerboard", "choropleth", "discs", "flags"]
-
 FLAGS: Final = 30
 TURNS: Final = 5
 SPHERES, SHADED_FLAGS, CLIP_ART = "spheres", "flags with gradients", "clip art"

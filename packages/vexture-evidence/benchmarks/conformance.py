@@ -40,8 +40,6 @@ from vexture.base.errors import VextureError
 from vexture.base.notes import line_of
 from vexture.conversion.reading import read_drawing
 
-__all__ = ["OUTCOMES", "outcome_of", "share_off"]
-
 SIDE: Final = 200
 """Pixels across a compared picture."""
 

@@ -27,8 +27,6 @@ from vexture_evidence.measures.machine import machine_facts, machine_line
 from vexture_evidence.measures.thesis_numbers import TABLE_5_1
 from vexture_evidence.measures.timing import median_seconds
 
-__all__ = ["SHAPES", "Check", "path_bytes", "size_checks", "size_facts"]
-
 Strategy = Literal["direct", "sampled"]
 
 SHAPES = Path(__file__).parents[3] / "examples" / "shapes"

@@ -24,22 +24,6 @@ from vexture.base.errors import LimitError, SourceError, VextureError
 from vexture.drawing import drawing
 from vexture.drawing.drawing import Drawing
 
-__all__ = [
-    "ALPHANUMERICS",
-    "coat_of_arms",
-    "dejavu_sans",
-    "emoji",
-    "flags",
-    "fractal_coastline",
-    "glyphs",
-    "ktx_parse",
-    "lucide",
-    "mdi",
-    "round_shapes",
-    "simple_icons",
-    "stix",
-]
-
 FONTS = Path("/usr/share/fonts")
 ALPHANUMERICS = string.ascii_letters + string.digits
 HEXAGON_RADIUS = 0.4  # unit-square units

@@ -29,8 +29,6 @@ from vexture.base.errors import DeviceError, VextureError
 from vexture.pages.page import SCRIPT, built
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["percentile", "time_exports", "time_saves"]
-
 SHAPES: Final = ROOT / "examples" / "shapes"
 COLOR: Final = "#e8b100"
 """Of the duck, in its file."""

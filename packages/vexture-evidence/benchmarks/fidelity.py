@@ -27,19 +27,6 @@ from vexture.thesis.tree import CellTree
 from vexture_evidence.measures.leaves import leaves
 from vexture_evidence.measures.metrics import LEVELS, border_ratio, cell_border_pixels, errors
 
-__all__ = [
-    "AREA_LIMIT",
-    "BORDER_LIMIT",
-    "MEAN_LIMIT",
-    "area_error",
-    "cut_pixels",
-    "has_gpu",
-    "meets_limits",
-    "parse_options",
-    "shifted_views",
-    "size_facts",
-]
-
 SHAPES = Path(__file__).parents[3] / "examples" / "shapes"
 SIZES = (61, 250, 1000)
 SHIFTS = 8

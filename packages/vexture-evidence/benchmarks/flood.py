@@ -42,8 +42,6 @@ from santa_cruz_page import (
 from targets import Target, target_facts, target_table
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["edges", "motion"]
-
 SECONDS: Final = 10.0
 PARTS: Final = ("edges", "raster", "reading", "live", "page")
 STEP: Final = 0

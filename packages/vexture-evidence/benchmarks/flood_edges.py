@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 from vexture.drawing.drawing import Drawing, Path
 from vexture.renderers.exact import render_exact
 
-__all__ = ["edge_errors", "exact_shore", "inside", "moved_back", "water_to_unit"]
-
 WORLD: Final = 100.0
 """Units of the page's world along the longer side of the frame."""
 

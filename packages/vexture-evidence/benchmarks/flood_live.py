@@ -23,8 +23,6 @@ import numpy as np
 from flood_reading import CRS, PLACE, VERTICES, geojson, island
 from vexture.base.errors import DeviceError
 
-__all__ = ["VIEWERS", "time_pushes"]
-
 VIEWERS: Final = 50
 SIZE: Final = {"width": 900, "height": 600}
 VEXTURE: Final = [sys.executable, "-c", "from vexture.cli.main import main; main(prog_name='vexture')"]

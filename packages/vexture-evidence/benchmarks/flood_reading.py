@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from vexture.conversion.pipeline import convert
 from vexture_geo.flood.conversion import WATER_PARAMETERS
 
-__all__ = ["KINDS", "VERTICES", "ReadingTimes", "island", "island_files", "reading_times"]
-
 VERTICES: Final = 20_000
 KINDS: Final = ("GeoJSON", "FlatGeobuf", "GPKG")
 SUFFIXES: Final = {"GeoJSON": ".geojson", "FlatGeobuf": ".fgb", "GPKG": ".gpkg"}

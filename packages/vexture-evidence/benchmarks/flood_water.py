@@ -31,8 +31,6 @@ from santa_cruz_page import PATIENCE, content, scene_of
 from targets import Target, target_facts, target_table
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["SCENES", "ViewCount", "count_views"]
-
 Grid = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 

@@ -40,8 +40,6 @@ from vexture_evidence.measures.programs import (
     thesis_source,
 )
 
-__all__ = ["SHAPES", "SOURCES"]
-
 THESIS_LEVELS: Final = 10
 """Quads on the longest path of the example shapes."""
 

@@ -36,8 +36,6 @@ from vexture.svg.document import parse_svg
 from vexture.svg.read import framed_drawing
 from vexture_evidence.measures.peers import paint_with_skia
 
-__all__ = ["FIRST", "READING_LIMIT", "TEXTURE_LIMIT", "Case", "Child", "Facts", "enlarge", "stages"]
-
 SIZE: Final = 100
 """Pixels across a compared picture."""
 

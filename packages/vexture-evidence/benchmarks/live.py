@@ -18,8 +18,6 @@ from urllib.parse import urlsplit
 
 from report import write_figures
 
-__all__ = ["main"]
-
 TOKEN = "token-of-the-benchmark"
 SERVE = [sys.executable, "-c", "from vexture.cli.main import main; main()", "serve"]
 DRAWING = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><path d="M2 2h6v{}h-6z"/></svg>'

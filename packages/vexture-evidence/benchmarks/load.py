@@ -28,8 +28,6 @@ from report import write_figures
 from vexture.server.limits import Limits
 from vexture_geo.flood.bundle import FLOOD
 
-__all__ = ["main"]
-
 LARGE, TIMES = 9_000_000, 20
 """Bytes of a drawing that is not read, and how often it is requested: the script of a page is a tenth of it."""
 

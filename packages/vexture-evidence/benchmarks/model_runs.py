@@ -8,8 +8,6 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Mesh", "estuary", "write_partitions", "write_run"]
-
 EPSG: Final = 28992
 CORNER: Final = (100_000.0, 400_000.0)
 EDGE: Final = 20.0

@@ -35,8 +35,6 @@ from vexture.tree.tree import Tree
 from vexture_evidence.measures.machine import machine_facts, machine_line
 from vexture_evidence.measures.timing import median_seconds
 
-__all__ = ["atlas", "batch_facts", "fresh_seconds", "join_trees", "peak_memory", "peak_of"]
-
 EDGES: Final = (768, 12_288, 98_304)
 ICONS: Final = 150
 """Of each of two sets."""

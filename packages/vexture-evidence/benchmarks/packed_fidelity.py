@@ -38,8 +38,6 @@ from vexture_evidence.measures.metrics import LEVELS, errors, ink_sd
 from vexture_evidence.measures.programs import Program, band_program, driver, packed_program, packed_texture
 from views import views_with_shifts
 
-__all__ = ["CASES", "ScaledCase", "case_facts"]
-
 SHAPES = Path(__file__).parents[3] / "examples" / "shapes"
 SIX: Final = "agR&8@"
 ICONS: Final = 150

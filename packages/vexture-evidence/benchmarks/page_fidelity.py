@@ -35,8 +35,6 @@ from vexture.svg.read import read_svg
 from vexture.tree.build import build_tree
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["plane_to_unit", "view_matrix"]
-
 SHAPES: Final = ROOT / "examples" / "shapes"
 NAMES: Final = ("duck", "font", "ocean", "flame", "holes")
 PIXELS: Final = 512

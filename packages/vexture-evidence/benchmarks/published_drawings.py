@@ -30,8 +30,6 @@ from vexture.conversion.reading import read_drawing
 from vexture.drawing.drawing import Drawing
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["main"]
-
 MOST_SEGMENTS: Final = 20_000
 """Of a drawing; larger ones are counted as left aside."""
 

@@ -9,8 +9,6 @@ from typing import Any
 from vexture_evidence.measures.machine import machine_facts, machine_line
 from vexture_evidence.report.page import known
 
-__all__ = ["RESULTS", "cell", "table", "write_figures", "write_json"]
-
 RESULTS = Path(__file__).parent / "results"
 
 

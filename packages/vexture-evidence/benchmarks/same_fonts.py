@@ -10,8 +10,6 @@ from fontTools.ttLib import TTFont
 
 from vexture.fonts.system import default_files
 
-__all__ = ["FONTS", "gather", "only_these", "options_of_resvg"]
-
 FONTS: Final = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 """Fonts with Latin, Greek, Arabic and Hebrew letters; our fixtures ask for no others."""
 

@@ -19,22 +19,6 @@ from chromium import ROOT
 from vexture.drawing.drawing import Drawing
 from vexture.renderers.exact import render_exact
 
-__all__ = [
-    "PATIENCE",
-    "PRESETS",
-    "SIZE",
-    "ExportedFlood",
-    "capture_view",
-    "content",
-    "export_page",
-    "first_picture",
-    "frame_times",
-    "mask_of",
-    "open_page",
-    "scene_of",
-    "show_raster",
-]  # fmt: skip
-
 SIZE: Final = (960, 540)
 PRESETS: Final = ("Plan", "Overview", "Coast", "Shore", "Beach")
 MASK: Final = 1024

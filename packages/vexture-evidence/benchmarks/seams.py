@@ -29,17 +29,6 @@ from vexture.tree.tree import Tree
 from vexture_evidence.measures.programs import packed_program, packed_texture
 from views import PictureView
 
-__all__ = [
-    "Crossing",
-    "crossings",
-    "displacements",
-    "is_straight",
-    "seam_facts",
-    "seam_table",
-    "seam_targets",
-    "step_of",
-]
-
 SIDE: Final = 64
 REACH: Final = 20.0
 NOTCH: Final = 3.0

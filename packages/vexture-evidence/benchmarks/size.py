@@ -38,8 +38,6 @@ from vexture.tree.build import build_tree
 from vexture_evidence.measures.bands import BANDS, COASTLINE_BANDS, band_texture
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["SizeSet", "coastline_svg", "set_facts"]
-
 SHAPES = Path(__file__).parents[3] / "examples" / "shapes"
 EDGES: Final = (768, 12_288, 98_304)
 ICONS: Final = 150

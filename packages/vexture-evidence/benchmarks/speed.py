@@ -36,8 +36,6 @@ from vexture_evidence.measures.programs import (
 )
 from views import PictureView, square_view, tilted_view
 
-__all__ = ["NAMES", "draws_for", "ratio", "views_of"]
-
 SIDE: Final = 1024
 SMALL: Final = 64
 ZOOM: Final = 10.0

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 import corpora
 from judge import Case
 
-__all__ = ["CORPORA", "DRAWN"]
-
 W3C_GROUPS: Final = ("shapes-", "paths-", "coords-trans", "painting-", "struct-", "styling-")
 """Tests of SVG 1.1 that are not about text, filters, masks or animation."""
 

@@ -6,8 +6,6 @@ from typing import Any
 
 from report import cell, table
 
-__all__ = ["Target", "target_facts", "target_table"]
-
 
 @dataclass(frozen=True, slots=True)
 class Target:

@@ -27,8 +27,6 @@ from vexture.svg.read import svg_drawing
 from vexture.tracing.trace import embedded_image
 from vexture_evidence.measures.machine import machine_facts, machine_line
 
-__all__ = ["PICTURES", "draw_exactly", "main", "measure_tracing"]
-
 Pixels = NDArray[np.uint8]
 
 LOGO: Final = """<rect x="10" y="10" width="100" height="60" rx="10" fill="#0a4d8c"/>

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from vexture.drawing.drawing import Drawing
 
-__all__ = ["PictureView", "box_of", "em_size", "square_view", "tilted_view", "views_with_shifts"]
-
 MARGIN = 0.05
 """Of the box's larger side, left free on each side by `square_view`."""
 

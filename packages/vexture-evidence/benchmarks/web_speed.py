@@ -31,8 +31,6 @@ from vexture_evidence.measures.machine import machine_facts, machine_line
 from vexture_evidence.measures.programs import rows_of
 from views import box_of
 
-__all__ = ["frame_times"]
-
 SIDE: Final = 1024
 LEAST: Final = 100.0
 """Milliseconds of one measurement."""

@@ -15,7 +15,8 @@ from vexture.drawing.group import Group
 from vexture.drawing.paint import Paint
 from vexture.texture.encode import encode
 from vexture.texture.load import texture_from
-from vexture.texture.texture import Root, Texture
+from vexture.texture.root import Root
+from vexture.texture.texture import Texture
 from vexture.thesis.texture import ThesisTexture
 from vexture.tree.build import build_tree
 

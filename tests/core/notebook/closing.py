@@ -5,8 +5,6 @@ import threading
 
 import pytest
 
-__all__ = ["no_loop_of_a_browser", "none_is_left"]
-
 
 @pytest.fixture(autouse=True)
 def none_is_left():

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from vexture.drawing.drawing import Drawing
 from vexture.renderers.view import fit, window
 from vexture.texture.encode import encode
-from vexture.texture.texture import Root, Texture
+from vexture.texture.root import Root
+from vexture.texture.texture import Texture
 from vexture.tree.build import build_tree
 
 View = tuple[tuple[int, int], NDArray[np.float64]]

@@ -2,8 +2,6 @@
 
 from plainer_styles import STYLES
 
-__all__ = ["PLAINER", "plainer"]
-
 ARROW = '<path d="M0 0L10 5L0 10z" fill="red"/>'
 ROOF = '<path d="M20 80L50 20L80 80" fill="none" stroke="blue" stroke-width="4"/>'
 ROOF_UPRIGHT = ((20, 80, 0), (50, 20, 0), (80, 80, 0))

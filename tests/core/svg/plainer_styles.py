@@ -1,7 +1,5 @@
 """Fixtures of styles that PyPI's resvg does not know, in words that it and we understand alike."""
 
-__all__ = ["STYLES"]
-
 
 def squares(*colors: str) -> str:
     """Up to four squares in two rows, of colours."""

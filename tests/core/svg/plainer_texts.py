@@ -7,8 +7,6 @@ from fontTools.ttLib import TTFont
 
 from same_fonts import FONTS
 
-__all__ = ["HEBREW", "PLAINER", "ROOT", "advance", "plainer_text"]
-
 ROOT = 'xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100" font-family="DejaVu Sans" font-size="16"'
 SIZE = 16.0
 HEBREW = "\u05e1\u05e4\u05d9\u05e0\u05d4"

@@ -19,9 +19,6 @@ from vexture.drawing.drawing import Drawing
 peers = pytest.importorskip("vexture_evidence.measures.peers", reason="it needs vexture-evidence")
 paint_with_skia = peers.paint_with_skia
 
-__all__ = ["difference", "different_part", "render_drawing", "render_file"]
-
-
 SIDE, FINER = 100, 4
 """Pixels across a picture, and those of it as it is drawn across one of them."""
 

@@ -17,7 +17,8 @@ from vexture.renderers.exact import render_exact_colours
 from vexture.texture.encode import encode
 from vexture.texture.load import texture_from
 from vexture.texture.planar import decode_map, map_texels
-from vexture.texture.texture import Root, Texture
+from vexture.texture.root import Root
+from vexture.texture.texture import Texture
 from vexture.tree.planar.build import build_map
 
 RED, BLUE = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.0, 1.0), 0.5)

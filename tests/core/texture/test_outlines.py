@@ -21,7 +21,8 @@ from vexture.drawing.paint import Paint
 from vexture.renderers.exact import render_exact
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.outlines import outlines
-from vexture.texture.texture import Root, Texture
+from vexture.texture.root import Root
+from vexture.texture.texture import Texture
 from vexture.tree.build import build_tree
 from vexture.tree.tree import Tree
 

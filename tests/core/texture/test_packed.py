@@ -15,7 +15,8 @@ from vexture.base import layout
 from vexture.base.errors import FormatError, LimitError, ParameterError
 from vexture.drawing.paint import Paint
 from vexture.texture.encode import encode as encode_packed
-from vexture.texture.texture import Root, Texture
+from vexture.texture.root import Root
+from vexture.texture.texture import Texture
 from vexture.tree.tree import Tree
 
 FIELDS = ("is_quad", "count", "winding", "first_quad", "first_curve", "curves")

@@ -23,7 +23,8 @@ from vexture.drawing.paint import Paint
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.ktx2 import write_ktx2
 from vexture.texture.load import load_any as load
-from vexture.texture.texture import Root, Texture
+from vexture.texture.root import Root
+from vexture.texture.texture import Texture
 from vexture.thesis.texture import ThesisTexture
 from vexture.tree.tree import Tree
 

@@ -15,7 +15,7 @@ import degenerate
 from both_encodings import encode
 from vexture.drawing.drawing import Drawing
 from vexture.texture.encode import encode as encode_packed
-from vexture.texture.texture import Root
+from vexture.texture.root import Root
 from vexture.tree.build import build_tree
 
 TEXT = (Path(__file__).parents[3] / "FORMAT.md").read_text(encoding="utf-8")

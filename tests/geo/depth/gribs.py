@@ -8,8 +8,6 @@ import numpy as np
 import rasterio
 from rasterio.io import MemoryFile
 
-__all__ = ["DEPTH", "FIELD", "GEOGRAPHIC", "ICE", "LEVEL", "SOUNDING", "TEMPERATURE", "first_edition", "second_edition"]
-
 DEPTH, LEVEL, SOUNDING, ICE, TEMPERATURE = (10, 4, 14), (10, 3, 1), (10, 4, 7), (10, 2, 1), (0, 0, 0)
 """Discipline, category and number of parameters (code table 4.2)."""
 

@@ -7,8 +7,6 @@ import click
 
 from vexture.cli.messages import one_line, print_message
 
-__all__ = ["report"]
-
 EXAMPLE = """\b
 Examples:
   vexture report -o report              the example drawings, from a clone of the repository

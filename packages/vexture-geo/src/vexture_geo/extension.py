@@ -10,8 +10,6 @@ from vexture.base.errors import ParameterError
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["describe_tiles", "flood_widget", "pack", "read_drawing", "unpack"]
-
 Source: TypeAlias = str | os.PathLike[str] | bytes
 
 

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
     from vexture_geo.base.extent import Extent, Frame
 
-__all__ = ["extent_of", "read_extent", "read_first_step"]
-
 Place: TypeAlias = str | os.PathLike[str]
 
 

@@ -33,7 +33,8 @@ if TYPE_CHECKING:
     from vexture.renderers.view import View, window
     from vexture.svg.read import read_svg
     from vexture.texture.load import load
-    from vexture.texture.texture import Root, Texture
+    from vexture.texture.root import Root
+    from vexture.texture.texture import Texture
     from vexture.tracing.trace import read_image, trace
     from vexture_geo.base.extent import Extent, Frame
     from vexture_geo.flood.page import FloodPage, flood_page
@@ -110,7 +111,8 @@ _HOMES = {
     "vexture.renderers.view": ("View", "window"),
     "vexture.svg.read": ("read_svg",),
     "vexture.texture.load": ("load",),
-    "vexture.texture.texture": ("Root", "Texture"),
+    "vexture.texture.root": ("Root",),
+    "vexture.texture.texture": ("Texture",),
     "vexture.tracing.trace": ("read_image", "trace"),
 }
 

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["UNIT", "add_scale", "curve_lines", "draw_cells", "draw_level_lines", "subdivision", "subdivisions"]
-
 UNIT: Final = (0.0, 0.0, 1.0, 1.0)
 """The unit square: x0, y0, x1, y1."""
 

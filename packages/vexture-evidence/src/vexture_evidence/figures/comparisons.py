@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["CORNER", "SHOWN", "equal_bytes", "error_over_bytes"]
-
 FLOOR: Final = 1e-3
 """Smallest error shown, in 1/255; smaller errors are drawn here, because a logarithmic scale has no 0."""
 

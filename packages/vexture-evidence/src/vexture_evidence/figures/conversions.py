@@ -9,8 +9,6 @@ from vexture_evidence.figures.style import COLOURS, GRID, INK, panels
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["conversions"]
-
 MARKERS: Final = {"printed": "x", "sampled": "^", "direct": "s", "packed": "o"}
 """One marker for each method, so that methods can be distinguished without colours."""
 

@@ -27,16 +27,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = [
-    "before_after",
-    "density",
-    "edited_drawing",
-    "lines_at_borders",
-    "list_growth",
-    "stored_value_errors",
-    "unneeded_divisions",
-]
-
 SIDE: Final = 2.75
 """Side of a panel in inches; four panels fill the page's column."""
 

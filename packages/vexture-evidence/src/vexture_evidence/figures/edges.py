@@ -11,8 +11,6 @@ from vexture_evidence.measures.renderings import Rendered
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["edges"]
-
 SHOWN: Final = 32.0
 """Error, in 1/255, that has the darkest colour."""
 

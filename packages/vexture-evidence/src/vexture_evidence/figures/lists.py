@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Counts", "counts", "hierarchy", "lists"]
-
 HALVES: Final = np.array([(0, 0), (1, 0), (0, 1), (1, 1)]) / 2.0
 SQUARE: Final = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
 

@@ -12,8 +12,6 @@ from vexture_evidence.measures.closeups import all_cubics
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["draw_outline"]
-
 CHORDS = 256
 """Straight lines for each cubic, enough for curves to look smooth when enlarged a thousand times."""
 

@@ -22,8 +22,6 @@ from vexture_evidence.measures.shape import file_bytes
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["overview", "picture_error", "summary"]
-
 SIDE: Final = 256
 """Side of the pictures in pixels."""
 

@@ -11,8 +11,6 @@ from vexture_evidence.measures.plane import Receding
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["plane"]
-
 ENLARGED: Final = 4
 """How many times the far part is enlarged."""
 

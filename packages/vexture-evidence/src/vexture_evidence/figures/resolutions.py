@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-__all__ = ["exaggerated_cut_off", "resolutions"]
-
 STORED: Final = "#8b94a3"
 FROM_LEAF: Final = COLOURS["bands"]
 """Colours of pixels by the origin of their value: a stored MIP value, or a leaf."""

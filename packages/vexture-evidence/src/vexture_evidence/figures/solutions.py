@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["solutions"]
-
 ACROSS = 3
 """Curves in a row."""
 

@@ -11,21 +11,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-__all__ = [
-    "COLOURS",
-    "GRID",
-    "INK",
-    "MUTED",
-    "RESOLUTION",
-    "SMALL",
-    "coverage_map",
-    "error_map",
-    "panels",
-    "plotting",
-    "show",
-    "unit_axes",
-]
-
 INK: Final = "#1b2733"
 MUTED: Final = "#6b7688"
 GRID: Final = "#b9c1cc"

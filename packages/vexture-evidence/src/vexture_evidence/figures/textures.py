@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Strip", "count_text", "draw_texture", "texture_images", "textures"]
-
 BETWEEN: Final = 1.6
 """Height of the text above an image, in texels."""
 

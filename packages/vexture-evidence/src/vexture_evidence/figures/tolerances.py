@@ -12,8 +12,6 @@ from vexture_evidence.measures.renderings import Rendered
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["tolerances"]
-
 
 def tolerances(drawing: Drawing, whole: Rendered, close: Rendered, square: tuple[float, float, float]) -> "Figure":
     """Show a shape by several conversions, and an enlarged part of it with the drawing's own outline over it.

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-__all__ = ["tracing"]
-
 SIDE = 320
 """Side of the pictures from the texture, in pixels."""
 

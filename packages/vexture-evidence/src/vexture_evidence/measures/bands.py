@@ -22,8 +22,6 @@ from vexture.base.errors import LimitError
 from vexture.drawing.drawing import Drawing, FillRule
 from vexture.renderers.shader import read_shader
 
-__all__ = ["BandTexture", "band_shader", "band_texture", "eligible_roots", "quadratic_contours"]
-
 BANDS: Final = 16
 """Bands in each direction, as published for glyphs."""
 

@@ -12,8 +12,6 @@ from vexture_evidence.measures.metrics import TRUTH
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["closeup", "outline_places", "sharpest_corner"]
-
 CANDIDATES: Final = 4
 """Candidates for each requested point: where paths overlap, parts of their outlines lie inside the silhouette."""
 

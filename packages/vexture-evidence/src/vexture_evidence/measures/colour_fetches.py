@@ -23,8 +23,6 @@ from vexture.renderers.view import ViewLike
 from vexture.texture.texture import Texture
 from vexture_evidence.measures.gpu_turns import observe_kernel
 
-__all__ = ["SheetStack", "layer_boxes", "pixel_fetches", "spread_pixels"]
-
 BOX, HEAD = 1, 1
 """Texels with the box of a layer, and with its quad and paint."""
 

@@ -20,8 +20,6 @@ from vexture_evidence.measures.programs import (
     nearest,
 )
 
-__all__ = ["color_target", "map_source", "sheets_program", "silhouette_program"]
-
 ONE: Final = 65536
 """1 as a coordinate of a box in the texture of layers."""
 

@@ -10,8 +10,6 @@ from vexture.thesis.layout import LIST_LIMIT
 from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, Made, file_bytes
 from vexture_evidence.measures.timing import FRAME, frames_per_second, median_seconds
 
-__all__ = ["MeasuredConversion", "frame_side", "measure_conversion"]
-
 LONG: Final = 0.05
 """Seconds; a conversion that takes longer is timed once."""
 

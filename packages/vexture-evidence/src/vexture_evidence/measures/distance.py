@@ -18,8 +18,6 @@ from vexture_evidence.measures.raster import FULL, Footprint, MipMapped, mip_sid
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["LARGEST", "SPREAD", "DistanceField", "distance_from"]
-
 SPREAD: Final = 4.0
 """Texels, a common choice: greater distances are stored as this one."""
 

@@ -11,8 +11,6 @@ from vexture.texture.texture import Texture
 from vexture_evidence.measures.metrics import Errors, errors
 from vexture_evidence.measures.timing import median_seconds
 
-__all__ = ["EditedTexture", "edit_texture"]
-
 SIDE = 256
 """Pixels along a side of the pictures that show whether the round trip changed the drawing."""
 

@@ -13,8 +13,6 @@ from typing import Final
 
 from vexture.renderers.shader import vertex_source
 
-__all__ = ["CompiledShader", "Toolchain", "ToolchainError", "toolchain"]
-
 PACKAGES: Final = {"cc": "gcc", "glslangValidator": "glslang-tools"}
 DRIVERS: Final = [Path(root) / "vulkan/icd.d" for root in ("/usr/share", "/usr/local/share", "/etc")]
 PRINTER: Final = Path(__file__).with_name("compile_for_gpu.c")

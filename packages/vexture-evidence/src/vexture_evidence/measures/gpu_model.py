@@ -11,8 +11,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Final
 
-__all__ = ["FAMILIES", "LANES", "ONCE", "Cycles", "Family", "ScopeShape", "ScopedProgram", "per_pixel", "read_program"]
-
 LANES: Final = 64
 """Of a wave."""
 

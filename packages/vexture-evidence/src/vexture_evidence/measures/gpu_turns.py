@@ -19,8 +19,6 @@ from vexture.texture.texture import Texture
 from vexture_evidence.measures.bands import COUNT_BITS, BandTexture, eligible_roots
 from vexture_evidence.measures.gpu_model import LANES, ONCE, ScopeShape
 
-__all__ = ["SIDE", "Lane", "Turns", "band_lane", "packed_lane", "run_waves"]
-
 SIDE = 8
 """A wave has SIDE x SIDE pixels."""
 

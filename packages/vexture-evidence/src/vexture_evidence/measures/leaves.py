@@ -15,8 +15,6 @@ from vexture.thesis.tree import CellKind, CellTree
 from vexture.tree.tree import Tree as PackedTree
 from vexture_evidence.measures.thesis_decode import decode as decode_thesis
 
-__all__ = ["LeafArrays", "QuadArrays", "Tree", "leaves", "quads", "tree_of"]
-
 Tree = CellTree | PackedTree
 
 HALVES = np.array([(0, 0), (1, 0), (0, 1), (1, 1)])

@@ -7,8 +7,6 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-__all__ = ["machine_facts", "machine_line"]
-
 LIBRARIES = ("vexture", "numpy", "numba")
 CPUINFO = Path("/proc/cpuinfo")
 

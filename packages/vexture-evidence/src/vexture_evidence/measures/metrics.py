@@ -9,8 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["LEVELS", "Errors", "border_ratio", "cell_border_pixels", "errors", "ink_sd", "outline_distance"]
-
 LEVELS = 255.0
 """Largest value of an 8-bit picture; errors are given in its steps."""
 

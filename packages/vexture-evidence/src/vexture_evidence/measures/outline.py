@@ -10,8 +10,6 @@ from vexture.drawing.drawing import Drawing
 from vexture.thesis.sample_and_fit import SAMPLES_ACROSS
 from vexture_evidence.measures.closeups import all_cubics
 
-__all__ = ["first_samples", "off_outline"]
-
 CHORDS: Final = 256
 """Chords of each cubic, from which the search for the nearest point starts."""
 

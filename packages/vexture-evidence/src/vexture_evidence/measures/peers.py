@@ -23,17 +23,6 @@ from vexture_evidence.measures.raster import FULL
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing, Path
 
-__all__ = [
-    "check_peers",
-    "paint_with_skia",
-    "render_resvg",
-    "render_skia",
-    "resvg_renderer",
-    "skia_path",
-    "skia_renderer",
-    "svg_text",
-]
-
 DIGITS: Final = 8
 """Decimals of a coordinate; both libraries compute in float32."""
 

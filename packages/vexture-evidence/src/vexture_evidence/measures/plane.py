@@ -14,8 +14,6 @@ from vexture_evidence.measures.renderings import Rendered
 from vexture_evidence.measures.rivals import side_in_memory, texture_rival
 from vexture_evidence.measures.shape import WAYS
 
-__all__ = ["Receding", "dots", "receding", "view_of_plane"]
-
 QUARTER: Final = 0.5522847498
 """Length, in radii, of the handles of a cubic that approximates a quarter of a circle."""
 

@@ -21,35 +21,14 @@ from vexture.renderers.flat import flat
 from vexture.renderers.shader import shader_source, vertex_source
 from vexture.renderers.view import view_base
 from vexture.texture.encode import encode
-from vexture.texture.texture import Root, Texture
+from vexture.texture.root import Root
+from vexture.texture.texture import Texture
 from vexture.thesis import method
 from vexture.thesis.gpu import fold
 from vexture.thesis.shader_text import TextureSizes, compose
 from vexture.thesis.texture import ThesisTexture
 from vexture.tree.build import build_tree
 from vexture_evidence.measures.bands import BandTexture, band_constants, band_shader
-
-__all__ = [
-    "MAIN",
-    "VERSION",
-    "Framebuffer",
-    "Program",
-    "band_program",
-    "band_source",
-    "compile_shader",
-    "current_context",
-    "driver",
-    "fetch_program",
-    "fetch_source",
-    "framebuffer",
-    "nearest",
-    "packed_program",
-    "packed_source",
-    "packed_texture",
-    "seconds",
-    "thesis_program",
-    "thesis_source",
-]
 
 VERSION: Final = "330"
 IMAGE_SIDE: Final = 1024

@@ -17,18 +17,6 @@ from vexture.thesis.png import write_png
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
 
-__all__ = [
-    "FULL",
-    "Footprint",
-    "MipMapped",
-    "RasterTexture",
-    "bilinear",
-    "footprint",
-    "mip_sides",
-    "raster_from",
-    "trilinear",
-]
-
 FULL: Final = 255
 """Value of a texel that is fully covered."""
 

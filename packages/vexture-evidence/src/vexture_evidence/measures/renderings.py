@@ -24,21 +24,6 @@ from vexture_evidence.measures.rivals import texture_rival
 from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, Made
 from vexture_evidence.measures.thesis_ways import AsThesis, draw_as_thesis
 
-__all__ = [
-    "EXAGGERATED",
-    "GRID",
-    "LOOSE",
-    "MIP",
-    "PACKED",
-    "TURNED",
-    "Fitted",
-    "Rendered",
-    "at_edge",
-    "at_sizes",
-    "cut_off_at",
-    "with_tolerances",
-]
-
 CENTRE: Final = "centre of the pixel"
 MIP: Final = "with MIP values"
 SAMPLED: Final = "MIP values, 16 samples"

@@ -21,27 +21,6 @@ if TYPE_CHECKING:
     from vexture.texture.texture import Texture
     from vexture.thesis.texture import ThesisTexture
 
-__all__ = [
-    "MAGNIFICATION",
-    "MANY",
-    "MOST_TEXELS",
-    "NARROW",
-    "SMALL",
-    "WHOLE",
-    "MeasuredRival",
-    "Rival",
-    "RivalScene",
-    "Shot",
-    "bands_of",
-    "distance_rival",
-    "measure_rival",
-    "raster_rival",
-    "scene_of",
-    "side_in_file",
-    "side_in_memory",
-    "texture_rival",
-]
-
 WHOLE: Final = 256
 SMALL: Final = 16
 """Pixels along a side of the two pictures of the whole drawing."""

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from vexture.texture.texture import Texture
     from vexture.thesis.texture import ThesisTexture
 
-__all__ = ["WAYS", "ConvertedDrawing", "Made", "example", "file_bytes"]
-
 Made: TypeAlias = "Conversion[Texture | ThesisTexture]"
 """A conversion by one of `WAYS`."""
 

@@ -27,8 +27,6 @@ from vexture.thesis.method import (
 from vexture.thesis.shader_text import compose
 from vexture_evidence.measures.programs import current_context
 
-__all__ = ["BOX", "SOLUTIONS", "Solution", "SolutionPath", "by_cpu", "by_gpu", "roots_by_gpu", "solve"]
-
 VERSION: Final = "330"
 
 BOX: Final = (-0.4, -0.6, 1.55, 1.55)

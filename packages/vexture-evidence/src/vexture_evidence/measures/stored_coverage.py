@@ -15,8 +15,6 @@ from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellKind, CellTree
 from vexture_evidence.measures.leaves import LeafArrays, Tree, leaves, quads
 
-__all__ = ["StoredValues", "stored_values"]
-
 
 class StoredValues(NamedTuple):
     """Coverage of every leaf and quad as a texture stores it, and its error.

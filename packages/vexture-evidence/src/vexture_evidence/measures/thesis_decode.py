@@ -8,8 +8,6 @@ from vexture.thesis import layout
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellKind, CellTree
 
-__all__ = ["decode", "edge_point"]
-
 
 def edge_point(index: NDArray[np.float64]) -> NDArray[np.float64]:
     """Points, (..., 2), at the edge indices, (...), of the thesis's Table 4.1; index 1 is the same point as 0.

@@ -23,20 +23,6 @@ from vexture_evidence.measures.closeups import directions
 from vexture_evidence.measures.leaves import LeafArrays, Tree, quads
 from vexture_evidence.measures.metrics import LEVELS, TRUTH, Errors, errors
 
-__all__ = [
-    "MOST_TEXELS",
-    "BeforeAfter",
-    "Lengths",
-    "clamp_curves",
-    "close_up",
-    "corner_cells",
-    "list_lengths",
-    "looping",
-    "repeat_drawing",
-    "sharp_corners",
-    "unnecessary_quads",
-]
-
 TURN: Final = 30.0
 """Degrees. A joint at which the outline turns by more than this is a sharp corner."""
 

@@ -6,8 +6,6 @@
 
 from typing import Final, NamedTuple
 
-__all__ = ["STRUCTURE", "TABLE_5_1", "Row", "Structure"]
-
 
 class Row(NamedTuple):
     """A row of Table 5.1: bytes of files, milliseconds, and frames per second on a display limited to 120."""

@@ -16,8 +16,6 @@ from vexture.thesis.cpu import cell_value, find_cell, view_point, view_step
 from vexture.thesis.method import CONSTANT, SAMPLES
 from vexture.thesis.texture import ThesisTexture
 
-__all__ = ["CUT_OFF", "AsThesis", "draw_as_thesis"]
-
 CUT_OFF: Final = 1.0
 """Pixels; a quad whose side is smaller is drawn by its MIP value (thesis 4.4.3, *timesBigger*)."""
 

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Final
 if TYPE_CHECKING:
     from vexture_evidence.measures.programs import Program
 
-__all__ = ["frames_per_second", "median_seconds"]
-
 FRAME: Final = (1024, 1024)
 """Width and height in pixels of the picture that a frame rate is measured with, by default."""
 

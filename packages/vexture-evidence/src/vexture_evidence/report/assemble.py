@@ -16,8 +16,6 @@ from vexture_evidence.report.section import Material
 if TYPE_CHECKING:
     from vexture_evidence.report.section import Section
 
-__all__ = ["SECTIONS", "assemble"]
-
 SECTIONS: Final = (
     "conversion",
     "shapes",

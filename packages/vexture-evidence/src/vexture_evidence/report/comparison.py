@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from vexture_evidence.measures.rivals import RivalScene
     from vexture_evidence.measures.shape import ConvertedDrawing
 
-__all__ = ["section"]
-
 RASTER_SIDES: Final = (16, 32, 64, 128, 256, 512, 1024)
 DISTANCE_SIDES: Final = (16, 32, 64, 128, 256)
 """Sides of the textures that are measured, in texels."""

@@ -16,8 +16,6 @@ from vexture_evidence.measures.thesis_numbers import TABLE_5_1, Row
 from vexture_evidence.measures.timing import median_seconds
 from vexture_evidence.report.section import Material, Picture, Printed, Section, Table
 
-__all__ = ["section"]
-
 READ_REPEAT: Final = 3
 """How often a file is read; the median time is reported."""
 

@@ -17,8 +17,6 @@ from vexture_evidence.report.discussion_of_use import crossings_point, editing_p
 from vexture_evidence.report.discussion_point import DiscussionPoint, tree_of
 from vexture_evidence.report.section import Material, Section, Table
 
-__all__ = ["section"]
-
 DUCK = "duck"
 
 MOST_SEGMENTS: Final = 500

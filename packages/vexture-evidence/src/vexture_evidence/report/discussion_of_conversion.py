@@ -25,8 +25,6 @@ from vexture_evidence.measures.thesis_limits import (
 from vexture_evidence.report.discussion_point import LEFT_OUT, DiscussionPoint, packed_of, pair_of, tree_of
 from vexture_evidence.report.section import Material, Picture, Section
 
-__all__ = ["corners_point", "density_point", "divisions_point", "loops_point", "values_point"]
-
 LOOPS, CORNERS, SMALL, LARGE = "loop", "flame", "simple-small", "simple-big"
 """Example drawings for the points that few drawings show, used in every report."""
 

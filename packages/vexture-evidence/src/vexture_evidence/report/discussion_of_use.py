@@ -17,8 +17,6 @@ from vexture_evidence.measures.thesis_numbers import TABLE_5_1
 from vexture_evidence.report.discussion_point import LEFT_OUT, DiscussionPoint, packed_of, pair_of
 from vexture_evidence.report.section import Material, Picture, Section
 
-__all__ = ["crossings_point", "editing_point", "lines_point", "lists_point"]
-
 CROSSED, SMALL, DUCK = "crossings", "simple-small", "duck"
 """Example drawings for the points that few drawings show, used in every report."""
 

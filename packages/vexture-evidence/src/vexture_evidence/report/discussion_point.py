@@ -9,8 +9,6 @@ from vexture.thesis.tree import CellTree
 from vexture_evidence.measures.shape import ConvertedDrawing
 from vexture_evidence.report.section import Section
 
-__all__ = ["LEFT_OUT", "DiscussionPoint", "packed_of", "pair_of", "tree_of"]
-
 LEFT_OUT: Final = (
     "Dotted lines show the drawing's own outline where no curve covers it: packed leaves leave out horizontal parts, "
     "which change no winding number."

@@ -12,8 +12,6 @@ from typing import Any
 from vexture_evidence.figures.style import RESOLUTION
 from vexture_evidence.report.section import Picture, Printed, Section, Table
 
-__all__ = ["json_text", "known", "page", "pictures_of", "png_of"]
-
 POLICY = "default-src 'none'; img-src 'self' data:; style-src 'unsafe-inline'"
 """The page loads only its own pictures and runs no scripts."""
 

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from vexture_evidence.measures.programs import Program
     from vexture_evidence.measures.shape import ConvertedDrawing
 
-__all__ = ["bands_part", "dashes", "renderers_part"]
-
 SIZE: Final = (256, 256)
 """Width and height of all pictures in this module, in pixels."""
 

@@ -26,8 +26,6 @@ from vexture_evidence.measures.renderings import (
 from vexture_evidence.measures.solutions import SOLUTIONS, by_cpu, by_gpu, roots_by_gpu, solve
 from vexture_evidence.report.section import Material, Picture, Section, Table
 
-__all__ = ["section"]
-
 SIDE: Final = 128
 """Side of the pictures of solved curves, in pixels."""
 

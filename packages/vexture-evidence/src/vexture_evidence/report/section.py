@@ -11,8 +11,6 @@ from vexture_evidence.measures.shape import ConvertedDrawing, example
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Material", "Picture", "Printed", "Section", "Table"]
-
 
 @dataclass(frozen=True, slots=True)
 class Printed:

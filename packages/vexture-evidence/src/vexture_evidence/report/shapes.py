@@ -9,8 +9,6 @@ from vexture_evidence.measures.shape import WAYS, ConvertedDrawing
 from vexture_evidence.measures.thesis_numbers import TABLE_5_1
 from vexture_evidence.report.section import Material, Picture, Section
 
-__all__ = ["section", "textures_of"]
-
 
 def section(material: Material) -> Section:
     """Show every drawing.

@@ -18,8 +18,6 @@ from vexture_evidence.measures.thesis_numbers import STRUCTURE
 from vexture_evidence.report.section import Material, Picture, Printed, Section, Table
 from vexture_evidence.report.shapes import textures_of
 
-__all__ = ["section"]
-
 AREA_SIDE = 500
 """Side of the exact picture whose mean is the drawing's area, in pixels; the mean is the same for any side."""
 

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["section"]
-
 SIDES: Final = (64, 128, 256, 512)
 """Sides of the pictures that are traced, in pixels."""
 

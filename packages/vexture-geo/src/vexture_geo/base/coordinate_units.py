@@ -11,8 +11,6 @@ from vexture_geo.base.crs import UNPLACED, choose_crs, format_system, like_degre
 from vexture_geo.base.extent import Bounds
 from vexture_geo.base.lengths import NO_UNIT, metres_in
 
-__all__ = ["refuse_degrees", "refuse_other_units"]
-
 RADIANS: Final = frozenset({"rad", "radian", "radians"})
 """Units, in lower case, that no reference system here is in."""
 

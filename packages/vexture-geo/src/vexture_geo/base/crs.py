@@ -21,25 +21,6 @@ from vexture_geo.base.file_references import refuse_files_of_system
 if TYPE_CHECKING:
     from pyproj import CRS, Transformer
 
-__all__ = [
-    "UNPLACED",
-    "MissingReferenceError",
-    "are_degrees",
-    "choose_crs",
-    "format_bounds",
-    "format_system",
-    "frame_around",
-    "frame_of",
-    "gis_packages",
-    "like_degrees",
-    "period",
-    "refuse_metres",
-    "same_system",
-    "system",
-    "transform_bounds",
-    "transform_points",
-]
-
 UNPLACED: Final = (
     'ENGCRS["coordinates as they are",EDATUM[""],CS[Cartesian,2],AXIS["x",east],AXIS["y",north],UNIT["m",1]]'
 )

@@ -7,8 +7,6 @@ from typing import Any, Final
 from vexture.base.content import SHAPEFILE
 from vexture.base.errors import SourceError, reason_of
 
-__all__ = ["HEADER", "missing_arcs", "netcdf_error", "refuse_cut"]
-
 HEADER: Final = 100
 """Bytes at the start of a .shp and of a .shx, which say how long it is."""
 

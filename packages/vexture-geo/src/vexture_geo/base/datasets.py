@@ -4,8 +4,6 @@ from typing import Any, Final
 
 import numpy as np
 
-__all__ = ["dataset_of", "is_dataset"]
-
 SINCE: Final = "microseconds since 1970-01-01"
 """Units of times that xarray has decoded."""
 

@@ -11,8 +11,6 @@ import numpy as np
 from vexture.base.errors import SourceError, shorten_text
 from vexture_geo.base.lengths import metres_in
 
-__all__ = ["MOST_RANGES", "DepthRange", "format_range", "has_flags", "ranges_of_flags", "wet_ranges"]
-
 BOUNDS: Final = ("flag_bounds", "class_bounds")
 """Attributes that name the variable of the bounds of the classes."""
 

@@ -11,8 +11,6 @@ from vexture.base.notes import Note
 from vexture.drawing.drawing import Drawing
 from vexture_geo.base.depth_ranges import DepthRange
 
-__all__ = ["LARGEST", "MARGIN", "Bounds", "DepthClasses", "Extent", "Frame", "Step", "bounds_of_square"]
-
 Bounds: TypeAlias = tuple[float, float, float, float]
 """West, south, east, north."""
 

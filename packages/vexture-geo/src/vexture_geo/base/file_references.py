@@ -7,8 +7,6 @@ from typing import Any, Final, NoReturn
 
 from vexture.base.errors import SourceError, printable, shorten_text
 
-__all__ = ["LINK_TYPES", "refuse_files_of_json", "refuse_files_of_system", "refuse_link"]
-
 PLACE: Final = re.compile(r"[/\\~]|^\.")
 """In the name of a file or an address, but not in that of a grid that PROJ itself has."""
 

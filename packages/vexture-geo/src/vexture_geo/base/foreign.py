@@ -10,8 +10,6 @@ from typing import Any, Final
 from vexture.base.content import NETCDF
 from vexture.base.errors import SourceError
 
-__all__ = ["refuse_foreign", "refuse_foreign_dataset", "refuse_foreign_hdf5"]
-
 QGIS: Final = (
     'add it to QGIS as a mesh layer, and write the depth as GeoTIFF by the tool "Rasterize mesh dataset" of Processing'
 )

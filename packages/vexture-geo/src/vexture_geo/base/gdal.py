@@ -21,8 +21,6 @@ from vexture_geo.base.quiet_output import quiet_output
 if TYPE_CHECKING:
     from rasterio import DatasetReader
 
-__all__ = ["open_grib", "open_raster", "plain_place", "raster_errors", "vector_formats"]
-
 CACHE: Final = 128 * 2**20
 """Bytes of blocks that GDAL keeps, which by default takes a twentieth of the memory. A row of blocks of a raster of
 50,000 columns has 100 MB."""

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from h5py.h5g import GroupID
     from h5py.h5t import TypeID
 
-__all__ = ["refuse_links_of_netcdf"]
-
 HDF5: Final = NETCDF[-1]
 
 SHOWN: Final = 80

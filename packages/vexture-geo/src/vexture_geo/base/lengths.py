@@ -3,8 +3,6 @@
 import re
 from typing import Final
 
-__all__ = ["LENGTHS", "NO_UNIT", "metres_in"]
-
 # fmt: off
 LENGTHS: Final = {
     **dict.fromkeys(("m", "metre", "metres", "meter", "meters", "mtr", "mtrs"), 1.0),

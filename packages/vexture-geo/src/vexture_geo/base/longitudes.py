@@ -12,8 +12,6 @@ from vexture.base.notes import Notes
 from vexture_geo.base.rings import Rings, rings_of
 from vexture_geo.base.validity import make_valid
 
-__all__ = ["FULL_TURN", "close_over_poles", "jumping", "narrower", "note_short_ways", "unwrap_rings"]
-
 FULL_TURN: Final = 1.0 - 1e-9
 """Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
 

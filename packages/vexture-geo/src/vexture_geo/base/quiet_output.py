@@ -7,8 +7,6 @@ from contextlib import contextmanager, suppress
 from threading import Lock
 from typing import Final
 
-__all__ = ["quiet_output"]
-
 OUT: Final = 1
 """The descriptor of the standard output."""
 

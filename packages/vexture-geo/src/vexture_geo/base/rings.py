@@ -16,19 +16,6 @@ from vexture_geo.base.extent import LARGEST, Bounds
 from vexture_geo.base.snap import snap_borders
 from vexture_geo.base.validity import is_heavy, make_valid, split_heavy
 
-__all__ = [
-    "Rings",
-    "clip_polygons",
-    "cut",
-    "map_rings",
-    "orient_rings",
-    "refuse_far",
-    "repair_rings",
-    "rings_of",
-    "snap_rings",
-    "within",
-]
-
 MOST_HALVINGS: Final = 8
 """Largest number of times that a side which a transform bends is halved."""
 

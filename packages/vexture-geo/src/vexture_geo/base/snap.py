@@ -14,8 +14,6 @@ from vexture.base.deadline import check_time
 from vexture.base.errors import ParameterError, format_count
 from vexture.base.notes import Notes
 
-__all__ = ["DEFAULT_SNAP", "MOST_SNAP", "snap_borders"]
-
 DEFAULT_SNAP: Final = 3e-6
 """Parts of the drawing's larger side: corners that are each off by 1e-6 come together. `UNSEEN` is seven times this."""
 

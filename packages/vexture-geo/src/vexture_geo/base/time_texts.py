@@ -4,8 +4,6 @@ from collections.abc import Iterable
 from datetime import UTC, datetime
 from itertools import pairwise
 
-__all__ = ["rising_moments"]
-
 
 def rising_moments(texts: Iterable[str]) -> tuple[datetime, ...] | None:
     """Times in texts of ISO 8601, in UTC where they name no zone; None if one is no time, or not after the one before.

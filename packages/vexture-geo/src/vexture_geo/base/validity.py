@@ -5,8 +5,6 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["is_heavy", "make_valid", "split_heavy", "unite_polygons"]
-
 MANY_HOLES: Final = 500
 """Holes above which GEOS's own repair is not used: by their square, it takes minutes for the lakes of a continent."""
 

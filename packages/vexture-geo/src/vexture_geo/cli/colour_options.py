@@ -10,8 +10,6 @@ from vexture.base.errors import ParameterError
 if TYPE_CHECKING:
     from vexture_geo.maps import Scale
 
-__all__ = ["colour_options", "columns_of", "refuse_idle_colours", "scale_of"]
-
 OF_SCALE: Final = ("scale", "palette", "classes", "no_data")
 """Options of colours by an attribute."""
 

@@ -14,8 +14,6 @@ from vexture.cli.options import PATH, refuse_stream
 from vexture_geo.flood.options import DEPTHS, PERIOD, FloodOptions, bounds_of, depths_of
 from vexture_geo.flood.video_options import FPS, SIZE, STEP_SECONDS, VideoOptions, size_of
 
-__all__ = ["flood"]
-
 CLASSES = ",".join(f"{depth:g}" for depth in DEPTHS[1:])
 
 STAYS = {

@@ -16,8 +16,6 @@ from vexture_geo.cli.colour_options import colour_options, columns_of, refuse_id
 if TYPE_CHECKING:
     from vexture_geo.maps import Map, MapLayer
 
-__all__ = ["map"]
-
 TIMES: Final = ".times.json"
 """Suffix of the file of colours at each step."""
 

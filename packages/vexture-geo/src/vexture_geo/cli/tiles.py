@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from vexture_geo.tiles.build import Report
     from vexture_geo.tiles.options import TileOptions
 
-__all__ = ["tiles"]
-
 EXAMPLE = """\b
 Examples:
   vexture tiles land.gpkg -o land.pmtiles

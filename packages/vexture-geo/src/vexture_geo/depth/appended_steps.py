@@ -19,8 +19,6 @@ from vexture_geo.depth.depths import DepthsInFrame, depths_in_frame
 from vexture_geo.depth.partitions import partitions_beside
 from vexture_geo.depth.series import Reading
 
-__all__ = ["GrowingFile", "KnownStep", "StepChange", "files_of", "open_growing", "share_files", "whole_run"]
-
 
 class KnownStep(NamedTuple):
     """Record of a step that was read: its time, and a digest of its values."""

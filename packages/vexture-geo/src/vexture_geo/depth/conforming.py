@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from vexture.base.deadline import check_time
 from vexture_geo.depth.mesh_topology import Faces, after_each, border_of
 
-__all__ = ["MOST_CORNERS", "Conforming", "conforming"]
-
 MOST_CORNERS: Final = 64
 """Nodes of a face, for memory: tables of nodes have as many columns as the largest face has nodes."""
 

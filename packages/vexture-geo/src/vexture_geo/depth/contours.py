@@ -12,8 +12,6 @@ from vexture.base.tolerance import HMIN
 from vexture.bezier.points import points_along
 from vexture.drawing.drawing import Drawing, FillRule, Path
 
-__all__ = ["Ring", "above_dry", "fit_drawing", "shore_values", "wet_drawing"]
-
 TOLERANCE: Final = 0.55
 """Cells. Largest distance of the fitted shoreline from the contour: the staircase of a raster is half a cell high."""
 

@@ -23,8 +23,6 @@ from vexture_geo.depth.speeds import speed_of
 from vexture_geo.depth.ugrid import MOST_FACES
 from vexture_geo.depth.variables import depths_of, has_depths, load_values, reader_of, refuse_layers, time_axis, unit_of
 
-__all__ = ["grid_series", "places_of_grid"]
-
 ENDING: Final = r"(_?(rho|r|t|c|z|centers?|centres?))?"
 EAST: Final = re.compile(rf"(x|lon|longitude|nav_lon|xlong|glamt|easting){ENDING}", re.IGNORECASE)
 NORTH: Final = re.compile(rf"(y|lat|latitude|nav_lat|xlat|gphit|northing){ENDING}", re.IGNORECASE)

@@ -26,8 +26,6 @@ from vexture_geo.depth.raster import RasterInFrame
 from vexture_geo.depth.series import Reading, Series, Values
 from vexture_geo.depth.water_masks import WaterRanks, water_ranks
 
-__all__ = ["DepthsInFrame", "depths_in_frame", "read_depths"]
-
 
 @gis_packages()
 def read_depths(

@@ -15,8 +15,6 @@ from vexture.base.errors import SourceError
 if TYPE_CHECKING:
     from rasterio import DatasetReader
 
-__all__ = ["is_esri_text", "refuse_marked", "refuse_other_count", "refuse_other_size"]
-
 KEYS: Final = (*ESRI_GRID, b"dx", b"dy", b"nodata_value")
 """What the lines of a header begin with, in lower case."""
 

@@ -23,8 +23,6 @@ from vexture_geo.depth.variables import list_names
 if TYPE_CHECKING:
     from rasterio import DatasetReader
 
-__all__ = ["open_geotiff"]
-
 FLOATS: Final = ".flt"
 """Suffix of grids of floats."""
 

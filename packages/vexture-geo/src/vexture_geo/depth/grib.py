@@ -24,8 +24,6 @@ from vexture_geo.depth.variables import list_names
 if TYPE_CHECKING:
     from rasterio import DatasetReader
 
-__all__ = ["open_fields"]
-
 DEPTHS: Final = {"water depth": "sea_floor_depth_below_sea_surface"}
 LEVELS: Final = dict.fromkeys(
     (

@@ -11,8 +11,6 @@ from vexture.base.content import GRIB
 from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError, SourceError
 
-__all__ = ["count_fields"]
-
 MOST_FIELDS: Final = 10_000
 """Fields of a file. A year of hours has fewer; GDAL lists all of them before one can be chosen."""
 

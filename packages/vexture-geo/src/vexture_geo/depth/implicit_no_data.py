@@ -11,8 +11,6 @@ import numpy as np
 from vexture.base.notes import Notes
 from vexture_geo.depth.series import FARTHEST, MISSING, Values
 
-__all__ = ["codes_of", "codes_of_integers", "without_undeclared"]
-
 NINES: Final = tuple(float(10**digits - 1) for digits in range(3, 8))
 """Numbers that programs write where they have no value, also below 0."""
 

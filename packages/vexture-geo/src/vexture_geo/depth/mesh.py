@@ -22,8 +22,6 @@ from vexture_geo.depth.raster import grid_places, outside
 from vexture_geo.depth.series import METRES, Meaning, Reading, Values, box_around
 from vexture_geo.depth.triangles import LevelOutline, grid_ranges, locate_samples, outlines_above
 
-__all__ = ["MeshInFrame", "MeshSeries"]
-
 NEAR: Final = 1.5
 """Edges. Parts of the mesh's border that run along the frame's border, this near to it, move outside the square."""
 

@@ -8,8 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Faces", "Patch", "after_each", "border_of", "counter_clockwise", "touched_nodes", "touching_faces"]
-
 Faces = NDArray[np.int32]
 """Numbers of the nodes of each face, (m, k), and -1 at the end of a row where the face has fewer than k."""
 

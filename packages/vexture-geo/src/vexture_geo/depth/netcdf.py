@@ -26,8 +26,6 @@ from vexture_geo.depth.series import Lattice, Reading, Series, Values
 from vexture_geo.depth.speeds import speed_of
 from vexture_geo.depth.variables import depths_of, list_names, load_values, refuse_layers, time_axis, unit_of
 
-__all__ = ["axes_of", "crs_of", "open_dataset", "points_east", "points_north", "series_of", "times_of"]
-
 EAST: Final = {"x", "lon", "longitude", "easting", "xc", "mx", "m", "column", "columns", "col"}
 NORTH: Final = {"y", "lat", "latitude", "northing", "yc", "my", "n", "row", "rows"}
 LATITUDES: Final = {"degrees_north", "degree_north", "degrees_n", "degree_n"}

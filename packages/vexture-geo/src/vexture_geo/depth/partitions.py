@@ -17,8 +17,6 @@ from vexture_geo.depth.series import Reading, Values
 from vexture_geo.depth.ugrid import mesh_series
 from vexture_geo.depth.variables import load_values
 
-__all__ = ["open_partitions", "partitions_beside"]
-
 NAME: Final = re.compile(r"(.+_)(\d{4})(_map\.nc)")
 """How D-Flow FM names the map file of a partition."""
 

@@ -3,8 +3,6 @@
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["corners_of", "without_fill"]
-
 Places = NDArray[np.float64]
 
 FAR: float = 1e9

@@ -15,8 +15,6 @@ from vexture_geo.base.extent import Bounds, Frame, bounds_of_square
 from vexture_geo.depth.contours import shore_values, wet_drawing
 from vexture_geo.depth.series import Lattice, Reading, Series, Values
 
-__all__ = ["RasterInFrame", "grid_places", "outside"]
-
 MOST_CELLS: Final = 4_194_304
 """Cells of a raster that are contoured at once. Of a larger raster, every second or third cell and so on is read."""
 

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from vexture_geo.base.depth_ranges import DepthRange
 from vexture_geo.base.extent import Bounds
 
-__all__ = ["METRES", "Lattice", "Meaning", "Reading", "Series", "Values", "box_around", "plausible"]
-
 Values = NDArray[np.float64]
 
 FARTHEST: Final = 12_000.0

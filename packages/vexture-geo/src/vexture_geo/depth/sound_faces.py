@@ -9,8 +9,6 @@ from vexture.base.notes import Notes
 from vexture_geo.base.longitudes import narrower
 from vexture_geo.depth.mesh_topology import Faces
 
-__all__ = ["faces_once", "faces_unwrapped"]
-
 TURN: Final = 360.0
 
 FAMILIAR: Final = 90.0

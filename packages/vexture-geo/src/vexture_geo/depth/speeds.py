@@ -11,8 +11,6 @@ from vexture_geo.base.lengths import NO_UNIT, metres_in
 from vexture_geo.depth.series import Values, plausible
 from vexture_geo.depth.variables import known_as, reader_of, unit_of
 
-__all__ = ["speed_of"]
-
 # fmt: off
 SPEEDS: Final = (
     {"ucmag", "speed", "velocity", "velocitymagnitude", "flowvelocity", "flowspeed", "currentspeed", "uvmag", "vmag"},

@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from vexture.base.deadline import check_time
 
-__all__ = ["LevelOutline", "grid_ranges", "locate_samples", "outlines_above"]
-
 AT_ONCE: Final = 2**20
 """Pairs of triangles and samples that are looked at together: they need 100 bytes each."""
 

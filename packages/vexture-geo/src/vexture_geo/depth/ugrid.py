@@ -25,8 +25,6 @@ from vexture_geo.depth.variables import (
     unit_of,
 )
 
-__all__ = ["MOST_FACES", "holds_mesh", "mesh_series", "name_of_mesh"]
-
 MOST_FACES: Final = 10_000_000
 """For a mesh of a million faces, reading needs about 0.3 GB."""
 

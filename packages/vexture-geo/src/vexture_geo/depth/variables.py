@@ -14,19 +14,6 @@ from vexture_geo.base.lengths import NO_UNIT, metres_in
 from vexture_geo.depth.implicit_no_data import codes_of, without_undeclared
 from vexture_geo.depth.series import METRES, Meaning, Values
 
-__all__ = [
-    "Depths",
-    "depths_of",
-    "has_depths",
-    "known_as",
-    "list_names",
-    "load_values",
-    "reader_of",
-    "refuse_layers",
-    "time_axis",
-    "unit_of",
-]
-
 # fmt: off
 DEPTHS: Final = (
     {"depth", "waterdepth", "wd", "h", "hs", "hh", "flooddepth", "inundationdepth", "hmax"},

@@ -12,8 +12,6 @@ from vexture.base.notes import Notes
 from vexture_geo.base.depth_ranges import DepthRange, format_range, wet_ranges
 from vexture_geo.depth.series import Meaning, Values
 
-__all__ = ["WaterRanks", "water_ranks"]
-
 MARKS: Final = (0.0, 1.0, 255.0)
 """Numbers of masks: 0 is dry, 1 is wet; 255 is wet where there is no 1, and else unknown."""
 

@@ -4,6 +4,4 @@ from typing import Final
 
 from vexture.pages.page import Bundle
 
-__all__ = ["FLOOD"]
-
 FLOOD: Final = Bundle("flood.js", "flood.css", __package__)

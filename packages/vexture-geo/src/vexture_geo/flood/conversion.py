@@ -20,8 +20,6 @@ from vexture_geo.flood.relief import Relief
 from vexture_geo.flood.scene import PREFIX, labels
 from vexture_geo.flood.surface import WaterSurface
 
-__all__ = ["WATER_PARAMETERS", "FloodConversion"]
-
 WATER_PARAMETERS: Final = Parameters(split=None, precision=2e-6)
 """Seen from the beach, a pixel is about 1e-5 of the frame: the outline shifts by a fifth of one."""
 

@@ -10,8 +10,6 @@ from vexture.base.content import NETCDF, TIFF
 from vexture_geo.base.gdal import open_raster
 from vexture_geo.base.hdf5 import refuse_links_of_netcdf
 
-__all__ = ["Credits", "credits_among", "credits_of"]
-
 MOST_LETTERS: Final = 600
 """Letters of one of them that are kept: attributes can hold the history of a run."""
 

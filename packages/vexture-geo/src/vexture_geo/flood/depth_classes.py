@@ -8,8 +8,6 @@ from vexture.drawing.paint import Paint
 from vexture_geo.base.extent import Step
 from vexture_geo.flood.options import contours_of
 
-__all__ = ["class_drawing", "classes_shown", "colors_of"]
-
 SEQUENCE: Final = ("#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58")
 """ColorBrewer's YlGnBu (C. Brewer, 2002): in order for those who are blind to some colours, too, and in gray.
 

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from vexture_geo.base.extent import DepthClasses
 
-__all__ = ["CODE", "deepest", "depth_png", "ranges_as_json", "ranks_png"]
-
 PIXELS: Final = 256
 """Most pixels on the longer side: the picture serves to read a depth at the pointer, not to draw."""
 

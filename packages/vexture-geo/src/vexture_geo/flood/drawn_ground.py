@@ -13,8 +13,6 @@ from vexture_geo.flood.relief import Relief, beyond_of, first_wet, widest
 if TYPE_CHECKING:
     from PIL import Image
 
-__all__ = ["DRAWN", "drawn_ground"]
-
 DRAWN: Final = 1024
 """Pixels on the longer side."""
 

@@ -13,8 +13,6 @@ from typing import Any, Final
 from vexture.base.errors import DeviceError, ParameterError, reason_of
 from vexture_geo.flood.video_options import VideoOptions
 
-__all__ = ["Film", "open_film", "video_packages"]
-
 PROGRAMS: Final = (
     "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "microsoft-edge",
     "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",

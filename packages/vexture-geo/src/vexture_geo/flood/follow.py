@@ -22,8 +22,6 @@ from vexture_geo.flood.conversion import FloodConversion
 from vexture_geo.flood.credits import Credits, credits_of
 from vexture_geo.flood.scene import labels, step_names
 
-__all__ = ["NAMES", "FollowedRun", "Start", "first_steps", "follow", "is_made_of", "with_digest"]
-
 NAMES: Final = step_names(MOST_STEPS)
 """Of the steps of a followed run: its first ones have names that fit all that may come."""
 

@@ -8,11 +8,6 @@ from numpy.typing import NDArray
 from vexture.drawing.drawing import Drawing
 from vexture_geo.base.extent import Bounds, Frame
 
-__all__ = [
-    "coarser", "coverage_over", "distance_to", "fill_unknown", "mean_of", "noise", "pixels_to", "sample_grid",
-    "shore_distance", "size_for",
-]  # fmt: skip
-
 SEED: Final = 4626
 """Seed of the noise, fixed so that two runs make the same page."""
 

@@ -17,8 +17,6 @@ from vexture_geo.flood.scene import PageNote
 if TYPE_CHECKING:
     from PIL import Image
 
-__all__ = ["GROUND_TYPE", "LARGEST_GROUND", "encode_webp", "ground_of"]
-
 GROUND_TYPE: Final = "image/webp"
 
 LONGEST: Final = 2048

@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from vexture_geo.base.extent import Step
 from vexture_geo.flood.grids import coarser, sample_grid
 
-__all__ = ["HAZARDS", "UNIT", "HazardClass", "hazard_png", "rating"]
-
 
 class HazardClass(NamedTuple):
     """A class of the rating, from its lowest value, with its colour and what it says."""

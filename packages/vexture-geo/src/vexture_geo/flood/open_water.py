@@ -11,8 +11,6 @@ from vexture.drawing.drawing import Drawing
 from vexture_geo.base.extent import Frame
 from vexture_geo.flood.grids import coverage_over, distance_to, size_for
 
-__all__ = ["calm_waves", "cells_of", "open_water", "openness_at", "openness_png"]
-
 SAMPLES: Final = 256
 """Most samples on the longer side."""
 

@@ -13,8 +13,6 @@ from vexture.base.tolerance import HMIN
 if TYPE_CHECKING:
     from vexture.base.workers import Workers
 
-__all__ = ["DEPTHS", "PERIOD", "FloodOptions", "bounds_of", "classes_of", "contours_of", "depths_of"]
-
 PERIOD: Final = 8.0
 """Default seconds between two waves on a beach."""
 

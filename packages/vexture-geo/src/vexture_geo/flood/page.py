@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from vexture_geo.base.extent import Extent
     from vexture_geo.flood.credits import Credits
 
-__all__ = ["FloodPage", "flood_page"]
-
 HEIGHT: Final = 600
 """Pixels of the page in a notebook."""
 

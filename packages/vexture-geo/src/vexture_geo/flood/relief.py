@@ -22,8 +22,6 @@ from vexture_geo.base.gdal import open_raster
 from vexture_geo.base.lengths import metres_in
 from vexture_geo.flood.grids import coverage_over, fill_unknown, noise, pixels_to, sample_grid, shore_distance, size_for
 
-__all__ = ["Relief", "beyond_of", "first_wet", "relief_of", "wet_samples", "widest"]
-
 SAMPLES: Final = 257
 """Samples on the longer side."""
 

@@ -18,8 +18,6 @@ from vexture_geo.flood.open_water import openness_png
 from vexture_geo.flood.relief import Relief
 from vexture_geo.flood.views import FloodView
 
-__all__ = ["PREFIX", "Flood", "PageNote", "labels", "scene", "step_names"]
-
 PREFIX: Final = "flood"
 """Name of a flood's shape on a server, or with a slash the start of it."""
 

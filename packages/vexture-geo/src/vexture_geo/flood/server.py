@@ -37,8 +37,6 @@ if TYPE_CHECKING:  # at run time only what a flood needs is imported
     from vexture_geo.flood.video import Track
     from vexture_geo.flood.video_options import VideoOptions
 
-__all__ = ["ReadyFlood", "ServerOptions", "WrittenFlood", "export", "make_flood", "page_of", "serve"]
-
 GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 
 INVENTED: Final = PageNote("The relief is invented.", "--relief takes a file of heights.")

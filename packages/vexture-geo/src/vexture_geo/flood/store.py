@@ -17,8 +17,6 @@ from vexture_geo.base.extent import Extent
 from vexture_geo.flood.options import FloodOptions
 from vexture_geo.flood.relief import Relief
 
-__all__ = ["FloodStore"]
-
 RECORD, GROUND = "flood.json", "ground.npz"
 
 NAMED: Final = {

@@ -12,8 +12,6 @@ from vexture_geo.base.extent import DepthClasses, Frame, Step
 from vexture_geo.flood.grids import coarser, mean_of, sample_grid
 from vexture_geo.flood.relief import Relief, wet_samples
 
-__all__ = ["WaterSurface", "highest_of", "surface_of"]
-
 FINEST_UNIT: Final = 0.005
 """Metres. The smallest unit of levels on the page: finer ones would not be seen, and would not compress."""
 

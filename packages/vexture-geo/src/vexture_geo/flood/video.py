@@ -14,8 +14,6 @@ from vexture_geo.flood.video_options import VideoOptions
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture
 
-__all__ = ["Track", "make_video"]
-
 Track = Callable[[Sequence[int]], Iterator[int]]
 """Goes through numbers and shows how far it is."""
 

@@ -8,8 +8,6 @@ from typing import Final
 
 from vexture.base.errors import ParameterError
 
-__all__ = ["FPS", "SIZE", "STEP_SECONDS", "VideoOptions", "size_of"]
-
 SIZE: Final = (1280, 720)
 STEP_SECONDS: Final = 0.5
 FPS: Final = 10.0

@@ -11,8 +11,6 @@ from vexture_geo.flood.grids import coverage_over, size_for
 from vexture_geo.flood.open_water import cells_of, openness_at
 from vexture_geo.flood.relief import first_wet, widest
 
-__all__ = ["FloodView", "Shore", "viewpoint", "views_of"]
-
 CELLS: Final = 96
 """Cells of the search grid on the frame's longer side."""
 

@@ -10,8 +10,6 @@ from vexture.pages.page import built
 from vexture_geo.flood.bundle import FLOOD
 from vexture_geo.flood.page import FloodPage
 
-__all__ = ["FloodWidget"]
-
 SCRIPT: Final = "notebook-flood.js"
 
 

@@ -12,8 +12,6 @@ from vexture_geo.base.rings import Rings, rings_of, within
 from vexture_geo.maps.lines import change_lines
 from vexture_geo.vector.features import Lines
 
-__all__ = ["Cap", "cap_of"]
-
 PERSPECTIVES: Final = ("orthographic", "gnomonic", "vertical perspective", "geostationary", "proj nsper", "proj tpers")
 """How the names of projections begin that have no image of the far side."""
 

@@ -17,8 +17,6 @@ from vexture_geo.maps.measures import BREAKS, Measure, breaks_of, distinct, meas
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["DEFAULT_CLASSES", "NO_DATA", "Scale", "check_scale", "colours_of", "hex_of", "rgba_of"]
-
 DEFAULT_CLASSES: Final = 5
 MOST_CLASSES: Final = 64
 

@@ -20,8 +20,6 @@ from vexture_geo.maps.prepare import FILL, INK, MapLayer, Prepared, in_memory, p
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["DEFAULT_SIZE", "Map", "convert_map", "convert_prepared"]
-
 DEFAULT_SIZE: Final = 1024
 """Pixels of the map's larger side, to which widths in pixels refer."""
 

@@ -12,8 +12,6 @@ from vexture_geo.base.snap import DEFAULT_SNAP, MOST_SNAP
 from vexture_geo.base.validity import make_valid
 from vexture_geo.vector.features import Features
 
-__all__ = ["clean_coverage", "ranks", "ranks_by_area"]
-
 NOISE: Final = 1e-9
 """Parts of the map's larger side: overlaps of less area than this times that side squared are not counted."""
 

@@ -14,23 +14,6 @@ from vexture_geo.base.extent import Bounds
 from vexture_geo.base.rings import Rings, cut, rings_of, within
 from vexture_geo.maps.caps import WORLD, Cap, cap_of
 
-__all__ = [
-    "EVER",
-    "POLE",
-    "TURN",
-    "WORLD",
-    "Domain",
-    "cut_open",
-    "domain_of",
-    "in_box",
-    "is_far",
-    "is_strained",
-    "is_wide",
-    "torn_sides",
-    "within_turn",
-    "without",
-]
-
 TURN: Final = 360.0
 POLE: Final = 90.0
 

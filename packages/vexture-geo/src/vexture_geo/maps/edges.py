@@ -9,11 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture_geo.base.crs import period, same_system, transform_points
-from vexture_geo.maps.domain import POLE, TURN, WORLD, domain_of, is_wide, within_turn
+from vexture_geo.maps.caps import WORLD
+from vexture_geo.maps.domain import POLE, TURN, domain_of, is_wide, within_turn
 from vexture_geo.maps.place import MERCATOR, RADIUS
 from vexture_geo.vector.features import Features, Lines, Points
-
-__all__ = ["along_edge", "move_together"]
 
 NEAR: Final = 1e-4
 """Degrees: what is nearer to the edge lies on it. Maps end a little before the meridian where they are torn."""

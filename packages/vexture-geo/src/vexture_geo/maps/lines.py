@@ -12,8 +12,6 @@ from vexture_geo.base.longitudes import FULL_TURN
 from vexture_geo.base.rings import Rings
 from vexture_geo.vector.features import Lines
 
-__all__ = ["change_lines", "densify", "lines_along", "lines_in_box", "rings_along", "unwrap_lines"]
-
 
 def unwrap_lines(lines: Lines, turn: float) -> Lines:
     """Remove jumps of longitude, so that no side is longer than half a turn: they go on beyond the antimeridian.

@@ -13,8 +13,6 @@ from vexture_geo.maps.edges import along_edge
 from vexture_geo.maps.place import units_per_metre
 from vexture_geo.vector.features import Lines
 
-__all__ = ["Width", "outlines", "strokes", "width_of", "widths_at"]
-
 TEXT: Final = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*(px|km|m)\s*")
 
 STEP: Final = 0.02

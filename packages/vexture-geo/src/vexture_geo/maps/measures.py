@@ -13,8 +13,6 @@ from vexture.base.errors import ParameterError
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["BREAKS", "Measure", "breaks_of", "distinct", "measure_of"]
-
 DIGITS: Final = range(6, 13)
 """Significant digits of numbers in a legend: as few as tell them apart; what more would tell apart is noise."""
 

@@ -12,8 +12,6 @@ from vexture.drawing.paint import Paint
 from vexture_geo.base.extent import Bounds
 from vexture_geo.base.rings import Rings, orient_rings
 
-__all__ = ["MapFit", "area_paths"]
-
 
 class MapFit:
     """The box of a map in the middle of the unit square, at its own aspect ratio."""

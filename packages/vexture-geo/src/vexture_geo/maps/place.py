@@ -22,11 +22,10 @@ from vexture_geo.base.crs import (
 from vexture_geo.base.extent import Bounds
 from vexture_geo.base.longitudes import jumping, note_short_ways, unwrap_rings
 from vexture_geo.base.rings import Rings, map_rings, refuse_far, repair_rings
-from vexture_geo.maps.caps import Cap
+from vexture_geo.maps.caps import WORLD, Cap
 from vexture_geo.maps.domain import (
     EVER,
     TURN,
-    WORLD,
     Domain,
     cut_open,
     domain_of,
@@ -40,8 +39,6 @@ from vexture_geo.maps.domain import (
 )
 from vexture_geo.maps.lines import change_lines, densify, lines_along, lines_in_box, rings_along, unwrap_lines
 from vexture_geo.vector.features import Features, Lines, Points
-
-__all__ = ["MERCATOR", "RADIUS", "place_features", "unit_of", "units_per_metre"]
 
 MERCATOR: Final = "EPSG:3857"
 RADIUS: Final = 6378137.0

@@ -31,8 +31,6 @@ from vexture_geo.vector.vectors import is_memory
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["DOT", "FILL", "INK", "MapLayer", "Prepared", "in_memory", "prepare_layers"]
-
 FILL, INK, DOT = "#c3cdd6", "#404a54", "#d55e00"
 """Colours of areas, lines and points that none is given for."""
 

@@ -14,8 +14,6 @@ from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Paint
 from vexture_geo.maps.paths import MapFit
 
-__all__ = ["Symbols"]
-
 CROWD: Final = 1024
 """Fewer symbols than this lose nothing that others hide: their map takes little time as it is."""
 

@@ -21,8 +21,6 @@ from vexture_geo.vector.frames import arrow_of
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["STEP_COLUMNS", "Steps", "Times", "colour_steps", "with_steps"]
-
 TABLES: Final = (".parquet", ".arrow", ".feather", ".csv")
 ANY: Final = "*"
 """In a pattern of names, what stands for anything."""

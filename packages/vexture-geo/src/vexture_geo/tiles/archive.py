@@ -19,8 +19,6 @@ from vexture_geo.vector.tables import TABLES
 if TYPE_CHECKING:
     from vexture_geo.tiles.store import Content
 
-__all__ = ["ARCHIVE", "LISTED", "check_target", "table_of", "write_archive", "write_folder"]
-
 ARCHIVE: Final = ".pmtiles"
 """Suffix of the one file."""
 

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from vexture_geo.base.extent import Bounds
 from vexture_geo.tiles.shared_borders import Corners, corners_of
 
-__all__ = ["simplify_borders"]
-
 
 def simplify_borders(shapes: NDArray[Any], box: Bounds, tolerance: float, least: float) -> NDArray[Any]:
     """Polygons, (n,), of which no border moves farther than a tolerance; empty where nothing is left.

@@ -19,8 +19,6 @@ from vexture_geo.vector.tables import TABLES, cast, with_legends, write_batches
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["Attributes", "TileStyle", "paints_of", "write_table"]
-
 ROWS, PAINTS = "attributes.arrow", "paints.npy"
 """Files in the folder of an unfinished pyramid."""
 

@@ -27,8 +27,6 @@ from vexture_geo.tiles.world import in_world
 from vexture_geo.vector.tables import check_targets
 from vexture_geo.vector.vectors import is_memory
 
-__all__ = ["VERSION", "TilesSummary", "describe_unfinished", "make_tiles"]
-
 VERSION: Final = 7
 """Of what is kept of unfinished pyramids; what another one wrote is not used."""
 

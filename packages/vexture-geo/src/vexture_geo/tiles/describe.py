@@ -16,8 +16,6 @@ from vexture.base.errors import DeviceError, FormatError, SourceError, format_co
 from vexture.base.layout import PACKED_SUFFIX
 from vexture_geo.tiles.archive import ARCHIVE, LISTED
 
-__all__ = ["facts_of", "is_pyramid", "lines_of"]
-
 MAGIC: Final = b"PMTiles"
 
 HEADER: Final = 127

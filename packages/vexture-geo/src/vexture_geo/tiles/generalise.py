@@ -16,8 +16,6 @@ from vexture_geo.tiles.pieces import FeaturePieces, join_pieces
 from vexture_geo.tiles.shared_borders import shared_lengths
 from vexture_geo.tiles.tiny_polygons import aggregate
 
-__all__ = ["dissolve", "generalise_polygons"]
-
 MOST_ROUNDS: Final = 32
 """In each of them, small polygons become part of larger ones beside them."""
 

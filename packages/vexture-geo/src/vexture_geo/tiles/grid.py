@@ -6,24 +6,6 @@ from typing import Final, NamedTuple
 from vexture.base.errors import ParameterError
 from vexture_geo.base.extent import Bounds
 
-__all__ = [
-    "CRS",
-    "HALF",
-    "LATITUDE",
-    "MARGIN",
-    "MOST_ZOOM",
-    "STEPS",
-    "TILE_PIXELS",
-    "Tile",
-    "check_zooms",
-    "coarse",
-    "last_zoom",
-    "pixel",
-    "span",
-    "widen_box",
-    "zooms_of",
-]
-
 CRS: Final = "EPSG:3857"
 
 HALF: Final = pi * 6378137.0

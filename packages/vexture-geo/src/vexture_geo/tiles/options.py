@@ -14,8 +14,6 @@ from vexture_geo.tiles.attributes import TileStyle
 from vexture_geo.tiles.grid import check_zooms, coarse, zooms_of
 from vexture_geo.tiles.subtree import Pyramid
 
-__all__ = ["TileOptions", "digest_of"]
-
 
 @dataclass(frozen=True)
 class TileOptions:

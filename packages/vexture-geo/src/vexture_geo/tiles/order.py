@@ -11,8 +11,6 @@ from vexture_geo.maps.coverage import ranks, ranks_by_area
 from vexture_geo.tiles.grid import HALF
 from vexture_geo.tiles.pieces import FeaturePieces
 
-__all__ = ["Order", "ranks_of"]
-
 RANKS: Final = "ranks.npy"
 """File in the folder of an unfinished pyramid."""
 

@@ -8,8 +8,6 @@ from typing import Any, Final
 from vexture_geo.tiles.grid import MARGIN, Tile, widen_box
 from vexture_geo.tiles.pieces import FeaturePieces, join_pieces, schema
 
-__all__ = ["SourcePart", "partition_source", "split"]
-
 WEIGHT: Final = 200_000
 """Points of a part, above which it is split: some seconds of work."""
 

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from vexture_geo.base.extent import Bounds
 from vexture_geo.base.rings import clip_polygons
 
-__all__ = ["SCHEMA_NAMES", "FeaturePieces", "join_pieces", "schema"]
-
 SCHEMA_NAMES: Final = ("order", "id", "geometry")
 """Columns: the number of the feature in the source, its id, and a polygon in WKB."""
 

@@ -5,8 +5,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Corners", "corners_of", "shared_lengths"]
-
 
 class Corners(NamedTuple):
     """The rings of polygons as lists of corners, none with its first corner repeated."""

@@ -13,8 +13,6 @@ from vexture.base.errors import DeviceError
 from vexture.texture.files import TEMPORARY
 from vexture_geo.tiles.subtree import JobResult
 
-__all__ = ["SUFFIX", "Content", "Store"]
-
 SUFFIX: Final = ".parts"
 """Appended to the name of the output."""
 

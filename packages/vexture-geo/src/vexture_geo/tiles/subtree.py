@@ -15,8 +15,6 @@ from vexture_geo.tiles.grid import MARGIN, Tile, pixel, span, widen_box
 from vexture_geo.tiles.pieces import FeaturePieces, join_pieces
 from vexture_geo.tiles.texture import covering_piece, tile_texture, uniform_texture
 
-__all__ = ["Job", "JobResult", "Pyramid", "run_job"]
-
 MOVED: Final = 0.24
 """Pixels by which generalising may move a border at a zoom, with all that was done for higher zooms before."""
 

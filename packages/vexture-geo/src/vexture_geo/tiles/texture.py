@@ -18,8 +18,6 @@ from vexture.tree.planar.style import style_of
 from vexture_geo.tiles.grid import CRS, MARGIN, Tile, widen_box
 from vexture_geo.tiles.pieces import FeaturePieces
 
-__all__ = ["GREY", "ROOT", "covering_piece", "pack_colours", "tile_texture", "uniform_texture"]
-
 ROOT: Final = "map"
 """Name of the map of polygons in each tile."""
 

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from vexture_geo.tiles.pieces import FeaturePieces, join_pieces
 
-__all__ = ["aggregate"]
-
 CELLS: Final = (1, 2, 4)
 """Pixels across the cells in which specks are gathered; those that are too few in one are gathered in a larger one."""
 

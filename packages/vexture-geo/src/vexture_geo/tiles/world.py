@@ -13,8 +13,6 @@ from vexture_geo.base.rings import Rings, cut, map_rings, refuse_far, repair_rin
 from vexture_geo.tiles.grid import CRS, HALF, LATITUDE, MARGIN, pixel
 from vexture_geo.tiles.pieces import FeaturePieces
 
-__all__ = ["in_world"]
-
 BENT: Final = 0.02
 """Pixels of the largest zoom by which a projected side may be off."""
 

@@ -17,18 +17,6 @@ from vexture.base.errors import LimitError, SourceError, printable, reason_of
 from vexture_geo.base.damage import refuse_cut
 from vexture_geo.base.file_references import refuse_files_of_system
 
-__all__ = [
-    "FOLDER",
-    "KML",
-    "MAIN",
-    "pack_geodatabase",
-    "pack_parts",
-    "pack_shapefile",
-    "packed_files",
-    "refuse_links_of_folder",
-    "unzip",
-]
-
 PARTS: Final = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 """Files of one shapefile, of which the first two are required."""
 

@@ -22,8 +22,6 @@ from vexture_geo.vector.wkt import wkb_of_texts
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["TableFile", "is_table", "open_table"]
-
 GEOMETRY: Final = "geometry"
 """Name of the geometries of CSV; a column that has it already has a longer one."""
 

@@ -12,8 +12,6 @@ from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError
 from vexture.base.tolerance import ROUND
 
-__all__ = ["BROKEN", "straighten_curves"]
-
 HEAD: Final = 5
 """Bytes of a geometry that say of what kind it is."""
 

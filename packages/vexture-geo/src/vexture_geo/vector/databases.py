@@ -11,8 +11,6 @@ from vexture.base.deadline import check_time
 from vexture.base.errors import SourceError, printable, reason_of, shorten_text
 from vexture_geo.base.file_references import refuse_files_of_system
 
-__all__ = ["GEOPACKAGE", "SPATIALITE", "as_geopackage", "refuse_links_of_database"]
-
 GEOPACKAGE: Final = "GPKG"
 SPATIALITE: Final = "SQLite"
 """GDAL's names of the two formats."""

@@ -7,8 +7,6 @@ from vexture.base.content import Header
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["with_decimal_commas"]
-
 SEPARATORS: Final = ";\t"
 """Separators of columns beside which a comma may be that of decimals."""
 

@@ -17,8 +17,6 @@ from vexture_geo.vector.vectors import gdal_errors
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["given_ids", "ids_of_json", "may_differ", "names_beside_id", "with_ids"]
-
 KEY: Final = b'"id"'
 WHOLE: Final = re.compile(rb'"id"\s*:\s*(-?\d{1,18})\s*[,}\]]')
 

@@ -26,8 +26,6 @@ from vexture_geo.vector.vectors import choose_layer, gdal_errors, layers_of
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["FeatureChunk", "FeatureQuery", "chunks_of"]
-
 PART: Final = 16_384
 """Features of which a condition chooses some, before more are read."""
 

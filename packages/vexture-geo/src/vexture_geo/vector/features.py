@@ -24,8 +24,6 @@ from vexture_geo.vector.vectors import DAMAGED, parse_wkb, parts_of
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["BATCH", "ID", "Features", "Lines", "Points", "feature_batches", "read_features"]
-
 ID: Final = "id"
 """Column of a table that has the ids of features."""
 

@@ -11,8 +11,6 @@ from vexture.base.labels import texts_of
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["arrow_of", "check_texts", "labels_of"]
-
 
 def labels_of(index: Any) -> tuple[NDArray[Any] | None, str]:
     """The labels of an index as texts, where they tell rows apart and are more than their numbers.

@@ -23,8 +23,6 @@ from vexture_geo.base.file_references import LINK_TYPES, refuse_link
 from vexture_geo.base.snap import snap_borders
 from vexture_geo.vector.sequences import one_json
 
-__all__ = ["UNLOCATED", "WORLD", "Area", "areas_of", "geojson_drawing", "omissions", "read_geojson"]
-
 MOST_POSITIONS: Final = 20_000_000
 MOST_NESTED: Final = 32
 """Levels of nested geometry collections."""

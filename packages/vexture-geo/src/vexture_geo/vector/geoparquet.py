@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     import pyarrow.parquet
 
 
-__all__ = ["GeometryColumn", "geometry_column", "objects_of"]
-
 NAMES: Final = ("geometry", "geom", "wkb_geometry", "wkb", "wkt")
 """Columns that may hold geometries, where nothing in the file says which do."""
 

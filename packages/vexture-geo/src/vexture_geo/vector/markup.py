@@ -8,8 +8,6 @@ from xml.parsers import expat
 from vexture.base.deadline import check_time
 from vexture.base.errors import SourceError, printable, shorten_text
 
-__all__ = ["links_of_markup"]
-
 PIECE: Final = 2**20
 """Bytes that are parsed between two looks at the clock."""
 

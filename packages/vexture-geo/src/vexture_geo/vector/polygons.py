@@ -40,8 +40,6 @@ from vexture_geo.vector.feature_tables import FeatureQuery, chunks_of
 from vexture_geo.vector.geojson import UNLOCATED, WORLD, omissions
 from vexture_geo.vector.vectors import areas_of_wkb, read_areas
 
-__all__ = ["read_polygons"]
-
 BEYOND = 0.5
 """Sides of the unit square. Polygons farther from it are dropped before they are transformed."""
 

@@ -7,8 +7,6 @@ from typing import Any, Final
 from vexture.base.content import BYTE_ORDER_MARK, RECORD
 from vexture.base.errors import SourceError, shorten_text
 
-__all__ = ["one_json"]
-
 SHOWN: Final = 80
 """Characters of an error in a message."""
 

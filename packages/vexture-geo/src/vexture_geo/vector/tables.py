@@ -11,8 +11,6 @@ from vexture.base.errors import ParameterError
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["LEGEND", "TABLES", "cast", "check_targets", "table_bytes", "with_legends", "write_batches"]
-
 TABLES: Final = ("parquet", "arrow", "none")
 """Kinds of files, by their suffixes; the last is none."""
 

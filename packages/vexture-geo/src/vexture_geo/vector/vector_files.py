@@ -44,8 +44,6 @@ from vexture_geo.vector.databases import as_geopackage, refuse_links_of_database
 from vexture_geo.vector.markup import links_of_markup
 from vexture_geo.vector.sequences import one_json
 
-__all__ = ["JSON", "VectorFile", "open_vectors"]
-
 JSON: Final = ("GeoJSON", "TopoJSON")
 SHAPEFILES: Final = ("ESRI Shapefile",)
 GEODATABASE: Final = ("OpenFileGDB",)

@@ -26,21 +26,6 @@ from vexture_geo.vector.geojson import UNLOCATED, areas_of
 from vexture_geo.vector.sequences import one_json
 from vexture_geo.vector.vector_files import VectorFile, open_vectors
 
-__all__ = [
-    "DAMAGED",
-    "Layer",
-    "areas_of_wkb",
-    "check_memory",
-    "choose_layer",
-    "gdal_errors",
-    "gdal_reason",
-    "is_memory",
-    "layers_of",
-    "parse_wkb",
-    "parts_of",
-    "read_areas",
-]
-
 AREAL: Final = ("Polygon", "Surface", "Unknown", "GeometryCollection", "Triangle", "TIN")
 """Words in the geometry types of layers that may hold polygons."""
 

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from vexture_geo.vector.curves import BROKEN
 
-__all__ = ["wkb_of_texts"]
-
 SRID: Final = re.compile(r"^\s*SRID=\d+;\s*", re.IGNORECASE)
 """Start of extended WKT, which names a reference system."""
 

@@ -22,8 +22,6 @@ from typing import Any, Final, NamedTuple, TypeVar
 from vexture.base.deadline import ALONE, CLOCK, check_seconds, too_long
 from vexture.base.errors import EXPECTED, ParameterError, SourceError, VextureError
 
-__all__ = ["GRACE", "apart", "each_apart"]
-
 T = TypeVar("T")
 
 GRACE: Final = 2.0

@@ -15,43 +15,6 @@ from typing import Final, NamedTuple
 
 from vexture.base.errors import EXPECTED, DeviceError, LimitError, ParameterError, SourceError
 
-__all__ = [
-    "ARROW",
-    "BEFORE_MARKUP",
-    "BYTE_ORDER_MARK",
-    "DELIMITERS",
-    "ESRI_GRID",
-    "FLATGEOBUF",
-    "GRIB",
-    "LARGEST_FILE",
-    "NETCDF",
-    "PARQUET",
-    "PICTURE_FORMATS",
-    "PNG",
-    "READABLE",
-    "RECORD",
-    "SHAPEFILE",
-    "SQLITE",
-    "TIFF",
-    "VECTOR_FILES",
-    "ZIP",
-    "FileKind",
-    "Header",
-    "about",
-    "decompress",
-    "header_of",
-    "is_geodatabase",
-    "is_stream",
-    "kind_of",
-    "known_kind",
-    "markup_of",
-    "picture_size",
-    "read_bytes",
-    "renaming",
-    "start_of",
-    "unpack_source",
-]
-
 LARGEST_FILE: Final = 256 * 2**20
 """Bytes, after decompression."""
 

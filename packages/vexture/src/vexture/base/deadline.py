@@ -12,8 +12,6 @@ from contextvars import ContextVar
 
 from vexture.base.errors import LimitError, ParameterError
 
-__all__ = ["ALONE", "CLOCK", "DEFAULT_SECONDS", "allowed_seconds", "check_seconds", "check_time", "too_long", "within"]
-
 ALONE = "vexture-alone"
 """Name of a process beside which no other one works, so that its threads may use all processors."""
 

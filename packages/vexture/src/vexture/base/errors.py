@@ -9,21 +9,6 @@ exception that reaches a user is a bug.
 
 from typing import Final
 
-__all__ = [
-    "EXPECTED",
-    "DeviceError",
-    "FormatError",
-    "LimitError",
-    "ParameterError",
-    "SourceError",
-    "SourceWarning",
-    "VextureError",
-    "format_count",
-    "printable",
-    "reason_of",
-    "shorten_text",
-]
-
 
 class VextureError(Exception):
     """Base of all errors that a file, a limit or a device causes."""

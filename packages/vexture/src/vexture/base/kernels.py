@@ -24,8 +24,6 @@ from typing import Any, TypeVar, cast, overload
 from vexture.base.deadline import CLOCK
 from vexture.base.machine_code import Compiled, argument_type, load
 
-__all__ = ["Kernel", "kernel", "text_digest"]
-
 F = TypeVar("F", bound=Callable[..., Any])
 
 ABOVE = {

@@ -5,8 +5,6 @@ from typing import Any, Final
 
 import numpy as np
 
-__all__ = ["texts_of"]
-
 MIDNIGHT: Final = " 00:00:00"
 
 

@@ -20,8 +20,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-__all__ = ["SHIPPED", "Code", "Compiled", "argument_type", "host", "load"]
-
 SHIPPED = Path(__file__).parents[1] / "compiled"
 """Folder of the code files in a wheel."""
 

@@ -13,21 +13,6 @@ from typing import Any, Final, Literal, NamedTuple
 
 from vexture.base.errors import SourceError, SourceWarning, printable, shorten_text
 
-__all__ = [
-    "MOST_SUBJECTS",
-    "Box",
-    "Kind",
-    "Note",
-    "Notes",
-    "Subject",
-    "check_losses",
-    "format_character",
-    "line_of",
-    "place_of_caller",
-    "warn_at",
-    "warn_of",
-]
-
 Kind = Literal["left out", "simplified", "invalid", "remark"]
 
 HEADINGS: Final[dict[Kind, str]] = {

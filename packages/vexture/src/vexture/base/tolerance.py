@@ -2,22 +2,6 @@
 
 from typing import Final
 
-__all__ = [
-    "CELL_SHARE",
-    "CLOSED",
-    "COARSEST",
-    "DETAIL_SHARE",
-    "FINEST",
-    "FLATNESS",
-    "GRAIN",
-    "HMIN",
-    "PARAMETER",
-    "ROUND",
-    "SCANLINE",
-    "STEADY",
-    "UNSEEN",
-]
-
 CLOSED: Final = 1e-9
 """Unit-square units. Ends of consecutive cubics closer than this are one point; the gap is closed exactly."""
 

@@ -19,8 +19,6 @@ from typing import Any, Final, Protocol, TypeVar
 
 from vexture.base.errors import DeviceError
 
-__all__ = ["Cluster", "InProcess", "Processes", "Workers"]
-
 Shared = TypeVar("Shared")
 Item = TypeVar("Item")
 Result = TypeVar("Result")

@@ -6,8 +6,6 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.bezier.split import subcubic
 
-__all__ = ["area_right_of", "edge_index", "edge_indices", "integral_x_dy", "leaf_area", "loop_area"]
-
 
 @kernel(allocates=False)
 def integral_x_dy(curve: NDArray[np.float64]) -> float:

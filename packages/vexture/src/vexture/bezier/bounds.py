@@ -3,8 +3,6 @@
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["bounds"]
-
 
 def bounds(cubics: NDArray[np.float64]) -> tuple[float, float, float, float]:
     """Least x, least y, largest x and largest y of the curves, not of their control points; (n, 4, 2), n >= 1."""

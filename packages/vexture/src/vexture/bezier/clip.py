@@ -14,8 +14,6 @@ from vexture.base.kernels import kernel
 from vexture.bezier.roots import cubic_at, solve_monotone, turning_points
 from vexture.bezier.split import subcubic
 
-__all__ = ["clip_contour"]
-
 MOST_PIECES = 4
 """A cubic meets a line at most three times."""
 

@@ -10,8 +10,6 @@ from math import acos, atan2, ceil, cos, hypot, pi, radians, sin, sqrt, tan
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["arc_cubics", "conic_cubics", "ellipse_cubics", "line_cubics", "straight", "write_lines"]
-
 QUARTER_ERROR = 2.7253e-4
 """Largest distance of one cubic from a quarter of the unit circle."""
 

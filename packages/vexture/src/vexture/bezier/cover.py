@@ -11,8 +11,6 @@ from vexture.base.kernels import kernel
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, split, subcubic
 
-__all__ = ["DIRECTIONS", "cover_cells", "cut_outlines", "find_reach"]
-
 DIRECTIONS = 8
 """Directions in which outlines are cut: in eighths of a turn, from that of x."""
 

@@ -7,8 +7,6 @@ from vexture.base.kernels import kernel
 from vexture.bezier.roots import cubic_at, velocity_at
 from vexture.bezier.split import copy_curve
 
-__all__ = ["chord_parameters", "fit_cubic", "fit_run", "project"]
-
 ROUNDS = 10
 """Most rounds of projection and least squares; more gain little on chains of one cell."""
 

@@ -16,8 +16,6 @@ from vexture.bezier.fit import chord_parameters, project
 from vexture.bezier.smooth import smooth_chain
 from vexture.bezier.split import copy_curve
 
-__all__ = ["CORNER", "fit_closed"]
-
 CORNER = 55.0
 """Degrees. Two straight stretches that meet at more than this make a corner."""
 

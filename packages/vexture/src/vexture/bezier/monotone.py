@@ -10,8 +10,6 @@ from vexture.base.tolerance import PARAMETER
 from vexture.bezier.roots import turning_points
 from vexture.bezier.split import copy_curve, split
 
-__all__ = ["MOST_PARTS", "Pieces", "empty_pieces", "is_monotone", "monotone_pieces", "turns", "write_monotone"]
-
 MOST_PARTS: Final = 5
 """Most pieces of a cubic, which turns at most twice in x and twice in y."""
 

@@ -3,8 +3,6 @@
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["points_along", "points_at"]
-
 
 def points_along(cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
     """Points of every cubic at the same parameters: (n, 4, 2) and (m,) -> (n, m, 2)."""

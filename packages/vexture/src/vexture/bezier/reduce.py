@@ -8,8 +8,6 @@ from vexture.bezier.fit import fit_run
 from vexture.bezier.monotone import monotone_pieces
 from vexture.bezier.split import copy_curve
 
-__all__ = ["reduce_contour"]
-
 UNSEEN = 0.1
 """Share of the tolerance. A step back that is shorter ends no run: strokers leave such steps at joins."""
 

@@ -6,8 +6,6 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.base.tolerance import PARAMETER
 
-__all__ = ["cubic_at", "solve_monotone", "turning_points", "velocity_at"]
-
 BISECTIONS = 60  # more than the 53 bits of a float64, so that the bracket always closes
 
 

@@ -5,8 +5,6 @@ from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
 
-__all__ = ["smooth_chain"]
-
 ROUNDS = 14
 """Most rounds; each gives more weight to the samples that smoothing moved too far."""
 

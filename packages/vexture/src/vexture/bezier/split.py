@@ -5,8 +5,6 @@ from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
 
-__all__ = ["copy_curve", "split", "subcubic"]
-
 
 @kernel(allocates=False)
 def copy_curve(source: NDArray[np.float64], target: NDArray[np.float64]) -> None:

@@ -50,8 +50,6 @@ if TYPE_CHECKING:
     from vexture.conversion.pipeline import Conversion
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["check_places", "convert", "given_options", "options_of_convert"]
-
 BELONGS_TO: Final = {
     "split": DEFAULT,
     "restyle": DEFAULT,

@@ -9,8 +9,6 @@ from vexture.base.errors import format_count
 from vexture.cli.messages import echo, one_line, print_message
 from vexture.cli.options import PATH, conversion_options, strict_option, viewer_parameters
 
-__all__ = ["export"]
-
 EXAMPLE = """\b
 Example:
   vexture export logo.svg badge.svg -o logos.html --title 'Our logos'

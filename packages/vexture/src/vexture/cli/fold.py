@@ -10,8 +10,6 @@ from vexture.base.errors import ParameterError
 from vexture.cli.messages import echo, one_line, say_notes
 from vexture.cli.options import PATH, font_option
 
-__all__ = ["fold"]
-
 EXAMPLE = """\b
 Example:
   vexture fold island.svg -o island.fold.ktx2 --amplitude 0.01 --picture island.png

@@ -17,8 +17,6 @@ from vexture.cli.result import is_texture_file
 from vexture.cli.text import face_options
 from vexture.texture.registry import DEFAULT
 
-__all__ = ["font"]
-
 EXAMPLE = """\b
 Examples:
   vexture font Lato.ttf -o lato.ktx2                       ASCII, and its metrics in lato.json

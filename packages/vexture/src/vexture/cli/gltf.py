@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from vexture.gltf.model import Model
     from vexture.texture.texture import Texture
 
-__all__ = ["gltf"]
-
 EXAMPLE = """\b
 Examples:
   vexture gltf van.glb --list

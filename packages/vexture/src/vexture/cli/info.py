@@ -11,8 +11,6 @@ from vexture.base.errors import FormatError
 from vexture.cli.messages import echo, one_line
 from vexture.cli.options import PATH, drawing_kind, read_stream, shown_name
 
-__all__ = ["info"]
-
 MOST_NAMED = 8
 """Elements of a shape that a line for people names."""
 

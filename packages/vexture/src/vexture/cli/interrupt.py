@@ -3,8 +3,6 @@
 import os
 from types import FrameType
 
-__all__ = ["INTERRUPTED", "at_once"]
-
 INTERRUPTED = 130
 """Exit code after Ctrl-C: 128 and the signal's number, as shells have it."""
 

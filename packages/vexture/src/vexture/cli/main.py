@@ -18,8 +18,6 @@ from vexture.cli.messages import print_message
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
-__all__ = ["ADDED_SUMMARIES", "COMMANDS", "SUMMARIES", "main"]
-
 SUMMARIES: Final = {
     "convert": "Convert drawings into textures.",
     "text": "Convert a word or lines of text into a texture.",

@@ -15,8 +15,6 @@ from vexture.base.errors import EXPECTED, printable, reason_of
 if TYPE_CHECKING:
     from vexture.base.notes import Note
 
-__all__ = ["as_options", "echo", "note_facts", "one_line", "print_message", "say_notes"]
-
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter in a message of the library."""
 

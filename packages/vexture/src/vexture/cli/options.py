@@ -10,33 +10,6 @@ import click
 
 from vexture.base.errors import DeviceError, ParameterError, SourceError
 
-__all__ = [
-    "PATH",
-    "SILHOUETTE_HELP",
-    "STANDARD",
-    "Colour",
-    "PathArgument",
-    "RectangleArgument",
-    "Sectioned",
-    "Tolerance",
-    "as_given",
-    "check_output",
-    "conversion_options",
-    "drawing_kind",
-    "font_option",
-    "page_color_option",
-    "read_stream",
-    "refuse_stream",
-    "shown_name",
-    "split_of",
-    "standard_input",
-    "strict_option",
-    "tolerance_option",
-    "trace_images_option",
-    "viewer_parameters",
-    "write_output",
-]
-
 if TYPE_CHECKING:
     from vexture.base.content import FileKind
     from vexture.conversion.parameters import Parameters

@@ -7,8 +7,6 @@ import click
 from vexture.cli.messages import echo, one_line
 from vexture.cli.options import PATH
 
-__all__ = ["push"]
-
 EXAMPLE = """\b
 Examples:
   vexture push duck.svg http://127.0.0.1:8000 --token-file token

@@ -33,8 +33,6 @@ if TYPE_CHECKING:
 
     from vexture.conversion.images import Shown
 
-__all__ = ["render"]
-
 DEFAULT_SIZE: Final = 512
 
 EXAMPLE = """\b

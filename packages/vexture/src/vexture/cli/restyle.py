@@ -9,8 +9,6 @@ from vexture.base.layout import PACKED_SUFFIX
 from vexture.cli.messages import echo, one_line
 from vexture.cli.options import PATH
 
-__all__ = ["restyle"]
-
 EXAMPLE = """\b
 Example:
   vexture convert map.geojson --split faces --restyle

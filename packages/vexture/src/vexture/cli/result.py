@@ -13,18 +13,6 @@ from vexture.texture.registry import DEFAULT
 if TYPE_CHECKING:
     from vexture.conversion.pipeline import Conversion
 
-__all__ = [
-    "NORMAL",
-    "QUIET",
-    "VERBOSE",
-    "ConversionResult",
-    "facts_of",
-    "is_texture_file",
-    "say_outcome",
-    "shape_facts",
-    "written",
-]
-
 QUIET, NORMAL, VERBOSE = -1, 0, 1
 
 

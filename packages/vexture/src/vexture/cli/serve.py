@@ -8,8 +8,6 @@ from vexture.cli.messages import as_options, echo, one_line
 from vexture.cli.options import PATH, font_option
 from vexture.server.limits import Limits
 
-__all__ = ["serve"]
-
 DEFAULTS = Limits()
 
 EXAMPLE = """\b

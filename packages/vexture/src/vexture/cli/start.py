@@ -5,8 +5,6 @@ import signal
 
 from vexture.cli.interrupt import at_once
 
-__all__ = ["main"]
-
 
 def main() -> None:
     """Run the command line."""

@@ -17,8 +17,6 @@ from vexture.texture.registry import DEFAULT
 if TYPE_CHECKING:
     from vexture.drawing.paint import Paint
 
-__all__ = ["face_options", "text"]
-
 EXAMPLE = """\b
 Examples:
   vexture text Harbour --font Lobster.ttf -o word.ktx2

@@ -9,8 +9,6 @@ from vexture.base.errors import format_count
 from vexture.cli.messages import echo, one_line, print_message
 from vexture.cli.options import PATH, conversion_options, viewer_parameters
 
-__all__ = ["view"]
-
 EXAMPLE = """\b
 Examples:
   vexture view logo.svg --watch           shows every save of the drawing

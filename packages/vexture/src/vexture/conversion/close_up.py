@@ -11,8 +11,6 @@ from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Affine
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 
-__all__ = ["CloseUp", "close_up"]
-
 SHARE: Final = 0.04
 """Pixels. Largest distance of an outline that shows nowhere; `UNSEEN` is this in a picture of 2,000 pixels."""
 

@@ -12,8 +12,6 @@ from vexture.base.errors import DeviceError
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["INSTALL_GEO", "READERS", "GeographicReader", "find_geographic_reader", "geographic_reader"]
-
 READERS: Final = "vexture.readers"
 """Group of the entry points that add readers; each names a module with the functions of `GeographicReader`."""
 

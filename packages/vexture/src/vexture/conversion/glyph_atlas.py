@@ -24,8 +24,6 @@ from vexture.fonts.text import Places, TextCanvas, TextOptions
 if TYPE_CHECKING:
     from vexture.texture.texture import Texture
 
-__all__ = ["PRINTABLE", "FontAtlas", "font_atlas", "made_atlas"]
-
 PRINTABLE: Final = "".join(map(chr, range(0x20, 0x7F)))
 """The printable characters of ASCII."""
 

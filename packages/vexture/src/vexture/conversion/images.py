@@ -15,8 +15,6 @@ if TYPE_CHECKING:  # imported at run time when needed: compiler and driver take 
     from vexture.drawing.drawing import Drawing
     from vexture.renderers.view import Size, ViewLike
 
-__all__ = ["RENDERERS", "Renderer", "Shown", "coverage", "render"]
-
 Shown: TypeAlias = "Drawing | EncodedTexture"
 Renderer: TypeAlias = Literal["exact", "cpu", "gpu"]
 

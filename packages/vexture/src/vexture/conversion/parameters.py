@@ -12,8 +12,6 @@ from vexture.base.errors import ParameterError
 if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take long
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["READING", "Fonts", "Parameters", "Split", "check_reading"]
-
 Split: TypeAlias = Literal["auto", "faces", "paint"] | None
 """How a drawing becomes shapes; see `vexture.convert`."""
 

@@ -16,19 +16,8 @@ from vexture.texture.registry import DEFAULT, EncodedTexture, find_encoding
 
 if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take long
     from vexture.drawing.drawing import Drawing
-    from vexture.texture.texture import Root, Texture
-
-__all__ = [
-    "Conversion",
-    "Source",
-    "atlas",
-    "combine",
-    "convert",
-    "parts_of",
-    "run",
-    "trees_of",
-    "warn_of_loss",
-]
+    from vexture.texture.root import Root
+    from vexture.texture.texture import Texture
 
 Source: TypeAlias = "Drawing | str | os.PathLike[str]"
 """A drawing, or the path of a file that `vexture.read` reads."""
@@ -118,7 +107,7 @@ def parts_of(source: "Source | bytes", parameters: Parameters, name: str | None 
 def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     """Read one source, split it if the parameters say so, and build its trees."""
     from vexture.conversion.reading import drawing_of
-    from vexture.texture.texture import Root
+    from vexture.texture.root import Root
     from vexture.tree.bounds import largest_shift
     from vexture.tree.build import build_tree
     from vexture.tree.planar.sheets import Sheet, notes_of_sheets, sheets_of

@@ -29,16 +29,6 @@ if TYPE_CHECKING:  # at run time a reader is imported when it is needed
     from vexture.drawing.drawing import Drawing
     from vexture.svg.images import Images
 
-__all__ = [
-    "Source",
-    "content_of",
-    "drawing_of",
-    "images_of",
-    "name_of",
-    "read",
-    "read_drawing",
-]
-
 Place: TypeAlias = str | os.PathLike[str]
 Source: TypeAlias = Place | bytes | bytearray | memoryview | IO[bytes]
 """A path, the content of a file, or a binary file that is open."""

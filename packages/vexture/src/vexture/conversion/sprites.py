@@ -11,8 +11,6 @@ from vexture.conversion.reading import Place, images_of, name_of, read_drawing
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["read_drawings"]
-
 
 def read_drawings(source: Place | bytes, *, name: str | None = None, **reading: Any) -> "Iterator[tuple[str, Drawing]]":
     """Read the drawings of a source, each with its name in messages: one, or of a sprite one for each symbol.

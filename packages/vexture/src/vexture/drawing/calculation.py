@@ -7,21 +7,6 @@ from typing import Any, Final, NamedTuple
 
 import tinycss2
 
-__all__ = [
-    "ANGLE",
-    "LENGTH",
-    "NUMBER",
-    "PERCENT",
-    "Quantity",
-    "Resolve",
-    "calculate",
-    "keyword",
-    "parse_tokens",
-    "reduce_calculations",
-    "sample_calculations",
-    "split_arguments",
-]
-
 NUMBER, PERCENT, LENGTH, ANGLE = "number", "percentage", "length", "angle"
 
 LONGEST: Final = 1_000

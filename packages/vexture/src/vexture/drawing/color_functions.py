@@ -8,8 +8,6 @@ from coloraide import Color
 
 from vexture.drawing.calculation import keyword, reduce_calculations, split_arguments
 
-__all__ = ["Rgba", "color_of_function"]
-
 Rgba = tuple[float, float, float, float]
 """Red, green, blue and opacity in sRGB; the colours may be outside 0..1."""
 

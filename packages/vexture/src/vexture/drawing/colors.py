@@ -7,8 +7,6 @@ from typing import Any, Final, NamedTuple
 import tinycss2
 import tinycss2.color4
 
-__all__ = ["CONTEXT", "CURRENT", "Color", "PaintText", "parse_color", "parse_paint"]
-
 LONGEST = 400
 """Characters. A colour is hardly longer, and the cache must not keep long untrusted texts."""
 

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from vexture.base.errors import SourceError
 from vexture.bezier.convert import write_lines
 
-__all__ = ["Closed", "check_contours", "join_contours", "ring_contours", "together"]
-
 BLOCK = 1 << 18
 """Cubics of short contours that are checked together, 17 MB."""
 

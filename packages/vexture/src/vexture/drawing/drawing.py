@@ -25,8 +25,6 @@ from vexture.drawing.group import Blend, Group, Mask, groups_around
 from vexture.drawing.paint import BLACK, Affine, Paint
 from vexture.drawing.unit_square import clip_contours, tidy_contours
 
-__all__ = ["Drawing", "FillRule", "Path"]
-
 SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
 BLENDING, MASKING, SHADED = "mix-blend-mode", "clip-path or mask", "gradient shown as its mean colour"
 SOLID: Final = "pattern shown as solid"

@@ -6,8 +6,6 @@ from enum import IntEnum
 
 from vexture.base.errors import SourceError
 
-__all__ = ["Blend", "Group", "Mask", "groups_around"]
-
 
 class Blend(IntEnum):
     """Mixing of a group's colours with those below, as in *Compositing and Blending Level 1* of the W3C."""

@@ -6,8 +6,6 @@ from math import isfinite
 
 from vexture.base.errors import SourceError
 
-__all__ = ["BLACK", "Affine", "Gradient", "Paint", "Spread", "Stop"]
-
 Color = tuple[float, float, float]
 """Red, green and blue, sRGB, each in 0..1."""
 

@@ -9,8 +9,6 @@ from vexture.base.errors import SourceError
 from vexture.base.tolerance import CLOSED
 from vexture.bezier.convert import line_cubics, straight
 
-__all__ = ["FARTHEST", "clip_contours", "tidy_contours"]
-
 FARTHEST: Final = 1e9
 """Unit-square units. Beyond it, float64 cannot tell points within the drawing apart by 1e-6."""
 

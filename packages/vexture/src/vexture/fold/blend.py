@@ -18,8 +18,6 @@ from vexture.fold.layout import (
     FOLD_TICKS,
 )
 
-__all__ = ["Folded", "fold", "progress"]
-
 Numbers = NDArray[np.float64]
 Words = NDArray[np.uint32]
 

@@ -16,8 +16,6 @@ from vexture.fold.blend import fold, progress
 from vexture.texture.encode import texel_rows
 from vexture.texture.ktx2 import read_ktx2, write_ktx2
 
-__all__ = ["Fold", "Kind", "fold_from"]
-
 REMEDY: Final = "make the fold again"
 WRAPS: Final = ("none", "clamp", "repeat")
 

@@ -2,24 +2,6 @@
 
 from typing import Final
 
-__all__ = [
-    "ENCODING_FOLD",
-    "FOLD_FILE_LIMIT",
-    "FOLD_KIND_SHIFT",
-    "FOLD_LINEAR",
-    "FOLD_MOST_DISPLACEMENT",
-    "FOLD_MOST_SECONDS",
-    "FOLD_MOST_SIDE",
-    "FOLD_PERIODIC",
-    "FOLD_SMOOTH_BOTH",
-    "FOLD_SMOOTH_END",
-    "FOLD_SMOOTH_START",
-    "FOLD_SUFFIX",
-    "FOLD_TICKS",
-    "FOLD_VERSION",
-    "TEXT_FOLD",
-]
-
 ENCODING_FOLD: Final = "fold"
 FOLD_VERSION: Final = "1"
 TEXT_FOLD: Final = "vexture.fold"

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["fold_picture"]
-
 LEAST, MOST = 256, 4096
 STILL: Final = 0.02
 """Share of the largest displacement. Texels that move less are not coloured by kind and begin."""

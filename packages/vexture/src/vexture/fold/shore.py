@@ -16,8 +16,6 @@ from vexture.renderers.exact import render_exact
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
 
-__all__ = ["STEEPEST", "fold_of_shore", "shore_fold"]
-
 STEEPEST: Final = 0.5
 """Largest gradient of the displacements; at 1 two places would be displaced to the same one."""
 

@@ -11,8 +11,6 @@ from typing import Any, Final, TypeAlias
 from vexture.base.notes import Notes
 from vexture.drawing.paint import Affine, Color, Gradient, Paint, Spread, Stop
 
-__all__ = ["linear", "radial", "solid", "swept"]
-
 SPREADS: Final = {"PAD": Spread.PAD, "REPEAT": Spread.REPEAT, "REFLECT": Spread.REFLECT}
 
 TIP: Final = 1.0 / 512.0

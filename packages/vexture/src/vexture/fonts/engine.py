@@ -6,8 +6,6 @@ from typing import Any
 
 from vexture.base.errors import DeviceError
 
-__all__ = ["harfbuzz"]
-
 
 @cache
 def harfbuzz() -> Any:

@@ -19,8 +19,6 @@ from vexture.fonts.layers import GlyphLayers, glyph_layers
 from vexture.fonts.outlines import glyph_outline
 from vexture.fonts.places import NO_FILE
 
-__all__ = ["Face", "faces_in", "faces_of"]
-
 FAMILY_NAMES: Final = (16, 21, 1)
 """Name IDs of families: typographic, of weights and widths and slopes only, and the legacy one."""
 

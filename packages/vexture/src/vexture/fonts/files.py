@@ -10,8 +10,6 @@ from typing import Final
 
 from vexture.base.errors import DeviceError, SourceError, reason_of
 
-__all__ = ["DESCRIBING", "SUFFIXES", "is_sfnt", "sfnt_of"]
-
 SUFFIXES: Final = (".ttf", ".otf", ".ttc", ".otc", ".woff", ".woff2")
 """Of files that hold fonts."""
 

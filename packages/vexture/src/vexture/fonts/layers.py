@@ -15,8 +15,6 @@ from vexture.drawing.group import Blend, Group, Mask
 from vexture.drawing.paint import BLACK, Color, Paint
 from vexture.fonts.paint_tree import Clip, Composite, Contours, Fill, Node, paint_tree, rectangle
 
-__all__ = ["GlyphLayers", "glyph_layers"]
-
 MOST_PATHS: Final = 10_000
 """Of one glyph, with its groups; groups that mask each other paint what they hold several times."""
 

@@ -8,8 +8,6 @@ from typing import Any, Final
 
 from vexture.base.errors import DeviceError
 
-__all__ = ["CURSIVE", "LATIN", "is_upright", "levels", "scripts", "visual_order"]
-
 CURSIVE: Final = frozenset(
     {
         *("Adlm", "Arab", "Aran", "Mand", "Mani", "Mong", "Nkoo", "Phag", "Phlp", "Rohg", "Sogd", "Syrc"),

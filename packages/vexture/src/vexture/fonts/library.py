@@ -16,8 +16,6 @@ from vexture.fonts.files import SUFFIXES
 from vexture.fonts.matching import NORMAL_STRETCH, REGULAR, Traits, preference
 from vexture.fonts.system import default_files, font_files, generic_family, system_files
 
-__all__ = ["GENERIC", "EmbeddedFont", "Fonts"]
-
 Place: TypeAlias = str | os.PathLike[str]
 
 SANS: Final = ("Noto Sans", "DejaVu Sans", "Liberation Sans", "Arial", "Helvetica", "Segoe UI")

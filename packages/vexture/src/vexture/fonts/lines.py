@@ -13,8 +13,6 @@ from vexture.fonts.face import Face
 from vexture.fonts.levels import levels, scripts, visual_order
 from vexture.fonts.shaping import Glyph, shape
 
-__all__ = ["FaceChoice", "Placed", "Typesetting", "belongs", "describe_character", "is_seen", "line_of_glyphs"]
-
 SELECTORS: Final = frozenset(map(chr, (*range(0xFE00, 0xFE10), *range(0xE0100, 0xE01F0))))
 """Variation selectors, which choose a form of the character before them."""
 

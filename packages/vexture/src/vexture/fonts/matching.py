@@ -4,8 +4,6 @@ from dataclasses import dataclass
 from math import inf
 from typing import Final
 
-__all__ = ["NORMAL_STRETCH", "REGULAR", "Traits", "preference"]
-
 STYLES: Final = {
     "normal": ("normal", "oblique", "italic"),
     "italic": ("italic", "oblique", "normal"),

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from vexture.fonts.engine import harfbuzz
 
-__all__ = ["glyph_outline"]
-
 Contours = tuple[NDArray[np.float64], ...]
 
 
@@ -28,20 +26,24 @@ class OutlinePen:
         self.at = (0.0, 0.0)
 
     def move(self, x: float, y: float) -> None:
+        """Begin a contour."""
         self.contours.append([])
         self.at = (x, y)
 
     def line(self, x: float, y: float) -> None:
+        """Add a line."""
         (a, b), dx, dy = self.at, x - self.at[0], y - self.at[1]
         if dx or dy:
             self.cubic(a + dx / 3.0, b + dy / 3.0, a + dx * (2.0 / 3.0), b + dy * (2.0 / 3.0), x, y)
 
     def quadratic(self, u: float, v: float, x: float, y: float) -> None:
+        """Add a quadratic as the same curve of degree three."""
         a, b = self.at
         third = 2.0 / 3.0
         self.cubic(a + (u - a) * third, b + (v - b) * third, x + (u - x) * third, y + (v - y) * third, x, y)
 
     def cubic(self, *points: float) -> None:
+        """Add a cubic from its last three points."""
         self.contours[-1] += (*self.at, *points)
         self.at = points[4], points[5]
 

@@ -14,8 +14,6 @@ from vexture.drawing.paint import Affine, Color, Paint
 from vexture.fonts.color_lines import linear, radial, solid, swept
 from vexture.fonts.engine import harfbuzz
 
-__all__ = ["Clip", "Composite", "Contours", "Fill", "Node", "paint_tree", "rectangle"]
-
 Contours: TypeAlias = tuple[NDArray[np.float64], ...]
 
 IDENTITY: Affine = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))

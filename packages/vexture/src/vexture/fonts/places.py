@@ -5,8 +5,6 @@ from pathlib import Path
 
 from vexture.base.errors import ParameterError, SourceError
 
-__all__ = ["NO_FILE", "font_places"]
-
 NO_FILE = "it is no file; give a font file or a folder of fonts"
 
 

@@ -8,8 +8,6 @@ from vexture.base.errors import ParameterError
 from vexture.fonts.engine import harfbuzz
 from vexture.fonts.face import Face
 
-__all__ = ["Glyph", "shape"]
-
 
 @dataclass(frozen=True, slots=True)
 class Glyph:

@@ -12,8 +12,6 @@ from typing import Final
 
 from vexture.fonts.files import SUFFIXES
 
-__all__ = ["default_files", "font_files", "generic_family", "system_files"]
-
 DEFAULT_PACKAGE: Final = "fontpkg_noto_sans"
 """Holds the default font, Noto Sans, in its folder ``files``."""
 

@@ -21,8 +21,6 @@ from vexture.fonts.lines import FaceChoice, Placed, Typesetting, is_seen, line_o
 from vexture.fonts.matching import NORMAL_STRETCH
 from vexture.fonts.places import font_places
 
-__all__ = ["Places", "TextCanvas", "TextOptions", "text", "text_drawing"]
-
 Places: TypeAlias = "str | os.PathLike[str] | Sequence[str | os.PathLike[str]]"
 """A font file or a folder of fonts, or several."""
 

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from vexture.conversion.parameters import Split
     from vexture.texture.texture import Texture
 
-__all__ = ["HALF", "MODES", "WHITE", "WRAPS", "Appearance", "Background", "Mode", "Wrap"]
-
 Mode: TypeAlias = Literal["paint", "mix", "cut", "alpha"]
 Wrap: TypeAlias = Literal["none", "clamp", "repeat"]
 Background: TypeAlias = Literal["own", "none"]

@@ -14,8 +14,6 @@ from typing import Any, Final
 from vexture.base.content import BYTE_ORDER_MARK
 from vexture.base.errors import LimitError, SourceError
 
-__all__ = ["Container", "objects_in", "pad", "parse", "to_glb", "to_gltf", "values"]
-
 MAGIC: Final = b"glTF"
 VERSION: Final = 2
 HEADER: Final = struct.Struct("<4sII")

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
     from vexture.texture.texture import Texture
 
-__all__ = ["EXTENSION", "GLB", "GLTF", "Model", "read_model", "target_of", "texture_of"]
-
 EXTENSION: Final = "VEXTURE_vector_texture"
 GLB: Final = ".glb"
 GLTF: Final = ".gltf"

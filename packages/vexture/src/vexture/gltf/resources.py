@@ -13,8 +13,6 @@ from vexture.base.content import LARGEST_FILE, picture_size
 from vexture.base.errors import SourceError, printable, shorten_text
 from vexture.gltf.container import REMEDY, Container, objects_in, pad, values
 
-__all__ = ["KTX2_TYPE", "content_at", "data_uri", "files_beside", "missing_file", "pack", "with_view"]
-
 KTX2_TYPE: Final = "image/ktx2"
 BYTES_TYPE: Final = "application/octet-stream"
 

@@ -11,8 +11,6 @@ from vexture.texture.select_root import layers_of
 from vexture.texture.texture import Texture
 from vexture.tree.planar.style import round_colours
 
-__all__ = ["components_of", "recolour_texture"]
-
 
 def components_of(texture: Texture, colours: Mapping[str, Colour], root: str | int | None) -> dict[str, list[float]]:
     """Red, green, blue and opacity of each colour, in 0..1, for JSON; refuses what `recolour_texture` cannot show."""

@@ -10,8 +10,6 @@ from vexture.drawing.colors import Color, parse_color
 from vexture.renderers.view import Size, window
 from vexture.texture.texture import Texture
 
-__all__ = ["MARGIN", "MODES", "Mode", "Rect", "home_of", "png_of", "render_view"]
-
 Mode: TypeAlias = Literal["paint", "silhouette"]
 MODES: Final = ("paint", "silhouette")
 

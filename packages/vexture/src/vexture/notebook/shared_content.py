@@ -6,8 +6,6 @@ from typing import Any, Final
 import ipywidgets
 import traitlets
 
-__all__ = ["SharedContent", "share_content"]
-
 KEY_LENGTH: Final = 16
 
 

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from vexture_geo.flood.page import FloodPage
     from vexture_geo.flood.widget import FloodWidget
 
-__all__ = ["show"]
-
 READING: Final = ("select", "names", "snap", "fonts", "trace_images", "page_colors")
 """Options of a conversion that are its reader's."""
 

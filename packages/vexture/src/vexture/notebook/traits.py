@@ -9,18 +9,6 @@ import traitlets
 from vexture.base.errors import ParameterError, shorten_text
 from vexture.base.labels import texts_of
 
-__all__ = [
-    "BackgroundTrait",
-    "ChoiceTrait",
-    "ColoursTrait",
-    "LabelTrait",
-    "NumberTrait",
-    "PixelsTrait",
-    "RectangleTrait",
-    "format_value",
-    "pixels",
-]
-
 PIXELS: Final = "give a whole number of pixels, 1 or more"
 LONGEST: Final = 60
 """Letters of a value in a message."""

@@ -25,8 +25,6 @@ from vexture.texture.files import write_together
 from vexture.texture.select_root import layers_of
 from vexture.texture.texture import Texture
 
-__all__ = ["HEIGHT", "PAGE", "VectorWidget"]
-
 PAGE: Final = Bundle("notebook.js", "notebook.css")
 """The engine of all widgets, which is also the script of a page that `save` writes."""
 

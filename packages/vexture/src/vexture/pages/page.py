@@ -13,20 +13,6 @@ from vexture.base.errors import DeviceError, ParameterError, VextureError
 from vexture.server.publish_file import THESIS_BITS, thesis_pair
 from vexture.server.published import PublishedFile, PublishedShape, manifest
 
-__all__ = [
-    "SCRIPT",
-    "SERVED_POLICY",
-    "STYLE",
-    "VIEWER",
-    "Bundle",
-    "built",
-    "check_output",
-    "data_address",
-    "exported_page",
-    "served_page",
-    "whole_page",
-]
-
 
 class Bundle(NamedTuple):
     """Names of a page's files, which `make viewer` builds in the folder ``built`` of a package."""

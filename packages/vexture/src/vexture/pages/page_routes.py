@@ -22,8 +22,6 @@ from vexture.server.routes import FOREVER, NO_SNIFFING, current_route, fixed_rou
 from vexture.server.uploads import read_body
 from vexture.texture.registry import find_encoding
 
-__all__ = ["DROPPED", "dropping_routes", "page_routes", "thesis_addresses", "thesis_routes"]
-
 DROPPED = Limits(max_bytes=64 * 2**20)
 """Limits of the server of the page: a file that is dropped on it is the user's own, and may be larger."""
 

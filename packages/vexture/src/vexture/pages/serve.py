@@ -18,8 +18,6 @@ from vexture.server.routes import application, routes
 from vexture.server.tokens import read_token
 from vexture.server.uploads import publishing_routes
 
-__all__ = ["serve"]
-
 
 def serve(
     path: Path,

@@ -17,8 +17,6 @@ from vexture.server.publish_file import shape_of
 from vexture.server.published import PublishedShape, PublishedShapes
 from vexture.server.watch import WatchedFile, name_files, watch
 
-__all__ = ["export", "view"]
-
 Report = Callable[[str], None]
 """Takes a line for the user."""
 

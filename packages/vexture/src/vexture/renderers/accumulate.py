@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 
-__all__ = ["Sides", "render_sides"]
-
 PARTS = 4
 """Red, green, blue, each times opacity, and opacity."""
 

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.drawing.group import Blend
 
-__all__ = ["lay"]
-
 Colour: TypeAlias = tuple[float, float, float]
 
 ROUNDING: Final = 1e-9

@@ -28,29 +28,6 @@ from vexture.renderers.method import (
     SMALL_FINEST,
 )
 
-__all__ = [
-    "Texel",
-    "Texels",
-    "Vec2",
-    "VextureCell",
-    "VexturePlace",
-    "VextureSquare",
-    "VextureTop",
-    "Whole2",
-    "clamp",
-    "count",
-    "descend",
-    "finest_bit",
-    "first_curve",
-    "first_square",
-    "next_square",
-    "place",
-    "stored_coverage",
-    "texel",
-    "top",
-    "winding_code",
-]
-
 Texels = NDArray[np.uint32]
 Vec2 = tuple[float, float]
 Whole2 = tuple[int, int]

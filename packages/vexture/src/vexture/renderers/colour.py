@@ -61,8 +61,6 @@ from vexture.renderers.piece import VextureBox, VextureFrame, box, ends, frame, 
 from vexture.renderers.uniforms import HasTexels, uniforms_of
 from vexture.renderers.view import Size, ViewLike
 
-__all__ = ["render_cpu_colours"]
-
 
 @kernel(allocates=False)
 def leaf_kind(cell: VextureCell) -> int:

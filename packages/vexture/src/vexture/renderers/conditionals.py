@@ -5,8 +5,6 @@ from typing import Final
 
 from vexture.renderers.shader_error import ShaderError
 
-__all__ = ["chosen"]
-
 WORDS: Final = ("#if ", "#elif ", "#else", "#endif")
 
 

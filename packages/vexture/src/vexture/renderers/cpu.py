@@ -70,8 +70,6 @@ from vexture.renderers.piece import (
 from vexture.renderers.uniforms import HasTexels, uniforms_of
 from vexture.renderers.view import Size, ViewLike
 
-__all__ = ["render_cpu"]
-
 
 class VextureCorner(NamedTuple):
     """A box as a parallelogram in the footprint's frame."""

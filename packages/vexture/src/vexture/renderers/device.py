@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from vexture.base.errors import DeviceError, LimitError
 from vexture.renderers.shader import vertex_source
 
-__all__ = ["ONE_AT_A_TIME", "VERSION", "compile_shader", "context", "draw", "upload"]
-
 VERSION: Final = "330"
 
 ONE_AT_A_TIME: Final = threading.Lock()

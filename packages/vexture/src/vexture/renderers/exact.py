@@ -24,8 +24,6 @@ from vexture.renderers.regions import SIDE, Regions, add_region, end_row
 from vexture.renderers.slabs import Sweep, add_edge, cross, next_slab
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 
-__all__ = ["render_exact", "render_exact_colours"]
-
 BAND: Final = 4
 """Rows between two looks at the clock: a row of thousands of outlines may take a second."""
 

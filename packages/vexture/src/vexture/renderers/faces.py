@@ -19,8 +19,6 @@ from vexture.drawing.group import Blend, Mask
 from vexture.renderers.blend import lay
 from vexture.renderers.ramps import Ramps, shade
 
-__all__ = ["FLAT", "MEMBERS", "RUN", "PathStack", "SweepFaces", "composite", "find_face", "forget"]
-
 KEPT: Final = 2**16
 """Faces that are kept, a power of two; 3.7 MB."""
 

@@ -8,8 +8,6 @@ from vexture.renderers.method import BISECTIONS, POSITION_BITS
 from vexture.renderers.paints import base_paint, planar
 from vexture.renderers.piece import word
 
-__all__ = ["feature"]
-
 
 @kernel(allocates=False)
 def x_at(texel: Texel, y: float) -> float:

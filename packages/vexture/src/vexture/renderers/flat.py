@@ -37,8 +37,6 @@ from vexture.renderers.piece import (
     word,
 )
 
-__all__ = ["VextureFlat", "flat", "flat_coverage", "flat_piece_area"]
-
 
 class VextureFlat(NamedTuple):
     """Values that all pixels of a flat view share."""

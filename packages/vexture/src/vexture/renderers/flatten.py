@@ -18,8 +18,6 @@ from vexture.base.kernels import kernel
 from vexture.base.tolerance import SCANLINE
 from vexture.drawing.drawing import Drawing
 
-__all__ = ["CHORD_LIMIT", "Chords", "find_chords", "snap"]
-
 CHORD_LIMIT: Final = 2**24
 """Most chords in one image; about 1.3 GB of memory."""
 

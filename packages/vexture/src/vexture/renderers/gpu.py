@@ -12,8 +12,6 @@ from vexture.renderers.shader import color_source, view_source
 from vexture.renderers.uniforms import HasTexels, Uniforms, uniforms_of
 from vexture.renderers.view import Size, ViewLike
 
-__all__ = ["render_gpu", "render_gpu_colours"]
-
 
 @cache
 def program(is_flat: bool) -> Any:

@@ -47,8 +47,6 @@ from vexture.renderers.method import (
     SHORTEST_RAMP,
 )
 
-__all__ = ["Vec3", "Vec4", "VextureRegion", "halves", "plus", "program", "times"]
-
 Vec3 = tuple[float, float, float]
 Vec4 = tuple[float, float, float, float]
 

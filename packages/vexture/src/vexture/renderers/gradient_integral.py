@@ -16,8 +16,6 @@ from vexture.base.tolerance import STEADY
 from vexture.renderers.faces import PathStack, SweepFaces, composite
 from vexture.renderers.ramps import MOST_CUTS, Place, add_cut, cut_line, cut_turns
 
-__all__ = ["Room", "SlabCell", "add_cell"]
-
 MOST_HALVINGS: Final = (64, 256)
 """Halvings in a cell, and in a line of it; then what is left counts as it is."""
 

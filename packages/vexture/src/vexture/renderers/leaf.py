@@ -7,8 +7,6 @@ from vexture.base.layout import CONTROL_OFFSET, COORDINATE_BITS, COUNT_SHIFT, MO
 from vexture.renderers.cells import Texel, Texels, VextureCell, Whole2, texel
 from vexture.renderers.paints import VexturePlanar, numbered
 
-__all__ = ["VextureLeaf", "leaf", "leaf_piece", "leaf_sides"]
-
 
 class VextureLeaf(NamedTuple):
     """Position of a leaf's pieces, and the texels of pieces and sides that were read last."""

@@ -23,18 +23,6 @@ from vexture.renderers.piece import (
     word,
 )
 
-__all__ = [
-    "VextureShare",
-    "area_share",
-    "box_share",
-    "flat_ends_share",
-    "flat_piece_share",
-    "moved_share",
-    "piece_share",
-    "plus_share",
-    "whole_share",
-]
-
 
 class VextureShare(NamedTuple):
     """The area of a part of a pixel, and its moments about the pixel's middle, in the pixel's sides."""

@@ -13,25 +13,6 @@ from vexture.renderers.gradient import Vec3, Vec4, VextureRegion, halves, plus, 
 from vexture.renderers.method import LEAST_SHARE, NEARLY_WHOLE, NO_SHARE, NOTHING
 from vexture.renderers.moment import VextureShare, area_share, plus_share
 
-__all__ = [
-    "VexturePlanar",
-    "VextureSum",
-    "add_base",
-    "add_kept",
-    "add_paint",
-    "add_piece",
-    "base_paint",
-    "holds_kept",
-    "mean_color",
-    "means_at",
-    "nothing",
-    "numbered",
-    "planar",
-    "settle",
-    "unpacked",
-    "with_color",
-]
-
 
 class VexturePlanar(NamedTuple):
     """Start of each part of a planar map."""

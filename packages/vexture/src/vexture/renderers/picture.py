@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from vexture.drawing.paint import Paint
 
-__all__ = ["composite_pictures", "paint_layer"]
-
 
 def paint_layer(paint: Paint, covered: NDArray[np.float32]) -> NDArray[np.float32]:
     """Paint a layer: premultiplied RGBA, (height, width, 4), from its colour and coverage, (height, width)."""

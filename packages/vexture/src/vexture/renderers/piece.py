@@ -20,32 +20,6 @@ from vexture.renderers.method import (
     THINNEST_PIXEL,
 )
 
-__all__ = [
-    "VextureBox",
-    "VextureEnds",
-    "VextureFrame",
-    "VexturePiece",
-    "ViewPixel",
-    "at",
-    "beside",
-    "beside_sloped",
-    "box",
-    "box_area",
-    "bulge",
-    "cross",
-    "ends",
-    "frame",
-    "in_box",
-    "into_frame",
-    "mean",
-    "part_inside",
-    "piece",
-    "slope",
-    "slopes",
-    "view_pixel",
-    "word",
-]
-
 
 class VextureFrame(NamedTuple):
     """Coordinates in which the pixel's footprint is the square from -1/2 to 1/2."""

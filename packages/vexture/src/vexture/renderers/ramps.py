@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.drawing.paint import Gradient, Spread
 
-__all__ = ["MOST_CUTS", "Place", "Ramps", "add_cut", "cut_line", "cut_turns", "shade"]
-
 MOST_CUTS: Final = 1024
 """Corners of ramps on one line; the rest count as smooth."""
 

@@ -14,8 +14,6 @@ from vexture.base.kernels import kernel
 from vexture.renderers.faces import FLAT, MEMBERS, PathStack, SweepFaces
 from vexture.renderers.gradient_integral import Room, SlabCell, add_cell
 
-__all__ = ["SIDE", "Regions", "add_region", "end_row"]
-
 SIDE: Final = -1
 """In place of a chord, the right side of the image."""
 

@@ -17,19 +17,6 @@ from vexture.drawing.paint import Spread
 from vexture.renderers import method
 from vexture.renderers.conditionals import chosen
 
-__all__ = [
-    "PARTS",
-    "PICTURE_MAIN",
-    "VERSIONS",
-    "WRAPS",
-    "color_source",
-    "read_shader",
-    "shader_source",
-    "shader_text",
-    "vertex_source",
-    "view_source",
-]
-
 VERSIONS: Final = {
     "330": "#version 330\n",
     "300 es": "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n",

@@ -2,8 +2,6 @@
 
 from vexture.base.errors import VextureError
 
-__all__ = ["ShaderError"]
-
 
 class ShaderError(VextureError):
     """A text is outside of the subset of GLSL that has a meaning in WGSL.

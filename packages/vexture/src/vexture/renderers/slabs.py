@@ -14,8 +14,6 @@ from vexture.base.kernels import kernel
 from vexture.base.tolerance import SCANLINE
 from vexture.renderers.flatten import Chords, snap
 
-__all__ = ["Sweep", "add_edge", "cross", "next_slab"]
-
 
 class Sweep(NamedTuple):
     """State of a sweep over chords."""

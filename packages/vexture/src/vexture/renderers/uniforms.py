@@ -11,8 +11,6 @@ from vexture.renderers.view import Size, ViewLike, size_of, view_base, view_matr
 FLAT: Final = 2.0**-40
 """Share of a pixel's side by which its ends may differ in height: far less than a pixel over the widest picture."""
 
-__all__ = ["HasTexels", "Uniforms", "uniforms_of"]
-
 
 class HasTexels(Protocol):
     """The part of a `vexture.Texture` that a renderer reads."""

@@ -14,20 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from vexture.base.errors import ParameterError
 
-__all__ = [
-    "CONDITION_LIMIT",
-    "SIZE_LIMIT",
-    "Size",
-    "View",
-    "ViewLike",
-    "ViewWindow",
-    "fit",
-    "size_of",
-    "view_base",
-    "view_matrix",
-    "window",
-]
-
 SIZE_LIMIT: Final = 16384
 """Pixels; longest side of an image, and a usual limit of GPUs."""
 

@@ -15,8 +15,6 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from vexture.server.limits import Limits
 
-__all__ = ["ACCEPTED", "InPieces", "connections"]
-
 RESERVE: Final = 128
 """Descriptors that are no connections: files, conversions, what is being accepted or refused."""
 

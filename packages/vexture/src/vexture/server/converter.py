@@ -16,8 +16,6 @@ from vexture.server.publish_file import PUBLISHED_PARAMETERS, SMALL, shape_of
 from vexture.server.published import PublishedShape
 from vexture.server.worker import Worker
 
-__all__ = ["BusyError", "Converter", "UploadConversion"]
-
 T = TypeVar("T")
 
 SIDE_BY_SIDE: Final = 2

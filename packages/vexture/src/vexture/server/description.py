@@ -10,8 +10,6 @@ from starlette.routing import Route
 
 from vexture.server.limits import Limits
 
-__all__ = ["DESCRIPTION", "description"]
-
 DESCRIPTION: Final = "/openapi.json"
 """Address of the description."""
 

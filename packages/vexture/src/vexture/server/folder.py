@@ -19,8 +19,6 @@ from vexture.server.names import checked_name, manifest_name
 from vexture.server.published import PublishedFile, PublishedShape
 from vexture.texture.files import TEMPORARY, make_folder, replace_files
 
-__all__ = ["STATE", "Folder"]
-
 STATE: Final = ".vexture"
 DRAWINGS: Final = (".svg", ".svgz", ".geojson", ".ktx2")
 GEOGRAPHIC: Final = (".gpkg", ".fgb", ".shp", ".zip", ".tif", ".tiff", ".nc", ".nc4", ".cdf")

@@ -4,8 +4,6 @@ from vexture.base.errors import LimitError
 from vexture.server.limits import Limits
 from vexture.server.published import PublishedShape, PublishedShapes
 
-__all__ = ["FullError", "LimitedShapes"]
-
 
 class FullError(LimitError):
     """There is no room for a shape: remove others or raise the limit."""

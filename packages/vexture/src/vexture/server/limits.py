@@ -8,8 +8,6 @@ from typing import Final
 
 from vexture.base.errors import ParameterError
 
-__all__ = ["Limits", "Pace"]
-
 MOST_KNOWN: Final = 10_000
 """Addresses whose pace is remembered; the one that was silent for longest is forgotten first."""
 

@@ -16,8 +16,6 @@ from vexture.base.errors import DeviceError, ParameterError
 from vexture.server.connections import ACCEPTED, InPieces, connections
 from vexture.server.limits import Limits, Pace
 
-__all__ = ["Lifespan", "background", "bind", "listen", "serve_until_stopped"]
-
 WAITING: Final = 2048
 """Connections that may wait to be accepted."""
 

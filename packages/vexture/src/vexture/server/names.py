@@ -6,8 +6,6 @@ from typing import Final
 
 from vexture.base.errors import LimitError
 
-__all__ = ["checked_name", "manifest_name"]
-
 MOST_BYTES: Final = 100
 OTHERS: Final = frozenset(" ._-")
 CATEGORIES: Final = ("L", "M", "N")

@@ -5,8 +5,6 @@ from typing import Final
 
 from vexture.base.errors import DeviceError
 
-__all__ = ["check_packages"]
-
 NEEDED: Final = ("h11", "starlette", "uvicorn", "watchfiles")
 
 

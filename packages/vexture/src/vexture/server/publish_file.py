@@ -19,19 +19,6 @@ if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
     from vexture.svg.frames import Frame
 
-__all__ = [
-    "PUBLISHED_PARAMETERS",
-    "SMALL",
-    "THESIS_BITS",
-    "VIEWER_PARAMETERS",
-    "load_kernels",
-    "load_thesis",
-    "shape_of",
-    "shape_of_drawing",
-    "texture_shape",
-    "thesis_pair",
-]
-
 VIEW_PRECISION = 1e-7
 """Unit-square units. At 10,000x a window of 1000 pixels shows 1e-4 of the square: the outline is within a pixel."""
 

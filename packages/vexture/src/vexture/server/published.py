@@ -10,8 +10,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Final
 
-__all__ = ["TEXTURE_TYPE", "Event", "Listener", "PublishedFile", "PublishedShape", "PublishedShapes", "manifest"]
-
 TEXTURE_TYPE: Final = "image/ktx2"
 
 DIGEST_LENGTH: Final = 32  # hexadecimal digits: 128 bits are enough to name a file after its content

@@ -11,8 +11,6 @@ from urllib.request import Request, urlopen
 from vexture.base.errors import DeviceError, ParameterError, VextureError
 from vexture.server.names import checked_name
 
-__all__ = ["push"]
-
 SECONDS: Final = 150.0
 """Longer than a server takes by default to read an upload and to convert it."""
 

@@ -25,19 +25,6 @@ from vexture.server.limits import Limits
 from vexture.server.listen import Lifespan
 from vexture.server.published import Event, PublishedShape, PublishedShapes, manifest
 
-__all__ = [
-    "FOREVER",
-    "NO_SNIFFING",
-    "KnownHosts",
-    "application",
-    "current_route",
-    "entity_tag",
-    "fixed_route",
-    "levels_below",
-    "refusal",
-    "routes",
-]
-
 PING_SECONDS: Final = 15
 """A proxy takes a stream for dead that is silent for long."""
 

@@ -8,8 +8,6 @@ from typing import Final
 from vexture.base.errors import DeviceError, LimitError
 from vexture.server.limits import Pace
 
-__all__ = ["WrongTokens", "read_token"]
-
 SHORTEST_TOKEN: Final = 16
 LONGEST_TOKEN: Final = 4096
 

@@ -20,8 +20,6 @@ from vexture.server.published import manifest
 from vexture.server.routes import entity_tag, levels_below, refusal
 from vexture.server.tokens import WrongTokens
 
-__all__ = ["publishing_routes", "read_body"]
-
 DRAINED: Final = 4
 """Times the limit. So much of a refused body is read: a client that still sends does not see the answer."""
 

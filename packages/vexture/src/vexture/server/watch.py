@@ -11,8 +11,6 @@ from vexture.base.errors import EXPECTED
 from vexture.conversion.reading import content_of
 from vexture.server.published import PublishedShape, PublishedShapes
 
-__all__ = ["WatchedFile", "name_files", "watch"]
-
 STEP_MILLISECONDS = 10
 DEBOUNCE_MILLISECONDS = 50
 """Interval between two looks for changes, and the longest time over which changes are gathered."""

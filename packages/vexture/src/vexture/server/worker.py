@@ -21,8 +21,6 @@ from multiprocessing.connection import wait
 from pathlib import Path
 from typing import Any, Final, TypeVar
 
-__all__ = ["Worker"]
-
 T = TypeVar("T")
 
 

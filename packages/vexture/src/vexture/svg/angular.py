@@ -26,8 +26,6 @@ from vexture.svg.transform import Identity, angle, parse_origin
 from vexture.svg.values import fraction, number
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["angular_fill", "paint_angular"]
-
 CONIC: Final = frozenset({"conic-gradient", "repeating-conic-gradient"})
 FILLING: Final = {"width": ("100%", "auto"), "height": ("100%",)}
 """Sizes of a box of HTML that fills the element around it."""

@@ -16,8 +16,6 @@ from vexture.svg.document import applies, local_name
 from vexture.svg.links import Links, reference
 from vexture.svg.path_data import NUMBER
 
-__all__ = ["ANIMATIONS", "KEYFRAMES", "Values", "names_in", "read_keyframes", "values_by_element", "visible_value"]
-
 ANIMATIONS: Final = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
 """Elements that animate another one."""
 

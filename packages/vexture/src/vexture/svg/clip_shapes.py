@@ -11,8 +11,6 @@ from vexture.svg.transform import parse_origin
 from vexture.svg.values import Viewport, words
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["FILLED", "STROKED", "VIEWED", "clip_element"]
-
 FILLED, STROKED, VIEWED = "fill-box", "stroke-box", "view-box"
 
 BOXES: Final = {

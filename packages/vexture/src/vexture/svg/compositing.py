@@ -7,8 +7,6 @@ from vexture.drawing.group import Blend, Group, Mask
 from vexture.svg.properties import BLENDS
 from vexture.svg.style import ElementStyle
 
-__all__ = ["Veil", "drop_empty_groups", "group_paths", "has_colors", "masking", "veil_of"]
-
 MOST_BOXES = 500
 """Paths in a veil that are compared with one another."""
 

@@ -17,8 +17,6 @@ from vexture.svg.transform import KEYWORDS, Length, angle, parse_origin
 from vexture.svg.values import Viewport, words
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["CssGradient", "background_gradient", "background_of", "between", "own_background", "read_function"]
-
 REPEATING: Final = "repeating-"
 FUNCTIONS: Final = frozenset({"linear-gradient", "radial-gradient"})
 

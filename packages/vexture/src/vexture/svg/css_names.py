@@ -2,8 +2,6 @@
 
 from typing import Final
 
-__all__ = ["OTHER_PROPERTIES", "is_other_property"]
-
 NAMES: Final = """
     accent-color align-content align-items align-self animation-composition animation-delay animation-direction
     animation-duration animation-fill-mode animation-iteration-count animation-play-state animation-range

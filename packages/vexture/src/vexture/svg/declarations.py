@@ -14,18 +14,6 @@ from vexture.svg.properties import KEYWORDS, PROPERTIES
 from vexture.svg.values import words
 from vexture.svg.variables import refers
 
-__all__ = [
-    "MARKERS",
-    "Declaration",
-    "canonical",
-    "expand_declaration",
-    "longhands",
-    "read_declaration",
-    "read_descriptors",
-    "read_style",
-    "tokens",
-]
-
 PLAIN = re.compile(r"[^\"'\\/(){}\[\]@!<&]*")
 """Style attributes that need no tokeniser: they can be split at ; and :."""
 

@@ -7,8 +7,6 @@ from lxml import etree
 
 from vexture.base.errors import SourceError
 
-__all__ = ["HTML", "SVG", "XML", "applies", "language", "local_name", "parse_svg"]
-
 SVG = "http://www.w3.org/2000/svg"
 XML = "http://www.w3.org/XML/1998/namespace"
 HTML = "{http://www.w3.org/1999/xhtml}"

@@ -15,8 +15,6 @@ from vexture.svg.document import local_name
 from vexture.svg.paint_servers import LINK, PaintServers
 from vexture.svg.values import number
 
-__all__ = ["HIDING", "filter_label"]
-
 HIDING: Final = ""
 """Name of a filter without steps: it leaves nothing of what it is on."""
 

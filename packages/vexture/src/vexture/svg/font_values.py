@@ -7,16 +7,6 @@ from typing import Final
 from vexture.svg.properties import KEYWORDS, PROPERTIES
 from vexture.svg.values import Viewport, number
 
-__all__ = [
-    "FONT_LONGHANDS",
-    "SPACINGS",
-    "SYSTEM_FONTS",
-    "font_longhands",
-    "font_weight",
-    "in_pixels",
-    "text_size",
-]
-
 TEXT_SIZES: Final = {
     "xx-small": 9.0,
     "x-small": 10.0,

@@ -16,8 +16,6 @@ from vexture.svg.transform import Identity, Transform
 from vexture.svg.values import Viewport, is_relative
 from vexture.svg.viewport import ANONYMOUS, THINNEST, Rectangle
 
-__all__ = ["EMPTY", "Frame", "frame", "painted_frame"]
-
 Size: TypeAlias = tuple[float, float]
 
 Bounds: TypeAlias = tuple[float, float, float, float]

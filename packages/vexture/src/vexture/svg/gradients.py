@@ -18,18 +18,6 @@ from vexture.svg.style import ElementStyle
 from vexture.svg.transform import Identity, Transform, about_origin, parse_transform
 from vexture.svg.values import LARGEST, Viewport, fraction, number
 
-__all__ = [
-    "BOXED",
-    "GRADIENTS",
-    "SHORTEST",
-    "WHOLE",
-    "GradientRamp",
-    "read_ramp",
-    "rows",
-    "stop_offsets",
-    "transform_of",
-]
-
 LENGTHS: Final = {
     "linearGradient": {"x1": "0%", "y1": "0%", "x2": "100%", "y2": "0%"},
     "radialGradient": {"cx": "50%", "cy": "50%", "r": "50%", "fx": "", "fy": "", "fr": "0%"},

@@ -26,8 +26,6 @@ from vexture.svg.space import ContentWindow, ElementPlace
 from vexture.svg.transform import Identity, Transform, map_points
 from vexture.svg.viewport import THINNEST, Rectangle, own_size
 
-__all__ = ["Images", "image_sides", "paint_image"]
-
 DEEPEST: Final = 4
 """Drawings in images of one another."""
 

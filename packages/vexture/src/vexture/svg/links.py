@@ -6,8 +6,6 @@ from urllib.parse import unquote
 
 from lxml import etree
 
-__all__ = ["Links", "reference"]
-
 HREF = ("href", "{http://www.w3.org/1999/xlink}href", "xlink:href")
 """Attributes that link, the last one in files that do not declare its prefix, as HTML allows."""
 

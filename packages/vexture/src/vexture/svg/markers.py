@@ -20,8 +20,6 @@ from vexture.svg.values import Viewport
 from vexture.svg.vertices import vertices
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["has_markers", "markers"]
-
 MARKED = frozenset({"line", "path", "polygon", "polyline"})
 DEFAULT_SIZE = "3"
 REVERSED = "auto-start-reverse"

@@ -7,8 +7,6 @@ import re
 from collections.abc import Iterator
 from typing import Final
 
-__all__ = ["MODES", "mask_longhands"]
-
 MODES: Final = ("alpha", "luminance", "match-source")
 
 LAYER: Final = re.compile(r"(.*?)(url\(\s*(?:\"[^\"]*\"|'[^']*'|[^\"')]*)\s*\))(.*)", re.IGNORECASE | re.DOTALL)

@@ -23,8 +23,6 @@ from vexture.svg.style import Cascade, ElementStyle
 from vexture.svg.transform import Identity, Transform
 from vexture.svg.viewport import Rectangle, view_box
 
-__all__ = ["MASKING", "MeasuredScene", "add_masks", "note_outer_units"]
-
 MASKING: Final = {"clip-path": "clipPath", "mask": "mask"}
 """The properties that mask an element, and the elements to which they refer."""
 

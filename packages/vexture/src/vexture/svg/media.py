@@ -11,8 +11,6 @@ import tinycss2
 from vexture.drawing.calculation import split_arguments
 from vexture.svg.values import INITIAL_SIZE, TooLargeError, Viewport, number
 
-__all__ = ["Answer", "Medium", "condition", "significant_tokens", "word"]
-
 TYPES: Final = {"all": True, "screen": True, "print": False, "speech": False}
 
 WORDS: Final = {

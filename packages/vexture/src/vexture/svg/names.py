@@ -5,8 +5,6 @@ from lxml import etree
 from vexture.base.errors import SourceError
 from vexture.svg.document import local_name
 
-__all__ = ["ElementNames"]
-
 TITLE = "title"
 """The element whose text names the one around it (SVG 2, 5.7)."""
 

@@ -12,8 +12,6 @@ from vexture.svg.names import ElementNames
 from vexture.svg.report import describe_element
 from vexture.svg.space import ElementPlace
 
-__all__ = ["boxes_of", "subject_of"]
-
 LONGEST_NAME = 80
 """Letters of a name that are kept."""
 

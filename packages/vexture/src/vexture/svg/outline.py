@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
 
-__all__ = ["ShapeOutline"]
-
 SAME = 1e-12
 """Relative to the outline's coordinates. An end this near to the start differs from it by rounding only."""
 

@@ -12,8 +12,6 @@ from vexture.base.notes import Note
 from vexture.drawing.colors import CONTEXT, CURRENT, Color, parse_color
 from vexture.svg.document import local_name
 
-__all__ = ["CURRENT_IS_BLACK", "ENCLOSED", "Page", "unused_colors"]
-
 NAMED: Final = "currentColor, context-fill, context-stroke or a custom property, such as --primary"
 CURRENT_IS_BLACK: Final = "currentColor has no value in it, and is black as in browsers (`page_colors` gives it one)"
 """What a note says of a drawing that has other colours, too."""

@@ -17,8 +17,6 @@ from vexture.svg.report import Report, describe_element
 from vexture.svg.space import ElementPlace
 from vexture.svg.style import Cascade, ElementStyle
 
-__all__ = ["PaintServers"]
-
 UNKNOWN = {"meshgradient": "gradient mesh", "meshGradient": "gradient mesh", "hatch": "hatch"}
 """Paint servers that are not drawn, and what notes call them."""
 

@@ -31,8 +31,6 @@ from vexture.svg.values import number, words
 if TYPE_CHECKING:  # imported at run time for drawings with texts only
     from vexture.fonts.layers import GlyphLayers
 
-__all__ = ["Painter", "Ruler"]
-
 MOST_SEGMENTS = 5_000_000
 """Cubics in one drawing."""
 

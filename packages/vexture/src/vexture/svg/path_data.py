@@ -9,20 +9,6 @@ import numpy as np
 from vexture.bezier.convert import arc_cubics
 from vexture.svg.outline import ShapeOutline
 
-__all__ = [
-    "ARC",
-    "ARGUMENTS",
-    "COMMANDS",
-    "GAP",
-    "NUMBER",
-    "NUMBERS",
-    "POINTS",
-    "SPACE",
-    "PathPen",
-    "Point",
-    "path_outlines",
-]
-
 # atomic groups: backtracking never splits a number in two
 NUMBER = r"(?>[+-]?(?:[0-9]*\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]+)?)"
 SPACE = r"[ \t\n\r\f]*+"

@@ -26,8 +26,6 @@ from vexture.svg.report import Report, describe_element
 from vexture.svg.transform import Identity, Transform, map_points, scale_of
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["Budget", "Canvas", "FirstTile", "PatternTiles", "is_window", "visible"]
-
 MOST: Final = {"elements": 20_000, "segments": 400_000, "gradients": 2_000}
 """Of all patterns of a drawing: elements in first tiles, and what tiles are made of; each has gradients of its own."""
 

@@ -20,8 +20,6 @@ from vexture.svg.transform import Identity, Transform, about_origin
 from vexture.svg.values import Viewport
 from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, ViewBoxFit, parse_fit, view_box, view_transform
 
-__all__ = ["Pattern", "Tiling", "read_pattern"]
-
 SIZES: Final = ("width", "height")
 LENGTHS: Final = ("x", "y", *SIZES)
 Value = TypeVar("Value")

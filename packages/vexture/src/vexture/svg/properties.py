@@ -15,8 +15,6 @@ from vexture.svg.path_data import NUMBER
 from vexture.svg.spatial import css_transform
 from vexture.svg.values import Viewport
 
-__all__ = ["BLENDS", "CSS_ONLY", "KEYWORDS", "PROPERTIES", "UNSET", "Property"]
-
 BLENDS = {blend.name.lower().replace("_", "-"): blend for blend in Blend}
 """Blend modes by their names in CSS."""
 

@@ -29,8 +29,6 @@ from vexture.svg.transform import Transform
 from vexture.svg.unsupported import ANIMATION
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["ReadResult", "Request", "framed_drawing", "read_document", "read_svg", "svg_drawing"]
-
 REVEALED: Final = "what only an animation shows is drawn as that shows it"
 EMPTY_TOO: Final = "its animations show nothing more"
 

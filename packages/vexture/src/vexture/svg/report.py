@@ -10,8 +10,6 @@ from lxml import etree
 from vexture.base.errors import SourceError, printable, shorten_text
 from vexture.base.notes import MOST_SUBJECTS, Kind, Note, Notes, Subject
 
-__all__ = ["LocatedError", "Report", "describe_element"]
-
 Step: TypeAlias = Callable[[etree._Element], etree._Element | None]
 """From an element to another one."""
 

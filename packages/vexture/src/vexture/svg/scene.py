@@ -47,8 +47,6 @@ from vexture.svg.unsupported import note_unsupported
 from vexture.svg.values import TooLargeError, Viewport
 from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, parse_fit, view_box, view_transform
 
-__all__ = ["SvgScene"]
-
 MOST_USED = 50_000
 """Elements that `use`, clips, markers, masks and first tiles show; each time counts, nested ones as often as deep."""
 

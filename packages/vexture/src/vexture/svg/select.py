@@ -15,18 +15,6 @@ from vexture.svg.document import language, local_name
 from vexture.svg.values import INITIAL_SIZE, Viewport, is_relative
 from vexture.svg.viewport import Rectangle, view_box
 
-__all__ = [
-    "UNPAINTED",
-    "Node",
-    "SelectedPart",
-    "chosen",
-    "nothing_painted",
-    "symbol_alone",
-    "symbols_of",
-    "unpainted_note",
-    "with_symbols_used",
-]
-
 LONGEST_NAMED = 80
 """Most characters of a selector in a message."""
 

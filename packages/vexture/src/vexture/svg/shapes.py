@@ -16,8 +16,6 @@ from vexture.svg.report import Report
 from vexture.svg.style import ElementStyle
 from vexture.svg.values import LARGEST, TooLargeError, Viewport
 
-__all__ = ["SHAPES", "ShapeElement", "check", "path_data", "shape_outlines"]
-
 CSS_PATH = re.compile(r"path\(\s*(?:(?:nonzero|evenodd)\s*,\s*)?(['\"])(.*)\1\s*\)", re.DOTALL)
 HORIZONTAL = frozenset({"x", "cx", "rx", "width", "x1", "x2"})
 VERTICAL = frozenset({"y", "cy", "ry", "height", "y1", "y2"})

@@ -16,8 +16,6 @@ from vexture.svg.transform import Identity, Transform, map_points
 from vexture.svg.values import LARGEST, TooLargeError, Viewport
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["SMALLEST", "ContentWindow", "Context", "ElementPlace", "PlacedElement", "Space"]
-
 MOST_MASKS = 32
 """Clips, markers, masks and patterns in one another."""
 

@@ -12,8 +12,6 @@ from vexture.drawing.calculation import parse_tokens
 from vexture.svg.transform import Identity, Length, Transform, angle, parse_transform, single_transform
 from vexture.svg.values import number, words
 
-__all__ = ["TRANSFORMS", "Attribute", "css_transform", "element_transform", "to_plane"]
-
 TRANSFORMS: Final = ("translate", "rotate", "scale", "transform")
 """Properties that move an element, in the order in which they do (CSS Transforms 2, 6)."""
 

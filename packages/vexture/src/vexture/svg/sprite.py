@@ -22,8 +22,6 @@ from vexture.svg.page import Page, unused_colors
 from vexture.svg.read import Request, read_document
 from vexture.svg.select import SelectedPart, symbol_alone, symbols_of
 
-__all__ = ["symbol_drawings"]
-
 LINK: Final = re.compile(r"#([^\s\"')]+)")
 """What may be a link to an element, in an attribute or a style sheet."""
 

@@ -21,8 +21,6 @@ from vexture.bezier.convert import conic_cubics, straight
 from vexture.bezier.reduce import reduce_contour
 from vexture.svg.outline import ShapeOutline
 
-__all__ = ["Stroke", "arc_length", "stroke_contours"]
-
 RESOLUTION: Final = 1 / ROUND
 """Skia units across the drawing."""
 

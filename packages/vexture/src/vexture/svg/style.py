@@ -23,8 +23,6 @@ from vexture.svg.values import INITIAL_SIZE, Viewport, fraction
 from vexture.svg.variables import compute_variables, refers, substitute, unknown
 from vexture.svg.viewport import own_size
 
-__all__ = ["INITIAL", "Cascade", "ElementStyle"]
-
 NOT_SUPPORTED = re.compile(
     r"(?<![\w-])(?:alpha|attr|calc-size|contrast-color|device-cmyk|env|if|progress|random|sibling-(?:count|index))\(",
     re.IGNORECASE,

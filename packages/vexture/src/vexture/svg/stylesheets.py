@@ -26,8 +26,6 @@ from vexture.svg.properties import PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.select import Node
 
-__all__ = ["FontFace", "StyleSheets"]
-
 UNREADABLE = (cssselect2.SelectorError, SyntaxError, AttributeError, NotImplementedError, RecursionError, MemoryError)
 """What cssselect2 raises for selectors that it cannot read."""
 

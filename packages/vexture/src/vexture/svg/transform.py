@@ -12,20 +12,6 @@ from vexture.drawing.calculation import ANGLE, calculate
 from vexture.svg.path_data import GAP, NUMBER, SPACE
 from vexture.svg.values import number, words
 
-__all__ = [
-    "KEYWORDS",
-    "Identity",
-    "Length",
-    "Transform",
-    "about_origin",
-    "angle",
-    "map_points",
-    "parse_origin",
-    "parse_transform",
-    "scale_of",
-    "single_transform",
-]
-
 if TYPE_CHECKING:
 
     class Transform(NamedTuple):

@@ -16,8 +16,6 @@ from vexture.svg.paint_servers import PaintServers
 from vexture.svg.report import Report
 from vexture.svg.style import ElementStyle
 
-__all__ = ["ANIMATION", "note_unsupported"]
-
 ANIMATION: Final = "animation"
 """What a note calls it."""
 

@@ -10,20 +10,6 @@ from vexture.base.errors import SourceError
 from vexture.drawing.calculation import LENGTH, NUMBER, PERCENT, Quantity, calculate
 from vexture.svg.path_data import NUMBER as DIGITS
 
-__all__ = [
-    "INITIAL_SIZE",
-    "LARGEST",
-    "SEPARATOR",
-    "TooLargeError",
-    "Viewport",
-    "bounded_number",
-    "fraction",
-    "is_relative",
-    "number",
-    "numbers",
-    "words",
-]
-
 LARGEST: Final = 1e12
 """User units. An element with larger numbers is lost: the product of two of them and a matrix must stay finite."""
 

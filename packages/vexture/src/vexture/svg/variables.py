@@ -8,8 +8,6 @@ import tinycss2
 
 from vexture.base.deadline import check_time
 
-__all__ = ["compute_variables", "refers", "substitute", "unknown"]
-
 LONGEST: Final = 100_000
 """Characters of a value. One that becomes longer is not valid, so that references cannot multiply (a bomb)."""
 

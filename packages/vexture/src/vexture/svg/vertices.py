@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from vexture.svg.path_data import PathPen, Point
 from vexture.svg.shapes import ShapeElement, check, path_data, shape_outlines
 
-__all__ = ["vertices"]
-
 RIGHT = (1.0, 0.0)
 """Direction where nothing has a length."""
 

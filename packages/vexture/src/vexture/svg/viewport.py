@@ -8,18 +8,6 @@ from lxml import etree
 from vexture.svg.transform import Transform
 from vexture.svg.values import INITIAL_SIZE, Viewport, is_relative, numbers
 
-__all__ = [
-    "ANONYMOUS",
-    "CENTRED",
-    "THINNEST",
-    "Rectangle",
-    "ViewBoxFit",
-    "own_size",
-    "parse_fit",
-    "view_box",
-    "view_transform",
-]
-
 Rectangle = tuple[float, float, float, float]
 """Least x, least y, width and height."""
 

@@ -12,8 +12,6 @@ from vexture.texture.planar import head_of, read_map
 from vexture.texture.root import Root
 from vexture.texture.walk import REMEDY, check_ends, walk
 
-__all__ = ["check_styles", "check_texels"]
-
 
 def check_texels(flat: NDArray[np.uint32], plain: NDArray[np.int64], maps: list[int]) -> None:
     """Raise a `FormatError` where texels contradict FORMAT.md.

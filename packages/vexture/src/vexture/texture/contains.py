@@ -18,8 +18,6 @@ from vexture.base.layout import (
 from vexture.texture.curves import read_curve
 from vexture.tree.crossings import x_at
 
-__all__ = ["checked_points", "points_inside"]
-
 BYTE = (1 << CELL_BITS) - 1
 
 

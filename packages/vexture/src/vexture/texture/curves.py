@@ -15,19 +15,6 @@ from vexture.base.layout import (
     STRAIGHT,
 )
 
-__all__ = [
-    "LeafCurves",
-    "are_straight",
-    "curve_points",
-    "curve_texels",
-    "leaf_points",
-    "leaf_texels",
-    "read_curve",
-    "read_leaf_curve",
-    "texels_in",
-    "texels_of_cell",
-]
-
 COORDINATE = (1 << COORDINATE_BITS) - 1
 OFFSETS = np.array([0, CONTROL_OFFSET, CONTROL_OFFSET, 0])[:, None]
 """Of P0 to P3, as stored."""

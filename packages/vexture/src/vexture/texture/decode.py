@@ -11,8 +11,6 @@ from vexture.texture.texture import Texture
 from vexture.texture.walk import WalkLevel, walk
 from vexture.tree.tree import Tree
 
-__all__ = ["decode"]
-
 
 def decode(texture: Texture, root: str | int | None = None) -> Tree:
     """Tree of one shape, by its name or number, with `deviation` and `unresolved` 0.

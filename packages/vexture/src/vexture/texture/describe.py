@@ -11,8 +11,6 @@ from vexture.texture.planar import read_map
 from vexture.texture.root import Root
 from vexture.texture.walk import walk
 
-__all__ = ["facts_of"]
-
 
 def facts_of(flat: NDArray[np.uint32], roots: Sequence[Root]) -> dict[str, Any]:
     """Number of texels, depth, and the facts of each shape. Shapes with one root are one tree."""

@@ -10,11 +10,10 @@ from vexture.base import layout
 from vexture.base.errors import LimitError
 from vexture.texture.curves import curve_texels
 from vexture.texture.planar import map_texels
-from vexture.texture.texture import Root, Texture
+from vexture.texture.root import Root
+from vexture.texture.texture import Texture
 from vexture.tree.planar.map import PlanarMap
 from vexture.tree.tree import Tree
-
-__all__ = ["encode", "texel_rows"]
 
 
 def texel_rows(texels: NDArray[np.uint32]) -> NDArray[np.uint32]:

@@ -12,18 +12,6 @@ from typing import BinaryIO
 from vexture.base.errors import DeviceError, FormatError, ParameterError
 from vexture.base.layout import PACKED_SUFFIX
 
-__all__ = [
-    "TEMPORARY",
-    "file_name",
-    "is_folder",
-    "make_folder",
-    "read_file",
-    "replace_files",
-    "target_of",
-    "writable",
-    "write_together",
-]
-
 TEMPORARY = ".tmp"
 """Suffix of incomplete files."""
 

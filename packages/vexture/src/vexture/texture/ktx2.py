@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 from vexture.base.errors import FormatError
 from vexture.base.layout import MOST_ROWS, MOST_TEXT_BYTES, ROW_BITS
 
-__all__ = ["MAGIC", "TEXEL_BYTES", "check_size", "inflate", "read_ktx2", "read_value", "write_ktx2"]
-
 MAGIC: Final = b"\xabKTX 20\xbb\r\n\x1a\n"
 
 R32G32B32A32_UINT: Final = 107

@@ -13,8 +13,6 @@ from vexture.texture.root import read_roots
 from vexture.texture.texture import Texture
 from vexture.texture.walk import REMEDY
 
-__all__ = ["load", "load_any", "texture_from"]
-
 FOLD: Final = "fold"
 """Encoding in a file of `vexture fold`, which is no texture of shapes."""
 

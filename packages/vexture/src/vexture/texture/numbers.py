@@ -6,8 +6,6 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.base.layout import MOST_BYTE_PAINTS, MOST_HALF_PAINTS
 
-__all__ = ["means_place", "read_base", "read_sides"]
-
 
 @kernel
 def packing_of(flat: NDArray[np.uint32], root: int) -> int:

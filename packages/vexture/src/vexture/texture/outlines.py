@@ -17,8 +17,6 @@ from vexture.bezier.convert import line_cubics
 from vexture.texture.curves import curve_points
 from vexture.texture.walk import HALVES, walk
 
-__all__ = ["outlines"]
-
 SIDE = int(LATTICE) << MOST_DEPTH
 """Side of the unit square, in units of the finest lattice."""
 

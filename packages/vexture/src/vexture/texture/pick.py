@@ -27,8 +27,6 @@ from vexture.texture.root import Root
 from vexture.tree.crossings import x_at
 from vexture.tree.planar.style import PlanarStyle
 
-__all__ = ["Elements", "elements_at", "painted_at", "paints_at", "style_of_root"]
-
 BYTE = (1 << CELL_BITS) - 1
 
 

@@ -8,8 +8,6 @@ from vexture.renderers.uniforms import HasTexels
 from vexture.renderers.view import Size, ViewLike
 from vexture.texture.registry import TextureRenderer
 
-__all__ = ["colours_of", "coverage_of"]
-
 
 def coverage_of(
     texture: HasTexels, place: int, is_map: bool, size: Size, view: ViewLike, renderer: TextureRenderer

@@ -13,17 +13,6 @@ from vexture.texture.walk import REMEDY, WalkLevel, walk
 from vexture.tree.planar.map import PlanarMap
 from vexture.tree.planar.programs import Program
 
-__all__ = [
-    "MapHead",
-    "MapTexels",
-    "decode_map",
-    "head_of",
-    "map_texels",
-    "paint_texels",
-    "paints_from",
-    "read_map",
-]
-
 
 def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
     """The texels of a map, (n, 4), of which the first has index `at`, in the order of `PARTS`."""

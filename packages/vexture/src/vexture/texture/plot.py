@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["PICTURE", "cells_of", "plot_shape"]
-
 PICTURE: Final = 256
 """Pixels of the picture's side."""
 

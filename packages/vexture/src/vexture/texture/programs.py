@@ -13,8 +13,6 @@ from vexture.drawing.paint import Gradient, Spread, Stop
 from vexture.texture.walk import REMEDY
 from vexture.tree.planar.programs import Keep, Mix, Operation, Program, Solid, ending_of, number_of_ending
 
-__all__ = ["NO_PROGRAMS", "ProgramTexels", "halves", "program_texels", "read_programs"]
-
 ENDS: Final = [*map(number_of_ending, Blend), *(number_of_ending(mask) for mask in Mask if mask)]
 """How a group may end."""
 

@@ -18,17 +18,6 @@ if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
     from vexture.renderers.view import Size, ViewLike
 
-__all__ = [
-    "DEFAULT",
-    "REGISTERED",
-    "Encoded",
-    "EncodedTexture",
-    "Encoding",
-    "TextureRenderer",
-    "find_encoding",
-    "owner_of",
-]
-
 TextureRenderer: TypeAlias = Literal["cpu", "gpu"]
 """Renderer of a texture: the shader's counterpart in Python, or the shader."""
 

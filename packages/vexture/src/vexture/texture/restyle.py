@@ -31,8 +31,6 @@ from vexture.tree.planar.faces import composite_stacks
 from vexture.tree.planar.layers import solid_layers
 from vexture.tree.planar.style import PlanarStyle, round_colours
 
-__all__ = ["Colour", "checked_colours", "components", "renew_means", "restyle_texels"]
-
 Colour: TypeAlias = str | Sequence[float] | Paint | None
 """A CSS colour, three or four components in 0..1, a flat paint, or None for nothing."""
 

@@ -17,8 +17,6 @@ from vexture.texture.style_text import line, numbers, paint_as_json, read_paint,
 from vexture.texture.walk import REMEDY
 from vexture.tree.planar.style import PlanarStyle
 
-__all__ = ["Root", "deflated_texts", "read_roots", "roots_text"]
-
 WORTH: Final = 200
 """Bytes of styles from which they are deflated: shorter ones take more room so."""
 

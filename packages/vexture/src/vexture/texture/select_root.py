@@ -14,8 +14,6 @@ import numpy as np
 from vexture.base.errors import ParameterError
 from vexture.texture.root import Root
 
-__all__ = ["drawing_of", "layers_of", "place_of"]
-
 MOST_NAMED: Final = 6
 """Most shapes that a message names."""
 

@@ -14,8 +14,6 @@ from vexture.drawing.paint import Paint
 from vexture.texture.walk import REMEDY
 from vexture.tree.planar.style import PlanarStyle, round_colours
 
-__all__ = ["line", "numbers", "paint_as_json", "read_paint", "read_style", "short", "style_as_json"]
-
 BLENDS: Final = {blend.name.lower().replace("_", "-"): blend for blend in Blend}
 """Blend modes by their names in CSS."""
 

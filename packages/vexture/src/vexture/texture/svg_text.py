@@ -12,8 +12,6 @@ from vexture.bezier.convert import straight
 from vexture.drawing.paint import Paint
 from vexture.texture.root import Root
 
-__all__ = ["svg_document"]
-
 DIGITS = 9
 """Decimal digits of a coordinate, in unit-square units: finer than the lattices of all but the smallest leaves."""
 

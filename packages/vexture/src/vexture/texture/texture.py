@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from vexture.texture.pick import Elements
     from vexture.texture.restyle import Colour
 
-__all__ = ["Root", "Texture"]
-
 WRITER: Final = "vexture"
 
 

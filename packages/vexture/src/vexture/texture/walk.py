@@ -12,8 +12,6 @@ from vexture.base import layout
 from vexture.base.errors import FormatError
 from vexture.texture.curves import texels_in
 
-__all__ = ["HALVES", "REMEDY", "WalkLevel", "check_ends", "walk"]
-
 REMEDY: Final = "convert the drawing again"
 
 HALVES: Final = np.array([(0, 0), (1, 0), (0, 1), (1, 1)])

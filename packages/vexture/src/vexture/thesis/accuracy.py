@@ -9,8 +9,6 @@ from vexture.base.errors import ParameterError
 from vexture.base.kernels import kernel
 from vexture.base.tolerance import CELL_SHARE, COARSEST, DETAIL_SHARE, FINEST
 
-__all__ = ["Accuracy", "accuracy_of", "cell_tolerance"]
-
 
 class Accuracy(NamedTuple):
     """Largest distance between the outlines before quantisation, as a rule for cells of any size."""

@@ -19,8 +19,6 @@ from vexture.thesis.subdivide import LevelCell
 from vexture.tree.boundary import Boundary, cell_paths, quantise, resolve
 from vexture.tree.winding import inside, winding_area
 
-__all__ = ["JOIN", "Chain", "cell_chain", "filled_sides", "on_edge", "plain_chain", "to_cell", "touches_edge"]
-
 JOIN = 3.0 / LATTICE
 """Cell-local units. Closer ends are one point: runs that meet at a crossing may differ by two lattice units."""
 

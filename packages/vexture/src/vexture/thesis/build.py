@@ -36,8 +36,6 @@ from vexture.tree.bounds import check_whole
 from vexture.tree.cubics import gather
 from vexture.tree.tree import MOST_QUADS
 
-__all__ = ["DEFAULT_DEPTH", "build", "root_level"]
-
 DEFAULT_DEPTH = 10
 """Its cells are a thousandth of the drawing wide."""
 

@@ -24,8 +24,6 @@ from vexture.thesis.layout import (
 from vexture.thesis.method import CONSTANT, CORNER, CURVE, SAMPLES, SHORTEST_CHORD
 from vexture.thesis.shader_text import ThesisPair
 
-__all__ = ["render_thesis_cpu"]
-
 Vec2 = tuple[float, float]
 Vec3 = tuple[float, float, float]
 List = NDArray[np.float64]

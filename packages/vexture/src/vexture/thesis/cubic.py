@@ -17,8 +17,6 @@ from vexture.thesis.method import (
     TRIPLE,
 )
 
-__all__ = ["Roots", "solution_path", "solve_cubic"]
-
 
 class Roots(NamedTuple):
     """Real roots: the first `found` of `t`."""

@@ -12,8 +12,6 @@ from vexture.thesis import layout
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellKind, CellTree
 
-__all__ = ["encode", "quantisation_step", "quantised_ends"]
-
 
 def encode(
     tree: CellTree,

@@ -10,8 +10,6 @@ from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compile_shader, con
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 from vexture.thesis.shader_text import TextureSizes, ThesisPair, view_source
 
-__all__ = ["fold", "render_thesis_gpu"]
-
 
 @lru_cache(maxsize=64)
 def program(sizes: TextureSizes) -> Any:

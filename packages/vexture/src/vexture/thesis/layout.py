@@ -5,30 +5,6 @@ A texture is a pair of RGB images whose channels are read as numbers in [0, 1].
 
 from typing import Final
 
-__all__ = [
-    "CELL_ORDER",
-    "CONSTANT_ROWS",
-    "CONTROL_MAX",
-    "CONTROL_MIN",
-    "CURVES_SUFFIX",
-    "CURVE_WIDTH",
-    "EMPTY_ROW",
-    "ENCODING_THESIS",
-    "FILE_LIMIT",
-    "FORMAT_VERSION",
-    "FULL_ROW",
-    "KIND_CORNER",
-    "KIND_CURVE",
-    "KIND_QUAD",
-    "LIST_LIMIT",
-    "QUADS_SUFFIX",
-    "QUAD_WIDTH",
-    "TEXT_CRS",
-    "TEXT_TRANSFORM",
-    "THRESHOLD_CORNER",
-    "THRESHOLD_QUAD",
-]
-
 CONTROL_MIN: Final = -1.25
 CONTROL_MAX: Final = 2.25
 """Range of P1 and P2 in their cell: 9/4, because max 3 (1 - t) t^2 = 4/9 (thesis 4.2.4)."""

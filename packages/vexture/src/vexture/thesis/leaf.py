@@ -20,22 +20,6 @@ from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
 from vexture.thesis.subdivide import LevelCell
 from vexture.thesis.tree import CellKind
 
-__all__ = [
-    "CORNER",
-    "CURVE",
-    "EMPTY",
-    "FULL",
-    "NO_LEAF",
-    "QUAD",
-    "ThesisLeaf",
-    "chain_leaf",
-    "limit_leaf",
-    "nearest_constant",
-    "no_leaf",
-    "own_leaf",
-    "snap_to_edge",
-]
-
 CURVE, QUAD, CORNER, FULL, EMPTY = (int(kind) for kind in CellKind)  # as kernels can use them
 NO_LEAF = -1
 

@@ -5,24 +5,6 @@ The solution paths are those of thesis Figure 3.5; QUADRATIC stands for two of i
 
 from typing import Final
 
-__all__ = [
-    "CONSTANT",
-    "CORNER",
-    "CUBE_ROOT",
-    "CURVE",
-    "DOUBLE",
-    "HYPERBOLIC_COSINE",
-    "HYPERBOLIC_SINE",
-    "NEARLY_EQUAL",
-    "NEARLY_ZERO",
-    "QUADRATIC",
-    "SAMPLES",
-    "SHORTEST_CHORD",
-    "STRAIGHT",
-    "THREE",
-    "TRIPLE",
-]
-
 SAMPLES: Final = 4
 """A pixel is the mean of SAMPLES x SAMPLES points (thesis 4.4.3)."""
 

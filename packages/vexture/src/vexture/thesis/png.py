@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from vexture.base.errors import FormatError
 from vexture.thesis.layout import FILE_LIMIT, LIST_LIMIT
 
-__all__ = ["read_png", "write_png"]
-
 HEADER = struct.Struct(">2I5B")
 RGB = 2  # colour type
 CHANNELS = 3

@@ -20,8 +20,6 @@ from vexture.thesis.leaf import SHORTEST_CHORD, snap_to_edge
 from vexture.thesis.tree import CellKind, CellTree
 from vexture.tree.winding import inside
 
-__all__ = ["build_sampled"]
-
 SAMPLES_ACROSS = 256
 """Initial density: samples on a line across the unit square."""
 

@@ -16,8 +16,6 @@ from vexture.base.errors import FormatError
 from vexture.renderers.shader import PICTURE_MAIN, VERSIONS, read_shader
 from vexture.thesis import layout, method
 
-__all__ = ["FOLD_HEIGHT", "PACKAGE", "TextureSizes", "ThesisPair", "compose", "constants", "view_source"]
-
 PACKAGE: Final = "vexture.thesis"
 """Its folder ``shaders/`` holds the files."""
 
@@ -72,7 +70,7 @@ def constants(module: ModuleType) -> str:
     const int CELL_ORDER[4] = int[4](2, 3, 0, 1);
     """
     lines = []
-    for name in module.__all__:
+    for name in filter(str.isupper, sorted(vars(module))):
         value = getattr(module, name)
         if isinstance(value, tuple):
             lines.append(f"const int {name}[{len(value)}] = int[{len(value)}]({', '.join(map(str, value))});")

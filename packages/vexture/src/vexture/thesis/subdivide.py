@@ -13,8 +13,6 @@ from vexture.bezier.split import copy_curve, split
 from vexture.tree.divide import child_of, snap
 from vexture.tree.winding import child_windings, inside
 
-__all__ = ["LevelCell", "ThesisLevel", "cell_of", "children"]
-
 
 class ThesisLevel(NamedTuple):
     """Cells of one depth that are neither leaves nor constant yet.

@@ -20,8 +20,6 @@ from vexture.thesis import layout
 from vexture.thesis.png import read_png, write_png
 from vexture.thesis.tree import CellKind
 
-__all__ = ["ThesisTexture", "load", "pair_of"]
-
 REMEDY: Final = "convert the drawing again"
 
 NOT_FOUND: Final = (

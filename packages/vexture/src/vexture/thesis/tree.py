@@ -6,8 +6,6 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["CellKind", "CellTree"]
-
 
 class CellKind(IntEnum):
     """Kind of a quad's cell."""

@@ -10,19 +10,6 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = [
-    "APART",
-    "LEVEL",
-    "OFF_THE_LINE",
-    "along",
-    "background_of",
-    "bin_colours",
-    "flat_colours",
-    "is_flat",
-    "noise",
-    "smooth",
-]
-
 MOST_COLOURS: Final = 24
 """Most colours besides the background."""
 

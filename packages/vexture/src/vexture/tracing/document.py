@@ -13,8 +13,6 @@ from vexture.tracing.mixture import Mixture
 from vexture.tracing.outline import outline
 from vexture.tracing.shading import Tone
 
-__all__ = ["MOST_CURVES", "document_of"]
-
 MOST_CURVES: Final = 60_000
 """Most curves of a drawing; a page of dense text has 40,000."""
 

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 
 from vexture.tracing.colours import noise
 
-__all__ = ["Fade", "fade_of"]
-
 BINS: Final = 64
 """Places along a gradient at which its colour is averaged."""
 

@@ -14,8 +14,6 @@ from vexture.base.errors import LimitError, SourceError, reason_of
 if TYPE_CHECKING:
     from PIL import Image
 
-__all__ = ["MOST_PIXELS", "pixels_of"]
-
 MOST_PIXELS: Final = 50_000_000
 """Most pixels of a picture: a file of a few kilobytes can declare a huge size."""
 

@@ -13,8 +13,6 @@ from vexture.base.errors import LimitError
 from vexture.tracing.colours import APART, OFF_THE_LINE, Colours, Image, along, dilate
 from vexture.tracing.shading import NONE_HERE, Shading, Tone
 
-__all__ = ["Mixture", "mixture"]
-
 REACH: Final = 3
 """Pixels from an edge within which the colours beside it are searched."""
 

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from vexture.base.errors import DeviceError, LimitError, SourceError
 
-__all__ = ["MOST_PIECES", "outline"]
-
 OUTWARD: Final = 0.4
 """Pixels of the enlarged mask. vtracer's outlines lie this far outside the middle of the steps, as measured on
 drawings whose outline is known."""

@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 from vexture.tracing.colours import Colours, Image, bin_colours, dilate, is_flat, noise, smooth
 from vexture.tracing.fades import Fade, fade_of
 
-__all__ = ["NONE_HERE", "Shading", "Tone", "nearest", "shading_of", "steps_of"]
-
 SHADED: Final = 16.0
 NOISES: Final = 12.0
 USUAL: Final = (0.04, 0.96)

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from vexture.tracing.colours import LEVEL
 
-__all__ = ["cells_of", "squares", "squares_document"]
-
 MOST_CELLS: Final = 64
 """Squares on the longer side; of a picture that shows each as several pixels, four times as many."""
 

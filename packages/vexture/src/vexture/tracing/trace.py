@@ -20,8 +20,6 @@ from vexture.tracing.mixture import Mixture, mixture
 from vexture.tracing.shading import NONE_HERE, Tone, nearest, shading_of, steps_of
 from vexture.tracing.squares import cells_of, squares_document
 
-__all__ = ["embedded_image", "image_drawing", "read_image", "trace"]
-
 LONGEST: Final = 2048
 """Most pixels on the longer side; a larger picture is reduced first."""
 

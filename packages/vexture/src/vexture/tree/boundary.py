@@ -16,20 +16,6 @@ from vexture.base.layout import LATTICE
 from vexture.tree.crossings import crossing_heights, x_at
 from vexture.tree.winding import inside
 
-__all__ = [
-    "MOST_RESOLVED",
-    "Boundary",
-    "cell_paths",
-    "coincide",
-    "crowded_area",
-    "order_slab",
-    "quantise",
-    "quantise_piece",
-    "resolve",
-    "slab_heights",
-    "sort_order",
-]
-
 NEAR = 1.0
 """Lattice units. Curves that stay closer than this are one boundary."""
 

@@ -9,16 +9,6 @@ from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError, ParameterError
 from vexture.base.layout import LATTICE, MOST_CURVES, MOST_DEPTH
 
-__all__ = [
-    "DEFAULT_CAPACITY",
-    "DEFAULT_DEPTH",
-    "Bounds",
-    "bounds_of",
-    "check_growth",
-    "check_whole",
-    "largest_shift",
-]
-
 DEFAULT_CAPACITY: Final = 8
 """Pieces in a leaf."""
 

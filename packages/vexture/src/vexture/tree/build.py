@@ -41,8 +41,6 @@ from vexture.tree.parts import LARGE, PART, grow_parts, usual_threads
 from vexture.tree.tree import MOST_QUADS, Tree
 from vexture.tree.winding import child_windings, inside
 
-__all__ = ["CELL", "SLICE", "build_tree", "grow", "grow_on", "new_growth", "root_paths"]
-
 SLICE = 300_000
 """Work between two looks at the clock, some 0.1 s: pieces in the cells that are divided, and `CELL` for each cell."""
 

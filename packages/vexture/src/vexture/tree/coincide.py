@@ -23,8 +23,6 @@ from vexture.tree.boundary import quantise_piece
 from vexture.tree.divide import PiecePool
 from vexture.tree.separate import CellPieces
 
-__all__ = ["match", "may_coincide"]
-
 NEARNESS = 1.0 / 128.0
 """Cell sides. Ends farther apart do not match, however large a shift is allowed."""
 

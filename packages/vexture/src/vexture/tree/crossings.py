@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.bezier.roots import cubic_at, solve_monotone, velocity_at
 
-__all__ = ["crossing_heights", "x_at"]
-
 MAX_STEPS = 200
 """Intervals examined for one pair: nearly coincident curves could need many, to gain less than a lattice unit."""
 

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from vexture.drawing.contours import Closed, join_contours, together
 from vexture.drawing.drawing import Drawing, FillRule
 
-__all__ = ["cubics_and_paths", "gather"]
-
 MIXED: Final = 0.7548776662466927
 """Factor that makes one number of several."""
 

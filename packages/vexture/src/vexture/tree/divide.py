@@ -26,8 +26,6 @@ from vexture.bezier.monotone import Pieces, is_monotone, write_monotone
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, split
 
-__all__ = ["CROWDED", "PARTS", "RUN", "PiecePool", "child_of", "divide", "holds_runs", "list_all", "snap"]
-
 PARTS = 4
 """Most parts of one piece: each of the two middle lines cuts it at most once."""
 

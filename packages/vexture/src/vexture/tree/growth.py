@@ -10,31 +10,6 @@ from vexture.base.layout import MOST_CURVES
 from vexture.tree.divide import PARTS, RUN, PiecePool
 from vexture.tree.tree import Tree, levels, runs
 
-__all__ = [
-    "COUNT",
-    "COVERAGE",
-    "CURVES",
-    "DEPTH",
-    "FIRST",
-    "FIRST_PATH",
-    "IS_QUAD",
-    "LAST",
-    "LAST_PATH",
-    "PIECES",
-    "QUAD",
-    "QUADS",
-    "UNRESOLVED",
-    "WAITING",
-    "WHOLE",
-    "WINDING",
-    "Growth",
-    "first_of",
-    "has_room",
-    "roomy",
-    "tree_of",
-    "with_needed_room",
-]
-
 IS_QUAD, COUNT, WINDING, COVERAGE = range(4)
 """Columns of the cells."""
 

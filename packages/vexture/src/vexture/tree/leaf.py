@@ -23,8 +23,6 @@ from vexture.tree.merge import MOST_MERGED, follows, merge_chains
 from vexture.tree.separate import UNSURE, CellPieces, all_separate, clean_pieces
 from vexture.tree.winding import winding_area
 
-__all__ = ["DIVIDE", "SPARE", "TreeLeaf", "keep_run", "leaf_of", "new_workspace", "round_controls"]
-
 DIVIDE = -1
 """`Leaf.size` of a cell that must be divided."""
 

@@ -7,8 +7,6 @@ from vexture.base.kernels import kernel
 from vexture.base.layout import LATTICE
 from vexture.tree.separate import CellPieces, any_inside, left_edge_windings
 
-__all__ = ["corner_winding"]
-
 TOUCH = 2.0
 """Lattice units. A resolved end closer than this to the left edge may be moved onto it."""
 

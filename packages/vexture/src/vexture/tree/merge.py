@@ -13,8 +13,6 @@ from vexture.bezier.fit import fit_run
 from vexture.bezier.monotone import MOST_PARTS, turns
 from vexture.bezier.split import copy_curve, split
 
-__all__ = ["MOST_MERGED", "follows", "merge_chains"]
-
 MOST_MERGED = 64
 """Pieces. In a cell with more nothing is merged, because it will be divided."""
 

@@ -34,8 +34,6 @@ from vexture.tree.growth import (
     roomy,
 )
 
-__all__ = ["LARGE", "PART", "grow_in_threads", "grow_parts", "joined_cells", "new_part", "set_aside", "usual_threads"]
-
 LARGE = 1 << 17
 """Cubics. Smaller drawings take no longer than threads need to be worth it."""
 

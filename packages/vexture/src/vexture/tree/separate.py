@@ -12,8 +12,6 @@ from vexture.base.kernels import kernel
 from vexture.tree.crossings import x_at
 from vexture.tree.winding import inside
 
-__all__ = ["UNSURE", "CellPieces", "all_separate", "any_inside", "clean_pieces", "left_edge_windings"]
-
 UNSURE = -2
 """Role of a piece whose order among its neighbours is not clear."""
 

@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["MOST_QUADS", "Tree", "levels", "runs"]
-
 MOST_QUADS = 2_000_000
 """Quads of the largest tree that is built, some 200 MB."""
 

@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.bezier.area import integral_x_dy
 
-__all__ = ["Lists", "child_windings", "inside", "winding_area"]
-
 Lists = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]
 """Pieces, the path of each, lists of their numbers, and runs, as in a `PiecePool`."""
 

@@ -12,8 +12,6 @@ from vexture.base.notes import place_of_caller, warn_at
 if TYPE_CHECKING:
     from vexture_geo.maps.notebook.map_widget import MapWidget
 
-__all__ = ["map"]
-
 CAPACITY: Final = 15
 """Pieces in a leaf: more than by default, as the bytes are sent to the page at once."""
 

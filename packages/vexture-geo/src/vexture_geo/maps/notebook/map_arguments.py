@@ -12,18 +12,6 @@ from vexture.notebook.widget import HEIGHT, PICTURE_WIDTH
 from vexture_geo.base.snap import MOST_SNAP
 from vexture_geo.maps import Times
 
-__all__ = [
-    "OF_LAYER",
-    "OF_MAP",
-    "OF_SCALE",
-    "OF_STEPS",
-    "check_source",
-    "column_of",
-    "parse_options",
-    "size_of",
-    "times_of",
-]
-
 OF_SCALE: Final = ("scale", "palette", "classes", "no_data")
 OF_LAYER: Final = (
     *("layer", "where", "source_crs", "id", "columns", "fill", "order", "stroke"),

@@ -14,8 +14,6 @@ from vexture_geo.maps.paths import MapFit
 from vexture_geo.maps.prepare import DOT, FILL, INK, PaintedLayer, Prepared
 from vexture_geo.maps.symbols import Symbols
 
-__all__ = ["MapPicture", "map_picture", "plain"]
-
 CHORDS = 8
 """Sides in place of a cubic of a symbol."""
 

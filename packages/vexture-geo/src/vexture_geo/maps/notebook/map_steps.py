@@ -13,8 +13,6 @@ from vexture_geo.maps.times import STEP_COLUMNS
 if TYPE_CHECKING:
     import pyarrow
 
-__all__ = ["COLOUR_ONE", "MapSteps", "encode_colours", "steps_of"]
-
 COLOUR_ONE: Final = 10_000
 """What 1 of a colour is, as it is sent: colours of elements have four digits."""
 

@@ -30,8 +30,6 @@ from vexture_geo.maps.notebook.pending import Pending
 from vexture_geo.maps.notebook.tip import Tips
 from vexture_geo.maps.prepare import Prepared
 
-__all__ = ["MapWidget"]
-
 MOST_PIXELS: Final = 4096
 """Of a side of a picture."""
 

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from vexture_geo.maps.notebook.map_steps import MapSteps
 
-__all__ = ["Tips", "format_attribute"]
-
 MOST_TOLD: Final = 12
 """Attributes in a tip."""
 

@@ -9,8 +9,6 @@ from vexture.svg.document import local_name
 from vexture.svg.text.runs import GlyphCluster
 from vexture.svg.text.tree import Span
 
-__all__ = ["baseline", "extent"]
-
 HANGING, MATHEMATICAL = 0.8, 0.5
 """Heights of baselines as parts of the ascent, for fonts that do not tell them (XSL 1.1, 7.14)."""
 

@@ -18,8 +18,6 @@ from vexture.svg.text.runs import GlyphCluster
 from vexture.svg.text.tree import Span
 from vexture.svg.transform import Transform, map_points
 
-__all__ = ["WORDS", "Decoration", "Member", "decoration", "line_outlines"]
-
 WORDS: Final = ("underline", "overline", "line-through")
 STYLES: Final = ("solid", "dashed", "dotted", "double", "wavy")
 

@@ -14,8 +14,6 @@ from vexture.svg.report import Report
 from vexture.svg.stylesheets import FontFace
 from vexture.svg.text.font_query import families, stretch
 
-__all__ = ["embedded_fonts"]
-
 SOURCE = re.compile(r"(url|local)\(\s*(['\"]?)(.*?)\2\s*\)", re.DOTALL | re.IGNORECASE)
 IN_FILE = re.compile(r"url\(\s*['\"]?#", re.IGNORECASE)  # the element <font> of SVG 1.1
 DATA = re.compile(r"data:([^,]*),(.*)", re.DOTALL)

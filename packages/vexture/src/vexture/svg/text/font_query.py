@@ -11,8 +11,6 @@ from vexture.svg.font_values import font_weight
 from vexture.svg.style import ElementStyle
 from vexture.svg.values import number
 
-__all__ = ["GENERIC", "SMALL", "FontQuery", "query_of"]
-
 GENERIC: Final = frozenset(
     {
         *("serif", "sans-serif", "monospace", "cursive", "fantasy", "system-ui", "emoji", "math", "fangsong"),

@@ -17,8 +17,6 @@ from vexture.svg.text.track import Track
 from vexture.svg.text.tree import Characters, Span
 from vexture.svg.transform import Identity, Transform
 
-__all__ = ["TextChunk", "is_vertical", "lay_out"]
-
 SEPARATORS: Final = frozenset(" \u00a0\u1361\U00010100\U00010101\U0001039f\U0001091f")
 """Characters between words (CSS Text 3, 7.1)."""
 

@@ -21,8 +21,6 @@ from vexture.svg.text.runs import GlyphCluster
 from vexture.svg.text.tree import Span
 from vexture.svg.transform import Identity, Transform, map_points
 
-__all__ = ["TextPiece", "cells", "pieces"]
-
 EMBOLDENING: Final = ((9.0, 1 / 24), (36.0, 1 / 32))
 """Font sizes, and of each the width by which a face is made bolder as a part of it: what Skia does."""
 

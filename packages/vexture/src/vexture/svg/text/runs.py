@@ -18,8 +18,6 @@ from vexture.svg.report import Report
 from vexture.svg.text.font_query import GENERIC, SMALL, FontQuery, query_of
 from vexture.svg.text.tree import Characters, Span
 
-__all__ = ["GlyphCluster", "TextFaces", "clusters"]
-
 SMALLER: Final = 0.7
 """Size of a capital that stands for a small one of a font without (as browsers do)."""
 

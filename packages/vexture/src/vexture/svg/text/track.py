@@ -22,8 +22,6 @@ from vexture.svg.space import ElementPlace
 from vexture.svg.transform import map_points
 from vexture.svg.values import number
 
-__all__ = ["Track", "TrackPoint", "read_track"]
-
 STEPS: Final = 64
 """Chords for each cubic: they are shorter than their arc by less than 1 / (24 STEPS^2) of it times its turn squared."""
 

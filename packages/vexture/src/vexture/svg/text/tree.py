@@ -23,8 +23,6 @@ from vexture.svg.style import ElementStyle
 from vexture.svg.text.track import Track, read_track
 from vexture.svg.values import SEPARATOR, number
 
-__all__ = ["Characters", "Span", "TextScene", "characters"]
-
 DOTTED: Final = ("az", "tr")
 """Languages in which an i keeps its dot, or its lack of one, as a capital."""
 

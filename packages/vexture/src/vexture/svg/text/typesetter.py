@@ -19,8 +19,6 @@ if TYPE_CHECKING:  # imported at run time for drawings with texts only
     from vexture.svg.text.runs import TextFaces
     from vexture.svg.text.tree import TextScene
 
-__all__ = ["Text", "Typesetter"]
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Text:

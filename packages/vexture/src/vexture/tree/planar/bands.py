@@ -17,8 +17,6 @@ from vexture.bezier.convert import ellipse_cubics, line_cubics, turn_steps
 from vexture.drawing.paint import Affine, Gradient, Spread, Stop
 from vexture.drawing.unit_square import clip_contours
 
-__all__ = ["Bands", "bands_of"]
-
 MOST_BANDS: Final = 1024
 """More are finer than the pixels of most pictures; a shader averages the ramp across its jumps instead."""
 

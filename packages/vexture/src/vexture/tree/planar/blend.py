@@ -7,8 +7,6 @@ from vexture.base.kernels import kernel
 from vexture.base.layout import LUMINANCE_BLUE, LUMINANCE_GREEN, LUMINANCE_RED
 from vexture.drawing.group import Blend, Mask
 
-__all__ = ["blend_over", "masking"]
-
 SCREEN, OVERLAY, DARKEN, LIGHTEN = int(Blend.SCREEN), int(Blend.OVERLAY), int(Blend.DARKEN), int(Blend.LIGHTEN)
 DODGE, BURN, HARD, SOFT = int(Blend.COLOR_DODGE), int(Blend.COLOR_BURN), int(Blend.HARD_LIGHT), int(Blend.SOFT_LIGHT)
 NORMAL, MULTIPLY, DIFFERENCE = int(Blend.NORMAL), int(Blend.MULTIPLY), int(Blend.DIFFERENCE)

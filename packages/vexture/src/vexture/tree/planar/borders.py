@@ -18,8 +18,6 @@ from vexture.tree.merge import follows, merge_chains
 from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.winding import inside
 
-__all__ = ["Borders", "PlanarCell", "cross", "find_borders", "key_of", "merge_borders", "new_borders", "set_left_edge"]
-
 SAME = 2.0
 """Lattice units by which control points of coincident pieces may differ: each is rounded where a cell cuts it."""
 

@@ -53,8 +53,6 @@ from vexture.tree.planar.programs import programs_of
 from vexture.tree.tree import MOST_QUADS, levels, runs
 from vexture.tree.winding import child_windings, inside
 
-__all__ = ["DEFAULT_MAP_CAPACITY", "build_map", "grow_map", "plant_map", "row_cubics"]
-
 
 class PlanarWork(NamedTuple):
     """Arrays that are reused from cell to cell."""

@@ -17,19 +17,6 @@ from vexture.tree.planar.blend import blend_over, masking
 from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.planar.shades import COUNT, FOCUS, flat_shade, shade_at
 
-__all__ = [
-    "KEEP",
-    "MIX",
-    "ONE",
-    "SHADE",
-    "SOLID",
-    "Operations",
-    "colour_at",
-    "compose",
-    "key_of_operations",
-    "new_operations",
-]
-
 ONE = float(PAINT_ONE)
 """Colours are equal if they are equal in these steps, in which paints are stored."""
 

@@ -15,20 +15,6 @@ from vexture.tree.planar.compose import ONE, Operations, compose, key_of_operati
 from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.winding import inside
 
-__all__ = [
-    "FaceTable",
-    "add_faces",
-    "composite_stacks",
-    "face_of",
-    "faces_with",
-    "new_faces",
-    "operations_of",
-    "refill",
-    "roomier_faces",
-    "stack_of",
-    "trim_faces",
-]
-
 FIRST_ROOM = 1024
 """Faces for which a table has room at first."""
 

@@ -9,8 +9,6 @@ from vexture.tree.growth import COVERAGE, WINDING, Growth, roomy, with_needed_ro
 from vexture.tree.planar.faces import FaceTable
 from vexture.tree.planar.layers import PlanarLayers
 
-__all__ = ["BASE", "IS_MEAN", "PlanarGrowth", "State", "growth_from_tuples", "with_room"]
-
 BASE: Final = WINDING
 IS_MEAN: Final = COVERAGE
 """Columns of the cells that mean something else here."""

@@ -12,8 +12,6 @@ from vexture.tree.planar.bands import Bands, bands_of
 from vexture.tree.planar.shades import Shades, shades_of
 from vexture.tree.planar.style import elements_of
 
-__all__ = ["JUMPING", "PlanarLayers", "Rows", "layers_of", "looks_of", "rows_of", "solid_layers"]
-
 MARGIN: Final = 2.0**-10
 """By how much the box in which a gradient is cut is wider than its path: sides of both would coincide else."""
 

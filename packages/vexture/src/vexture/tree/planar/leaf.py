@@ -19,8 +19,6 @@ from vexture.tree.planar.means import add_programs, set_crowded_mean, set_flat_m
 from vexture.tree.planar.slabs import PlanarPieces, clean_borders, sweep
 from vexture.tree.separate import all_separate
 
-__all__ = ["PlanarLeaf", "PlanarWorkspace", "new_workspace", "planar_leaf"]
-
 KNOT = LATTICE / 4.0
 """Pieces that all have an end in a square this wide are one *knot*: dividing the leaf would follow it down many levels.
 They need not meet exactly: crossings are rounded, and maps have short borders between two junctions."""

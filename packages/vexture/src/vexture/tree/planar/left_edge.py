@@ -17,8 +17,6 @@ from vexture.tree.planar.faces import FaceTable, face_of
 from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.planar.slabs import PlanarPieces
 
-__all__ = ["Tally", "new_tally", "settle_left_edge"]
-
 
 @kernel(allocates=False)
 def _tally(ids: NDArray[np.int64], sums: NDArray[np.int64], n: int, paint: int, by: int) -> int:

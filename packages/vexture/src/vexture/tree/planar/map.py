@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from vexture.tree.planar.programs import Program
 
-__all__ = ["PlanarMap", "texels_of"]
-
 
 def texels_of(quads: int, curves: int) -> int:
     """Texels of so many quads, of three each, and curves, of five quarters; without the paints."""

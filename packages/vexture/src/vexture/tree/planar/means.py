@@ -16,8 +16,6 @@ from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.planar.slabs import PlanarPieces
 from vexture.tree.winding import inside
 
-__all__ = ["add_programs", "set_crowded_mean", "set_flat_mean"]
-
 SCANLINES = 64
 """Heights at which a cell with too many pieces to resolve is measured."""
 

@@ -18,8 +18,6 @@ from vexture.tree.parts import PART, TreePart, grow_in_threads, joined_cells, ne
 from vexture.tree.planar.faces import FaceTable, add_faces, faces_with, new_faces, trim_faces
 from vexture.tree.planar.growth import BASE, PlanarGrowth, State
 
-__all__ = ["grow_map_parts"]
-
 Step = Callable[[State, int], State]
 """Grows a map for a while, down to cells whose lists are at most so long; raises an error at a limit."""
 

@@ -13,8 +13,6 @@ from vexture.tree.planar.compose import KEEP, SHADE, SOLID, Operations
 from vexture.tree.planar.faces import operations_of
 from vexture.tree.planar.layers import PlanarLayers
 
-__all__ = ["Keep", "Mix", "Operation", "Program", "Solid", "ending_of", "number_of_ending", "programs_of"]
-
 
 class Solid(NamedTuple):
     """Paint a colour on what is there."""

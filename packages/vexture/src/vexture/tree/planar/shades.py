@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.drawing.paint import Gradient, Spread
 
-__all__ = ["COUNT", "FOCUS", "Shades", "flat_shade", "shade_at", "shades_of"]
-
 REFLECT, REPEAT = int(Spread.REFLECT), int(Spread.REPEAT)
 
 

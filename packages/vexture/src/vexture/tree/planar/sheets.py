@@ -19,8 +19,6 @@ from vexture.tree.planar.build import build_map
 from vexture.tree.planar.map import PlanarMap
 from vexture.tree.tree import Tree
 
-__all__ = ["Sheet", "notes_of_sheets", "sheets_of"]
-
 FLATTENED: Final = (
     f"gradients by their mean colours: too many on one another, or in more than {MOST_KEPT} groups in one another"
 )

@@ -18,8 +18,6 @@ from vexture.tree.planar.borders import Borders, cross, set_left_edge
 from vexture.tree.planar.faces import FaceTable, face_of
 from vexture.tree.planar.layers import PlanarLayers
 
-__all__ = ["PlanarPieces", "clean_borders", "sweep"]
-
 
 class PlanarPieces(NamedTuple):
     """Pieces of a leaf, all going up, and the paints beside them."""

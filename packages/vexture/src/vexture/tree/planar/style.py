@@ -13,8 +13,6 @@ from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.group import Group, groups_around
 from vexture.drawing.paint import Paint
 
-__all__ = ["PlanarStyle", "elements_of", "restylable", "round_colours", "style_of"]
-
 DIGITS: Final = 6
 """Decimals of an element's colour and opacity: finer than the steps of 1/65535 in which paints are stored."""
 
