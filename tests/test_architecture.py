@@ -178,20 +178,27 @@ def texts(path):
     ]
 
 
-@pytest.mark.parametrize("path", MODULES, ids=name_of)
-def test_imports_point_one_way(path):
+def test_imports_point_one_way():
+    wrong = {name_of(path): forbidden for path in MODULES if (forbidden := forbidden_imports(path))}
+    assert not wrong
+
+
+def forbidden_imports(path):
+    """Parts that a module imports and must not."""
     part = part_of(path)
     reached = {part_of_name(name) for name in imported(path)}
-    if (
-        path.is_relative_to(PACKAGE)
-        and name_of(path).removesuffix(".py") not in GEO_TYPES
-        and name_of(path) not in GEO_TYPES
-    ):
-        assert not {name for name in reached if name.startswith("vexture_geo")}, "vexture stands without vexture-geo"
-    if part not in ABOVE_ALL and name_of(path) not in GEO_TYPES:
-        assert reached <= MAY_IMPORT[part] | {part}
-    assert "thesis" not in reached or part == "thesis", "the thesis's encoding is registered by name"
-    assert "vexture_evidence" not in path.read_text(encoding="utf-8"), "evidence stands on the library"
+    if {name_of(path), name_of(path).removesuffix(".py")} & GEO_TYPES:
+        return set()
+    found = set() if part in ABOVE_ALL else reached - MAY_IMPORT[part] - {part}
+    if path.is_relative_to(PACKAGE):  # vexture stands without vexture-geo
+        found |= {name for name in reached if name.startswith("vexture_geo")}
+    if part != "thesis":  # its encoding is registered by name
+        found |= reached & {"thesis"}
+    return found
+
+
+def test_the_library_stands_without_the_evidence():
+    assert [name_of(path) for path in MODULES if "vexture_evidence" in path.read_text(encoding="utf-8")] == []
 
 
 def documented_folders():
@@ -241,12 +248,12 @@ def test_no_imports_run_in_a_circle():
     sorter.prepare()  # raises CycleError, which names the circle
 
 
-@pytest.mark.parametrize("folder", FOLDERS, ids=lambda path: path.relative_to(ROOT).as_posix())
-def test_names_of_a_folder_do_not_differ_by_an_ending(folder):
-    names = sorted(path.stem for path in folder.iterdir() if path.suffix in (".py", ".js", ".glsl") or path.is_dir())
-    stems = {name: re.sub(r"(ings?|ers?|ed|es|e|s)$", "", name) for name in names if not name.startswith("_")}
-    twins = [(a, b) for a, b in combinations(stems, 2) if stems[a] == stems[b]]
-    assert not twins
+def test_names_of_a_folder_do_not_differ_by_an_ending():
+    for folder in FOLDERS:
+        paths = [path for path in folder.iterdir() if path.suffix in (".py", ".js", ".glsl") or path.is_dir()]
+        names = sorted(path.stem for path in paths if not path.stem.startswith("_"))
+        stems = {name: re.sub(r"(ings?|ers?|ed|es|e|s)$", "", name) for name in names}
+        assert [(a, b) for a, b in combinations(stems, 2) if stems[a] == stems[b]] == [], folder
 
 
 @pytest.mark.parametrize("path", [path for path in MODULES if name_of(path) in THE_TRUTH], ids=name_of)
@@ -254,19 +261,18 @@ def test_exact_renderer_shares_nothing_with_what_it_judges(path):
     assert imported(path) <= TRUTH_MAY_IMPORT
 
 
-@pytest.mark.parametrize("path", MODULES, ids=name_of)
-def test_module_says_what_it_is_and_what_it_offers(path):
-    assert ast.get_docstring(tree_of(path))
-    without_names = all(isinstance(node, ast.Expr) for node in tree_of(path).body)
-    if not without_names and path.stem not in ("__init__", "__main__"):
-        assert public_names(path), "a module offers something to others"
+def test_every_module_has_a_docstring_and_a_public_name():
+    for path in MODULES:
+        assert ast.get_docstring(tree_of(path)), path
+        is_empty = all(isinstance(node, ast.Expr) for node in tree_of(path).body)
+        assert is_empty or path.stem in ("__init__", "__main__") or public_names(path), path
 
 
-@pytest.mark.parametrize("path", MODULES, ids=name_of)
-def test_no_module_imports_a_private_name(path):
-    imports = [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.ImportFrom)]
-    imports = [node for node in imports if (node.module or "").startswith("vexture")]
-    assert not [alias.name for node in imports for alias in node.names if re.match(r"_[a-z]", alias.name)]
+def test_no_module_imports_a_private_name():
+    for path in MODULES:
+        imports = [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.ImportFrom)]
+        names = [alias.name for node in imports if (node.module or "").startswith("vexture") for alias in node.names]
+        assert not [name for name in names if re.match(r"_[a-z]", name)], path
 
 
 def test_no_module_is_a_dumping_ground():
@@ -274,15 +280,14 @@ def test_no_module_is_a_dumping_ground():
     assert not names & DUMPING_GROUNDS
 
 
-@pytest.mark.parametrize("path", MODULES + SCRIPTS, ids=lambda path: path.relative_to(ROOT).as_posix())
-def test_module_and_its_functions_are_of_a_readable_length(path):
-    lines = len(path.read_text(encoding="utf-8").splitlines())
-    assert lines <= LONGEST_MODULE
-    for node in ast.walk(tree_of(path)):
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-            body = node.body[1:] if ast.get_docstring(node) else node.body
-            lines = node.end_lineno - body[0].lineno + 1 if body else 0
-            assert lines <= LONGEST_FUNCTION, node.name
+def test_modules_and_functions_are_of_a_readable_length():
+    for path in MODULES + SCRIPTS:
+        assert len(path.read_text(encoding="utf-8").splitlines()) <= LONGEST_MODULE, path
+        for node in ast.walk(tree_of(path)):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                body = node.body[1:] if ast.get_docstring(node) else node.body
+                lines = node.end_lineno - body[0].lineno + 1 if body else 0
+                assert lines <= LONGEST_FUNCTION, (path, node.name)
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
@@ -291,10 +296,11 @@ def test_example_is_short(path):
     assert lines <= LONGEST_EXAMPLE
 
 
-@pytest.mark.parametrize("number", sorted(LAYOUT_NUMBERS))
-def test_layout_number_is_typed_once(number):
-    homes = [name_of(path) for path in MODULES if number in numbers(path)]
-    assert homes in (["base/layout.py"], ["thesis/layout.py"])
+def test_layout_numbers_are_typed_once():
+    typed = {name_of(path): numbers(path) for path in MODULES}
+    for number in LAYOUT_NUMBERS:
+        homes = [name for name, values in typed.items() if number in values]
+        assert homes in (["base/layout.py"], ["thesis/layout.py"]), number
 
 
 @pytest.mark.parametrize("path", SHADERS, ids=lambda path: path.name)
@@ -310,9 +316,10 @@ def test_shader_file_lists_its_exports_and_leaves_the_rest_to_shaders_py(path):
         assert re.search(rf"\b(struct {name} {{|\w+ {name}\()", text), f"{name} is not in the file"
 
 
-@pytest.mark.parametrize("path", [path for path in MODULES if name_of(path) not in WITH_SHADER_TEXT], ids=name_of)
-def test_no_shader_text_outside_shaders(path):
-    assert not [text for text in texts(path) if SHADER_WORDS.search(text)]
+def test_no_shader_text_outside_shaders():
+    for path in MODULES:
+        if name_of(path) not in WITH_SHADER_TEXT:
+            assert not [text for text in texts(path) if SHADER_WORDS.search(text)], path
 
 
 @pytest.mark.parametrize("folder", sorted({path.parent for path in SHADERS}), ids=name_of)

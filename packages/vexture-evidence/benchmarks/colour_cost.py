@@ -25,6 +25,7 @@ from targets import Target, target_facts, target_table
 from vexture.base.errors import SourceWarning
 from vexture.base.tolerance import ROUND, UNSEEN
 from vexture.bezier.convert import ellipse_cubics
+from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Paint
@@ -108,13 +109,13 @@ def sets(quick: bool, seed: int) -> Iterator[CostSet]:
 
 def convert_both(drawing: Drawing, one: CostSet) -> dict[str, SheetStack]:
     """Convert a drawing to its map or sheets, and to layers."""
-    made = run(drawing, split="faces", restyle=one.name == GLYPHS)
+    made = run(drawing, Parameters("faces", restyle=one.name == GLYPHS))
     parts = [drawing] if len(made.trees) == 1 else [sheet.drawing for sheet in sheets_of(drawing, tolerance=UNSEEN)]
     found = {"map": SheetStack(made.texture, layer_boxes(parts))}
     if one.name == GLYPHS:
-        found["layers"] = SheetStack(run(drawing, split=None).texture, layer_boxes([drawing]))
+        found["layers"] = SheetStack(run(drawing, Parameters(None)).texture, layer_boxes([drawing]))
     elif one.has_layers:
-        layers = run(drawing, split="paint")
+        layers = run(drawing, Parameters("paint"))
         found["layers"] = SheetStack(layers.texture, layer_boxes(layers.drawing.layers()))
     return found
 

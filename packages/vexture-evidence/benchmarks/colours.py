@@ -27,6 +27,7 @@ from vexture import window
 from vexture.base.errors import SourceError, SourceWarning
 from vexture.base.tolerance import ROUND
 from vexture.bezier.convert import ellipse_cubics
+from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import Conversion, run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Gradient, Paint, Spread, Stop
@@ -200,7 +201,7 @@ def sets(quick: bool, seed: int) -> Iterator[ColourSet]:
 def turn(drawing: Drawing, split: str) -> tuple[float, Conversion[Any]]:
     """CPU seconds of a conversion, and the conversion."""
     start = time.process_time()
-    made: Conversion[Any] = run(drawing, split=split)
+    made = run(drawing, Parameters(split=split))
     return time.process_time() - start, made
 
 
@@ -305,8 +306,8 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="fewer drawings and turns")
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
-    run(checkerboard(), split="faces").texture.render(4)  # compiles
-    run(checkerboard(), split="paint")
+    run(checkerboard(), Parameters("faces")).texture.render(4)  # compiles
+    run(checkerboard(), Parameters("paint"))
     facts = [set_facts(one, 1 if arguments.quick else TURNS) for one in sets(arguments.quick, arguments.seed)]
     reached, machine = targets(facts), machine_facts()
     print("\n\n".join([error_table(facts), cost_table(facts), target_table(reached), machine_line(machine)]))

@@ -19,7 +19,7 @@ from typing import Any, Literal, NamedTuple
 from lxml import etree
 
 from report import table, write_json
-from vexture.conversion.pipeline import convert, run
+from vexture.conversion.pipeline import convert, run_encoding
 from vexture.svg.read import read_svg
 from vexture.thesis.build import build
 from vexture.thesis.encode import quantisation_step
@@ -61,7 +61,7 @@ def path_bytes(svg: Path) -> int:
 
 def sizes(svg: Path, strategy: Strategy, bits: int) -> dict[str, int]:
     """Curves, quads and bytes of the pair of files that a drawing becomes."""
-    conversion = run(svg, encoding="thesis", strategy=strategy, bits=bits)
+    conversion = run_encoding(svg, "thesis", strategy=strategy, bits=bits)
     return {
         "curves": len(conversion.tree.curves),
         "quads": len(conversion.tree.kind),

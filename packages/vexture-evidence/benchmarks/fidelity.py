@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 import vexture
 from report import cell, table, write_json
 from vexture.base.errors import DeviceError, LimitError
-from vexture.conversion.pipeline import run
+from vexture.conversion.pipeline import run_encoding
 from vexture.drawing.drawing import Drawing
 from vexture.renderers.view import fit
 from vexture.thesis.texture import ThesisTexture
@@ -129,7 +129,7 @@ def meets_limits(facts: dict[str, Any], renderers: Sequence[str]) -> bool:
 def mean_error(drawing: Drawing, views: Sequence[SquareView], **parameters: Any) -> float | None:
     """Mean error, on the CPU, of another conversion; None if the drawing is too much for it."""
     try:
-        texture = run(drawing, encoding="thesis", **parameters).texture
+        texture = run_encoding(drawing, "thesis", **parameters).texture
     except LimitError:
         return None
     return errors(render(texture, views, "cpu"), render(drawing, views, "exact")).mae
@@ -137,7 +137,7 @@ def mean_error(drawing: Drawing, views: Sequence[SquareView], **parameters: Any)
 
 def shape_facts(path: Path, arguments: argparse.Namespace, renderers: Sequence[str]) -> dict[str, Any]:
     """All measurements of one drawing."""
-    conversion = run(path, encoding="thesis")
+    conversion = run_encoding(path, "thesis")
     drawing, tree, texture = conversion.drawing, conversion.tree, conversion.texture
     sizes = []
     for size in arguments.sizes:

@@ -21,7 +21,7 @@ import corpora
 from fidelity import AREA_LIMIT, BORDER_LIMIT, MEAN_LIMIT, area_error, has_gpu, parse_options, shifted_views, size_facts
 from report import cell, table, write_json
 from vexture.base.errors import SourceWarning, VextureError
-from vexture.conversion.pipeline import run
+from vexture.conversion.pipeline import run_encoding
 
 SIZES = (61, 250)
 WORST = 10
@@ -35,7 +35,7 @@ def icon_facts(path: Path, arguments: argparse.Namespace, renderers: Sequence[st
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SourceWarning)
-            conversion = run(path, encoding="thesis")
+            conversion = run_encoding(path, "thesis")
         drawing, tree, texture = conversion.drawing, conversion.tree, conversion.texture
         sizes = [
             size_facts(drawing, tree, texture, shifted_views(path.stem, size, arguments), renderers)

@@ -30,7 +30,7 @@ from report import cell, table, write_json
 from targets import Target, target_facts, target_table
 from vexture.base.errors import LimitError, SourceWarning
 from vexture.base.tolerance import UNSEEN
-from vexture.conversion.pipeline import run
+from vexture.conversion.pipeline import run_encoding
 from vexture.drawing.drawing import Drawing
 from vexture.svg.read import read_svg
 from vexture.texture.texture import Texture
@@ -121,7 +121,7 @@ def thesis_facts(drawings: Sequence[Drawing], bits: int) -> dict[str, int]:
     facts = {"raw": 0, "file": 0, "left_out": 0}
     for drawing in drawings:
         try:
-            texture = run(drawing, bits=bits, encoding="thesis").texture
+            texture = run_encoding(drawing, "thesis", bits=bits).texture
         except LimitError:
             facts["left_out"] += 1
             continue

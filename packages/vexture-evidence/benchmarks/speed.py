@@ -19,7 +19,7 @@ import corpora
 from report import cell, table, write_json
 from targets import Target, target_facts, target_table
 from vexture.base.errors import LimitError
-from vexture.conversion.pipeline import run
+from vexture.conversion.pipeline import run_encoding
 from vexture.drawing.drawing import Drawing
 from vexture_evidence.measures.bands import BANDS, COASTLINE_BANDS, band_texture
 from vexture_evidence.measures.machine import machine_facts, machine_line
@@ -54,7 +54,7 @@ def programs_for(drawing: Drawing, bands: int) -> dict[str, Program]:
     packed = packed_texture(drawing)
     made = {"packed": packed_program(packed, is_flat=True), "any": packed_program(packed)}
     try:
-        made["thesis"] = thesis_program(run(drawing, encoding="thesis").texture)
+        made["thesis"] = thesis_program(run_encoding(drawing, "thesis").texture)
     except LimitError as error:
         print(f"thesis: {error}")
     return {**made, "bands": band_program(band_texture(drawing, bands)), "fetch": fetch_program(drawing)}

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path as File
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,7 +10,8 @@ import pytest
 import vexture
 from vexture.base.errors import LimitError, ParameterError, SourceError
 from vexture.base.tolerance import UNSEEN
-from vexture.conversion.pipeline import run
+from vexture.conversion.parameters import Parameters
+from vexture.conversion.pipeline import run, run_encoding
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.group import Group
 from vexture.drawing.paint import Paint
@@ -172,19 +174,24 @@ def test_split_keeps_translucent_paths_apart() -> None:
 
 @pytest.mark.parametrize("encoding", ["packed", "thesis"])
 def test_select_converts_a_part_where_it_is(logo: File, encoding: str) -> None:
-    part = run(logo, encoding=encoding, select="#word")
+    def part_of(select: str) -> Any:
+        if encoding == "packed":
+            return run(logo, Parameters(select=select))
+        return run_encoding(logo, encoding, select=select)
+
+    part = part_of("#word")
     assert part.drawing.segments == 3
     np.testing.assert_array_equal(part.drawing.to_source, vexture.read_svg(logo).to_source)
     with pytest.raises(LimitError, match=r"logo.svg: `select` '#none' matches no element"):
-        run(logo, encoding=encoding, select="#none")
+        part_of("#none")
 
 
 def test_conversion_keeps_what_lies_between(logo: File) -> None:
-    split = run(logo, split="paint")
+    split = run(logo, Parameters("paint"))
     assert (len(split.trees), split.drawing.name) == (3, "logo")
     assert split.tree is split.trees[0]
     assert split.seconds > 0.0
-    thesis = run(logo, encoding="thesis")
+    thesis = run_encoding(logo, "thesis")
     assert thesis.trees == (thesis.tree,)
     assert len(thesis.texture.quads) == len(thesis.tree.kind)
 

@@ -12,6 +12,7 @@ import vexture
 from degenerate import drawing, points_near
 from gradient_drawings import DRAWINGS, blend_drawing
 from planar import colour_paths
+from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import atlas, run
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.group import Blend
@@ -29,7 +30,7 @@ def sample(seed: int) -> Drawing:
 @pytest.mark.parametrize("seed", [3, 7, 8, 12])
 def test_it_draws_random_drawings(seed: int) -> None:
     of = sample(seed)
-    _, _, (planar,) = map_decoder.read_maps(run(of, split="faces").texture.to_ktx2())
+    _, _, (planar,) = map_decoder.read_maps(run(of, Parameters("faces")).texture.to_ktx2())
     error = abs(map_decoder.map_picture(planar, SIZE, 8) - render_exact_colours(of, SIZE))
     assert error.mean() < 0.004  # 64 points of a pixel through which an outline goes are off by 0.02 at random
     assert error.max() < 0.15
@@ -37,7 +38,7 @@ def test_it_draws_random_drawings(seed: int) -> None:
 
 @pytest.mark.parametrize("of", [*DRAWINGS.values(), *map(blend_drawing, Blend)])
 def test_it_runs_programs(of: Drawing) -> None:
-    data = run(of, split="faces").texture.to_ktx2()
+    data = run(of, Parameters("faces")).texture.to_ktx2()
     _, _, (planar,) = map_decoder.read_maps(data)
     pixels = texture_from(data, "it").render(8, vexture.window(0.3, 0.3, 1e-3, 1e-3))
     middles = (np.arange(8) + 0.5) / 8000 + 0.3
@@ -48,7 +49,7 @@ def test_it_runs_programs(of: Drawing) -> None:
 @pytest.mark.parametrize("seed", [3, 7])
 def test_every_point_has_one_paint(seed: int) -> None:
     of = sample(seed)
-    _, _, (planar,) = map_decoder.read_maps(run(of, split="faces").texture.to_ktx2())
+    _, _, (planar,) = map_decoder.read_maps(run(of, Parameters("faces")).texture.to_ktx2())
     x, y = points_near(of, np.random.default_rng(1), 2000).T
     assert (map_decoder.paint_at(planar, x, y) >= 0).mean() > 0.995  # the others lie in slivers
 
@@ -64,7 +65,7 @@ def test_it_reads_maps_beside_shapes() -> None:
 def test_stacks_say_what_paints_are_made_of() -> None:
     of = sample(3)
     paths = (replace(path, group=-1, element=f"p{k}") for k, path in enumerate(of.paths))
-    texture = run(Drawing(tuple(paths)), split="faces", restyle=True).texture
+    texture = run(Drawing(tuple(paths)), Parameters("faces", restyle=True)).texture
     (root,), _, (planar,) = map_decoder.read_maps(texture.to_ktx2())
     elements, stacks = map_decoder.read_style(root, planar)
     colors = [map_decoder.composite(elements, stack) for stack in stacks]

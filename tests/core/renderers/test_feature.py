@@ -8,6 +8,7 @@ from hand import need_gpu
 
 import degenerate
 import planar
+from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing
 from vexture.renderers.device import ONE_AT_A_TIME, compile_shader, context, draw, upload
@@ -37,7 +38,7 @@ def made(seed: int) -> tuple[Drawing, Texture]:
     of = planar.colour_paths(
         Drawing(degenerate.drawing(seed).paths + degenerate.drawing(seed + 100).paths), np.random.default_rng(seed)
     )
-    return of, run(of, split="faces", restyle=True).texture
+    return of, run(of, Parameters("faces", restyle=True)).texture
 
 
 def points_of(window: tuple[float, ...]) -> list[tuple[float, float]]:

@@ -18,7 +18,7 @@ from vexture import read_svg
 from vexture.base.errors import LimitError, SourceError, VextureError
 from vexture.base.layout import LATTICE
 from vexture.bezier.convert import line_cubics
-from vexture.conversion.pipeline import run
+from vexture.conversion.pipeline import run_encoding
 from vexture.drawing.drawing import Drawing, FillRule
 from vexture.drawing.drawing import Path as Outline
 from vexture.renderers.exact import render_exact
@@ -70,7 +70,7 @@ class Converted(NamedTuple):
 
 
 def converted(drawing, bits, max_depth=DEFAULT_DEPTH, tolerance="auto"):
-    conversion = run(drawing, encoding="thesis", bits=bits, max_depth=max_depth, tolerance=tolerance)
+    conversion = run_encoding(drawing, "thesis", bits=bits, max_depth=max_depth, tolerance=tolerance)
     texture = conversion.texture
     return Converted(drawing, conversion.tree, texture, by_format.walk(texture), max_depth, tolerance)
 

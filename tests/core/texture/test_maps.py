@@ -9,6 +9,7 @@ from gradient_drawings import DRAWINGS, painted_path
 from planar import colour_paths, colours_at, widen_paints
 from vexture.base import layout
 from vexture.base.errors import FormatError, ParameterError
+from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import atlas, run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.group import Blend, Group
@@ -29,7 +30,7 @@ def sample(seed: int) -> Drawing:
 
 
 def faces(of: Drawing) -> Texture:
-    return run(of, split="faces").texture
+    return run(of, Parameters("faces")).texture
 
 
 def turned(size: int) -> list[list[float]]:
@@ -265,12 +266,12 @@ def test_many_layers_are_cut_into_sheets(monkeypatch: pytest.MonkeyPatch) -> Non
         bars += [polygon([(x, 0), (x + 0.004, 0), (x + 0.02, 1), (x + 0.016, 1)])]
         bars += [polygon([(0, y), (1, 0.98 - y), (1, 0.985 - y), (0, y + 0.005)])]
     of = Drawing(tuple(Path((bar,), paint=Paint(tuple(rng.random(3).tolist()), 0.6)) for bar in bars))
-    conversion = run(of, split="faces")
+    conversion = run(of, Parameters("faces"))
     roots = conversion.texture.roots
     assert 1 < len(roots) < 8
     assert [root.name for root in roots] == [f"drawing/{k}-faces" for k in range(1, len(roots) + 1)]
     wanted = render_exact_colours(of, 40)
-    in_layers = run(of, split="paint").texture.render(40)
+    in_layers = run(of, Parameters("paint")).texture.render(40)
     assert abs(conversion.texture.render(40) - wanted).mean() < abs(in_layers - wanted).mean()
 
 
@@ -279,7 +280,7 @@ def test_precision_alone_cuts_no_drawing(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr("vexture.tree.planar.sheets.LEAST_BUDGET", 200)
     halves = [polygon([(0.1, 0.1), (0.6, 0.1), (0.4, 0.9), (0.1, 0.9)]), polygon([(0.6, 0.1), (0.9, 0.5), (0.4, 0.9)])]
     of = Drawing(tuple(Path((half,), paint=Paint((0.2, 0.4, k / 2))) for k, half in enumerate(halves)))
-    near = run(of, split="faces", precision=1e-6)
+    near = run(of, Parameters("faces", precision=1e-6))
     assert len(near.texture.roots) == 1
     assert len(near.tree.count) > 200
     assert near.rounding == 1e-6

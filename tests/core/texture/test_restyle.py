@@ -15,6 +15,7 @@ from degenerate import circle, drawing, heap, path_windings, points_near, polygo
 from planar import colour_paths
 from vexture.base.errors import FormatError, ParameterError
 from vexture.base.layout import COVERAGE_ONE, MOST_STYLE_BYTES, TEXT_ROOTS, TEXT_STYLES
+from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import atlas, run
 from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.drawing.group import Blend, Group
@@ -47,7 +48,7 @@ def sample(seed: int) -> Drawing:
 
 
 def faces(of: Drawing, restyle: bool = True) -> vexture.Texture:
-    return run(of, split="faces", restyle=restyle).texture
+    return run(of, Parameters("faces", restyle=restyle)).texture
 
 
 def recoloured(of: Drawing, paints) -> Drawing:
@@ -181,7 +182,7 @@ def test_sheets_of_one_drawing_are_restyled_together(monkeypatch) -> None:
     centres = rng.random((12, 2)) * 0.6 + 0.2
     discs = [Path((circle(centre, 0.2),), paint=GREEN, element=f"d{k}") for k, centre in enumerate(centres)]
     of = Drawing(tuple(discs), name="discs")
-    conversion = run(of, split="faces", restyle=True)
+    conversion = run(of, Parameters("faces", restyle=True))
     texture = conversion.texture
     assert len(texture.roots) > 1
     assert str(conversion.notes[0]).startswith(f"so many crossing shapes are {len(texture.roots)} maps on one another")

@@ -5,6 +5,7 @@ import pytest
 
 from vexture.base import layout
 from vexture.base.errors import FormatError
+from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Paint
@@ -32,7 +33,7 @@ def triangle() -> Texture:
         polygon((0.1, 0.1), (0.9, 0.2), (0.3, 0.9), paint=RED),
         polygon((0.9, 0.2), (0.95, 0.8), (0.3, 0.9), paint=BLUE),
     )
-    return run(Drawing(paths), split="faces").texture
+    return run(Drawing(paths), Parameters("faces")).texture
 
 
 @pytest.mark.parametrize(("by", "straight"), [(0, True), (1, True), (-1, True), (2, False), (-2, False)])

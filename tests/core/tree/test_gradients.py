@@ -20,6 +20,7 @@ from gradient_drawings import (
     radial,
 )
 from planar import colour_paths, colours_at, gradient_colours, paints_at, sample_picture
+from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.group import Blend, Group, Mask
@@ -165,7 +166,7 @@ def test_a_crowded_cell_has_the_mean_of_its_gradients() -> None:
 
 @pytest.mark.parametrize("blend", Blend)
 def test_programs_have_all_blend_modes(blend: Blend) -> None:
-    conversion = run(blend_drawing(blend), split="faces")
+    conversion = run(blend_drawing(blend), Parameters("faces"))
     assert not conversion.notes
     up, keep, _, mix = program_at(conversion.tree, (0.4, 0.45))
     assert (keep, mix) == (Keep(), Mix(52428, blend))
@@ -184,7 +185,7 @@ def test_gradients_in_too_many_groups_are_flat_and_noted() -> None:
     groups = tuple(Group(k - 1, 0.9) for k in range(5))
     paths = tuple(painted_path(LENS, linear((0, 0), (1, 0), FADING), k - 1) for k in range(6))
     for deep, flat in ((4, 0), (5, 1)):
-        conversion = run(Drawing((UPWARDS, *paths[:deep]), groups=groups), split="faces")
+        conversion = run(Drawing((UPWARDS, *paths[:deep]), groups=groups), Parameters("faces"))
         assert [note.count for note in conversion.notes] == [1] * flat
         (paint,) = paints_at(conversion.tree, (0.4, 0.45))
         assert (paint in conversion.tree.programs) != flat
@@ -197,14 +198,14 @@ def test_too_many_gradients_on_one_another_are_flat() -> None:
         )
         for k in range(70)
     ]
-    conversion = run(Drawing((UPWARDS, *glow)), split="faces")
+    conversion = run(Drawing((UPWARDS, *glow)), Parameters("faces"))
     assert 0 < conversion.notes[0].count < 70
     assert max(map(len, conversion.tree.programs.values())) == 64
 
 
 def test_one_layer_of_a_gradient_is_a_map() -> None:
     of = DRAWINGS["highlight"]
-    texture = run(of, split="faces").texture
+    texture = run(of, Parameters("faces")).texture
     assert texture.roots[0].is_map
     assert abs(texture.render(8)[4, 4] - colours_at(of, np.array([[0.5625, 0.4375]]))[0][0]).max() < 0.02
 

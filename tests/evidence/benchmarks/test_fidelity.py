@@ -8,7 +8,7 @@ import pytest
 
 import fidelity
 import report
-from vexture.conversion.pipeline import run
+from vexture.conversion.pipeline import run_encoding
 from vexture.drawing.drawing import Drawing
 from vexture.renderers.view import fit
 
@@ -29,7 +29,7 @@ def test_cut_pixels_are_those_with_small_quads():
 
 
 def test_area_error_is_in_255ths():
-    tree = run(SQUARE, encoding="thesis").tree
+    tree = run_encoding(SQUARE, "thesis").tree
     assert fidelity.area_error(SQUARE, tree) < 0.01
     assert fidelity.area_error(NEEDLE, tree) == pytest.approx(255 * (0.36 - 0.8 * 0.001 / 2), abs=0.01)
 
@@ -43,10 +43,10 @@ def test_limits(mean, border, within):
 
 
 def test_a_drawing_is_within_the_limits_and_a_wrong_picture_is_not():
-    conversion = run(SQUARE, encoding="thesis")
+    conversion = run_encoding(SQUARE, "thesis")
     views = fidelity.shifted_views("square", 40, Namespace(shifts=2, seed=3))
     right = fidelity.size_facts(SQUARE, conversion.tree, conversion.texture, views, ["cpu"])
-    wrong = fidelity.size_facts(SQUARE, conversion.tree, run(NEEDLE, encoding="thesis").texture, views, ["cpu"])
+    wrong = fidelity.size_facts(SQUARE, conversion.tree, run_encoding(NEEDLE, "thesis").texture, views, ["cpu"])
     assert right["met"]
     assert not wrong["met"]
     assert right["apart"]["max"] == 0.0

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from fitting import assert_legible
 
-from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, FillRule
 from vexture_evidence.figures.discussion import (
     before_after,
@@ -16,7 +15,7 @@ from vexture_evidence.figures.discussion import (
     unneeded_divisions,
 )
 from vexture_evidence.measures.editing import edit_texture
-from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, example
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, convert_by, example
 from vexture_evidence.measures.stored_coverage import stored_values
 from vexture_evidence.measures.thesis_limits import Lengths, close_up, unnecessary_quads
 
@@ -99,8 +98,10 @@ def test_refused_copies_are_marked_and_not_drawn():
 
 def test_what_was_drawn_in_addition_is_coloured():
     drawing = RINGS
-    after = edit_texture(drawing, run(drawing, **WAYS["packed"]).texture, '<circle cx="0.5" cy="-0.8" r="0.1"/>', 1)
-    figure = edited_drawing(run(drawing, **WAYS["direct"]).texture, after, np.zeros((8, 8)))
+    after = edit_texture(
+        drawing, convert_by(drawing, WAYS["packed"]).texture, '<circle cx="0.5" cy="-0.8" r="0.1"/>', 1
+    )
+    figure = edited_drawing(convert_by(drawing, WAYS["direct"]).texture, after, np.zeros((8, 8)))
     assert_legible(figure)
     colours = [{line.get_color() for line in axes.lines} for axes in figure.axes[1:3]]
     assert len(colours[1]) == len(colours[0]) + 1

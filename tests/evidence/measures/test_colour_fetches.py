@@ -3,6 +3,7 @@
 import numpy as np
 
 from vexture import window
+from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Gradient, Paint, Stop
@@ -21,7 +22,7 @@ def box(low: float, high: float, paint: Paint) -> Path:
 
 
 def fetches(drawing: Drawing, split: str, side: int, view: ViewLike = None) -> float:
-    made = run(drawing, split=split)
+    made = run(drawing, Parameters(split))
     parts = made.drawing.layers() if split == "paint" else (drawing,)
     return pixel_fetches(SheetStack(made.texture, layer_boxes(parts)), side, view, side, seed=1)
 

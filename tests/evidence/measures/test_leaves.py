@@ -7,10 +7,9 @@ import decode_by_format as by_format
 import packed_walk
 import vexture
 from vexture.base.errors import ParameterError
-from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing
 from vexture_evidence.measures.leaves import leaves, quads, tree_of
-from vexture_evidence.measures.shape import example
+from vexture_evidence.measures.shape import convert_by, example
 
 SHAPES = ("duck", "holes", "simple-quartet")
 
@@ -73,7 +72,7 @@ def test_a_shape_of_an_atlas_is_chosen_by_its_name():
 @pytest.mark.parametrize("encoding", ["packed", "thesis"])
 def test_leaves_tile_the_unit_square(encoding):
     needle = Drawing.polygon([(0.1, 0.5), (0.9, 0.501), (0.9, 0.502)])
-    found = leaves(run(needle, encoding=encoding).tree)
+    found = leaves(convert_by(needle, {"encoding": encoding}).tree)
     assert (found.side**2).sum() == 1.0
     assert len(set(zip(found.x, found.y, strict=True))) == len(found.x)
     assert found.x.min() == found.y.min() == 0.0
@@ -82,7 +81,7 @@ def test_leaves_tile_the_unit_square(encoding):
 
 @pytest.mark.parametrize("encoding", ["packed", "thesis"])
 def test_quads_and_leaves_are_the_cells_of_quads(encoding):
-    tree = run(example("duck"), encoding=encoding).tree
+    tree = convert_by(example("duck"), {"encoding": encoding}).tree
     above, found = quads(tree), leaves(tree)
     assert sorted(above.child[above.child >= 0]) == list(range(1, len(above.x)))
     inner = above.child >= 0

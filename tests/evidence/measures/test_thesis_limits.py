@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from both_encodings import decode
-from vexture.conversion.pipeline import run
+from vexture.conversion.pipeline import run_encoding
 from vexture.drawing.drawing import Drawing, Path
 from vexture.renderers.exact import render_exact
 from vexture.thesis.tree import CellKind
 from vexture_evidence.measures.leaves import leaves
 from vexture_evidence.measures.outline import first_samples, off_outline
-from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, example
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, convert_by, example
 from vexture_evidence.measures.stored_coverage import stored_values
 from vexture_evidence.measures.thesis_limits import (
     clamp_curves,
@@ -42,7 +42,7 @@ def disc(radius=0.3):
 
 
 def test_clamp_moves_inner_points_along_the_chord_only():
-    tree = run(looping(), **WAYS["direct"]).tree
+    tree = convert_by(looping(), WAYS["direct"]).tree
     kept, changed = clamp_curves(tree)
     assert changed == 4
     chord = tree.curves[:, 3] - tree.curves[:, 0]
@@ -62,7 +62,7 @@ def test_clamp_leaves_curves_in_range_and_corners_alone(shield):
 
 
 def test_clamp_leaves_straight_corners_alone():
-    tree = run(QUARTER, **WAYS["direct"]).tree
+    tree = convert_by(QUARTER, WAYS["direct"]).tree
     assert (tree.kind == CellKind.CORNER).any()
     assert (clamp_curves(tree, 0.4, 0.41)[0].curves == tree.curves)[tree.ref[tree.kind == CellKind.CORNER]].all()
 
@@ -85,7 +85,7 @@ def test_sharp_corners_are_where_the_outline_turns():
 
 def test_corner_cells_count_cells_with_curves_within_reach():
     half = Drawing.polygon([(0, 0), (1, 0), (1, 0.3), (0, 0.6)])
-    found = leaves(run(half, **WAYS["direct"]).texture)
+    found = leaves(convert_by(half, WAYS["direct"]).texture)
     with_curves = len(np.unique(found.owner))
     assert corner_cells(found, np.array([(0.5, 0.5)]), 2.0).tolist() == [with_curves]
     assert corner_cells(found, np.array([(0.2, 0.99)]), 0.01).tolist() == [1]  # the upper left quarter holds the line
@@ -133,11 +133,11 @@ def test_first_samples_lie_on_the_outline_and_are_as_dense_as_the_thesis_has_the
 
 def test_unnecessary_quads_are_those_around_one_stretch_of_one_cubic():
     line = Drawing.polygon([(0, 0), (1, 0), (1, 0.3), (0, 0.3)])
-    deep = run(line, encoding="thesis").tree
+    deep = run_encoding(line, "thesis").tree
     assert not unnecessary_quads(line, deep).any()
     # the same cells for a drawing whose outline is one line where the other has a corner
     corner = Drawing.polygon([(0, 0), (1, 0), (1, 0.3), (0.3, 0.3), (0.29, 0.37), (0.28, 0.3), (0, 0.3)])
-    tree = run(corner, encoding="thesis", strategy="sampled").tree
+    tree = run_encoding(corner, "thesis", strategy="sampled").tree
     assert not unnecessary_quads(corner, tree).all()
     needless = unnecessary_quads(line, tree)
     assert needless[1:].any()
@@ -151,10 +151,10 @@ def test_packed_divides_nothing_without_need(shield):
 
 
 def test_stored_values_are_compared_with_the_area():
-    conversion = run(QUARTER, **WAYS["direct"])
+    conversion = convert_by(QUARTER, WAYS["direct"])
     values = stored_values(QUARTER, conversion.tree)
     assert values.quad_off.max() < 1e-4
-    packed = stored_values(QUARTER, decode(run(QUARTER, **WAYS["packed"]).texture))
+    packed = stored_values(QUARTER, decode(convert_by(QUARTER, WAYS["packed"]).texture))
     assert 0.0 < packed.quad_off[0] <= 0.51 / 255
     wrong = conversion.tree
     wrong.coverage[0] += 0.1

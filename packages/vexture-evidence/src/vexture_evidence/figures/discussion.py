@@ -189,9 +189,9 @@ def stored_value_errors(stored: Mapping[str, StoredValues]) -> "Figure":
     Examples
     --------
     >>> from vexture_evidence.measures.stored_coverage import stored_values
-    >>> from vexture.conversion.pipeline import run
+    >>> from vexture.conversion.pipeline import run_encoding
     >>> half = Drawing.polygon([(0, 0), (1, 0), (1, 0.3), (0, 0.6)])
-    >>> figure = stored_value_errors({"direct": stored_values(half, run(half, encoding="thesis").tree)})
+    >>> figure = stored_value_errors({"direct": stored_values(half, run_encoding(half, "thesis").tree)})
     >>> figure.axes[0].get_title(loc="left")
     'direct'
     """

@@ -4,10 +4,9 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from vexture.base.errors import LimitError
-from vexture.conversion.pipeline import run
 from vexture.texture.texture import Texture
 from vexture.thesis.layout import LIST_LIMIT
-from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, Made, file_bytes
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, Made, convert_by, file_bytes
 from vexture_evidence.measures.timing import FRAME, frames_per_second, median_seconds
 
 LONG: Final = 0.05
@@ -92,7 +91,7 @@ def measure_conversion(shape: ConvertedDrawing, way: str, side: int | None = Non
     seconds = made.seconds
     if seconds < LONG:
         given = WAYS[way]
-        seconds = median_seconds(lambda: run(shape.drawing, **given), REPEAT)
+        seconds = median_seconds(lambda: convert_by(shape.drawing, given), REPEAT)
     fps = None if side is None else _frame_rate(made, side)
     sizes = len(tree.curves), len(tree.coverage), texture.depth + 1, 1e3 * seconds
     if isinstance(texture, Texture):

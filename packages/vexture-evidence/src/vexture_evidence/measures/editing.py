@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from vexture.conversion.images import coverage
+from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing
 from vexture.texture.texture import Texture
@@ -66,13 +67,13 @@ def edit_texture(drawing: Drawing, texture: Texture, change: str, repeat: int = 
         path, target = Path(folder) / f"{texture.name}.svg", Path(folder) / "converted.ktx2"
         text = texture.to_svg()
         path.write_text(text, encoding="utf-8")
-        exported = run(path, split=None).drawing
+        exported = run(path, Parameters(split=None)).drawing
         path.write_text(text.replace("</svg>", f"{change}</svg>"), encoding="utf-8")
-        made = run(path, split=None)
+        made = run(path, Parameters(split=None))
         assert isinstance(made.texture, Texture)
 
         def convert() -> None:
-            converted = run(path, split=None).texture
+            converted = run(path, Parameters(split=None)).texture
             assert isinstance(converted, Texture)
             converted.save(target)
 

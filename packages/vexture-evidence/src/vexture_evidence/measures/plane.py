@@ -6,13 +6,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.renderers.exact import render_exact
 from vexture_evidence.measures.raster import raster_from
 from vexture_evidence.measures.renderings import Rendered
 from vexture_evidence.measures.rivals import side_in_memory, texture_rival
-from vexture_evidence.measures.shape import WAYS
+from vexture_evidence.measures.shape import WAYS, convert_by
 
 QUARTER: Final = 0.5522847498
 """Length, in radii, of the handles of a cubic that approximates a quarter of a circle."""
@@ -89,7 +88,7 @@ def receding(size: tuple[int, int] = (420, 170), tiles: int = 32) -> Receding:
         Tiles of the pattern along a side.
     """
     drawing, view = dots(tiles), view_of_plane(size)
-    thesis, packed = (run(drawing, **way).texture for way in (WAYS["sampled"], WAYS["packed"]))
+    thesis, packed = (convert_by(drawing, way).texture for way in (WAYS["sampled"], WAYS["packed"]))
     ours = {name: texture_rival(texture, name) for name, texture in (("sampled", thesis), ("packed", packed))}
     raster = raster_from(drawing, side_in_memory(ours["packed"].gpu_bytes))
     images = {"raster": raster.sample(size, view, mip=False), "raster, mip-mapped": raster.sample(size, view)}

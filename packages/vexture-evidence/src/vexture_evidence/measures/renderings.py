@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from vexture.base.errors import LimitError
 from vexture.conversion.images import coverage
-from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing
 from vexture.renderers.exact import render_exact
 from vexture.renderers.view import window
@@ -21,7 +20,7 @@ from vexture.tree.cubics import gather
 from vexture_evidence.measures.closeups import outline_places
 from vexture_evidence.measures.metrics import Errors, errors
 from vexture_evidence.measures.rivals import texture_rival
-from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, Made
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, Made, convert_by
 from vexture_evidence.measures.thesis_ways import AsThesis, draw_as_thesis
 
 CENTRE: Final = "centre of the pixel"
@@ -165,7 +164,7 @@ def with_tolerances(
     conversion: Callable[[], Made]
     for name, tolerance, conversion in (
         ("sampled", right, lambda: shape.way("sampled")),
-        ("sampled, ten times too loose", loose, lambda: run(drawing, **(WAYS["sampled"] | {"tolerance": loose}))),
+        ("sampled, ten times too loose", loose, lambda: convert_by(drawing, WAYS["sampled"] | {"tolerance": loose})),
         (PACKED, 0.0, lambda: shape.way(PACKED)),
     ):
         with suppress(LimitError):

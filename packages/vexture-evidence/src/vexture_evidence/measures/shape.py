@@ -1,12 +1,15 @@
 """A drawing and its conversions, each made once, for tables and figures."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias, cast
 
 from vexture.base.errors import LimitError, SourceError
-from vexture.conversion.pipeline import Conversion, run
+from vexture.conversion.parameters import Parameters
+from vexture.conversion.pipeline import Conversion, Source, run, run_encoding
+from vexture.texture.registry import DEFAULT
 from vexture.thesis.layout import LIST_LIMIT
 
 if TYPE_CHECKING:
@@ -23,6 +26,14 @@ WAYS: Final[dict[str, dict[str, Any]]] = {
     "packed": {"encoding": "packed", "split": None},
 }
 """Parameters of `vexture.convert`: the thesis's own conversion, ours to its encoding, and the packed encoding."""
+
+
+def convert_by(source: Source, way: Mapping[str, Any]) -> Made:
+    """Convert by one of `WAYS`, which may have more parameters of its encoding."""
+    if way["encoding"] == DEFAULT:
+        return run(source, Parameters(**{name: value for name, value in way.items() if name != "encoding"}))
+    return cast("Made", run_encoding(source, **way))
+
 
 MOST_FOR_SAMPLED: Final = 3000
 """Quads; if ``direct`` has more of them, ``sampled`` would take minutes."""
@@ -112,7 +123,7 @@ class ConvertedDrawing:
             try:
                 if way == "sampled":
                     self._check_sampled()
-                self._ways[key] = self._with_source(run(self.drawing, **given))
+                self._ways[key] = self._with_source(convert_by(self.drawing, given))
             except LimitError as error:
                 self._ways[key] = error
         made = self._ways[key]

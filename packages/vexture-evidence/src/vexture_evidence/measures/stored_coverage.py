@@ -50,9 +50,9 @@ def stored_values(drawing: Drawing, tree: Tree, texture: ThesisTexture | None = 
 
     Examples
     --------
-    >>> from vexture.conversion.pipeline import run
+    >>> from vexture.conversion.pipeline import run_encoding
     >>> half = Drawing.polygon([(0, 0), (1, 0), (1, 0.5), (0, 0.5)])
-    >>> stored_values(half, run(half, encoding="thesis").tree).quad_off.round(6).tolist()
+    >>> stored_values(half, run_encoding(half, "thesis").tree).quad_off.round(6).tolist()
     [0.0]
     """
     if texture is not None:

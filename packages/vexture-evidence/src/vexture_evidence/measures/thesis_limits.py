@@ -11,7 +11,6 @@ from vexture.base.errors import LimitError
 from vexture.base.layout import MOST_ROWS, ROW_BITS
 from vexture.bezier.points import points_along
 from vexture.conversion.images import coverage
-from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.renderers.exact import render_exact
 from vexture.renderers.view import window
@@ -22,6 +21,7 @@ from vexture.thesis.tree import CellKind, CellTree
 from vexture_evidence.measures.closeups import directions
 from vexture_evidence.measures.leaves import LeafArrays, Tree, quads
 from vexture_evidence.measures.metrics import LEVELS, TRUTH, Errors, errors
+from vexture_evidence.measures.shape import convert_by
 
 TURN: Final = 30.0
 """Degrees. A joint at which the outline turns by more than this is a sharp corner."""
@@ -124,7 +124,7 @@ def looping(name: str = "looping") -> Drawing:
 
     Examples
     --------
-    >>> run(looping(), encoding="thesis").tree.curves.shape[0]  # one leaf for each
+    >>> run_encoding(looping(), "thesis").tree.curves.shape[0]  # one leaf for each
     4
     """
     points = np.array([(0.5, 0.2), (0.8, 0.5), (0.5, 0.8), (0.2, 0.5)])
@@ -277,7 +277,7 @@ def list_lengths(drawing: Drawing, way: dict[str, str], across: Sequence[int]) -
     found: list[Lengths] = []
     for number in across:
         try:
-            texture = run(repeat_drawing(drawing, number), **way).texture
+            texture = convert_by(repeat_drawing(drawing, number), way).texture
         except LimitError as error:
             found.append(Lengths(number * number, None, refused=str(error)))
             break

@@ -6,12 +6,11 @@ from statistics import median
 from typing import Any, Final
 
 from vexture.base.errors import LimitError
-from vexture.conversion.pipeline import run
 from vexture.conversion.reading import read_drawing
 from vexture.thesis.layout import LIST_LIMIT
 from vexture_evidence.figures.conversions import conversions
 from vexture_evidence.measures.conversions import MeasuredConversion, frame_side, measure_conversion
-from vexture_evidence.measures.shape import WAYS, ConvertedDrawing
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, convert_by
 from vexture_evidence.measures.thesis_numbers import TABLE_5_1, Row
 from vexture_evidence.measures.timing import median_seconds
 from vexture_evidence.report.section import Material, Picture, Printed, Section, Table
@@ -35,7 +34,7 @@ def section(material: Material) -> Section:
     shapes = material.shapes
     example = material.example("simple-small")
     for given in WAYS.values():
-        run(example.drawing, **given)  # loads and compiles everything, so that no measured time includes it
+        convert_by(example.drawing, given)  # loads and compiles everything, so that no measured time includes it
     side = None if material.device is None else frame_side(example)
     found: list[dict[str, MeasuredConversion]] = []
     refused: list[str] = []

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from vexture.conversion.pipeline import run
 from vexture.texture.decode import decode
 from vexture.thesis.encode import encode
 from vexture.thesis.sample_and_fit import SAMPLES_ACROSS
@@ -12,7 +11,7 @@ from vexture_evidence.figures.discussion import before_after, density, stored_va
 from vexture_evidence.measures.leaves import leaves
 from vexture_evidence.measures.metrics import LEVELS
 from vexture_evidence.measures.outline import off_outline
-from vexture_evidence.measures.shape import WAYS, ConvertedDrawing
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, convert_by
 from vexture_evidence.measures.stored_coverage import StoredValues, stored_values
 from vexture_evidence.measures.thesis_limits import (
     clamp_curves,
@@ -32,7 +31,7 @@ LOOPS, CORNERS, SMALL, LARGE = "loop", "flame", "simple-small", "simple-big"
 def loops_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoint:
     """Control range and loops."""
     drawing = looping()
-    direct, packed = run(drawing, **WAYS["direct"]), run(drawing, **WAYS["packed"])
+    direct, packed = convert_by(drawing, WAYS["direct"]), convert_by(drawing, WAYS["packed"])
     assert isinstance(direct.tree, CellTree)
     tree, changed = clamp_curves(direct.tree)
     texture = encode(tree, to_source=drawing.to_source, name=drawing.name, bits=16)

@@ -5,13 +5,12 @@ from typing import Any, Final
 import numpy as np
 
 from vexture.conversion.images import coverage
-from vexture.conversion.pipeline import run
 from vexture.texture.texture import Texture
 from vexture.thesis.layout import LIST_LIMIT
 from vexture_evidence.figures.discussion import before_after, edited_drawing, lines_at_borders, list_growth
 from vexture_evidence.measures.closeups import all_cubics, closeup
 from vexture_evidence.measures.editing import edit_texture
-from vexture_evidence.measures.shape import WAYS, ConvertedDrawing
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, convert_by
 from vexture_evidence.measures.thesis_limits import BeforeAfter, Lengths, close_up, list_lengths
 from vexture_evidence.measures.thesis_numbers import TABLE_5_1
 from vexture_evidence.report.discussion_point import LEFT_OUT, DiscussionPoint, packed_of, pair_of
@@ -162,7 +161,7 @@ def editing_point(material: Material, subject: ConvertedDrawing) -> DiscussionPo
     """Editing: what drawing programs can do with a texture."""
     shape = material.example(DUCK)
     after = edit_texture(shape.drawing, packed_of(shape), BALL)
-    sampled = run(shape.drawing, **WAYS["sampled"])
+    sampled = convert_by(shape.drawing, WAYS["sampled"])
     text = (
         "Thesis 4.2: “it would require a separate UI to create new shapes”, and 7: “The format’s current form is not "
         "directly compatible with the wide range of customer solutions for creating and editing vector graphics, like "

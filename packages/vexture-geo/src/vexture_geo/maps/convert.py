@@ -10,6 +10,7 @@ from vexture.base.content import about
 from vexture.base.deadline import DEFAULT_SECONDS, within
 from vexture.base.errors import LimitError, ParameterError, SourceError
 from vexture.base.layout import MOST_PAINTS
+from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import Conversion, run
 from vexture.drawing.drawing import Drawing, Path
 from vexture_geo.maps.coverage import clean_coverage, ranks
@@ -95,14 +96,16 @@ def convert_prepared(
     capacity: int | None = None,
 ) -> Map:
     """Convert layers that are read; parameters and errors are those of `convert_map` and `vexture.convert`."""
-    given: dict[str, Any] = {"restyle": restyle, "tolerance": tolerance, "capacity": capacity}
     if ready.steps is not None and not restyle:
         raise ParameterError("colours change with `times` only where features can be recoloured; leave `restyle` on")
     with in_memory():
         with within(max_seconds):
             drawing = _drawing(ready, snap)
             _check_count(drawing, restyle)
-        done = run(replace(drawing, notes=ready.notes.in_order), split="faces", max_seconds=max_seconds, **given)
+        parameters = Parameters(
+            "faces", restyle=restyle, tolerance=tolerance, capacity=capacity, max_seconds=max_seconds
+        )
+        done = run(replace(drawing, notes=ready.notes.in_order), parameters)
     return Map(done, ready.table, ready.legends, _times(ready, done.texture.roots))
 
 

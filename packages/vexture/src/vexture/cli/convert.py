@@ -302,7 +302,7 @@ def _convert_one(
     """
     from vexture.base.notes import check_losses, line_of
     from vexture.conversion.parameters import READING, Parameters
-    from vexture.conversion.pipeline import parts_of, run
+    from vexture.conversion.pipeline import parts_of, run, run_encoding
     from vexture.conversion.reading import read_drawing
 
     if quiet:  # kernels announce that they are compiled
@@ -319,7 +319,10 @@ def _convert_one(
             parameters = dict(parameters)
             reading = {name: parameters.pop(name) for name in READING if name in parameters}
             given = read_drawing(content, name=shown_name(source), **reading)
-        done = run(given, encoding=encoding, **parameters)
+        if encoding == DEFAULT:
+            done: Conversion[Any] = run(given, Parameters.from_mapping(parameters))
+        else:
+            done = run_encoding(given, encoding, **parameters)
         files = done.texture.files(**stored)
         check_losses(str(source), done.notes, is_empty=not done.drawing.paths, strict=strict)
     except EXPECTED as error:

@@ -149,6 +149,7 @@ def _texture_of(drawing: Path, appearance: Any, parameters: dict[str, Any], stri
     """The texture of a file, which may be one, or is converted."""
     from vexture.base.apart import apart
     from vexture.base.notes import check_losses
+    from vexture.conversion.parameters import Parameters
     from vexture.conversion.pipeline import run
     from vexture.gltf.model import texture_of
 
@@ -156,7 +157,8 @@ def _texture_of(drawing: Path, appearance: Any, parameters: dict[str, Any], stri
         without = {name: value for name, value in parameters.items() if (name, value) != ("tolerance", "auto")}
         return texture_of(drawing, appearance, without)
     limit = parameters.get("max_seconds", DEFAULT_SECONDS)
-    done = apart(partial(run, drawing, split=appearance.split, **parameters), name=str(drawing), seconds=limit)
+    whole = Parameters.from_mapping({"split": appearance.split, **parameters})
+    done = apart(partial(run, drawing, whole), name=str(drawing), seconds=limit)
     check_losses(str(drawing), done.notes, is_empty=not done.drawing.paths, strict=strict)
     if not quiet:
         say_notes(drawing, done.notes)

@@ -135,6 +135,7 @@ def _convert_text(
     """The texture of a text, whose fonts may be a stranger's."""
     from vexture.base.deadline import within
     from vexture.base.notes import check_losses, line_of
+    from vexture.conversion.parameters import Parameters
     from vexture.conversion.pipeline import run
     from vexture.fonts.text import TextOptions, text_drawing
 
@@ -143,7 +144,7 @@ def _convert_text(
         if not drawing.paths:
             raise SourceError(f"{drawing.name}: nothing of the text is painted; give characters that a font has")
         parameters.setdefault("split", "auto" if drawing.is_coloured else None)  # else programs colour it
-        done = run(drawing, encoding=DEFAULT, **parameters)
+        done = run(drawing, Parameters.from_mapping(parameters))
     check_losses(drawing.name, done.notes, is_empty=False, strict=strict)
     files = done.texture.files(**stored)
     facts = shape_facts(done) | {"bytes": sum(map(len, files.values()))}

@@ -1,16 +1,18 @@
 """The parameters of a conversion, as one value."""
 
 import os
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Container, Mapping, Sequence
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, get_args
 
 from vexture.base.content import FileKind
 from vexture.base.deadline import DEFAULT_SECONDS
 from vexture.base.errors import ParameterError
+from vexture.texture.registry import DEFAULT
 
 if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take long
     from vexture.drawing.drawing import Drawing
+    from vexture.tree.bounds import TreeParameters
 
 Split: TypeAlias = Literal["auto", "faces", "paint"] | None
 """How a drawing becomes shapes; see `vexture.convert`."""
@@ -59,6 +61,30 @@ class Parameters:
                 f"`split` is {self.split!r}, but `restyle` is for a whole drawing in its colours: 'faces'"
             )
 
+    @classmethod
+    def from_mapping(cls, values: "Mapping[str, Any]") -> "Parameters":
+        """Parameters by name; raises a `TypeError` for one that there is not."""
+        refuse_unknown(values, cls.__dataclass_fields__, DEFAULT)
+        return cls(**values)
+
+    @property
+    def bounds(self) -> "TreeParameters":
+        """Those of the tree that are given, but the tolerance."""
+        bounds: TreeParameters = {}
+        if self.max_depth is not None:
+            bounds["max_depth"] = self.max_depth
+        if self.capacity is not None:
+            bounds["capacity"] = self.capacity
+        if self.precision is not None:
+            bounds["precision"] = self.precision
+        return bounds
+
+    @property
+    def overrides(self) -> dict[str, Any]:
+        """Those that differ from the defaults, by name."""
+        values = ((field.name, getattr(self, field.name)) for field in fields(self))
+        return {name: value for name, value in values if value != getattr(DEFAULTS, name)}
+
     @property
     def reading(self) -> dict[str, Any]:
         """Those of the source's reader that are given."""
@@ -73,6 +99,16 @@ class Parameters:
         if self.split != "auto":
             return self.split
         return "faces" if self.restyle or drawing.is_coloured or len(drawing.layers()) > 1 else None
+
+
+DEFAULTS: Final = Parameters()
+
+
+def refuse_unknown(values: "Mapping[str, Any]", known: "Container[str]", encoding: str) -> None:
+    """Raise a `TypeError` for the first parameter that an encoding does not have."""
+    for name, value in values.items():
+        if name not in known:
+            raise TypeError(f"`{name}` is {value!r}, but the encoding {encoding} has no such parameter; leave it out")
 
 
 def check_reading(

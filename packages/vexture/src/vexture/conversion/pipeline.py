@@ -3,7 +3,7 @@
 import inspect
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
 
@@ -11,7 +11,7 @@ from vexture.base.deadline import CLOCK, DEFAULT_SECONDS, within
 from vexture.base.errors import ParameterError
 from vexture.base.notes import Note, warn_of
 from vexture.base.tolerance import UNSEEN
-from vexture.conversion.parameters import Fonts, Parameters, Split
+from vexture.conversion.parameters import DEFAULTS, Fonts, Parameters, Split, refuse_unknown
 from vexture.texture.registry import DEFAULT, EncodedTexture, find_encoding
 
 if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take long
@@ -44,46 +44,31 @@ class Conversion(Generic[AnyTexture]):
         return self.trees[0]
 
 
-@overload
-def run(
-    source: Source, *, encoding: Literal["packed"] = ..., select: str | None = ..., **parameters: Any
-) -> "Conversion[Texture]": ...
+def run(source: Source, parameters: Parameters = DEFAULTS) -> "Conversion[Texture]":
+    """Convert as `convert` does, but without a warning, and keep the steps."""
+    start = CLOCK.seconds()
+    part = trees_of(source, parameters)
+    texture = combine([part], part.drawing.name, None if _is_drawing(source) else Path(part.source).name)
+    return replace(part, texture=texture, seconds=CLOCK.seconds() - start)
 
 
-@overload
-def run(
-    source: Source, *, encoding: str, select: str | None = ..., **parameters: Any
-) -> Conversion[EncodedTexture]: ...
-
-
-def run(
+def run_encoding(
     source: Source,
+    encoding: str,
     *,
-    encoding: str = DEFAULT,
     select: str | None = None,
     max_seconds: float = DEFAULT_SECONDS,
     **parameters: Any,
-) -> Conversion[Any]:
-    """Convert as `convert` does, but without a warning, and keep the steps."""
-    start = CLOCK.seconds()
-    if encoding == DEFAULT:
-        known = {field.name for field in fields(Parameters)}
-    else:
-        other = find_encoding(encoding)
-        known = {*inspect.signature(other.convert).parameters}
-    for name, value in parameters.items():
-        if name not in known:
-            raise TypeError(f"`{name}` is {value!r}, but the encoding {encoding} has no such parameter; leave it out")
-    if encoding == DEFAULT:
-        part = trees_of(source, Parameters(select=select, max_seconds=max_seconds, **parameters))
-        texture = combine([part], part.drawing.name, None if _is_drawing(source) else Path(part.source).name)
-        return replace(part, texture=texture, seconds=CLOCK.seconds() - start)
+) -> Conversion[EncodedTexture]:
+    """Convert as `run` does, to a registered encoding; `parameters` are those of its `convert`."""
     from vexture.conversion.reading import drawing_of
 
+    start, other = CLOCK.seconds(), find_encoding(encoding)
+    refuse_unknown(parameters, inspect.signature(other.convert).parameters, encoding)
     with within(max_seconds):
         drawing = drawing_of(source, {} if select is None else {"select": select}).without_masks()
-        tree, other_texture, rounding = other.convert(drawing, **parameters)
-    return Conversion(drawing, (tree,), other_texture, CLOCK.seconds() - start, rounding, notes=drawing.notes)
+        tree, texture, rounding = other.convert(drawing, **parameters)
+    return Conversion(drawing, (tree,), texture, CLOCK.seconds() - start, rounding, notes=drawing.notes)
 
 
 def parts_of(source: "Source | bytes", parameters: Parameters, name: str | None = None) -> Iterator[Conversion[Any]]:
@@ -108,7 +93,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     """Read one source, split it if the parameters say so, and build its trees."""
     from vexture.conversion.reading import drawing_of
     from vexture.texture.root import Root
-    from vexture.tree.bounds import largest_shift
+    from vexture.tree.bounds import TreeParameters, largest_shift
     from vexture.tree.build import build_tree
     from vexture.tree.planar.sheets import Sheet, notes_of_sheets, sheets_of
     from vexture.tree.planar.style import restylable, style_of
@@ -121,9 +106,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
         drawing = drawing_of(source, parameters.reading)
         split = parameters.split_of(drawing)
         shown = restylable(drawing) if parameters.restyle else drawing if split else drawing.without_masks()
-        given = {"max_depth": parameters.max_depth, "capacity": parameters.capacity, "precision": parameters.precision}
-        bounds: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-        bounds["tolerance"] = tolerance
+        bounds = parameters.bounds | TreeParameters(tolerance=tolerance)
         layers = drawing.layers() if split == "paint" else ()
         if split == "faces" and drawing.paths:
             sheets = sheets_of(shown, parameters.restyle, **bounds)
@@ -290,16 +273,20 @@ def convert(
         split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts,
         trace_images, page_colors,
     )  # fmt: skip
-    values = ((field.name, getattr(named, field.name)) for field in fields(named))
-    given = {name: value for name, value in values if (value is not None and value is not False) or name == "split"}
-    if encoding != DEFAULT and split in ("auto", None):
-        del given["split"]  # other encodings have silhouettes only
-    conversion = run(source, encoding=encoding, **given, **others)
+    if encoding == DEFAULT:
+        refuse_unknown(others, (), encoding)
+        conversion: Conversion[Any] = run(source, named)
+    else:
+        given = named.overrides
+        if split is None:
+            del given["split"]  # other encodings have silhouettes only
+        conversion = run_encoding(source, encoding, **given, **others)
     if isinstance(source, str | os.PathLike):
         warn_of(os.fspath(source), conversion.notes)
     else:
         warn_of_loss(conversion.drawing, conversion.notes)
-    return conversion.texture
+    texture: EncodedTexture = conversion.texture
+    return texture
 
 
 def warn_of_loss(drawing: "Drawing", notes: Iterable[Note], *, stacklevel: int = 2) -> None:

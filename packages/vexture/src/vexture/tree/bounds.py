@@ -1,7 +1,7 @@
 """Limits of a tree, from the parameters of a conversion."""
 
 import math
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, TypedDict
 
 import numpy as np
 
@@ -31,6 +31,15 @@ class Bounds(NamedTuple):
     least_depth: int  # depth of the largest leaf with pieces
     max_depth: int
     most_quads: int
+
+
+class TreeParameters(TypedDict, total=False):
+    """Parameters of `build_tree` and `build_map`, for functions that hand them on."""
+
+    tolerance: float
+    max_depth: int
+    capacity: int
+    precision: float | None
 
 
 def largest_shift(precision: float | None) -> float:

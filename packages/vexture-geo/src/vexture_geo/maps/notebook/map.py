@@ -15,12 +15,6 @@ if TYPE_CHECKING:
 CAPACITY: Final = 15
 """Pieces in a leaf: more than by default, as the bytes are sent to the page at once."""
 
-SCALE_NAMES: Final = {"scale": "kind"}
-"""Options that layers and scales have another name for."""
-
-STROKE: Final = "3px"
-"""Width of lines, which are seen in a widget at once, as those of GeoPandas' ``explore``."""
-
 
 def map(
     source: Any,
@@ -90,13 +84,9 @@ def map(
         from vexture_geo.maps.notebook.map_widget import MapWidget
     except ModuleNotFoundError as error:
         raise DeviceError(f"map needs the package {error.name}: pip install 'vexture[notebook,map]'") from None
-    from vexture.base.deadline import DEFAULT_SECONDS
-    from vexture_geo.maps import MapLayer, Scale
     from vexture_geo.maps.colours import check_scale
     from vexture_geo.maps.convert import convert_prepared
     from vexture_geo.maps.notebook.map_arguments import (
-        OF_LAYER,
-        OF_SCALE,
         OF_STEPS,
         check_source,
         column_of,
@@ -104,30 +94,31 @@ def map(
         size_of,
         times_of,
     )
-    from vexture_geo.maps.place import MERCATOR
     from vexture_geo.maps.prepare import prepare_layers
 
     column = column_of(source, column)
     changing = times_of(source, column, times)
-    given = parse_options(options, column, legend, has_colours=column is not None or changing is not None)
+    chosen = parse_options(options, column, legend, has_colours=column is not None or changing is not None)
     check_source(source)
     shown = column if isinstance(column, str) and changing is None else None
-    scale = Scale(
-        shown or "",
-        **{SCALE_NAMES.get(each, each): given.pop(each) for each in OF_SCALE if each in given},
-    )
+    scale = chosen.scale_of(shown or "")
     if shown is None and changing is None:
         check_scale(scale)
-    of_layer = {"stroke": STROKE, **{each: given.pop(each) for each in OF_LAYER if each in given}}
-    layer = MapLayer(source, color=None if shown is None and changing is None else scale, times=changing, **of_layer)
+    layer = chosen.layer_of(source, None if shown is None and changing is None else scale, changing)
     title = None if isinstance(source, str | os.PathLike) else "map"
-    size = size_of(given.pop("size", None), width, height)
-    seconds = given.get("max_seconds", DEFAULT_SECONDS)
+    size = size_of(chosen.size, width, height)
     with renaming({"color": "column"} if changing is None or changing.is_table else OF_STEPS):
-        ready = prepare_layers([layer], name=title, crs=given.pop("crs", MERCATOR), size=size, max_seconds=seconds)
+        ready = prepare_layers([layer], name=title, crs=chosen.crs, size=size, max_seconds=chosen.max_seconds)
     asked_at = place_of_caller(1)
     warn_at(asked_at, ready.name, ready.notes.in_order)
     asked = {"width": width, "height": height, "background": background, "view": view}
     traits = {name: value for name, value in asked.items() if value is not None}
-    conversion = partial(convert_prepared, ready, **given, capacity=CAPACITY)
+    conversion = partial(
+        convert_prepared,
+        ready,
+        snap=chosen.snap,
+        tolerance=chosen.tolerance,
+        max_seconds=chosen.max_seconds,
+        capacity=CAPACITY,
+    )
     return MapWidget(ready, scale, conversion, asked_at=asked_at, tooltip=tooltip, has_legend=legend, **traits)

@@ -2,22 +2,23 @@
 
 import os
 from collections.abc import Iterable
-from typing import Any, Final
+from dataclasses import dataclass
+from typing import Any, Final, Literal
 
 from vexture.base.content import renaming
+from vexture.base.deadline import DEFAULT_SECONDS
 from vexture.base.errors import ParameterError
+from vexture.drawing.drawing import Drawing
 from vexture.notebook.picture import MARGIN
 from vexture.notebook.traits import format_value, pixels
 from vexture.notebook.widget import HEIGHT, PICTURE_WIDTH
 from vexture_geo.base.snap import MOST_SNAP
-from vexture_geo.maps import Times
+from vexture_geo.maps import MapLayer, Scale, Times
+from vexture_geo.maps.colours import DEFAULT_CLASSES, NO_DATA
+from vexture_geo.maps.place import MERCATOR
 
-OF_SCALE: Final = ("scale", "palette", "classes", "no_data")
-OF_LAYER: Final = (
-    *("layer", "where", "source_crs", "id", "columns", "fill", "order", "stroke"),
-    *("outline", "outline_width", "symbol", "symbol_size"),
-)
-OF_MAP: Final = ("crs", "snap", "size", "tolerance", "max_seconds")
+STROKE: Final = "3px"
+"""Width of lines, which are seen in a widget at once, as those of GeoPandas' ``explore``."""
 
 OF_STEPS: Final = {"times": "column", "labels": "times"}
 """Where `column` names those of steps, what it and their names are called by layers."""
@@ -38,9 +39,60 @@ OWN: Final = {their: own for own, every in THEIRS.items() for their in every}
 """Options of GeoPandas' maps, and what does the same here."""
 
 
-def parse_options(options: dict[str, Any], column: Any, legend: Any, *, has_colours: bool) -> dict[str, Any]:
-    """Check options, and return those that are not None, the default of each; refuse unknown and impossible ones."""
-    known = (*OF_SCALE, *OF_LAYER, *OF_MAP)
+@dataclass(frozen=True, slots=True)
+class MapOptions:
+    """Options of `vexture.map`: those of a `Scale`, whose `kind` is `scale`, of a `MapLayer` and of `convert_map`."""
+
+    scale: str = "auto"
+    palette: str | None = None
+    classes: int = DEFAULT_CLASSES
+    no_data: str = NO_DATA
+    layer: str | None = None
+    where: str | None = None
+    source_crs: str | None = None
+    id: str | None = None
+    columns: tuple[str, ...] | None = None
+    fill: str | None = None
+    order: str | None = None
+    stroke: str = STROKE
+    outline: str | None = None
+    outline_width: str = "1px"
+    symbol: Drawing | None = None
+    symbol_size: str = "8px"
+    crs: str = MERCATOR
+    snap: float | None = None
+    size: int | None = None
+    tolerance: float | Literal["auto"] = "auto"
+    max_seconds: float = DEFAULT_SECONDS
+
+    def scale_of(self, column: str) -> Scale:
+        """Colours of a column."""
+        return Scale(column, self.scale, self.palette, self.classes, self.no_data)
+
+    def layer_of(self, source: Any, color: Scale | None, times: Times | None) -> MapLayer:
+        """The layer of a source, in the colours of a scale, of steps, or in its own."""
+        return MapLayer(
+            source,
+            layer=self.layer,
+            where=self.where,
+            source_crs=self.source_crs,
+            id=self.id,
+            columns=self.columns,
+            color=color,
+            times=times,
+            fill=self.fill,
+            order=self.order,
+            stroke=self.stroke,
+            outline=self.outline,
+            outline_width=self.outline_width,
+            symbol=self.symbol,
+            symbol_size=self.symbol_size,
+        )
+
+
+def parse_options(options: dict[str, Any], column: Any, legend: Any, *, has_colours: bool) -> MapOptions:
+    """Check options, of which None is the default; refuse unknown and impossible ones."""
+    known = MapOptions.__dataclass_fields__
     for name in options:
         if name not in known:
             other = f"give `{OWN[name]}`" if name in OWN else f"there are {', '.join(known)}"
@@ -61,7 +113,7 @@ def parse_options(options: dict[str, Any], column: Any, legend: Any, *, has_colo
         )
     if tolerance != "auto" and not (_is_number(tolerance) and 0.0 <= tolerance < 1.0):
         raise ParameterError(f"`tolerance` is {format_value(tolerance)}; give 'auto' or a number from 0 to below 1")
-    return given
+    return MapOptions(**given)
 
 
 def _is_number(value: Any) -> bool:

@@ -7,13 +7,14 @@ exceeds it is cut into sheets of consecutive layers, as many to a sheet as their
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple, Unpack
 
 from vexture.base.layout import MOST_KEPT
 from vexture.base.notes import Note
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.group import Blend
 from vexture.drawing.paint import Paint
+from vexture.tree.bounds import TreeParameters
 from vexture.tree.build import build_tree
 from vexture.tree.planar.build import build_map
 from vexture.tree.planar.map import PlanarMap
@@ -57,7 +58,7 @@ class Sheet(NamedTuple):
         return Sheet(replace(self.drawing, name=f"{name}/{number}-{what}"), self.tree)
 
 
-def sheets_of(drawing: Drawing, restyle: bool = False, **parameters: Any) -> list[Sheet]:
+def sheets_of(drawing: Drawing, restyle: bool = False, **parameters: Unpack[TreeParameters]) -> list[Sheet]:
     """The sheets of a drawing, the lowest first: one, unless its map needs too many texels.
 
     A drawing that is one layer of one colour needs no map, unless it is to be restyled. `parameters` and errors are
@@ -72,7 +73,7 @@ def sheets_of(drawing: Drawing, restyle: bool = False, **parameters: Any) -> lis
     return [Sheet(one.drawing, _rebuild_sheet(one, restyle, **parameters)) for one in sheets]
 
 
-def _rebuild_sheet(sheet: Sheet, restyle: bool, **parameters: Any) -> PlanarMap | Tree:
+def _rebuild_sheet(sheet: Sheet, restyle: bool, **parameters: Unpack[TreeParameters]) -> PlanarMap | Tree:
     """Build the map or tree of a sheet again, with other parameters."""
     if isinstance(sheet.tree, Tree):
         return build_tree(sheet.drawing, **parameters)
@@ -81,7 +82,7 @@ def _rebuild_sheet(sheet: Sheet, restyle: bool, **parameters: Any) -> PlanarMap 
     return planar
 
 
-def _within_budget(drawing: Drawing, restyle: bool, **parameters: Any) -> list[Sheet]:
+def _within_budget(drawing: Drawing, restyle: bool, **parameters: Unpack[TreeParameters]) -> list[Sheet]:
     """The sheets of a drawing, each within its share of the budget."""
     layers = () if restyle or drawing.is_coloured else drawing.layers()
     if len(layers) == 1:
