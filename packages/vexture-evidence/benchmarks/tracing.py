@@ -1,4 +1,4 @@
-"""Traced pictures of pixels: the drawing's error and cost.
+"""Traced raster images: the drawing's error and cost.
 
     python packages/vexture-evidence/benchmarks/tracing.py [--only TEXT] [--pictures FOLDER]
 

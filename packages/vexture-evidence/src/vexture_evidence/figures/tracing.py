@@ -1,4 +1,4 @@
-"""A picture of pixels, the outline traced in it, and pictures drawn from this outline (thesis 4.2)."""
+"""A raster image, the outline traced in it, and pictures drawn from this outline (thesis 4.2)."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Pictures of pixels as input: how well they are traced (thesis 4.2)."""
+"""Raster images as input: how well they are traced (thesis 4.2)."""
 
 from io import BytesIO
 from typing import TYPE_CHECKING, Any, Final
@@ -42,12 +42,12 @@ def section(material: Material) -> Section:
     drawing = material.main.drawing
     pictures = {side: coverage(drawing, (side, side), renderer="exact") for side in SIDES}
     if not 0.0 < float(pictures[SHOWN].mean()) < 1.0:
-        return Section("tracing", "Pictures of pixels", (*TEXT, f"{drawing.name} shows no outline to trace."))
+        return Section("tracing", "Raster images", (*TEXT, f"{drawing.name} shows no outline to trace."))
     try:
         rows = [_row(drawing, pictures[side]) for side in SIDES]
         traced = _trace_picture(_png(pictures[SHOWN]))
     except DeviceError as error:
-        return Section("tracing", "Pictures of pixels", (*TEXT, f"Not measured here: {error}."))
+        return Section("tracing", "Raster images", (*TEXT, f"Not measured here: {error}."))
     table = Table(
         "traced",
         f"{drawing.name}, rendered, traced and converted. The distance is the area between the two outlines divided by "
@@ -63,7 +63,7 @@ def section(material: Material) -> Section:
         "is enlarged. Corners that lie between pixels are rounded, because the pixels do not tell where they were.",
         f"Pixels of {drawing.name}, a traced outline that follows the true one, and large pictures without pixel steps",
     )
-    return Section("tracing", "Pictures of pixels", TEXT, (table, picture))
+    return Section("tracing", "Raster images", TEXT, (table, picture))
 
 
 def _row(drawing: "Drawing", picture: "NDArray[np.float32]") -> list[Any]:

@@ -91,7 +91,7 @@ def other_kind(font: Any, glyph: int) -> str | None:
     if font.face.has_color_svg and font.face.get_glyph_color_svg(glyph):
         return "SVG documents"
     if font.face.has_color_png and font.get_glyph_color_png(glyph):
-        return "pictures of pixels"
+        return "raster images"
     return None
 
 

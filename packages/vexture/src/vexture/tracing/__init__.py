@@ -1,1 +1,1 @@
-"""Pictures of pixels, traced into drawings."""
+"""Raster images, traced into drawings."""

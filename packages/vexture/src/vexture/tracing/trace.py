@@ -1,4 +1,4 @@
-"""Pictures of pixels as drawings (thesis 4.2): one flat colour or gradient after another."""
+"""Raster images as drawings (thesis 4.2): one flat colour or gradient after another."""
 
 import os
 from dataclasses import replace
@@ -32,7 +32,7 @@ colours. Areas of fewer pixels than the square of the last number are left out."
 
 
 def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = None) -> Drawing:
-    """Read a picture of pixels: PNG, JPEG, WebP, GIF (its first image) or BMP, by its content.
+    """Read a raster image: PNG, JPEG, WebP, GIF (its first image) or BMP, by its content.
 
     `vexture.trace` describes how it is traced; its EXIF orientation is applied.
 
@@ -92,7 +92,7 @@ def embedded_image(content: bytes) -> Drawing:
 
 
 def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
-    """Trace a picture of pixels.
+    """Trace a raster image.
 
     The outline lies where a pixel is half covered, to about a sixth of a pixel. The first of these that fits the
     picture decides what is painted:
