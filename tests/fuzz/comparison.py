@@ -21,7 +21,7 @@ from sights import Sight, sight_of
 import vexture
 from same_fonts import FONTS
 from vexture.base.tolerance import UNSEEN
-from vexture.conversion.close_up import close_up
+from vexture.conversion.images import close_up
 from vexture.conversion.reading import read_drawing
 from vexture.drawing.drawing import Drawing
 from vexture.renderers.exact import render_exact_colours

@@ -12,7 +12,7 @@ from PIL import Image
 
 import vexture
 from guides import Reader, blocks_of
-from vexture.fonts.system import default_files
+from vexture.fonts.library import default_files
 
 SIZE = (480, 120)
 """Of the guide's canvas in pixels, which shows eight ems, and half an em below the baseline."""

@@ -8,7 +8,7 @@ import matplotlib
 import resvg
 from fontTools.ttLib import TTFont
 
-from vexture.fonts.system import default_files
+from vexture.fonts.library import default_files
 
 FONTS: Final = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 """Fonts with Latin, Greek, Arabic and Hebrew letters; our fixtures ask for no others."""

@@ -15,7 +15,6 @@ from vexture.base.errors import ParameterError, SourceWarning
 from vexture.cli.main import main
 from vexture.drawing.drawing import Drawing
 from vexture.fold.fold import Fold, Kind, fold_from
-from vexture.fold.picture import fold_picture
 from vexture.fold.shore import STEEPEST, shore_fold
 
 SHAPES = Path(__file__).parents[3] / "examples" / "shapes"
@@ -116,20 +115,6 @@ def test_what_would_turn_over_moves_less_and_says_so() -> None:
 def test_parameters_out_of_range_are_refused(wrong: dict[str, float]) -> None:
     with pytest.raises(ParameterError, match=next(iter(wrong))):
         shore_fold(SLOPE, **{"amplitude": 0.01, "period": 6.0, **wrong})  # type: ignore[arg-type]
-
-
-def test_the_picture_shows_directions_kinds_and_begins() -> None:
-    rng = np.random.default_rng(1)
-    shape = (8, 8)
-    mixed = Fold(np.full((*shape, 2), 0.05), rng.integers(0, 5, shape), rng.uniform(0, 3, shape), 2.0, 4.0)  # type: ignore[arg-type]
-    image = np.asarray(fold_picture(mixed, SLOPE, 512)).astype(int)
-    assert image.shape == (512, 768, 3)
-    assert len(np.unique(image[:, :512].reshape(-1, 3), axis=0)) > 20
-    assert len(np.unique(image[60:120, 512:].reshape(-1, 3), axis=0)) >= 5
-    still = np.asarray(fold_picture(Fold(np.zeros((4, 4, 2))), None, 256))
-    assert still.shape == (256, 384, 3)
-    opposite = np.asarray(fold_picture(Fold(np.full((8, 8, 2), -0.05)), SLOPE, 512)).astype(int)
-    assert np.abs(opposite[200:400, 100:400] - image[200:400, 100:400]).mean() > 20
 
 
 def test_the_command_writes_a_fold_and_its_picture(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 import pytest
 
 from vexture.fonts.face import faces_of
-from vexture.fonts.system import default_files
+from vexture.fonts.library import default_files
 
 
 @pytest.fixture(scope="session")

@@ -2,8 +2,6 @@
 
 import io
 import struct
-import sys
-import zlib
 
 import numpy as np
 import pytest
@@ -11,10 +9,9 @@ from fontTools.pens.areaPen import AreaPen
 from fontTools.ttLib import TTCollection, TTFont
 from made import compress_font, disc, made_font
 
-from vexture.base.errors import DeviceError, SourceError
+from vexture.base.errors import SourceError
 from vexture.bezier.area import integral_x_dy
 from vexture.fonts.face import faces_in, faces_of
-from vexture.fonts.files import LARGEST_FONT
 
 PLAIN = made_font({"A": "square", "B": disc(300, 350, 300)}, weight=300, usWidthClass=3)
 
@@ -56,16 +53,6 @@ def test_variable_face_takes_the_nearest_style_that_it_has(default_faces):
     assert area(thin, glyph_of(thin, "H")) != area(face, glyph_of(face, "H"))
 
 
-def test_woff_is_the_font_in_it():
-    (plain,), (woff,) = faces_in(PLAIN), faces_in(compress_font(PLAIN, "woff"))
-    assert [contour.tolist() for contour in woff.outline(5)] == [contour.tolist() for contour in plain.outline(5)]
-
-
-def test_woff2_is_the_font_in_it_or_names_what_it_needs():
-    pytest.importorskip("brotli", reason="brotli is not installed: pip install 'vexture[text]'")
-    assert faces_in(compress_font(PLAIN, "woff2"))[0].family == "Made"
-
-
 def test_damaged_outlines_of_a_web_font_are_met_when_they_are_used_and_name_the_file(tmp_path):
     brotli = pytest.importorskip("brotli", reason="brotli is not installed: pip install 'vexture[text]'")
     content, file = compress_font(PLAIN), tmp_path / "damaged.woff2"
@@ -90,27 +77,8 @@ def test_fonts_lighter_than_their_weight_class_have_the_weight_of_their_name(sty
     assert faces_in(made_font({"A": "square"}, weight=250, style=style))[0].weight == weight
 
 
-def test_woff2_without_brotli_names_the_remedy(monkeypatch):
-    monkeypatch.setitem(sys.modules, "brotli", None)
-    with pytest.raises(DeviceError, match=r"pip install 'vexture\[text\]'"):
-        faces_in(b"wOF2" + bytes(60))
-
-
 def test_all_faces_of_a_collection_are_read(tmp_path):
     collection = TTCollection()
     collection.fonts = [TTFont(io.BytesIO(made_font({"A": "square"}, family=name))) for name in ("One", "Two")]
     collection.save(tmp_path / "both.ttc")
     assert [face.family for face in faces_of(tmp_path / "both.ttc")] == ["One", "Two"]
-
-
-def test_a_woff_that_unpacks_to_too_much_is_refused_before_it_does():
-    packed = zlib.compress(bytes(LARGEST_FONT + 1), 9)
-    entry = struct.pack(">4s4I", b"glyf", 64, len(packed), 4 * LARGEST_FONT, 0)
-    with pytest.raises(SourceError, match="larger than 67,108,864 bytes"):
-        faces_in(struct.pack(">4s4sIHH7I", b"wOFF", b"\0\1\0\0", 0, 1, *bytes(8)) + entry + packed)
-
-
-@pytest.mark.parametrize("content", [b"", b"<svg/>", PLAIN[:12], b"wOFF" + PLAIN, b"ttcf" + bytes(20)])
-def test_what_is_no_font_is_refused_in_one_line(content):
-    with pytest.raises(SourceError, match="font"):
-        faces_in(content)

@@ -9,8 +9,7 @@ from made import BLUE, RED, box, compress_font, fill_shape, made_font, solid, st
 import vexture
 from vexture.base.notes import Notes
 from vexture.conversion.glyph_atlas import faces_of_characters
-from vexture.fonts.library import of_files
-from vexture.fonts.system import font_files
+from vexture.fonts.library import font_files, of_files
 from vexture.fonts.text import TextOptions, text_drawing
 
 

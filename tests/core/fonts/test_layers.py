@@ -18,60 +18,23 @@ from made import (
     RED,
     composite,
     fill_shape,
-    line,
-    linear,
     made_font,
-    radial,
     solid,
     stack_paints,
-    sweep,
     transform_paint,
 )
+from painted_glyphs import close, colour_at, layers_of, premultiplied
 
 import vexture
 from vexture.base.errors import LimitError, SourceError
-from vexture.drawing.drawing import Drawing, Path
 from vexture.fonts import layers as module
 from vexture.fonts import text as texts
 from vexture.fonts.face import faces_in
 from vexture.fonts.layers import PORTER_DUFF, GlyphLayers
-from vexture.renderers.exact import render_exact_colours
-
-
-def layers_of(paint, **options):
-    face = faces_in(made_font({"A": "square"}, {"A": paint}))[0]
-    return face.layers(face._font.get_nominal_glyph(ord("A")), **options)
-
-
-def colour_at(layers, *points):
-    """Premultiplied colours at points of the em, by the exact renderer: each the mean of a hundredth of the em."""
-    found = Drawing.from_source(
-        [
-            Path(tuple(contour * [1, -1] for contour in path.contours), path.fill_rule, flipped(path), path.group)
-            for path in layers.paths
-        ],
-        (0, -900, 1000, 1000),
-        groups=layers.groups,
-    )
-    image = render_exact_colours(found, 100)
-    return [image[int((900 - y) / 10), int(x / 10)] for x, y in points]
-
-
-def flipped(path):
-    return path.paint.after(((1, 0, 0), (0, -1, 0)))
-
-
-def premultiplied(color, alpha=1.0):
-    red, green, blue, own = PALETTE[color]
-    return np.array([red, green, blue, 1.0]) * own * alpha
 
 
 def over(above, below):
     return above + below * (1.0 - above[3])
-
-
-def close(found, expected):
-    np.testing.assert_allclose(found, expected, atol=1.5 / 255)
 
 
 def test_layers_of_both_versions_are_paths_in_their_order():
@@ -93,69 +56,6 @@ def test_version_zero_and_the_colour_of_the_text():
 def test_a_plain_glyph_has_no_layers():
     face = faces_in(made_font({"A": "square", "B": "disc"}, {"A": solid(RED)}))[0]
     assert face.layers(face._font.get_nominal_glyph(ord("B"))) is None
-
-
-def ramp(first, last, part):
-    a, b = (np.array(PALETTE[color]) for color in (first, last))
-    color = a + (b - a) * part
-    return np.array([*color[:3], 1.0]) * color[3]
-
-
-@pytest.mark.parametrize(("extend", "part"), [("pad", 1.0), ("repeat", 0.275), ("reflect", 0.725)])
-def test_linear_gradient_is_straightened_and_goes_on_beyond_its_stops(extend, part):
-    """The stops are at 0.25 and 0.75, and p2 slants the gradient."""
-    colors = line((0.25, RED, 1), (0.75, BLUE, 1), extend=extend)
-    found = layers_of(fill_shape("square", linear(colors, 100, 0, 500, 400, 100, 500)))  # by x only, from 100 to 500
-    middle, beyond = colour_at(found, (305, 305), (455, 105))
-    close(middle, ramp(RED, BLUE, 0.525))
-    close(beyond, ramp(RED, BLUE, part))
-
-
-@pytest.mark.parametrize("extend", ["repeat", "reflect"])
-def test_a_ramp_without_length_that_repeats_is_its_last_colour(extend):
-    colors = line((0.5, RED, 1), (0.5, BLUE, 1), extend=extend)
-    for gradient in (linear(colors, 100, 0, 500, 0, 100, 500), radial(colors, 300, 300, 50, 300, 300, 200)):
-        (path,) = layers_of(fill_shape("square", gradient)).paths
-        assert path.paint.gradient is None
-        close(path.paint.color, PALETTE[BLUE][:3])
-
-
-def test_radial_gradient_between_two_circles():
-    colors = line((0, GREEN, 1), (1, BLUE, 1))
-    found = layers_of(fill_shape("square", radial(colors, 405, 305, 100, 405, 305, 300)))
-    centre, ring = colour_at(found, (405, 305), (605, 305))
-    close(centre, premultiplied(GREEN))
-    close(ring, ramp(GREEN, BLUE, 0.5))
-
-
-def test_radial_gradient_from_below_radius_zero_and_to_zero():
-    below = line((-1, GREEN, 1), (1, BLUE, 1))  # radius 0 is a quarter of the way between the stops
-    found = layers_of(fill_shape("square", radial(below, 405, 305, 100, 405, 305, 300)))
-    close(colour_at(found, (705, 305))[0], premultiplied(BLUE))
-    close(colour_at(found, (605, 305))[0], ramp(GREEN, BLUE, 0.75))
-    inwards = layers_of(fill_shape("square", radial(line((0, GREEN, 1), (1, BLUE, 1)), 405, 305, 300, 405, 305, 0)))
-    close(
-        colour_at(inwards, (405, 305))[0], ramp(GREEN, BLUE, 1.0 - 3.8 / 300)
-    )  # the mean distance in its pixel is 3.8
-    close(colour_at(inwards, (555, 305))[0], ramp(GREEN, BLUE, 0.5))
-
-
-@pytest.mark.parametrize("points", [(100, 0, 500, 0, 700, 0), (100, 0, 500, 0, 100, 0)])
-def test_a_gradient_without_direction_shows_nothing(points):
-    assert layers_of(fill_shape("square", linear(line((0, RED, 1), (1, BLUE, 1)), *points))).paths == ()
-
-
-def test_sweep_gradient_is_named():
-    found = layers_of(fill_shape("disc", sweep(line((0, RED, 1), (1, BLUE, 1)), 550, 450, 0, 180)))
-    assert [str(note) for note in found.notes] == ["sweep gradient shown as its mean colour"]
-    assert found.paths[0].paint.gradient is None
-
-
-def test_a_transform_moves_outline_and_gradient():
-    inner = fill_shape("left", linear(line((0, RED, 1), (1, BLUE, 1)), 100, 0, 500, 0, 100, 500))
-    found = layers_of(transform_paint(inner, 0.5, 0, 0, 0.5, 300, 200))
-    assert found.paths[0].box.tolist() == [[350.0, 200.0], [550.0, 550.0]]
-    close(colour_at(found, (455, 305))[0], ramp(RED, BLUE, 0.525))
 
 
 def test_a_glyph_in_a_glyph_is_their_intersection():

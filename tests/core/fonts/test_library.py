@@ -7,46 +7,8 @@ import pytest
 from made import made_font
 
 from vexture.base.errors import DeviceError, SourceError
-from vexture.fonts import engine, library, system
+from vexture.fonts import engine, library
 from vexture.fonts.library import EmbeddedFont, Fonts
-from vexture.fonts.matching import Traits, preference
-
-
-def order(weights, wanted, style="normal", stretch=100.0):
-    """Weights in the order in which they stand in for one."""
-    faces = [Traits((weight, weight), (100.0, 100.0), ("normal",)) for weight in weights]
-    return [face.weights[0] for face in sorted(faces, key=lambda face: preference(face, wanted, style, stretch))]
-
-
-@pytest.mark.parametrize(
-    ("wanted", "expected"),
-    [
-        (400, [400, 450, 500, 350, 100, 600, 900]),
-        (450, [450, 500, 400, 350, 100, 600, 900]),
-        (500, [500, 450, 400, 350, 100, 600, 900]),
-        (300, [100, 350, 400, 450, 500, 600, 900]),
-        (700, [900, 600, 500, 450, 400, 350, 100]),
-    ],
-)
-def test_weights_stand_in_as_css_says(wanted, expected):
-    assert order([900, 100, 500, 400, 600, 350, 450], wanted) == expected
-
-
-def test_stretch_comes_before_style_and_style_before_weight():
-    offered = {
-        "narrow": Traits((400, 400), (75, 75), ("italic",)),
-        "italic": Traits((900, 900), (100, 100), ("italic",)),
-        "oblique": Traits((400, 400), (100, 100), ("oblique",)),
-        "variable": Traits((100, 900), (100, 100), ("normal",)),
-        "wide": Traits((400, 400), (125, 125), ("italic",)),
-    }
-
-    def ranked(*wanted):
-        return sorted(offered, key=lambda name: preference(offered[name], *wanted))
-
-    assert ranked(400, "italic", 100) == ["italic", "oblique", "variable", "narrow", "wide"]
-    assert ranked(400, "normal", 100) == ["variable", "oblique", "italic", "narrow", "wide"]
-    assert ranked(400, "italic", 110)[0] == "wide"
 
 
 @pytest.fixture
@@ -101,18 +63,18 @@ def test_a_given_file_that_is_no_font_is_named(folder):
 def test_a_font_that_is_there_as_woff2_is_not_read_as_woff_too(tmp_path):
     for name in ("a.woff", "a.woff2", "b.woff", "c.ttf"):
         (tmp_path / name).touch()
-    assert [path.name for path in system.font_files(tmp_path)] == ["a.woff2", "b.woff", "c.ttf"]
+    assert [path.name for path in library.font_files(tmp_path)] == ["a.woff2", "b.woff", "c.ttf"]
 
 
 def test_system_fonts_come_from_fontconfig_or_the_usual_folders(folder, monkeypatch):
     monkeypatch.setattr(
-        system, "run_program", lambda *command: f"{folder / 'a.ttf'}\n{folder / 'a.ttf'}\n{folder / 'x.pcf'}\n"
+        library, "run_program", lambda *command: f"{folder / 'a.ttf'}\n{folder / 'a.ttf'}\n{folder / 'x.pcf'}\n"
     )
-    assert system.system_files.__wrapped__() == (folder / "a.ttf",)
-    monkeypatch.setattr(system, "run_program", lambda *command: "")
-    monkeypatch.setattr(system, "LINUX", (str(folder), str(folder / "nowhere")))
-    monkeypatch.setattr(system.sys, "platform", "linux")
-    assert [path.name for path in system.system_files.__wrapped__()] == ["a.ttf", "b.ttf", "broken.ttf", "c.ttf"]
+    assert library.system_files.__wrapped__() == (folder / "a.ttf",)
+    monkeypatch.setattr(library, "run_program", lambda *command: "")
+    monkeypatch.setattr(library, "LINUX", (str(folder), str(folder / "nowhere")))
+    monkeypatch.setattr(library.sys, "platform", "linux")
+    assert [path.name for path in library.system_files.__wrapped__()] == ["a.ttf", "b.ttf", "broken.ttf", "c.ttf"]
 
 
 def test_without_uharfbuzz_the_remedy_is_named(folder, monkeypatch):

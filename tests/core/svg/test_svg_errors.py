@@ -89,14 +89,6 @@ def test_missing_prefixes_excuse_no_other_error() -> None:
         )
 
 
-@pytest.mark.slow  # as the file use-bomb.svg is
-def test_uses_that_show_one_another_too_often_are_an_error() -> None:
-    names = "abcdefghij"
-    groups = "".join(f'<g id="{a}">' + "".join(f'<use href="#{b}"/>' for b in names) + "</g>" for a in names)
-    with pytest.raises(SourceError, match="<use> shows more than 50,000 elements"):
-        vexture.read(f"<svg>{groups}</svg>".encode(), name="a.svg")
-
-
 @pytest.mark.parametrize("encoding", ["UTF-16", "utf-16le", "UCS-2", "ISO-10646-UCS-4"])
 def test_an_encoding_of_two_bytes_in_a_text_of_one_is_ignored(encoding: str) -> None:
     """Browsers draw it: some programs write the encoding of their memory."""

@@ -1,35 +1,17 @@
 """Patterns of an SVG, at the edges of the standard and of our limits; elsewhere the fixtures are compared."""
 
-import warnings
-
 import numpy as np
 import pytest
+from pattern_drawings import DISC, DOT, FILLED, HEAD, PATTERN, RECT, SIZE, dots, drawing_of, gap
 
 import vexture
 from vexture.base.errors import SourceError, SourceWarning
-from vexture.drawing.drawing import Drawing
 from vexture.drawing.group import Group, Mask
-from vexture.renderers.exact import render_exact, render_exact_colours
-from vexture.svg.pattern_tiles import MOST
+from vexture.renderers.exact import render_exact
 
-HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">'
-PATTERN = '<pattern id="p" patternUnits="userSpaceOnUse" {}>{}</pattern>'
-DOT = '<circle cx="5" cy="5" r="3" fill="red"/>'
 DOTS = PATTERN.format('width="10" height="10"', DOT)
-RECT, DISC = '<rect id="a" width="100" height="100" {}/>', '<circle id="a" cx="50" cy="50" r="50" {}/>'
-FILLED = 'fill="url(#p)"'
 
 
-def drawing_of(body: str, head: str = HEAD) -> Drawing:
-    with warnings.catch_warnings(action="ignore", category=SourceWarning):
-        return vexture.read(f"{head}{body}</svg>".encode())
-
-
-def dots(attributes: str, fill: str = FILLED) -> str:
-    return PATTERN.format(attributes, DOT) + RECT.format(fill)
-
-
-SIZE = 'width="10" height="10"'
 STRETCHED = 'viewBox="0 0 10 10" preserveAspectRatio="none"'
 FALLBACK = 'fill="url(#p) lime"'
 CASES = {
@@ -94,51 +76,6 @@ def test_invalid_values_are_named_once(attributes: str, said: str) -> None:
         vexture.read(f"{HEAD}{dots(attributes)}{RECT.format(FILLED)}</svg>".encode())
 
 
-def gap(body: str, plain: str) -> float:
-    ours, theirs = (render_exact_colours(drawing_of(text), (160, 160)) for text in (body, plain))
-    return float(np.abs(ours - theirs).max())
-
-
-WHOLE = {
-    "stretched": '<rect width="7" height="7"/>',
-    "larger": '<rect x="-9" y="-9" width="70" height="70"/>',
-    "repeated": '<path d="M0 0H3H7V7H0z"/>',
-    "halves": '<path d="M0 0H7L0 7zM7 0V7H0z"/>',
-    "curves": '<path d="M-1 -1H2Q6 3 2 8H-1zM2 8Q6 3 2 -1H9V8z"/>',
-}
-
-
-@pytest.mark.parametrize("shape", [RECT, DISC])
-@pytest.mark.parametrize("turn", [0, 30, 45])
-@pytest.mark.parametrize("name", WHOLE)
-def test_tiles_have_no_seams(name: str, turn: int, shape: str) -> None:
-    """Translucent, so that two tiles that overlap would show as much as a gap."""
-    attributes = f'x="0.3" y="0.1" width="7" height="7" fill="#06c" patternTransform="rotate({turn}) scale(1.1)"'
-    tiled = PATTERN.format(attributes, WHOLE[name]) + shape.format(FILLED + ' fill-opacity="0.5"')
-    assert gap(tiled, shape.format('fill="#06c" fill-opacity="0.5"')) < 2e-6
-
-
-def test_neighbours_share_their_border_bit_for_bit() -> None:
-    """Each tile has a column and a row of corners inside, and shares those on its borders."""
-    attributes = 'x="0.3" y="0.1" width="0.7" height="0.7"'
-    content = '<path d="M0 0H.3H.7V.2V.7H0z"/>'
-    (path,) = drawing_of(PATTERN.format(attributes, content) + '<rect width="70" height="70" fill="url(#p)"/>').paths
-    corners = np.array([contour[:, 0] for contour in path.contours if contour.shape == (6, 4, 2)])
-    inside = np.concatenate(corners[((corners > 0.31) & (corners < 0.69)).all(axis=(1, 2))])
-    for axis in (0, 1):
-        exact = np.unique(inside[:, axis])
-        assert len(exact) == len(np.unique(exact.round(9))) > 100
-
-
-def test_what_spans_tiles_is_one_strip() -> None:
-    """Each line of a hatching is one contour, of four cubics, and so is a background."""
-    for line in ('<line y2="10" stroke="red" stroke-width="2"/>', '<path d="M-1 5H11" stroke="red" stroke-width="2"/>'):
-        content = f'<rect width="10" height="10" fill="lime"/>{line}'
-        drawing = drawing_of(PATTERN.format(SIZE + ' patternTransform="rotate(90)"', content) + RECT.format(FILLED))
-        assert [len(path.contours) for path in drawing.paths] == [1, 10]
-        assert drawing.segments == 44
-
-
 def test_a_hatching_is_as_if_written_by_hand() -> None:
     hatching = PATTERN.format('width="4" height="4" patternTransform="rotate(45)"', '<path d="M0 0H2V4H0z"/>')
     lines = "".join(f'<path d="M{x} -200h2v400h-2z"/>' for x in range(-200, 200, 4))
@@ -196,18 +133,6 @@ def test_a_pattern_is_in_a_file_without_size_too() -> None:
     assert len(drawing.paths[1].contours) == 4
 
 
-def test_gradients_move_with_their_tiles() -> None:
-    ramp = '<linearGradient id="g"><stop stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient>'
-    tile = '<rect width="20" height="30" fill="url(#g)"/>'
-    tiled = PATTERN.format('width="25" height="40" x="5" patternTransform="rotate(20)"', tile) + DISC.format(FILLED)
-    uses = "".join(
-        f'<g transform="translate({5 + 25 * i} {40 * j})">{tile}</g>' for i in range(-9, 9) for j in range(-9, 9)
-    )
-    clip = f'<clipPath id="c">{DISC.format("")}</clipPath>'
-    by_hand = f'{clip}<g clip-path="url(#c)"><g transform="rotate(20)">{uses}</g></g>'
-    assert gap(ramp + tiled, ramp + by_hand) < 2e-6
-
-
 def test_a_pattern_in_a_pattern_is_as_if_written_by_hand() -> None:
     """With a gradient and a transform at each level."""
     ramp = '<linearGradient id="g"><stop stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient>'
@@ -231,33 +156,6 @@ def test_a_pattern_is_read_once_for_all_shapes_in_one_place() -> None:
         vexture.read(f"{HEAD}{pattern}{RECT.format(FILLED) * 3}</svg>".encode())
 
 
-MANY = "<g/>" * (MOST["elements"] // 2)
-RAMP = '<linearGradient id="g"><stop/><stop offset="1" stop-color="red"/></linearGradient>'
-SHADED = DOT.replace('"red"', '"url(#g)"')
-SOLID = '<pattern id="p"> in line 1 read as solid: here it has {} in its tiles; all patterns of a drawing may have {:,}'
-
-
-@pytest.mark.parametrize(
-    ("body", "said"),
-    [
-        (dots('width=".1" height=".1" viewBox="0 0 9 9"'), SOLID.format("4,000,000 segments", MOST["segments"])),
-        (
-            RAMP + PATTERN.format('width="2" height="2" viewBox="0 0 9 9"', SHADED) + RECT.format(FILLED),
-            SOLID.format("2,500 gradients", MOST["gradients"]),
-        ),
-        (
-            f'<pattern id="p" {SIZE}>{DOT}{MANY}</pattern>{DISC.format(FILLED)}<g transform="scale(.5)">'
-            f"{DISC.format(FILLED)}</g>",
-            SOLID.format("10,002 elements", MOST["elements"]),
-        ),
-    ],
-)
-def test_too_many_tiles_are_solid_and_named(body: str, said: str) -> None:
-    drawing = drawing_of(body)
-    assert [str(note) for note in drawing.notes] == [said]
-    assert drawing.paths[-1].paint.hex == "#808080"
-
-
 def test_patterns_in_patterns_end() -> None:
     """Each shows the next twice, of two sizes: 2 to the power of 30 first tiles."""
     inside = '<rect width="5" height="5" fill="url(#p{0})"/><rect x="5" y="5" width="5" height="4" fill="url(#p{0})"/>'
@@ -265,15 +163,6 @@ def test_patterns_in_patterns_end() -> None:
     chain = "".join(pattern.format(k, inside.format(k + 1)) for k in range(30))
     with pytest.raises(SourceError, match="clips, markers, masks and patterns show more than 50,000 elements"):
         drawing_of(f'{chain}<pattern id="p30" {SIZE}>{DOT}</pattern>{inside.format(0)}')
-
-
-def test_tiles_in_tiles_are_counted() -> None:
-    inside = '<path d="M0 0H9V9z" fill="url(#p{})"/>'
-    chain = "".join(PATTERN.format(SIZE, inside.format(k + 1)).replace('"p"', f'"p{k}"') for k in range(5))
-    small = PATTERN.format('width=".5" height=".5" viewBox="0 0 9 9"', DOT).replace('"p"', '"p5"')
-    drawing = drawing_of(chain + small + RECT.format(FILLED.replace("p)", "p0)")))
-    assert 100_000 < drawing.segments <= MOST["segments"]
-    assert drawing.notes == ()
 
 
 def test_patterns_nested_too_deeply_are_an_error() -> None:

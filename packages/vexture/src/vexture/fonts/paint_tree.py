@@ -1,22 +1,38 @@
-"""The tree of clips, fills and groups by which HarfBuzz paints a glyph in colour (COLR of OpenType, 0 and 1)."""
+"""The tree of clips, fills and groups by which HarfBuzz paints a glyph in colour (COLR of OpenType, 0 and 1).
+
+Its gradients go beyond those of SVG: stops outside of 0..1, a slanted linear one, any two circles. Equations and rules
+are those of the OpenType specification, 1.9.1, "COLR", section "Gradients".
+"""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import Any, TypeAlias
+from itertools import pairwise
+from math import hypot
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.notes import Notes
 from vexture.bezier.convert import line_cubics
-from vexture.drawing.paint import Affine, Color, Paint
-from vexture.fonts.color_lines import linear, radial, solid, swept
+from vexture.drawing.paint import Affine, Color, Gradient, Paint, Spread, Stop
 from vexture.fonts.engine import harfbuzz
 
 Contours: TypeAlias = tuple[NDArray[np.float64], ...]
 
 IDENTITY: Affine = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+
+SPREADS: Final = {"PAD": Spread.PAD, "REPEAT": Spread.REPEAT, "REFLECT": Spread.REFLECT}
+
+TIP: Final = 1.0 / 512.0
+"""Part of a ramp to radius 0 that is left away: `Gradient` needs a circle at its end, and no 8-bit colour differs."""
+
+Circle: TypeAlias = tuple[float, ...]
+"""Its middle and radius."""
+
+Line: TypeAlias = tuple[float, float, tuple[Stop, ...]]
+"""The places of the first and last stop on the paint's own ramp, and the stops between them, at 0..1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,3 +145,130 @@ def paint_funcs() -> Any:
     )
     funcs.set_sweep_gradient_func(lambda line, *args: args[-1].fill(swept(line, args[-1].foreground, args[-1].notes)))
     return funcs
+
+
+def solid(color: Any, is_foreground: bool, foreground: Color) -> Paint:
+    """A flat paint; `is_foreground` says that it is the text's colour, which is kept unrounded."""
+    plain = (color.red / 255.0, color.green / 255.0, color.blue / 255.0)
+    return Paint(foreground if is_foreground else plain, color.alpha / 255.0)
+
+
+def line_of(line: Any, foreground: Color) -> Line | None:
+    """Stops of a colour line in order; None without any."""
+    found = []
+    for stop in sorted(line.color_stops, key=lambda stop: stop.offset):
+        paint = solid(stop.color, stop.is_foreground, foreground)
+        found.append((stop.offset, paint))
+    if not found:
+        return None
+    first, last = found[0][0], found[-1][0]
+    length = last - first or 1.0
+    return first, last, tuple(Stop((at - first) / length, paint.color, paint.opacity) for at, paint in found)
+
+
+def spread_of(line: Any) -> Spread:
+    """Behaviour of a colour line beyond its ends."""
+    return SPREADS[line.extend.name]
+
+
+def flat(stop: Stop) -> Paint:
+    """Flat paint of a stop."""
+    return Paint(stop.color, stop.opacity)
+
+
+def linear(line: Any, points: tuple[float, ...], foreground: Color) -> Paint | None:
+    """Linear gradient from p0 to p1 whose lines of one colour are parallel to p0 p2; None where it shows nothing."""
+    x0, y0, x1, y1, x2, y2 = points
+    found = line_of(line, foreground)
+    across = hypot(x2 - x0, y2 - y0)
+    if found is None or across == 0.0:
+        return None
+    nx, ny = (y2 - y0) / across, (x0 - x2) / across
+    length = (x1 - x0) * nx + (y1 - y0) * ny
+    if length == 0.0:
+        return None
+    first, last, stops = found
+    if first == last and spread_of(line) is not Spread.PAD:
+        return flat(stops[-1])
+    scale = 1.0 / (length * (last - first or 1.0))
+    origin = first / (last - first or 1.0)
+    u, v = nx * scale, ny * scale
+    rows: Affine = ((u, v, -u * x0 - v * y0 - origin), (-v, u, v * x0 - u * y0))
+    return Paint.from_gradient(Gradient(rows, stops, spread_of(line)))
+
+
+def radial(line: Any, circles: tuple[float, ...], foreground: Color, notes: Notes) -> Paint | None:
+    """Radial gradient from one circle to another; None where it shows nothing."""
+    found = line_of(line, foreground)
+    if found is None:
+        return None
+    first, last, stops = found
+    if first == last and spread_of(line) is not Spread.PAD:
+        return flat(stops[-1])
+    begins, ends = (circle_at(circles[:3], circles[3:], t) for t in (first, last if last > first else first + 1.0))
+    if begins[2] <= 0.0 and ends[2] <= 0.0:
+        return None
+    low, high = 0.0, 1.0
+    if min(begins[2], ends[2]) < 0.0:
+        if spread_of(line) is not Spread.PAD:
+            notes.simplification("radial gradient that repeats from below radius 0, shown as its mean colour")
+            return mean(stops)
+        zero = begins[2] / (begins[2] - ends[2])
+        low, high = (zero, 1.0) if begins[2] < 0.0 else (0.0, zero)
+    if ends[2] <= 0.0:
+        high *= 1.0 - TIP
+    return between(circle_at(begins, ends, low), circle_at(begins, ends, high), cut(stops, low, high), spread_of(line))
+
+
+def circle_at(begins: Circle, ends: Circle, t: float) -> Circle:
+    """The circle at a place between two."""
+    x, y, radius = (a + (b - a) * t for a, b in zip(begins, ends, strict=True))
+    return x, y, radius
+
+
+def cut(stops: tuple[Stop, ...], low: float, high: float) -> tuple[Stop, ...]:
+    """Stops of the part of a ramp between two places, which are then 0 and 1.
+
+    Examples
+    --------
+    >>> [stop.color for stop in cut((Stop(0.0, (0, 0, 0)), Stop(1.0, (1, 1, 1))), 0.5, 0.75)]
+    [(0.5, 0.5, 0.5), (0.75, 0.75, 0.75)]
+    """
+    if low <= 0.0 and high >= 1.0:
+        return stops
+    kept = [replace(stop, offset=(stop.offset - low) / (high - low)) for stop in stops if low < stop.offset < high]
+    return replace(stop_at(stops, low), offset=0.0), *kept, replace(stop_at(stops, high), offset=1.0)
+
+
+def stop_at(stops: tuple[Stop, ...], place: float) -> Stop:
+    """The colour of a ramp at a place between its first and last stop."""
+    for one, two in pairwise(stops):
+        if one.offset <= place <= two.offset and one.offset < two.offset:
+            part = (place - one.offset) / (two.offset - one.offset)
+            red, green, blue = (a + (b - a) * part for a, b in zip(one.color, two.color, strict=True))
+            return Stop(place, (red, green, blue), one.opacity + (two.opacity - one.opacity) * part)
+    return stops[-1]
+
+
+def between(begins: Circle, ends: Circle, stops: tuple[Stop, ...], spread: Spread) -> Paint:
+    """Radial gradient from one circle to another, whose radius is above 0."""
+    x, y, radius = ends
+    dx, dy = begins[0] - x, begins[1] - y
+    away = hypot(dx, dy)
+    c, s = (dx / away / radius, dy / away / radius) if away else (1.0 / radius, 0.0)
+    rows: Affine = ((c, s, -c * x - s * y), (-s, c, s * x - c * y))
+    return Paint.from_gradient(Gradient(rows, stops, spread, (away / radius, max(begins[2], 0.0) / radius)))
+
+
+def mean(stops: tuple[Stop, ...]) -> Paint:
+    """Flat paint of the mean colour of stops."""
+    return replace(Paint.from_gradient(Gradient(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), stops)), gradient=None)
+
+
+def swept(line: Any, foreground: Color, notes: Notes) -> Paint | None:
+    """The mean colour of a gradient around a point, of which vexture has none."""
+    found = line_of(line, foreground)
+    if found is None:
+        return None
+    notes.simplification("sweep gradient shown as its mean colour")
+    return mean(found[2])

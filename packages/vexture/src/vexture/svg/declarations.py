@@ -9,7 +9,6 @@ import tinycss2
 from vexture.base.errors import SourceError
 from vexture.drawing.colors import parse_color
 from vexture.svg.font_values import FONT_LONGHANDS, font_longhands
-from vexture.svg.mask_values import mask_longhands
 from vexture.svg.properties import KEYWORDS, PROPERTIES
 from vexture.svg.values import words
 from vexture.svg.variables import refers
@@ -44,6 +43,15 @@ SHORTHANDS: Final[dict[str, tuple[str, ...]]] = {
     "offset": ("offset-path",),
 }
 """Properties that others set, as far as they are known here."""
+
+MASK_MODES: Final = ("alpha", "luminance", "match-source")
+
+MASK_LAYER: Final = re.compile(r"(.*?)(url\(\s*(?:\"[^\"]*\"|'[^']*'|[^\"')]*)\s*\))(.*)", re.IGNORECASE | re.DOTALL)
+MASK_WORDS: Final = re.compile(
+    r"(?:no-repeat|repeat(?:-[xy])?|space|round|center|left|right|top|bottom|auto|cover|contain|no-clip|[-+.\d]+[a-z%]*"
+    r"|(?:content|padding|border|fill|stroke|view)-box|add|subtract|intersect|exclude|alpha|luminance|match-source)"
+)
+"""Words beside the reference of a mask."""
 
 
 class Declaration(NamedTuple):
@@ -127,3 +135,21 @@ def expand_declaration(name: str, value: str) -> Iterator[tuple[str, str]]:
     elif name in SHORTHANDS and value and (name != "all" or value.lower() in KEYWORDS):
         for longhand in SHORTHANDS[name]:
             yield longhand, value
+
+
+def mask_longhands(value: str) -> Iterator[tuple[str, str]]:
+    """Yield what the shorthand `mask` says: the reference and its mode; a value that is no reference stays whole.
+
+    Of a mask that is an element, only the mode has an effect (CSS Masking 1, 7), not its place, size and repetition.
+
+    Examples
+    --------
+    >>> dict(mask_longhands("url(#m) no-repeat alpha")), dict(mask_longhands("url(#m) bright"))
+    ({'mask': 'url(#m)', 'mask-mode': 'alpha'}, {'mask': 'url(#m) bright', 'mask-mode': 'match-source'})
+    """
+    match = MASK_LAYER.fullmatch(value)
+    words = f"{match[1]} {match[3]}".lower().replace("/", " ").split() if match else []
+    mode = next((word for word in words if word in MASK_MODES), MASK_MODES[-1])
+    known = match is not None and all(map(MASK_WORDS.fullmatch, words))
+    yield "mask", match[2] if match and known else value
+    yield "mask-mode", mode if known else MASK_MODES[-1]

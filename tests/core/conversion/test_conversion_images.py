@@ -6,7 +6,7 @@ from PIL import Image
 from test_cli import run
 
 import vexture
-from vexture.conversion.close_up import close_up
+from vexture.conversion.images import close_up
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.group import Group, Mask
 

@@ -2,77 +2,24 @@
 
 import io
 import struct
-import subprocess
-import sys
 import zlib
-from pathlib import Path
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from PIL import Image, ImageFilter
+from PIL import Image
+from traced_drawings import COLOURS, LOGO, SHAPES, area, coloured, distances, file_of, gray, hexes, on_white
 
 import vexture
 from vexture.base.errors import LimitError, SourceError, SourceWarning, VextureError
 from vexture.cli.main import main
-from vexture.renderers.exact import render_exact
 from vexture.server.publish_file import VIEWER_PARAMETERS, shape_of
 from vexture.svg.read import svg_drawing
 from vexture.texture.load import texture_from
-from vexture.tracing.document import MOST_CURVES
-from vexture.tracing.images import MOST_PIXELS
-from vexture.tracing.outline import MOST_PIECES, _trace_mask
-
-SHAPES = Path(__file__).parents[3] / "examples" / "shapes"
-
-LOGO = b"""<svg viewBox="0 0 120 80"><rect x="10" y="10" width="100" height="60" rx="10" fill="#0a4d8c"/>
-<circle cx="40" cy="40" r="22" fill="#f2b632"/><path fill="#c8321e" d="M60 20h20v40H60z"/>
-<path fill="#2e8b57" d="M80 20h20v40H80z"/><circle cx="90" cy="40" r="6" fill="#0a4d8c"/></svg>"""
-COLOURS = ["#0a4d8c", "#f2b632", "#c8321e", "#2e8b57"]
+from vexture.tracing.trace import MOST_PIXELS
 
 RING = b"""<svg viewBox="0 0 10 10"><path fill-rule="evenodd" d="M1 5a4 4 0 0 0 8 0a4 4 0 0 0 -8 0zM3 5a2 2 0 0 0 4 0
 a2 2 0 0 0 -4 0z"/></svg>"""
-
-
-def gray(drawing, size):
-    """A black drawing on white, 8 bits."""
-    return np.rint(255.0 * (1.0 - render_exact(drawing, (size, size)))).astype(np.uint8)
-
-
-def coloured(drawing, width, height):
-    """A drawing in its colours, not premultiplied, 8 bits; it is wider than high."""
-    to_unit = [[1 / width, 0.0, 0.0], [0.0, -1 / width, 0.5 + 0.5 * height / width]]
-    image = vexture.render(drawing, (width, height), to_unit, "exact")
-    image[..., :3] /= np.maximum(image[..., 3:], 1e-6)
-    return np.rint(255.0 * np.clip(image, 0.0, 1.0)).astype(np.uint8)
-
-
-def on_white(pixels):
-    return np.asarray(
-        Image.alpha_composite(Image.new("RGBA", pixels.shape[1::-1], "white"), Image.fromarray(pixels)).convert("RGB")
-    )
-
-
-def distances(drawing, traced, size):
-    """Mean distance of the outlines, and by how much the traced one is outside, in pixels of a picture of that size."""
-    true, found = (render_exact(each, (1024, 1024)).astype(float) for each in (drawing, traced))
-    length = np.hypot(*np.gradient(true)).sum() / 1024
-    area = (found - true) / 1024**2
-    return np.abs(area).sum() / length * size, area.sum() / length * size
-
-
-def file_of(pixels, kind="PNG", **options):
-    file = io.BytesIO()
-    Image.fromarray(pixels).save(file, kind, **options)
-    return file.getvalue()
-
-
-def area(drawing):
-    return float(render_exact(drawing, (256, 256)).mean())
-
-
-def hexes(drawing):
-    return [layer.paths[0].paint.hex for layer in drawing.layers()]
 
 
 @pytest.mark.parametrize("name", ["duck", "cake", "font", "thumb", "holes"])
@@ -95,38 +42,12 @@ def test_large_pictures_are_traced_finer_than_their_reduction(tmp_path):
     np.testing.assert_allclose(traced.to_source, [[2100, 0, 0], [0, -2100, 2100]])
 
 
-@pytest.mark.parametrize("radius", [1, 2])
-def test_outline_of_a_blurred_scan_stays_at_the_middle_of_its_edges(radius):
-    drawing = vexture.read_svg(SHAPES / "duck.svg")
-    blurred = Image.fromarray(gray(drawing, 300)).filter(ImageFilter.GaussianBlur(radius))
-    mean, outward = distances(drawing, vexture.trace(np.asarray(blurred)), 300)
-    assert mean < 0.4
-    assert abs(outward) < 0.2
-
-
-def test_no_point_of_an_outline_is_far_off():
-    circle = svg_drawing(b'<svg viewBox="0 0 240 240"><circle cx="80" cy="80" r="50"/></svg>', "circle.svg")
-    contour = vexture.trace(gray(circle, 240)).paths[0].contours[0]
-    t = np.linspace(0.0, 1.0, 9)[:, None, None]
-    curves = [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3]
-    points = 240 * sum(weight * contour[:, place] for place, weight in enumerate(curves))
-    assert np.abs(np.hypot(points[..., 0] - 80, points[..., 1] - 160) - 50).max() < 0.7
-
-
 def test_scan_in_black_on_white_is_its_black_shape_with_its_holes():
     ring = svg_drawing(RING, "ring.svg")
     noisy = gray(ring, 300).astype(float) * 0.85 + 20 + np.random.default_rng(1).normal(0, 4, (300, 300))
     traced = vexture.trace(np.clip(noisy, 0, 255).astype(np.uint8))
     assert len(traced.layers()) == 1
     assert area(traced) == pytest.approx(area(ring), rel=0.01)
-
-
-def test_scan_that_reaches_its_border_is_still_its_dark_part():
-    image = np.full((100, 100), 255, np.uint8)
-    image[:, :60] = 0
-    traced = vexture.trace(image)
-    assert hexes(traced) == ["#000000"]
-    np.testing.assert_allclose(traced.paths[0].box, [[0, 0], [0.6, 1]], atol=0.01)
 
 
 @pytest.mark.parametrize("width", [120, 480])
@@ -140,40 +61,6 @@ def test_logo_is_its_layers_without_its_background(width, background):
     back = on_white(coloured(traced, width, 2 * width // 3)).astype(float)
     assert np.abs(back - on_white(pixels)).mean() < 1.0  # of 255: no seams, no slivers
     np.testing.assert_allclose(traced.to_source, [[width, 0, 0], [0, -width, 5 * width / 6]])
-
-
-def test_edges_show_no_third_colour_that_lies_between():
-    image = np.full((200, 300, 3), 255.0)
-    disc = svg_drawing(b'<svg viewBox="0 0 2 2"><circle cx="1" cy="1" r=".8"/></svg>', "disc.svg")
-    image[:, :200] -= 255.0 * render_exact(disc, (200, 200))[..., None]
-    image[50:150, 220:280] = 128.0
-    black, grey = vexture.trace(np.rint(image).astype(np.uint8)).layers()
-    assert (black.paths[0].paint.hex, grey.paths[0].paint.hex) == ("#000000", "#808080")
-    assert [len(path.contours) for path in grey.paths] == [1]
-    assert grey.paths[0].box[0, 0] > 0.7
-
-
-def test_jpeg_has_the_colours_of_its_areas():
-    logo = svg_drawing(LOGO, "logo.svg")
-    data = file_of(on_white(coloured(logo, 480, 320)), "JPEG", quality=75)
-    traced = vexture.read_image(data, "logo.jpg")
-    assert traced.name == "logo"
-    assert len(traced.layers()) == len(COLOURS)
-    assert distances(logo, traced, 480)[0] < 0.3
-
-
-def test_thin_lines_are_kept():
-    image = np.full((100, 100), 255, np.uint8)
-    image[50] = 40
-    image[20:40, 70] = 40
-    traced = vexture.trace(image)
-    assert area(traced) == pytest.approx(0.012, rel=0.15)
-
-
-def test_translucent_colours_are_translucent_paints():
-    pixels = np.zeros((60, 60, 4), np.uint8)
-    pixels[10:50, 10:50] = (255, 0, 0, 128)
-    assert [path.paint.hex for path in vexture.trace(pixels).paths] == ["#ff000080"]
 
 
 def test_photograph_is_traced_coarsely_and_said_so():
@@ -268,24 +155,13 @@ def test_bombs_are_refused_before_they_are_decoded(size):
         vexture.read_image(bomb, "bomb.png")
 
 
-@pytest.mark.parametrize(("cell", "drawn"), [(1, False), (20, True)])
-@pytest.mark.filterwarnings("ignore::vexture.SourceWarning")
-def test_noise_ends_in_a_drawing_or_in_one_line(cell, drawn):
-    cells = np.random.default_rng(cell).integers(0, 2, (600 // cell, 600 // cell))
-    noise = np.kron(cells, np.ones((cell, cell))).astype(np.uint8) * 255
-    if drawn:
-        assert 0 < vexture.trace(noise, "noise").segments <= MOST_CURVES
-    else:
-        with pytest.raises(LimitError, match=r"^noise: .*; the limit is |the limit; "):
-            vexture.trace(noise, "noise")
-
-
 @pytest.mark.parametrize("shape", [(1, 1), (1, 2000), (3, 3), (2, 2, 3), (1, 1, 4)])
 @pytest.mark.filterwarnings("ignore::vexture.SourceWarning")
 def test_the_smallest_pictures_are_drawings(shape):
     rng = np.random.default_rng(0)
     for _ in range(20):
-        vexture.trace(rng.integers(0, 256, shape, np.uint8))
+        drawing = vexture.trace(rng.integers(0, 256, shape, np.uint8))
+        np.testing.assert_allclose(drawing.to_source @ (0.5, 0.5, 1.0), (shape[1] / 2, shape[0] / 2))
 
 
 NO_PICTURES = [np.zeros((0, 5)), np.zeros(5), np.zeros((2, 2, 2)), np.full((2, 2), np.nan), np.zeros((2, 2), int)]
@@ -295,31 +171,6 @@ NO_PICTURES = [np.zeros((0, 5)), np.zeros(5), np.zeros((2, 2, 2)), np.full((2, 2
 def test_array_that_is_no_picture_is_refused(image):
     with pytest.raises(SourceError, match="must be"):
         vexture.trace(image)
-
-
-def test_picture_of_nothing_is_a_drawing_of_nothing():
-    with pytest.warns(SourceWarning, match="all background"):
-        assert vexture.trace(np.full((20, 20), 255, np.uint8)).paths == ()
-
-
-def test_mask_with_more_pieces_than_vtracer_counts_never_reaches_it():
-    mask = np.add.outer(np.arange(400), np.arange(400)) % 2 == 0
-    with pytest.raises(LimitError, match=f"80,000 pieces; the limit is {MOST_PIECES:,}"):
-        _trace_mask(mask, 1)
-
-
-def test_without_vtracer_it_is_said_what_to_install():
-    code = """
-import sys
-sys.modules["vtracer"] = None
-import numpy, vexture
-try:
-    vexture.trace(numpy.eye(80), "eye")
-except vexture.DeviceError as error:
-    print(error)
-"""
-    outcome = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert outcome.stdout == "eye: tracing a picture needs the package vtracer: pip install 'vexture[trace]'\n"
 
 
 @pytest.fixture
