@@ -14,9 +14,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from vexture.renderers.conditionals import chosen
 from vexture.renderers.device import context, draw, upload
-from vexture.renderers.shader import VERSIONS, vertex_source
+from vexture.renderers.shader import VERSIONS, chosen, vertex_source
 from wgsl_generator import to_wgsl, with_parameters
 from wgsl_generator.facts import Facts, facts_of
 from wgsl_generator.kinds import TEXTURES, array_of, size_of, wgsl_type

@@ -14,11 +14,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from browser import WEB
 from contourpy import FillType, contour_generator
 from numpy.typing import NDArray
 from PIL import Image
 
+from chromium import WEB
 from vexture import convert
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Paint

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 import tile_pyramid
-from browser import WEB, bundle
 from numpy.typing import NDArray
+
+from chromium import WEB, bundle
 
 PAGE = Path(__file__).parent / "pages" / "maplibre.js"
 SIZE = (256, 256)

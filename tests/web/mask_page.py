@@ -8,10 +8,10 @@ from typing import Any, Final
 
 import numpy as np
 import pytest
-from browser import ROOT, bundle
 from numpy.typing import ArrayLike, NDArray
 
 import vexture
+from chromium import ROOT, bundle
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Paint
 from vexture.texture.encode import encode

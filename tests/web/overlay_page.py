@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from browser import ROOT
 from numpy.typing import NDArray
 from PIL import Image
 from viewer_page import manifest, thesis_view, view_matrix, write_page
 
 import vexture
 from cells import Cells, finest_level
+from chromium import ROOT
 from vexture.base.notes import Note, Subject
 from vexture.texture.texture import Texture
 

@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import ROOT, WEB, serve_folder
 from PIL import Image
 
+from chromium import ROOT, WEB, serve_folder
 from vexture.base.errors import VextureError
 
 EXAMPLE = ROOT / "examples" / "counties"

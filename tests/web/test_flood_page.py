@@ -8,11 +8,12 @@ from typing import Any
 import flood_page
 import numpy as np
 import pytest
-from browser import serve_folder
 from flood_seen import DEEP, PATIENCE, SMALL, WIDE, flat, on_screen, view
 from PIL import Image
 from playwright.sync_api import Page, expect
 from waiting import drawn
+
+from chromium import serve_folder
 
 PRESETS = ("Plan", "Overview", "Coast", "Shore", "Beach")
 WATER_SEEN = """() => {

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import serve_folder
 from mask_page import NEWEST, decode, drawing
 
 import vexture
+from chromium import serve_folder
 from fold_reference import Numbers, errors
 from vexture.fold.fold import Fold, Kind
 from vexture.fold.shore import shore_fold

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import ROOT, WEB
 from numpy.typing import NDArray
 from PIL import Image
 
 import vexture
+from chromium import ROOT, WEB
 from vexture.base.errors import VextureError
 
 sys.path.append(str(ROOT / "tools"))

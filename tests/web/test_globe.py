@@ -10,8 +10,9 @@ import map_truth
 import numpy as np
 import pytest
 import tile_pyramid
-from browser import bundle
 from numpy.typing import NDArray
+
+from chromium import bundle
 
 PAGE = Path(__file__).parent / "pages" / "globe.js"
 SIZE = 256

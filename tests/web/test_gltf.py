@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import bundle, serve_folder
 from click.testing import CliRunner
 from mask_page import NEWEST, THREES, decode, distance
 
 import vexture
+from chromium import bundle, serve_folder
 from room_model import glb_content, make_room
 from vexture.cli.main import main
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import bundle, serve_folder
 from PIL import Image
 
 import vexture
+from chromium import bundle, serve_folder
 from guides import Reader, blocks_of
 from vexture.fonts.library import default_files
 

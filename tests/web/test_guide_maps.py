@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import ROOT, WEB
 from PIL import Image
 
+from chromium import ROOT, WEB
 from guides import Block, Reader, blocks_of, free_port
 from vexture.base.errors import VextureError
 

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import ROOT
 from PIL import Image
 
+from chromium import ROOT
 from guides import Reader, blocks_of, free_port
 from viewing import PATIENCE
 

@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from browser import WEB, bundle
 from live_server import LiveServer, running
 
+from chromium import WEB, bundle
 from viewing import until
 
 DUCK = (WEB / "test" / "fixtures" / "duck.ktx2").read_bytes()

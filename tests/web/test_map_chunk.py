@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from browser import bundle, serve_folder
 
 import vexture
+from chromium import bundle, serve_folder
 from vexture.drawing.drawing import Drawing
 
 PAGE = Path(__file__).parent / "pages" / "map_chunk.js"

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import serve_folder
 from mask_page import (
     NEWEST,
     SHADES,
@@ -24,6 +23,7 @@ from mask_page import (
 from numpy.typing import ArrayLike
 
 import vexture
+from chromium import serve_folder
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.exact import render_exact_colours
 from vexture.renderers.picture import composite_pictures

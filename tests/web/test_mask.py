@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import serve_folder
 from mask_page import (
     ATLAS,
     INKS,
@@ -23,6 +22,7 @@ from mask_page import (
 )
 
 import vexture
+from chromium import serve_folder
 
 HALF_STEP = 0.6  # of 255: an 8-bit framebuffer rounds
 FIT = np.array([[1 / 512, 0, 0], [0, -1 / 512, 1]])  # the square in a picture of 512 pixels

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import ROOT, bundle, serve_folder
 from numpy.typing import NDArray
 
 import vexture
+from chromium import ROOT, bundle, serve_folder
 from fold_reference import errors
 from vexture.fold.fold import Fold
 from vexture.renderers.colour import render_cpu_colours

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from browser import ROOT, WEB
+
+from chromium import ROOT, WEB
 
 MODULES = WEB / "node_modules"
 

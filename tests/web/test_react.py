@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import WEB, bundle, serve_folder
 from mask_page import Picture, decode, distance, exact
 
 import vexture
+from chromium import WEB, bundle, serve_folder
 from vexture.fold.fold import Fold, Kind
 
 SIZE = 256

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import ROOT, bundle, serve_folder
 from PIL import Image
 
 import vexture
+from chromium import ROOT, bundle, serve_folder
 from viewing import until
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -14,9 +14,9 @@ from typing import Any
 
 import httpx
 import pytest
-from browser import ROOT, WEB, serve_folder
 
 import vexture
+from chromium import ROOT, WEB, serve_folder
 from guides import free_port
 from viewing import PATIENCE, until
 

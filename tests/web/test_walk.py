@@ -4,10 +4,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from browser import ROOT
 from walk_node import found_at, points
 
 import vexture
+from chromium import ROOT
 from packed_walk import leaf_at, leaves
 from vexture.texture.decode import decode
 

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import ROOT
 from walk_node import by_node, found_at, points
 
 import vexture
+from chromium import ROOT
 from degenerate import drawing
 from planar import colour_paths, widen_paints
 from vexture.base.errors import FormatError

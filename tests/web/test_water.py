@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import bundle, serve_folder
 from mask_page import NEWEST, THREES, decode, distance
 
 import vexture
+from chromium import bundle, serve_folder
 from fold_reference import errors
 from vexture.drawing.drawing import Drawing
 from vexture.fold.fold import Fold

@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from browser import ROOT
 from numpy.typing import NDArray
 from PIL import Image
 from viewer_page import data_url, manifest, thesis_view, write_page
 
 import vexture
+from chromium import ROOT
 from vexture.renderers.exact import render_exact, render_exact_colours
 from vexture.renderers.picture import composite_pictures, paint_layer
 from vexture.server.publish_file import VIEWER_PARAMETERS, shape_of

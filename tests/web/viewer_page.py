@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from browser import WEB
 from numpy.typing import NDArray
+
+from chromium import WEB
 
 FIT = 0.9  # of the canvas's shorter side is the unit square at zoom 1 (web/viewer/view.js)
 

@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from typing import Final
 
-from vexture.renderers.shader_error import ShaderError
+from vexture.renderers.shader import ShaderError
 from wgsl_generator.facts import Assumed, Facts, Form, walk
 from wgsl_generator.kinds import (
     COMPARISONS,

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, fields, is_dataclass
 from typing import Any, Final, TypeAlias
 
-from vexture.renderers.shader_error import ShaderError
+from vexture.renderers.shader import ShaderError
 from wgsl_generator.kinds import TEXTURES
 from wgsl_generator.syntax import (
     FRAGMENT,

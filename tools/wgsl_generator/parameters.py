@@ -1,6 +1,6 @@
 """GLSL whose uniforms are parameters: for engines that name textures themselves, or have several in a program."""
 
-from vexture.renderers.shader_error import ShaderError
+from vexture.renderers.shader import ShaderError
 from wgsl_generator.facts import Facts, Form, facts_of
 from wgsl_generator.kinds import TEXTURES
 from wgsl_generator.parser import parse

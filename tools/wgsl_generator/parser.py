@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable
 from typing import Any, Final
 
-from vexture.renderers.shader_error import ShaderError
+from vexture.renderers.shader import ShaderError
 from wgsl_generator.syntax import (
     Array,
     Assign,

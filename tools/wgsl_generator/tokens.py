@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from typing import Final
 
-from vexture.renderers.shader_error import ShaderError
+from vexture.renderers.shader import ShaderError
 
 TOKEN: Final = re.compile(
     r"(?P<comment>//[^\n]*)|(?P<directive>^[ \t]*#[^\n]*)|(?P<space>[ \t\r]+)|(?P<line>\n)"

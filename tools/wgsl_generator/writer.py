@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from textwrap import wrap
 from typing import Any, Final
 
-from vexture.renderers.shader_error import ShaderError
+from vexture.renderers.shader import ShaderError
 from wgsl_generator.expressions import FRAGMENT_NAME, Expressions, Typed, shift_count, spread
 from wgsl_generator.facts import Facts, assumed_in, changed_in, facts_of
 from wgsl_generator.kinds import SAMPLED, SAMPLER, array_of, component_of, size_of, wgsl_name, wgsl_type
@@ -49,7 +49,7 @@ NO_BREAK: Final = "\0"  # instead of a space
 
 
 def written(tree: tuple[Top | Conditional, ...]) -> str:
-    """Return a syntax tree as WGSL; its conditionals stay, to be resolved by `vexture.renderers.conditionals`.
+    """Return a syntax tree as WGSL; its conditionals stay, to be resolved by `vexture.renderers.shader.chosen`.
 
     Raises
     ------

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import astuple, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,11 +14,6 @@ from vexture import Drawing, LimitError, ParameterError
 from vexture.base.deadline import within
 from vexture.cli.main import main
 from vexture.conversion.images import _conversion
-from vexture.tree.bounds import Bounds
-from vexture.tree.build import SLICE, grow, grow_on
-from vexture.tree.cubics import gather
-from vexture.tree.growth import QUADS, WAITING, Growth, tree_of, with_needed_room
-from vexture.tree.tree import MOST_QUADS
 
 SQUARE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path d="M1 1h7v7h-7z"/></svg>'
 TOO_LONG = "takes longer than 1e-09 s; simplify the drawing or raise "
@@ -34,31 +29,6 @@ def file(tmp_path: Path) -> Path:
     path = tmp_path / "square.svg"
     path.write_text(SQUARE)
     return path
-
-
-def test_a_tree_that_grows_in_small_steps_is_the_same() -> None:
-    drawing = scribble(60)
-    outlines, bounds = gather(drawing), Bounds(4, 0.0, 1e-5, 1, 16, MOST_QUADS)
-    tree, calls = Growth(*grow(*outlines, bounds, 1, 0)[0]), 1
-    while tree.counts[WAITING]:
-        tree = with_needed_room(tree)
-        grow_on(tree, outlines[2], bounds, 1, 0)
-        calls += 1
-    assert calls >= tree.counts[QUADS] > 100  # one cell in each: Python can look at the clock after any
-    whole = Growth(*grow(*outlines, bounds, 10**9, 0)[0])
-    while whole.counts[WAITING]:
-        whole = with_needed_room(whole)
-        grow_on(whole, outlines[2], bounds, 10**9, 0)
-    for one, other in zip(astuple(tree_of(tree)), astuple(tree_of(whole)), strict=True):
-        np.testing.assert_array_equal(one, other)
-
-
-def test_a_tree_that_takes_too_long_is_stopped_while_it_grows() -> None:
-    drawing = replace(scribble(500), name="scribble")
-    started, _ = grow(*gather(drawing), Bounds(4, 0.0, 1e-5, 1, 16, MOST_QUADS), SLICE, 0)
-    assert Growth(*started).counts[WAITING]  # or it would be done before the second look at the clock
-    with pytest.raises(LimitError, match=r"^scribble: converting takes longer than 0\.02 s; simplify .*`max_seconds`$"):
-        vexture.convert(drawing, max_seconds=0.02)
 
 
 def test_every_entry_has_the_limit(file: Path) -> None:

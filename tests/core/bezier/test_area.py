@@ -88,3 +88,19 @@ def test_both_ends_on_one_side(start: float, step: float) -> None:
     area = leaf_area(curve, False)
     assert area == pytest.approx(even_odd_area(closed_clockwise(on_cubic(curve, T))), abs=3e-3)
     assert (area < 0.5) == (step < 0.0)  # P3 first, then P0, clockwise: the bulge itself is filled
+
+
+def test_integral_of_an_upright_line() -> None:
+    upright = np.array([[1.0, 0.0], [1.0, 1.0], [1.0, 2.0], [1.0, 3.0]])
+    assert integral_x_dy(upright) == pytest.approx(3.0, abs=1e-12)
+
+
+def test_edge_indices_of_the_middles_of_the_sides() -> None:
+    middles = [edge_index(*point) for point in ((0.5, 1.0), (1.0, 0.5), (0.5, 0.0), (0.0, 0.5))]
+    assert middles == pytest.approx([0.125, 0.375, 0.625, 0.875], abs=1e-12)
+
+
+def test_area_beside_a_bend_and_a_corner() -> None:
+    bend = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
+    assert leaf_area(bend, False) == pytest.approx(0.05, abs=1e-12)
+    assert leaf_area(bend, True) == pytest.approx(0.0, abs=1e-12)

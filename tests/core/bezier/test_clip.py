@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from vexture.bezier.bounds import bounds
 from vexture.bezier.clip import clip_contour
 from vexture.bezier.convert import ellipse_cubics, line_cubics
+from vexture.drawing.drawing import Drawing
 
 LOW, HIGH = (0.0, 0.25), (1.0, 0.75)
 STEPS = 400
@@ -102,3 +103,9 @@ def test_cut_points_lie_exactly_on_the_box() -> None:
     on_side = (clipped[:, 0, 0] == 1.0) | (clipped[:, 0, 1] == 0.75)
     assert on_side.sum() >= 3
     assert not ((np.abs(clipped[:, 0, 0] - 1.0) < 1e-9) & (clipped[:, 0, 0] != 1.0)).any()
+
+
+def test_a_square_is_clipped() -> None:
+    square = Drawing.polygon([(0.5, 0.5), (1, 0.5), (1, 1), (0.5, 1)]).paths[0].contours[0]
+    clipped = clip_contour(square, (0, 0), (0.75, 1))
+    np.testing.assert_allclose(clipped[:, 0], [(0.5, 0.5), (0.75, 0.5), (0.75, 1.0), (0.5, 1.0)])

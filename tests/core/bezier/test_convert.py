@@ -1,11 +1,13 @@
 """Round things within their tolerance, lines and quadratics exactly."""
 
+from math import pi
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vexture.bezier.convert import arc_cubics, conic_cubics, ellipse_cubics, line_cubics, straight
+from vexture.bezier.convert import arc_cubics, conic_cubics, ellipse_cubics, line_cubics, straight, turn_steps
 
 T = np.linspace(0, 1, 33)[:, None]
 
@@ -97,3 +99,28 @@ def test_straight_knows_lines_from_curves() -> None:
     bent[:, 1] += 1e-9
     assert straight(lines).all()
     assert not straight(bent).any()
+
+
+def test_a_line_as_a_cubic_is_divided_in_three() -> None:
+    line = line_cubics(np.array([0.0, 0.0]), np.array([3.0, 6.0]))
+    np.testing.assert_allclose(line[1:3], [(1.0, 2.0), (2.0, 4.0)])
+
+
+def test_a_finer_tolerance_takes_more_cubics() -> None:
+    assert turn_steps(2 * pi, 1.0, 1e-3) == 4
+    assert turn_steps(2 * pi, 0.5, 1e-5) == 7
+
+
+def test_a_quarter_of_a_circle_is_one_cubic() -> None:
+    step = arc_cubics((1, 0), (1, 1), 0, False, True, (0, 1), 1e-3)[0]
+    assert step == pytest.approx((1.0, 0.5523, 0.5523, 1.0, 0.0, 1.0), abs=5e-5)
+    assert step[4:] == (0, 1)
+
+
+def test_an_ellipse_turns_where_its_cubics_end() -> None:
+    np.testing.assert_allclose(ellipse_cubics((0, 0), (1, 2), 1e-2)[1, 0], (0.0, 2.0))
+
+
+def test_a_quarter_of_a_circle_as_a_conic_is_one_cubic() -> None:
+    points = conic_cubics(1, 1 + 1j, 1j, 0.5**0.5, 1e-3)
+    assert list(points) == pytest.approx([1 + 0.5523j, 0.5523 + 1j, 1j], abs=5e-5)

@@ -12,7 +12,6 @@ import matplotlib
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from PIL import Image
 
 import vexture
 from vexture.cli.main import main
@@ -88,43 +87,6 @@ def test_two_files_of_one_name_are_not_mixed_up(square, tmp_path):
     result = run("convert", square, twin, "-o", tmp_path / "out", "--encoding", "thesis")
     assert result.exit_code == 1
     assert "is already what" in result.output
-
-
-@pytest.mark.parametrize("stem", ["square", "square.quads.png", "square.curves.png"])
-def test_render_takes_either_file_or_the_stem(square, tmp_path, stem):
-    run("convert", square, "-o", tmp_path, "--encoding", "thesis")
-    picture = tmp_path / "picture.png"
-    result = run("render", tmp_path / stem, "-o", picture, "--size", 20, "--renderer", "cpu")
-    assert (result.exit_code, result.output) == (0, "")
-    image = np.asarray(Image.open(picture))
-    assert image.shape == (20, 20, 3)
-    assert (image[8:10, 8:10] == 0).all()  # black inside
-    assert (image[0] == 255).all()  # white outside
-
-
-def test_view_and_rotation(square, tmp_path):
-    picture = tmp_path / "picture.png"
-    # the square spans x 0.2..0.8 and, y up, 0.3..0.8; this view shows its lower left corner in its middle
-    arguments = ("--size", 40, "--renderer", "exact", "--view", "0.1,0.2,0.2,0.2")
-    assert run("render", square, "-o", picture, *arguments).exit_code == 0
-    image = np.asarray(Image.open(picture))
-    assert (image[10, 30] == 0).all()
-    assert (image[[10, 30, 30], [10, 10, 30]] == 255).all()
-    run("render", square, "-o", picture, *arguments, "--rotate", 90)
-    turned = np.asarray(Image.open(picture))
-    assert (turned == np.rot90(image)).all()  # counter-clockwise, as NumPy turns
-    run("render", square, "-o", picture, "--size", 40, "--renderer", "exact", "--view", "0,0,1,0.5")
-    assert np.asarray(Image.open(picture)).shape == (20, 40, 3)
-
-
-def test_info(square, tmp_path):
-    run("convert", square, "-o", tmp_path, "--encoding", "thesis")
-    facts = json.loads(run("info", tmp_path / "square", "--json").output)
-    assert facts["encoding"] == "thesis"
-    assert facts["bits"] == 16
-    assert abs(facts["coverage"] - 0.3) < 1e-3
-    assert np.allclose(facts["transform"], [[10, 0, 0], [0, -10, 10]])
-    assert "quads" in run("info", tmp_path / "square").output
 
 
 def test_warnings_are_one_line(tmp_path):
@@ -261,14 +223,6 @@ def test_odd_names_make_one_line(tmp_path, monkeypatch, name):
     assert ("a\ufffdb\ufffd.svg: cannot be read" if name else "the name of a file is empty") in result.output
 
 
-def test_a_command_of_another_distribution_names_it(monkeypatch):
-    monkeypatch.setattr("vexture.cli.main.PLUGINS", "vexture.none")
-    result = run("report")
-    assert result.exit_code == 2
-    assert "No such command 'report'; the package vexture-evidence adds it" in result.output
-    assert "vexture-evidence" not in run("reprot").output
-
-
 def test_lists_too_long_name_the_remedy(tmp_path):
     hairline = Path(__file__).parents[3] / "examples" / "shapes" / "hairline.svg"
     result = run("convert", hairline, "-o", tmp_path, "--encoding", "thesis", "--bits", 8)
@@ -334,13 +288,6 @@ def test_numbers_out_of_range(square, tmp_path, command, arguments):
     assert result.output.count("\n") == 1
     assert f"{arguments[-2]} ".replace("rotate", "view") in result.output
     assert "matrix" not in result.output, "the command line has none"
-
-
-def test_exact_renderer_needs_the_drawing(square, tmp_path):
-    run("convert", square, "-o", tmp_path)
-    result = run("render", tmp_path / "square.ktx2", "-o", tmp_path / "x.png", "--renderer", "exact")
-    assert result.exit_code == 1
-    assert "drawing" in result.output
 
 
 def test_module_and_function_of_one_name():

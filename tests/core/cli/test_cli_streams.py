@@ -7,7 +7,6 @@ import shutil
 import subprocess
 import sys
 
-import click
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -107,23 +106,6 @@ def test_what_does_not_fit_into_a_pipe_is_refused(logo, arguments, says):
     assert says in result.stderr
 
 
-def test_json_has_the_facts_of_each_source(logo, tmp_path):
-    bad = tmp_path / "bad.svg"
-    bad.write_text("no svg")
-    result = run("convert", logo, bad, "-o", tmp_path / "out", "--split", "paint", "--json")
-    assert result.exit_code == 1
-    good, failed = json.loads(result.stdout)
-    file = tmp_path / "out" / "logo.ktx2"
-    texture = vexture.load(file)
-    assert (good["source"], good["name"], good["files"]) == (str(logo), "logo", [str(file)])
-    assert good["bytes"] == file.stat().st_size
-    assert good["layers"] == len(good["shapes"]) == 2
-    assert good["quads"] == sum(root["quads"] for root in texture.info()["roots"])
-    assert good["warning"] == f"{logo}: left out: <foreignObject>"
-    assert failed.keys() == {"source", "error"}
-    assert "holds nothing that can be read" in failed["error"]
-
-
 SHARED = '<g opacity="0.5"><path d="M1 1h5v5z"/><path d="M1 1h5v5z"/></g>'
 LOST = "simplified: opacity of a group, which each of its shapes has by itself"
 
@@ -165,21 +147,6 @@ def test_processes_make_the_same_files(logo, tmp_path):
     files = {file.name: file.read_bytes() for file in (tmp_path / "one").iterdir()}
     assert len(files) == 3
     assert files == {file.name: file.read_bytes() for file in (tmp_path / "two").iterdir()}
-
-
-def test_quiet_says_errors_only_and_verbose_each_shape(logo, tmp_path):
-    result = run("convert", logo, "-o", tmp_path, "-q")
-    assert (result.exit_code, result.output) == (0, "")
-    assert run("convert", tmp_path / "gone.svg", "-o", tmp_path, "-q").stderr.count("\n") == 1
-    plain = run("convert", logo, "-o", tmp_path, "--split", "paint")
-    told = run("convert", logo, "-o", tmp_path, "--split", "paint", "-v")
-    assert "left out: <foreignObject>" in plain.stderr
-    assert len(plain.stdout.splitlines()) == 1
-    assert told.stdout.splitlines()[1:] == [
-        "  shape 0: 1 quad, 4 curves",
-        "  shape 1: 1 quad, 2 curves",
-        f"  {tmp_path / 'logo.ktx2'}",
-    ]
 
 
 @pytest.mark.parametrize(
@@ -227,76 +194,10 @@ def test_background(logo, tmp_path):
     assert "neither a CSS colour" in result.stderr
 
 
-def test_info_says_that_a_file_is_no_texture(logo):
-    result = run("info", logo)
-    assert (result.exit_code, result.stderr.count("\n")) == (1, 1)
-    assert f"{logo}: it is not a texture; give a texture, which vexture convert makes from a drawing" in result.stderr
-
-
-@pytest.mark.parametrize("command", main.list_commands(click.Context(main)))
-def test_every_command_has_help_with_an_example(command):
-    result = run(command, "--help")
-    assert result.exit_code == 0
-    assert f"vexture {command} " in result.stdout.partition("Example")[2]
-
-
-def test_options_for_research_have_a_section_of_their_own():
-    usual, research = run("convert", "--help").stdout.split("Options for research")
-    for option in ("--encoding", "--bits", "--strategy"):
-        assert option in research
-        assert option not in usual
-
-
-STARTED = [sys.executable, "-c", "from vexture.cli.start import main; main()"]
-"""The program from its start on, which is where it looks for streams that are closed."""
-
-
 def shell(line, *arguments, program=None):
     """Run a line of a shell, in which "$@" is the program with arguments."""
     words = ["bash", "-c", line, "bash", *(program or command()), *map(str, arguments)]
     return subprocess.run(words, capture_output=True, timeout=300)
-
-
-@pytest.mark.parametrize("place", ["/dev/stdin", "<(cat logo.svg)", pytest.param("pipe.svg", marks=pytest.mark.slow)])
-def test_a_pipe_of_a_name_is_read(logo, tmp_path, place):
-    """Its start was taken to see what it holds, and the rest was no drawing."""
-    line = f'cd {tmp_path}; "$@" {place} -o - -q < logo.svg'
-    if place == "pipe.svg":
-        os.mkfifo(tmp_path / place)
-        line = f'cat {logo} > {tmp_path / place} & "$@" {tmp_path / place} -o - -q'
-    result = shell(line, "convert")
-    assert (result.returncode, result.stderr) == (0, b"")
-    np.testing.assert_array_equal(
-        texture_from(result.stdout, "piped").texels, vexture.convert(read_drawing(logo)).texels
-    )
-
-
-def test_commands_read_pipes_of_names(logo, tmp_path):
-    texture = vexture.convert(read_drawing(logo)).save(tmp_path / "logo.ktx2")
-    assert b"texels" in shell(f'"$@" <(cat {texture})', "info").stdout
-    for name, content in (("render", logo), ("render", texture), ("fold", logo), ("export", logo)):
-        output = tmp_path / {"render": "logo.png", "fold": "logo.fold.ktx2", "export": "logo.html"}[name]
-        result = shell(f'"$@" <(cat {content}) -o {output}', name)
-        assert (result.returncode, output.exists()) == (0, True), result.stderr
-        output.unlink()
-
-
-def test_what_is_read_several_times_is_no_pipe(tmp_path):
-    for arguments in (("tiles", "-o", tmp_path / "a.pmtiles"), ("flood", "-o", tmp_path / "a.html", "--extent")):
-        result = shell('"$@" <(echo "{}")', *arguments)
-        assert result.returncode == 1
-        assert b"is read several times, and a pipe only once; save it as a file\n" in result.stderr
-
-
-@pytest.mark.parametrize("name", ["convert", pytest.param("render", marks=pytest.mark.slow)])
-def test_standard_output_that_is_closed_is_one_line(logo, name):
-    result = shell('"$@" >&-', name, logo, "-o", "-", program=STARTED)
-    assert (result.returncode, result.stderr) == (1, b"vexture: standard output is closed; name a file with -o\n")
-
-
-def test_standard_input_that_is_closed_is_one_line():
-    result = shell('"$@" <&-', "convert", "-", "-o", "-", program=STARTED)
-    assert (result.returncode, result.stderr) == (1, b"vexture: standard input: it is closed; give a file\n")
 
 
 RARER = ["verbose", "usage", "atlas"]

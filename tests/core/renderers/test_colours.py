@@ -107,15 +107,6 @@ def test_the_shader_draws_what_its_mirror_draws(name: str, is_linear: bool) -> N
         assert np.abs(on_cpu - on_gpu).max() < (NEAR_IN_DEEP_ZOOM if "deep" in view else NEAR), view
 
 
-@pytest.mark.parametrize("name", DRAWINGS | SHADED)
-def test_a_flat_view_is_any_view(name: str) -> None:
-    _drawing, texture = made(name)
-    for side in (20, 64):
-        view = (side, side), fit((side, side))
-        flat, any_view = (render_cpu_colours(texture, *entry(view)) for entry in ENTRIES.values())
-        assert np.abs(flat - any_view).max() < NEAR
-
-
 @pytest.mark.parametrize("name", shades.DRAWINGS)
 def test_gradients_are_those_of_many_points(name: str) -> None:
     """Errors over 4 and 20 pixels, where a gradient is far from flat in a pixel; in 1/255."""
@@ -198,27 +189,5 @@ def test_the_shader_compiles_in_both_dialects(version: str) -> None:
     with context() as gl:
         for is_flat, is_linear, has_gradients in ((False, False, True), (True, True, False), (True, False, True)):
             fragment = color_source(version, is_flat, is_linear, has_gradients)
+            assert f"#define VEXTURE_FLAT {int(is_flat)}\n" in fragment
             gl.program(vertex_shader=vertex_source(version), fragment_shader=fragment).release()
-
-
-def test_a_view_in_a_face_is_its_paint_to_the_last_step() -> None:
-    need_gpu()
-    drawing, texture = made("flag")
-    inside = window(0.55, 0.52, 0.01, 0.01).matrix((9, 9))
-    point = np.array([[0.555, 0.525]])
-    truth = planar.colours_at(drawing, point)[0][0]
-    for render in (render_cpu_colours, render_gpu_colours):
-        for entry in ENTRIES.values():
-            np.testing.assert_allclose(render(texture, *entry(((9, 9), inside))) - truth, 0.0, atol=1.5 / 65535)
-
-
-@pytest.mark.parametrize("entry", ENTRIES)
-@pytest.mark.parametrize("render", [render_cpu_colours, render_gpu_colours])
-def test_a_leaf_of_which_only_the_mean_is_known_has_it(render: Any, entry: str) -> None:
-    if render is render_gpu_colours:
-        need_gpu()
-    crowd = painted((degenerate.star(61, 30), (1.0, 0.5, 0.25), 0.8))
-    assert build_map(crowd, max_depth=2).unresolved > 0
-    view = ENTRIES[entry](((4, 4), fit((4, 4))))
-    coarse, fine = (render(map_of(crowd, max_depth=depth), *view) for depth in (2, 14))
-    np.testing.assert_allclose(coarse, fine, atol=1 / 255)  # the mean has eight bits

@@ -337,3 +337,12 @@ def test_bad_flatness(flatness):
 def test_too_many_chords():
     with pytest.raises(LimitError, match=f"limit is {CHORD_LIMIT}"):
         render_exact(drawing(scribble(np.random.default_rng(1), 40)), (1000, 1000), flatness=SCANLINE)
+
+
+TRIANGLE = Drawing.polygon([(0, 0), (1, 0), (0, 1)])
+
+
+def test_exact_coverage_of_a_triangle() -> None:
+    image = render_exact(TRIANGLE, (2, 2))
+    np.testing.assert_allclose(image, [(0.5, 0.0), (1.0, 0.5)])
+    assert image.dtype == np.float32

@@ -6,7 +6,6 @@ from io import BytesIO
 import numpy as np
 import pytest
 import resvg
-import skia
 from exact_references import colours_of_row, convex_coverage
 from exact_shapes import circle, circles, degenerate_drawings, scribble
 from hypothesis import given, settings
@@ -20,7 +19,6 @@ from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.drawing.group import Blend, Group, Mask
 from vexture.drawing.paint import Paint
 from vexture.renderers.exact import render_exact, render_exact_colours
-from vexture.renderers.faces import KEPT
 from vexture.renderers.view import fit, window
 
 LEVEL = 1 / 255
@@ -113,69 +111,7 @@ def test_groups_nest_end_and_begin():
     assert colour_of(*paths[:2], full(BLUE, 0), full(WHITE), groups=groups) == [1.0, 1.0, 1.0, 1.0]
 
 
-@pytest.mark.parametrize(
-    ("blend", "below", "over", "expected"),
-    [
-        (Blend.NORMAL, 0.25, 0.75, 0.75),
-        (Blend.MULTIPLY, 0.5, 0.75, 0.375),
-        (Blend.SCREEN, 0.5, 0.75, 0.875),
-        (Blend.OVERLAY, 0.25, 0.75, 0.375),
-        (Blend.OVERLAY, 0.75, 0.25, 0.625),
-        (Blend.DARKEN, 0.25, 0.75, 0.25),
-        (Blend.LIGHTEN, 0.25, 0.75, 0.75),
-        (Blend.COLOR_DODGE, 0.25, 0.5, 0.5),
-        (Blend.COLOR_DODGE, 0.75, 0.5, 1.0),
-        (Blend.COLOR_DODGE, 0.0, 1.0, 0.0),
-        (Blend.COLOR_DODGE, 0.25, 1.0, 1.0),
-        (Blend.COLOR_BURN, 0.75, 0.5, 0.5),
-        (Blend.COLOR_BURN, 0.25, 0.5, 0.0),
-        (Blend.COLOR_BURN, 1.0, 0.0, 1.0),
-        (Blend.COLOR_BURN, 0.5, 0.0, 0.0),
-        (Blend.HARD_LIGHT, 0.75, 0.25, 0.375),
-        (Blend.HARD_LIGHT, 0.25, 0.75, 0.625),
-        (Blend.SOFT_LIGHT, 0.5, 0.25, 0.375),
-        (Blend.SOFT_LIGHT, 0.25, 0.75, 0.375),
-        (Blend.SOFT_LIGHT, 0.0625, 1.0, 0.20703125),
-        (Blend.DIFFERENCE, 0.25, 0.75, 0.5),
-        (Blend.EXCLUSION, 0.25, 0.75, 0.625),
-        (Blend.PLUS_LIGHTER, 0.25, 0.5, 0.75),
-        (Blend.PLUS_LIGHTER, 0.75, 0.5, 1.0),
-        (Blend.HUE, 0.25, 0.75, 0.25),
-        (Blend.SATURATION, 0.25, 0.75, 0.25),
-        (Blend.COLOR, 0.25, 0.75, 0.25),
-        (Blend.LUMINOSITY, 0.25, 0.75, 0.75),
-    ],
-)
-def test_blend_modes_of_greys_by_hand(blend, below, over, expected):
-    colour = colour_of(full(Paint((below,) * 3)), full(Paint((over,) * 3), 0), groups=(Group(blend=blend),))
-    assert colour == pytest.approx([expected, expected, expected, 1.0], abs=1e-7)
-
-
 # ---- another library
-
-
-SKIA = {blend: "k" + blend.name.title().replace("_", "") for blend in Blend}
-SKIA |= {Blend.NORMAL: "kSrcOver", Blend.PLUS_LIGHTER: "kPlus"}
-
-
-@pytest.mark.parametrize("blend", Blend)
-def test_blend_modes_are_those_of_skia(blend):
-    """Of random colours of 8 bits, 0 and 255 often among them; Skia computes in float32."""
-    rng = np.random.default_rng(blend)
-    pixel = np.zeros((*PIXEL, 4), np.float32)
-    info = skia.ImageInfo.Make(*PIXEL, skia.ColorType.kRGBA_F32_ColorType, skia.AlphaType.kPremul_AlphaType)
-    surface = skia.Surface.MakeRasterDirect(info, pixel, pixel.strides[0])
-    canvas = surface.getCanvas()
-    for _ in range(200):
-        below, over = np.clip(rng.integers(-80, 335, (2, 4)), 0, 255) / 255
-        canvas.clear(skia.Color4f(0.0, 0.0, 0.0, 0.0))
-        canvas.drawPaint(skia.Paint(Color4f=skia.Color4f(*below)))
-        paint = skia.Paint(Color4f=skia.Color4f(*over[:3], over[3]))
-        paint.setBlendMode(getattr(skia.BlendMode, SKIA[blend]))
-        canvas.drawPaint(paint)
-        groups = (Group(blend=blend),)
-        paths = full(Paint(tuple(below[:3]), below[3])), full(Paint(tuple(over[:3]), over[3]), 0)
-        assert colour_of(*paths, groups=groups) == pytest.approx(pixel[0, 0].tolist(), abs=1e-5)
 
 
 def test_resvg_agrees_but_for_edges():
@@ -307,18 +243,6 @@ def test_nothing_is_painted(nothing):
     image = render_exact_colours(nothing, (5, 4))
     assert (image.shape, image.dtype) == ((4, 5, 4), np.float32)
     assert not image.any()
-
-
-def test_more_faces_than_are_kept():
-    """Bars of smoke, upright and level ones, each from its place to the far side: a face for every pair of numbers."""
-    count, thin = 280, 0.01
-    assert count**2 > KEPT
-    upright = tuple(box(k / count, 0.0, 1.0, 1.0, Paint(opacity=thin)) for k in range(count))
-    level = tuple(box(0.0, 0.0, 1.0, 1.0 - k / count, Paint(opacity=thin)) for k in range(count))
-    twice_as_high = [[1 / count, 0, 0], [0, -0.5 / count, 1]]
-    image = render_exact_colours(Drawing(upright + level), (count, 2 * count), twice_as_high)
-    columns, rows = np.arange(1, count + 1), np.arange(2, 2 * count + 2) // 2
-    assert max_difference(image[..., 3], 1.0 - (1.0 - thin) ** (columns + rows[:, None])) < 1e-6
 
 
 # ---- views

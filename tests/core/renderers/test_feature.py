@@ -91,4 +91,5 @@ def test_the_shader_compiles_in_both_dialects(version: str) -> None:
     need_gpu()
     with context() as gl:
         fragment = VERSIONS[version] + shader_text("feature.glsl") + MAIN
+        assert fragment.startswith(f"#version {version}\n")
         gl.program(vertex_shader=vertex_source(version), fragment_shader=fragment).release()

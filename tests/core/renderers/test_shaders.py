@@ -4,16 +4,15 @@ from importlib import resources
 from types import SimpleNamespace
 
 import pytest
-from hand import EMPTY, FULL, TREE, need_gpu, texture_of
+from hand import TREE, need_gpu, texture_of
 
-from vexture.base.errors import FormatError
 from vexture.fold import blend as folding
 from vexture.renderers import blend, cells, colour, cpu, feature, flat, gradient, leaf, moment, paints, piece
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, read_shader, vertex_source
 from vexture.thesis import cpu as thesis_cpu
-from vexture.thesis import cubic, layout, method
-from vexture.thesis.shader_text import PACKAGE, TextureSizes, constants, view_source
+from vexture.thesis import cubic
+from vexture.thesis.shader_text import PACKAGE, TextureSizes, view_source
 
 
 def _files(package):
@@ -151,26 +150,5 @@ def test_the_mirror_has_the_same_structures() -> None:
             assert fields == getattr(MIRROR[file], PLAIN.get(name, name))._fields
 
 
-@pytest.mark.parametrize("module", [layout, method])
-def test_the_numbers_are_pythons(module: object) -> None:
-    text = constants(module)  # type: ignore[arg-type]
-    for kind, name, value in re.findall(r"^const (int|float) (\w+) = (.*);$", text, re.MULTILINE):
-        assert {"int": int, "float": float}[kind](value) == getattr(module, name)
-    assert "const int CELL_ORDER[4]" in constants(layout)
-    assert "const float CONTROL_MIN = -1.25;" in constants(layout)
-    assert "const int SAMPLES = 4;" in constants(method)
-
-
-def test_the_bounds_of_the_loops_are_the_textures() -> None:
-    assert TextureSizes.of_texture(texture_of([FULL, EMPTY, FULL, EMPTY])).levels == 1
-    assert TextureSizes.of_texture(texture_of(TREE)).levels == 3
-    assert "const int LEVELS = 3;\nconst int FOLD_HEIGHT = 100;\n" in view_source(
-        "330", TextureSizes.of_texture(texture_of(TREE), 100)
-    )
-
-
-def test_a_quad_below_itself_is_refused() -> None:
-    texture = texture_of([[FULL] * 4, FULL, FULL, FULL])
-    texture.quads[1, 0] = 65535, 0, 0
-    with pytest.raises(FormatError, match="below itself"):
-        TextureSizes.of_texture(texture)
+def test_a_shader_file_is_included_once() -> None:
+    assert read_shader("coverage.glsl").count("VexturePlace vexture_place(") == 1

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from vexture.base.errors import ParameterError
-from vexture.renderers.view import CONDITION_LIMIT, SIZE_LIMIT, fit, size_of, view_matrix, window
+from vexture.renderers.view import CONDITION_LIMIT, SIZE_LIMIT, fit, size_of, view_base, view_matrix, window
 
 
 def unit(view, x, y):
@@ -121,4 +121,24 @@ def test_bad_windows_are_refused_when_they_are_made_in_one_line(numbers):
 
 
 def test_the_magnification_limit_leaves_room():
-    window(0.5, 0.5, 10 / CONDITION_LIMIT, 10 / CONDITION_LIMIT).matrix((1000, 1000))
+    matrix = window(0.5, 0.5, 10 / CONDITION_LIMIT, 10 / CONDITION_LIMIT).matrix((1000, 1000))
+    assert matrix[0, 0] == -matrix[1, 1] == pytest.approx(0.01 / CONDITION_LIMIT)
+
+
+def test_a_size_is_two_numbers_or_one() -> None:
+    assert size_of((640, 480)) == (640, 480)
+    assert size_of(64) == (64, 64)
+
+
+def test_the_unit_square_in_a_square_image() -> None:
+    view = fit((4, 4))
+    np.testing.assert_allclose(view, [(0.25, 0.0, 0.0), (0.0, -0.25, 1.0), (0.0, 0.0, 1.0)])
+    assert not np.signbit(view[view == 0.0]).any()
+
+
+def test_an_affine_view_gets_a_third_row() -> None:
+    np.testing.assert_allclose(view_matrix([[0.5, 0, 0], [0, -0.5, 1]], (2, 2))[2], (0.0, 0.0, 1.0))
+
+
+def test_base_of_a_view_is_at_the_centre() -> None:
+    assert view_base(np.diag([0.125, 0.125, 1.0]), (4, 4)) == (1 << 30, 1 << 30)

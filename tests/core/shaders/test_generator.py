@@ -13,10 +13,8 @@ import vexture
 from either_language import by_glsl, by_wgsl, device
 from vexture.base.errors import DeviceError, ParameterError
 from vexture.fold import layout as fold_layout
-from vexture.renderers.conditionals import chosen
 from vexture.renderers.device import context
-from vexture.renderers.shader import PARTS, WRAPS, shader_text
-from vexture.renderers.shader_error import ShaderError
+from vexture.renderers.shader import PARTS, WRAPS, ShaderError, chosen, shader_text
 from wgsl_generator import to_wgsl, with_parameters
 
 GLSL = Path(vexture.__file__).parent / "shaders"

@@ -1,4 +1,5 @@
 import os
+import re
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +8,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from vexture.base.errors import DeviceError
-from vexture.texture.files import file_name
+from vexture.texture.files import file_name, target_of, writable
 from vexture.texture.load import load_any as load
 from vexture.thesis.texture import ThesisTexture, pair_of
 
@@ -85,3 +86,20 @@ def test_an_old_pair_is_replaced(tmp_path: Path) -> None:
     empty.save(tmp_path)
     assert names(tmp_path) == PAIR
     np.testing.assert_array_equal(load(tmp_path / "full").quads, empty.quads)
+
+
+def test_file_names_of_drawings() -> None:
+    assert file_name("../../etc/passwd") == "_.._etc_passwd"
+    assert file_name("") == "drawing"
+    assert file_name("kaart van Delft") == "kaart van Delft"
+
+
+def test_a_packed_texture_goes_in_a_folder_or_to_the_path_itself() -> None:
+    assert target_of("maps/", "delft") == Path("maps/delft.ktx2")
+    assert target_of("maps/all.ktx2", "delft") == Path("maps/all.ktx2")
+
+
+def test_a_folder_in_a_file_cannot_be_made() -> None:
+    message = "/dev/null/report: cannot be written (/dev/null is no folder); choose another place"
+    with pytest.raises(DeviceError, match=f"^{re.escape(message)}$"):
+        writable(Path("/dev/null/report"))

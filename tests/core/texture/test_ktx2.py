@@ -211,3 +211,8 @@ def test_a_size_that_no_data_can_have_is_not_allocated() -> None:
         assert tracemalloc.get_traced_memory()[1] < 1_000_000
     finally:
         tracemalloc.stop()
+
+
+def test_texts_of_a_ktx2_file_are_kept() -> None:
+    data = write_ktx2(np.ones((1, 2, 4), np.uint32), {"KTXwriter": "an example"})
+    assert read_ktx2(data, "ones")[1] == {"KTXwriter": "an example"}

@@ -12,7 +12,6 @@ from vexture.base.errors import FormatError, ParameterError
 from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import atlas, run
 from vexture.drawing.drawing import Drawing, Path
-from vexture.drawing.group import Blend, Group
 from vexture.drawing.paint import Paint
 from vexture.renderers.exact import render_exact_colours
 from vexture.texture.encode import encode
@@ -197,52 +196,6 @@ def test_damaged_maps_are_refused(part: str, word: int, value: int, message: str
         damaged.check()
 
 
-GRADIENT = layout.KIND_LINEAR << layout.KIND_SHIFT | 3 << layout.STOP_BITS
-MIX = layout.KIND_MIX << layout.KIND_SHIFT
-
-
-@pytest.mark.parametrize(
-    ("part", "at", "word", "value", "message"),
-    [
-        ("head", 0, 1, 0, "a head that is not 0"),
-        ("head", 0, 1, 1, "gaps|one is empty or too long"),
-        ("head", 0, 0, 1 << 31, "end at texel"),
-        ("head", 0, 2, 1 << 31, "end at texel"),
-        ("head", 0, 2, 2, "stops elsewhere"),
-        ("programs", 0, 3, 0, "an unknown operation"),
-        ("programs", 0, 3, layout.KIND_FOLLOWS << layout.KIND_SHIFT, "half of one"),
-        ("programs", 0, 3, layout.KIND_FOCAL << layout.KIND_SHIFT, "wrong length"),
-        ("programs", 0, 3, GRADIENT, "stops elsewhere"),
-        ("programs", 0, 3, GRADIENT | (1 << layout.STOP_BITS) - 1, "stops elsewhere"),
-        ("programs", 0, 3, layout.KIND_LINEAR << layout.KIND_SHIFT | 1, "stops elsewhere"),
-        ("programs", 0, 3, GRADIENT | 3 << 27 | 5, "no such spread|stops elsewhere"),
-        ("programs", 0, 0, 0x7F800000, "not finite"),
-        ("programs", 0, 3, MIX, "a group is not ended|no such group|not 0"),
-        ("programs", 0, 3, layout.KIND_KEEP << layout.KIND_SHIFT, "a word that is not 0"),
-        ("programs", 0, 3, layout.KIND_SOLID << layout.KIND_SHIFT, "a colour above its opacity|not 0"),
-        ("stops", 0, 0, 0x3F800000, "stops that are not in order"),
-        ("stops", 0, 0, 0xBF800000, "not in 0..1"),
-        ("stops", 0, 0, 0x7FC00000, "not in 0..1"),
-        ("stops", 0, 3, 1, "a word that is not 0"),
-    ],
-)
-def test_damaged_programs_are_refused(part: str, at: int, word: int, value: int, message: str) -> None:
-    texture = faces(DRAWINGS["groups"])
-    texture.check()
-    flat = texture.flat.copy()
-    programs, operations, _, _ = flat[0].tolist()
-    flat[at + {"head": 0, "programs": programs, "stops": programs + operations}[part], word] = value
-    with pytest.raises(FormatError, match=message):
-        Texture(flat.reshape(texture.texels.shape), texture.roots).check()
-
-
-@pytest.mark.parametrize("name", DRAWINGS)
-def test_programs_read_back(name: str) -> None:
-    texture = faces(DRAWINGS[name])
-    planar = decode_map(texture.flat, texture.roots[0].quad)
-    np.testing.assert_array_equal(map_texels(planar, 0), texture.flat[: len(map_texels(planar, 0))])
-
-
 @pytest.mark.parametrize("seed", range(80))
 def test_random_damage_is_refused_or_drawn(seed: int) -> None:
     """No picture of a texture that passes the check, or of one that was never checked, leaves 0..1 or hangs."""
@@ -255,42 +208,3 @@ def test_random_damage_is_refused_or_drawn(seed: int) -> None:
     picture = damaged.render(8)
     assert ((picture >= 0.0) & (picture <= 1.0)).all()
     assert (picture[..., :3] <= picture[..., 3:]).all()
-
-
-def test_many_layers_are_cut_into_sheets(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("vexture.tree.planar.sheets.LEAST_BUDGET", 10_000)
-    rng = np.random.default_rng(0)
-    bars = []
-    for k in range(30):
-        x, y = 0.02 + 0.031 * k, 0.96 * rng.random()
-        bars += [polygon([(x, 0), (x + 0.004, 0), (x + 0.02, 1), (x + 0.016, 1)])]
-        bars += [polygon([(0, y), (1, 0.98 - y), (1, 0.985 - y), (0, y + 0.005)])]
-    of = Drawing(tuple(Path((bar,), paint=Paint(tuple(rng.random(3).tolist()), 0.6)) for bar in bars))
-    conversion = run(of, Parameters("faces"))
-    roots = conversion.texture.roots
-    assert 1 < len(roots) < 8
-    assert [root.name for root in roots] == [f"drawing/{k}-faces" for k in range(1, len(roots) + 1)]
-    wanted = render_exact_colours(of, 40)
-    in_layers = run(of, Parameters("paint")).texture.render(40)
-    assert abs(conversion.texture.render(40) - wanted).mean() < abs(in_layers - wanted).mean()
-
-
-def test_precision_alone_cuts_no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A cut between two that touch is a seam, which would show from nearby."""
-    monkeypatch.setattr("vexture.tree.planar.sheets.LEAST_BUDGET", 200)
-    halves = [polygon([(0.1, 0.1), (0.6, 0.1), (0.4, 0.9), (0.1, 0.9)]), polygon([(0.6, 0.1), (0.9, 0.5), (0.4, 0.9)])]
-    of = Drawing(tuple(Path((half,), paint=Paint((0.2, 0.4, k / 2))) for k, half in enumerate(halves)))
-    near = run(of, Parameters("faces", precision=1e-6))
-    assert len(near.texture.roots) == 1
-    assert len(near.tree.count) > 200
-    assert near.rounding == 1e-6
-
-
-def test_what_blends_is_not_cut_from_what_is_below() -> None:
-    from vexture.tree.planar.sheets import _items
-
-    square = polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
-    paths = [Path((square,), group=group) for group in (-1, -1, 0, 0, -1, 1, 2, -1)]
-    groups = (Group(-1, 0.5), Group(-1, 1.0, Blend.MULTIPLY), Group(1))
-    assert [len(item) for item in _items(Drawing(tuple(paths), groups=groups))] == [7, 1]
-    assert [len(item) for item in _items(Drawing(tuple(paths[:5]), groups=groups))] == [1, 1, 2, 1]

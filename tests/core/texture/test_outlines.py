@@ -13,14 +13,14 @@ import degenerate
 from both_encodings import encode
 from strategies import packed_trees
 from vexture import read_svg
-from vexture.base.errors import ParameterError, VextureError
+from vexture.base.errors import VextureError
 from vexture.bezier.convert import line_cubics
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.drawing import Path as Outline
 from vexture.drawing.paint import Paint
 from vexture.renderers.exact import render_exact
 from vexture.texture.encode import encode as encode_packed
-from vexture.texture.outlines import outlines
+from vexture.texture.outlines import outlines, svg_document
 from vexture.texture.root import Root
 from vexture.texture.texture import Texture
 from vexture.tree.build import build_tree
@@ -28,7 +28,6 @@ from vexture.tree.tree import Tree
 
 SIZE = (128, 128)
 ONE_LEVEL = 1 / 255
-POINTS = 2_000
 CLEAR = 1e-4  # unit-square units: chords of the brute force, rounding to leaves of half the square
 
 T_JUNCTIONS = (155, 157, 277, 300, 322, 331, 339, 356, 365)
@@ -99,48 +98,6 @@ def test_outlines_are_closed_and_wind_as_the_leaves_say(tree: Tree, seed: int) -
     np.testing.assert_array_equal(texture.contains(points)[clear], windings[clear] > 0)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-def test_points_inside(seed: int) -> None:
-    drawing = degenerate.drawing(seed)
-    if drawing.paths:
-        points = degenerate.points_near(drawing, np.random.default_rng(seed), POINTS)
-        windings, distance = degenerate.path_windings(drawing, points)
-        clear = distance > CLEAR
-        truth = degenerate.silhouette(drawing, windings)
-        np.testing.assert_array_equal(converted(drawing).contains(points)[clear], truth[clear])
-
-
-def test_heights_are_compared_exactly() -> None:
-    """The square's sides lie on lattices of all depths: the lower and left ones are inside, the others are not."""
-    texture = converted(SQUARE)
-    below, above = np.nextafter([0.25, 0.75], 0.0), np.nextafter([0.25, 0.75], 1.0)
-    for axis, other in ((0, 0.4), (0, 0.6), (1, 0.4), (1, 0.6)):
-        values = [below[0], 0.25, above[0], below[1], 0.75, above[1]]
-        points = np.full((6, 2), other)
-        points[:, axis] = values
-        assert texture.contains(points).tolist() == [False, True, True, True, False, False]
-
-
-def test_points_beyond_the_square_and_no_points() -> None:
-    full = encode_packed([build_tree(Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]))], [Root("x")], name="x")
-    edge = [(0, 0), (1, 0.5), (0.5, 1), (-1e-300, 0.5), (np.nan, 0.5), (0.5, np.inf), (1e300, -1e300), (0.5, 0.5)]
-    assert full.contains(edge).tolist() == [True, False, False, False, False, False, False, True]
-    assert full.contains(np.zeros((0, 2))).shape == (0,)
-    for wrong in (np.zeros(2), np.zeros((3, 3)), 0.5):
-        with pytest.raises(ParameterError, match=r"`points` has the shape .*; it must be \(n, 2\)"):
-            full.contains(wrong)
-
-
-def test_unchecked_texels_lead_nowhere() -> None:
-    """Random texels given by hand: an answer, not a crash."""
-    random = np.random.default_rng(5)
-    texels = random.integers(0, 2**32, (1, 64, 4), np.uint32)
-    texels[:, ::2, :2] %= 70
-    texture = Texture(texels, (Root("x"), Root("y", 10**6)))
-    for root in (0, 1):
-        assert texture.contains(random.random((1000, 2)), root).shape == (1000,)
-
-
 def painted() -> Texture:
     to_source = np.array([[20.0, 0.0, 3.0], [0.0, -20.0, 25.0]])
     triangle = Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.5, 0.9)])
@@ -182,3 +139,19 @@ def test_nothing_at_all() -> None:
     texture = Texture(np.zeros((1, 1, 4), np.uint32), (Root("x"),))
     assert outlines(texture.flat, 0) == []
     assert 'd=""' in texture.to_svg()
+
+
+def test_outline_of_full_cells_is_the_unit_square() -> None:
+    full = np.array([[0, 0, 0, 0xFFFFFFFF]], np.uint32)
+    np.testing.assert_allclose(outlines(full, 0)[0][:, 0], [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+
+
+def test_svg_document_of_an_empty_shape() -> None:
+    lines = [
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 -1 1 1">',
+        "<title>an example</title>",
+        '<path transform="scale(1 -1)" d=""><title>nothing</title></path>',
+        "</svg>",
+        "",
+    ]
+    assert svg_document([(Root("nothing"), [])], "an example") == "\n".join(lines)

@@ -14,7 +14,7 @@ import pytest
 from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_packed import TRANSFORM, chain
+from test_texture_encode import TRANSFORM, chain
 
 from strategies import packed_trees
 from vexture.base.errors import DeviceError, FormatError, ParameterError

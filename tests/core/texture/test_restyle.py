@@ -1,27 +1,22 @@
 """Planar maps to be restyled: new colours without a new tree, and the element at a point."""
 
-import json
-import zlib
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import vexture
-from degenerate import circle, drawing, heap, path_windings, points_near, polygon
+from degenerate import circle, drawing, heap, path_windings, polygon
 from planar import colour_paths
-from vexture.base.errors import FormatError, ParameterError
-from vexture.base.layout import COVERAGE_ONE, MOST_STYLE_BYTES, TEXT_ROOTS, TEXT_STYLES
+from vexture.base.errors import ParameterError
+from vexture.base.layout import COVERAGE_ONE
 from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import atlas, run
 from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.drawing.group import Blend, Group
 from vexture.drawing.paint import Gradient, Paint, Stop
 from vexture.renderers.exact import render_exact_colours
-from vexture.texture.ktx2 import read_value, write_ktx2
 from vexture.texture.load import texture_from
 from vexture.texture.planar import decode_map
 from vexture.texture.restyle import renew_means, restyle_texels
@@ -98,36 +93,6 @@ def test_means_are_renewed_as_they_were_built(seed: int) -> None:
     flat[means] = np.where(planar.is_mean, flat[means], 0)
     renew_means(flat, quad, cells, planar.paints / 65535.0)
     np.testing.assert_allclose(decode_map(flat, quad).mean, planar.mean, atol=1.01 / COVERAGE_ONE)
-
-
-@settings(max_examples=40)
-@given(st.integers(0, 10_000))
-def test_the_topmost_element_at_a_point(seed: int) -> None:
-    of, rng = sample(seed), np.random.default_rng(seed)
-    texture = faces(of)
-    points = points_near(of, rng, 60)
-    windings, distance = path_windings(of, points)
-    rules = np.array([path.fill_rule == FillRule.EVENODD for path in of.paths])
-    inside = np.where(rules[:, None], np.array(windings) & 1, np.array(windings)) != 0
-    top = np.array([topmost(of, np.flatnonzero(here).tolist()) for here in inside.T])
-    found = texture.element_at(points)
-    planar, known = decode_map(texture.flat, texture.roots[0].quad), distance > CLEAR
-    known &= (found.element >= 0) | (top < 0) | (not planar.is_mean.any())
-    wanted = np.array([*(path.element for path in of.paths), ""])[top]
-    assert (found.name[known] == wanted[known]).all()
-    assert ((found.element < 0) == (top < 0))[known].all()
-    assert (found.root[found.element >= 0] == 0).all()
-
-
-def topmost(of: Drawing, inside: list[int]) -> int:
-    """The highest of the paths inside that is no mask, and that no mask hides of which nothing is there; or -1."""
-    met = {place for path in inside for place in of.around(of.paths[path].group)}
-    for path in reversed(inside):
-        around = of.around(of.paths[path].group)
-        masks = [k for k, mask in enumerate(of.groups) if mask.mask and mask.outer in around]
-        if met.issuperset(masks) and not any(of.groups[place].mask for place in around):
-            return path
-    return -1
 
 
 def checkerboard(n: int, colours) -> Drawing:
@@ -269,41 +234,6 @@ def test_shapes_of_an_atlas_are_restyled_by_name() -> None:
         texture.with_paints({"a": "blue"})
 
 
-STYLE = {"elements": [{"name": "a", "color": [1, 0, 0]}], "groups": [], "stacks": [[], [0]]}
-GROUP = {"outer": -1, "opacity": 1, "blend": "normal"}
-
-
-@pytest.mark.parametrize(
-    ("style", "message"),
-    [
-        (7, "style is 7; it must be an object"),
-        ({}, "elements is None; it must be a list"),
-        (STYLE | {"elements": [{"color": [1, 0, 0]}]}, "it must be an object with a name"),
-        (STYLE | {"elements": [{"name": "a", "color": [1, 0, 2]}]}, "its numbers must be in 0..1"),
-        (STYLE | {"elements": [{"name": "a", "color": [1, 0, 0], "group": 0}]}, "a path is in group 0, of 0"),
-        (STYLE | {"elements": [{"name": "a", "color": [1, 0, 0], "hides": 1}]}, "hides is a truth"),
-        (STYLE | {"groups": [GROUP | {"blend": "glow"}]}, "it must be an object with outer and blend"),
-        (STYLE | {"groups": [GROUP | {"outer": k - 1} for k in range(101)]}, "groups are 101 deep; the limit of"),
-        (STYLE | {"groups": [GROUP | {"outer": 3}]}, "group 0 lies in group 3, which is not before it"),
-        (STYLE | {"groups": [GROUP | {"opacity": 2}]}, "a group has opacity 2; it must be in 0..1"),
-        (STYLE | {"stacks": [[], [1]]}, "a stack names none of 1 element;"),
-        (STYLE | {"stacks": [[], [0.0]]}, "a stack names none of 1 element;"),
-        (STYLE | {"stacks": [[], 0]}, "a stack is 0; it must be a list"),
-        (STYLE | {"stacks": [[]]}, "has 2 paints, and stacks of 1"),
-    ],
-)
-def test_a_style_that_breaks_the_format_is_refused_in_a_line(style, message: str) -> None:
-    texture = faces(Drawing((Path((SQUARE,), paint=RED, element="a"),)))
-    texts = texture.texts()
-    roots = json.loads(texts[TEXT_ROOTS])
-    assert {key: roots[0]["style"][key] for key in STYLE} == STYLE
-    roots[0]["style"] = style
-    with pytest.raises(FormatError) as error:
-        texture_from(write_ktx2(texture.texels, texts | {TEXT_ROOTS: json.dumps(roots)}, True), "broken")
-    assert message in str(error.value)
-    assert "\n" not in str(error.value)
-
-
 def test_two_roots_of_one_map_are_restyled_together() -> None:
     texture = faces(Drawing((Path((SQUARE,), paint=RED, element="a"),), name="one"))
     twin = replace(texture.roots[0], name="two")
@@ -315,47 +245,3 @@ def test_two_roots_of_one_map_are_restyled_together() -> None:
 def test_colours_that_are_no_mapping_of_names_get_one_line(colours) -> None:
     with pytest.raises(ParameterError, match="no mapping of elements' names"):
         two().with_paints(colours)
-
-
-def crowd(count: int) -> vexture.Texture:
-    squares = [
-        polygon([(k / count, 0), ((k + 1) / count, 0), ((k + 1) / count, 1), (k / count, 1)]) for k in range(count)
-    ]
-    return faces(Drawing(tuple(Path((square,), paint=RED, element=f"parcel {k}") for k, square in enumerate(squares))))
-
-
-def test_long_styles_are_deflated_and_read() -> None:
-    texture = crowd(60)
-    data, plain = texture.to_ktx2(), texture.to_ktx2(deflate=False)
-    assert read_value(plain, TEXT_STYLES) is None
-    assert read_value(crowd(2).to_ktx2(), TEXT_STYLES) is None
-    deflated = read_value(data, TEXT_STYLES)
-    assert deflated is not None
-    assert len(deflated) < len(texture.texts()[TEXT_ROOTS]) / 5
-    for other in (texture_from(data, "deflated"), texture_from(plain, "plain")):
-        assert other.texts() == texture.texts()
-        assert other.element_at([(0.51, 0.5)]).name.tolist() == ["parcel 30"]
-
-
-@pytest.mark.parametrize(
-    ("length", "stored", "message"),
-    [
-        (0, b"", "vexture.styles says that it has 0 bytes; the limit is"),
-        (MOST_STYLE_BYTES + 1, zlib.compress(b"[null]"), "vexture.styles says that it has 67108865 bytes"),
-        (MOST_STYLE_BYTES, zlib.compress(b"[null]"), "14 bytes of styles; they cannot inflate to 67108864"),
-        (7, zlib.compress(b"[null]"), "vexture.styles has 6 bytes and says 7"),
-        (5, zlib.compress(b"[null]"), "vexture.styles has 6 bytes and says 5"),
-        (6, b"[null]", "the styles cannot be inflated"),
-        (6, zlib.compress(b"[null]") + b"\0", "the 15 bytes of styles do not end where they should"),
-        (1, zlib.compress(b"["), "vexture.styles is not JSON"),
-        (2, zlib.compress(b"[]"), "vexture.styles is no list of one style for each of 1 roots"),
-        (4, zlib.compress(b"[{}]"), "elements is None; it must be a list"),
-    ],
-)
-def test_deflated_styles_that_break_the_format_are_refused_in_a_line(length: int, stored: bytes, message: str) -> None:
-    texture = crowd(2)
-    texts = texture.texts() | {TEXT_STYLES: length.to_bytes(4, "little") + stored}
-    with pytest.raises(FormatError) as error:
-        texture_from(write_ktx2(texture.texels, texts, True), "broken")
-    assert message in str(error.value)
-    assert "\n" not in str(error.value)

@@ -2,20 +2,39 @@
 
 ``#include "other.glsl"`` includes a file once. The numbers are those of the texture's layout (`vexture.base.layout`)
 and of the shading method (`vexture.renderers.method`).
+
+WGSL has no conditionals: a program is made for one choice of numbers, and `chosen` leaves the lines of that choice.
 """
 
 import re
+from collections.abc import Mapping
 from functools import cache
 from importlib import resources
 from types import ModuleType, SimpleNamespace
 from typing import Final
 
 from vexture.base import layout
-from vexture.base.errors import ParameterError
+from vexture.base.errors import ParameterError, VextureError
 from vexture.drawing.group import Blend, Mask
 from vexture.drawing.paint import Spread
 from vexture.renderers import method
-from vexture.renderers.conditionals import chosen
+
+
+class ShaderError(VextureError):
+    """A text is outside of the subset of GLSL that has a meaning in WGSL.
+
+    Parameters
+    ----------
+    line : int
+        Its number in the text, from 1.
+    message : str
+        What is there, and what may be.
+    """
+
+    def __init__(self, line: int, message: str) -> None:
+        super().__init__(f"line {line}: {message}")
+        self.line = line
+
 
 VERSIONS: Final = {
     "330": "#version 330\n",
@@ -194,6 +213,51 @@ def view_source(version: str, is_flat: bool) -> str:
 
 def color_source(version: str, is_flat: bool, is_linear: bool, has_gradients: bool) -> str:
     """Fragment shader that draws a planar map, with or without gradients, averaged in linear light or in sRGB."""
-    chosen = {"FLAT": is_flat, "LINEAR": is_linear, "GRADIENTS": has_gradients}
-    lines = "".join(f"#define VEXTURE_{name} {int(value)}\n" for name, value in chosen.items())
+    numbers = {"FLAT": is_flat, "LINEAR": is_linear, "GRADIENTS": has_gradients}
+    lines = "".join(f"#define VEXTURE_{name} {int(value)}\n" for name, value in numbers.items())
     return VERSIONS[version] + lines + shader_text("view_color.glsl") + COLOR_MAIN
+
+
+WORDS: Final = ("#if ", "#elif ", "#else", "#endif")
+
+
+def chosen(text: str, numbers: Mapping[str, float]) -> str:
+    """Return a text without its conditionals: the lines that a choice of numbers leaves.
+
+    Parameters
+    ----------
+    text : str
+        Its conditions are ``NAME``, which is nonzero, or ``NAME == NUMBER``, whose right side may be a name as well.
+    numbers : mapping of str to float
+
+    Raises
+    ------
+    ShaderError
+        If a condition names what is not among the numbers.
+    """
+
+    def value(word: str, line: int) -> float:
+        try:
+            return numbers[word] if word[0].isalpha() else float(word)
+        except (KeyError, ValueError):
+            raise ShaderError(line, f"{word} is not chosen; choose a number for it") from None
+
+    kept: list[str] = []
+    open_: list[tuple[bool, bool]] = []  # of each conditional: whether a branch was taken, and whether this one is
+    for number, line in enumerate(text.splitlines(), 1):
+        if not line.startswith(WORDS):
+            if all(is_here for _, is_here in open_):
+                kept.append(line)
+            continue
+        word, *condition = line.split()
+        if word == "#endif":
+            open_.pop()
+            continue
+        was_taken = open_.pop()[0] if word != "#if" else False
+        if word == "#else":
+            holds = True
+        else:
+            found = value(condition[0], number)
+            holds = found == value(condition[2], number) if condition[1:] else found != 0
+        open_.append((was_taken or holds, holds and not was_taken))
+    return "\n".join(kept) + "\n"

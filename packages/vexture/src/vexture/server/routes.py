@@ -1,12 +1,14 @@
-"""Routes of every server: the list of shapes, their manifests, their files, and the stream of changes."""
+"""Routes of every server: the list of shapes, their manifests and files, the stream of changes, the description."""
 
 import asyncio
 import hashlib
 import ipaddress
 import json
 import unicodedata
-from collections.abc import AsyncIterator, Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Iterable, Mapping
+from dataclasses import asdict
 from functools import lru_cache
+from importlib.resources import files
 from typing import Any, Final, TypeAlias
 from urllib.parse import urlsplit
 
@@ -20,10 +22,27 @@ from starlette.responses import JSONResponse, Response, StreamingResponse
 from starlette.routing import Match, Route
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from vexture.server.description import DESCRIPTION, description
 from vexture.server.limits import Limits
 from vexture.server.listen import Lifespan
 from vexture.server.published import Event, PublishedShape, PublishedShapes, manifest
+
+DESCRIPTION: Final = "/openapi.json"
+"""Address of the description."""
+
+
+def description(routes: Iterable[Route], limits: Limits) -> bytes:
+    """Describe a server to authors of clients; raises a `KeyError` if ``openapi.json`` has not all its routes."""
+    told = json.loads(files("vexture.server").joinpath("openapi.json").read_bytes())
+    paths: dict[str, dict[str, Any]] = {DESCRIPTION: told["paths"][DESCRIPTION]}
+    for route in routes:
+        item = told["paths"][route.path_format]
+        methods = [method.lower() for method in route.methods or () if method != "HEAD"]
+        path = paths.setdefault(route.path_format, {"parameters": item.get("parameters", [])})
+        path.update({method: item[method] for method in methods})
+    told["paths"] = paths
+    told["info"]["x-limits"] = asdict(limits)
+    return json.dumps(told, indent=1).encode()
+
 
 PING_SECONDS: Final = 15
 """A proxy takes a stream for dead that is silent for long."""

@@ -311,8 +311,7 @@ class Texture:
         >>> texture.to_svg().count("<path")
         1
         """
-        from vexture.texture.outlines import outlines
-        from vexture.texture.svg_text import svg_document
+        from vexture.texture.outlines import outlines, svg_document
 
         roots = [self._silhouette(place) for place in (range(len(self.roots)) if root is None else [root])]
         return svg_document(((one, outlines(self.flat, one.quad)) for one in roots), self.name)

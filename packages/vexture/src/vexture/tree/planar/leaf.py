@@ -1,4 +1,10 @@
-"""The leaf of a planar map: a few monotone pieces, each between two faces of different paint."""
+"""The leaf of a planar map: a few monotone pieces, each between two faces of different paint.
+
+The base paint of a leaf and the ends on its left edge must agree with the faces there. An end on the left edge says
+that the paint changes at its height by what its piece has on its two sides. Going up, the changes must telescope, paint
+by paint, from each face on the edge to the next: sums of colours alone could agree by chance, and would no longer if a
+paint is changed.
+"""
 
 from typing import NamedTuple
 
@@ -11,13 +17,139 @@ from vexture.tree.boundary import MOST_RESOLVED
 from vexture.tree.divide import PiecePool
 from vexture.tree.leaf import DIVIDE, SPARE, round_controls
 from vexture.tree.merge import MOST_MERGED
-from vexture.tree.planar.borders import Borders, PlanarCell, find_borders, merge_borders, new_borders
-from vexture.tree.planar.faces import FaceTable
+from vexture.tree.planar.borders import Borders, PlanarCell, find_borders, merge_borders, new_borders, set_left_edge
+from vexture.tree.planar.faces import FaceTable, face_of
 from vexture.tree.planar.layers import PlanarLayers
-from vexture.tree.planar.left_edge import Tally, new_tally, settle_left_edge
 from vexture.tree.planar.means import add_programs, set_crowded_mean, set_flat_mean
 from vexture.tree.planar.slabs import PlanarPieces, clean_borders, sweep
 from vexture.tree.separate import all_separate
+
+
+@kernel(allocates=False)
+def _tally(ids: NDArray[np.int64], sums: NDArray[np.int64], n: int, paint: int, by: int) -> int:
+    """Add to the sum of a paint; return how many paints there are."""
+    for k in range(n):
+        if ids[k] == paint:
+            sums[k] += by
+            return n
+    ids[n], sums[n] = paint, by
+    return n + 1
+
+
+@kernel(allocates=False)
+def _changes(pieces: PlanarPieces, count: int, y: float, ids: NDArray[np.int64], sums: NDArray[np.int64]) -> int:
+    """Tally the paints that ends on the left edge at a height add and take away; return how many there are."""
+    n = 0
+    for k in range(count):
+        for end, event in ((0, 1), (3, -1)):
+            if pieces.curves[k, end, 0] == 0.0 and pieces.curves[k, end, 1] == y:
+                n = _tally(ids, sums, n, pieces.sides[k, 0], event)
+                n = _tally(ids, sums, n, pieces.sides[k, 1], -event)
+    return n
+
+
+@kernel(allocates=False)
+def _move_off(pieces: PlanarPieces, count: int, y: float) -> None:
+    """Move the ends on the left edge at a height off it, by one unit."""
+    for k in range(count):
+        for end, control in ((0, 1), (3, 2)):
+            if pieces.curves[k, end, 0] == 0.0 and pieces.curves[k, end, 1] == y:
+                pieces.curves[k, end, 0] += 1.0
+                pieces.curves[k, control, 0] += 1.0
+
+
+@kernel(allocates=False)
+def _all_zero(sums: NDArray[np.int64], n: int) -> bool:
+    for k in range(n):
+        if sums[k] != 0:
+            return False
+    return True
+
+
+class Tally(NamedTuple):
+    """Arrays that are reused from cell to cell."""
+
+    heights: NDArray[np.float64]  # (2 borders + 1,)
+    ids: NDArray[np.int64]  # (4 pieces + 8,): paints
+    sums: NDArray[np.int64]  # (4 pieces + 8,): how much more often each begins than ends
+
+
+@kernel
+def new_tally(borders: int, pieces: int) -> Tally:
+    """Arrays for cells of so many borders and pieces."""
+    return Tally(np.empty(2 * borders + 1), np.empty(4 * pieces + 8, np.int64), np.empty(4 * pieces + 8, np.int64))
+
+
+@kernel(allocates=False)
+def _find_heights(borders: Borders, count: int, out: NDArray[np.float64]) -> int:
+    """Write the heights of all ends on the left edge, from the lowest, each once; the first is 0. Return how many."""
+    n = 1
+    out[0] = 0.0
+    for i in range(count):
+        for end in (0, 3):
+            y = borders.curves[i, end, 1]
+            if borders.curves[i, end, 0] == 0.0 and y < LATTICE:
+                k = n
+                while out[k - 1] > y:
+                    k -= 1
+                if out[k - 1] == y:
+                    continue
+                for m in range(n, k, -1):
+                    out[m] = out[m - 1]
+                out[k] = y
+                n += 1
+    return n
+
+
+@kernel(allocates=False)
+def settle_left_edge(
+    borders: Borders,
+    count: int,
+    ground: int,
+    present: NDArray[np.int64],
+    layers: PlanarLayers,
+    faces: FaceTable,
+    windings: NDArray[np.int64],
+    pieces: PlanarPieces,
+    piece_count: int,
+    tally: Tally,
+) -> tuple[int, int]:
+    """Make the ends on the left edge agree with the faces there; return the number of pieces and the base paint.
+
+    Where they do not telescope, they move off the edge, and one horizontal piece says it instead. The base is the paint
+    at the bottom left corner, before what starts or ends there.
+    """
+    heights, ids, sums = tally
+    levels = _find_heights(borders, count, heights)
+    key = set_left_edge(borders, count, layers, present, 0.0, windings)
+    below = faces.paint[face_of(faces, layers, ground, present, windings, key)]
+    n = _tally(ids, sums, _changes(pieces, piece_count, 0.0, ids, sums), below, -1)
+    base, single = below, True
+    for k in range(n):
+        if sums[k] == -1 and base == below and single:
+            base, single = ids[k], False
+        elif sums[k] != 0:
+            single = True
+            break
+    if single:
+        _move_off(pieces, piece_count, 0.0)
+        base = below
+    for s in range(1, levels):
+        y = heights[s]
+        key = set_left_edge(borders, count, layers, present, y, windings)
+        above = faces.paint[face_of(faces, layers, ground, present, windings, key)]
+        n = _tally(ids, sums, _changes(pieces, piece_count, y, ids, sums), above, -1)
+        n = _tally(ids, sums, n, below, 1)
+        if not _all_zero(sums, n):
+            _move_off(pieces, piece_count, y)
+            if above != below and piece_count < len(pieces.sides):
+                for k in range(4):
+                    pieces.curves[piece_count, k, 0], pieces.curves[piece_count, k, 1] = k / 3.0, y
+                pieces.sides[piece_count, 0], pieces.sides[piece_count, 1] = above, below
+                piece_count += 1
+        below = above
+    return piece_count, base
+
 
 KNOT = LATTICE / 4.0
 """Pieces that all have an end in a square this wide are one *knot*: dividing the leaf would follow it down many levels.
