@@ -76,8 +76,9 @@ def screenshot(request: pytest.FixtureRequest) -> Callable[..., Path]:
 @pytest.fixture(scope="session")
 def viewer_pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Any]]:
     """The viewer's pages with a silhouette, with a drawing in colours, with both."""
-    from browser import serve_folder
     from viewed import write_pages
+
+    from chromium import serve_folder
 
     folder = tmp_path_factory.mktemp("viewer")
     with serve_folder(folder) as url:
@@ -87,8 +88,9 @@ def viewer_pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Ite
 @pytest.fixture(scope="session")
 def overlay_pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, dict[str, Any]]]:
     """Address of the viewer's pages with one texture each, and the textures by name."""
-    from browser import serve_folder
     from overlay_page import write_pages
+
+    from chromium import serve_folder
 
     folder = tmp_path_factory.mktemp("overlays")
     textures = write_pages(folder)

@@ -24,8 +24,8 @@ from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Paint
 from vexture.pages.page import EXPORTED_POLICY
 from vexture_geo.base.extent import Frame
+from vexture_geo.flood.conversion import CODE, depth_png
 from vexture_geo.flood.credits import Credits
-from vexture_geo.flood.depth_pictures import CODE, depth_png
 from vexture_geo.flood.hazard import HAZARDS, UNIT
 from vexture_geo.flood.open_water import open_water, openness_png
 from vexture_geo.flood.surface import WaterSurface

@@ -3,15 +3,12 @@
 import numpy as np
 import pytest
 
-from both_encodings import decode
 from vexture.conversion.pipeline import run_encoding
 from vexture.drawing.drawing import Drawing, Path
 from vexture.renderers.exact import render_exact
 from vexture.thesis.tree import CellKind
 from vexture_evidence.measures.leaves import leaves
-from vexture_evidence.measures.outline import first_samples, off_outline
 from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, convert_by, example
-from vexture_evidence.measures.stored_coverage import stored_values
 from vexture_evidence.measures.thesis_limits import (
     clamp_curves,
     close_up,
@@ -91,46 +88,6 @@ def test_corner_cells_count_cells_with_curves_within_reach():
     assert corner_cells(found, np.array([(0.2, 0.99)]), 0.01).tolist() == [1]  # the upper left quarter holds the line
 
 
-def test_distances_from_an_outline_are_those_of_the_circle():
-    rng = np.random.default_rng(6)
-    points = rng.uniform(0.0, 1.0, (200, 2))
-    radial = abs(np.hypot(*(points - 0.5).T) - 0.3)
-    assert np.allclose(off_outline(points, disc()), radial, atol=1e-4)
-
-
-def test_distances_of_points_far_from_everything_are_those_of_the_nearest_chord():
-    tiny = Drawing.polygon([(0.9, 0.9), (0.91, 0.9), (0.91, 0.91)])
-    assert off_outline(np.array([(0.0, 0.9), (0.9, 0.0), (0.905, 0.9)]), tiny) == pytest.approx([0.9, 0.9, 0.0])
-
-
-def test_nearest_chord_is_found_beyond_the_margin():
-    right = [(0.53, 0.4), (0.53, 0.6), (0.56, 0.5)]
-    left = [(0.4834, 0.4), (0.4834, 0.6), (0.45, 0.5)]
-    point = np.array([(0.5001, 0.5)])
-    assert off_outline(point, Drawing.polygon(right)) == pytest.approx([0.0299])
-    assert off_outline(point, Drawing.polygon(right, left)) == pytest.approx([0.0167])
-
-
-@pytest.mark.parametrize("off", [1e-3, 1e-7])
-def test_distances_are_found_to_rounding(off):
-    cubic = np.array([(0.1, 0.1), (0.1, 0.1001), (0.9, 0.2), (0.9, 0.9)])  # starts slowly
-    back = np.linspace(cubic[3], cubic[0], 4)
-    t = np.linspace(0.01, 0.99, 33)[:, None]
-    s = 1.0 - t
-    p0, p1, p2, p3 = cubic
-    point = s**3 * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t**3 * p3
-    tangent = 3 * s * s * (p1 - p0) + 6 * s * t * (p2 - p1) + 3 * t * t * (p3 - p2)
-    normal = np.stack([tangent[:, 1], -tangent[:, 0]], axis=1) / np.linalg.norm(tangent, axis=1)[:, None]
-    drawing = Drawing((Path((np.stack([cubic, back]),)),))
-    assert off_outline(point + off * normal, drawing) == pytest.approx(off, rel=1e-6)
-
-
-def test_first_samples_lie_on_the_outline_and_are_as_dense_as_the_thesis_has_them():
-    points = first_samples(QUARTER)
-    assert off_outline(points, QUARTER).max() < 1e-12
-    assert len(points) == sum(np.ceil(256 * side).astype(int) for side in (0.3, 0.25, 0.3, 0.25))
-
-
 def test_unnecessary_quads_are_those_around_one_stretch_of_one_cubic():
     line = Drawing.polygon([(0, 0), (1, 0), (1, 0.3), (0, 0.3)])
     deep = run_encoding(line, "thesis").tree
@@ -148,24 +105,6 @@ def test_unnecessary_quads_are_those_around_one_stretch_of_one_cubic():
 def test_packed_divides_nothing_without_need(shield):
     assert unnecessary_quads(shield.drawing, shield.way("sampled").texture).sum() > 0
     assert unnecessary_quads(shield.drawing, shield.way("packed").texture).sum() == 0
-
-
-def test_stored_values_are_compared_with_the_area():
-    conversion = convert_by(QUARTER, WAYS["direct"])
-    values = stored_values(QUARTER, conversion.tree)
-    assert values.quad_off.max() < 1e-4
-    packed = stored_values(QUARTER, decode(convert_by(QUARTER, WAYS["packed"]).texture))
-    assert 0.0 < packed.quad_off[0] <= 0.51 / 255
-    wrong = conversion.tree
-    wrong.coverage[0] += 0.1
-    assert stored_values(QUARTER, wrong).quad_off[0] == pytest.approx(0.1, abs=1e-4)
-
-
-def test_sixteen_samples_know_areas_in_sixteenths(shield):
-    conversion = shield.way("sampled")
-    values = stored_values(shield.drawing, conversion.tree, conversion.texture)
-    with_curve = np.unique(values.found.owner)
-    assert np.allclose(16 * values.found.coverage[with_curve], np.rint(16 * values.found.coverage[with_curve]))
 
 
 def test_close_up_shows_the_thesis_lines_and_that_they_are_gone():

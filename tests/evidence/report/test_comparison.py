@@ -7,7 +7,7 @@ from vexture_evidence.measures.shape import ConvertedDrawing, example
 from vexture_evidence.report import comparison
 from vexture_evidence.report.comparison import compare, pictures_part, section, shapes_part
 from vexture_evidence.report.page import json_text, page, pictures_of
-from vexture_evidence.report.renderers import bands_part, renderers_part
+from vexture_evidence.report.renderers import renderers_part
 from vexture_evidence.report.section import Material, Section
 
 pytestmark = pytest.mark.slow  # test_report_is_whole makes this section too
@@ -66,28 +66,6 @@ def test_captions_say_what_was_measured(made):
     assert f"{row(table, 'packed')['bytes: on the GPU']:,} bytes" in picture.caption
     assert f"{row(table, 'raster, equal memory')['texels along a side']}² texels" in picture.caption
     assert [one.name for one in pictures_of([made])] == ["error-over-bytes", "equal-bytes"]
-
-
-def test_renderers_are_timed_and_judged():
-    table = next(tables_of(renderers_part([ConvertedDrawing(example("duck")), ConvertedDrawing(example("ocean"))])))
-    duck = row(table, "duck")
-    assert all(value > 0 for key, value in duck.items() if key.startswith("milliseconds"))
-    assert duck["mean error: packed"] < 0.1 < min(duck["mean error: skia"], duck["mean error: resvg"])
-
-
-def test_bands_are_drawn_where_they_can_be():
-    material = Material([])
-    if material.device is None:
-        pytest.skip("no OpenGL")
-    shapes = [material.example(name) for name in ("ocean", "duck", "simple-duo")]
-    table = next(tables_of(bands_part(shapes, material.device)))
-    ocean, duck = row(table, "ocean"), row(table, "duck")
-    assert ocean["mean error: packed"] < ocean["mean error: bands"] < 5.0
-    assert all(value is None for key, value in duck.items() if key.endswith("bands"))
-    assert duck["milliseconds a frame: packed"] > 0
-    assert "duck is filled by the even-odd rule" in table.caption
-    assert "simple-duo has 2 paths" in table.caption
-    assert "ocean" not in table.caption
 
 
 @pytest.mark.filterwarnings("ignore:.*nothing in it is painted")

@@ -3,12 +3,11 @@
 import pytest
 from lxml import html
 
-from vexture.conversion.pipeline import convert
-from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, example, file_bytes
+from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, example
 from vexture_evidence.measures.thesis_numbers import TABLE_5_1
 from vexture_evidence.report import conversion, shapes, structure
 from vexture_evidence.report.page import json_text, page, pictures_of
-from vexture_evidence.report.section import Material, Printed, Section, Table
+from vexture_evidence.report.section import Material, Printed, Table
 
 pytestmark = pytest.mark.slow  # test_report_is_whole makes these sections too
 
@@ -89,7 +88,6 @@ def test_table_5_1_has_the_thesis_beside_all_our_ways(examples):
 
 def test_what_an_encoding_cannot_hold_is_a_dash_and_a_reason(examples, monkeypatch):
     from vexture.base.errors import LimitError
-    from vexture_evidence.measures.shape import ConvertedDrawing
 
     way = ConvertedDrawing.way
 
@@ -105,32 +103,6 @@ def test_what_an_encoding_cannot_hold_is_a_dash_and_a_reason(examples, monkeypat
     assert "70,000 quads" in shapes.section(examples).items[0].caption
     parts = structure.section(examples)
     assert ["sampled", *[None] * 5] in tables(parts)["cells"].rows
-
-
-def test_every_example_is_the_figure_of_its_number():
-    material = Material([])
-    material.shapes = tuple(map(material.example, list(TABLE_5_1)[:2]))
-    captions = [item.caption for item in shapes.section(material).items]
-    assert [caption[:25] for caption in captions] == ["Thesis 5.1. Simple small.", "Thesis 5.2. Simple big. `"]
-    assert "13 quads, 18 curves" in captions[0]
-
-
-def test_structure_counts_what_the_trees_hold(examples):
-    section = structure.section(examples)
-    assert isinstance(section, Section)
-    rows = {row[0]: row[1:] for row in tables(section)["cells"].rows}
-    assert [cell.value for cell in rows["thesis, printed"]] == [29, 56, 172, 65536, 0.26]
-    tree = examples.main.way("direct").tree
-    quads, curves = len(tree.kind), len(tree.curves)
-    grid = 4 ** (1 + int(tree.quad_depth.max()))
-    assert rows["direct"] == [quads, curves, 4 * quads + curves, grid, 100 * (4 * quads + curves) / grid]
-    assert [item.name for item in section.items][-2:] == ["depths", "textures"]
-
-
-def test_bytes_of_a_packed_file_are_those_that_the_command_writes(tmp_path):
-    shape = ConvertedDrawing(example("duck"))
-    convert(shape.path).save(tmp_path / "duck.ktx2")
-    assert file_bytes(shape.way("packed").texture) == (tmp_path / "duck.ktx2").stat().st_size
 
 
 def test_list_too_long_for_8_bits_is_a_dash_and_a_reason(tmp_path):

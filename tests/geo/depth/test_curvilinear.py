@@ -9,10 +9,9 @@ from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
 from vexture.renderers.exact import render_exact
 from vexture_geo.base.crs import transform_points
-from vexture_geo.depth.curvilinear import grid_series, places_of_grid
+from vexture_geo.depth.curvilinear import corners_of, grid_series, places_of_grid
 from vexture_geo.depth.depths import read_depths
 from vexture_geo.depth.netcdf import open_dataset
-from vexture_geo.depth.quads import corners_of
 
 MIDDLE, RADIUS, SLOPE = np.array([500_400.0, 4_090_300.0]), 200.0, 0.02
 CELL, COUNT = 10.0, 56

@@ -6,8 +6,8 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
-import rasterio
 import xarray
+from lakes import CRS, MIDDLE, NORTH_UP, RADIUS, X, Y, cone, geotiff, lake_rows, off_shore, read, shore
 from rasterio.transform import Affine
 
 from vexture.base.errors import LimitError, ParameterError, SourceError, SourceWarning
@@ -16,16 +16,6 @@ from vexture.conversion.reading import read as read_any
 from vexture.renderers.exact import render_exact
 from vexture_geo.base.crs import frame_around
 from vexture_geo.depth.depths import read_depths
-from vexture_geo.readers import read_extent
-
-CRS = "EPSG:32610"
-X, Y = 500_000.0 + 10.0 * np.arange(80), 4_090_000.0 + 10.0 * np.arange(60)
-MIDDLE, RADIUS = (500_400.0, 4_090_300.0), 200.0
-
-
-def cone(x, y, middle=MIDDLE, slope=0.02):
-    """Height of the bed of a round lake: 0 at its shore."""
-    return slope * (np.hypot(x - middle[0], y - middle[1]) - RADIUS)
 
 
 def lake(levels=(0.0,), x=X, y=Y, bed=False, dry=0.0, **coordinates):
@@ -42,47 +32,6 @@ def lake(levels=(0.0,), x=X, y=Y, bed=False, dry=0.0, **coordinates):
 def written(dataset, path, **options):
     dataset.to_netcdf(path / "lake.nc", **options)
     return read(path / "lake.nc")
-
-
-def read(path, **options):
-    return read_depths(path, path.name, **options)
-
-
-def shore(drawing):
-    """Points along the outline, in the units of the source."""
-    found = []
-    t = np.linspace(0.0, 1.0, 16)[:, None]
-    for path in drawing.paths:
-        for p0, p1, p2, p3 in np.concatenate(path.contours):
-            found.append((1 - t) ** 3 * p0 + 3 * (1 - t) ** 2 * t * p1 + 3 * (1 - t) * t * t * p2 + t**3 * p3)
-    return np.concatenate(found) @ drawing.to_source[:, :2].T + drawing.to_source[:, 2]
-
-
-def off_shore(drawing, middle=MIDDLE, level=0.0):
-    """Largest distance of the outline from the lake's true shore, in cells of 10 m."""
-    away = np.hypot(*(shore(drawing) - middle).T)
-    return np.abs(away - RADIUS - (level - 0.05) / 0.02).max() / 10.0
-
-
-def geotiff(path, depth, transform, crs=CRS, bands=1, tags=None, **profile):
-    rows, columns = depth.shape
-    profile = {"dtype": depth.dtype, "nodata": None, **profile}
-    with rasterio.open(
-        path, "w", driver="GTiff", width=columns, height=rows, count=bands, transform=transform, crs=crs, **profile
-    ) as file:
-        for band in range(1, bands + 1):
-            file.write(depth, band)
-        if tags:
-            file.scales, file.offsets = tags
-    return path
-
-
-NORTH_UP = Affine(10.0, 0.0, X[0] - 5.0, 0.0, -10.0, Y[-1] + 5.0)
-
-
-def lake_rows():
-    """Depths of the lake, northernmost row first."""
-    return np.maximum(-cone(*np.meshgrid(X, Y[::-1])), 0.0).astype(np.float32)
 
 
 @pytest.mark.parametrize("bed", [False, True])
@@ -183,36 +132,6 @@ def test_another_system_than_the_frames(tmp_path):
     assert turned.frame == frame
     assert away.max() < 0.3
     assert len(plain.steps) == len(turned.steps)
-
-
-def test_geotiff_with_nodata_scale_and_offset(tmp_path):
-    depth = lake_rows()
-    packed = np.where(depth > 0.0, np.rint((depth + 1.0) / 0.001), -32768).astype(np.int16)
-    path = geotiff(tmp_path / "a.tif", packed, NORTH_UP, nodata=-32768, tags=((0.001,), (-1.0,)))
-    extent = read(path)
-    assert off_shore(extent.steps[0].drawing) < 0.3
-    assert np.nanmax(extent.steps[0].depth) == pytest.approx(4.0, abs=0.2)
-
-
-def test_a_turned_geotiff(tmp_path):
-    turn = Affine.translation(X[0], Y[0]) @ Affine.rotation(30.0) @ Affine.scale(10.0, 10.0)
-    columns, rows = np.meshgrid(np.arange(80) + 0.5, np.arange(80) + 0.5)
-    x, y = turn.a * columns + turn.b * rows + turn.c, turn.d * columns + turn.e * rows + turn.f
-    middle = turn @ (40.0, 40.0)
-    depth = np.maximum(-cone(x, y, middle), 0.0).astype(np.float32)
-    extent = read(geotiff(tmp_path / "a.tif", depth, turn))
-    assert off_shore(extent.steps[0].drawing, middle) < 0.3
-
-
-def test_bands_are_steps_only_if_time_is_asked_for(tmp_path):
-    path = geotiff(tmp_path / "a.tif", lake_rows(), NORTH_UP, bands=3)
-    with pytest.warns(SourceWarning, match="3 bands, of which the first is read"):
-        first = read_extent(path)
-    assert len(first.steps) == 1
-    assert first.notes == first.steps[0].drawing.notes
-    assert [(note.kind, note.count) for note in first.notes] == [("remark", 1)]
-    every = read(path, time_dim="band")
-    assert (len(every.steps), every.notes) == (3, ())
 
 
 def flood(path, frame=None, **options):
@@ -333,24 +252,6 @@ def test_bad_files_are_refused_in_one_line(tmp_path, change, options, error, mes
     with pytest.raises(error, match=message) as caught:
         read(tmp_path / "lake.nc", **options)
     assert "\n" not in str(caught.value)
-
-
-@pytest.mark.parametrize(
-    ("profile", "message"), [({"crs": None}, "`crs` EPSG"), ({"transform": Affine.identity()}, "no geotransform")]
-)
-@pytest.mark.filterwarnings("ignore::rasterio.errors.NotGeoreferencedWarning")
-def test_geotiff_that_does_not_say_where_it_is(tmp_path, profile, message):
-    path = geotiff(tmp_path / "a.tif", lake_rows(), **{"transform": NORTH_UP, **profile})
-    with pytest.raises(SourceError, match=message):
-        read(path)
-    if "crs" in profile:
-        assert read(path, crs=CRS).frame.crs == CRS
-
-
-def test_geotiff_of_nothing(tmp_path):
-    path = geotiff(tmp_path / "a.tif", np.full((20, 20), np.nan, np.float32), NORTH_UP)
-    with pytest.raises(SourceError, match="variable 'band 1' holds no number within the bounds; write depths"):
-        read(path)
 
 
 def test_damaged_files_are_one_line_and_nothing_on_stderr(tmp_path):

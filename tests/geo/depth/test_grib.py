@@ -13,7 +13,7 @@ from gribs import DEPTH, FIELD, GEOGRAPHIC, ICE, LEVEL, SOUNDING, TEMPERATURE, f
 
 import vexture
 from vexture.base.errors import LimitError, ParameterError, SourceError
-from vexture_geo.depth.grib_messages import MOST_POINTS
+from vexture_geo.depth.grib import MOST_POINTS
 from vexture_geo.readers import extent_of
 
 CELLS = [25, 75, 130, 190]

@@ -11,9 +11,15 @@ import numpy as np
 from server import COMMAND, SECONDS, TOKEN, Server, serving
 
 from typed_commands import run_command
+from vexture.drawing.drawing import Drawing
+from vexture_geo.base.extent import Frame
+from vexture_geo.flood.relief import relief_of
+from vexture_geo.flood.surface import surface_of
 
 BOUNDS = (500000.0, 4000000.0, 504000.0, 4002000.0)
 CRS = "EPSG:32610"
+FRAME = Frame(BOUNDS, CRS, (4000.0, 2000.0))
+HMIN = 0.05
 TOO_MANY = 429, 503  # uploads in so short a time, connections
 
 
@@ -129,3 +135,15 @@ class FloodServer(Server):
 def flooding(folder, *options, token=True):
     """Context of a running server."""
     return serving(folder, *options, token=token, kind=FloodServer)
+
+
+def west(share):
+    """Water up to a share of the frame's width."""
+    x0, _, x1, _ = FRAME.box
+    edge = x0 + share * (x1 - x0)
+    return Drawing.polygon([(0, 0), (edge, 0), (edge, 1), (0, 1)])
+
+
+def surfaces(extent):
+    relief = relief_of(extent)
+    return relief, [surface_of(step, extent.frame, relief, extent.bed, HMIN) for step in extent.steps]

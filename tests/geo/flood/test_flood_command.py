@@ -1,7 +1,6 @@
 """One page from a user's files, and one line where there is none."""
 
 import base64
-import json
 import re
 from io import BytesIO
 
@@ -10,9 +9,7 @@ import pytest
 from floods import BOUNDS, CRS, depths, flood, geotiff, scene_of, sea, series
 from PIL import Image
 
-from vexture.base.errors import ParameterError
 from vexture.texture.load import texture_from
-from vexture_geo.flood.options import FloodOptions, bounds_of
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
 
@@ -167,27 +164,10 @@ def test_what_cannot_be_shown_is_one_line_and_no_page(case, tmp_path):
     assert not page.exists()
 
 
-@pytest.mark.parametrize("options", [[], ["-o", "page.html", "--serve"], ["-o", "page.html", "--token-file", "x"]])
-def test_where_to_show_it_must_be_said(options, tmp_path):
-    outcome = flood("--extent", sea(tmp_path / "s.json"), *options)
-    assert outcome.returncode == 1
-    (line,) = outcome.stderr.splitlines()
-    assert "--serve" in line
-
-
 def test_page_must_be_html(tmp_path):
     outcome = flood("--extent", sea(tmp_path / "s.json"), "-o", tmp_path / "page.pdf")
     assert outcome.returncode == 1
     assert ".html" in outcome.stderr
-
-
-def test_parameters_are_checked(tmp_path):
-    with pytest.raises(ParameterError, match="`amplitude` nan"):
-        FloodOptions(tmp_path, amplitude=float("nan"))
-    assert FloodOptions(tmp_path).amplitude_in(1000.0) == 2.0
-    with pytest.raises(ParameterError, match="the box is empty"):
-        bounds_of("1,2,1,4")
-    assert json.dumps(bounds_of("170,-20,-170,-10")) == "[170.0, -20.0, -170.0, -10.0]"
 
 
 def test_waves_that_would_turn_the_shore_over_are_smaller_and_said_so(tmp_path):

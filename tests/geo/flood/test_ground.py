@@ -1,4 +1,4 @@
-"""The ground: pictures of strangers, pictures with a place, and what is drawn or invented where there is none."""
+"""The ground: pictures of strangers, and pictures with a place."""
 
 import struct
 import zlib
@@ -6,28 +6,13 @@ from io import BytesIO
 
 import numpy as np
 import pytest
-import rasterio
-from floods import BOUNDS, CRS, geotiff
+from floods import BOUNDS, CRS, FRAME, geotiff
 from PIL import Image
 
 from vexture.base.errors import LimitError, SourceError
-from vexture.drawing.drawing import Drawing
-from vexture_geo.base.extent import Extent, Frame, Step
-from vexture_geo.flood.drawn_ground import DRAWN, drawn_ground
-from vexture_geo.flood.grids import shore_distance
 from vexture_geo.flood.ground import LARGEST_GROUND, encode_webp, ground_of
-from vexture_geo.flood.relief import relief_of
-from vexture_geo.flood.views import viewpoint
 
-FRAME = Frame(BOUNDS, CRS, (4000.0, 2000.0))
 GREEN = Image.new("RGB", (64, 32), (0, 200, 0))
-
-
-def west(share):
-    """Water up to a share of the frame's width."""
-    x0, _, x1, _ = FRAME.box
-    edge = x0 + share * (x1 - x0)
-    return Drawing.polygon([(0, 0), (edge, 0), (edge, 1), (0, 1)])
 
 
 def red(path, bounds, crs=CRS, **profile):
@@ -120,73 +105,3 @@ def test_encoded_picture_is_small_enough():
     data = encode_webp(Image.fromarray(noise))
     assert len(data) <= LARGEST_GROUND
     assert Image.open(BytesIO(data)).format == "WEBP"
-
-
-def test_drawn_ground_tells_land_from_sea():
-    extent = Extent(FRAME, (Step(west(0.5)),))
-    relief = relief_of(extent)
-    picture = drawn_ground(extent, relief)
-    assert picture.size == (DRAWN, DRAWN // 2)
-    red_, _, blue = np.asarray(picture).astype(float).mean(axis=0).T
-    assert (blue[: DRAWN // 3] > red_[: DRAWN // 3]).all()
-    assert (red_[DRAWN // 2 + 8 :] > blue[DRAWN // 2 + 8 :]).all()
-    assert relief.invented
-    assert relief.heights[:, 0].max() < 0.0 < relief.heights[:, -1].min()
-
-
-def test_bed_gives_the_relief_and_the_still_water_is_its_zero():
-    bed = np.tile(np.linspace(5.0, 15.0, 40, dtype=np.float32), (20, 1))
-    relief = relief_of(Extent(FRAME, (Step(Drawing(())), Step(west(0.5))), bed))
-    assert not relief.invented
-    np.testing.assert_allclose(relief.heights[:, [0, 128, 256]], np.tile([-5.0, 0.0, 5.0], (128, 1)), atol=0.15)
-
-
-def test_relief_says_how_much_of_the_ground_it_knows(tmp_path):
-    left, south, right, north = BOUNDS
-    bed = np.tile(np.linspace(5.0, 15.0, 40, dtype=np.float32), (20, 1))
-    half = geotiff(tmp_path / "half.tif", bed, bounds=((left + right) / 2, south, right, north))
-    relief = relief_of(Extent(FRAME, (Step(west(0.25)),)), half)
-    assert relief.known == pytest.approx(0.75, abs=0.02)
-
-
-def test_viewpoint_is_none_where_there_is_no_shore():
-    assert viewpoint(Drawing(()), FRAME) is None
-    assert viewpoint(Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]), FRAME) is None
-
-
-def test_viewpoint_avoids_ponds():
-    x0, y0, x1, y1 = FRAME.box
-    middle = ((x0 + x1) / 2, (y0 + y1) / 2)
-    pond = [(middle[0] - 0.01, middle[1] - 0.01), (middle[0] + 0.01, middle[1] - 0.01), (middle[0], middle[1] + 0.01)]
-    sea = west(0.3).paths[0].contours[0][:, 0].tolist()
-    shore = viewpoint(Drawing.polygon(sea, pond), FRAME)
-    assert shore.place[0] == pytest.approx(x0 + 0.3 * (x1 - x0), abs=1e-5)
-    assert shore.seaward == pytest.approx((-1.0, 0.0), abs=1e-3)
-
-
-def test_distance_to_the_shore_is_exact():
-    wet = np.random.default_rng(2).random((13, 17)) < 0.3
-    found = shore_distance(wet, (2.0, 3.0))
-    rows, columns = np.mgrid[:13, :17]
-    for row, column in np.ndindex(13, 17):
-        other = wet != wet[row, column]
-        apart = np.hypot(3.0 * (rows[other] - row), 2.0 * (columns[other] - column)).min()
-        assert abs(found[row, column]) == pytest.approx(apart)
-        assert (found[row, column] < 0.0) == wet[row, column]
-
-
-def test_heights_are_metres_whatever_their_unit_and_packing(tmp_path):
-    metres = np.tile(np.linspace(8.0, 16.0, 80), (40, 1))
-    dry = Extent(FRAME, (Step(Drawing(())),))
-    in_feet = geotiff(tmp_path / "feet.tif", (metres / 0.3048).astype("f4"))
-    packed = geotiff(tmp_path / "packed.tif", np.rint(100.0 * (metres - 5.0)).astype("i2"))
-    other = geotiff(tmp_path / "other.tif", metres.astype("f4"))
-    for path, facts in ((in_feet, ("ft", 1.0, 0.0)), (packed, ("m", 0.01, 5.0)), (other, ("psu", 1.0, 0.0))):
-        with rasterio.open(path, "r+") as file:
-            (file.units, file.scales, file.offsets) = ((fact,) for fact in facts)
-    for path in (in_feet, packed):
-        relief = relief_of(dry, path)
-        assert relief.still == pytest.approx(8.0, abs=0.02)
-        assert np.ptp(relief.heights) == pytest.approx(8.0, abs=0.02)
-    with pytest.raises(SourceError, match="its values are in 'psu', no unit of length that is known"):
-        relief_of(dry, other)

@@ -11,12 +11,10 @@ import pyarrow as pa
 import pytest
 import shapely
 
-from vexture.base.errors import LimitError, ParameterError, SourceError
+from vexture.base.errors import ParameterError, SourceError
 from vexture.base.notes import Notes
 from vexture_geo.maps import MapLayer, Scale, convert_map
 from vexture_geo.maps.colours import colours_of
-from vexture_geo.maps.prepare import in_memory
-from vexture_geo.vector.vectors import check_memory
 
 METRES = "EPSG:28992"
 BOXES = [shapely.box(k, 0, k + 1, 1) for k in range(4)]
@@ -158,17 +156,6 @@ def test_a_polygon_of_a_million_corners():
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1) * radius[:, None]
     texture = convert_map([MapLayer(frame([1], [shapely.Polygon(ring)]))], crs=METRES).conversion.texture
     assert texture.element_at(np.array([[0.5, 0.5], [0.01, 0.01]])).name.tolist() == ["0", ""]
-
-
-def test_memory_that_runs_out_within_a_library_is_told_apart_from_damage():
-    with pytest.raises(LimitError, match="more memory than there is"), in_memory():
-        raise shapely.errors.GEOSException("std::bad_alloc")
-    with pytest.raises(shapely.errors.GEOSException), in_memory():
-        raise shapely.errors.GEOSException("side location conflict")
-    good = shapely.to_wkb(shapely.box(0, 0, 1, 1))
-    with pytest.raises(MemoryError):
-        check_memory(good)
-    check_memory(good[:20])
 
 
 def circles(count, corners=120):

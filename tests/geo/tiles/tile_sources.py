@@ -10,6 +10,9 @@ import shapely
 
 from vexture_geo.base.rings import rings_of
 
+COUNT = 12
+VALUES = [None, *range(1, COUNT)]
+
 
 @dataclass(frozen=True, eq=False)
 class Batch:
@@ -59,3 +62,20 @@ def write_many(path):
     """Parcels with many points, of several parts."""
     shapes = shapely.segmentize(cells(3000, (4.0, 51.0, 16.0, 59.0)), 0.006)
     return write_source(path, shapes, range(len(shapes)))
+
+
+def write_columns(path, shapes, **columns):
+    rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+    features = [
+        {"type": "Feature", "properties": row, "geometry": shapely.geometry.mapping(shape)}
+        for row, shape in zip(rows, shapes, strict=True)
+    ]
+    path.write_text(json.dumps({"type": "FeatureCollection", "name": "parcels", "features": features}))
+    return path
+
+
+def write_parcels(folder):
+    """A source of `COUNT` parcels, the first of which has no value."""
+    names = [f"p{k}" for k in range(COUNT)]
+    shapes = cells(COUNT, (4.0, 51.0, 6.0, 53.0))
+    return write_columns(folder / "parcels.geojson", shapes, parcel=names, value=VALUES)

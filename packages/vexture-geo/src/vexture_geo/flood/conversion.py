@@ -1,10 +1,14 @@
-"""Conversion of flood data, of any kind, into shapes of water in the frame of a page."""
+"""Conversion of flood data, of any kind, into shapes of water in the frame of a page, and pictures of their depths.
+
+The page reads the depth at the pointer from these pictures: depths, or classes of them.
+"""
 
 import json
 import time
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from io import BytesIO
 from typing import Any, Final
 
 import numpy as np
@@ -15,7 +19,7 @@ from vexture.base.errors import LimitError, ParameterError, SourceError, Vexture
 from vexture.conversion.parameters import Parameters
 from vexture.server.publish_file import load_kernels, shape_of_drawing, texture_shape
 from vexture.server.published import PublishedFile, PublishedShape
-from vexture_geo.base.extent import Extent, Frame, Step
+from vexture_geo.base.extent import DepthClasses, Extent, Frame, Step
 from vexture_geo.flood.relief import Relief
 from vexture_geo.flood.scene import PREFIX, labels
 from vexture_geo.flood.surface import WaterSurface
@@ -41,6 +45,21 @@ OPTIONS: Final[dict[FileKind, tuple[str, ...]]] = {
 
 KINDS: Final = f"GeoJSON, {VECTOR_FILES} (a shapefile or FileGDB zipped), GeoTIFF, NetCDF, GRIB or a packed texture"
 
+PIXELS: Final = 256
+"""Most pixels on the longer side: the picture serves to read a depth at the pointer, not to draw."""
+
+SCALE: Final = 50.0
+"""Metres. Steps between two depths are even in much shallower water, and a share of the depth in much deeper water."""
+
+STEP: Final = 1e-4
+"""Of the numbers in a picture: 5 mm where it is shallow, a ten-thousandth of the depth where it is deep.
+
+A sea of 12 km ends at 61,738, so that all depths have 16 bits.
+"""
+
+CODE: Final = {"scale": SCALE, "step": STEP}
+"""The facts to read a picture of depths: a depth is `scale` times the hyperbolic sine of its number times `step`."""
+
 
 @dataclass(frozen=True, slots=True)
 class FloodConversion:
@@ -56,7 +75,6 @@ class FloodConversion:
     def step(self, step: Step, surface: WaterSurface, name: str, label: str) -> PublishedShape:
         """Shape of one step that is in this frame, with its surface; `label` is its time as people read it."""
         from vexture_geo.flood.depth_classes import class_drawing
-        from vexture_geo.flood.depth_pictures import CODE, deepest, depth_png, ranges_as_json, ranks_png
         from vexture_geo.flood.hazard import UNIT, hazard_png
 
         load_kernels()
@@ -206,3 +224,40 @@ def _small_tiff(frame: Frame) -> bytes:
         ) as raster:  # fmt: skip
             raster.write(np.tile(np.array([0, 0, 2, 2], np.float32), (4, 1)), 1)
         return bytes(file.read())
+
+
+def deepest(depth: NDArray[np.float32]) -> float:
+    """Greatest depth in metres, 0 if all is dry or unknown."""
+    known = depth[np.isfinite(depth)]
+    return max(0.0, float(known.max())) if known.size else 0.0
+
+
+def depth_png(depth: NDArray[np.float32]) -> bytes:
+    """Depths in metres as a 16-bit gray PNG, which `CODE` reads: 0 is dry or unknown, and wet pixels are at least 1."""
+    metres = _thin_grid(np.where(np.isfinite(depth), np.maximum(depth, 0.0), 0.0).astype(np.float64))
+    numbers = np.rint(np.arcsinh(metres / SCALE) / STEP)
+    return _png(np.where(metres > 0.0, np.clip(numbers, 1.0, 65535.0), 0.0).astype(np.uint16))
+
+
+def ranks_png(classes: DepthClasses) -> bytes:
+    """Ranks of classes of depth as an 8-bit gray PNG: 0 is dry or unknown."""
+    return _png(_thin_grid(classes.ranks))
+
+
+def ranges_as_json(classes: DepthClasses) -> list[list[float | None]]:
+    """Metres from which each class begins and at which it ends, which is null if it has no end."""
+    return [[low, high if np.isfinite(high) else None] for low, high in classes.ranges]
+
+
+def _thin_grid(grid: NDArray[Any]) -> NDArray[Any]:
+    """Every second, third or further sample of a grid that is too large."""
+    stride = -(-max(grid.shape) // PIXELS)
+    return np.ascontiguousarray(grid[stride // 2 :: stride, stride // 2 :: stride])
+
+
+def _png(pixels: NDArray[Any]) -> bytes:
+    from PIL import Image
+
+    out = BytesIO()
+    Image.fromarray(pixels).save(out, format="PNG", optimize=True)
+    return out.getvalue()

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 from vexture.base.content import ARROW, PARQUET, Header, header_of, read_bytes, start_of
 from vexture.base.errors import SourceError, shorten_text
 from vexture_geo.vector.curves import BROKEN
-from vexture_geo.vector.decimal_commas import with_decimal_commas
 from vexture_geo.vector.geojson import WORLD
 from vexture_geo.vector.wkt import wkb_of_texts
 
 if TYPE_CHECKING:
     import pyarrow
+
 
 GEOMETRY: Final = "geometry"
 """Name of the geometries of CSV; a column that has it already has a longer one."""
@@ -39,6 +39,20 @@ UTF_16: Final = (b"\xff\xfe", b"\xfe\xff")
 CODE: Final = re.compile(rb'(?<![^,;\t|"\s])0\d')
 CODE_ALONE: Final = r"^\s*0\d"
 """A number with a zero before other digits: at the start of a value somewhere in a text, and of one value."""
+
+SEPARATORS: Final = ";\t"
+"""Separators of columns beside which a comma may be that of decimals."""
+
+NUMBER: Final = r"^-?\d+(,\d+)?$"
+GROUPED: Final = r"^-?(\d+|[1-9]\d{0,2}(\.\d{3})+)(,\d+)?$"
+BOTH: Final = r"\.\d{3},\d"
+"""A number that may have points between its thousands, and what only one with both has."""
+
+LEADING_ZERO: Final = r"^-?0\d"
+"""A number with a zero before other digits, which a code has."""
+
+THOUSANDS: Final = r"^-?([1-9]\d{0,2},\d{3}|\d{1,3})$"
+"""A number of which the comma may be that of thousands."""
 
 
 @dataclass(frozen=True)
@@ -213,3 +227,42 @@ def _from_numbers(*columns: tuple[Any, str]) -> NDArray[Any]:
     given = ~(np.isnan(across) | np.isnan(up))
     found[given] = shapely.to_wkb(shapely.points(across[given], up[given]))
     return found
+
+
+def with_decimal_commas(table: "pyarrow.Table", header: Header) -> "pyarrow.Table":
+    """A table with numbers in place of texts that are numbers with decimal commas, in every row of a column.
+
+    Beside columns with decimal points, a column of which all commas may be those of thousands stays text.
+    """
+    import pyarrow as pa
+    from pyarrow import compute
+
+    if header.delimiter not in SEPARATORS:
+        return table
+    has_points = any(pa.types.is_floating(field.type) for field in table.schema)
+    for at, field in enumerate(table.schema):
+        if not pa.types.is_string(field.type) or field.name == header.text:
+            continue
+        texts = compute.utf8_trim_whitespace(table.column(at))
+        texts = compute.if_else(compute.equal(texts, ""), None, texts)
+        is_doubtful = _any_match(texts, LEADING_ZERO) or (has_points and _all_match(texts, THOUSANDS))
+        if is_doubtful and field.name not in (header.across, header.up):
+            continue
+        if _any_match(texts, BOTH) and _all_match(texts, GROUPED):
+            texts = compute.replace_substring(texts, ".", "")
+        if _all_match(texts, NUMBER) and compute.any(compute.match_substring(texts, ",")).as_py():
+            numbers = compute.cast(compute.replace_substring(texts, ",", "."), pa.float64())
+            table = table.set_column(at, field.name, numbers)
+    return table
+
+
+def _any_match(texts: Any, pattern: str) -> bool:
+    from pyarrow import compute
+
+    return bool(compute.any(compute.match_substring_regex(texts, pattern)).as_py())
+
+
+def _all_match(texts: Any, pattern: str) -> bool:
+    from pyarrow import compute
+
+    return bool(compute.all(compute.match_substring_regex(texts, pattern)).as_py())

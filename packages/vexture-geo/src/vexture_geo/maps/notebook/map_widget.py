@@ -1,12 +1,16 @@
-"""The widget of a map: its column, its selection, and the tip of a feature, as traits."""
+"""The widget of a map: its column, its selection, and the tip of a feature, as traits.
 
+The map is converted in a thread beside the cells of the notebook, and arrives between two messages.
+"""
+
+import asyncio
 import os
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, Generic, TypeVar
 
 import numpy as np
 import traitlets
@@ -26,7 +30,6 @@ from vexture_geo.maps import Map, Scale
 from vexture_geo.maps.colours import colours_of
 from vexture_geo.maps.notebook.map_picture import map_picture, plain
 from vexture_geo.maps.notebook.map_steps import encode_colours, steps_of
-from vexture_geo.maps.notebook.pending import Pending
 from vexture_geo.maps.notebook.tip import Tips
 from vexture_geo.maps.prepare import Prepared
 
@@ -35,6 +38,8 @@ MOST_PIXELS: Final = 4096
 
 SELECTED: Final = (0.0, 0.9, 1.0, 1.0)
 """Colour of the selected feature: in no ramp of the default palettes."""
+
+Result = TypeVar("Result")
 
 
 class MapWidget(VectorWidget):
@@ -330,3 +335,56 @@ def _home(sides: tuple[float, float]) -> Rect:
 def _encode(ready: Map) -> tuple[Map, bytes]:
     """A map, and the bytes that a page gets."""
     return ready, ready.conversion.texture.to_ktx2()
+
+
+class Pending(Generic[Result]):
+    """The result of a function that a thread of its own calls.
+
+    Parameters
+    ----------
+    work : callable
+    then : callable
+        Called once, when the result is there: by the loop of the kernel, so that it never runs beside a cell; without a
+        loop, by the thread.
+    """
+
+    def __init__(self, work: Callable[[], Result], then: Callable[[], None]) -> None:
+        self._work, self._then = work, then
+        self._result: Result | None = None
+        self._error: BaseException | None = None
+        try:
+            self._loop: asyncio.AbstractEventLoop | None = asyncio.get_running_loop()
+        except RuntimeError:
+            self._loop = None
+        self._thread = threading.Thread(target=self._run, name="vexture map", daemon=True)
+        self._thread.start()
+
+    def _run(self) -> None:
+        try:
+            self._result = self._work()
+        except BaseException as error:  # it is raised where the result is asked for
+            self._error = error
+        loop = self._loop
+        if loop is None:
+            self._then()
+        elif not loop.is_closed():
+            loop.call_soon_threadsafe(self._then)
+
+    @property
+    def is_done(self) -> bool:
+        """Whether there is a result, or an error."""
+        return not self._thread.is_alive() or self._result is not None or self._error is not None
+
+    @property
+    def error(self) -> BaseException | None:
+        """Error of finished work, if it failed."""
+        return self._error
+
+    def result(self) -> Result:
+        """The result, once it is there; what the work raised is raised again."""
+        while self._result is None and self._error is None:
+            self._thread.join(0.05)  # so that it can be interrupted
+        if self._error is not None:
+            raise self._error
+        assert self._result is not None
+        return self._result
