@@ -55,6 +55,7 @@ def test_the_guide_for_python_lists_the_parameters_of_convert() -> None:
     assert {*re.findall(r"`(\w+)`", listed)} == parameters | {"convert"}
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_the_guide_for_the_command_line_does_what_it_says(tmp_path: Path) -> None:
     folder = tmp_path / "run"
@@ -82,6 +83,7 @@ def test_the_guide_for_the_command_line_does_what_it_says(tmp_path: Path) -> Non
     assert (folder / "fold.png").is_file()
 
 
+@pytest.mark.slow
 def test_the_guide_for_the_thesis_does_what_it_says(tmp_path: Path) -> None:
     folder = tmp_path / "run"
     folder.mkdir()
@@ -108,6 +110,7 @@ def test_the_guide_for_notebooks_does_what_it_says(tmp_path: Path) -> None:
     assert (folder / "harbour.html").read_bytes().startswith(b"<!doctype html>")
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings(
     "ignore:.*lies below others:vexture.base.errors.SourceWarning"
 )  # the lake, as the guide says

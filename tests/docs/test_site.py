@@ -169,6 +169,7 @@ def test_each_warning_fails_the_build(tmp_path: Path) -> None:
         assert [BREAKS[case][-1] in complaint for complaint in complaints].count(True) == 1, case
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", FATAL)
 def test_what_cannot_be_built_ends_the_build(case: str, tmp_path: Path) -> None:
     assert any(BREAKS[case][-1] in complaint for complaint in built_broken(tmp_path, case))

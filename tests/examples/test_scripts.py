@@ -34,6 +34,7 @@ def test_convert_and_render(tmp_path):
     assert max(shares) - min(shares) < 0.01
 
 
+@pytest.mark.slow
 def test_pygfx(tmp_path):
     pytest.importorskip("pygfx")
     if not pytest.importorskip("wgpu").gpu.request_adapter_sync():
@@ -68,6 +69,7 @@ def test_colours_and_atlas(tmp_path):
     assert 0.1 < dark_share(tmp_path / "duck.png") < 0.9
 
 
+@pytest.mark.slow
 def test_santa_cruz_flood(tmp_path):
     netcdf = pytest.importorskip("netCDF4")
     lines = run(ROOT / "examples" / "05_santa_cruz_flood.py", tmp_path, folder=tmp_path).splitlines()
@@ -129,6 +131,7 @@ def test_clinch_flood(tmp_path):
         assert image.width / image.height == pytest.approx(bed.shape[1] / bed.shape[0])
 
 
+@pytest.mark.slow
 def test_figures(tmp_path):
     pytest.importorskip("vtracer")
     lines = run(ROOT / "examples" / "06_figures.py", tmp_path, folder=tmp_path).splitlines()
@@ -137,6 +140,7 @@ def test_figures(tmp_path):
     assert all(dark_share(tmp_path / f"heart-{name}.png") > 0.02 for name in ("texture", "depths", "edges"))
 
 
+@pytest.mark.slow
 def test_choropleth(tmp_path):
     lines = run(ROOT / "examples" / "07_choropleth.py", tmp_path, folder=tmp_path).splitlines()
     assert re.fullmatch(r"in the middle: county \d+", lines[0])
@@ -145,6 +149,7 @@ def test_choropleth(tmp_path):
     assert np.abs(np.diff([picture[200, 200].astype(int) for picture in pictures], axis=0)).max(axis=1).min() > 20
 
 
+@pytest.mark.slow
 def test_four_floods(tmp_path):
     netcdf = pytest.importorskip("netCDF4")
     lines = run(ROOT / "examples" / "08_four_floods.py", tmp_path, folder=tmp_path).splitlines()

@@ -266,6 +266,7 @@ def chain(make_ocean):
     return make_ocean.fit_coastline(make_ocean.read_coastline())
 
 
+@pytest.mark.slow
 def test_ocean_is_up_to_date(make_ocean, chain):
     assert make_ocean.svg(chain) == (SHAPES / "ocean.svg").read_text()
 

@@ -132,6 +132,7 @@ def test_a_server_whose_disk_is_full_keeps_what_it_has_acknowledged(tmp_path):
             assert server.ask("GET", server.manifest(name)["views"]["svg"][2:])[2] == body
 
 
+@pytest.mark.slow
 def test_a_full_folder_of_temporary_files_is_named(tmp_path):
     """It said that the output has no room, and to choose another file."""
     disk = Disk(tmp_path, "4k")

@@ -55,6 +55,7 @@ def age(folder):
     return left
 
 
+@pytest.mark.slow
 def test_a_texture_that_is_saved_is_whole(tmp_path):
     command = [sys.executable, "-c", SAVING, str(tmp_path), str(DRAWINGS[0]), "200"]
     told = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
@@ -75,6 +76,7 @@ def test_a_file_that_another_process_writes_is_left_to_it(tmp_path):
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rounds", [1, MANY])
 def test_a_command_that_is_killed_leaves_whole_files(tmp_path, rounds):
     chance = random.Random(2)
@@ -114,6 +116,7 @@ def scratch(tmp_path, monkeypatch):
     return folder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rounds", [1, MANY])
 def test_a_server_that_is_killed_while_it_starts_has_all_it_had(tmp_path, scratch, rounds):
     chance, folder, token = random.Random(3), tmp_path / "shapes", tmp_path / "token"

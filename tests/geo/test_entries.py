@@ -37,6 +37,7 @@ def assert_shows(manifest: Mapping[str, Any], drawing: Drawing, said_of: str) ->
     assert facts["warnings"] == [line for line in [line_of(said_of, drawing.notes)] if line]
 
 
+@pytest.mark.slow
 def test_a_server_takes_every_file_of_its_folder_and_every_upload(files: list[Path]) -> None:
     uploaded = {".svg": ".svg", ".svgz": ".svg", ".geojson": ".geojson"}
     with serving(files[0].parent, "--rate", 1000) as server:
@@ -49,6 +50,7 @@ def test_a_server_takes_every_file_of_its_folder_and_every_upload(files: list[Pa
             assert ("svg" in manifest["views"]) == (suffix == ".svg")
 
 
+@pytest.mark.slow
 def test_a_page_holds_every_file(files: list[Path], tmp_path: Path) -> None:
     try:
         built(SCRIPT)

@@ -51,6 +51,7 @@ def test_work_that_kills_every_process_ends(tmp_path):
         list(Processes(2).map(kill_worker, (tmp_path / "died", True), range(12), 12))
 
 
+@pytest.mark.slow
 def test_steps_of_a_flood_are_the_same_from_several_processes(tmp_path, monkeypatch):
     """Also those of many curves, which processes hand over in another way, and several of them in a class of depth."""
     monkeypatch.setattr(workers, "WORTH", 0.0)
@@ -77,6 +78,7 @@ def cluster():
         yield address
 
 
+@pytest.mark.slow
 def test_a_cluster_makes_the_same_page(cluster, tmp_path):
     run = series(tmp_path / "run.nc", [0.2, 0.4, 0.6])
     pages = {}
@@ -106,6 +108,7 @@ def test_what_a_worker_of_a_cluster_had_in_hand_when_it_died_is_done_again(clust
     assert (tmp_path / "died").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("dead", "state"), [("scheduler", "no longer answers"), ("workers", "has no workers left")])
 def test_a_cluster_that_dies_at_work_is_named_and_dask_is_silent(dead, state, monkeypatch, capfd):
     monkeypatch.setattr(workers, "PATIENCE", "1s")

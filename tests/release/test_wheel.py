@@ -119,6 +119,7 @@ def compiled_ahead() -> set[str]:
     }
 
 
+@pytest.mark.slow
 def test_the_wheel_holds_the_package_with_its_pages_and_nothing_else(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         names = {name for name in archive.namelist() if ".dist-info/" not in name}
@@ -194,6 +195,7 @@ def test_its_metadata_are_complete(metadata: Metadata) -> None:
     assert (metadata.description or "").startswith("# vexture")
 
 
+@pytest.mark.slow
 def test_all_that_it_imports_is_required(wheel: Path, metadata: Metadata) -> None:
     others = imported_by(wheel) - {"vexture"}
     assert {"numpy", "starlette"} < others
@@ -205,6 +207,7 @@ def test_it_requires_few_packages(metadata: Metadata) -> None:
     assert len(hard) <= 13, hard
 
 
+@pytest.mark.slow
 def test_all_that_geographic_data_import_is_required(geo_wheel: Path, metadata: Metadata) -> None:
     own = metadata_of(geo_wheel)
     (core,) = (one for one in own.requires_dist or () if one.name == "vexture" and one.marker is None)
@@ -228,6 +231,7 @@ def test_the_distribution_of_evidence_holds_its_package_and_adds_a_command(vextu
     assert outcome.stdout.startswith("Usage: vexture report ")
 
 
+@pytest.mark.slow
 def test_all_that_the_distribution_of_evidence_imports_is_required(
     metadata: Metadata, geo_wheel: Path, evidence: Path
 ) -> None:
@@ -240,6 +244,7 @@ def test_all_that_the_distribution_of_evidence_imports_is_required(
     assert not_required(others, own, metadata, metadata_of(geo_wheel)) == set()
 
 
+@pytest.mark.slow
 def test_requirements_agree(vexture: Installed, with_geo: Installed) -> None:
     for installed in (vexture, with_geo):
         assert installed.pip("check").strip() == "No broken requirements found."
@@ -322,6 +327,7 @@ def test_it_shows_a_drawing(with_geo: Installed) -> None:
             server.terminate()
 
 
+@pytest.mark.slow
 def test_it_shows_a_flood(with_geo: Installed) -> None:
     outcome = with_geo.run("flood", "--extent", "lake.geojson", "-o", "lake.html")
     assert outcome.returncode == 0, outcome.stderr

@@ -80,6 +80,7 @@ def pixel(page: Any, place: tuple[int, int]) -> tuple[int, ...]:
     return colour
 
 
+@pytest.mark.slow
 def test_counties_are_coloured_anew_hovered_and_picked(
     tmp_path: Path, chromium: Any, open_page: Callable[..., Any], screenshot: Callable[..., Path]
 ) -> None:

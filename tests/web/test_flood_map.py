@@ -14,6 +14,7 @@ from waiting import drawn
 from vexture_geo.flood.hazard import HAZARDS
 
 
+@pytest.mark.slow
 def test_depths_as_colours_with_a_legend(opened_flood: Callable[..., Page], screenshot: Callable[..., Path]) -> None:
     page = opened_flood("series", WIDE)
     view(page, "Plan")
@@ -30,6 +31,7 @@ def test_depths_as_colours_with_a_legend(opened_flood: Callable[..., Page], scre
     expect(legend).to_be_hidden()
 
 
+@pytest.mark.slow
 def test_contours_of_depth_are_as_sharp_as_the_shore(
     opened_flood: Callable[..., Page], screenshot: Callable[..., Path]
 ) -> None:
@@ -97,6 +99,7 @@ def test_hazard_is_the_greatest_of_all_steps(
         assert (off < 40).mean() > 0.999, f"{one.text}: {(off >= 40).sum()} of {off.size}"  # it is not quite opaque
 
 
+@pytest.mark.slow
 def test_a_chart_of_the_area_and_of_a_clicked_place(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series", (900, 640))
     expect(page.locator(".chart .of")).to_contain_text("Area under water")
@@ -115,6 +118,7 @@ def test_a_chart_of_the_area_and_of_a_clicked_place(opened_flood: Callable[..., 
     expect(page.locator(".chart .of")).to_contain_text("Area under water")
 
 
+@pytest.mark.slow
 def test_a_link_opens_the_same_view(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series", WIDE)
     page.evaluate("vexture.flood.step(2)")

@@ -67,6 +67,7 @@ def test_flat_water_is_where_the_texture_is(opened_flood: Callable[..., Page]) -
         assert checked > 8, preset
 
 
+@pytest.mark.slow
 def test_no_picture_is_without_water_while_stepping(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series")
     flat(page)
@@ -118,6 +119,7 @@ def test_the_next_step_is_loaded_before_it_is_shown(opened_flood: Callable[..., 
     assert not page.evaluate(uploaded, 2)
 
 
+@pytest.mark.slow
 def test_one_step_has_no_time_bar(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("single")
     expect(page.get_by_role("slider", name="Time")).to_be_hidden()
@@ -160,6 +162,7 @@ def test_the_pointer_reads_the_water(opened_flood: Callable[..., Page]) -> None:
     expect(region).to_have_text("Point at the ground or the water.")
 
 
+@pytest.mark.slow
 def test_a_finger_reads_the_water_on_a_phone(
     opened_flood: Callable[..., Page], screenshot: Callable[..., Path]
 ) -> None:
@@ -180,6 +183,7 @@ def test_a_finger_reads_the_water_on_a_phone(
     expect(page.get_by_role("slider", name="Relief")).to_be_hidden()
 
 
+@pytest.mark.slow
 def test_nothing_covers_the_plan_on_a_phone(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series", (390, 844), has_touch=True, is_mobile=True)
     page.evaluate("vexture.flood.colours('depth')")
@@ -194,6 +198,7 @@ def test_nothing_covers_the_plan_on_a_phone(opened_flood: Callable[..., Page]) -
         assert panel["bottom"] < y < min(legend["top"], bearings["top"])
 
 
+@pytest.mark.slow
 def test_nothing_stands_over_the_time_on_a_phone(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series", (390, 640), has_touch=True, is_mobile=True)
     tops = """async () => {
@@ -326,6 +331,7 @@ def test_without_webgl_2_it_says_so(open_page: Callable[..., Any], chromium: Any
     context.close()
 
 
+@pytest.mark.slow
 def test_new_steps_of_a_server_become_steps(open_page: Callable[..., Any], tmp_path: Path) -> None:
     from server import serving
 

@@ -31,6 +31,7 @@ def white(page):
     return int((np.asarray(picture) > 127).sum())
 
 
+@pytest.mark.slow
 def test_page_in_one_file_opens_from_disk(open_page, screenshot, tmp_path):
     file = tmp_path / "page.html"
     outcome = flood("--extent", sea(tmp_path / "sea.geojson"), *PLACE, "-o", file)
@@ -42,6 +43,7 @@ def test_page_in_one_file_opens_from_disk(open_page, screenshot, tmp_path):
     screenshot(page)
 
 
+@pytest.mark.slow
 def test_what_is_pushed_is_seen(open_page, screenshot, tmp_path):
     with flooding(tmp_path, "--extent", sea(tmp_path / "sea.geojson", 0.3), *PLACE) as server:
         page = open_page(f"{server.url}?bare", (480, 320))

@@ -77,6 +77,7 @@ def check(pictures: list[Numbers], fold: Fold, to_unit: Numbers, texture: Textur
     assert np.percentile(np.concatenate(found), 99) <= 8.0
 
 
+@pytest.mark.slow
 def test_a_mask_follows_its_fold(fresh_page: Any, screenshot: Callable[..., Path]) -> None:
     duck = vexture.convert(drawing("duck"))
     for name, flat in (("shore", False), ("wild", True)):
@@ -87,6 +88,7 @@ def test_a_mask_follows_its_fold(fresh_page: Any, screenshot: Callable[..., Path
         assert found["programs"] <= 3
 
 
+@pytest.mark.slow
 def test_near_and_tilted_it_does_not_sparkle(page: Any, screenshot: Callable[..., Path]) -> None:
     duck, fold = vexture.convert(drawing("duck")), folds()["shore"]
     contours = [contour for path in drawing("duck").paths for contour in path.contours]
@@ -104,6 +106,7 @@ def test_near_and_tilted_it_does_not_sparkle(page: Any, screenshot: Callable[...
     check(pictures, fold, np.linalg.inv(to_pixels @ clip @ to_plane), duck)
 
 
+@pytest.mark.slow
 def test_it_repeats_with_the_shape(page: Any, screenshot: Callable[..., Path]) -> None:
     matrix = np.array([[1.7, 0, -0.4], [0, 1.7, 0.3]])
     pictures, _ = frames(page, texture="border", mask={"fold": "wild", "wrap": "repeat", "transform": uv_view(matrix)})

@@ -197,6 +197,7 @@ def test_an_example_runs_from_the_disk(name: str, run: Callable[..., Any]) -> No
     assert wide <= SIZE[0]
 
 
+@pytest.mark.slow
 def test_webgpu_says_what_it_runs_on(run: Callable[..., Any]) -> None:
     page = run("webgpu")
     assert page.locator("#note").text_content() == ""
@@ -205,6 +206,7 @@ def test_webgpu_says_what_it_runs_on(run: Callable[..., Any]) -> None:
     assert said in ("This is WebGPU.", "There is no WebGPU here: this is WebGL 2.")
 
 
+@pytest.mark.slow
 def test_an_edited_source_is_run_and_is_the_truth(run: Callable[..., Any], gallery: Path) -> None:
     page = run("logo", (1280, 800))
     edit(page, FLAT)
@@ -221,6 +223,7 @@ def test_an_edited_source_is_run_and_is_the_truth(run: Callable[..., Any], galle
     assert page.is_disabled("#reset")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "source", "said"),
     [
@@ -265,6 +268,7 @@ def wander(page: Any, places: Iterable[tuple[float, float]], said: Callable[[], 
     raise AssertionError("nothing is said")
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_a_map_through_time_names_a_county_and_keeps_it(run: Callable[..., Any]) -> None:
     page = run("time", (1280, 800))

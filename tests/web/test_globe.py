@@ -75,6 +75,7 @@ def _truth(page: Any, pixel: tuple[float, float]) -> tuple[float, float] | None:
     return found[0] / 360 + 0.5, float(np.clip(y, 1e-9, 1 - 1e-9))  # caps have what is at the grid's ends
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("place", "height"), [(CENTRE, 2.0), (CENTRE, 1e-5), ((0.3, 0.1), 1.0), ((0.0, 0.4), 1.0)])
 def test_each_pixel_has_the_colour_of_its_place(
     place: tuple[float, float], height: float, page: Any, screenshot: Callable[..., Path]
@@ -112,6 +113,7 @@ def test_edges_are_exact(height: float, page: Any) -> None:
     assert map_truth.edges(picture, truth) < 0.3
 
 
+@pytest.mark.slow
 def test_no_frame_is_blank_once_the_parent_is_there(folder: Path, open_page: Callable[..., Any]) -> None:
     chance = np.random.default_rng(20)
     path = [
@@ -144,6 +146,7 @@ def test_no_frame_is_blank_once_the_parent_is_there(folder: Path, open_page: Cal
     assert {tile for quad, tile in last if quad >= 3} == {3}, "a stale tile"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("lat", "height", "seen"),
     [

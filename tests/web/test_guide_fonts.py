@@ -29,6 +29,7 @@ window.warned = warned;
 """Characters that the guide's atlas lacks, in its last program."""
 
 
+@pytest.mark.slow
 def test_the_guide_to_fonts_does_what_it_says(tmp_path: Path, open_page: Callable[..., Any]) -> None:
     if not default_files():
         pytest.skip("the default font is not installed: pip install 'vexture[text]'")

@@ -134,6 +134,7 @@ def _flat_then_globe(page: Any, screenshot: Callable[..., Path]) -> None:
     screenshot(page, "globe")
 
 
+@pytest.mark.slow
 @pytest.mark.long
 @pytest.mark.usefixtures("chromium")
 def test_the_guide_to_maps_in_web_pages_does_what_it_says(

@@ -228,6 +228,7 @@ def test_what_is_not_wanted_is_aborted_and_all_is_freed(opened_map: Callable[...
     assert page.evaluate("[tiles.stats.tiles, tiles.stats.held]") == [0, 0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("label", "view", "size"),
     [

@@ -31,6 +31,7 @@ def _style(*names: str) -> dict[str, Any]:
     return {**MARKED, "layers": layers}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("diff", [True, False])
 def test_another_style_leaves_the_layer_where_it_was(diff: bool, opened_map: Callable[..., Any]) -> None:
     page = opened_map(
@@ -56,6 +57,7 @@ def test_another_style_leaves_the_layer_where_it_was(diff: bool, opened_map: Cal
     assert page.evaluate("[tiles.stats.tiles, tiles.stats.held]") == [0, 0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("diff", [True, False])
 def test_layers_keep_their_order_in_another_style(diff: bool, opened_map: Callable[..., Any]) -> None:
     page = opened_map({"zoom": 2, "style": _style("ground")})

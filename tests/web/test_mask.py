@@ -172,6 +172,7 @@ def test_a_tilted_plane_is_filtered_as_its_perspective_asks(page: Any, screensho
     assert distance(decode(drawn["picture"]), 1.0 - coverage) <= 1.0
 
 
+@pytest.mark.slow
 def test_a_repeated_shape_has_no_seams(page: Any, screenshot: Callable[..., Path]) -> None:
     ink = {"color": 0}
     for scale, tiles in ((3.7, range(-1, 5)), (11.3, range(-1, 12))):

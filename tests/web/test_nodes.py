@@ -188,6 +188,7 @@ def test_a_colour_that_is_set_after_a_frame_is_shown_in_the_next_one(page: Any, 
     assert np.abs(recolored("blended") - over_white(opacity, INK)).max() < CLOSE
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_every_node_material_can_be_masked(page: Any, backend: str) -> None:
     basic = {"backend": backend, "texture": "duck", "type": "MeshBasicNodeMaterial", "parameters": {"color": 0x2050A0}}

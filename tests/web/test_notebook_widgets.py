@@ -160,6 +160,7 @@ def difference(notebook: Any, stage: Any, source: str, **options: Any) -> int:
     return int(np.abs(picture - np.asarray(Image.open(path).convert("RGB")).astype(int)).max())
 
 
+@pytest.mark.slow
 def test_a_cell_shows_the_drawing_as_the_cpu_draws_it(notebook: Any, chart: Any) -> None:
     assert difference(notebook, chart, "map.svg") <= NEAR
 
@@ -259,6 +260,7 @@ def test_a_silhouette_is_never_recoloured_by_a_theme(notebook: Any, chart: Any) 
     drawn(notebook, stage, (80, 80), [0, 128, 0])
 
 
+@pytest.mark.slow
 def test_twenty_views_share_one_context_and_leave_nothing_behind(notebook: Any, chart: Any) -> None:
     for _ in range(2):  # the second time in place of the first
         stages = notebook.run(4).locator(".vexture-stage")

@@ -61,6 +61,7 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_the_tarball_has_what_it_needs_and_nothing_else(project: Path) -> None:
     package = project / "node_modules" / "vexture"
     assert (package / "LICENSE").read_text() == (ROOT / "LICENSE").read_text()
@@ -71,6 +72,7 @@ def test_the_tarball_has_what_it_needs_and_nothing_else(project: Path) -> None:
         assert types.is_file()
 
 
+@pytest.mark.slow
 def test_its_types_serve_a_strict_project_of_react(project: Path) -> None:
     """All entries and types, in the settings of a newcomer, and the package's own declarations."""
     shutil.copytree(Path(__file__).parent / "react", project / "react")

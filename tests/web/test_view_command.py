@@ -98,6 +98,7 @@ WATCH = """() => {
 """Write down the pixel in the middle of each picture, which is inside of every shape here."""
 
 
+@pytest.mark.slow
 def test_no_picture_is_blank_between_two_shapes(tmp_path, logo, open_page):
     with viewing(tmp_path, logo, "--watch") as running:
         page = ready(open_page(f"{running.url}?bare", SIZE))
@@ -110,6 +111,7 @@ def test_no_picture_is_blank_between_two_shapes(tmp_path, logo, open_page):
         assert set(page.evaluate("middles")) == {",".join(map(str, color)) for color in (RED, BLUE)}
 
 
+@pytest.mark.slow
 def test_drawing_that_is_broken_becomes_a_note_and_the_picture_stays(tmp_path, logo, open_page, screenshot):
     with viewing(tmp_path, logo, "--watch") as running:
         page = ready(open_page(f"{running.url}?bare", SIZE))
@@ -122,6 +124,7 @@ def test_drawing_that_is_broken_becomes_a_note_and_the_picture_stays(tmp_path, l
         until(lambda: shown(page, BLUE, corner=False))
 
 
+@pytest.mark.slow
 def test_every_page_is_told_and_one_opened_later_sees_the_note(tmp_path, logo, open_page):
     with viewing(tmp_path, logo, "--watch") as running:
         pages = [ready(open_page(f"{running.url}?bare", SIZE)) for _ in range(2)]

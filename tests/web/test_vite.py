@@ -104,6 +104,7 @@ def answered(client: httpx.Client, path: str) -> httpx.Response | None:
         return None
 
 
+@pytest.mark.slow
 def test_a_build_has_the_textures_under_names_of_their_content(project: Project) -> None:
     shutil.copy(FIXTURES / "badge.svg", project.folder / f"{HOSTILE}.svg".replace("#", ""))
     shutil.copy(FIXTURES / "elements.svg", project.folder)

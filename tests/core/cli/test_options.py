@@ -44,6 +44,7 @@ def test_a_pipe_of_a_name_is_read(logo, tmp_path, place):
     )
 
 
+@pytest.mark.slow
 def test_commands_read_pipes_of_names(logo, tmp_path):
     texture = vexture.convert(read_drawing(logo)).save(tmp_path / "logo.ktx2")
     assert b"texels" in shell(f'"$@" <(cat {texture})', "info").stdout

@@ -263,6 +263,7 @@ def test_a_folder_that_is_created_is_mentioned(tmp_path):
         assert server.stop() == (0, "", ""), "the folder is there"
 
 
+@pytest.mark.slow
 def test_it_says_what_it_reads_and_then_what_it_serves(tmp_path):
     folder = tmp_path / "shapes"
     folder.mkdir()
@@ -276,6 +277,7 @@ def test_it_says_what_it_reads_and_then_what_it_serves(tmp_path):
         assert server.process.stdout.readline() == f"{folder}: 2 shapes\n"
 
 
+@pytest.mark.slow
 def test_an_upload_is_kept_though_a_drawing_of_the_folder_holds_the_same_files(tmp_path):
     folder = tmp_path / "shapes"
     folder.mkdir()
@@ -303,6 +305,7 @@ def test_a_server_that_stops_says_nothing_of_what_it_has_not_read(tmp_path):
         assert server.stop() == (0, "", "")
 
 
+@pytest.mark.slow
 def test_links_out_of_the_folder_are_not_followed(tmp_path):
     """A link showed any drawing, or data, of the machine to all who asked."""
     folder, other = tmp_path / "shapes", tmp_path / "other"
@@ -325,6 +328,7 @@ def test_links_out_of_the_folder_are_not_followed(tmp_path):
         assert json.loads(server.ask("GET", "/shapes")[2]) == {"shapes": ["in"]}
 
 
+@pytest.mark.slow
 def test_bounds_of_all_shapes(tmp_path):
     with serving(tmp_path / "shapes", "--max-shapes", 1, "--max-total", 50_000) as server:
         assert server.put("a", square())[0] == 201

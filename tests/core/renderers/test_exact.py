@@ -145,6 +145,7 @@ def test_degenerate_drawings_agree_with_exact_scanlines(shape, seed):
     assert max_difference(image, render_exact(shape, size, view, flatness=FLATNESS / 10)) < PROMISE
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("kind", ["scribble", "circles", "union", "pentagram", "star", "loop", "cusp"])
 def test_crossing_curves_agree_with_exact_scanlines(kind, rule):

@@ -53,6 +53,7 @@ SKIA = {blend: "k" + blend.name.title().replace("_", "") for blend in Blend}
 SKIA |= {Blend.NORMAL: "kSrcOver", Blend.PLUS_LIGHTER: "kPlus"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("blend", Blend)
 def test_blend_modes_are_those_of_skia(blend):
     """Of random colours of 8 bits, 0 and 255 often among them; Skia computes in float32."""

@@ -133,6 +133,7 @@ def test_a_free_place_is_taken_again():
             pytest.fail("the place of a client that left stays taken")
 
 
+@pytest.mark.slow
 def test_peers_that_do_not_ask_are_closed(served):
     whole = b"GET /shapes HTTP/1.1\r\nHost: a\r\n\r\n"
     with served(head_seconds=SHORT) as server, closing(Stream(server)) as stream:
@@ -194,6 +195,7 @@ def pipelined(server, count):
     return server.peer((ask + b"\r\n") * (count - 1) + ask + b"Connection: close\r\n\r\n", receives=4096)
 
 
+@pytest.mark.slow
 def test_answers_that_wait_to_be_read_count_as_no_silence():
     """Whether the last one is still being made, is whole in the buffers of the server, or has left it."""
     with shelf(size=60_000, head_seconds=SHORT) as server, ExitStack() as opened:

@@ -38,6 +38,7 @@ def check_others_are_converted(server, name, body, slow):
     assert server.stop()[0] == 0  # and with it the conversion
 
 
+@pytest.mark.slow
 def test_a_slow_conversion_keeps_no_other_waiting(tmp_path):
     with serving(tmp_path / "shapes") as server:
         check_others_are_converted(server, "quick", square(), fan(1500))
@@ -52,6 +53,7 @@ def test_a_slow_conversion_of_a_flood_keeps_no_other_waiting(tmp_path):
         check_others_are_converted(server, "flood", server.water, slow)
 
 
+@pytest.mark.slow
 def test_of_uploads_of_one_name_the_last_stays(tmp_path):
     with serving(tmp_path / "shapes") as server:
         for connection in [uploading(server, name, fan(50)) for name in "xy"]:  # both processes start

@@ -69,6 +69,7 @@ def test_the_description_has_the_limits_of_names():
     assert [one["schema"]["maxLength"] for one in (shape, dropped)] == [MOST_BYTES, MOST_NAME_LENGTH]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("page_is_built")
 @pytest.mark.parametrize(
     ("command", "phases", "examples"),

@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import pytest
 from server import TOKEN, serving, square
 
 import vexture
@@ -10,6 +11,7 @@ from vexture.server.limits import MOST_KNOWN
 from vexture.server.tokens import WrongTokens
 
 
+@pytest.mark.slow
 def test_wrong_tokens_are_slowed_down_and_the_right_one_is_not(tmp_path):
     with serving(tmp_path / "shapes") as server:
         answers = [server.put("a", square(), token=f"{TOKEN}{number}") for number in range(8)]

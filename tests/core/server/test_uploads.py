@@ -2,6 +2,7 @@
 
 from contextlib import ExitStack, closing
 
+import pytest
 from server import TOKEN, serving, square
 
 from vexture.server.limits import Limits
@@ -13,6 +14,7 @@ def test_without_a_token_file_nothing_is_written(tmp_path):
         assert (status, "--token-file" in refused["error"]) == (403, True)
 
 
+@pytest.mark.slow
 def test_haste_is_refused_until_later(tmp_path):
     with serving(tmp_path / "shapes", "--rate", 0.01) as server:
         answers = [server.ask("PUT", "/shapes/a", b"", {"Authorization": f"Bearer {TOKEN}"}) for _ in range(21)]
@@ -20,6 +22,7 @@ def test_haste_is_refused_until_later(tmp_path):
         assert 0 < int(answers[-1][1]["Retry-After"]) <= 100
 
 
+@pytest.mark.slow
 def test_slow_uploads_keep_nobody_waiting(tmp_path):
     """More of them than may be converted at once; with the quick one they are as many as may come at once."""
     limits = Limits()

@@ -111,6 +111,7 @@ def test_what_a_conversion_leaves_counts_for_no_other():
     assert not os.path.exists(folder)
 
 
+@pytest.mark.slow
 def test_a_conversion_has_its_time_without_the_start_of_its_process():
     assert converted(os.getpid, seconds=5.0) != os.getpid()
     with pytest.raises(LimitError, match=r"^a\.nc: its conversion takes longer than 0\.1 s; simplify the drawing$"):

@@ -198,6 +198,7 @@ def test_beyond_the_square_it_goes_on_alike(wrap: str, view: str) -> None:
     everywhere(shader_text("wrap.glsl") + shader_text("view.glsl") + WRAPPED, numbers(WRAP=WRAPS[wrap]), given)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wrap", ["none", "repeat"])
 def test_sheets_and_layers_are_composited_alike(wrap: str) -> None:
     given, _ = given_of(sheets(), VIEWS["turned"])

@@ -150,6 +150,7 @@ TREES = st.recursive(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None)
 @given(st.lists(TREES, min_size=2, max_size=4), st.sampled_from(("", 'opacity="0.6"')))
 def test_random_groups_look_as_resvg_draws_them(trees: list[str], root: str) -> None:

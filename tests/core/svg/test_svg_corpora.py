@@ -26,6 +26,7 @@ def sample(corpus: Corpus, count: int) -> list[Path]:
         pytest.skip(str(error))
 
 
+@pytest.mark.slow
 @pytest.mark.long
 @pytest.mark.parametrize(("corpus", "count"), [(mdi, 2000), (simple_icons, 1000)])
 def test_every_icon_is_read_without_a_warning(corpus: Corpus, count: int) -> None:
@@ -41,6 +42,7 @@ def test_every_flag_is_read() -> None:
             assert read_svg(file).segments > 0, file
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("corpus", [mdi, simple_icons])
 def test_a_sample_looks_like_the_reference(corpus: Corpus) -> None:
     for file in sample(corpus, 150):

@@ -83,6 +83,7 @@ def test_bombs_are_refused_in_one_line(tmp_path: Path, name: str) -> None:
     assert said in message_of(file)
 
 
+@pytest.mark.slow
 def test_a_path_of_a_million_segments_is_read(tmp_path: Path) -> None:
     file = tmp_path / "a.svg"
     steps = "h1v1" * 499_999
@@ -100,6 +101,7 @@ def test_a_selector_that_cannot_be_read_is_named(tmp_path: Path) -> None:
 RECTS = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><style>{}</style>{}</svg>'
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "selector",
     [".c0 ~ .c1999", ".c1998 + .c1999", ".c1998:has(~ .c1999) ~ .c1999", "svg:has(.c1999) .c1999", ".c1999"],

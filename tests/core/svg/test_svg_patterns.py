@@ -133,6 +133,7 @@ def test_a_pattern_is_in_a_file_without_size_too() -> None:
     assert len(drawing.paths[1].contours) == 4
 
 
+@pytest.mark.slow
 def test_a_pattern_in_a_pattern_is_as_if_written_by_hand() -> None:
     """With a gradient and a transform at each level."""
     ramp = '<linearGradient id="g"><stop stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient>'

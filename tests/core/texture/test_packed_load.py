@@ -239,6 +239,7 @@ def test_truncated_at_every_byte(tmp_path: Path) -> None:
         refusal(path)
 
 
+@pytest.mark.slow
 def test_every_bit_flipped(tmp_path: Path) -> None:
     whole = bytearray(shape().to_ktx2())
     path = tmp_path / "bad.ktx2"
@@ -249,6 +250,7 @@ def test_every_bit_flipped(tmp_path: Path) -> None:
         whole[bit // 8] ^= 1 << bit % 8
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(packed_trees(max_quads=4), st.data())
 def test_flipped_words(tmp_path: Path, tree: Tree, data: st.DataObject) -> None:

@@ -1,6 +1,7 @@
 """The thesis's own strategy: what it samples, fits and counts."""
 
 import numpy as np
+import pytest
 
 import degenerate
 from vexture.drawing.drawing import Drawing, FillRule, Path
@@ -36,6 +37,7 @@ def test_hole_is_empty_and_ring_is_full():
     assert abs(float(tree.quad_coverage[0]) - truth) < 0.01
 
 
+@pytest.mark.slow
 def test_a_thin_shape_between_samples_is_sampled_again():
     sliver = Drawing.polygon([(0.1, 0.1), (0.9, 0.8), (0.9, 0.803), (0.1, 0.103)])
     tree = build(sliver, strategy="sampled", max_depth=10)

@@ -40,6 +40,7 @@ def test_thin_lines_are_kept():
     assert area(traced) == pytest.approx(0.012, rel=0.15)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("cell", "drawn"), [(1, False), (20, True)])
 @pytest.mark.filterwarnings("ignore::vexture.SourceWarning")
 def test_noise_ends_in_a_drawing_or_in_one_line(cell, drawn):

@@ -1,6 +1,7 @@
 """The resolved boundary, against brute force on degenerate drawings."""
 
 import numpy as np
+import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -44,6 +45,7 @@ def inside_resolved(curves, boundary, point):
     return state, total
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10**9))
 @example(0)

@@ -95,6 +95,7 @@ def check_area_of_leaves(found):
             assert filled.mean() == pytest.approx(leaf.coverage, abs=0.01)
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @example(30, 4, 0.0)  # an edge along a cell line that another one's end touches
 @example(77, 4, 0.0)
@@ -111,12 +112,14 @@ def test_drawn_shapes(path, tolerance):
     check(read_svg(path), 1, tolerance)
 
 
+@pytest.mark.slow
 def test_letters():
     for letter in corpora.glyphs(corpora.dejavu_sans(), "agR&8@%ß"):
         _, found = check(letter, 2)
         check_area_of_leaves(found[::15])
 
 
+@pytest.mark.slow
 def test_icons():
     for path in [*corpora.mdi(4, 3), *corpora.simple_icons(4, 3)]:
         check(read_svg(path), 3)

@@ -24,6 +24,7 @@ def test_means_are_those_of_many_points(name: str) -> None:
     np.testing.assert_allclose(planar.mean[0].reshape(2, 2, 4)[::-1], wanted, atol=1.5 / 255)
 
 
+@pytest.mark.slow
 def test_a_crowded_cell_has_the_mean_of_its_gradients() -> None:
     rng = np.random.default_rng(7)
     lines = [polygon([(0.01, y), (0.99, 1 - y), (0.99, 1.004 - y)]) for y in rng.uniform(0.1, 0.9, 90)]

@@ -61,6 +61,7 @@ def whole(coast):
     return digests(tree_of(tree))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("threads", [1, 2, 5])
 def test_a_tree_of_parts_is_that_of_one_piece(coast, whole, threads, monkeypatch):
     grown = []
@@ -85,6 +86,7 @@ def test_a_process_that_shares_work_has_one_thread():
     assert parts.usual_threads() >= 1
 
 
+@pytest.mark.slow
 def test_limits_hold_in_parts_and_end_their_threads(coast):
     before, quads = threading.active_count(), len(build_tree(coast, tolerance=TOLERANCE).count)
     limit, found = quads // 2, set()
@@ -108,6 +110,7 @@ def test_threads_know_when_a_conversion_must_end(coast, monkeypatch):
     assert all(known)
 
 
+@pytest.mark.slow
 def test_other_threads_run_while_a_tree_grows(coast):
     """Or parts would wait for one another."""
     cubics, owner, rules = gather(coast)

@@ -41,6 +41,7 @@ def random_gradient(rng, focus):
     return Gradient(tuple(map(tuple, to_ramp.tolist())), tuple(stops), Spread(rng.integers(0, 3)), focus)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("focus", FOCI)
 def test_bands_have_the_colours_of_their_gradient(focus) -> None:
     rng, divided = np.random.default_rng(7), 0

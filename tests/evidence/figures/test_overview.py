@@ -79,6 +79,7 @@ def test_plot_shows_the_shape_that_is_asked_for():
             plot(both)
 
 
+@pytest.mark.slow
 def test_plot_shows_itself_in_a_notebook():
     nbclient = pytest.importorskip("nbclient")
     nbformat = pytest.importorskip("nbformat")

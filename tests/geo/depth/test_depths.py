@@ -254,6 +254,7 @@ def test_bad_files_are_refused_in_one_line(tmp_path, change, options, error, mes
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_damaged_files_are_one_line_and_nothing_on_stderr(tmp_path):
     lake().to_netcdf(tmp_path / "a.nc")
     geotiff(tmp_path / "a.tif", lake_rows(), NORTH_UP, compress="deflate")

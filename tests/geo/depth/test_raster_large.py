@@ -29,6 +29,7 @@ print(x1 - x0, y1 - y0, peak() - before, extent.notes[0])
 """
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_a_raster_of_1600_megabytes_needs_a_part_of_them(tmp_path):
     path = tmp_path / "large.tif"

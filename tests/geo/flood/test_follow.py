@@ -33,6 +33,7 @@ def told(stream, count):
     return [(kind, data["name"]) for kind, data in (stream.next() for _ in range(count))]
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_steps_come_while_the_model_has_the_file_open_and_a_new_run_starts_over(followed):
     server, writer = followed

@@ -51,6 +51,7 @@ def geopackage(path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.long
 @pytest.mark.usefixtures("page_is_built")
 def test_the_guide_for_coastal_data_does_what_it_says(tmp_path: Path) -> None:

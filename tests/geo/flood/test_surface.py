@@ -22,6 +22,7 @@ def middles(grid, size):
     return grid[np.ix_(row, column)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["coast", "river", "polder", "streets"])
 def test_water_stands_at_its_own_level_everywhere(floods, name):
     """Bed plus depth of the file, wherever it is wet: on the slope of a river, in ponds, behind a dike."""

@@ -34,6 +34,7 @@ def drawing(paths):
     return Drawing(tuple(paths), name="crowd")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("paints", [COLOURS, [*COLOURS, Paint((1.0, 1.0, 0.0), 0.4)]])
 def test_the_picture_without_what_is_hidden_is_that_of_the_whole(paints):
     symbols = crowd(paints=paints)
@@ -53,6 +54,7 @@ def test_the_same_symbol_is_picked_where_others_are_hidden():
     assert found[0] == found[1]
 
 
+@pytest.mark.slow
 def test_what_hides_nothing_can_become_translucent():
     symbols = crowd()
     texture = convert(drawing(symbols.seen_paths(FIT)), split="faces", restyle=True)

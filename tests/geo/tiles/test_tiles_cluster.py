@@ -42,6 +42,7 @@ def run(*words):
     return subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
 
 
+@pytest.mark.slow
 def test_a_killed_run_goes_on_and_ends_with_the_same_bytes(source, made_here, tmp_path):
     """Stopped four times, each time when a few more pieces of work are done; by Ctrl-C at last, which says so."""
     output = tmp_path / "parcels.pmtiles"
@@ -67,6 +68,7 @@ def test_a_killed_run_goes_on_and_ends_with_the_same_bytes(source, made_here, tm
     assert not journal.parent.exists()
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_a_cluster_makes_the_same_bytes_though_a_worker_is_killed(source, made_here, tmp_path):
     killed = []
@@ -116,6 +118,7 @@ def test_the_file_for_docker_agrees_with_itself_and_with_the_guide(composed, gui
     assert scaled in composed
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_the_commands_of_the_guide_and_of_docker_make_the_same_bytes(source, made_here, composed, guide, tmp_path):
     """As they stand there, but for the addresses, the number of workers, and what is made of what."""

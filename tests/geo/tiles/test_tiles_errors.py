@@ -97,6 +97,7 @@ def test_only_a_full_disk_needs_room(source, tmp_path, number, remedy):
         make_tiles(source, tmp_path / "parcels.pmtiles", TileOptions(), told)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="it has no limits of files")
 def test_a_disk_that_is_full_is_one_line(source, tmp_path):
     """A limit of a file's size stands for a full disk."""
