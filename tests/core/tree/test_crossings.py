@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+import vexture
+from vexture.renderers.exact import render_exact
 from vexture.tree.crossings import crossing_heights, x_at
 
 SIDE = 32768.0
@@ -46,3 +48,17 @@ def test_a_curve_crosses_its_chord_where_it_does_by_hand() -> None:
     bend = np.array([[0.0, 0.0], [20000.0, 0.0], [SIDE - 17000.0, SIDE], [SIDE, SIDE]])
     t = 20 / 37  # where 20000 (1 - t) = 17000 t
     assert heights_of(bend, line(0, 0, SIDE, SIDE)) == pytest.approx([SIDE * (3 - 2 * t) * t * t], abs=1)
+
+
+@pytest.mark.parametrize("bulge", [100.0, 9000.0, 20000.0])
+def test_a_curve_symmetric_about_its_chord_crosses_it_in_the_middle(bulge: float) -> None:
+    bend = np.array([[0.0, 0.0], [bulge, 0.0], [SIDE - bulge, SIDE], [SIDE, SIDE]])
+    assert SIDE / 2 in heights_of(bend, line(0, 0, SIDE, SIDE))
+
+
+@pytest.mark.parametrize("split", [None, "faces"])
+def test_both_lobes_between_an_s_and_its_chord_are_filled(split: str | None) -> None:
+    source = b'<svg viewBox="0 0 16 16"><path d="M1 15C5 15 3 9 7 9Z"/></svg>'
+    drawing = vexture.read(source)
+    covered = vexture.convert(drawing, split=split).coverage(64)
+    np.testing.assert_allclose(covered, render_exact(drawing, (64, 64)), atol=2 / 255)

@@ -124,8 +124,8 @@ def _pair_crossings(
             continue
         middle = np.floor(0.5 * (low + high))
         gap = x_at(a, middle) - x_at(b, middle)
-        if abs(gap) <= near and (abs(gap_low) > near or abs(gap_high) > near):
-            out[count] = middle  # the order may change exactly between the two halves
+        if abs(gap) <= near:  # the order may change exactly between the two halves, as of an S and its chord
+            out[count] = middle
             count += 1
         lows[open_count], highs[open_count] = middle, high
         lows[open_count + 1], highs[open_count + 1] = low, middle
