@@ -12,7 +12,6 @@ LIMIT = 300.0
 """Seconds, on a machine with much else to do."""
 
 
-@pytest.mark.slow
 @pytest.mark.long
 @pytest.mark.parametrize("language", ["python", "javascript"])
 def test_damaged_files_are_read_or_refused_in_one_line(language):

@@ -50,7 +50,6 @@ def test_a_server_takes_every_file_of_its_folder_and_every_upload(files: list[Pa
             assert ("svg" in manifest["views"]) == (suffix == ".svg")
 
 
-@pytest.mark.slow
 def test_a_page_holds_every_file(files: list[Path], tmp_path: Path) -> None:
     try:
         built(SCRIPT)

@@ -14,7 +14,6 @@ from waiting import drawn
 from vexture_geo.flood.hazard import HAZARDS
 
 
-@pytest.mark.slow
 def test_depths_as_colours_with_a_legend(opened_flood: Callable[..., Page], screenshot: Callable[..., Path]) -> None:
     page = opened_flood("series", WIDE)
     view(page, "Plan")

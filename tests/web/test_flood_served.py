@@ -31,7 +31,6 @@ def white(page):
     return int((np.asarray(picture) > 127).sum())
 
 
-@pytest.mark.slow
 def test_page_in_one_file_opens_from_disk(open_page, screenshot, tmp_path):
     file = tmp_path / "page.html"
     outcome = flood("--extent", sea(tmp_path / "sea.geojson"), *PLACE, "-o", file)

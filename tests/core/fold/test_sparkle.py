@@ -66,7 +66,6 @@ def view(pixel: float, seconds: float, *, tilted: bool) -> Numbers:
     return there @ scale @ bend @ turned @ middle
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("tilted", [False, True])
 @pytest.mark.parametrize("texels", [4.0, 0.25, 1 / 16, 1 / 1024])
 def test_nothing_sparkles(texels: float, tilted: bool) -> None:

@@ -26,8 +26,7 @@ def check(seed: int) -> None:
         assert gap < MOST, (seed, side, 255 * gap)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", [*range(20), 666])  # the last dodges a component that is 0 but for rounding
+@pytest.mark.parametrize("seed", [*range(5), 666])  # the last dodges a component that is 0 but for rounding
 def test_random_drawings_are_exact(seed: int) -> None:
     check(seed)
 

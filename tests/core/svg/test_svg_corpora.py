@@ -42,7 +42,6 @@ def test_every_flag_is_read() -> None:
             assert read_svg(file).segments > 0, file
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("corpus", [mdi, simple_icons])
 def test_a_sample_looks_like_the_reference(corpus: Corpus) -> None:
     for file in sample(corpus, 150):

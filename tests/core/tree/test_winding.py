@@ -1,7 +1,6 @@
 """Counted windings, against brute force on degenerate drawings."""
 
 import numpy as np
-import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from test_boundary import in_cell, levels
@@ -36,7 +35,6 @@ def different_paths(drawing):
     return [number for number, path in enumerate(said) if path not in said[:number]]
 
 
-@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10**9))
 @example(2044)  # paths 0 and 3 are one
