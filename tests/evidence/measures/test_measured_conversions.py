@@ -57,7 +57,7 @@ def test_what_cannot_be_held_is_refused_once(tmp_path, monkeypatch):
         calls.append(parameters)
         raise LimitError("too much")
 
-    monkeypatch.setattr("vexture_evidence.measures.shape.run", refuse)
+    monkeypatch.setattr("vexture_evidence.measures.shape.convert_by", refuse)
     for _ in range(2):
         with pytest.raises(LimitError, match="too much"):
             shape.way("direct")
