@@ -124,6 +124,7 @@ def looping(name: str = "looping") -> Drawing:
 
     Examples
     --------
+    >>> from vexture.conversion.pipeline import run_encoding
     >>> run_encoding(looping(), "thesis").tree.curves.shape[0]  # one leaf for each
     4
     """

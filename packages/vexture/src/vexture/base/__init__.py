@@ -1,1 +1,1 @@
-"""The base of every part: errors, notes, time limits, kernels, and the bits of a texture."""
+"""Foundation of all folders: errors, notes, time limits, kernels, and the bit layout of a texture."""

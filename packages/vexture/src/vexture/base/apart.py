@@ -1,7 +1,7 @@
-"""Work on strangers' data in processes of their own: libraries hear neither the clock nor Ctrl-C, and some crash.
+"""Run work on untrusted data in separate processes: libraries obey neither time limits nor Ctrl-C, and some crash.
 
-A process is ended, with all that it has started, when its work takes too long, when it is not waited for any longer,
-and when the process that started it ends. It writes no files and prints nothing: only whole results come back.
+A worker process is killed, with all its children, when its work takes too long, when nobody waits for it any longer,
+and when its parent ends. It writes no files and prints nothing; only complete results come back.
 """
 
 import ctypes
@@ -25,31 +25,31 @@ from vexture.base.errors import EXPECTED, ParameterError, SourceError, VextureEr
 T = TypeVar("T")
 
 GRACE: Final = 2.0
-"""Seconds after which work is ended that has not ended itself at its limit, as all does that looks at the clock."""
+"""Seconds after its time limit at which work is killed; work that checks the clock has ended itself by then."""
 
 IS_LINUX: Final = sys.platform == "linux"
 SIGNAL_OF_PARENT: Final = 1
-"""PR_SET_PDEATHSIG of Linux."""
+"""Linux's PR_SET_PDEATHSIG."""
 
 
 def apart(work: Callable[..., T], *given: Any, name: str = "", seconds: float = math.inf) -> T:
-    """Result of ``work(*given)``, done in another process; raises what it raises.
+    """Run ``work(*given)`` in another process; return its result, or raise its error.
 
     Parameters
     ----------
     work : function
-        It is found by its name where processes cannot be forked, and its result is copied.
+        Where processes cannot be forked, it is found by its name. Its result is copied.
     *given
-        What it is called with.
+        Its arguments.
     name : str
-        Of the source, in errors.
+        Name of the source in errors.
     seconds : float
-        For the work, which should keep to them by itself: it is ended `GRACE` seconds later.
+        Time limit, which the work should check itself: it is killed `GRACE` seconds later.
 
     Raises
     ------
     LimitError
-        If it takes too long.
+        If the work takes too long.
     SourceError
         If the process dies.
 
@@ -67,9 +67,9 @@ def apart(work: Callable[..., T], *given: Any, name: str = "", seconds: float = 
 def each_apart(
     work: Callable[..., T], items: Sequence[tuple[Any, ...]], names: Sequence[str], seconds: float, processes: int = 1
 ) -> Iterator[T | VextureError | ParameterError]:
-    """Results of ``work(*item)`` in the order of the items, or in place of one why there is none; see `apart`.
+    """Yield the result or the error of ``work(*item)`` for each item, in order; see `apart`.
 
-    Each process does one piece of work after the other.
+    Each process runs one work item after the other.
 
     Examples
     --------
@@ -103,34 +103,34 @@ def each_apart(
 
 
 class _Raised:
-    """An error that work has raised."""
+    """An error that the work raised."""
 
     def __init__(self, error: Exception) -> None:
         self.error = error
 
 
 class _ClockChange(NamedTuple):
-    """Message of a process that the clock of its limits has stopped or resumed."""
+    """Message from a process that its clock has stopped or resumed."""
 
     is_stopped: bool
 
 
 class _Worker:
-    """A process that is started when there is work, and again after its end."""
+    """A process that starts when there is work, and starts again after it has ended."""
 
     def __init__(self, work: Callable[..., Any], name: str | None) -> None:
         self._work, self._name = work, name
         self.process: Any = None
-        self.place: int | None = None  # of what it works at
+        self.place: int | None = None  # index of its work item
         self.until = math.inf
-        self.left = 0.0  # seconds of its limit, while the clock of the process is stopped
-        self.answer: list[Any] = []  # the result, once it is there
+        self.left = 0.0  # seconds left of its limit, while its clock is stopped
+        self.answer: list[Any] = []  # the result, once it has arrived
         self.has_died = False
 
     def give(self, place: int, item: tuple[Any, ...], seconds: float) -> None:
-        """Start a piece of work."""
+        """Start a work item."""
         if self.process is None:
-            # a fork costs nothing and holds what is imported already; elsewhere it is not safe
+            # a fork is cheap and keeps imported modules; on other platforms it is not safe
             context: Any = multiprocessing.get_context("fork" if IS_LINUX else "spawn")
             self.pipe, theirs = context.Pipe()
             self.process = context.Process(target=_serve, args=(self._work, theirs), name=self._name)
@@ -138,11 +138,11 @@ class _Worker:
             theirs.close()
         self.place, self.until = place, time.monotonic() + seconds + GRACE
         self.answer, self.has_died = [], False
-        with suppress(OSError):  # it has died: seen where its result is asked for
+        with suppress(OSError):  # the process has died: `result` reports it
             self.pipe.send(item)
 
     def hear(self) -> None:
-        """Take what the process has sent."""
+        """Receive a message of the process."""
         try:
             said = self.pipe.recv()
         except (EOFError, OSError):
@@ -156,7 +156,7 @@ class _Worker:
             self.until = time.monotonic() + self.left
 
     def result(self, name: str, seconds: float) -> Any:
-        """Return the result of its work, or a `_Raised`."""
+        """Return the result of the work, or a `_Raised`."""
         about = f"{name}: " if name else ""
         if self.answer:
             return self.answer[0]
@@ -171,7 +171,7 @@ class _Worker:
         return _Raised(too_long(name, seconds))
 
     def end(self) -> None:
-        """End the process, whatever it does, and all that it has started."""
+        """Kill the process and all its children."""
         if self.process is not None:
             with suppress(ProcessLookupError):
                 if hasattr(os, "killpg") and os.getpgid(self.process.pid) == self.process.pid:
@@ -183,7 +183,7 @@ class _Worker:
 
 
 def _ready(workers: Sequence[_Worker]) -> list[_Worker]:
-    """Wait for workers that have a result, have died, or have no time left."""
+    """Wait until workers have a result, have died or have no time left; return them."""
     busy = [worker for worker in workers if worker.place is not None]
     left = min(worker.until for worker in busy) - time.monotonic()
     heard = wait([worker.pipe for worker in busy], None if left == math.inf else max(left, 0.0))
@@ -194,10 +194,10 @@ def _ready(workers: Sequence[_Worker]) -> list[_Worker]:
 
 
 def _serve(work: Callable[..., Any], pipe: Connection) -> None:
-    """Do one piece of work after the other, in the process."""
+    """Run one work item after the other; the main loop of a worker process."""
     _end_with_the_parent()
     CLOCK.start(lambda is_stopped: pipe.send(_ClockChange(is_stopped)))
-    sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__  # what stands in for them shares locks with other threads
+    sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__  # replacements may share locks with other threads
     while True:
         try:
             item = pipe.recv()
@@ -205,16 +205,16 @@ def _serve(work: Callable[..., Any], pipe: Connection) -> None:
             return
         try:
             result = work(*item)
-        except Exception as error:  # which goes back, as if it had been raised there
+        except Exception as error:  # sent back, to be raised in the parent
             error.add_note(traceback.format_exc())
-            # some libraries have causes copied too, and those of GDAL cannot be
+            # some libraries pickle the causes too, and GDAL's cannot be pickled
             error.__cause__ = error.__context__ = error.__traceback__ = None
             result = _Raised(error)
         pipe.send(result)
 
 
 def _end_with_the_parent() -> None:
-    """Lead a group of processes that Ctrl-C does not reach, and end when the parent does, also within a library."""
+    """Start a process group that Ctrl-C does not reach, and end with the parent, even inside a library call."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if hasattr(os, "setpgid"):
@@ -223,7 +223,7 @@ def _end_with_the_parent() -> None:
     assert parent is not None
     if IS_LINUX:
         ctypes.CDLL(None).prctl(SIGNAL_OF_PARENT, signal.SIGKILL)
-        if os.getppid() != parent.pid:  # it has ended already
+        if os.getppid() != parent.pid:  # the parent has ended already
             os._exit(1)
         return
 

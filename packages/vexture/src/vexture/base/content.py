@@ -1,4 +1,4 @@
-"""The content of a source file: its bytes, and the kind of file that they are."""
+"""Content of a source file: read and decompress its bytes, and recognise the kind of the file."""
 
 import csv
 import os
@@ -16,7 +16,7 @@ from typing import Final, NamedTuple
 from vexture.base.errors import EXPECTED, DeviceError, LimitError, ParameterError, SourceError
 
 LARGEST_FILE: Final = 256 * 2**20
-"""Bytes, after decompression."""
+"""Largest file in bytes, after decompression."""
 
 BYTE_ORDER_MARK: Final = b"\xef\xbb\xbf"
 
@@ -29,51 +29,51 @@ ZIP: Final = b"PK\x03\x04"
 PARQUET: Final = b"PAR1"
 ARROW: Final = b"ARROW1"
 RECORD: Final = b"\x1e"
-"""What each text of a sequence in JSON may start with (RFC 8142; RFC 7464, 2)."""
+"""Separator before each text of a JSON text sequence (RFC 8142; RFC 7464, 2)."""
 
 GEODATABASE: Final = "a00000001.gdbtable"
-"""The file of a FileGDB, which is a folder, that lists its tables."""
+"""File in the folder of a FileGDB that lists its tables."""
 
 TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
-"""First bytes of TIFF and BigTIFF, and of NetCDF of all kinds."""
+"""First bytes of TIFF and BigTIFF, and of all kinds of NetCDF."""
 
 GRIB: Final = b"GRIB"
-"""First bytes of GRIB of all editions."""
+"""First bytes of all editions of GRIB."""
 
 ESRI_GRID: Final = (b"ncols", b"nrows", b"xll", b"yll", b"cellsize")
-"""First bytes of Esri's ASCII grid, in lower case; those of its .flt are numbers."""
+"""First bytes of Esri's ASCII grid, in lower case; Esri's .flt starts with numbers, so it has no mark."""
 
 PNG: Final = b"\x89PNG"
 PICTURES: Final = (PNG, b"\xff\xd8\xff", b"GIF87a", b"GIF89a")
-"""First bytes of PNG, JPEG and GIF; `kind_of` knows WebP and BMP, whose marks have gaps."""
+"""First bytes of PNG, JPEG and GIF; `kind_of` recognises WebP and BMP, whose marks have gaps."""
 
 PICTURE_FORMATS: Final = ("PNG", "JPEG", "WEBP", "GIF", "BMP")
-"""Pictures that are read, as Pillow names them."""
+"""Supported picture formats, by their names in Pillow."""
 
 VECTOR_FILES: Final = (
     "GeoPackage, SpatiaLite, FlatGeobuf, shapefile, FileGDB, KML, KMZ, GPX, GML, GeoParquet, Feather, CSV of places"
 )
-"""Files of features, besides GeoJSON, as messages list them."""
+"""Formats of features besides GeoJSON, as messages list them."""
 
 READABLE: Final = (
     "give an SVG, GeoJSON, a picture (PNG, JPEG, WebP, GIF, BMP) or geographic data (GeoPackage, FlatGeobuf, zipped "
     "shapefile or FileGDB, KML, GPX, GML, GeoParquet, Feather, CSV, GeoTIFF, NetCDF, GRIB, Esri grid)"
 )
-"""Remedy for a file of no kind that can be read."""
+"""Remedy for a file of an unknown kind."""
 
 BEFORE_MARKUP: Final = BYTE_ORDER_MARK + b"\xff\xfe\0 \t\r\n"
-"""Bytes that may stand before the first < of XML in UTF-8, UTF-16 or UTF-32."""
+"""Bytes that may precede the first < of XML in UTF-8, UTF-16 or UTF-32."""
 
 START: Final = 4096
-"""Bytes that tell what a file is: more than the white space at the start of a text."""
+"""Number of bytes from which the kind of a file is recognised: more than the white space at the start of a text."""
 
 PROLOG: Final = re.compile(r"\s*(?:<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^\[>]*(?:\[.*?\]\s*)?>)", re.DOTALL)
 ROOT: Final = re.compile(r"\s*<(?:[\w.-]+:)?([\w.-]+)")
-"""What may stand before the first element of XML, and the start of that, with its name without a prefix."""
+"""Markup that may precede the root element of XML; start of the root element, with its name without a prefix."""
 
 GML: Final = "http://www.opengis.net/gml"
-"""Start of the names of GML's namespaces, which declare it wherever its features are."""
+"""Common start of the names of GML's namespaces, which every file of GML features declares."""
 
 DELIMITERS: Final = ",;\t|"
 LONGITUDES: Final = ("longitude", "lon", "long", "lng")
@@ -81,7 +81,7 @@ LATITUDES: Final = ("latitude", "lat")
 ACROSS: Final = ("x", "easting")
 UP: Final = ("y", "northing")
 TEXTS: Final = ("wkt", "geom_wkt", "wkt_geom", "geometry", "geom", "the_geom")
-"""Columns of CSV by which features have places, in lower case: degrees, units of any system, and geometries in WKT."""
+"""CSV columns with places of features, in lower case: degrees, coordinates of any system, and geometries in WKT."""
 
 
 class FileKind(StrEnum):
@@ -101,11 +101,11 @@ SUFFIXES: Final[dict[FileKind, tuple[str, ...]]] = {
     FileKind.AREAS: (".gpkg", ".fgb", ".shp", ".gdb", ".kml", ".kmz", ".gpx", ".gml", ".csv", ".tsv", ".sqlite"),
     FileKind.DEPTHS: (".tif", ".tiff", ".nc", ".nc4", ".cdf", ".asc", ".flt", ".grib", ".grib2", ".grb", ".grb2"),
 }
-"""Suffixes for files of unknown content: the reader that they name reports best what is wrong with them."""
+"""Suffixes that select the reader of unrecognised content, as that reader reports best what is wrong with the file."""
 
 
 def kind_of(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
-    r"""Kind of a file by its first bytes (from `start_of`), or else by its suffix; ``SVG`` if neither decides.
+    r"""Recognise the kind of a file by its first bytes (from `start_of`), else by its suffix; ``SVG`` by default.
 
     Examples
     --------
@@ -138,7 +138,7 @@ def kind_of(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
 
 
 def known_kind(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
-    """Kind of a file as `kind_of` says; raises a `SourceError` if it is empty or its content is of no known kind."""
+    """Return `kind_of` of a file; raise a `SourceError` if the file is empty or its content is of no known kind."""
     if not start:
         raise SourceError(f"is empty; {READABLE}")
     kind = kind_of(start, file_name)
@@ -149,7 +149,7 @@ def known_kind(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind
 
 
 def markup_of(start: bytes) -> str:
-    """Return the feature XML a file is by its first bytes, ``kml``, ``gpx`` or ``gml``; empty if it is none of them.
+    """Return ``kml``, ``gpx`` or ``gml`` if a file with these first bytes is one of them, else an empty text.
 
     Examples
     --------
@@ -170,7 +170,7 @@ def markup_of(start: bytes) -> str:
 
 
 class Header(NamedTuple):
-    """The first line of CSV: its columns, what is between them, and those that have the places of features."""
+    """First line of a CSV file: its columns, their delimiter, and the columns with the places of features."""
 
     names: tuple[str, ...]
     delimiter: str
@@ -180,17 +180,17 @@ class Header(NamedTuple):
 
     @property
     def has_places(self) -> bool:
-        """Whether there are columns of places."""
+        """True if there are columns of places."""
         return self.text is not None or (self.across is not None and self.up is not None)
 
     @property
     def is_degrees(self) -> bool:
-        """Whether places are said to be longitudes and latitudes."""
+        """True if the names of the columns say that places are longitudes and latitudes."""
         return self.text is None and str(self.across).lower() in LONGITUDES
 
 
 def header_of(start: bytes) -> Header:
-    r"""Columns of CSV by its first bytes; none if these are no line of printable text.
+    r"""Parse the header of a CSV file from its first bytes; without columns if its first line is not printable text.
 
     Examples
     --------
@@ -217,7 +217,7 @@ def _first(known: Mapping[str, str], names: tuple[str, ...]) -> str | None:
 
 
 def is_geodatabase(source: str | os.PathLike[str] | bytes) -> bool:
-    """Whether a source is the folder of a FileGDB."""
+    """Return whether a source is the folder of a FileGDB."""
     try:
         return not isinstance(source, bytes) and Path(source, GEODATABASE).is_file()
     except (OSError, ValueError):
@@ -225,7 +225,7 @@ def is_geodatabase(source: str | os.PathLike[str] | bytes) -> bool:
 
 
 def picture_size(content: bytes) -> tuple[str, int, int] | None:
-    """Format of a picture and the width and height in pixels that it declares; None if it is no picture."""
+    """Format, width and height in pixels that a picture declares; None if the content is not a picture."""
     if kind_of(start_of(content)) is not FileKind.PICTURE:
         return None
     from PIL import Image
@@ -234,11 +234,11 @@ def picture_size(content: bytes) -> tuple[str, int, int] | None:
         with warnings.catch_warnings(action="ignore"), Image.open(BytesIO(content), formats=PICTURE_FORMATS) as picture:
             return str(picture.format), picture.width, picture.height
     except (Image.DecompressionBombError, OSError, SyntaxError, ValueError, EOFError, IndexError, TypeError, KeyError):
-        return None  # too large or damaged; who reads it says so
+        return None  # too large or damaged: its reader reports it
 
 
 def start_of(source: str | os.PathLike[str] | bytes) -> bytes:
-    """Return the first bytes of a file or of its content; none if it cannot be read: the reader says why."""
+    """Return the first bytes of a file or of its content; empty if it cannot be read, which its reader reports."""
     if isinstance(source, bytes):
         return source[:START]
     try:
@@ -249,7 +249,7 @@ def start_of(source: str | os.PathLike[str] | bytes) -> bytes:
 
 
 def is_stream(source: str | os.PathLike[str] | bytes) -> bool:
-    """Whether a source is the path of a pipe, a terminal or the like, which can be read only once."""
+    """Return whether a source is the path of a pipe, a terminal or the like, which can be read only once."""
     if isinstance(source, bytes):
         return False
     try:
@@ -260,16 +260,16 @@ def is_stream(source: str | os.PathLike[str] | bytes) -> bool:
 
 
 def unpack_source(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | bytes:
-    """Return the source itself or the content of a gzipped file or a stream; raises as `read_bytes` does."""
+    """Return the content of a gzipped file or a stream, else the source itself; errors as in `read_bytes`."""
     if is_stream(source):
         return read_bytes(source)
     return read_bytes(source) if start_of(source).startswith(GZIP) else source
 
 
 def read_bytes(source: str | os.PathLike[str] | bytes) -> bytes:
-    """Content of a file, or the content that is given, decompressed if it is gzip (`.svgz`).
+    """Return the content of a file, or content passed as bytes, decompressed if it is gzip (`.svgz`).
 
-    Raises a `SourceError` if it cannot be read, is damaged or too large.
+    Raises a `SourceError` if the file cannot be read, is damaged or too large.
     """
     if isinstance(source, bytes):
         return decompress(source)
@@ -285,7 +285,7 @@ def read_bytes(source: str | os.PathLike[str] | bytes) -> bytes:
 
 
 def decompress(content: bytes) -> bytes:
-    """Decompress content if it is gzip, else return it as it is; raises as `read_bytes` does."""
+    """Decompress content if it is gzip, else return it unchanged; errors as in `read_bytes`."""
     if content.startswith(GZIP):
         stream = zlib.decompressobj(wbits=zlib.MAX_WBITS | 16)
         try:
@@ -301,7 +301,7 @@ def decompress(content: bytes) -> bytes:
 
 @contextmanager
 def about(source: str) -> Iterator[None]:
-    """Put the name of a source in front of the errors about it."""
+    """Prefix the errors about a source with its name."""
     try:
         yield
     except (SourceError, LimitError, DeviceError, ParameterError) as error:
@@ -310,7 +310,7 @@ def about(source: str) -> Iterator[None]:
 
 @contextmanager
 def renaming(names: Mapping[str, str]) -> Iterator[None]:
-    """Let errors call parameters as who is called does, rather than as what it calls.
+    """Translate the names of parameters in errors of an inner function to those of its caller.
 
     Examples
     --------

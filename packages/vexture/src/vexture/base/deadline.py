@@ -1,7 +1,7 @@
-"""A limit on how long a conversion may take, in whatever thread and on whatever platform it runs.
+"""Time limit of a conversion, in any thread and on any platform.
 
-Loops that can be long look at the clock themselves. They return to Python often enough that Ctrl-C ends them too. The
-clock is stopped while kernels are compiled: that is not the work of any source.
+Long loops check the clock themselves. They return to Python often enough that Ctrl-C ends them too. The clock stops
+while kernels are compiled, because no source causes that work.
 """
 
 import threading
@@ -13,25 +13,25 @@ from contextvars import ContextVar
 from vexture.base.errors import LimitError, ParameterError
 
 ALONE = "vexture-alone"
-"""Name of a process beside which no other one works, so that its threads may use all processors."""
+"""Name of a worker process that works alone, so that its threads may use all processors."""
 
 DEFAULT_SECONDS = 300.0
-"""Seconds for one source."""
+"""Time limit of one source, in seconds."""
 
 
 class Clock:
-    """A clock that any thread can stop, so that no limit counts the time meanwhile."""
+    """A clock that any thread can stop; limits do not count the time while it stands."""
 
     def __init__(self) -> None:
         self.start()
 
     def start(self, on_change: Callable[[bool], None] = lambda is_stopped: None) -> None:
-        """Restart, as a forked process must; `on_change` is called when the clock stops (True) or resumes (False)."""
+        """Restart, as after a fork; `on_change` is called with True when the clock stops, False when it resumes."""
         self._lock, self._on_change = threading.Lock(), on_change
         self._stops, self._stopped_at, self._stood = 0, 0.0, 0.0
 
     def seconds(self) -> float:
-        """Return the seconds since an arbitrary time.
+        """Return the seconds since an arbitrary start.
 
         Examples
         --------
@@ -44,7 +44,7 @@ class Clock:
             return (self._stopped_at if self._stops else time.monotonic()) - self._stood
 
     def stop(self) -> None:
-        """Stop the clock until `go_on` has been called as often as `stop`."""
+        """Stop the clock until there have been as many calls of `go_on` as of `stop`."""
         with self._lock:
             self._stops += 1
             if self._stops == 1:
@@ -64,12 +64,12 @@ CLOCK = Clock()
 """The clock of all limits."""
 
 _LIMIT: ContextVar[tuple[float, float] | None] = ContextVar("_LIMIT", default=None)
-"""Seconds that the work may take, and the time at which they are over."""
+"""Time limit of the current work in seconds, and the time at which it expires."""
 
 
 @contextmanager
 def within(seconds: float) -> Iterator[None]:
-    """Let `check_time` raise an error when the work inside has taken longer, or what is around it than it may."""
+    """Limit the time of the enclosed work, in which `check_time` raises an error; an outer limit still applies."""
     check_seconds(seconds)
     around, limit = _LIMIT.get(), (seconds, CLOCK.seconds() + seconds)
     before = _LIMIT.set(limit if around is None or limit[1] < around[1] else around)
@@ -80,7 +80,7 @@ def within(seconds: float) -> Iterator[None]:
 
 
 def check_seconds(seconds: float) -> None:
-    """Raise a `ParameterError` unless a limit is a number above 0."""
+    """Raise a `ParameterError` unless a time limit is a number above 0."""
     if isinstance(seconds, bool) or not (isinstance(seconds, int | float) and seconds > 0.0):
         raise ParameterError(
             f"`max_seconds` {seconds!r} is no number above 0; the default is {DEFAULT_SECONDS:g}, and inf sets no limit"
@@ -88,7 +88,7 @@ def check_seconds(seconds: float) -> None:
 
 
 def allowed_seconds() -> float:
-    """Seconds that the work around may take, or else `DEFAULT_SECONDS`: the limit for a part of it.
+    """Time limit in seconds for a part of the current work: its own limit, or else `DEFAULT_SECONDS`.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def allowed_seconds() -> float:
 
 
 def check_time(name: str = "", work: str = "converting", remedy: str = "simplify the drawing") -> None:
-    """Raise a `LimitError` about the drawing of a name if the work has taken too long.
+    """Raise a `LimitError` about the drawing `name` if the work has exceeded its time limit.
 
     Examples
     --------
@@ -117,6 +117,6 @@ def check_time(name: str = "", work: str = "converting", remedy: str = "simplify
 
 
 def too_long(name: str, seconds: float, work: str = "converting", remedy: str = "simplify the drawing") -> LimitError:
-    """Error about the drawing of a name that takes longer than it may."""
+    """Error about the drawing `name`, which exceeded its time limit."""
     about = f"{name}: " if name else ""
     return LimitError(f"{about}{work} takes longer than {seconds:g} s; {remedy} or raise `max_seconds`")

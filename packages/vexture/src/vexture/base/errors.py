@@ -1,17 +1,17 @@
-"""Errors: one class for each decision that a user can take.
+"""Errors: one class for each remedy that a user has.
 
 Every message is one line that names the value, the limit and the remedy. Messages name parameters in backticks, as in
 `max_depth`; the command line turns them into options, prints the line and exits with code 1.
 
-Wrong arguments are `ParameterError`, a `ValueError`; bad files, limits and devices are `VextureError`. Any other
-exception that reaches a user is a bug.
+A wrong argument raises `ParameterError`, a `ValueError`. A bad file, a limit or a device raises a `VextureError`. Any
+other exception that reaches a user is a bug.
 """
 
 from typing import Final
 
 
 class VextureError(Exception):
-    """Base of all errors that a file, a limit or a device causes."""
+    """Base class of all errors that a file, a limit or a device causes."""
 
     def __init__(self, message: str = "") -> None:
         super().__init__(printable(message))
@@ -22,7 +22,7 @@ class SourceError(VextureError):
 
 
 class FormatError(VextureError):
-    """The texture file is damaged or of another format: convert the drawing again."""
+    """The texture file is damaged or in another format: convert the drawing again."""
 
 
 class LimitError(VextureError):
@@ -30,7 +30,7 @@ class LimitError(VextureError):
 
 
 class DeviceError(VextureError):
-    """The GPU, its driver or the disk refuses: use another renderer or another place."""
+    """The GPU, its driver or the disk fails: use another renderer or another folder."""
 
 
 class ParameterError(ValueError):
@@ -41,15 +41,15 @@ class ParameterError(ValueError):
 
 
 EXPECTED: Final = (VextureError, ParameterError)
-"""Errors that a command or a server reports in one line."""
+"""Errors that a command or a server reports as one line."""
 
 
 class SourceWarning(UserWarning):
-    """Something in the drawing is not supported and was left out or simplified."""
+    """A part of the drawing is not supported and was left out or simplified."""
 
 
 def printable(text: str) -> str:
-    r"""Text with a replacement for each character that ends a line or controls a terminal.
+    r"""Replace each character that ends a line or controls a terminal.
 
     Examples
     --------
@@ -60,7 +60,7 @@ def printable(text: str) -> str:
 
 
 def format_count(count: int, noun: str) -> str:
-    """Write a number of things, in the plural unless it is one.
+    """Format a count and its noun, which is plural unless the count is 1.
 
     Examples
     --------
@@ -82,9 +82,9 @@ def shorten_text(text: str, most: int) -> str:
 
 
 def reason_of(error: Exception, most: int = 120, hidden: str = "") -> str:
-    """Text of another library's exception in one short line, or the exception's type if it has no text.
+    """Shorten the text of another library's exception to one line; without a text, return the exception's type.
 
-    `hidden` is the name of a temporary file, which means nothing to the user.
+    `hidden` is the name of a temporary file; the text becomes "the file", as the name means nothing to the user.
     """
     text = " ".join((str(error).replace(hidden, "the file") if hidden else str(error)).split())
     return shorten_text(text, most) or type(error).__name__

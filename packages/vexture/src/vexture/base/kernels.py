@@ -1,11 +1,12 @@
 """Compiled kernels: one decorator, one cache, one announcement.
 
-Numba is imported when the first kernel must be compiled or read from the cache. This takes half a second, which a
-command saves if a wheel holds its kernels (`vexture.base.machine_code`).
+Numba is imported when the first kernel must be compiled or read from the cache. The import takes half a second. A
+command saves it if the wheel holds compiled code of its kernels (`vexture.base.machine_code`).
 
-Numba's own cache checks only the file of the function itself. A kernel would go on using the old code of a kernel, or
-the old value of a constant, that it imports. So the cache folder is named after the text of all modules with either.
-It also believes what its files hold, which ends the process where a disk has damaged them. Ours begin with a digest.
+Numba's own cache checks only the source file of the function itself. If a kernel imports another kernel or a constant
+that has changed, it would keep using the old one. So the cache folder is named after a digest of all modules that
+define kernels or constants. Numba also trusts the content of its cache files, and a damaged file crashes the process.
+Our files begin with a digest.
 """
 
 import functools
@@ -30,18 +31,18 @@ ABOVE = {
     *("cli", "conversion", "fold", "fonts", "gltf", "notebook", "pages", "server", "svg", "tracing"),
     *("base/apart.py", "base/content.py", "base/labels.py"),
 }
-"""Parts of the package without kernels or constants of kernels: a change there compiles nothing again."""
+"""Folders and modules whose changes need no recompilation: they hold neither kernels nor constants of kernels."""
 
 DIGEST_BYTES = hashlib.sha256().digest_size
-"""With which a file of the cache begins."""
+"""Length of the digest at the start of a cache file."""
 
 ONE_AT_A_TIME = threading.Lock()
-"""Held while Numba's configuration is changed: several threads of a server may use a kernel for the first time."""
+"""Lock on Numba's configuration: several threads of a server may use a kernel for the first time at once."""
 
 
 @functools.cache
 def text_digest() -> str:
-    """Digest of the text of all modules that hold a kernel or a constant."""
+    """Digest of the source text of all modules that hold a kernel or a constant."""
     package = Path(__file__).parents[1]
     digest = hashlib.sha256()
     for module in sorted(package.rglob("*.py")):
@@ -55,9 +56,9 @@ def text_digest() -> str:
 
 
 def kernel_cache() -> Path | None:
-    """Folder of the compiled kernels: below ``VEXTURE_CACHE``, or the user's cache folder, or a temporary one.
+    """Folder of the compiled kernels: in ``VEXTURE_CACHE``, in the user's cache folder, or in a temporary folder.
 
-    None if no such folder can be written: kernels are not kept then.
+    None if no such folder is writable. Kernels are then compiled again in each process.
     """
     default = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "vexture"
     root = Path(os.environ.get("VEXTURE_CACHE") or default)
@@ -69,7 +70,7 @@ def kernel_cache() -> Path | None:
             folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         except OSError:
             continue
-        # the cache holds code: a folder that someone else made is not trusted
+        # the cache holds code that we run, so another user's folder is not trusted
         mine = not hasattr(os, "getuid") or folder.stat().st_uid == os.getuid()
         if mine and os.access(folder, os.W_OK | os.X_OK):
             return folder
@@ -78,12 +79,12 @@ def kernel_cache() -> Path | None:
 
 @functools.cache
 def _numba() -> tuple[Any, Path | None]:
-    """Numba, with an announcement of its first compilation, and the folder of its cache."""
+    """Numba, which announces its first compilation, and its cache folder."""
     import numba
     from numba.core import event
 
     class Announcement(event.Listener):  # type: ignore[misc]
-        """Tells the user, at the first compilation of this process, why the first run takes longer; stops the clock."""
+        """Tells the user at the first compilation why this run takes longer; stops the clock of time limits."""
 
         def __init__(self) -> None:
             self.made = False
@@ -105,10 +106,10 @@ def _numba() -> tuple[Any, Path | None]:
 
 
 class _KeptCode:
-    """The files of a kernel's code, one for each set of types; in place of Numba's, which are believed unseen.
+    """Cache files of a kernel, one for each set of argument types; replaces Numba's, which are not verified.
 
-    What is damaged, or cannot be read, is compiled again and replaced; what cannot be written is compiled by the next
-    run, and this one goes on.
+    A file that is damaged or cannot be read is compiled again and replaced. If a file cannot be written, the next
+    process compiles the kernel again.
     """
 
     def __init__(self, cache: Any, version: str) -> None:
@@ -119,7 +120,7 @@ class _KeptCode:
         return f"{self._start}.{hashlib.sha256(repr(key).encode()).hexdigest()[:16]}.code"
 
     def load(self, key: Any) -> Any:
-        """Return the code saved under a key; None if it is missing, damaged or old."""
+        """Return the code saved under a key; None if it is missing, damaged or outdated."""
         try:
             content = Path(self._place(key)).read_bytes()
         except OSError:
@@ -131,7 +132,7 @@ class _KeptCode:
         return data if made_by == self._made_by else None
 
     def save(self, key: Any, data: Any) -> None:
-        """Keep what was compiled, if the disk lets us."""
+        """Save compiled code; do nothing if the disk refuses."""
         from numba.core.serialize import dumps
 
         place = self._place(key)
@@ -150,7 +151,7 @@ class _KeptCode:
 
 
 class Kernel:
-    """A function over arrays that Numba compiles when it is first called; see `kernel`."""
+    """A function over arrays that Numba compiles at its first call; see `kernel`."""
 
     def __init__(self, function: Callable[..., Any], allocates: bool, ahead: bool, shares: bool = False) -> None:
         functools.update_wrapper(self, function)
@@ -161,30 +162,30 @@ class Kernel:
     @functools.cached_property
     def dispatcher(self) -> Any:
         """Numba's function."""
-        private = self.py_func.__name__.startswith("_")  # called by kernels only: needs no wrapper for Python
+        private = self.py_func.__name__.startswith("_")  # only kernels call it: it needs no wrapper for Python
         options = {"error_model": "numpy", "no_cfunc_wrapper": True, "no_cpython_wrapper": private}
         options["nogil"] = self.shares
         with ONE_AT_A_TIME:
             numba, folder = _numba()
-            # read by the decorator; other packages may use Numba too
+            # the decorator reads CACHE_DIR; restored below because other packages may use Numba too
             caller, numba.config.CACHE_DIR = numba.config.CACHE_DIR, str(folder)
             make = functools.partial(numba.njit, **options, _nrt=self._allocates)
             try:
                 result = make(cache=folder is not None)(self.py_func)
                 if folder is not None and not numba.config.DISABLE_JIT:
                     result._cache._cache_file = _KeptCode(result._cache, numba.__version__)
-            except (OSError, RuntimeError):  # something else is in the place of a folder in the cache
+            except (OSError, RuntimeError):  # a file stands where the cache needs a folder
                 result = make()(self.py_func)
             numba.config.CACHE_DIR = caller
         return result
 
     @property
     def _numba_type_(self) -> Any:
-        """Numba's type of a kernel that another one calls."""
+        """Numba's type of this kernel, for kernels that call it."""
         return self.dispatcher._numba_type_
 
     def __call__(self, *arguments: Any) -> Any:
-        """Run code that was compiled ahead of time for arguments of these types, or else what Numba compiles."""
+        """Run code compiled ahead of time for arguments of these types, or else code that Numba compiles."""
         if self._ahead:
             types = argument_type(arguments)
             if self._code is None or self._code.code.arguments != types:
@@ -206,21 +207,21 @@ def kernel(*, allocates: bool = True, ahead: bool = False, shares: bool = False)
 def kernel(
     function: F | None = None, *, allocates: bool = True, ahead: bool = False, shares: bool = False
 ) -> F | Callable[[F], F]:
-    """Compile a scalar function over arrays with Numba, cached on disk.
+    """Compile a scalar function over arrays with Numba, and cache the code on disk.
 
-    A function whose name begins with an underscore is called by kernels only.
+    Only kernels may call a function whose name begins with an underscore.
 
     Parameters
     ----------
     function : function
     allocates : bool
-        False for a function that makes no arrays. Numba then counts no references, which takes longer than the work
-        of a short function.
+        False for a function that makes no arrays. Numba then counts no references; counting takes longer than the
+        work of a short function.
     ahead : bool
-        True for a function of a plain command, which the wheel of a platform holds compiled.
+        True for a function that everyday commands use. Wheels hold such functions compiled.
     shares : bool
-        True for a function that works long enough to let other threads of Python run meanwhile. Getting the
-        interpreter back from a busy thread may take milliseconds.
+        True for a function that runs long enough to let other Python threads run meanwhile. Taking the interpreter
+        lock back from a busy thread may take milliseconds.
 
     Examples
     --------

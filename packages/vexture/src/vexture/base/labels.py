@@ -1,4 +1,4 @@
-"""Texts by which features, times and categories are known: those of their values."""
+"""Labels of features, times and categories, made from their values."""
 
 from collections.abc import Iterable
 from typing import Any, Final
@@ -9,7 +9,7 @@ MIDNIGHT: Final = " 00:00:00"
 
 
 def texts_of(values: Iterable[Any]) -> list[str | None]:
-    """Values as texts: whole numbers have no decimals, days no time, and what is missing or no number no text.
+    """Write values as texts: whole numbers without decimals, days without a time; None for a missing value or NaN.
 
     Examples
     --------

@@ -1,12 +1,12 @@
-"""Kernels compiled ahead of time, which run without the time to import Numba or to compile.
+"""Kernels compiled ahead of time, which save the time of importing Numba and of compiling.
 
 A code file holds one kernel, specialised for the types of its arguments, as an object file of one platform. It lists
-its requirements: the platform, processor features, functions of the C library. If one is missing, or the kernels' text
-has changed since, Numba compiles the kernel instead.
+its requirements: the platform, processor features and functions of the C library. If a requirement is missing, or the
+source text of the kernels has changed since, Numba compiles the kernel instead.
 
 The code follows Numba's calling convention: ``int f(result*, exception**, arguments...)``. A tuple is passed as its
 elements, an array as the seven or more words of `_words`. `tools/compile_kernels.py` writes the files, and checks that
-each returns what Numba returns.
+each kernel returns the same as Numba's.
 """
 
 import ctypes
@@ -26,17 +26,17 @@ SHIPPED = Path(__file__).parents[1] / "compiled"
 LARGEST = 2**63 - 1
 
 MEMORY, OWNER, COUNT, ITEM_SIZE, DATA, SHAPE = range(6)
-"""Words of an array; the strides follow the shape. MEMORY and OWNER are 0 for an array that NumPy made."""
+"""Order of an array's words; the strides follow the shape. MEMORY and OWNER are 0 for an array that NumPy made."""
 
 RELEASE = "NRT_decref"
-"""Function that releases an array of a kernel."""
+"""Name of the function that releases an array of a kernel."""
 
 TypeDescription = Any
-"""Type of a value: "int", "float", [dtype, dimensions, writable] of an array, a list with "tuple" first, or None."""
+"""Type of a value: "int", "float", [dtype, dimensions, writable] for an array, ["tuple", ...] for a tuple, or None."""
 
 
 class Code(NamedTuple):
-    """The head of a code file."""
+    """Header of a code file."""
 
     platform: str  # LLVM's target triple
     features: list[str]  # required of the processor
@@ -52,7 +52,7 @@ class Code(NamedTuple):
 
 
 def argument_type(value: Any) -> TypeDescription:
-    """Type of an argument or a result for which a kernel is specialised; "" if there is never code for it."""
+    """Type of an argument or a result, for which a kernel is specialised; "" if code files do not support the value."""
     if value is None:
         return None
     if type(value) is int:
@@ -68,7 +68,7 @@ def argument_type(value: Any) -> TypeDescription:
 
 
 def _words(value: Any) -> list[Any]:
-    """The words that pass an argument."""
+    """Machine words that pass an argument."""
     if isinstance(value, tuple):
         return [word for part in value for word in _words(part)]
     if isinstance(value, np.ndarray):
@@ -78,7 +78,7 @@ def _words(value: Any) -> list[Any]:
 
 
 def _layout(result: TypeDescription) -> Any:
-    """Structure that holds a result."""
+    """Structure of ctypes that holds a result."""
     if result is None:
         return ctypes.c_void_p
     if isinstance(result, str):
@@ -90,7 +90,7 @@ def _layout(result: TypeDescription) -> Any:
 
 
 def _value(result: TypeDescription, storage: Any, release: Callable[[int], None]) -> Any:
-    """The Python value of a result; arrays are not copied, but released with their last reference."""
+    """Python value of a result; arrays are not copied, and are released with their last reference."""
     if result is None:
         return None
     if isinstance(result, str):
@@ -105,7 +105,7 @@ def _value(result: TypeDescription, storage: Any, release: Callable[[int], None]
 
 
 class Compiled:
-    """A kernel of a code file, whose object file is `machine_code`; if it `shares`, other threads run meanwhile."""
+    """A kernel from the object file `machine_code` of a code file; if it `shares`, other threads run meanwhile."""
 
     def __init__(self, code: Code, machine_code: bytes, shares: bool = False) -> None:
         import llvmlite.binding as llvm
@@ -123,11 +123,11 @@ class Compiled:
         self._give_up = ctypes.PYFUNCTYPE(None, ctypes.c_void_p)(address)
 
     def _release(self, memory: int) -> None:
-        """Release an array; the bound method keeps the code in memory as long as its arrays exist."""
+        """Release an array; as a bound method it keeps the code in memory as long as its arrays exist."""
         self._give_up(memory)
 
     def __call__(self, *arguments: Any) -> Any:
-        """Run the kernel on arguments of the types that it was compiled for."""
+        """Run the kernel; the arguments must have the types that it was compiled for."""
         held, exception = self._layout(), ctypes.c_void_p()
         status = self._function(ctypes.byref(held), ctypes.byref(exception), *_words(arguments))
         if status != 0:
@@ -138,7 +138,7 @@ class Compiled:
 
 @cache
 def host() -> tuple[str, frozenset[str]]:
-    """Platform and processor features of this machine; initialises LLVM for them."""
+    """Initialise LLVM for this machine; return the machine's platform and processor features."""
     import llvmlite.binding as llvm
 
     llvm.initialize_native_target()
@@ -148,7 +148,7 @@ def host() -> tuple[str, frozenset[str]]:
 
 
 def _add_symbols(symbols: list[str]) -> bool:
-    """Tell LLVM the addresses of C functions; False if one is missing, at which LLVM would end the process."""
+    """Tell LLVM the addresses of C functions; False if one is missing, which would make LLVM end the process."""
     import llvmlite.binding as llvm
 
     library = ctypes.cdll.ucrtbase if sys.platform == "win32" else ctypes.CDLL(None)
@@ -161,9 +161,9 @@ def _add_symbols(symbols: list[str]) -> bool:
 
 
 def load(kernel: Any, text: str, arguments: TypeDescription, folder: Path = SHIPPED) -> Compiled | None:
-    """Code of a kernel for arguments of these types (from `argument_type`), if this machine can run it.
+    """Load a kernel's code for arguments of these types (from `argument_type`); None if this machine cannot run it.
 
-    A file is named after the kernel's module and name; `text` is the digest of the kernels' text.
+    A code file is named after the kernel's module and function; `text` is the digest of the kernels' source text.
     """
     for file in sorted(folder.glob(f"{kernel.__module__}.{kernel.__name__}-*.code")):
         head, _, machine_code = file.read_bytes().partition(b"\n")

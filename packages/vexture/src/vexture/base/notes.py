@@ -1,7 +1,7 @@
 """Notes of a reader: what it left out, simplified or found invalid, as data of the drawing or fold.
 
-Public functions turn notes into a `SourceWarning`, commands print them, servers and pages show them. All notes but
-remarks are losses: the result differs from the source.
+Public functions turn notes into a `SourceWarning`, commands print them, servers and pages show them. Every note except
+a remark is a loss: the result differs from the source.
 """
 
 import sys
@@ -21,19 +21,19 @@ HEADINGS: Final[dict[Kind, str]] = {
     "invalid": "invalid and ignored: ",
     "remark": "",
 }
-"""Text of a line before the notes of each kind, in this order."""
+"""Heading of each kind of note in a line, in the order of the line."""
 
 MOST_NAMED: Final = 8
 """Notes of one kind that a line names; the others are counted."""
 
 MOST_IDS: Final = 5
-"""Ids of features that a line names of each note."""
+"""Ids of features that a line names for each note."""
 
 MOST_SUBJECTS: Final = 32
 """Elements that a note names; the others are counted."""
 
 MOST_LETTERS: Final = 40
-"""Of an id in a line."""
+"""Longest id in a line."""
 
 Box = tuple[float, float, float, float]
 """Least x and y, largest x and y, in the unit square, y up."""
@@ -42,8 +42,8 @@ Box = tuple[float, float, float, float]
 class Subject(NamedTuple):
     """An element of the source that a note is about."""
 
-    name: str  # as `Path.element`; of an element without a name, what it is and in which line
-    box: Box | None  # of what is drawn of it; None if nothing is
+    name: str  # as in `Path.element`; without a name, the kind of element and its line in the source
+    box: Box | None  # bounding box of its drawn part; None if nothing is drawn
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,13 +58,13 @@ class Note:
     message : str
         Such as ``<text>`` or ``pattern shown as solid``.
     count : int
-        How often.
+        Number of occurrences.
     elements : tuple of Subject
-        The first 32 elements that it is about, where the reader knows them.
+        The first 32 elements that it is about, if the reader knows them.
     is_named : bool
-        Whether a line names the first elements: they are features, and their names are the user's ids.
+        True if a line names the first elements: features, whose names are the user's ids.
     has_remedy : bool
-        Whether the message says what to do, where nothing else is in the source.
+        True if the message contains a remedy for a source that has nothing else.
 
     Examples
     --------
@@ -90,11 +90,11 @@ class Note:
 
     @property
     def is_loss(self) -> bool:
-        """Whether the result differs from the source."""
+        """True if the result differs from the source."""
         return self.kind != "remark"
 
     def facts(self) -> dict[str, Any]:
-        """The note ready for JSON.
+        """Return the note as JSON-ready data.
 
         Examples
         --------
@@ -106,7 +106,7 @@ class Note:
 
 
 class Notes:
-    """Collects notes, and counts repeated ones.
+    """Collects notes and counts repeated ones.
 
     Examples
     --------
@@ -124,11 +124,11 @@ class Notes:
         self._named: dict[tuple[Kind, str], dict[str, None]] = {}  # the first ids of features of each note
 
     def left_out(self, message: str) -> None:
-        """Note something that is not supported, and so paints nothing or has no effect."""
+        """Note an unsupported part, which paints nothing or has no effect."""
         self.count("left out", message)
 
     def features(self, kind: Kind, message: str, ids: Iterable[object]) -> None:
-        """Note something about the feature of each id, of several equal ones once.
+        """Note a message about features; equal ids count once.
 
         Examples
         --------
@@ -144,19 +144,19 @@ class Notes:
             known.update(dict.fromkeys(names[: MOST_SUBJECTS - len(known)]))
 
     def simplification(self, message: str) -> None:
-        """Note something that is in the result, but not as it should be."""
+        """Note a part that the result contains in a simpler form."""
         self.count("simplified", message)
 
     def remark(self, sentence: str, times: int = 1) -> None:
-        """Note a sentence about the whole, or about so many of its parts."""
+        """Note a sentence about the whole source, or about `times` parts of it."""
         self._add("remark", sentence, times)
 
     def missing_character(self, character: str) -> None:
-        """Note a character that no font has; all of them become one note."""
+        """Note a character that no font has; all such characters share one note."""
         self._boxed[character] = self._boxed.get(character, 0) + 1
 
     def count(self, kind: Kind, message: str) -> None:
-        """Note something once more."""
+        """Note one more occurrence of a message."""
         self._add(kind, message, 1)
 
     def _add(self, kind: Kind, message: str, times: int) -> None:
@@ -172,19 +172,19 @@ class Notes:
     @property
     def of_boxes(self) -> tuple[Note, ...]:
         """The note about characters that no font has, if there are any."""
-        shown = [format_character(character) for character in islice(self._boxed, MOST_NAMED)]
+        listed = [format_character(character) for character in islice(self._boxed, MOST_NAMED)]
         if len(self._boxed) > MOST_NAMED:
-            shown.append(f"and {len(self._boxed) - MOST_NAMED} more")
-        if not shown:
+            listed.append(f"and {len(self._boxed) - MOST_NAMED} more")
+        if not listed:
             return ()
         if len(self._boxed) == 1:
-            said = f"character {shown[0]}, which no font has, drawn as a box"
-            return (Note("simplified", said, sum(self._boxed.values())),)
-        return (Note("simplified", f"{len(self._boxed)} characters that no font has, as boxes: {' '.join(shown)}"),)
+            message = f"character {listed[0]}, which no font has, drawn as a box"
+            return (Note("simplified", message, sum(self._boxed.values())),)
+        return (Note("simplified", f"{len(self._boxed)} characters that no font has, as boxes: {' '.join(listed)}"),)
 
     @property
     def in_order(self) -> tuple[Note, ...]:
-        """All notes by kind, each kind in the order of their first occurrence."""
+        """All notes by kind; within a kind, by first occurrence."""
         found = list[Note]()
         for kind, things in self._counts.items():
             for what, count in things.items():
@@ -195,19 +195,19 @@ class Notes:
 
 
 def format_character(character: str) -> str:
-    r"""Write a character as messages name it.
+    r"""Format a character for messages.
 
     Examples
     --------
     >>> format_character("é"), format_character("\ue000")
     ("'é' (U+00E9)", '(U+E000)')
     """
-    shown = f"'{character}' " if character.isprintable() else ""
-    return f"{shown}(U+{ord(character):04X})"
+    quoted = f"'{character}' " if character.isprintable() else ""
+    return f"{quoted}(U+{ord(character):04X})"
 
 
 def line_of(source: str, notes: Sequence[Note]) -> str:
-    """Write all notes about a source in one line; empty if there are none."""
+    """Format all notes about a source as one line; empty without notes."""
     parts = []
     for kind, heading in HEADINGS.items():
         named = [str(note) for note in notes if note.kind == kind]
@@ -222,25 +222,25 @@ def line_of(source: str, notes: Sequence[Note]) -> str:
 
 
 def warn_of(source: str, notes: Sequence[Note], *, stacklevel: int = 2) -> None:
-    """Issue one `SourceWarning` of all notes about a source; `stacklevel` 2 is the caller of the calling function."""
+    """Issue one `SourceWarning` with all notes about a source; `stacklevel` 2 is the caller of the calling function."""
     if line := line_of(source, notes):
         warnings.warn(line, SourceWarning, stacklevel=stacklevel + 1)
 
 
 def place_of_caller(depth: int) -> tuple[str, int]:
-    """File and line where the function that calls this was called; `depth` 1 is its own caller."""
+    """File and line of a call further up the stack; `depth` 1 is the call of the function that calls this one."""
     frame = sys._getframe(depth + 1)
     return frame.f_code.co_filename, frame.f_lineno
 
 
 def warn_at(place: tuple[str, int], source: str, notes: Sequence[Note]) -> None:
-    """Issue the warning of `warn_of` for a line of long ago: what it asked for is done beside it."""
+    """Issue the warning of `warn_of` for a line that has returned, because its work runs in the background."""
     if line := line_of(source, notes):
         warnings.warn_explicit(line, SourceWarning, *place)
 
 
 def check_losses(source: str, notes: Sequence[Note], *, is_empty: bool, strict: bool = False) -> None:
-    """Raise a `SourceError` if notes lose anything of a drawing and it is empty, or `strict` is set.
+    """Raise a `SourceError` if there are losses and the drawing is empty or `strict` is set.
 
     Examples
     --------

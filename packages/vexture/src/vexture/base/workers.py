@@ -1,7 +1,7 @@
-"""Work that is shared: by this process alone, by several on this machine, or by the workers of a Dask cluster.
+"""Run work in this process, in several processes of this machine, or on the workers of a Dask cluster.
 
-Results come in the order of the work, and are the same wherever it was done. What a worker had in hand when it died is
-done again.
+Results come in the order of the work items, and do not depend on where the work ran. Work in progress is repeated when
+its worker dies.
 """
 
 import logging
@@ -24,42 +24,42 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 WORTH: Final = 3.0
-"""Seconds of work from which other processes are started: what they need to start."""
+"""Seconds of remaining work from which more processes are started: about their own start time."""
 
 AHEAD: Final = 2
-"""Pieces of work at each worker: one is done while the next one arrives."""
+"""Work items sent to each worker: one runs while the next one arrives."""
 
 MOST_DEATHS: Final = 3
-"""Of workers, at one piece of work: after that it is the work that kills them."""
+"""Deaths of workers at one work item after which the item itself counts as the cause."""
 
 PATIENCE: Final = "5s"
-"""For a scheduler's first answer."""
+"""Timeout of a scheduler's first answer."""
 
 NO_WORKERS: Final = "No valid workers"
 """Part of Dask's message about a scheduler without workers."""
 
 TALKATIVE: Final = ("distributed.client", "distributed.batched", "distributed.core")
-"""Loggers of Dask that print tracebacks of lost connections, about which an error says one line."""
+"""Loggers of Dask that print tracebacks of lost connections, which our error reports in one line."""
 
 FRESH: Final = 2.0
-"""Seconds for which the number of a cluster's workers is believed: each question costs an answer's time."""
+"""Seconds for which the number of a cluster's workers is cached, as each query costs a round trip."""
 
 
 class Workers(Protocol):
-    """A way to do pieces of work: in this process, in several, or on a cluster."""
+    """A way to run work: in this process, in several, or on a cluster."""
 
     def map(
         self, work: Callable[[Shared, Item], Result], shared: Shared, items: Iterable[Item], count: int
     ) -> Iterator[Result]:
-        """Results of ``work(shared, item)``, in order, of `count` items; few of them are in memory at a time.
+        """Yield ``work(shared, item)`` for `count` items, in their order; only a few are in memory at a time.
 
-        Elsewhere `work` is found by its name, and `shared` and the items are copies.
+        Another process finds `work` by its name, and gets copies of `shared` and the items.
         """
         ...
 
 
 class InProcess:
-    """Does one piece of work after the other, in the calling process.
+    """Runs one work item after the other, in the calling process.
 
     Examples
     --------
@@ -70,12 +70,12 @@ class InProcess:
     def map(
         self, work: Callable[[Shared, Item], Result], shared: Shared, items: Iterable[Item], count: int
     ) -> Iterator[Result]:
-        """Results, each when it is wanted."""
+        """Compute each result when it is requested."""
         return (work(shared, item) for item in items)
 
 
 class Processes:
-    """Several processes on this machine, if the work is long enough that starting them pays."""
+    """Runs work in several processes of this machine, if it is long enough to be worth their start."""
 
     def __init__(self, processes: int) -> None:
         self._processes = processes
@@ -83,7 +83,7 @@ class Processes:
     def map(
         self, work: Callable[[Shared, Item], Result], shared: Shared, items: Iterable[Item], count: int
     ) -> Iterator[Result]:
-        """Results; the first is made here, to see how long the work takes."""
+        """Yield results; this process computes the first ones, to measure how long the work takes."""
         rest = iter(items)
         for item in rest:
             start = time.perf_counter()
@@ -130,13 +130,13 @@ class Processes:
             pool.shutdown(wait=False, cancel_futures=True)
 
     def _pool(self, work: Callable[..., Any], shared: Any) -> ProcessPoolExecutor:
-        # a fork shares memory, so that nothing is copied; elsewhere it is not safe
+        # a fork shares memory, so that nothing is copied; on other platforms it is not safe
         context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
         return ProcessPoolExecutor(self._processes, context, _share, (work, shared))
 
 
 def _submit_to_pool(pool: ProcessPoolExecutor, item: Any) -> "Future[Any]":
-    """Submit a piece of work; its future is broken if the pool is."""
+    """Submit a work item; if the pool is broken, so is the item's future."""
     try:
         return pool.submit(_work, item)
     except BrokenProcessPool as error:
@@ -146,12 +146,12 @@ def _submit_to_pool(pool: ProcessPoolExecutor, item: Any) -> "Future[Any]":
 
 
 _given: list[Any] = []
-"""In a process of a pool: what is done, and what all of it shares."""
+"""In a pool's process: the work function and its shared argument."""
 
 
 def _share(work: Callable[..., Any], shared: Any) -> None:
     _given[:] = [work, shared]
-    signal.signal(signal.SIGINT, lambda *_: os._exit(1))  # Ctrl-C in a terminal reaches all: one says so
+    signal.signal(signal.SIGINT, lambda *_: os._exit(1))  # Ctrl-C reaches all processes; only the parent reports it
 
 
 def _work(item: Any) -> Any:
@@ -160,7 +160,7 @@ def _work(item: Any) -> Any:
 
 
 class Cluster:
-    """The workers of a Dask scheduler, at an address such as ``tcp://10.0.0.7:8786``; they need vexture, too."""
+    """Runs work on the workers of a Dask scheduler at an address such as ``tcp://10.0.0.7:8786``; they need vexture."""
 
     def __init__(self, address: str) -> None:
         self._address = address
@@ -168,7 +168,7 @@ class Cluster:
     def map(
         self, work: Callable[[Shared, Item], Result], shared: Shared, items: Iterable[Item], count: int
     ) -> Iterator[Result]:
-        """Results; Dask does the work of a worker that dies again."""
+        """Yield results; Dask repeats the work of a worker that dies."""
         with self._client() as client:
             held = self._call_scheduler(client.scatter, shared, broadcast=True, hash=False)
 
@@ -176,7 +176,7 @@ class Cluster:
                 return self._call_scheduler(client.submit, work, held, item, pure=False)
 
             def resubmit(item: Item) -> Any:
-                nonlocal held  # what all share may be lost with the worker, too
+                nonlocal held  # the shared argument may be lost with the worker
                 held = self._call_scheduler(client.scatter, shared, broadcast=True, hash=False)
                 return submit(item)
 
@@ -185,28 +185,29 @@ class Cluster:
                 return self._result(future, lambda: resubmit(item))
 
             waiting: deque[tuple[Item, Any]] = deque()
-            room, asked = 0, -FRESH
+            room, updated = 0, -FRESH
             for item in items:
                 waiting.append((item, submit(item)))
-                if time.monotonic() - asked >= FRESH:
-                    room, asked = AHEAD * max(1, sum(self._call_scheduler(client.nthreads).values())), time.monotonic()
+                if time.monotonic() - updated >= FRESH:
+                    threads = sum(self._call_scheduler(client.nthreads).values())
+                    room, updated = AHEAD * max(1, threads), time.monotonic()
                 if len(waiting) >= room:
                     yield next_result()
             while waiting:
                 yield next_result()
 
     def check(self) -> None:
-        """Raise a `DeviceError` if it does not answer, or has no workers."""
+        """Raise a `DeviceError` if the scheduler does not answer or has no workers."""
         with self._client():
             pass
 
     @contextmanager
     def _client(self) -> Iterator[Any]:
-        """Connect a client that logs nothing."""
+        """Connect a client with its loggers disabled."""
         logs = [logging.getLogger(name) for name in TALKATIVE]
         before = [log.disabled for log in logs]
         for log in logs:
-            log.disabled = True  # their level is set when Dask is imported
+            log.disabled = True  # setting their level has no effect: importing Dask sets it again
         try:
             with self._connect() as client:
                 yield client
@@ -222,13 +223,13 @@ class Cluster:
         except ImportError:
             raise DeviceError("`scheduler` needs Dask; type: pip install 'vexture[scale]'") from None
         try:
-            parse_host_port(parse_address(self._address)[1])  # a client that was refused would complain at its end
+            parse_host_port(parse_address(self._address)[1])  # a refused client would log errors at its end
             client = Client(self._address, timeout=PATIENCE, set_as_default=False)
         except (OSError, ValueError) as error:
             raise DeviceError(
                 f"`scheduler` {self._address}: no Dask scheduler answers there ({error}); start one, or correct it"
             ) from None
-        dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"})  # items bring their data with them
+        dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"})  # items contain their data
         if not client.nthreads():
             client.close()
             raise DeviceError(
@@ -237,10 +238,10 @@ class Cluster:
         return client
 
     def _call_scheduler(self, function: Callable[..., Any], *words: Any, **named: Any) -> Any:
-        """Call the scheduler; raise a `DeviceError` if it has died, or all of its workers."""
+        """Call the scheduler; raise a `DeviceError` if it, or all of its workers, have died."""
         try:
             return function(*words, **named)
-        except OSError as error:  # so are those of connections, and of time
+        except OSError as error:  # includes connection errors and timeouts
             raise self._scheduler_error(error) from None
 
     def _scheduler_error(self, error: OSError) -> DeviceError:
@@ -250,7 +251,7 @@ class Cluster:
         )
 
     def _result(self, future: Any, resubmit: Callable[[], Any]) -> Any:
-        """Result of work; a scheduler may forget that of a worker that dies as it is fetched: then it is done again."""
+        """Fetch a result; resubmit the item if its worker died meanwhile and the scheduler has dropped the result."""
         from distributed import KilledWorker
 
         for _ in range(MOST_DEATHS):
@@ -258,7 +259,7 @@ class Cluster:
                 return future.result()
             except OSError as error:
                 if future.status == "error":
-                    raise  # the work's own
+                    raise  # the work itself raised it
                 raise self._scheduler_error(error) from None
             except CancelledError as error:
                 why: Exception = error

@@ -11,8 +11,8 @@ from vexture.bezier.split import subcubic
 def integral_x_dy(curve: NDArray[np.float64]) -> float:
     """Integral of x dy along a cubic, (4, 2): the signed area between it and the y axis.
 
-    The polynomial of degree five is integrated in closed form (Manson and Schaefer, "Wavelet Rasterization",
-    Eurographics 2011).
+    This is the closed form of the integral of a polynomial of degree five (Manson and Schaefer, "Wavelet
+    Rasterization", Eurographics 2011).
     """
     x0, x1, x2, x3 = curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0]
     y0, y1, y2, y3 = curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1]
@@ -27,9 +27,9 @@ def integral_x_dy(curve: NDArray[np.float64]) -> float:
 
 @kernel(allocates=False)
 def edge_index(x: float, y: float) -> float:
-    """Position of a point on the edge of the unit square, 0..1: clockwise from the top-left corner (thesis, Table 4.1).
+    """Position of a point on the edge of the unit square, 0..1, clockwise from the top-left corner (thesis, Table 4.1).
 
-    A point beside the edge counts as the nearest point on it.
+    For a point off the edge, this is the position of the nearest point on it.
     """
     top, right, bottom, left = 1.0 - y, 1.0 - x, y, x
     nearest = min(top, right, bottom, left)
@@ -44,7 +44,7 @@ def edge_index(x: float, y: float) -> float:
 
 @kernel
 def edge_indices(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """`edge_index` of many points: (n,) from (n, 2)."""
+    """Compute `edge_index` of points (n, 2); (n,)."""
     indices = np.empty(len(points))
     for i in range(len(points)):
         indices[i] = edge_index(points[i, 0], points[i, 1])
@@ -56,7 +56,7 @@ def area_right_of(p0: NDArray[np.float64], p3: NDArray[np.float64], x_dy: float)
     """Area of the part of the unit square on the right of a curve from edge to edge; `x_dy` is its integral of x dy.
 
     The curve from `p0` to `p3` and the square's edge, clockwise from `p3` back to `p0`, form a loop around that part.
-    On the edge x dy is not zero on the right side only.
+    On the edge, x dy differs from zero only on the right side.
     """
     start, stop = edge_index(p3[0], p3[1]), edge_index(p0[0], p0[1])
     if stop <= start:
@@ -67,7 +67,7 @@ def area_right_of(p0: NDArray[np.float64], p3: NDArray[np.float64], x_dy: float)
 
 @kernel
 def loop_area(curve: NDArray[np.float64]) -> float:
-    """Area of the loop of a cubic, (4, 2), that crosses itself: positive if counter-clockwise, 0 without a loop.
+    """Area of the loop of a cubic (4, 2) that crosses itself: positive if counter-clockwise, 0 without a loop.
 
     With B(t) = a t^3 + b t^2 + c t + d, two parameters s and t meet where a (s^2 + s t + t^2) + b (s + t) + c = 0. The
     cross product with a leaves one linear equation in s + t, after which s t follows.
@@ -99,8 +99,8 @@ def leaf_area(curve: NDArray[np.float64], corner: bool) -> float:
     """Area of the filled part of the unit square, 0..1, on the right of a curve or corner from edge to edge.
 
     `curve` (4, 2) is a cubic, or with `corner` the straight lines P0 P1 and P1 P3. The even-odd rule applies, as in the
-    shader: the loop of a curve that crosses itself changes sides. Inside the loop the winding number is off by two,
-    hence twice its area.
+    shader: the loop of a curve that crosses itself changes sides. Inside the loop, the winding number is off by two, so
+    that twice the loop's area is added.
     """
     if corner:
         x0, x1, x3 = curve[0, 0], curve[1, 0], curve[3, 0]
@@ -108,5 +108,5 @@ def leaf_area(curve: NDArray[np.float64], corner: bool) -> float:
         area = area_right_of(curve[0], curve[3], 0.5 * ((x0 + x1) * (y1 - y0) + (x1 + x3) * (y3 - y1)))
     else:
         area = area_right_of(curve[0], curve[3], integral_x_dy(curve)) + 2.0 * loop_area(curve)
-    # outside 0..1 the whole curve is a loop, whose ends cross, or miss each other only by rounding
+    # outside 0..1 the whole curve is a loop: its ends cross, or miss each other by rounding
     return max(1.0 - abs(1.0 - abs(area)), 0.0)

@@ -1,11 +1,11 @@
-"""Bounding box of cubics."""
+"""Bounding boxes of cubics."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 
 def bounds(cubics: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Least x, least y, largest x and largest y of the curves, not of their control points; (n, 4, 2), n >= 1."""
+    """Bounding box of curves (n, 4, 2), n >= 1, not of their control points: least x and y, largest x and y."""
     p0, p1, p2, p3 = np.moveaxis(cubics, 1, 0)
     a, b, c = p3 - p0 + 3.0 * (p1 - p2), 2.0 * (p0 - 2.0 * p1 + p2), p1 - p0
     root = np.sqrt(np.maximum(b * b - 4.0 * a * c, 0.0))

@@ -1,8 +1,8 @@
-"""Clipping contours to a box without changing any winding number inside it.
+"""Clip contours to a box without changing any winding number inside it.
 
 A part beyond a side of the box is replaced by its shadow on that side: the straight line between its projected ends.
-Seen from a point inside the box, the line and the curve that it replaces turn by the same angle. Every winding number
-inside stays the same, for every fill rule.
+Seen from a point inside the box, the line and the replaced curve turn by the same angle. So all winding numbers inside
+stay the same, and the result is right for every fill rule.
 """
 
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from vexture.bezier.roots import cubic_at, solve_monotone, turning_points
 from vexture.bezier.split import subcubic
 
 MOST_PIECES = 4
-"""A cubic meets a line at most three times."""
+"""Most pieces of a cubic that a line cuts: they meet at most three times."""
 
 Corner = Sequence[float] | NDArray[np.float64]
 
@@ -41,9 +41,9 @@ def clip_contour(contour: NDArray[np.float64], low: Corner, high: Corner) -> NDA
 
 @kernel
 def cut_to_side(contour: NDArray[np.float64], axis: int, bound: float, side: float, pieces: NDArray[np.float64]) -> int:
-    """Write the parts on the side of a line where ``(coordinate - bound) * side >= 0`` and the shadows of the others.
+    """Write the parts where ``(coordinate - bound) * side >= 0``, and the shadows of the others on the line.
 
-    Consecutive shadows become one. Returns the number of pieces.
+    Consecutive shadows are merged. Returns the number of pieces.
     """
     cuts = np.empty(MOST_PIECES + 1)
     count = 0

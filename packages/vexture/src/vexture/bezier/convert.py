@@ -1,8 +1,8 @@
-"""Other curves as cubics: lines exactly, circular arcs within a tolerance.
+"""Convert other curves to cubics: lines exactly, circular arcs within a tolerance.
 
-A cubic with handles of length ``4/3 tan(angle/4) r`` touches its circle at both ends and at the middle and leaves it
-outward by at most `QUARTER_ERROR` r for a quarter turn; the error falls with the sixth power of the angle (Goldapp,
-"Approximation of circular arcs by cubic polynomials", CAGD 8, 1991).
+A cubic with handles of length ``4/3 tan(angle/4) r`` touches its circle at both ends and in the middle. Elsewhere it
+lies outside the circle, for a quarter turn by at most `QUARTER_ERROR` r. The error is proportional to the sixth power
+of the angle (Goldapp, "Approximation of circular arcs by cubic polynomials", CAGD 8, 1991).
 """
 
 from math import acos, atan2, ceil, cos, hypot, pi, radians, sin, sqrt, tan
@@ -11,30 +11,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 QUARTER_ERROR = 2.7253e-4
-"""Largest distance of one cubic from a quarter of the unit circle."""
+"""Largest distance between a cubic and a quarter of the unit circle."""
 
 FINEST = 1e-3
-"""Part of a quarter turn. The shortest cubic; it bounds the work for huge radii to 4,000 cubics a turn."""
+"""Shortest cubic, as a part of a quarter turn; it limits huge circles to 4,000 cubics per turn."""
 
 FLAT = 1e-7
-"""Half the chord over the radius. A flatter short arc becomes a line, exact to 1e-7 of its length."""
+"""Ratio of half the chord to the radius. A short arc below it becomes a line, with an error of 1e-7 of its length."""
 
 STRAIGHT = 1e-12
-"""Relative. A cubic whose inner control points are this close to the thirds of its chord is a rounded line."""
+"""Relative. A cubic is a rounded line if its inner control points are this close to the thirds of its chord."""
 
 Step = tuple[float, float, float, float, float, float]
-"""P1, P2 and P3 of a cubic that starts where the one before it ends."""
+"""P1, P2 and P3 of a cubic that starts at the end of the previous cubic."""
 
 
 def line_cubics(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Straight lines as cubics, (..., 2) -> (..., 4, 2), with inner control points at one and two thirds."""
+    """Straight lines as cubics (..., 4, 2), from ends (..., 2); inner control points are at one and two thirds."""
     cubics = np.empty((*np.broadcast_shapes(start.shape, end.shape)[:-1], 4, 2))
     write_lines(start, end, cubics)
     return cubics
 
 
 def write_lines(start: NDArray[np.float64], end: NDArray[np.float64], cubics: NDArray[np.float64]) -> None:
-    """Write what `line_cubics` returns: one coordinate at a time, because NumPy is slow in rows of two."""
+    """Write the cubics of `line_cubics`, one coordinate at a time because NumPy is slow with rows of two."""
     for axis in range(2):
         first, last = start[..., axis], end[..., axis]
         chord = last - first
@@ -44,7 +44,7 @@ def write_lines(start: NDArray[np.float64], end: NDArray[np.float64], cubics: ND
 
 
 def straight(cubics: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Mark the cubics that are lines in the sense of `line_cubics`, (n, 4, 2) -> (n,)."""
+    """Return which cubics (n, 4, 2) are lines as `line_cubics` makes them; (n,)."""
     ideal = line_cubics(cubics[..., 0, :], cubics[..., 3, :])
     scale = np.abs(cubics).max(axis=(-2, -1))
     near: NDArray[np.bool_] = np.abs(cubics - ideal).max(axis=(-2, -1)) <= STRAIGHT * scale
@@ -52,7 +52,7 @@ def straight(cubics: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def turn_steps(angle: float, radius: float, tolerance: float) -> int:
-    """Number of equal cubics that follow a turn of `angle` (radians) around a circle within the tolerance."""
+    """Number of equal cubics that follow an arc of `angle` radians within the tolerance."""
     quarter = 1.0 if radius == 0.0 else min(1.0, (tolerance / (QUARTER_ERROR * radius)) ** (1 / 6))
     return max(1, ceil(abs(angle) / (pi / 2 * max(quarter, FINEST)) - 1e-9))
 
@@ -60,7 +60,7 @@ def turn_steps(angle: float, radius: float, tolerance: float) -> int:
 def turn_cubics(
     center: tuple[float, float], u: tuple[float, float], v: tuple[float, float], start: float, angle: float, steps: int
 ) -> list[Step]:
-    """Equal cubics along ``center + u cos a + v sin a`` for a = start .. start + angle, in radians."""
+    """Equal cubics along ``center + u cos a + v sin a`` for a from `start` to `start + angle`, in radians."""
     step = angle / steps
     handle = 4 / 3 * tan(step / 4)
     found = []
@@ -91,11 +91,11 @@ def arc_cubics(
     end: tuple[float, float],
     tolerance: float,
 ) -> list[Step]:
-    """Elliptical arc between two points, as SVG describes it (SVG 2, B.2.4 and B.2.5); none from a point to itself.
+    """Cubics of an elliptical arc between two points (SVG 2, B.2.4 and B.2.5); none from a point to itself.
 
-    `rotation` is that of the first axis, in degrees; `large` and `sweep` choose one of the four arcs. Radii that are
-    too small to join the points are enlarged, as the standard demands; a radius of zero gives the straight line.
-    `tolerance` is the largest distance from the true arc.
+    `rotation` is the angle of the first axis in degrees; `large` and `sweep` choose one of the four arcs. As the
+    standard demands, radii that are too small to join the points are enlarged, and a radius of zero gives a straight
+    line. `tolerance` is the largest distance from the true arc.
     """
     rx, ry = abs(radii[0]), abs(radii[1])
     (x0, y0), (x3, y3) = start, end
@@ -106,7 +106,7 @@ def arc_cubics(
         return line
     turn = radians(rotation)
     c, s = cos(turn), sin(turn)
-    # half the chord, and the centre q from its middle, in the frame where the ellipse is the unit circle
+    # p is half the chord, q the centre relative to its middle, in the frame where the ellipse is the unit circle
     hx, hy = (x0 - x3) / 2.0, (y0 - y3) / 2.0
     px, py = (c * hx + s * hy) / rx, (c * hy - s * hx) / ry
     length = hypot(px, py)
@@ -121,7 +121,7 @@ def arc_cubics(
     center = ((x0 + x3) / 2.0 + u[0] * qx + v[0] * qy, (y0 + y3) / 2.0 + u[1] * qx + v[1] * qy)
     first = atan2(py - qy, px - qx)
     angle = atan2(-py - qy, -px - qx) - first
-    if sweep != (angle > 0.0) or angle == 0.0:  # zero: almost a whole turn, closed by rounding
+    if sweep != (angle > 0.0) or angle == 0.0:  # zero: almost a whole turn that rounding closed
         angle += 2.0 * pi if sweep else -2.0 * pi
     found = turn_cubics(center, u, v, first, angle, turn_steps(angle, max(rx, ry), tolerance))
     found[-1] = (*found[-1][:4], x3, y3)
@@ -129,7 +129,7 @@ def arc_cubics(
 
 
 def ellipse_cubics(center: tuple[float, float], radii: tuple[float, float], tolerance: float) -> NDArray[np.float64]:
-    """Whole ellipse within a tolerance, from its rightmost point towards +y, as a closed contour (n, 4, 2)."""
+    """Ellipse within a tolerance as a closed contour (n, 4, 2), from its rightmost point towards +y."""
     steps = turn_steps(2.0 * pi, max(radii), tolerance)
     steps += -steps % 4  # cubics end exactly where the ellipse turns
     quarter = turn_cubics((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), 0.0, pi / 2, steps // 4)
@@ -143,9 +143,10 @@ def ellipse_cubics(center: tuple[float, float], radii: tuple[float, float], tole
 
 
 def conic_cubics(p0: complex, p1: complex, p2: complex, weight: float, tolerance: float) -> list[complex]:
-    """Circular arc, a rational quadratic of weight cos(half its angle), as P1, P2 and P3 of each cubic in turn.
+    """Cubics of a circular arc that is a rational quadratic with the weight cos(half its angle).
 
-    Points are complex numbers. The arc is halved as in Farin, "Curves and Surfaces for CAGD", 13.
+    The result lists P1, P2 and P3 of each cubic. Points are complex numbers. The arc is halved as in Farin, "Curves and
+    Surfaces for CAGD", 13.
     """
     half = acos(min(max(weight, -1.0), 1.0))
     radius = abs(p1 - p0) / tan(half) if half > 0.0 else 0.0

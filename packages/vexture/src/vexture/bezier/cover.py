@@ -1,7 +1,7 @@
-"""Find convex outlines hidden below later ones, on a grid of cells: conservative, so that nothing visible is lost.
+"""Cut convex outlines that later ones hide, on a grid of cells; conservative, so that nothing visible is lost.
 
-An outline covers the cells within a circle in it, and touches those that meet a circle around it. What it touches of
-cells that a later one covers is hidden. Outlines are cut where straight lines part what is seen of them from the rest.
+An outline covers the cells inside a circle within it, and touches the cells that meet a circle around it. A cell that a
+later outline covers hides it. Outlines are cut along straight lines that part the visible from the hidden.
 """
 
 import numpy as np
@@ -12,17 +12,17 @@ from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, split, subcubic
 
 DIRECTIONS = 8
-"""Directions in which outlines are cut: in eighths of a turn, from that of x."""
+"""Number of directions in which outlines are cut: multiples of an eighth of a turn, from the x axis."""
 
 SMALL = 0.15
-"""An outline is cut in a direction if it loses more than this part of the radius of its circle there."""
+"""Share of its circle's radius by which a cut must shorten an outline in a direction; smaller cuts are not made."""
 
 DIAGONAL = 0.7071067811865476
 
 
 @kernel(allocates=False)
 def _direction(k: int) -> tuple[float, float]:
-    """The unit vector of one of the directions."""
+    """Unit vector of direction k."""
     long = 1.0 if k % 2 == 0 else DIAGONAL
     x = 0.0 if k % 4 == 2 else long if k < 2 or k == 7 else -long
     y = 0.0 if k % 4 == 0 else long if k < 4 else -long
@@ -31,9 +31,9 @@ def _direction(k: int) -> tuple[float, float]:
 
 @kernel(allocates=False, ahead=True)
 def cover_cells(circles: NDArray[np.float64], top: NDArray[np.int32]) -> None:
-    """Write to cells of the grid `top` (rows, columns) the number of the last circle that covers each wholly.
+    """Write to each cell of the grid `top` (rows, columns) the number of the last circle that covers all of it.
 
-    Circles (n, 3), a middle and a radius each, are in units of the cells. A radius of 0 covers nothing.
+    Circles (n, 3) are centre x, centre y and radius, in units of the cells. A circle of radius 0 covers nothing.
     """
     for i in range(len(circles)):
         x, y, radius = circles[i, 0], circles[i, 1], circles[i, 2]
@@ -49,9 +49,10 @@ def cover_cells(circles: NDArray[np.float64], top: NDArray[np.int32]) -> None:
 def find_reach(
     circles: NDArray[np.float64], top: NDArray[np.int32], reach: NDArray[np.float64], hides: NDArray[np.bool_]
 ) -> None:
-    """Write how far what is seen of each circle reaches from its middle in each direction, (n, `DIRECTIONS`).
+    """Write the extent of each circle's visible part from its centre in each direction, (n, `DIRECTIONS`).
 
-    It is -inf where nothing is seen. What hides the rest is marked. All circles lie within the grid.
+    The extent is -inf if nothing is visible. Circles that hide others are marked in `hides` (n,). All circles lie
+    within the grid.
     """
     for i in range(len(circles)):
         x, y, radius = circles[i, 0], circles[i, 1], circles[i, 2]
@@ -85,11 +86,10 @@ def _cut(
     out: NDArray[np.float64],
     out_ranges: NDArray[np.float64],
 ) -> int:
-    """Write what of a convex outline of so many cubics reaches no further than `most` in a direction; return its count.
+    """Write the part of a convex outline of `count` cubics up to `most` in direction k; return its number of cubics.
 
-    `ranges` (room, 3) says of which cubic of the whole each is a part, from where to where; of a line -1.
-
-    An outline that does not go out of there once, from cubic to cubic, is left as it is, and the result is 0.
+    `ranges` (room, 3) holds the index of the original cubic of each, -1 for a line, and its parameter interval. If the
+    ends of the outline's cubics do not enter that half-plane exactly once, nothing is written, and the result is 0.
     """
     to_x, to_y = _direction(k)
     entries, start = 0, 0
@@ -100,7 +100,7 @@ def _cut(
             entries, start = entries + 1, i
     if entries != 1:
         return 0
-    made, line = 0, -1
+    written, line = 0, -1
     for place in range(count):
         number = (start + place) % count
         curve, of, begin, end = outline[number], ranges[number, 0], ranges[number, 1], ranges[number, 2]
@@ -108,26 +108,26 @@ def _cut(
         c, d = curve[2, 0] * to_x + curve[2, 1] * to_y, curve[3, 0] * to_x + curve[3, 1] * to_y
         if a > most and d > most:
             continue
-        copy_curve(curve, out[made])
+        copy_curve(curve, out[written])
         if a > most:
             t = solve_monotone(a, b, c, d, most)
-            split(curve, t, out[made + 1], out[made])
+            split(curve, t, out[written + 1], out[written])
             begin += (end - begin) * t
         elif d > most:
             t = solve_monotone(a, b, c, d, most)
-            line = made + 1
-            split(curve, t, out[made], out[line])
+            line = written + 1
+            split(curve, t, out[written], out[line])
             end = begin + (end - begin) * t
-        out_ranges[made, 0], out_ranges[made, 1], out_ranges[made, 2] = of, begin, end
-        made += 1
-        if line == made:
-            out_ranges[made, 0], out_ranges[made, 1], out_ranges[made, 2] = -1.0, 0.0, 1.0
-            made += 1
+        out_ranges[written, 0], out_ranges[written, 1], out_ranges[written, 2] = of, begin, end
+        written += 1
+        if line == written:
+            out_ranges[written, 0], out_ranges[written, 1], out_ranges[written, 2] = -1.0, 0.0, 1.0
+            written += 1
     for axis in range(2):
         p, q = out[line - 1, 3, axis], out[0, 0, axis]
         out[line, 0, axis], out[line, 3, axis] = p, q
         out[line, 1, axis], out[line, 2, axis] = p + (q - p) / 3.0, q - (q - p) / 3.0
-    return made
+    return written
 
 
 @kernel(allocates=False)
@@ -138,43 +138,43 @@ def _write(
     count: int,
     out: NDArray[np.float64],
 ) -> int:
-    """Write an outline, parts of a cubic that follow one another as one; return how many cubics it has then."""
-    made = 0
+    """Write an outline, with consecutive parts of the same cubic joined; return its number of cubics."""
+    written = 0
     for c in range(count):
         if c > 0 and ranges[c, 0] >= 0.0 and ranges[c, 0] == ranges[c - 1, 0] and ranges[c, 1] == ranges[c - 1, 2]:
-            made -= 1
+            written -= 1
             ranges[c, 1] = ranges[c - 1, 1]
-            x, y = out[made, 0, 0], out[made, 0, 1]
-            subcubic(whole[int(ranges[c, 0])], ranges[c, 1], ranges[c, 2], out[made])
-            out[made, 0, 0], out[made, 0, 1] = x, y
-            out[made, 3, 0], out[made, 3, 1] = outline[c, 3, 0], outline[c, 3, 1]
+            x, y = out[written, 0, 0], out[written, 0, 1]
+            subcubic(whole[int(ranges[c, 0])], ranges[c, 1], ranges[c, 2], out[written])
+            out[written, 0, 0], out[written, 0, 1] = x, y
+            out[written, 3, 0], out[written, 3, 1] = outline[c, 3, 0], outline[c, 3, 1]
         else:
-            copy_curve(outline[c], out[made])
-        made += 1
-    return made
+            copy_curve(outline[c], out[written])
+        written += 1
+    return written
 
 
 @kernel(ahead=True)
 def cut_outlines(
     outlines: NDArray[np.float64], circles: NDArray[np.float64], reach: NDArray[np.float64], ends: NDArray[np.int64]
 ) -> NDArray[np.float64]:
-    """Cubics of what is left of convex outlines (n, m, 4, 2) that are cut at their reach, one after another.
+    """Cut convex outlines (n, m, 4, 2) at their `reach`; return the remaining cubics of all, one after another.
 
-    Circles around them (n, 3) have the units of the cubics. `ends` (n,) is written: the place after the last cubic of
-    each. None are left of one of which nothing is seen.
+    `circles` (n, 3), around the outlines, have the units of the cubics. The index after the last cubic of each outline
+    is written to `ends` (n,). An outline of which nothing is visible has no cubics.
     """
     most = 2 * outlines.shape[1] + 2 * DIRECTIONS
-    kept = 0
+    visible = 0
     for i in range(len(outlines)):
-        kept += 1 if reach[i, 0] > -np.inf else 0
-    out = np.empty((kept * most, 4, 2))
+        visible += 1 if reach[i, 0] > -np.inf else 0
+    out = np.empty((visible * most, 4, 2))
     one, other = np.empty((most, 4, 2)), np.empty((most, 4, 2))
     of_one, of_other = np.empty((most, 3)), np.empty((most, 3))
     at = 0
     for i in range(len(outlines)):
         if reach[i, 0] > -np.inf:
             count, is_cut = 0, False
-            for k in range(outlines.shape[1]):  # halves: what is round reaches furthest, in each direction, at an end
+            for k in range(outlines.shape[1]):  # halved: a circle's farthest point in each direction is an end
                 split(outlines[i, k], 0.5, one[count], one[count + 1])
                 for half in range(2):
                     of_one[count, 0], of_one[count, 1], of_one[count, 2] = k, 0.5 * half, 0.5 + 0.5 * half
@@ -185,10 +185,10 @@ def cut_outlines(
                 for c in range(count):
                     far = max(far, one[c, 0, 0] * to_x + one[c, 0, 1] * to_y - middle)
                 if far - reach[i, k] > SMALL * circles[i, 2]:
-                    made = _cut(one, of_one, count, k, middle + reach[i, k], other, of_other)
-                    if made > 0:
+                    remaining = _cut(one, of_one, count, k, middle + reach[i, k], other, of_other)
+                    if remaining > 0:
                         one, other, of_one, of_other = other, one, of_other, of_one
-                        count, is_cut = made, True
+                        count, is_cut = remaining, True
             if is_cut:
                 at += _write(outlines[i], one, of_one, count, out[at:])
             else:

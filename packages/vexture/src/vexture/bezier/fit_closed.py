@@ -1,7 +1,7 @@
-"""Few cubics along a closed chain of points: smooth where the chain is smooth, with corners where it turns.
+"""Fit few cubics to a closed chain of points: smooth where the chain is smooth, with corners where it turns.
 
 The chain is sampled evenly (`_sample_contour`), corners are restored (`_restore_corners`), stairs of a raster are
-measured (`_stairs`), the samples are smoothed (`smooth_chain`), and each cubic replaces as many samples as the
+measured (`_stairs`), and the samples are smoothed (`smooth_chain`). Then each cubic replaces as many samples as the
 tolerance allows (`fit_samples`).
 """
 
@@ -16,17 +16,17 @@ from vexture.bezier.fit import chord_parameters, project
 from vexture.bezier.split import copy_curve
 
 ROUNDS = 14
-"""Most rounds; each gives more weight to the samples that smoothing moved too far."""
+"""Most rounds of smoothing; each gives more weight to the samples that smoothing moved too far."""
 
 OVERLAP = 64
-"""Samples by which the chain is continued beyond its ends: farther than bending reaches."""
+"""Samples by which the closed chain is extended at both ends: more than bending reaches."""
 
 
 @kernel
 def _smooth(
     points: NDArray[np.float64], weight: NDArray[np.float64], bending: NDArray[np.float64], out: NDArray[np.float64]
 ) -> None:
-    """Write the closed chain that is near to the points and bends little: banded least squares by L D L^T."""
+    """Write the closed chain that is near the points and bends little; banded least squares, solved by L D L^T."""
     n = len(points)
     m = n + 2 * OVERLAP
     a0, a1, a2 = np.zeros(m), np.zeros(m), np.zeros(m)
@@ -75,10 +75,10 @@ def smooth_chain(
     bending: NDArray[np.float64],
     reach: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Closed chain of samples (n, 2) that bends little; each sample stays within its `reach` (n,) of its place.
+    """Smooth a closed chain of samples (n, 2) so that it bends little; each sample moves by at most its `reach` (n,).
 
-    Samples where `corner` (n,) is True do not move, and the chain may bend there. `bending` (n,) weighs bending
-    elsewhere.
+    Samples where `corner` (n,) is True do not move, and the chain may bend there. `bending` (n,) is the weight of
+    bending elsewhere.
     """
     n = len(points)
     weight, bend = np.ones(n), bending.copy()
@@ -105,50 +105,50 @@ def smooth_chain(
 
 
 CORNER = 55.0
-"""Degrees. Two straight stretches that meet at more than this make a corner."""
+"""Degrees. Two straight stretches that meet at a larger angle form a corner."""
 
 BENDING = 1500.0, 15.0
-"""Weights of bending (squared second differences): on stairs, which removes waves shorter than some 20 samples, and
-where the chain is smooth, which removes those shorter than some 6."""
+"""Weights of bending (squared second differences): on stairs, to remove waves shorter than about 20 samples, and in
+smooth parts, to remove waves shorter than about 6."""
 
 SMOOTH = 0.25
-"""Share of the tolerance by which smooth parts may be moved."""
+"""Share of the tolerance by which smooth parts may move."""
 
 ROUGH = 30.0, 70.0
-"""Degrees of turning to and fro within `JOG` samples: smooth below the first, stairs above the second."""
+"""Degrees of turning back and forth within `JOG` samples: smooth below the first, stairs above the second."""
 
 JOG = 2
-"""Samples on either side; the two turns of a stair lie within them."""
+"""Samples on either side that contain both turns of a stair."""
 
 SPREAD = 16
 """Samples on either side of a stair that belong to the staircase."""
 
 SHRINKING = 0.005
-"""Limits the weight of bending: a circle of the chain's area shrinks by at most this share."""
+"""Largest share by which bending may shrink a circle of the chain's area; limits the weight of bending."""
 
 REACH = 8
-"""Samples on either side by which a corner is recognised; the two nearest may be cut off."""
+"""Samples on either side that identify a corner; the nearest two may cut the corner off."""
 
 STRAIGHTEST = 0.35
-"""Tolerances. On either side of a corner the samples are this near to a straight line."""
+"""Share of the tolerance: largest distance of the samples on either side of a corner from a straight line."""
 
 FITTING = 0.2
-"""Share of the tolerance for the fit of cubics; the rest is for smoothing."""
+"""Share of the tolerance for the fit of cubics; smoothing gets the rest."""
 
 FEWEST = 16
-"""Samples of the smallest chain."""
+"""Least number of samples of a chain."""
 
 MOST_ALONE, MOST_BETWEEN = 2**16, 256
-"""Most samples of a chain: a number of them, and as many between two points. Only needles would have more."""
+"""Most samples of a chain: a constant, plus a number for each point. Only needles would need more."""
 
 MOST = 256
-"""Samples that one cubic may replace."""
+"""Most samples that one cubic may replace."""
 
 ONE_SIDED = 4
-"""Samples that give the direction beside a corner: the nearest one alone may belong to the corner."""
+"""Samples that determine the direction beside a corner: the nearest one may belong to the corner itself."""
 
 STEPS = 6
-"""Rounds of projection and least squares for one cubic."""
+"""Most rounds of projection and least squares for one cubic."""
 
 
 @kernel
@@ -169,7 +169,7 @@ def _fit_span(
     tolerance: float,
     curve: NDArray[np.float64],
 ) -> float:
-    """Write the cubic with given unit tangents at its ends that is nearest to the points; return the distance."""
+    """Write the cubic nearest to the points, with given unit tangents at its ends; return its distance."""
     n = len(points)
     p0, p3 = points[0], points[n - 1]
     x, y, squares = points[:, 0].copy(), points[:, 1].copy(), np.empty(n)
@@ -207,9 +207,9 @@ def _fit_span(
 
 @kernel
 def fit_samples(points: NDArray[np.float64], corner: NDArray[np.bool_], tolerance: float) -> NDArray[np.float64]:
-    """Few cubics through the samples of a closed chain, (n, 2) -> (m, 4, 2); each is as long as the tolerance allows.
+    """Fit few cubics (m, 4, 2) to the samples (n, 2) of a closed chain; each is as long as the tolerance allows.
 
-    Consecutive cubics have the same direction where they meet, except at corners.
+    Consecutive cubics have the same direction at their common point, except at corners.
     """
     n = len(points)
     begin, flattest = 0, np.inf
@@ -266,19 +266,19 @@ def fit_closed(
     corner: float = CORNER,
     fixed: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float64]:
-    """Few cubics, (m, 4, 2), along a closed chain of points, (n, 2), within a tolerance in the units of the points.
+    """Fit few cubics (m, 4, 2) to a closed chain of points (n, 2), within a tolerance in the units of the points.
 
     Stairs are smoothed: with a tolerance of half a cell or more, no trace of a raster's cells is left. Smooth parts are
-    followed to a part of the tolerance. Where two straight stretches meet at more than `corner` degrees, they are
-    extended to a corner. `fixed` (n,) marks points to keep as corners. Everywhere else the cubics have the same
-    direction where they meet. A chain that is small against the tolerance becomes a small oval of about the same area.
+    followed within a fraction of the tolerance. Two straight stretches that meet at more than `corner` degrees are
+    extended to a corner. `fixed` (n,) marks points to keep as corners. At all other points, consecutive cubics have the
+    same direction. A chain that is small compared to the tolerance becomes a small oval of about the same area.
 
-    The first point is not repeated at the end. Each cubic starts, bit for bit, where the one before it ends. A chain
-    that encloses nothing gives no cubics.
+    The first point is not repeated at the end. Each cubic starts, bit for bit, at the end of the previous one. A chain
+    that encloses no area gives no cubics.
     """
     new = (points != np.roll(points, 1, axis=0)).any(axis=1)
-    kept = np.zeros(len(points), np.bool_) if fixed is None else fixed
-    points, kept = points[new], kept[new]
+    is_fixed = np.zeros(len(points), np.bool_) if fixed is None else fixed
+    points, is_fixed = points[new], is_fixed[new]
     size = abs(_area(points - points[:1]))
     if len(points) < 3 or size == 0.0:
         return np.empty((0, 4, 2))
@@ -286,7 +286,7 @@ def fit_closed(
     radius = float(np.sqrt(size / np.pi))
     tolerance = min(tolerance, radius / 2.0, size / length)
     allowed = MOST_ALONE + MOST_BETWEEN * len(points)
-    samples, sharp = _sample_contour(points, kept, max(min(tolerance, length / FEWEST), length / allowed))
+    samples, sharp = _sample_contour(points, is_fixed, max(min(tolerance, length / FEWEST), length / allowed))
     if len(samples) < 3:
         return line_cubics(points, np.roll(points, -1, axis=0))
     samples, sharp = _restore_corners(samples, sharp, tolerance, corner)
@@ -302,7 +302,7 @@ def fit_closed(
 def _sample_contour(
     points: NDArray[np.float64], fixed: NDArray[np.bool_], step: float
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Sample a contour at equal distances between its fixed points; mark the samples at those points."""
+    """Sample a contour at equal distances between its fixed points; mark the samples at fixed points."""
     first = int(np.argmax(fixed))
     closed = np.roll(points, -first, axis=0)
     stops = np.append(np.flatnonzero(np.roll(fixed, -first)), len(points))
@@ -324,7 +324,7 @@ def _sample_contour(
 def _restore_corners(
     points: NDArray[np.float64], sharp: NDArray[np.bool_], tolerance: float, corner: float
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Move samples between two straight stretches to the corner; mark the samples that are corners."""
+    """Move samples between two straight stretches to the corner of these; mark the samples that are corners."""
     n = len(points)
     points, sharp = points.copy(), sharp.copy()
     if n < 4 * REACH:
@@ -350,14 +350,14 @@ def _restore_corners(
 
 
 def _bulge(side: NDArray[np.float64]) -> float:
-    """Largest distance of points from the line between the first and the last."""
+    """Largest distance of points from the line through the first and the last."""
     chord = side[-1] - side[0]
     length = np.hypot(*chord)
     return float(np.abs(_cross(side - side[0], chord)).max() / length) if length > 0.0 else np.inf
 
 
 def _stairs(points: NDArray[np.float64], sharp: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Degree, 0..1, to which the surroundings of each sample are stairs: turns to and fro, unlike a curve's."""
+    """Degree, 0..1, to which the neighbourhood of each sample turns back and forth, as stairs do and curves do not."""
     step = np.roll(points, -1, axis=0) - points
     before = np.roll(step, 1, axis=0)
     turn = np.degrees(np.arctan2(_cross(before, step), (before * step).sum(axis=1)))

@@ -1,4 +1,4 @@
-"""Cutting cubics into pieces that are monotone in x and in y."""
+"""Cut cubics into pieces that are monotone in x and in y."""
 
 from typing import Final, NamedTuple
 
@@ -11,21 +11,21 @@ from vexture.bezier.roots import turning_points
 from vexture.bezier.split import copy_curve, split
 
 MOST_PARTS: Final = 5
-"""Most pieces of a cubic, which turns at most twice in x and twice in y."""
+"""Most pieces of a cubic: it turns at most twice in x and twice in y."""
 
 
 class Pieces(NamedTuple):
-    """n monotone pieces; any horizontal or vertical line meets a piece at most once."""
+    """Monotone pieces, n of them; a horizontal or vertical line meets a piece at most once."""
 
     points: NDArray[np.float64]  # (n, 4, 2): P0 P1 P2 P3
-    path: NDArray[np.int64]  # (n,): path that a piece belongs to
-    segment: NDArray[np.int64]  # (n,): cubic of the source that it is a part of
-    span: NDArray[np.float64]  # (n, 2): the part, as parameters t0 < t1 of that cubic
+    path: NDArray[np.int64]  # (n,): path of each piece
+    segment: NDArray[np.int64]  # (n,): cubic of the source that contains the piece
+    span: NDArray[np.float64]  # (n, 2): parameters t0 < t1 of the piece on that cubic
 
 
 @kernel
 def empty_pieces(count: int) -> Pieces:
-    """Arrays for pieces, not filled."""
+    """Allocate arrays for pieces."""
     return Pieces(
         np.empty((count, 4, 2), np.float64),
         np.empty(count, np.int64),
@@ -36,20 +36,20 @@ def empty_pieces(count: int) -> Pieces:
 
 @kernel(allocates=False)
 def _is_ordered(curve: NDArray[np.float64], axis: int) -> bool:
-    """Whether a coordinate of the control points never turns, and that of the cubic neither: above all of a line."""
+    """Return whether a coordinate of the control points never turns, so that the cubic's does not: a quick test."""
     a, b, c, d = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
     return a <= b <= c <= d or a >= b >= c >= d
 
 
 @kernel(allocates=False)
 def is_monotone(curve: NDArray[np.float64]) -> bool:
-    """Whether the control points never turn in x and in y, so that the cubic does not: above all a line."""
+    """Return whether the control points, and so the cubic, turn neither in x nor in y; finds all straight lines."""
     return _is_ordered(curve, 0) and _is_ordered(curve, 1)
 
 
 @kernel(allocates=False)
 def turns(curve: NDArray[np.float64], out: NDArray[np.float64]) -> int:
-    """Write the parameters at which x or y turns, in rising order; return how many (0 to 4)."""
+    """Write the parameters at which x or y turns, in ascending order; return their number (0 to 4)."""
     if is_monotone(curve):
         return 0
     count = turning_points(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], out)
@@ -65,7 +65,7 @@ def turns(curve: NDArray[np.float64], out: NDArray[np.float64]) -> int:
 
 @kernel
 def write_monotone(cubics: NDArray[np.float64], path: NDArray[np.int64], out: Pieces) -> int:
-    """Write the pieces of `monotone_pieces` to arrays with room; return how many. `segment` and `span` may be empty."""
+    """Write the pieces of `monotone_pieces` to `out`, whose `segment` and `span` may be empty; return their number."""
     at = np.empty(4)
     rest = np.empty((4, 2))
     count, with_spans = 0, len(out.segment) > 0
@@ -96,7 +96,8 @@ def write_monotone(cubics: NDArray[np.float64], path: NDArray[np.int64], out: Pi
 def monotone_pieces(cubics: NDArray[np.float64], path: NDArray[np.int64]) -> Pieces:
     """Split the cubics (m, 4, 2) of contours where x or y turns; `path` (m,) is the path of each.
 
-    The order stays. Pieces whose ends coincide are dropped, and common end points are equal bit for bit.
+    The pieces keep the order of the cubics. Pieces whose ends coincide are dropped; common end points are equal bit for
+    bit.
     """
     out = empty_pieces(MOST_PARTS * len(cubics))
     count = write_monotone(cubics, path, out)

@@ -1,4 +1,4 @@
-"""Fewer cubics along a closed contour: where one cubic follows a run of monotone pieces, it takes their place."""
+"""Reduce the cubics of a closed contour: one cubic replaces a run of monotone pieces if it follows them."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,12 +9,12 @@ from vexture.bezier.monotone import monotone_pieces
 from vexture.bezier.split import copy_curve
 
 UNSEEN = 0.1
-"""Share of the tolerance. A step back that is shorter ends no run: strokers leave such steps at joins."""
+"""Share of the tolerance. A shorter step back does not end a run: strokers leave such steps at joins."""
 
 
 @kernel(allocates=False)
 def _turns_between(before: NDArray[np.float64], after: NDArray[np.float64], unseen: float) -> bool:
-    """Whether two pieces go in opposite directions in x or in y, by more than an unseen step."""
+    """Return whether two pieces go in opposite directions in x or in y, both by more than `unseen`."""
     for axis in range(2):
         first, second = before[3, axis] - before[0, axis], after[3, axis] - after[0, axis]
         if first * second < 0.0 and min(abs(first), abs(second)) > unseen:
@@ -24,9 +24,9 @@ def _turns_between(before: NDArray[np.float64], after: NDArray[np.float64], unse
 
 @kernel(ahead=True)
 def reduce_contour(contour: NDArray[np.float64], tolerance: float) -> NDArray[np.float64]:
-    """Monotone cubics, as few as follow a closed contour (n, 4, 2) within a tolerance -> (m, 4, 2), closed bit for bit.
+    """Replace a closed contour (n, 4, 2) by few monotone cubics (m, 4, 2) within a tolerance, closed bit for bit.
 
-    Runs end where x or y turns, where a quad-tree cuts anyway; each cubic is as long as the tolerance allows.
+    Runs end where x or y turns, where a quad-tree cuts anyway. Each cubic is as long as the tolerance allows.
     """
     pieces = monotone_pieces(contour, np.zeros(len(contour), np.int64)).points
     n, begin = len(pieces), 0

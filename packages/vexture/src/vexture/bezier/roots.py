@@ -1,4 +1,4 @@
-"""Roots of cubics in Bernstein form: where a coordinate takes a value, and where it turns."""
+"""Roots of cubics in Bernstein form: parameters at which a coordinate takes a value or turns."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ def cubic_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
 
 @kernel(allocates=False)
 def velocity_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
-    """Derivative of a cubic's coordinate by t."""
+    """Derivative of a cubic's coordinate with respect to t."""
     s = 1.0 - t
     return 3.0 * (s * s * (p1 - p0) + 2.0 * s * t * (p2 - p1) + t * t * (p3 - p2))
 
@@ -27,8 +27,8 @@ def velocity_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
 def solve_monotone(p0: float, p1: float, p2: float, p3: float, value: float) -> float:
     """Parameter t in [0, 1] at which a coordinate that is monotone on [0, 1] takes a value between p0 and p3.
 
-    Newton's method inside a bracket that each step tightens; a step that leaves the bracket is replaced by bisection.
-    Exact at both ends.
+    Uses Newton's method inside a bracket that each step tightens; a bisection replaces a step that leaves the bracket.
+    The result is exact at both ends.
     """
     if value == p0:
         return 0.0
@@ -59,10 +59,10 @@ def solve_monotone(p0: float, p1: float, p2: float, p3: float, value: float) -> 
 
 @kernel(allocates=False)
 def turning_points(p0: float, p1: float, p2: float, p3: float, out: NDArray[np.float64]) -> int:
-    """Write the parameters in (0, 1) at which a coordinate turns, in rising order; return how many (0, 1 or 2).
+    """Write the parameters in (0, 1) at which a coordinate turns, in ascending order; return their number (0, 1 or 2).
 
-    The derivative's roots by the stable form ``q = -(b + sgn(b) sqrt(b^2 - 4 a c)) / 2``, ``q / a`` and ``c / q``
-    (Press et al., Numerical Recipes, 5.6). A double root does not turn.
+    The derivative's roots have the stable form ``q = -(b + sgn(b) sqrt(b^2 - 4 a c)) / 2``, ``q / a`` and ``c / q``
+    (Press et al., Numerical Recipes, 5.6). At a double root the coordinate does not turn.
     """
     a = 3.0 * (p3 - p0 + 3.0 * (p1 - p2))
     b = 6.0 * (p0 - 2.0 * p1 + p2)

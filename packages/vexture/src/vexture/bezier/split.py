@@ -1,4 +1,4 @@
-"""Cutting cubics by de Casteljau's algorithm."""
+"""Cut cubics by de Casteljau's algorithm."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,7 @@ from vexture.base.kernels import kernel
 
 @kernel(allocates=False)
 def copy_curve(source: NDArray[np.float64], target: NDArray[np.float64]) -> None:
-    """Copy a cubic, (4, 2), number by number: an assignment of slices takes Numba a second to compile."""
+    """Copy a cubic (4, 2) number by number, because Numba takes a second to compile an assignment of slices."""
     for k in range(4):
         target[k, 0] = source[k, 0]
         target[k, 1] = source[k, 1]
@@ -16,7 +16,7 @@ def copy_curve(source: NDArray[np.float64], target: NDArray[np.float64]) -> None
 
 @kernel(allocates=False)
 def split(curve: NDArray[np.float64], t: float, left: NDArray[np.float64], right: NDArray[np.float64]) -> None:
-    """Write the parts before and after t, (4, 2) each; they share their common point bit for bit.
+    """Write the parts of a cubic before and after t, (4, 2) each; their common point is equal bit for bit.
 
     `left` or `right` may be `curve` itself.
     """
@@ -34,11 +34,11 @@ def split(curve: NDArray[np.float64], t: float, left: NDArray[np.float64], right
 
 @kernel(allocates=False)
 def subcubic(curve: NDArray[np.float64], t0: float, t1: float, out: NDArray[np.float64]) -> None:
-    """Write the part of a cubic from t0 to t1, (4, 2); t0 > t1 gives it reversed (blossoming)."""
+    """Write the part (4, 2) of a cubic from t0 to t1, reversed if t0 > t1 (blossoming)."""
     s0, s1 = 1.0 - t0, 1.0 - t1
     for axis in range(2):
         p0, p1, p2, p3 = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
-        # polar form: the first de Casteljau level at t0 or t1, the others mixed
+        # polar form: the first de Casteljau level at t0 or t1, further levels mixed
         a0, b0, c0 = s0 * p0 + t0 * p1, s0 * p1 + t0 * p2, s0 * p2 + t0 * p3
         a1, b1, c1 = s1 * p0 + t1 * p1, s1 * p1 + t1 * p2, s1 * p2 + t1 * p3
         d00, e00 = s0 * a0 + t0 * b0, s0 * b0 + t0 * c0

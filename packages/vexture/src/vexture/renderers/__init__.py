@@ -1,1 +1,1 @@
-"""Renderers: the exact one from a drawing, the shader on the GPU, and its mirror on the CPU."""
+"""Renderers: the exact renderer of drawings, the shader on the GPU, and its mirror on the CPU."""

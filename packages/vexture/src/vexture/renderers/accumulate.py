@@ -1,9 +1,9 @@
-"""Pictures of polygons of one colour each, in one pass over their sides, without a tree: exact where none overlap.
+"""Draw polygons of one colour each in one pass over their sides, without a tree; exact if none overlap.
 
-Each side adds, to the pixels of each row that it passes, how much of the pixel lies to its right, times its polygon's
-colour; sums along the rows then are the colours. So a side that two polygons share costs nothing but rounding, and no
-background shines through. The idea is that of the accumulation buffer of font-rs (Raph Levien, 2016), which
-stb_truetype has as well (Sean Barrett, 2015), here with colours in place of coverage.
+Each side adds to the pixels of each row that it passes the part of the pixel to its right, times its polygon's colour.
+Sums along the rows are then the colours. So the contributions of a side that two polygons share cancel except for
+rounding, and no background shines through. The idea is the accumulation buffer of font-rs (Raph Levien, 2016) and
+stb_truetype (Sean Barrett, 2015), here with colours in place of coverage.
 """
 
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from vexture.base.kernels import kernel
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 
 PARTS = 4
-"""Red, green, blue, each times opacity, and opacity."""
+"""Components of a colour: red, green and blue, each times opacity, and opacity."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,9 +25,9 @@ class Sides:
     Parameters
     ----------
     start, end : (n, 2) arrays
-        x, y of both ends of each side.
+        Coordinates x, y of both ends of each side.
     owner : (n,) array
-        The row of each side's colour.
+        Index of each side's colour.
     """
 
     start: NDArray[np.float64]
@@ -39,7 +39,7 @@ def render_sides(sides: Sides, rgba: NDArray[np.float64], size: Size, view: View
     """Mean colour of each pixel's square, premultiplied sRGB and opacity, (height, width, 4), top row first.
 
     `size` and `view`, which must be affine, are as in `vexture.render`; `rgba`, (c, 4), is not premultiplied. Where
-    polygons overlap, it is the mean of their colours, weighted by the areas.
+    polygons overlap, the result is the mean of their colours, weighted by area.
 
     Examples
     --------
@@ -66,7 +66,7 @@ def add_sides(
     to_pixels: NDArray[np.float64],
     picture: NDArray[np.float64],
 ) -> None:
-    """Add what each side changes along the rows that it passes."""
+    """Add the changes of colour at each side to the rows that it passes."""
     height, width = picture.shape[0], picture.shape[1] - 2
     a, b, c = to_pixels[0, 0], to_pixels[0, 1], to_pixels[0, 2]
     d, e, f = to_pixels[1, 0], to_pixels[1, 1], to_pixels[1, 2]
@@ -75,7 +75,7 @@ def add_sides(
         x1, y1 = a * end[k, 0] + b * end[k, 1] + c, d * end[k, 0] + e * end[k, 1] + f
         if y0 == y1 or max(y0, y1) <= 0.0 or min(y0, y1) >= height or min(x0, x1) >= width:
             continue
-        sign = 1.0  # downwards: a polygon is on the right of where its outline goes down, as y is down
+        sign = 1.0  # y points down, so a polygon is on the right of a side that goes down
         if y0 > y1:
             x0, y0, x1, y1, sign = x1, y1, x0, y0, -1.0
         slope = (x1 - x0) / (y1 - y0)
@@ -100,7 +100,7 @@ def _add_run(
     colours: NDArray[np.float64],
     colour: int,
 ) -> None:
-    """Add a part of a side in a row, from `left` to `right`, of a signed height `area`."""
+    """Add the part of a side in a row, from `left` to `right`, with the signed height `area`."""
     width = picture.shape[1] - 2
     if left >= width:
         return
@@ -120,7 +120,7 @@ def _add_run(
         _add(picture, row, first + 1, area - inside, colours, colour)
         return
     before = 0.0  # area in the columns so far
-    total = 0.0  # what was added so far
+    total = 0.0  # area added so far
     for column in range(first, last + 1):
         near, far = max(left, float(column)), min(right, float(column + 1))
         part = density * (far - near)
@@ -135,14 +135,14 @@ def _add_run(
 def _add(
     picture: NDArray[np.float64], row: int, column: int, area: float, colours: NDArray[np.float64], colour: int
 ) -> None:
-    """Add an area times a colour."""
+    """Add an area times a colour to a pixel."""
     for part in range(PARTS):
         picture[row, column, part] += area * colours[colour, part]
 
 
 @kernel(allocates=False)
 def sum_rows(picture: NDArray[np.float64]) -> None:
-    """Sums along the rows; of places that are covered more than once, the mean."""
+    """Sum along the rows; where opacity exceeds 1 because polygons overlap, divide by it."""
     height, width, _ = picture.shape
     for row in range(height):
         for part in range(PARTS):

@@ -1,7 +1,7 @@
-"""Lays one colour over another: source-over and the other blend modes, in sRGB.
+"""Lay one colour over another: source-over and the other blend modes, in sRGB.
 
-The formulas are those of *Compositing and Blending Level 1* of the W3C, by its names: c a colour, b what is below (the
-backdrop), s what is laid over it (the source). `Blend.PLUS_LIGHTER` is that of Level 2.
+The formulas and names are those of the W3C's *Compositing and Blending Level 1*: c is a colour, b the backdrop, s the
+source, which is laid over it. `Blend.PLUS_LIGHTER` is defined in Level 2.
 """
 
 from typing import Final, TypeAlias
@@ -15,15 +15,15 @@ from vexture.drawing.group import Blend
 Colour: TypeAlias = tuple[float, float, float]
 
 ROUNDING: Final = 1e-9
-"""Of a component, by what was composited before: at 0 and 1, where dodge and burn jump, it must not decide, nor make a
-hue of a grey."""
+"""Rounding error of a component from earlier compositing. It must not decide at 0 and 1, where dodge and burn jump, nor
+give a grey a hue."""
 
 
 @kernel(allocates=False)
 def lay(source: NDArray[np.float64], opacity: float, blend: int, below: NDArray[np.float64]) -> None:
-    """Put a premultiplied colour, (4,), of some opacity over another one, in place.
+    """Lay a premultiplied colour (4,), times an opacity, over another colour, in place.
 
-    All but two modes are co = cs αs (1 - αb) + cb αb (1 - αs) + αs αb B(cb, cs).
+    All modes but two use co = cs αs (1 - αb) + cb αb (1 - αs) + αs αb B(cb, cs).
     """
     over, under = source[3] * opacity, below[3]
     if blend == Blend.NORMAL:
@@ -34,7 +34,7 @@ def lay(source: NDArray[np.float64], opacity: float, blend: int, below: NDArray[
             below[k] = min(source[k] * opacity + below[k], 1.0)
     else:
         mixed = mixture(blend, straight(below), straight(source))
-        # alpha by the formula of the colours: what is white stays white to the last bit, which dodge and burn require
+        # alpha uses the formula of the colours, so that white stays white to the last bit, as dodge and burn require
         for k in range(4):
             both = mixed[k] if k < 3 else 1.0
             below[k] = source[k] * opacity * (1.0 - under) + below[k] * (1.0 - over) + over * under * both
@@ -42,7 +42,7 @@ def lay(source: NDArray[np.float64], opacity: float, blend: int, below: NDArray[
 
 @kernel(allocates=False)
 def straight(colour: NDArray[np.float64]) -> Colour:
-    """A colour without its opacity; black if there is none."""
+    """Divide a premultiplied colour by its opacity; black if the opacity is 0."""
     if colour[3] == 0.0:
         return 0.0, 0.0, 0.0
     return min(colour[0] / colour[3], 1.0), min(colour[1] / colour[3], 1.0), min(colour[2] / colour[3], 1.0)
@@ -50,7 +50,7 @@ def straight(colour: NDArray[np.float64]) -> Colour:
 
 @kernel(allocates=False)
 def mixture(blend: int, b: Colour, s: Colour) -> Colour:
-    """B(cb, cs), of straight colours."""
+    """Blend function B(cb, cs) of straight colours."""
     if blend == Blend.HUE:
         return with_luminosity(with_saturation(s, saturation(b)), luminosity(b))
     if blend == Blend.SATURATION:
@@ -64,7 +64,7 @@ def mixture(blend: int, b: Colour, s: Colour) -> Colour:
 
 @kernel(allocates=False)
 def separable(blend: int, b: float, s: float) -> float:
-    """B(cb, cs) of a mode that treats each component by itself."""
+    """Blend function B(cb, cs) of a mode that treats each component separately."""
     if blend == Blend.MULTIPLY:
         return b * s
     if blend == Blend.SCREEN:
@@ -90,7 +90,7 @@ def separable(blend: int, b: float, s: float) -> float:
 
 @kernel(allocates=False)
 def hard_light(b: float, s: float) -> float:
-    """Multiplies where the source is dark, screens where it is light."""
+    """Multiply where the source is dark, screen where it is light."""
     if s <= 0.5:
         return b * (2.0 * s)
     return b + (2.0 * s - 1.0) - b * (2.0 * s - 1.0)
@@ -98,7 +98,7 @@ def hard_light(b: float, s: float) -> float:
 
 @kernel(allocates=False)
 def soft_light(b: float, s: float) -> float:
-    """Darkens or lightens, as a diffused light does."""
+    """Darken or lighten, like a diffused light."""
     if s <= 0.5:
         return b - (1.0 - 2.0 * s) * b * (1.0 - b)
     lightest = ((16.0 * b - 12.0) * b + 4.0) * b if b <= 0.25 else float(np.sqrt(b))
@@ -119,7 +119,7 @@ def saturation(c: Colour) -> float:
 
 @kernel(allocates=False)
 def with_saturation(c: Colour, wanted: float) -> Colour:
-    """The W3C's SetSat: the least component becomes 0, the greatest as wanted."""
+    """The W3C's SetSat: the least component becomes 0, the greatest `wanted`."""
     least, range_ = min(c[0], c[1], c[2]), saturation(c)
     if range_ <= ROUNDING:
         return 0.0, 0.0, 0.0
@@ -129,7 +129,7 @@ def with_saturation(c: Colour, wanted: float) -> Colour:
 
 @kernel(allocates=False)
 def with_luminosity(c: Colour, wanted: float) -> Colour:
-    """The W3C's SetLum and ClipColor: a shift by one amount, then towards grey until all is in 0..1."""
+    """The W3C's SetLum and ClipColor: shift all components equally, then move them towards grey, into 0..1."""
     shift = wanted - luminosity(c)
     r, g, b = c[0] + shift, c[1] + shift, c[2] + shift
     light, least, greatest = luminosity((r, g, b)), min(r, g, b), max(r, g, b)

@@ -1,4 +1,4 @@
-"""The mirror of ``shaders/tree.glsl``: positions, and the cells down the tree (see `vexture.renderers.cpu`)."""
+"""The mirror of ``shaders/tree.glsl``: positions, and the descent to the cells (see `vexture.renderers.cpu`)."""
 
 import math
 from typing import NamedTuple
@@ -35,7 +35,7 @@ Texel = tuple[int, int, int, int]
 
 
 class VexturePlace(NamedTuple):
-    """A point and the box of a pixel around it."""
+    """A point and the bounding box of the pixel around it."""
 
     point: Whole2
     rest: Vec2
@@ -44,7 +44,7 @@ class VexturePlace(NamedTuple):
 
 
 class VextureCell(NamedTuple):
-    """A leaf, as the byte of a quad's texel; or a quad."""
+    """A leaf, given by its byte in a quad's texel; or a quad."""
 
     quad: int
     texel: Texel
@@ -54,7 +54,7 @@ class VextureCell(NamedTuple):
 
 
 class VextureSquare(NamedTuple):
-    """A square of cells: its lowest position in a pixel's box."""
+    """A square of cells, given by its lowest position in a pixel's box."""
 
     position: Whole2
     bit: int
@@ -70,13 +70,13 @@ class VextureTop(NamedTuple):
 
 @kernel(allocates=False)
 def clamp(value: float, low: float, high: float) -> float:
-    """The value, or the bound that it is beyond."""
+    """Clamp a value to bounds."""
     return min(max(value, low), high)
 
 
 @kernel(allocates=False)
 def texel(texels: Texels, index: int) -> Texel:
-    """Beyond the texture, where a GPU may return anything, its last row or column."""
+    """Read a texel; clamp an index outside the texture, where a GPU may return anything, to the last row or column."""
     index &= 0xFFFFFFFF
     row = min(index >> ROW_BITS, texels.shape[0] - 1)
     column = min(index & ((1 << ROW_BITS) - 1), texels.shape[1] - 1)
@@ -86,7 +86,7 @@ def texel(texels: Texels, index: int) -> Texel:
 
 @kernel(allocates=False)
 def place(base: Whole2, offset: Vec2, extent: Vec2) -> VexturePlace:
-    """A pixel's place and the box around it."""
+    """Position of a pixel and the box around it."""
     x, rest_x, low_x, high_x = place_coordinate(base[0], offset[0], extent[0])
     y, rest_y, low_y, high_y = place_coordinate(base[1], offset[1], extent[1])
     return VexturePlace((x, y), (rest_x, rest_y), (low_x, low_y), (high_x, high_y))
@@ -94,7 +94,7 @@ def place(base: Whole2, offset: Vec2, extent: Vec2) -> VexturePlace:
 
 @kernel(allocates=False)
 def place_coordinate(base: int, offset: float, extent: float) -> tuple[int, float, int, int]:
-    """One coordinate of what GLSL computes as vectors."""
+    """One coordinate of `place`, which GLSL computes with vectors."""
     spare = 32 - POSITION_BITS + REST_BITS
     one = float(1 << REST_BITS)
     scaled = clamp(offset, -FARTHEST, FARTHEST) * (float(1 << POSITION_BITS) / one)
@@ -112,7 +112,7 @@ def place_coordinate(base: int, offset: float, extent: float) -> tuple[int, floa
 
 @kernel(allocates=False)
 def first_square(place: VexturePlace) -> VextureSquare:
-    """The smallest cell that holds the whole box of a place."""
+    """Smallest cell that contains the whole box of a place."""
     low, high = place.low, place.high
     differ = (low[0] ^ high[0]) | (low[1] ^ high[1])
     is_inside = low[0] <= high[0] and low[1] <= high[1]
@@ -122,7 +122,7 @@ def first_square(place: VexturePlace) -> VextureSquare:
 
 @kernel(allocates=False)
 def next_square(position: Whole2, beyond: Whole2, place: VexturePlace) -> VextureSquare:
-    """The next square of cells that meets the box."""
+    """Next square of cells that meets the box."""
     low, high = place.low, place.high
     step_x = beyond[0] & -beyond[0] if beyond[0] <= high[0] else NO_CELL
     step_y = beyond[1] & -beyond[1] if beyond[1] <= high[1] else NO_CELL
@@ -148,7 +148,7 @@ def finest_bit(area: float, longer: float) -> int:
 
 @kernel(allocates=False)
 def top(root: int) -> VextureTop:
-    """Start of the descents of a shape."""
+    """Start of all descents of a shape."""
     return VextureTop(root, POSITION_BITS, root + FOLLOWED_QUADS)
 
 
@@ -156,7 +156,7 @@ def top(root: int) -> VextureTop:
 def descend(
     texels: Texels, top: VextureTop, shared: int, finest: int, position: Whole2
 ) -> tuple[VextureCell, VextureTop]:
-    """Return the new `top` too, which GLSL changes in place."""
+    """Descend to the cell at a position; also return the new `top`, which GLSL changes in place."""
     quad, bit = top.quad, top.bit
     found = texel(texels, quad)
     shift = 0
@@ -176,24 +176,24 @@ def descend(
 
 @kernel(allocates=False)
 def stored_coverage(cell: VextureCell) -> float:
-    """Coverage in the cell's byte."""
+    """Coverage from the cell's byte."""
     return ((cell.texel[3] >> cell.shift) & 255) / COVERAGE_ONE
 
 
 @kernel(allocates=False)
 def count(cell: VextureCell) -> int:
-    """Number of the leaf's pieces."""
+    """Number of pieces of the leaf."""
     return (cell.texel[2] >> (cell.shift + COUNT_SHIFT)) & MOST_CURVES
 
 
 @kernel(allocates=False)
 def winding_code(cell: VextureCell) -> int:
-    """Corner winding of the leaf, from 1; 0 marks a constant leaf."""
+    """Corner winding of the leaf plus `WINDING_OFFSET`; 0 marks a constant leaf."""
     return (cell.texel[2] >> cell.shift) & 7
 
 
 @kernel(allocates=False)
 def first_curve(cell: VextureCell) -> int:
-    """Texel of the leaf's first piece."""
+    """Index of the texel of the leaf's first piece."""
     before = (cell.texel[2] >> COUNT_SHIFT) & 0x0F0F0F & ((1 << cell.shift) - 1)
     return cell.texel[1] + ((before * 0x010101 >> 16) & 255)

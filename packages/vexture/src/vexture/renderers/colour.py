@@ -1,6 +1,6 @@
 """The mirror of ``shaders/colour.glsl``: the colour of a pixel from a planar map.
 
-See `vexture.renderers.cpu`. `is_linear` is what ``VEXTURE_LINEAR`` is in the shader.
+See `vexture.renderers.cpu`. `is_linear` corresponds to ``VEXTURE_LINEAR`` in the shader.
 """
 
 import numpy as np
@@ -206,7 +206,7 @@ def held(color: Vec4) -> Vec4:
 
 @kernel(allocates=False)
 def held_channel(value: float, most: float) -> float:
-    """One channel of what GLSL computes as vectors."""
+    """One channel of `held`, which GLSL computes with vectors."""
     return min(value, most) if value > 0.0 else 0.0
 
 
@@ -351,8 +351,8 @@ def render_cpu_colours(
     """Render one planar map of a texture as its shader would with exact arithmetic.
 
     `size` and `view` are as in `vexture.coverage`; `root` is the number of the map. The picture is (height, width, 4)
-    float32, premultiplied, 0..1: averaged over pixels in sRGB, or, with `is_linear`, in linear light; then its
-    components are linear.
+    float32, premultiplied, 0..1. It is averaged over pixels in sRGB. With `is_linear` it is averaged in linear light,
+    and its components are linear.
     """
     uniforms = uniforms_of(texture, size, view, root)
     image = np.empty((*uniforms.size[::-1], 4), np.float32)

@@ -1,10 +1,10 @@
-"""The shader's mirror on the CPU: the functions of ``shaders/`` again, in float64.
+"""The shader's mirror on the CPU: the functions of ``shaders/``, in float64.
 
 The names are the shader's without their prefix: ``vexture_place`` is `place`, ``vextureCoverage`` is `coverage`. The
 cells of the tree are in `vexture.renderers.cells`, the mathematics of one piece is in `vexture.renderers.piece`.
 
-Change both sides together; a test compares names and arguments. The shader computes in float32, so the difference
-between the two is the error of float32. The shader's comments give the reasons.
+Change both sides together; a test compares names and arguments. The shader computes in float32, so its pictures differ
+from the mirror's by the error of float32. The shader's comments give the reasons for the code.
 """
 
 import math
@@ -80,7 +80,7 @@ class VextureCorner(NamedTuple):
 
 
 class VexturePath(NamedTuple):
-    """The way along a box's sides: left, right, and from the piece's ends to the right side."""
+    """Path along a box's sides: on the left, on the right, and from the piece's ends to the right side."""
 
     corner: VextureCorner
     l0: Vec2
@@ -92,7 +92,7 @@ class VexturePath(NamedTuple):
 
 
 class VextureLook(NamedTuple):
-    """Result of a look at the ends of a piece: a filled share of the box, and whether more must be read."""
+    """Result from the ends of a piece alone: the filled share of the box, and whether more must be read."""
 
     filled: float
     turns: bool
@@ -119,7 +119,7 @@ def from_corner(corner: VextureCorner, x: float, y: float) -> Vec2:
 
 @kernel(allocates=False)
 def piece_parts(piece: VexturePiece, ends: VextureEnds, corner: VextureCorner) -> int:
-    """Number of parts that the bend of a piece requires."""
+    """Number of parts into which a piece is divided because of its bend."""
     along, above = corner.x, corner.y
     p = from_corner(corner, ends.enter[0], ends.enter[1])
     q = from_corner(corner, ends.leave[0], ends.leave[1])
@@ -160,7 +160,7 @@ def curve_area(piece: VexturePiece, ends: VextureEnds, corner: VextureCorner) ->
 def path_of(
     texel: Texel, turns: bool, piece: VexturePiece, ends: VextureEnds, box: VextureBox, frame: VextureFrame
 ) -> VexturePath:
-    """The path along the box's sides that closes a piece."""
+    """Path along the box's sides that closes a piece."""
     there = corner(piece.falls, box, frame)
     falls = piece.falls[0]
     top = 0.0 if piece.falls[1] else 1.0
@@ -209,7 +209,7 @@ def cut_place(cell: VextureCell, box: VextureBox, frame: VextureFrame) -> Vec2:
 
 @kernel(allocates=False)
 def cut_way(at: float, x: float, y: float) -> float:
-    """One coordinate of what GLSL computes as vectors."""
+    """One coordinate of `cut_place`, which GLSL computes with vectors."""
     reach = 0.5 * (x + y)
     low, high = max(at - reach, -0.5), min(at + reach, 0.5)
     return DRAWN * (0.5 * (low + high) - at)
@@ -334,7 +334,7 @@ def render_cpu(
     """Render one shape of a packed texture as its shader would with exact arithmetic.
 
     `size` and `view` are as in `vexture.coverage`; `root` is the number of the shape. Positions are relative to the
-    point `base` of the unit square, 1.0 = 2^32; `view_base` by default.
+    point `base` of the unit square, where 1.0 is 2^32; the default is `view_base`.
     """
     uniforms = uniforms_of(texture, size, view, root, base)
     image = np.empty(uniforms.size[::-1], np.float32)

@@ -1,4 +1,4 @@
-"""OpenGL 3.3 without a window, through EGL."""
+"""Access to OpenGL 3.3 without a window, through EGL."""
 
 import threading
 from functools import cache
@@ -13,12 +13,12 @@ from vexture.renderers.shader import vertex_source
 VERSION: Final = "330"
 
 ONE_AT_A_TIME: Final = threading.Lock()
-"""A context can be current in one thread only."""
+"""Lock on the OpenGL context, which can be current in only one thread."""
 
 
 @cache
 def context() -> Any:
-    """The process's OpenGL context, made on first use. Raises `DeviceError` if moderngl or a driver is missing."""
+    """OpenGL context of the process, made on first use; raises a `DeviceError` if moderngl or a driver is missing."""
     try:
         import moderngl
     except ImportError:
@@ -27,48 +27,48 @@ def context() -> Any:
         ) from None
     try:
         # its stubs take **settings for one dictionary each
-        made = moderngl.create_standalone_context(require=330, backend="egl")  # type: ignore[arg-type]
+        gl = moderngl.create_standalone_context(require=330, backend="egl")  # type: ignore[arg-type]
     except Exception as error:  # moderngl raises plain Exceptions
         reason = " ".join(str(error).split())
         raise DeviceError(
             f"no OpenGL 3.3 context without a window ({reason}); install a driver (Debian: libegl1 libgl1 "
             "libgl1-mesa-dri), or use `renderer` cpu"
         ) from None
-    made.gc_mode = "auto"  # a program that leaves the cache is released
-    with made:
-        pass  # leaves it current in no thread, so that any may use it
-    return made
+    gl.gc_mode = "auto"  # a program that leaves the cache is released
+    with gl:
+        pass  # releases the context from this thread, so that any thread may use it
+    return gl
 
 
 def compile_shader(fragment_source: str) -> Any:
-    """Compile a fragment shader with a triangle that covers the image. Raises `DeviceError` on failure."""
+    """Compile a fragment shader with a triangle that covers the image; raise a `DeviceError` on failure."""
     gl = context()
     try:
-        made = gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=fragment_source)
+        program = gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=fragment_source)
     except Exception as error:  # moderngl's own class is not to be imported before the context
         reason = " ".join(str(error).split())[:200]
         raise DeviceError(
             f"the OpenGL driver refuses the shader ({reason}); update it, or use `renderer` cpu"
         ) from None
-    return gl.vertex_array(made, [])
+    return gl.vertex_array(program, [])
 
 
 def upload(gl: Any, pixels: NDArray[Any], unit: int, dtype: str) -> Any:
-    """Texture of an array, (rows, width, 4), without filtering, bound to a texture unit.
+    """Upload an array (rows, width, 4) as a texture without filtering, and bind it to a texture unit.
 
-    Raises `DeviceError` if the driver has no such textures: what it would draw is wrong.
+    Raises a `DeviceError` if the driver does not support such textures, because it would draw wrong pictures.
     """
-    _ = gl.error  # which forgets those of before
-    made = gl.texture(pixels.shape[1::-1], 4, np.ascontiguousarray(pixels).tobytes(), dtype=dtype)
+    _ = gl.error  # reading it clears earlier errors
+    texture = gl.texture(pixels.shape[1::-1], 4, np.ascontiguousarray(pixels).tobytes(), dtype=dtype)
     if (error := gl.error) != "GL_NO_ERROR":
         raise DeviceError(f"the OpenGL driver takes no such texture ({error}); update it, or use `renderer` cpu")
-    made.filter = (gl.NEAREST, gl.NEAREST)
-    made.use(unit)
-    return made
+    texture.filter = (gl.NEAREST, gl.NEAREST)
+    texture.use(unit)
+    return texture
 
 
 def draw(gl: Any, triangle: Any, size: tuple[int, int], channels: int = 1) -> NDArray[np.float32]:
-    """Draw a compiled shader whose uniforms are set, (height, width, channels), the image's top row first."""
+    """Draw with a compiled shader whose uniforms are set; return (height, width, channels), top row first."""
     width, height = size
     limit = gl.info["GL_MAX_TEXTURE_SIZE"]
     if max(width, height) > limit:
@@ -79,6 +79,6 @@ def draw(gl: Any, triangle: Any, size: tuple[int, int], channels: int = 1) -> ND
     triangle.render(vertices=3)
     read = np.frombuffer(target.read(components=channels, dtype="f4"), np.float32)
     pixels = read.reshape(height, width, channels).copy()
-    for made in (target, image):
-        made.release()
+    for resource in (target, image):
+        resource.release()
     return pixels

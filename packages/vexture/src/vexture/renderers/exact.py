@@ -2,9 +2,9 @@
 
 It deliberately uses neither the quad-tree, its boundary code nor a fill library, because it judges them. A sweep goes
 from top to bottom over the drawing's chords (`vexture.renderers.flatten`), slab by slab (`vexture.renderers.slabs`).
-Each path's winding number, counted from left to right, tells which chords bound the union of the paths, or at which the
-colour changes (`vexture.renderers.faces`). The exact trapezoids of these are added to the pixels of the row, and the
-integrals over faces with gradients (`vexture.renderers.regions`).
+The winding number of each path, counted from left to right, identifies the chords that bound the union of the paths, or
+at which the colour changes (`vexture.renderers.faces`). Their exact trapezoids are added to the pixels of the row, and
+so are the integrals over faces with gradients (`vexture.renderers.regions`).
 """
 
 from collections.abc import Iterator
@@ -25,17 +25,17 @@ from vexture.renderers.slabs import Sweep, add_edge, cross, next_slab
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 
 BAND: Final = 4
-"""Rows between two looks at the clock: a row of thousands of outlines may take a second."""
+"""Rows between two checks of the time limit: a row of thousands of outlines may take a second."""
 
 
 def render_exact(
     drawing: Drawing, size: Size, view: ViewLike = None, *, flatness: float = FLATNESS
 ) -> NDArray[np.float32]:
-    """Exact coverage of each pixel's square by the drawing's silhouette: the one-pixel box filter in screen space.
+    """Exact coverage of each pixel's square by the drawing's silhouette: a box filter of one pixel in screen space.
 
     The silhouette is the union, over the paths, of the points whose winding number the path's fill rule accepts;
     contours may cross, overlap and coincide. `size`, `view` and the result are as in `vexture.coverage`. `flatness` is
-    the largest distance between a curve and its chords, in pixels; at the default, the error of coverage is at most
+    the largest distance between a curve and its chords, in pixels; by default, the error of coverage is at most
     0.03/255.
     """
     width, height = size_of(size)
@@ -52,17 +52,18 @@ def render_exact(
 def render_exact_colours(
     drawing: Drawing, size: Size, view: ViewLike = None, *, flatness: float = FLATNESS
 ) -> NDArray[np.float32]:
-    """Exact colour of each pixel's square, in sRGB: the sum, over the faces, of a face's colour times its area there.
+    """Exact colour of each pixel's square, in sRGB: the sum over the faces of a face's colour times its area there.
 
-    A *face* is where the same paths are inside. Its colour is composited as SVG and CSS say, with the drawing's groups:
-    once, or where gradients are seen at every point, over which it is integrated. So nothing shines through where two
-    paths touch. The result is (height, width, 4), premultiplied, top row first; all else is as in `render_exact`.
+    A *face* is the set of points that lie inside the same paths. Its colour is composited as SVG and CSS define, with
+    the drawing's groups: once for a flat face; where gradients are visible, the colour at each point is integrated. So
+    nothing shines through where two paths touch. The result is (height, width, 4), premultiplied, top row first; all
+    else is as in `render_exact`.
 
     The error of a component is at most 2/3 of the flatness times the length of the outlines in the pixel, each times
     the jump of the component there: by default 0.005/255 for one outline. Integrals over gradients are refined until
-    they are steady, which costs up to 0.02/255 in most drawings, and was 0.1/255 in the worst pixel of 120 random ones
-    with all blend modes and up to ten periods of a gradient in a pixel. More than 64 periods in a pixel, or 1,024
-    corners of ramps on a line of one, are not resolved.
+    they are steady. This adds an error of up to 0.02/255 in most drawings; it was 0.1/255 in the worst pixel of 120
+    random drawings with all blend modes and up to ten periods of a gradient in a pixel. More than 64 periods in a
+    pixel, or 1,024 corners of ramps on a line in one, are not resolved.
     """
     width, height = size_of(size)
     image = np.zeros((height, width, 4), np.float32)
@@ -77,7 +78,7 @@ def render_exact_colours(
 
 
 def chords_of(drawing: Drawing, size: tuple[int, int], view: ViewLike, flatness: float) -> Chords:
-    """Chords of a drawing, after a look at what a caller asks for."""
+    """Check a caller's arguments; return the chords of the drawing."""
     matrix = view_matrix(view, size)
     if not flatness >= SCANLINE:
         raise ParameterError(f"`flatness` is {flatness:g} pixels; it must be at least {SCANLINE:.1e}")
@@ -85,7 +86,7 @@ def chords_of(drawing: Drawing, size: tuple[int, int], view: ViewLike, flatness:
 
 
 def bands(height: int, name: str) -> Iterator[tuple[int, int]]:
-    """Yield the first row of each band of an image, and the one behind it, while there is time."""
+    """Yield the first row and the last row + 1 of each band of an image; check the time limit before each."""
     for first in range(0, height, BAND):
         check_time(name, "the exact renderer", "use another `renderer`, simplify the drawing")
         yield first, min(first + BAND, height)
@@ -99,7 +100,7 @@ def cover_rows(
     rows: tuple[int, int],
     image: NDArray[np.float32],
 ) -> None:
-    """Accumulate the coverage of each row of a band, slab by slab, below the rows that the sweep has reached."""
+    """Accumulate the coverage of each row of a band, slab by slab; the sweep has reached the band's first row."""
     width = image.shape[1]
     winding = np.zeros(len(evenodd), np.int64)
     change = np.empty((width + 2, 1))  # of coverage from one pixel to the next; x = width adds to the last two
@@ -125,7 +126,7 @@ def cover_slab(
     winding: NDArray[np.int64],
     change: NDArray[np.float64],
 ) -> None:
-    """Count the windings across a slab's chords from left to right; add the chords where the union begins or ends."""
+    """Count winding numbers along a slab's chords, left to right; add the chords where the union begins or ends."""
     active, highs, lows = sweep.active[: sweep.counts[0]], sweep.highs, sweep.lows
     covering = 0  # paths that are inside here
     for k in range(len(active)):
@@ -149,7 +150,7 @@ def colour_rows(
     rows: tuple[int, int],
     image: NDArray[np.float32],
 ) -> None:
-    """Accumulate the colours of each row of a band, as `cover_rows` does."""
+    """Accumulate the colours of each row of a band, like `cover_rows`."""
     width = image.shape[1]
     change = np.empty((width + 2, 4))  # of each component, as in `cover_rows`
     y = float(rows[0])
@@ -178,7 +179,7 @@ def colour_slab(
     regions: Regions,
     change: NDArray[np.float64],
 ) -> None:
-    """Add the chords of a slab at which the colour changes, by as much as it changes, and what varies between them."""
+    """Add the jumps of colour at a slab's chords, and the regions between them in which the colour varies."""
     active, left = sweep.active[: sweep.counts[0]], faces.left
     name, begin, face = 0, SIDE, (FLAT, 0)
     left[:] = 0.0

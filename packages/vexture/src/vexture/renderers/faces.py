@@ -1,11 +1,12 @@
-"""Faces, for the exact renderer: which paths are inside, and what colour they have together.
+"""Faces for the exact renderer: the paths that cover a point, and their composited colour.
 
-A *face* is where the same paths are inside. Its colour is theirs, composited as SVG and CSS say. Each path is drawn
-over what is below it in its group; a group is composited by itself, on nothing, then laid on what is below it. A face
-of flat paints has one colour; where a gradient is seen, it has one at each point.
+A *face* is the set of points that lie inside the same paths. Its colour is composited from the paints of these paths as
+SVG and CSS define. Each path is drawn over the lower paths of its group. A group is composited by itself on a
+transparent background, then laid on the content below it. A face of flat paints has one colour; if a gradient is
+visible, the colour varies from point to point.
 
-A sweep meets the same faces in slab after slab. Each path has a random number of 64 bits, the numbers of the paths
-inside together (by exclusive or) name the face, and the faces met last are kept under their names.
+A sweep meets the same faces in slab after slab. Each path has a random number of 64 bits. The exclusive or of the
+numbers of the paths inside names the face, and recent faces are cached by their names.
 """
 
 from typing import Final, NamedTuple
@@ -20,37 +21,37 @@ from vexture.renderers.blend import lay
 from vexture.renderers.ramps import Ramps, shade
 
 KEPT: Final = 2**16
-"""Faces that are kept, a power of two; 3.7 MB."""
+"""Size of the cache of faces, a power of two; 3.7 MB."""
 
 MEMBERS: Final = 2**20
-"""Paths that are kept of the faces with gradients; 8 MB."""
+"""Size of the cache of the paths of faces with gradients; 8 MB."""
 
 RUN: Final = 64
-"""Paths that are counted together: a new face looks only into runs in which some path is inside."""
+"""Paths per run: a new face searches only the runs in which a path is inside."""
 
 FLAT: Final = -1
 """Start of a face without gradients."""
 
 
 class PathStack(NamedTuple):
-    """The paths of a drawing from the lowest up, as arrays, and the groups around them."""
+    """The paths of a drawing, from the lowest up, and their groups, as arrays."""
 
     evenodd: NDArray[np.bool_]  # (paths,)
     paints: NDArray[np.float64]  # (paths, 4): premultiplied
     shades: NDArray[np.int64]  # (paths,): the ramp of each, or -1
-    covering: NDArray[np.bool_]  # (paths,): whether nothing below is seen
-    groups: NDArray[np.int64]  # (paths,): of `Path`
-    names: NDArray[np.int64]  # (paths,): random
-    outer: NDArray[np.int64]  # (groups,): of `Group`, as the next two
+    covering: NDArray[np.bool_]  # (paths,): does it hide all below
+    groups: NDArray[np.int64]  # (paths,): `Path.group`
+    names: NDArray[np.int64]  # (paths,): random numbers
+    outer: NDArray[np.int64]  # (groups,): `Group.outer`; the next three are members of `Group`, too
     opacities: NDArray[np.float64]  # (groups,)
     blends: NDArray[np.int64]  # (groups,)
-    masks: NDArray[np.int64]  # (groups,): of `Group`
-    masked: NDArray[np.int64]  # (groups,): how many masks a group has
+    masks: NDArray[np.int64]  # (groups,)
+    masked: NDArray[np.int64]  # (groups,): number of masks of a group
     ramps: Ramps
 
     @classmethod
     def of_drawing(cls, drawing: Drawing, view: NDArray[np.float64]) -> "PathStack":
-        """The stack of a drawing in an image; the view is a (3, 3) matrix from pixel coordinates to the unit square."""
+        """Stack of a drawing in an image; `view` is the (3, 3) matrix from pixel coordinates to the unit square."""
         paths, groups, bits = drawing.paths, drawing.groups, np.iinfo(np.int64)
         paints = np.array([(*path.paint.color, 1.0) for path in paths], np.float64)
         gradients = [path.paint.gradient for path in paths]
@@ -74,24 +75,24 @@ class PathStack(NamedTuple):
 
 
 class SweepFaces(NamedTuple):
-    """State of a sweep from left to right, and the faces that it has met."""
+    """State of a sweep from left to right, and the cached faces."""
 
     winding: NDArray[np.int64]  # (paths,)
-    inside: NDArray[np.int64]  # (paths/RUN,): how many of each run
+    inside: NDArray[np.int64]  # (paths/RUN,): number of paths inside, of each run
     left: NDArray[np.float64]  # (4,): colour on the left of a chord
-    names: NDArray[np.int64]  # (KEPT,): at the place that its last bits say; at first 0, where nothing is inside
-    colours: NDArray[np.float64]  # (KEPT, 4): premultiplied; 0 of a face with gradients
-    starts: NDArray[np.int64]  # (KEPT,): place of a face's paths among the members, or FLAT
-    ends: NDArray[np.int64]  # (KEPT,): where they end
-    members: NDArray[np.int64]  # (MEMBERS + paths,): those that are seen of each face, from the lowest up
-    used: NDArray[np.int64]  # (1,): members
-    levels: NDArray[np.float64]  # (groups + 2, 4): the drawing and its groups, as far as composited; one paint
-    shown: NDArray[np.float64]  # (groups,): what is left of each by its masks
-    missing: NDArray[np.int64]  # (groups,): its masks of which nothing was met
+    names: NDArray[np.int64]  # (KEPT,): indexed by its last bits; initially 0, the name of the empty face
+    colours: NDArray[np.float64]  # (KEPT, 4): premultiplied; 0 for a face with gradients
+    starts: NDArray[np.int64]  # (KEPT,): start of a face's paths among the members, or FLAT
+    ends: NDArray[np.int64]  # (KEPT,): end of the face's paths
+    members: NDArray[np.int64]  # (MEMBERS + paths,): visible paths of each face, from the lowest up
+    used: NDArray[np.int64]  # (1,): number of members in use
+    levels: NDArray[np.float64]  # (groups + 2, 4): colours so far of the drawing and its groups; a gradient's colour
+    shown: NDArray[np.float64]  # (groups,): factor that a group's masks leave of it
+    missing: NDArray[np.int64]  # (groups,): number of its masks that have not been met
 
     @classmethod
     def at_start(cls, stack: PathStack) -> "SweepFaces":
-        """Start a sweep, with no face so far."""
+        """Start a sweep without faces."""
         paths = len(stack.names)
         return cls(
             np.zeros(paths, np.int64),
@@ -111,9 +112,9 @@ class SweepFaces(NamedTuple):
 
 @kernel(allocates=False)
 def find_face(name: int, stack: PathStack, faces: SweepFaces) -> int:
-    """Place of the face of all paths that are inside, which is composited unless it is kept there.
+    """Find the index of the face of all paths that are inside; composite it unless it is cached.
 
-    Members for which there is no more room are written behind the others, until the next such face.
+    If its members do not fit, they are written behind the cached ones, where the next such face overwrites them.
     """
     place = name & (KEPT - 1)
     if faces.names[place] != name:
@@ -137,7 +138,7 @@ def find_face(name: int, stack: PathStack, faces: SweepFaces) -> int:
 
 @kernel(allocates=False)
 def forget(faces: SweepFaces) -> None:
-    """Forget all faces, if more than half of the members are used."""
+    """Clear the cache if more than half of the members are in use."""
     if faces.used[0] > MEMBERS // 2:
         faces.names[:] = 0
         faces.colours[0] = 0.0
@@ -147,7 +148,7 @@ def forget(faces: SweepFaces) -> None:
 
 @kernel(allocates=False)
 def gather(stack: PathStack, faces: SweepFaces, start: int) -> int:
-    """Write the paths that are inside among the members, from the highest that covers all; return where they end."""
+    """Append the paths that are inside to the members, from the topmost that hides all below; return the new end."""
     end = start
     for run in range(len(faces.inside)):
         if faces.inside[run] > 0:
@@ -165,7 +166,7 @@ def gather(stack: PathStack, faces: SweepFaces, start: int) -> int:
 def composite(
     stack: PathStack, faces: SweepFaces, start: int, end: int, x: float, y: float, colour: NDArray[np.float64]
 ) -> None:
-    """Write the colour of a face's members, from the lowest up, at a point of the image."""
+    """Composite the colour of a face's members, from the lowest up, at a point of the image."""
     levels, paint = faces.levels, faces.levels[len(faces.levels) - 1]
     levels[0, :] = 0.0
     group = -1
@@ -184,9 +185,9 @@ def composite(
 
 @kernel(allocates=False)
 def change_group(inner: int, target: int, stack: PathStack, faces: SweepFaces) -> None:
-    """Go from one group to another: end some, and begin others with nothing.
+    """Go from one group to another: end some groups, and begin others as transparent.
 
-    A group stands after the one around it, so the later of two groups is not around the other.
+    A group's index is larger than that of its outer group, so the larger of two indices is not around the other.
     """
     while inner != target:
         if inner > target:
@@ -201,7 +202,7 @@ def change_group(inner: int, target: int, stack: PathStack, faces: SweepFaces) -
 
 @kernel(allocates=False)
 def end_group(group: int, stack: PathStack, faces: SweepFaces) -> None:
-    """Lay a group on the one around it, or let it mask that. Of a mask where nothing is, nothing is left to be seen."""
+    """Lay a group on its outer group, or mask the outer group with it; a mask without content hides all."""
     outer, colour = stack.outer[group], faces.levels[group + 1]
     left = faces.shown[group] * stack.opacities[group] if faces.missing[group] == 0 else 0.0
     if stack.masks[group] == Mask.NONE:

@@ -1,4 +1,4 @@
-"""The mirror of ``shaders/feature.glsl``: which face of a planar map a point is in (see `vexture.renderers.cpu`)."""
+"""The mirror of ``shaders/feature.glsl``: the face of a planar map at a point (see `vexture.renderers.cpu`)."""
 
 from vexture.base.kernels import kernel
 from vexture.base.layout import CONTROL_OFFSET, IS_MEAN, LATTICE_BITS, MOST_DEPTH, MOST_PAINTS
@@ -38,7 +38,7 @@ def counted(texel: Texel, point: Vec2) -> int:
 
 @kernel(allocates=False)
 def feature(texels: Texels, root: int, base: Whole2, offset: Vec2) -> int:
-    """The number of the paint at a point, or -1."""
+    """Number of the paint at a point, or -1."""
     there = place(base, offset, (1.0, 1.0))
     x, y = there.point[0] + int(there.rest[0]), there.point[1] + int(there.rest[1])
     last = (1 << POSITION_BITS) - 1

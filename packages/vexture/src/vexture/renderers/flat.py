@@ -1,4 +1,4 @@
-"""The mirror of ``shaders/flat.glsl``: pixels whose sides are level and upright (see `vexture.renderers.cpu`)."""
+"""The mirror of ``shaders/flat.glsl``: pixels with horizontal and vertical sides (see `vexture.renderers.cpu`)."""
 
 from typing import NamedTuple
 
@@ -59,7 +59,7 @@ def flat(dx: Vec2, dy: Vec2) -> VextureFlat:
 
 @kernel(allocates=False)
 def flat_piece_area(piece: VexturePiece, ends: VextureEnds) -> float:
-    """Area of the box on the right of a piece, negative for one that rises."""
+    """Area of the box to the right of a piece; negative if the piece rises."""
     enter, leave = ends.enter, ends.leave
     chord = (leave[0] - enter[0], leave[1] - enter[1])
     first, last = slope(piece, ends.start), slope(piece, ends.end)

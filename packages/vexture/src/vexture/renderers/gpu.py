@@ -1,4 +1,4 @@
-"""Renders a packed texture by its shader on the GPU, without a window."""
+"""Render a packed texture with its shader on the GPU, without a window."""
 
 from functools import cache
 from typing import Any
@@ -15,24 +15,24 @@ from vexture.renderers.view import Size, ViewLike
 
 @cache
 def program(is_flat: bool) -> Any:
-    """Compiled shader for all packed textures, in flat or any views, with its triangle."""
+    """Compiled shader, with its triangle, for all packed textures, in flat views only or in any."""
     return compile_shader(view_source(VERSION, is_flat))
 
 
 @cache
 def color_program(is_flat: bool, is_linear: bool, has_gradients: bool) -> Any:
-    """The same for planar maps, averaged in linear light or in sRGB."""
+    """Compiled shader, with its triangle, for planar maps, averaged in linear light or in sRGB."""
     return compile_shader(color_source(VERSION, is_flat, is_linear, has_gradients))
 
 
 def has_gradients(texture: HasTexels, quad: int) -> bool:
-    """Whether a paint of the planar map with this root quad is a program (FORMAT.md, D.1)."""
+    """Return whether a paint of the planar map with root quad `quad` is a program (FORMAT.md, D.1)."""
     flat, head = texture.texels.reshape(-1, 4), quad - MAP_HEAD
     return not 0 <= head < len(flat) or bool(flat[head, 1])
 
 
 def drawn(gl: Any, triangle: Any, texture: HasTexels, uniforms: Uniforms, channels: int) -> NDArray[np.float32]:
-    """Picture of one shape by a compiled shader, (height, width, channels)."""
+    """Draw one shape with a compiled shader; return a picture (height, width, channels)."""
     uploaded = upload(gl, texture.texels, 0, "u4")
     triangle.program["vextureTexels"] = 0
     triangle.program["to_unit"].write(uniforms.to_unit.T.astype(np.float32).tobytes())
@@ -46,7 +46,7 @@ def drawn(gl: Any, triangle: Any, texture: HasTexels, uniforms: Uniforms, channe
 def render_gpu(texture: HasTexels, size: Size, view: ViewLike = None, *, root: int = 0) -> NDArray[np.float32]:
     """Render one shape of a packed texture; parameters as in `vexture.renderers.cpu.render_cpu`.
 
-    Raises `DeviceError` without OpenGL, and `LimitError` if the image is larger than the device allows.
+    Raises a `DeviceError` without OpenGL, and a `LimitError` if the image is larger than the device allows.
     """
     uniforms = uniforms_of(texture, size, view, root)
     with ONE_AT_A_TIME, context() as gl:
@@ -58,7 +58,7 @@ def render_gpu_colours(
 ) -> NDArray[np.float32]:
     """Render one planar map of a texture; parameters as in `vexture.renderers.colour.render_cpu_colours`.
 
-    Raises as `render_gpu` does.
+    Errors as in `render_gpu`.
     """
     uniforms = uniforms_of(texture, size, view, root)
     with ONE_AT_A_TIME, context() as gl:

@@ -56,7 +56,7 @@ PAD, REFLECT = int(Spread.PAD), int(Spread.REFLECT)
 
 
 class VextureRegion(NamedTuple):
-    """The part of a footprint in a cell, in the unit square: its middle and its sides."""
+    """Part of a footprint in a cell: its centre and its sides, in the unit square."""
 
     point: Vec2
     right: Vec2
@@ -64,7 +64,7 @@ class VextureRegion(NamedTuple):
 
 
 class VextureRamp(NamedTuple):
-    """A place on a ramp, how it changes along x and y, whether there is one, and parts in which it is straight."""
+    """A position on a ramp, its gradient in x and y, whether it exists, and the parts per side that it requires."""
 
     t: float
     way: Vec2
@@ -86,14 +86,14 @@ def times(a: Vec4, share: float) -> Vec4:
 
 @kernel(allocates=False)
 def halves(words: Whole2) -> Vec4:
-    """Four numbers in two words, 0..65535."""
+    """Unpack four numbers, 0..65535, from two words."""
     mask, (low, high) = (1 << COORDINATE_BITS) - 1, words
     return float(low & mask), float(low >> COORDINATE_BITS), float(high & mask), float(high >> COORDINATE_BITS)
 
 
 @kernel(allocates=False)
 def as_float(bits: int) -> float:
-    """Mirror GLSL's ``uintBitsToFloat``, by IEEE 754: float32 is exact in float64."""
+    """Mirror GLSL's ``uintBitsToFloat`` (IEEE 754); float64 represents every float32 exactly."""
     size, part = (bits >> 23) & 255, bits & 0x7FFFFF
     if size == 255:
         value = math.nan if part else math.inf
@@ -104,7 +104,7 @@ def as_float(bits: int) -> float:
 
 @kernel(allocates=False)
 def as_floats(bits: Texel) -> Vec3:
-    """The first three words of a texel."""
+    """Read the first three words of a texel as float32."""
     return as_float(bits[0]), as_float(bits[1]), as_float(bits[2])
 
 
@@ -162,7 +162,7 @@ def spans(way: Vec2, region: VextureRegion) -> Vec2:
 
 @kernel(allocates=False)
 def length(way: Vec2) -> float:
-    """Mirror the function that GLSL has built in."""
+    """Mirror GLSL's built-in ``length``."""
     return math.hypot(way[0], way[1])
 
 
@@ -386,7 +386,7 @@ def program_parts(texels: Texels, at: int, end: int, region: VextureRegion, area
 
 @kernel(allocates=False)
 def program(texels: Texels, at: int, count: int, region: VextureRegion, area: float) -> Vec4:
-    """Premultiplied colour of a program over a region that is so much of a pixel, in steps of a paint."""
+    """Premultiplied mean colour of a program over a region with area `area` of a pixel, 0..65535."""
     end = at + min(count, MOST_PROGRAM)
     across, high = program_parts(texels, at, end, region, area)
     right, up = (region.right[0] / across, region.right[1] / across), (region.up[0] / high, region.up[1] / high)

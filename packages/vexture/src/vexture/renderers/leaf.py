@@ -22,7 +22,7 @@ class VextureLeaf(NamedTuple):
 
 @kernel(allocates=False)
 def leaf(cell: VextureCell) -> VextureLeaf:
-    """A leaf of which nothing is read yet."""
+    """Position of a leaf's pieces, before any of them is read."""
     counts = (cell.texel[2] >> COUNT_SHIFT) & 0x0F0F0F & ((1 << cell.shift) - 1)
     paired = (cell.texel[2] & (STRAIGHT * 0x010101)) * MOST_CURVES
     texels = counts - ((counts >> 1) & 0x070707 & paired)
@@ -44,7 +44,7 @@ def straight(ends: tuple[int, int]) -> Texel:
 
 @kernel(allocates=False)
 def leaf_piece(texels: Texels, leaf: VextureLeaf, i: int) -> tuple[Texel, VextureLeaf]:
-    """Return the new `leaf` too, which GLSL changes in place."""
+    """Read piece i; also return the new `leaf`, which GLSL changes in place."""
     at = leaf.first + (i >> 1 if leaf.is_straight else i)
     if at != leaf.at:
         leaf = VextureLeaf(leaf.first, leaf.number, leaf.is_straight, at, texel(texels, at), leaf.sides_at, leaf.sides)
@@ -56,7 +56,7 @@ def leaf_piece(texels: Texels, leaf: VextureLeaf, i: int) -> tuple[Texel, Vextur
 
 @kernel(allocates=False)
 def leaf_sides(texels: Texels, leaf: VextureLeaf, planar: VexturePlanar, i: int) -> tuple[Whole2, VextureLeaf]:
-    """As `leaf_piece`, of the paints on the left and on the right of a piece."""
+    """Read the paints on the left and on the right of piece i; also return the new `leaf`."""
     place, packing = 2 * (leaf.number + i), planar.packing
     at = planar.sides + (place >> (2 + packing))
     if at != leaf.sides_at:

@@ -3,16 +3,16 @@
 from typing import Final
 
 POSITION_BITS: Final = 28
-"""The packed shader's positions are whole numbers of 2^-28 of the unit square: eight squares fit 32 bits."""
+"""The shader's positions are integers in units of 2^-28 of the unit square, so that eight squares fit in 32 bits."""
 
 REST_BITS: Final = 4
-"""Low bits of a position that a float beside it holds, so that float32 holds the others from any cell on."""
+"""Low bits of a position, stored in a separate float; float32 can hold the other bits relative to any cell."""
 
 NO_CELL: Final = 1 << 30
-"""Beyond all positions."""
+"""A value larger than all positions."""
 
 SMALLEST_BOX: Final = 2.0**-20
-"""Positions: below a 128th of the smallest pixel."""
+"""Position units: below a 128th of the smallest pixel."""
 
 FARTHEST: Final = 3.0
 """Unit squares. A pixel's centre is clamped to this distance from the base, in each direction."""
@@ -24,59 +24,59 @@ THINNEST_PIXEL: Final = 2.0**-6
 """Least width of a footprint, as a share of its length: a plane seen from its edge has none."""
 
 STEPS: Final = 6
-"""Most Laguerre steps to where a piece enters and leaves a footprint's box; a line needs one."""
+"""Most Laguerre steps to find where a piece enters and leaves a footprint's box; a line needs one."""
 
 CLOSE: Final = 0.02
 """Pixels. The iteration ends when a step moves a point on a piece by less."""
 
 NO_SIZE: Final = 2.0**-16
-"""Sides of a box: below the least nonzero size of a piece, a lattice unit of its cell."""
+"""In sides of a box: less than the smallest nonzero size of a piece, which is a lattice unit of its cell."""
 
 BEND: Final = 20.0
-"""Parts of a piece for each square pixel that its end directions span with its chord."""
+"""Parts of a piece per square pixel of area that its end directions span with its chord."""
 
 MOST_PARTS: Final = 8.0
-"""Most parts into which such a piece is divided."""
+"""Most parts of a piece."""
 
 SHORT_WAY: Final = 2.0**-10
 """Pixels. The mean over a shorter distance is evaluated at its middle, because the quotient would lose its digits."""
 
 DRAWN: Final = 0.7
-"""Way to the middle of the part of a cell in the footprint, as a share of that for an upright cell."""
+"""Shift to the middle of the part of a cell in the footprint, as a share of the shift for an upright cell."""
 
 SMALL_FINEST: Final = 8
-"""Down to this level, the sum descends one more."""
+"""Level down to which the sum over cells descends one level further."""
 
 FOLLOWED_QUADS: Final = 256
-"""The first quads of a shape, breadth first, are followed below the finest cells: all of most drawings, and only the
-coarse ones of a coast of thousands of edges, most of whose pixels would pay for it."""
+"""Number of first quads of a shape, breadth first, that are followed below the finest cells. In most drawings these are
+all quads. In a coast with thousands of edges they are only the coarse ones, as most of its pixels would slow down."""
 
 FURTHER: Final = 2
-"""Levels by which they are followed."""
+"""Number of levels by which these quads are followed."""
 
 LEAST_FINEST: Final = 4
-"""Least level of this sum: even a picture of a few pixels uses the leaves of most drawings."""
+"""Least level of the sum: even a picture of a few pixels uses the leaves of most drawings."""
 
 LONG: Final = 2.0**-8
-"""Least area of a square as wide as a footprint, relative to one as long, of which the finest cells are parts."""
+"""Least area that determines the finest cells, relative to the square of a footprint's length: bounds thin ones."""
 
 LEVEL_BIAS: Final = 2.0**-8
-"""Relative; without it drivers would disagree on the level of a footprint whose size is a power of two."""
+"""Relative reduction of an area; without it, drivers would disagree on the level if its size is a power of two."""
 
 GAUSS: Final = 0.5 / 3.0**0.5
-"""Way from the middle of an interval to each of the two points of Gauss-Legendre quadrature, in its length."""
+"""Distance of the two points of Gauss-Legendre quadrature from the middle of an interval, relative to its length."""
 
 NEARLY_WHOLE: Final = 1.0 - 2.0**-10
-"""Share of a leaf in a footprint from which all of it counts."""
+"""Share of a leaf in a footprint from which it counts as whole."""
 
 LEAST_SHARE: Final = 2.0**-20
-"""Share of a pixel, as area and moments, from which a paint's part is something: less is what rounding leaves."""
+"""Share of a pixel below which a paint's area and moments count as rounding errors."""
 
 NO_SHARE: Final = 2.0**60
-"""More than any sum of shares of a pixel, of a damaged texture as well."""
+"""More than any sum of shares of a pixel, even in a damaged texture."""
 
 RAMP_PARTS: Final = 6
-"""Parts of a region's side for each radius of a circle that it spans."""
+"""Parts of a region's side for each radius of a gradient's circle that it spans."""
 
 RAMP_BEND: Final = 0.5
 """Square of a part's length along a circle, relative to its width across it times the circle's radius."""
@@ -85,53 +85,53 @@ PRODUCT_PARTS: Final = 4
 """Parts for each ramp that a region's side spans, where a product of ramps is averaged."""
 
 BLEND_PARTS: Final = 256
-"""The same where a blend mode bends what it makes of ramps more than a product does, or breaks it."""
+"""The same for a blend mode whose result is more curved than a product, or has jumps."""
 
 MOST_RAMP_PARTS: Final = 4
-"""Most parts of a side."""
+"""Most parts of a region's side."""
 
 PIXEL_PARTS: Final = 8
-"""The same of a region that fills a pixel; of a smaller one, times the square root of its share of the pixel."""
+"""Most parts of a side of a region that fills a pixel; scaled by the square root of a smaller region's share."""
 
 SHORTEST_RAMP: Final = 2.0**-22
 """Least interval over which a gradient is averaged: two steps of float32 at the end of the ramp."""
 
 LONGEST_RAMP: Final = 2.0**20
-"""The longest one."""
+"""Longest interval over which a gradient is averaged."""
 
 GREY: Final = 2.0**-10
-"""Saturation below which a colour is grey: 16 bits leave as much of translucent ones, and 8 bits have no less."""
+"""Saturation below which a colour is grey: the error of translucent colours in 16 bits; 8 bits store no less."""
 
 LEAST_COLOR: Final = 2.0**-14
-"""Of a component, likewise: as near to 0 or 1 it is that."""
+"""Distance from 0 or 1 below which a colour component counts as 0 or 1."""
 
 NO_PLACE: Final = -1e30
-"""Place on a ramp of what has none."""
+"""Position of a point that is on no circle of a ramp."""
 
 LEAST_RADIUS: Final = 2.0**-20
-"""Of a gradient's circle: float32 may make as much of 0, or as much less."""
+"""Radius of a gradient's circle that counts as 0: the error of float32 may be that large."""
 
 NOTHING: Final = 2.0**-60
-"""Instead of 0 in a divisor."""
+"""Replaces 0 in a divisor."""
 
 WRAP_NONE: Final = 0
 WRAP_CLAMP: Final = 1
 WRAP_REPEAT: Final = 2
-"""Beyond the unit square: nothing, the border's value, or the shape again."""
+"""Content outside the unit square: nothing, the border's value, or repetitions of the shape."""
 
 BISECTIONS: Final = 24
-"""Halvings of a curve to find the face at a point: as many as a float32 has bits."""
+"""Halvings of a curve to find the face at a point: the number of bits of a float32's significand."""
 
 BORDER: Final = 2.0**-22
-"""Unit-square units; more than float32 loses of a position near the square's border."""
+"""Unit-square units. More than float32's rounding error of a position near the square's border."""
 
 NEARLY_TILE: Final = 0.375
 WHOLE_TILE: Final = 0.5
-"""Half the length of a footprint, in tiles of a repeated shape, at which the fade of its coverage into the tile's mean
-begins and ends."""
+"""Half the length of a footprint, in tiles of a repeated shape, at which its coverage begins and ends to fade to the
+tile's mean."""
 
 COVERED: Final = 1.0 - 2.0**-10
 """Opacity above which the layers below are not drawn."""
 
 FADED_CELL: Final = 4.0
-"""Pixels. Borders of cells fade in from this size to twice this size; otherwise small views would turn grey."""
+"""Pixels. Borders of cells fade in as cells grow from this size to twice this size; else small views would be grey."""

@@ -1,4 +1,4 @@
-"""The mirror of ``shaders/moment.glsl``: where in a pixel the area lies that a piece fills.
+"""The mirror of ``shaders/moment.glsl``: area and moments of the part of a pixel that a piece fills.
 
 See `vexture.renderers.cpu`.
 """
@@ -25,7 +25,7 @@ from vexture.renderers.piece import (
 
 
 class VextureShare(NamedTuple):
-    """The area of a part of a pixel, and its moments about the pixel's middle, in the pixel's sides."""
+    """Area of a part of a pixel, and its moments about the pixel's centre, in units of the pixel's sides."""
 
     area: float
     x: float
@@ -37,19 +37,19 @@ class VextureShare(NamedTuple):
 
 @kernel(allocates=False)
 def area_share(area: float) -> VextureShare:
-    """An area of which no moments are wanted."""
+    """Share with an area but without moments."""
     return VextureShare(area, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @kernel(allocates=False)
 def whole_share() -> VextureShare:
-    """A whole pixel."""
+    """Share of a whole pixel."""
     return VextureShare(1.0, 0.0, 0.0, 1.0 / 12.0, 0.0, 1.0 / 12.0)
 
 
 @kernel(allocates=False)
 def plus_share(a: VextureShare, b: VextureShare, times: float) -> VextureShare:
-    """The first share, with so many times the second."""
+    """Return ``a + times * b``."""
     return VextureShare(
         a.area + times * b.area,
         a.x + times * b.x,
@@ -62,7 +62,7 @@ def plus_share(a: VextureShare, b: VextureShare, times: float) -> VextureShare:
 
 @kernel(allocates=False)
 def moved_share(share: VextureShare, sides: Vec2, middle: Vec2) -> VextureShare:
-    """A share of a box as one of the pixel in which the box lies: with these sides, about this middle."""
+    """Convert a share of a box to one of its pixel; `sides` and `middle` are the box's, in the pixel."""
     size = sides[0] * sides[1]
     area = size * share.area
     x, y = size * sides[0] * share.x, size * sides[1] * share.y
@@ -74,7 +74,7 @@ def moved_share(share: VextureShare, sides: Vec2, middle: Vec2) -> VextureShare:
 
 @kernel(allocates=False)
 def share_at(place: Vec2) -> VextureShare:
-    """Area and moments to the right of a place, at its level."""
+    """Area and moments, per unit of height, of the part of the pixel to the right of a point at its height."""
     x, y = place
     wide, first = 0.5 - x, 0.5 * (0.25 - x * x)
     return VextureShare(wide, first, y * wide, (0.125 - x * x * x) / 3.0, y * first, y * y * wide)
@@ -82,7 +82,7 @@ def share_at(place: Vec2) -> VextureShare:
 
 @kernel(allocates=False)
 def stretch_share(p: Vec2, q: Vec2) -> VextureShare:
-    """Share on the right of a straight line in the pixel; negative if it goes up."""
+    """Share to the right of a straight line inside the pixel; negative if the line goes up."""
     way = (GAUSS * (q[0] - p[0]), GAUSS * (q[1] - p[1]))
     middle = (0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]))
     one = share_at((middle[0] - way[0], middle[1] - way[1]))
@@ -93,7 +93,7 @@ def stretch_share(p: Vec2, q: Vec2) -> VextureShare:
 
 @kernel(allocates=False)
 def share_beside(p: Vec2, q: Vec2) -> VextureShare:
-    """Share on the right of any straight line."""
+    """Share to the right of any straight line."""
     rise = q[1] - p[1]
     rise = rise if abs(rise) > NOTHING else NOTHING
     start, end = clamp((-0.5 - p[1]) / rise, 0.0, 1.0), clamp((0.5 - p[1]) / rise, 0.0, 1.0)
@@ -154,7 +154,7 @@ def curve_share(piece: VexturePiece, ends: VextureEnds, corner: VextureCorner) -
 def piece_share(
     texel: Texel, turns: bool, piece: VexturePiece, ends: VextureEnds, box: VextureBox, frame: VextureFrame
 ) -> VextureShare:
-    """As `piece_area`, with moments."""
+    """Share like `piece_area`, with moments."""
     path = path_of(texel, turns, piece, ends, box, frame)
     share = curve_share(piece, ends, path.corner)
     share = plus_share(share, share_beside(path.l0, path.l1), 1.0)
@@ -165,7 +165,7 @@ def piece_share(
 
 @kernel(allocates=False)
 def flat_piece_share(piece: VexturePiece, ends: VextureEnds) -> VextureShare:
-    """As `flat_piece_area`, with moments."""
+    """Share like `flat_piece_area`, with moments."""
     falls = piece.falls
     x, y = 0.5 if falls[0] else -0.5, 0.5 if falls[1] else -0.5
     corner = VextureCorner((x, y), (-2.0 * x, 0.0), (0.0, -2.0 * y))
@@ -177,13 +177,13 @@ def flat_piece_share(piece: VexturePiece, ends: VextureEnds) -> VextureShare:
 
 @kernel(allocates=False)
 def share_above(y: float) -> VextureShare:
-    """Share of a box above a height in it, 0..1."""
+    """Share of a box above a height in 0..1."""
     return stretch_share((-0.5, 0.5), (-0.5, y - 0.5))
 
 
 @kernel(allocates=False)
 def flat_ends_share(texel: Texel, crosses: bool, box: VextureBox) -> VextureShare:
-    """Share of what the look at a piece's ends finds filled."""
+    """Share that the ends of a piece alone show to be filled, as `VextureLook.filled`."""
     p0, p3 = word(texel[0]), word(texel[3])
     r0, r3 = in_box(p0, box), in_box(p3, box)
     passed = 1.0 if not crosses and max(r0[0], r3[0]) <= 0.0 else 0.0

@@ -1,6 +1,6 @@
-"""The mirror of ``shaders/paints.glsl`` and ``shaders/srgb.glsl``: the paints of a planar map, and a sum of them.
+"""The mirror of ``shaders/paints.glsl`` and ``shaders/srgb.glsl``: the paints of a planar map and their sum.
 
-See `vexture.renderers.cpu`. `is_linear` is what ``VEXTURE_LINEAR`` is in the shader.
+See `vexture.renderers.cpu`. `is_linear` corresponds to ``VEXTURE_LINEAR`` in the shader.
 """
 
 import math
@@ -15,7 +15,7 @@ from vexture.renderers.moment import VextureShare, area_share, plus_share
 
 
 class VexturePlanar(NamedTuple):
-    """Start of each part of a planar map."""
+    """First texel of each part of a planar map."""
 
     root: int
     cells: int
@@ -26,19 +26,19 @@ class VexturePlanar(NamedTuple):
 
 @kernel(allocates=False)
 def linear(encoded: Vec3) -> Vec3:
-    """Linear components of sRGB (IEC 61966-2-1)."""
+    """Convert sRGB components to linear ones (IEC 61966-2-1)."""
     return linear_component(encoded[0]), linear_component(encoded[1]), linear_component(encoded[2])
 
 
 @kernel(allocates=False)
 def linear_component(encoded: float) -> float:
-    """One component of what GLSL computes as vectors."""
+    """One component of `linear`, which GLSL computes with vectors."""
     return encoded / 12.92 if encoded <= 0.04045 else ((encoded + 0.055) / 1.055) ** 2.4
 
 
 @kernel(allocates=False)
 def planar(texels: Texels, root: int) -> VexturePlanar:
-    """Find where the parts of the map with a root quad begin."""
+    """Read the head of the map with root quad `root`."""
     head = texel(texels, root - 1)
     packing = 0 if head[0] > MOST_HALF_PAINTS else 1 if head[0] > MOST_BYTE_PAINTS else 2
     return VexturePlanar(root, 0 + head[1], 0 + head[2], 0 + head[3], packing)  # of 64 bits
@@ -46,14 +46,14 @@ def planar(texels: Texels, root: int) -> VexturePlanar:
 
 @kernel(allocates=False)
 def means_at(planar: VexturePlanar, quad: int) -> int:
-    """The texel of the means of a quad's cells."""
+    """Index of the texel with the means of a quad's cells."""
     place = quad - planar.root
     return planar.cells + 1 + place + (place >> planar.packing)
 
 
 @kernel(allocates=False)
 def numbered(planar: VexturePlanar, word: int, place: int) -> int:
-    """The number at a place among others that fill words, of which `word` is that of the place."""
+    """Number at a place in a sequence of packed numbers; `word` is the word that contains it."""
     bits = 32 >> planar.packing
     return 0 + (word >> (bits * (place & ((1 << planar.packing) - 1)))) & (0xFFFFFFFF >> (32 - bits))  # of 64 bits
 
@@ -90,7 +90,7 @@ def is_program(words: Whole2) -> bool:
 
 
 class VextureSum(NamedTuple):
-    """The colours of a pixel, times their areas; of programs whose colours are not added yet, their shares."""
+    """Sum of a pixel's colours times their areas, and the shares of programs whose colours are not added yet."""
 
     color: Vec4
     kept: int
@@ -109,7 +109,7 @@ class VextureSum(NamedTuple):
 
 @kernel(allocates=False)
 def nothing() -> VextureSum:
-    """The empty sum."""
+    """Empty sum."""
     none = (0.0, 0.0, 0.0, 0.0)
     return VextureSum(none, 0, area_share(0.0), 0, False, 0.0, (0, 0, 0, 0), none, none, none, none, none, none)
 
@@ -118,7 +118,7 @@ def nothing() -> VextureSum:
 def replace_state(
     sum: VextureSum, color: Vec4, kept_paint: int, kept_share: VextureShare, done: int, is_left: bool, cell: float
 ) -> VextureSum:
-    """Return the sum with the same four paints and these other values."""
+    """Return the sum with the same four paints and these new values."""
     paints, areas, x, y, xx, xy, yy = sum.paints, sum.areas, sum.x, sum.y, sum.xx, sum.xy, sum.yy
     return VextureSum(color, kept_paint, kept_share, done, is_left, cell, paints, areas, x, y, xx, xy, yy)
 
@@ -132,7 +132,7 @@ def set_component(values: Vec4, at: int, value: float) -> Vec4:
 
 @kernel(allocates=False)
 def with_color(sum: VextureSum, color: Vec4, share: float) -> VextureSum:
-    """The sum with so much of a colour added."""
+    """Return the sum plus `share` times a colour."""
     found = plus(sum.color, color, share)
     return replace_state(sum, found, sum.kept, sum.kept_share, sum.done, sum.is_left, sum.cell)
 
@@ -150,7 +150,7 @@ def slot(sum: VextureSum, paint: int) -> int:
 
 @kernel(allocates=False)
 def add_program(sum: VextureSum, paint: int, share: VextureShare) -> VextureSum:
-    """Return the new `sum`, which GLSL changes in place."""
+    """Add a program's share; return the new `sum`, which GLSL changes in place."""
     at = slot(sum, paint)
     if at == 4:
         return replace_state(sum, sum.color, sum.kept, sum.kept_share, sum.done, True, sum.cell)
@@ -179,7 +179,7 @@ def add_program(sum: VextureSum, paint: int, share: VextureShare) -> VextureSum:
 def add_paint(
     texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlanar, paint: int, share: VextureShare
 ) -> VextureSum:
-    """Return the new `sum`, which GLSL changes in place, as with ``VEXTURE_GRADIENTS``."""
+    """Add a paint's share, as with ``VEXTURE_GRADIENTS``; return the new `sum`, which GLSL changes in place."""
     if paint <= sum.done:
         return sum
     a, b, c, d = sum.paints
@@ -195,20 +195,20 @@ def add_paint(
 def add_piece(
     texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlanar, sides: Whole2, share: VextureShare
 ) -> VextureSum:
-    """Return the sum with the paint on the left of a piece, less that on its right."""
+    """Return the sum plus the paint on the left of a piece, minus the paint on its right."""
     sum = add_paint(texels, is_linear, sum, planar, sides[0], share)
     return add_paint(texels, is_linear, sum, planar, sides[1], plus_share(area_share(0.0), share, -1.0))
 
 
 @kernel(allocates=False)
 def holds_kept(sum: VextureSum) -> bool:
-    """Whether a program is kept."""
+    """Return whether a program has been kept for later."""
     return sum.kept != 0
 
 
 @kernel(allocates=False)
 def add_kept(texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlanar) -> VextureSum:
-    """Return the sum with the program that was kept."""
+    """Return the sum plus the kept program."""
     found = add_paint(texels, is_linear, sum, planar, sum.kept, sum.kept_share)
     return replace_state(found, found.color, 0, found.kept_share, found.done, found.is_left, NO_SHARE)
 
@@ -217,7 +217,7 @@ def add_kept(texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePla
 def add_base(
     texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlanar, paint: int, share: VextureShare
 ) -> VextureSum:
-    """Return the sum with the base paint of a cell, over the cell's part of the pixel."""
+    """Return the sum plus the base paint of a cell, over the cell's part of the pixel."""
     sum = replace_state(sum, sum.color, sum.kept, sum.kept_share, sum.done, sum.is_left, share.area)
     return add_paint(texels, is_linear, sum, planar, paint, share)
 
@@ -242,7 +242,7 @@ def part(region: VextureRegion, share: VextureShare) -> VextureRegion:
 
 @kernel(allocates=False)
 def settle(texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlanar, region: VextureRegion) -> VextureSum:
-    """Return the sum with the colours of its programs added; more are left if `done` is not 0 then."""
+    """Return the sum plus the colours of its programs; if the new `done` is not 0, more programs are left."""
     color, kept, kept_share, last = sum.color, sum.kept, sum.kept_share, sum.done
     for place in range(4):
         area, number = sum.areas[place], sum.paints[place]
@@ -264,14 +264,14 @@ def settle(texels: Texels, is_linear: int, sum: VextureSum, planar: VexturePlana
 
 @kernel(allocates=False)
 def unpacked(is_linear: int, word: int) -> Vec4:
-    """A stored mean, in steps of a byte."""
+    """Unpack a stored mean, 0..255."""
     red, green, blue = float(word & 255), float((word >> 8) & 255), float((word >> 16) & 255)
     return averaged(is_linear, (red, green, blue, float(word >> 24)))
 
 
 @kernel(allocates=False)
 def mean_color(is_linear: int, stored: Texel, place: Vec2) -> Vec4:
-    """Mean of a quad about a place in its own unit square, in steps of a byte."""
+    """Mean colour of a quad near a point of its own unit square, 0..255."""
     x, y = 2.0 * place[0] - 0.5, 2.0 * place[1] - 0.5
     low = plus(times(unpacked(is_linear, stored[0]), 1.0 - x), unpacked(is_linear, stored[1]), x)
     high = plus(times(unpacked(is_linear, stored[2]), 1.0 - x), unpacked(is_linear, stored[3]), x)

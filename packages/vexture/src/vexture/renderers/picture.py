@@ -1,4 +1,4 @@
-"""Composites the layers of a drawing into one picture."""
+"""Composite the layers of a drawing to one picture."""
 
 from collections.abc import Iterable
 
@@ -9,7 +9,7 @@ from vexture.drawing.paint import Paint
 
 
 def paint_layer(paint: Paint, covered: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Paint a layer: premultiplied RGBA, (height, width, 4), from its colour and coverage, (height, width)."""
+    """Paint a layer: premultiplied RGBA (height, width, 4) from its colour and coverage (height, width)."""
     alpha = covered[..., None] * np.float32(paint.opacity)
     return alpha * np.array((*paint.color, 1.0), np.float32)
 

@@ -22,7 +22,7 @@ from vexture.renderers.method import (
 
 
 class VextureFrame(NamedTuple):
-    """Coordinates in which the pixel's footprint is the square from -1/2 to 1/2."""
+    """Coordinates in which a pixel's footprint is the square from -1/2 to 1/2."""
 
     right: Vec2
     up: Vec2
@@ -32,7 +32,7 @@ class VextureFrame(NamedTuple):
 
 
 class VextureBox(NamedTuple):
-    """The part of a cell in the box around a pixel's footprint."""
+    """Part of a cell in the bounding box of a pixel's footprint."""
 
     unit: float
     way: Vec2
@@ -42,7 +42,7 @@ class VextureBox(NamedTuple):
 
 
 class ViewPixel(NamedTuple):
-    """Position of a picture's pixel in the drawing, if the plane is there."""
+    """Position of a picture's pixel in the drawing; `seen` is False beyond the horizon."""
 
     seen: bool
     offset: Vec2
@@ -51,7 +51,7 @@ class ViewPixel(NamedTuple):
 
 
 class VexturePiece(NamedTuple):
-    """Monotone in x and y; coordinates that fall are mirrored in the box."""
+    """A piece, monotone in x and y; falling coordinates are mirrored in the box."""
 
     a: Vec2
     b: Vec2
@@ -75,7 +75,7 @@ class VextureEnds(NamedTuple):
 
 @kernel(allocates=False)
 def frame(dx: Vec2, dy: Vec2) -> VextureFrame:
-    """The frame of the footprint that two steps span."""
+    """Frame of the footprint that two steps span."""
     one = float(1 << POSITION_BITS)
     dx = (dx[0] * one, dx[1] * one)
     dy = (dy[0] * one, dy[1] * one)
@@ -98,14 +98,14 @@ def frame(dx: Vec2, dy: Vec2) -> VextureFrame:
 
 @kernel(allocates=False)
 def into_frame(frame: VextureFrame, point: Vec2) -> Vec2:
-    """A point or way of the plane in the frame."""
+    """Transform a point or vector of the plane to the frame."""
     right, up = frame.right, frame.up
     return right[0] * point[0] + right[1] * point[1], up[0] * point[0] + up[1] * point[1]
 
 
 @kernel(allocates=False)
 def slopes(dx: float, dy: float) -> Vec2:
-    """Slopes dx / dy and dy / dx of a direction; 0 for what is infinite."""
+    """Slopes dx / dy and dy / dx of a direction; 0 in place of infinity."""
     return dx / dy if dy != 0.0 else 0.0, dy / dx if dx != 0.0 else 0.0
 
 
@@ -117,7 +117,7 @@ def ramp(u: float) -> float:
 
 @kernel(allocates=False)
 def beside_sloped(p: Vec2, end: float, slopes: Vec2) -> float:
-    """Area of the pixel on the right of a straight line to a height, with the slopes of its direction."""
+    """Area of the pixel to the right of a straight line from a point to a height, with given slopes."""
     y0 = clamp(p[1], -0.5, 0.5)
     y1 = clamp(end, -0.5, 0.5)
     u0 = 0.5 - p[0] - (y0 - p[1]) * slopes[0]
@@ -129,13 +129,13 @@ def beside_sloped(p: Vec2, end: float, slopes: Vec2) -> float:
 
 @kernel(allocates=False)
 def beside(p: Vec2, q: Vec2) -> float:
-    """Area of the pixel on the right of a straight line in the frame; negative if the line goes up."""
+    """Area of the pixel to the right of a straight line in the frame; negative if the line goes up."""
     return beside_sloped(p, q[1], slopes(q[0] - p[0], q[1] - p[1]))
 
 
 @kernel(allocates=False)
 def part_inside(p: Vec2, q: Vec2) -> float:
-    """Approximate share of a straight line in the pixel."""
+    """Approximate fraction of a straight line that lies in the pixel."""
     held_x = clamp(q[0], -0.5, 0.5) - clamp(p[0], -0.5, 0.5)
     held_y = clamp(q[1], -0.5, 0.5) - clamp(p[1], -0.5, 0.5)
     way_x, way_y = q[0] - p[0], q[1] - p[1]
@@ -163,7 +163,7 @@ def box_area(frame: VextureFrame, low: Vec2, size: Vec2) -> float:
 
 @kernel(allocates=False)
 def box(origin: Whole2, bit: int, place: VexturePlace, extent: Vec2) -> VextureBox:
-    """The part of a cell in the box of a footprint."""
+    """Part of a cell in the bounding box of a footprint."""
     way = (float(place.point[0] - origin[0]), float(place.point[1] - origin[1]))
     rest, side = place.rest, float(1 << bit)
     low = (max(-way[0] - rest[0], -extent[0]), max(-way[1] - rest[1], -extent[1]))
@@ -175,20 +175,20 @@ def box(origin: Whole2, bit: int, place: VexturePlace, extent: Vec2) -> VextureB
 
 @kernel(allocates=False)
 def word(word: int) -> Vec2:
-    """The two coordinates in a word."""
+    """Unpack the two coordinates of a word."""
     return float(word & 0xFFFF), float(word >> COORDINATE_BITS)
 
 
 @kernel(allocates=False)
 def in_box(point: Vec2, box: VextureBox) -> Vec2:
-    """A point of the cell's lattice in the box's own coordinates."""
+    """Transform a point of the cell's lattice to coordinates of the box, 0..1."""
     unit, way, part, size = box.unit, box.way, box.part, box.size
     return (point[0] * unit - way[0]) / size[0] - part[0], (point[1] * unit - way[1]) / size[1] - part[1]
 
 
 @kernel(allocates=False)
 def piece(texel: Texel, box: VextureBox) -> VexturePiece:
-    """The polynomials of a piece in the box's own coordinates."""
+    """Polynomials of a piece in coordinates of the box."""
     p0, p1, p2, p3 = word(texel[0]), word(texel[1]), word(texel[2]), word(texel[3])
     way = (p3[0] - p0[0], p3[1] - p0[1])
     falls = (way[0] < 0.0, way[1] < 0.0)
@@ -204,7 +204,7 @@ def piece(texel: Texel, box: VextureBox) -> VexturePiece:
 
 @kernel(allocates=False)
 def at(piece: VexturePiece, t: float) -> Vec2:
-    """Point at t, held in the box."""
+    """Point at t, clamped to the box."""
     a, b, c, d = piece.a, piece.b, piece.c, piece.d
     x = ((a[0] * t + b[0]) * t + c[0]) * t + d[0]
     y = ((a[1] * t + b[1]) * t + c[1]) * t + d[1]
@@ -220,7 +220,7 @@ def slope(piece: VexturePiece, t: float) -> Vec2:
 
 @kernel(allocates=False)
 def better_t(piece: VexturePiece, side: float, t: Vec2) -> Vec2:
-    """One Laguerre step for each coordinate."""
+    """Improve the parameters at which x and y reach a side of the box, by one Laguerre step each."""
     a, b, c, d = piece.a, piece.b, piece.c, piece.d
     return better_coordinate(a[0], b[0], c[0], d[0] - side, t[0]), better_coordinate(
         a[1], b[1], c[1], d[1] - side, t[1]
@@ -229,7 +229,7 @@ def better_t(piece: VexturePiece, side: float, t: Vec2) -> Vec2:
 
 @kernel(allocates=False)
 def better_coordinate(a: float, b: float, c: float, d: float, t: float) -> float:
-    """One coordinate of what GLSL computes as vectors."""
+    """One coordinate of `better_t`, which GLSL computes with vectors."""
     q = a * t
     bend = 3.0 * q + b
     error = 3.0 * (((q + b) * t + c) * t + d)
@@ -266,20 +266,20 @@ def ends(piece: VexturePiece) -> VextureEnds:
 
 @kernel(allocates=False)
 def cross(p: Vec2, q: Vec2) -> float:
-    """Twice the area of the triangle that two ways span."""
+    """Cross product: twice the area of the triangle that two vectors span."""
     return p[0] * q[1] - p[1] * q[0]
 
 
 @kernel(allocates=False)
 def bulge(third: float, first: Vec2, last: Vec2, chord: Vec2) -> float:
-    """Area between a part of a piece and its chord, positive on the right of a chord upwards."""
+    """Area between a part of a piece and its chord; positive to the right of an upward chord."""
     turned = cross((first[0] - last[0], first[1] - last[1]), chord)
     return 0.15 * third * (2.0 * turned - third * cross(first, last))
 
 
 @kernel(allocates=False)
 def mean(stored: int, place: Vec2) -> float:
-    """Mean of a quad about a place in its own unit square."""
+    """Mean coverage of a quad near a point of its own unit square."""
     x, y = 2.0 * place[0] - 0.5, 2.0 * place[1] - 0.5
     low = (stored & 255) * (1.0 - x) + ((stored >> 8) & 255) * x
     high = ((stored >> 16) & 255) * (1.0 - x) + (stored >> 24) * x
@@ -291,7 +291,7 @@ def mean(stored: int, place: Vec2) -> float:
 
 @kernel(allocates=False)
 def view_pixel(to_unit: NDArray[np.float64], pixel: Vec2) -> ViewPixel:
-    """The parameters of `vexture.renderers.cpu.coverage` for a pixel."""
+    """Arguments of `vexture.renderers.cpu.coverage` for a pixel."""
     x, y = pixel
     w = to_unit[2, 0] * x + to_unit[2, 1] * y + to_unit[2, 2]
     if w <= 0.5 * (abs(to_unit[2, 0]) + abs(to_unit[2, 1])):

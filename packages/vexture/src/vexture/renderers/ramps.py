@@ -1,7 +1,7 @@
-"""Gradients in an image, for the exact renderer: the colour at a point, and where on a line the ramp has a corner.
+"""Gradients in an image, for the exact renderer: the colour at a point, and the corners of a ramp along a line.
 
-The formulas are those of SVG 2, 14.2. A radial gradient's circle at t is about (x u, 0) and has the radius 1 - g u,
-with u = 1 - t, x the focal point and g = 1 - the focal radius. A point (X, Y) is on it if
+The formulas are those of SVG 2, 14.2. A radial gradient's circle at t has the centre (x u, 0) and the radius 1 - g u,
+where u = 1 - t, x is the focal point and g = 1 - the focal radius. A point (X, Y) is on it if
 
     (x x - g g) u u + 2 (g - x X) u + X X + Y Y - 1 = 0.
 """
@@ -15,25 +15,25 @@ from vexture.base.kernels import kernel
 from vexture.drawing.paint import Gradient, Spread
 
 MOST_CUTS: Final = 1024
-"""Corners of ramps on one line; the rest count as smooth."""
+"""Most corners of ramps on one line; the others are ignored."""
 
 MOST_PERIODS: Final = 64
-"""Periods of a ramp that are cut on one line."""
+"""Most periods of a ramp that are cut on one line."""
 
 FARTHEST: Final = 2.0**52
-"""Periods. Beyond, a number has no fraction."""
+"""Position in periods beyond which a float64 has no fraction."""
 
 Place = tuple[float, float]
 """A point of the image."""
 
 Point = tuple[float, float, float]
-"""A homogeneous point in a ramp's own coordinates."""
+"""A point in a ramp's homogeneous coordinates."""
 
 
 class Ramps(NamedTuple):
     """The gradients of a drawing."""
 
-    maps: NDArray[np.float64]  # (n, 3, 3): from homogeneous pixel coordinates to the ramp's own
+    maps: NDArray[np.float64]  # (n, 3, 3): from homogeneous pixel coordinates to the ramp's
     radial: NDArray[np.bool_]  # (n,)
     foci: NDArray[np.float64]  # (n, 2): x and g
     spreads: NDArray[np.int64]  # (n,)
@@ -42,7 +42,7 @@ class Ramps(NamedTuple):
 
     @classmethod
     def of_gradients(cls, gradients: list[Gradient], view: NDArray[np.float64]) -> "Ramps":
-        """Arrays of gradients; the view is a (3, 3) matrix from pixel coordinates to the unit square."""
+        """Arrays of gradients; `view` is the (3, 3) matrix from pixel coordinates to the unit square."""
         maps = [np.array([*gradient.to_ramp, (0.0, 0.0, 1.0)]) @ view for gradient in gradients]
         foci = [gradient.focus or (0.0, 0.0) for gradient in gradients]
         stops = [(s.offset, *s.color, s.opacity) for gradient in gradients for s in gradient.stops]
@@ -96,9 +96,9 @@ def ramp_point(matrix: NDArray[np.float64], x: float, y: float) -> Point:
 
 @kernel(allocates=False)
 def circle_through(X: float, Y: float, x: float, g: float) -> float:
-    """The largest t whose circle, of no negative radius, goes through a point; NaN if there is none."""
+    """Largest t whose circle passes through a point and has no negative radius; NaN if there is none."""
     a, b, c = x * x - g * g, g - x * X, X * X + Y * Y - 1.0
-    if a > 0.0 and b * b < a * c:  # beside a cone
+    if a > 0.0 and b * b < a * c:  # outside the cone of the circles
         return np.nan
     one, other = roots(a, b, c)
     low, high = min(one, other), max(one, other)
@@ -109,7 +109,7 @@ def circle_through(X: float, Y: float, x: float, g: float) -> float:
 
 @kernel(allocates=False)
 def roots(a: float, b: float, c: float) -> tuple[float, float]:
-    """Roots of a s s + 2 b s + c, infinite where there are fewer; where there is none, twice its turn."""
+    """Roots of a s s + 2 b s + c; infinite if there are fewer; without real roots, twice the vertex."""
     q = -(b + np.copysign(np.sqrt(max(b * b - a * c, 0.0)), b))
     if q == 0.0:
         return (0.0, 0.0) if a != 0.0 else (np.inf, np.inf)
@@ -118,9 +118,10 @@ def roots(a: float, b: float, c: float) -> tuple[float, float]:
 
 @kernel(allocates=False)
 def cut_line(ramps: Ramps, k: int, start: Place, end: Place, cuts: NDArray[np.float64], count: int) -> int:
-    """Add to cuts, as parts of a line from start to end in the image, where a ramp's colour has a corner or a jump.
+    """Cut a line in the image at the corners and jumps of a ramp's colour; return the new count of cuts.
 
-    Also where it is nearest to one that it misses. Returns the new count.
+    Cuts are parts, in 0..1, of the line from `start` to `end`. If the line misses the circle of a corner, its point
+    nearest to the circle is a cut.
     """
     p, q = ramp_point(ramps.maps[k], start[0], start[1]), ramp_point(ramps.maps[k], end[0], end[1])
     d = q[0] - p[0], q[1] - p[1], q[2] - p[2]
@@ -142,7 +143,7 @@ def cut_line(ramps: Ramps, k: int, start: Place, end: Place, cuts: NDArray[np.fl
             else:
                 count = add_cut((t * p[2] - p[0]) / (d[0] - t * d[2]), cuts, count)
     a = x * x - g * g
-    if ramps.radial[k] and a >= 0.0:  # the sides of a cone, where the equation has one root
+    if ramps.radial[k] and a >= 0.0:  # the sides of the cone, where the equation has a double root
         b, change = g * p[2] - x * p[0], g * d[2] - x * d[0]
         s = roots(
             change * change - a * (d[0] * d[0] + d[1] * d[1] - d[2] * d[2]),
@@ -155,10 +156,11 @@ def cut_line(ramps: Ramps, k: int, start: Place, end: Place, cuts: NDArray[np.fl
 
 @kernel(allocates=False)
 def cut_turns(ramps: Ramps, k: int, start: Place, end: Place, cuts: NDArray[np.float64], count: int) -> int:
-    """Add to cuts, as parts of the way from the y of start to that of end, where a radial ramp's circles are level.
+    """Cut the interval from the y of `start` to that of `end` where a horizontal line touches a circle of a ramp.
 
-    A line l of the ramp's plane touches a circle of centre c and radius r if (l . c)^2 = r r (l0 l0 + l1 l1). The level
-    line at y is, in the ramp's plane, one - y other. The circles are those near the way from start to end.
+    A line l of the ramp's plane touches a circle of centre c and radius r if (l . c)^2 = r r (l0 l0 + l1 l1). The
+    horizontal line at y is, in the ramp's plane, one - y other. The circles are those of the corners near the line from
+    `start` to `end`.
     """
     m = ramps.maps[k]
     one, other = cross_columns(m, 2, 0), cross_columns(m, 0, 1)
@@ -191,7 +193,7 @@ def cross_columns(m: NDArray[np.float64], i: int, j: int) -> Point:
 
 @kernel(allocates=False)
 def corner(ramps: Ramps, k: int, period: int, j: int) -> float:
-    """Place on a ramp of its stop j in a period, or of the period's begin after the last stop."""
+    """Position on a ramp of stop j in a period; after the last stop, of the start of the period."""
     place = ramps.ends[k] + j
     offset = ramps.stops[place, 0] if place < ramps.ends[k + 1] else 0.0
     backwards = ramps.spreads[k] == Spread.REFLECT and period % 2 != 0
@@ -200,10 +202,10 @@ def corner(ramps: Ramps, k: int, period: int, j: int) -> float:
 
 @kernel(allocates=False)
 def periods(ramps: Ramps, k: int, p: Point, q: Point) -> tuple[int, int]:
-    """First and last period of a ramp on a line, given in the ramp's coordinates; 0 and 0 if it does not repeat.
+    """First and last period of a ramp on a line from p to q in the ramp's coordinates; 0 and 0 without repetition.
 
-    Where every point has a colour, t changes by at most 1/(|g| - x) of the way. No more than `MOST_PERIODS` are given;
-    as many where t may change faster, in a cone.
+    If every point has a colour, t changes by at most the length of the line over |g| - x. There are at most
+    `MOST_PERIODS` periods, and that many in a cone, where t may change faster.
     """
     if ramps.spreads[k] == Spread.PAD:
         return 0, 0
@@ -221,7 +223,7 @@ def periods(ramps: Ramps, k: int, p: Point, q: Point) -> tuple[int, int]:
 
 @kernel(allocates=False)
 def add_cut(part: float, cuts: NDArray[np.float64], count: int) -> int:
-    """Put a part of a line among sorted cuts, if it is new and between the ends; return the new count."""
+    """Insert a part of a line into the sorted cuts if it is new and between the ends; return the new count."""
     place = count
     while place > 0 and cuts[place - 1] > part:
         place -= 1

@@ -1,13 +1,14 @@
-"""Faces with gradients between two chords, for the exact renderer, put together from slab to slab.
+"""Faces with gradients between two chords, merged from slab to slab, for the exact renderer.
 
-A slab ends wherever any chord of its row does, so a row has hundreds. A *region* goes on from slab to slab while the
-same chords bound the same face; and a column of the image that a face fills goes on while regions of it fill it. So few
-large cells are integrated instead of very many thin ones.
+A slab ends wherever any chord of its row does, so a row has hundreds of slabs. A *region* continues from slab to slab
+while the same chords bound the same face. Likewise, a column of the image that a face fills continues while regions of
+the face fill it. So a few large cells are integrated instead of very many thin ones.
 
-The colour of such a face varies within a pixel. Its integral over the part of a slab in a pixel, a *cell*, is one over
-y of integrals over x. Each line is cut where a ramp has a corner or a jump (`vexture.renderers.ramps`), and so is the
-cell where the cuts of its lines begin, end or turn. Between cuts the colour is smooth, but for corners that blend modes
-make. There, Gauss-Legendre quadrature with one, two and three points is refined until more points change nothing.
+The colour of such a face varies within a pixel. Its integral over the part of a region in one column, a *cell*, is an
+integral over y of integrals over x. Each line is cut where a ramp has a corner or a jump (`vexture.renderers.ramps`).
+The cell is cut where the cuts of its lines begin, end or turn. Between cuts the colour is smooth, except for corners
+that blend modes make. There, Gauss-Legendre quadrature with one, two and three points is refined until more points
+change nothing.
 """
 
 from typing import Final, NamedTuple
@@ -21,23 +22,23 @@ from vexture.renderers.faces import FLAT, MEMBERS, PathStack, SweepFaces, compos
 from vexture.renderers.ramps import MOST_CUTS, Place, add_cut, cut_line, cut_turns
 
 MOST_HALVINGS: Final = (64, 256)
-"""Halvings in a cell, and in a line of it; then what is left counts as it is."""
+"""Most halvings in a cell, and in a line of it; the rest is then integrated without refinement."""
 
 MOST_POINTS: Final = 3
 
 GAUSS = np.zeros((MOST_POINTS + 1, MOST_POINTS, 2))
-"""Places on a line from 0 to 1, and weights, of Gauss-Legendre quadrature with one, two and three points."""
+"""Points in 0..1 and weights of Gauss-Legendre quadrature with one, two and three points."""
 for count in range(1, MOST_POINTS + 1):
     GAUSS[count, :count] = np.array(np.polynomial.legendre.leggauss(count)).T * 0.5 + (0.5, 0.0)
 
 CELL, ROWS, ROWS_BEFORE, LINE, POINTS, POINTS_BEFORE, POINT = range(7)
-"""Sums of `Room`: a whole cell; rows in a part of it, and those before; a line; points in a part of it, likewise."""
+"""Rows of `Room.sums`: a cell; a part of it by rows, now and before refinement; a line; likewise by points; a point."""
 
 
 class SlabCell(NamedTuple):
-    """Part of one column of the image between two edges that go from the top to the bottom of a slab."""
+    """Part of one column of the image between two edges that run from `top` to `bottom`."""
 
-    start: int  # of the face's members
+    start: int  # range of the face's members
     end: int
     left: Place  # x at the top and at the bottom
     right: Place
@@ -47,21 +48,21 @@ class SlabCell(NamedTuple):
 
 
 class Room(NamedTuple):
-    """Room for what integrals compute."""
+    """Scratch arrays of the integrals."""
 
-    down: NDArray[np.float64]  # (MOST_CUTS,): where a cell is cut,
-    across: NDArray[np.float64]  # (MOST_CUTS,): and a line in it
+    down: NDArray[np.float64]  # (MOST_CUTS,): cuts of a cell
+    across: NDArray[np.float64]  # (MOST_CUTS,): cuts of a line in it
     sums: NDArray[np.float64]  # (7, 4)
 
     @classmethod
     def empty(cls) -> "Room":
-        """Room for one cell at a time."""
+        """Allocate scratch arrays for one cell at a time."""
         return cls(np.empty(MOST_CUTS), np.empty(MOST_CUTS), np.zeros((7, 4)))
 
 
 @kernel(allocates=False)
 def add_cell(cell: SlabCell, stack: PathStack, faces: SweepFaces, room: Room, change: NDArray[np.float64]) -> None:
-    """Add the integral over a cell."""
+    """Add the integral over a cell to `change`."""
     total, rows = room.sums[CELL], room.sums[ROWS]
     total[:] = 0.0
     cuts = cut_cell(cell, stack, faces, room.down)
@@ -83,7 +84,7 @@ def add_cell(cell: SlabCell, stack: PathStack, faces: SweepFaces, room: Room, ch
 
 @kernel(allocates=False)
 def cut_cell(cell: SlabCell, stack: PathStack, faces: SweepFaces, cuts: NDArray[np.float64]) -> int:
-    """Find where, on the way down, the edges leave the column, and where a ramp's corners begin, end or turn."""
+    """Cut a cell, from top to bottom, where edges leave the column, and where a ramp's corners begin, end or turn."""
     column, beyond = float(cell.column), cell.column + 1.0
     count = 0
     for high, low in (cell.left, cell.right):
@@ -101,7 +102,7 @@ def cut_cell(cell: SlabCell, stack: PathStack, faces: SweepFaces, cuts: NDArray[
 
 @kernel(allocates=False)
 def settle_rows(cell: SlabCell, start: float, end: float, stack: PathStack, faces: SweepFaces, room: Room) -> bool:
-    """Integrate over the rows between two parts of the way down a cell; return whether more rows change nothing."""
+    """Integrate a part of a cell, from `start` to `end` in 0..1, by rows; return whether more rows change nothing."""
     rows, before, line = room.sums[ROWS], room.sums[ROWS_BEFORE], room.sums[LINE]
     for points in range(1, MOST_POINTS + 1):
         for channel in range(4):
@@ -122,7 +123,7 @@ def settle_rows(cell: SlabCell, start: float, end: float, stack: PathStack, face
 
 @kernel(allocates=False)
 def sum_line(cell: SlabCell, x0: float, x1: float, y: float, stack: PathStack, faces: SweepFaces, room: Room) -> None:
-    """Integrate the colour along a level line."""
+    """Integrate the colour along a horizontal line."""
     line, points = room.sums[LINE], room.sums[POINTS]
     line[:] = 0.0
     cuts = 0
@@ -146,7 +147,7 @@ def sum_line(cell: SlabCell, x0: float, x1: float, y: float, stack: PathStack, f
 def settle_points(
     cell: SlabCell, x0: float, x1: float, y: float, stack: PathStack, faces: SweepFaces, room: Room
 ) -> bool:
-    """Integrate over the points of a part of a line; return whether more points change nothing."""
+    """Integrate a part of a line, from `x0` to `x1`, by points; return whether more points change nothing."""
     sums, before, colour = room.sums[POINTS], room.sums[POINTS_BEFORE], room.sums[POINT]
     for points in range(1, MOST_POINTS + 1):
         for channel in range(4):
@@ -163,7 +164,7 @@ def settle_points(
 
 @kernel(allocates=False)
 def near(one: NDArray[np.float64], other: NDArray[np.float64]) -> bool:
-    """Whether two integrals of a colour are the same, but for `STEADY`."""
+    """Return whether two integrals of a colour differ by at most `STEADY`."""
     for channel in range(4):
         if abs(one[channel] - other[channel]) > STEADY:
             return False
@@ -171,26 +172,26 @@ def near(one: NDArray[np.float64], other: NDArray[np.float64]) -> bool:
 
 
 SIDE: Final = -1
-"""In place of a chord, the right side of the image."""
+"""Stands for the right side of the image in place of a chord."""
 
 
 class Regions(NamedTuple):
-    """Regions that may go on in the slab below, one for each chord on the left; columns that are filled so far."""
+    """Regions that may continue in the slab below, one for each chord on the left; columns that are filled so far."""
 
-    lines: NDArray[np.float64]  # (n, 4), of `Chords`
+    lines: NDArray[np.float64]  # (n, 4): lines of `Chords`
     rights: NDArray[np.int64]  # (n,): the chord on the right, or SIDE
-    faces: NDArray[np.int64]  # (n, 2): where the members of the face start and end
+    faces: NDArray[np.int64]  # (n, 2): range of the face's members
     heights: NDArray[np.float64]  # (n, 2): top and bottom; equal if there is no region
     listed: NDArray[np.int64]  # (n,): the chords that have had a region in this row
     is_listed: NDArray[np.bool_]  # (n,)
-    used: NDArray[np.int64]  # (1,): how many are listed
-    filled: NDArray[np.int64]  # (width, 2): the face that fills a column
-    spans: NDArray[np.float64]  # (width, 2): from where to where
+    used: NDArray[np.int64]  # (1,): number of listed chords
+    filled: NDArray[np.int64]  # (width, 2): range of members of the face that fills a column
+    spans: NDArray[np.float64]  # (width, 2): top and bottom of the filled part
     room: Room
 
     @classmethod
     def between(cls, lines: NDArray[np.float64], width: int) -> "Regions":
-        """None so far."""
+        """Start without regions."""
         count = len(lines)
         return cls(
             lines,
@@ -216,7 +217,7 @@ def add_region(
     regions: Regions,
     change: NDArray[np.float64],
 ) -> None:
-    """Add the part in a slab of the region of a face between two chords."""
+    """Extend the region of a face between two chords by a slab, or start a new region."""
     left, right = chords
     held = regions.faces[left]
     if not regions.is_listed[left]:
@@ -234,7 +235,7 @@ def add_region(
 
 @kernel(allocates=False)
 def end_region(left: int, stack: PathStack, faces: SweepFaces, regions: Regions, change: NDArray[np.float64]) -> None:
-    """Add the region of a chord, if there is one: to the columns that it fills, as they go on, or by its integral."""
+    """End the region right of a chord, if any: extend the columns that it fills, and integrate the rest."""
     top, bottom = regions.heights[left]
     if not bottom > top:
         return
@@ -259,13 +260,13 @@ def end_region(left: int, stack: PathStack, faces: SweepFaces, regions: Regions,
 
 @kernel(allocates=False)
 def place(line: NDArray[np.float64], y: float) -> float:
-    """Value of x of a chord at a height."""
+    """Coordinate x of a chord at a height."""
     return float(line[2] + (y - line[0]) * line[3])
 
 
 @kernel(allocates=False)
 def end_column(column: int, stack: PathStack, faces: SweepFaces, regions: Regions, change: NDArray[np.float64]) -> None:
-    """Add what fills a column, if anything does."""
+    """Add the integral over the filled part of a column, if any."""
     (start, end), (top, bottom), x = regions.filled[column], regions.spans[column], float(column)
     if bottom > top:
         cell = SlabCell(start, end, (x, x), (x + 1.0, x + 1.0), top, bottom, column)
@@ -275,7 +276,7 @@ def end_column(column: int, stack: PathStack, faces: SweepFaces, regions: Region
 
 @kernel(allocates=False)
 def end_row(stack: PathStack, faces: SweepFaces, regions: Regions, change: NDArray[np.float64]) -> None:
-    """Add all regions and columns."""
+    """End all regions and columns of a row."""
     for left in regions.listed[: regions.used[0]]:
         end_region(left, stack, faces, regions, change)
         regions.is_listed[left] = False

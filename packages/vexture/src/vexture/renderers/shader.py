@@ -1,9 +1,9 @@
-"""Shader text: files of ``shaders/`` after those that they include, and before them the numbers shared with Python.
+"""Assemble shader text: the numbers shared with Python, then the included files, then a file of ``shaders/``.
 
 ``#include "other.glsl"`` includes a file once. The numbers are those of the texture's layout (`vexture.base.layout`)
 and of the shading method (`vexture.renderers.method`).
 
-WGSL has no conditionals: a program is made for one choice of numbers, and `chosen` leaves the lines of that choice.
+WGSL has no preprocessor: each program is made for one choice of numbers, and `chosen` keeps the lines of that choice.
 """
 
 import re
@@ -21,14 +21,14 @@ from vexture.renderers import method
 
 
 class ShaderError(VextureError):
-    """A text is outside of the subset of GLSL that has a meaning in WGSL.
+    """A text is outside the subset of GLSL that can be translated to WGSL.
 
     Parameters
     ----------
     line : int
-        Its number in the text, from 1.
+        Number of the line, from 1.
     message : str
-        What is there, and what may be.
+        The text found there, and what is allowed instead.
     """
 
     def __init__(self, line: int, message: str) -> None:
@@ -51,25 +51,25 @@ PARTS: Final = {
     "feature": "feature.glsl",
     "steps": "steps.glsl",
 }
-"""The file of each part of the shader that an application can ask for."""
+"""File of each part of the shader that an application can request."""
 
 PICTURE_MAIN: Final = """
 out float coverage_of_pixel;
 void main() { coverage_of_pixel = view_coverage(gl_FragCoord.xy); }
 """
-"""Draws one shape in one colour channel, after a file with ``view_coverage``."""
+"""Main function that draws one shape in one colour channel; follows a file with ``view_coverage``."""
 
 COLOR_MAIN: Final = """
 out vec4 color_of_pixel;
 void main() { color_of_pixel = view_color(gl_FragCoord.xy); }
 """
-"""Draws a planar map, after the file ``view_color.glsl``."""
+"""Main function that draws a planar map; follows the file ``view_color.glsl``."""
 
 WRAPS: Final = {"none": method.WRAP_NONE, "clamp": method.WRAP_CLAMP, "repeat": method.WRAP_REPEAT}
 """Values of ``VEXTURE_WRAP``."""
 
 CHOSEN: Final = {"FLAT", "GRADIENTS", "LINEAR", "WRAP"}
-"""Numbers that each program sets itself."""
+"""Numbers that each program defines itself."""
 
 MODES: Final = SimpleNamespace(
     **{
@@ -78,19 +78,19 @@ MODES: Final = SimpleNamespace(
         for one in kind.__members__.values()
     }
 )
-"""Numbers of blend modes and kinds of masks, and of what gradients do beyond their ends."""
+"""Numbers of blend modes, of kinds of masks, and of the spread methods of gradients."""
 
 PREFIXED: Final = re.compile(r"\bVEXTURE_(\w+)")
-"""A number in the packed texture's files; the prefix avoids clashes with an application's own names."""
+"""A number in the shader's files; the prefix avoids clashes with an application's own names."""
 
 INCLUDE: Final = re.compile(r'^#include "(.*)"$', re.MULTILINE)
 
 
 @cache
 def read_shader(name: str, package: str = "vexture") -> str:
-    """Text of a shader file after the files that it includes, each once.
+    """Read a shader file; the files that it includes precede it, each once.
 
-    The file is in the folder ``shaders/`` of a package; what it includes may also be in that of vexture.
+    The file is in the folder ``shaders/`` of a package; included files may also be in vexture's folder.
     """
     folders = [resources.files(home) / "shaders" for home in dict.fromkeys((package, "vexture"))]
     found: dict[str, str] = {}
@@ -125,33 +125,34 @@ def shader_source(
     gradients: bool = True,
     linear: bool = False,
 ) -> str:
-    """Text that gives a fragment shader the functions of a part of vexture.
+    """Shader text with the functions of a part of vexture, to put before a fragment shader's own text.
 
-    It stands before the shader's own text. All its names begin with ``vexture``, ``Vexture`` or ``VEXTURE``.
+    All its names begin with ``vexture``, ``Vexture`` or ``VEXTURE``.
 
-    GLSL has neither ``#version`` nor a default precision, so that an engine can write them; in ``300 es`` the default
-    precisions of float and int must be highp. It declares ``uniform highp usampler2D vextureTexels``, which must be a
-    `Texture`. In WGSL a function is given what it reads before all else: ``vextureCoverage(texels, root, uv, dx, dy)``,
-    with ``texels`` a ``texture_2d<u32>``. Of a function's two forms, that with a base in fixed point ends in ``From``.
+    The GLSL contains neither ``#version`` nor a default precision, so that an engine can write them; in ``300 es`` the
+    default precisions of float and int must be highp. It declares ``uniform highp usampler2D vextureTexels``, to which
+    the texels of a `Texture` must be bound. In WGSL the texels are a function's first argument:
+    ``vextureCoverage(texels, root, uv, dx, dy)``, where ``texels`` is a ``texture_2d<u32>``. Some functions have a
+    second form, with a base in fixed point; in WGSL its name ends in ``From``.
 
     Parameters
     ----------
     version : str
-        ``"300 es"`` or ``"330"``, of GLSL, whose text is the same for both, or ``"wgsl"``.
+        GLSL ``"300 es"`` or ``"330"``, whose texts are equal, or ``"wgsl"``.
     part : str
-        ``"coverage"``: one shape, by ``vextureCoverage``, or ``vextureFlatCoverage``, which costs less, where all
-        pixels are upright rectangles and alike. ``"color"``: a drawing in its own colours, by ``vextureColor`` and
+        ``"coverage"``: one shape, by ``vextureCoverage``, or by the faster ``vextureFlatCoverage`` if all pixels are
+        equal upright rectangles. ``"color"``: a drawing in its own colours, by ``vextureColor`` and
         ``vextureFlatColor``. ``"sheets"``: both anywhere in the plane, by ``vextureWrapped``, ``vextureWrappedColor``
         and ``vextureSheets``. ``"feature"``: the element at a point, by ``vextureFeature``. ``"steps"``: derivatives
         of a position, by ``vextureStepX`` and ``vextureStepY``.
     wrap : str
-        Beyond the unit square, for ``"sheets"``: ``"none"``, ``"clamp"`` or ``"repeat"``.
+        Wrapping outside the unit square, for ``"sheets"``: ``"none"``, ``"clamp"`` or ``"repeat"``.
     flat : bool
-        Whether the functions of ``"sheets"`` call the flat ones.
+        True if the functions of ``"sheets"`` call the flat ones.
     gradients : bool
-        Whether a drawing may have gradients; without their text it costs less.
+        True if a drawing may have gradients; without them the shader is faster.
     linear : bool
-        Whether colours are averaged in linear light, or in sRGB as browsers do.
+        True to average colours in linear light; False to average in sRGB, as browsers do.
 
     Raises
     ------
@@ -175,24 +176,24 @@ def shader_source(
     numbers = {"FLAT": int(bool(flat)), "GRADIENTS": int(bool(gradients)), "LINEAR": int(bool(linear))}
     numbers["WRAP"] = WRAPS[wrap]
     text = wgsl_text(part) if version == WGSL else shader_text(PARTS[part])
-    asked = {f"VEXTURE_{name}": value for name, value in numbers.items() if f"VEXTURE_{name}" in text}
+    used = {f"VEXTURE_{name}": value for name, value in numbers.items() if f"VEXTURE_{name}" in text}
     if version != WGSL:
-        return "".join(f"#define {name} {value}\n" for name, value in asked.items()) + text
+        return "".join(f"#define {name} {value}\n" for name, value in used.items()) + text
     wraps = {f"VEXTURE_WRAP_{name.upper()}": value for name, value in WRAPS.items()}
-    return chosen(text, {**asked, **wraps})
+    return chosen(text, {**used, **wraps})
 
 
 @cache
 def wgsl_text(part: str) -> str:
-    """Text of a part in WGSL, with its conditionals, as ``tools/make_web.py`` generated it from `shader_text`."""
+    """WGSL text of a part, with conditionals, as ``tools/make_web.py`` generated it from `shader_text`."""
     return (resources.files("vexture") / "shaders" / "wgsl" / f"{part}.wgsl").read_text(encoding="utf-8")
 
 
 def shader_text(file: str, *owners: ModuleType) -> str:
-    """Text of one of the packed texture's files, preceded by the numbers that it and its includes name.
+    """Read a file of the shader, preceded by definitions of the numbers that it and its includes use.
 
-    The numbers are those of `vexture.renderers.method`, `vexture.base.layout` and further owners. The caller must
-    define ``VEXTURE_WRAP`` (values in `WRAPS`) and ``VEXTURE_FLAT`` (0 or 1) where the file asks for them.
+    The numbers come from `vexture.renderers.method`, `vexture.base.layout` and further owners. The caller must define
+    ``VEXTURE_WRAP`` (values in `WRAPS`) and ``VEXTURE_FLAT`` (0 or 1) if the file needs them.
     """
     text = read_shader(file)
     lines = []
@@ -222,18 +223,18 @@ WORDS: Final = ("#if ", "#elif ", "#else", "#endif")
 
 
 def chosen(text: str, numbers: Mapping[str, float]) -> str:
-    """Return a text without its conditionals: the lines that a choice of numbers leaves.
+    """Resolve the conditionals of a text for a choice of numbers.
 
     Parameters
     ----------
     text : str
-        Its conditions are ``NAME``, which is nonzero, or ``NAME == NUMBER``, whose right side may be a name as well.
+        Its conditions are ``NAME``, true if nonzero, or ``NAME == NUMBER``, whose right side may be a name as well.
     numbers : mapping of str to float
 
     Raises
     ------
     ShaderError
-        If a condition names what is not among the numbers.
+        If a condition uses a name that is not among the numbers.
     """
 
     def value(word: str, line: int) -> float:
@@ -242,12 +243,12 @@ def chosen(text: str, numbers: Mapping[str, float]) -> str:
         except (KeyError, ValueError):
             raise ShaderError(line, f"{word} is not chosen; choose a number for it") from None
 
-    kept: list[str] = []
-    open_: list[tuple[bool, bool]] = []  # of each conditional: whether a branch was taken, and whether this one is
+    lines: list[str] = []
+    open_: list[tuple[bool, bool]] = []  # of each open conditional: was a branch taken, and is this one
     for number, line in enumerate(text.splitlines(), 1):
         if not line.startswith(WORDS):
             if all(is_here for _, is_here in open_):
-                kept.append(line)
+                lines.append(line)
             continue
         word, *condition = line.split()
         if word == "#endif":
@@ -260,4 +261,4 @@ def chosen(text: str, numbers: Mapping[str, float]) -> str:
             found = value(condition[0], number)
             holds = found == value(condition[2], number) if condition[1:] else found != 0
         open_.append((was_taken or holds, holds and not was_taken))
-    return "\n".join(kept) + "\n"
+    return "\n".join(lines) + "\n"

@@ -1,8 +1,8 @@
 """Slabs of chords: the sweep from top to bottom that the exact renderer's coverage and colours share.
 
-Between two consecutive heights at which a chord begins, ends or crosses another lies a *slab*, in which all chords run
-from top to bottom in one order. No slab is thinner than `SCANLINE` pixels; a wrong order within one of that height
-costs no more than its area.
+A *slab* lies between two consecutive heights at which a chord begins, ends or crosses another. In it, all chords run
+from top to bottom in one order. No slab is thinner than `SCANLINE` pixels; a wrong order in such a thin slab causes an
+error of at most its area.
 """
 
 from typing import NamedTuple
@@ -18,16 +18,16 @@ from vexture.renderers.flatten import Chords, snap
 class Sweep(NamedTuple):
     """State of a sweep over chords."""
 
-    lines: NDArray[np.float64]  # (n, 4), of `Chords`
-    order: NDArray[np.int64]  # (n,): the chords by their tops
-    active: NDArray[np.int64]  # (n,): those that the slab cuts come first, from left to right,
-    highs: NDArray[np.float64]  # (n,): x of each at the slab's top,
-    lows: NDArray[np.float64]  # (n,): and at its bottom
-    counts: NDArray[np.int64]  # (2,): chords in the slab; chords of `order` that were reached
+    lines: NDArray[np.float64]  # (n, 4): lines of `Chords`
+    order: NDArray[np.int64]  # (n,): the chords, sorted by their tops
+    active: NDArray[np.int64]  # (n,): first the chords in the slab, from left to right
+    highs: NDArray[np.float64]  # (n,): x of each active chord at the slab's top
+    lows: NDArray[np.float64]  # (n,): the same at its bottom
+    counts: NDArray[np.int64]  # (2,): number of chords in the slab; number of chords of `order` reached so far
 
     @classmethod
     def over(cls, chords: Chords) -> "Sweep":
-        """A sweep that starts at the image's upper edge."""
+        """Start a sweep at the image's upper edge."""
         count = len(chords.lines)
         order = np.argsort(chords.lines[:, 0], kind="stable")
         return cls(
@@ -37,7 +37,7 @@ class Sweep(NamedTuple):
 
 @kernel(allocates=False)
 def next_slab(sweep: Sweep, high: float, limit: float) -> float:
-    """Find the chords of the slab below a height, and order them; return its bottom, which is `limit` or above it."""
+    """Find and order the chords of the slab below a height; return its bottom, which is at or above `limit`."""
     lines, order, active = sweep.lines, sweep.order, sweep.active
     count, following, low = 0, sweep.counts[1], limit
     for k in range(sweep.counts[0]):
@@ -66,10 +66,10 @@ def order_slab(
     highs: NDArray[np.float64],
     lows: NDArray[np.float64],
 ) -> float:
-    """Sort the active chords from left to right; write where each meets the slab's top and bottom; return its bottom.
+    """Sort the active chords from left to right; write x of each at the slab's top and bottom; return its bottom.
 
-    If neighbours change places, the slab ends at the first such crossing. Changes by less than `SCANLINE`, as of
-    coincident chords, are ignored.
+    If neighbours cross, the slab ends at their first crossing. Crossings by less than `SCANLINE`, as of coincident
+    chords, are ignored.
     """
     while True:
         for k in range(len(active)):
@@ -95,7 +95,7 @@ def order_slab(
 
 @kernel(allocates=False)
 def cross(owner: int, winding: NDArray[np.int64], evenodd: NDArray[np.bool_]) -> int:
-    """Count the winding behind a chord of an owner: 1 if its path begins there, -1 if it ends, 0 otherwise."""
+    """Update the winding number of a chord's path; return 1 if the path begins at the chord, -1 if it ends, else 0."""
     path = abs(owner) - 1
     before = winding[path]
     after = before + (1 if owner > 0 else -1)

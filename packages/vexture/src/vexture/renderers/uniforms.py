@@ -1,4 +1,4 @@
-"""The values of the packed shader's uniforms, for the GPU and for the mirror on the CPU."""
+"""Values of the shader's uniforms, for the GPU and for the mirror on the CPU."""
 
 from typing import Final, NamedTuple, Protocol
 
@@ -9,15 +9,15 @@ from vexture.base.errors import ParameterError
 from vexture.renderers.view import Size, ViewLike, size_of, view_base, view_matrix
 
 FLAT: Final = 2.0**-40
-"""Share of a pixel's side by which its ends may differ in height: far less than a pixel over the widest picture."""
+"""Largest slope of a pixel's side that counts as none: far less than a pixel over the widest picture."""
 
 
 class HasTexels(Protocol):
-    """The part of a `vexture.Texture` that a renderer reads."""
+    """Part of a `vexture.Texture` that a renderer reads."""
 
     @property
     def texels(self) -> NDArray[np.uint32]:
-        """The image, (rows, width, 4)."""
+        """Image of texels, (rows, width, 4)."""
 
     @property
     def quads(self) -> NDArray[np.int64]:
@@ -29,12 +29,12 @@ class Uniforms(NamedTuple):
 
     size: tuple[int, int]  # width and height of the image in pixels
     quad: int  # the shape's root quad
-    base: tuple[int, int]  # point of the unit square that positions are relative to, 1.0 = 2^32
+    base: tuple[int, int]  # point of the unit square to which positions are relative; 1.0 is 2^32
     to_unit: NDArray[np.float64]  # (3, 3): from pixel coordinates to the unit square, relative to `base`
 
     @property
     def is_flat(self) -> bool:
-        """Whether all pixels are alike, and their sides level and upright but for rounding."""
+        """True if all pixels are equal rectangles with horizontal and vertical sides, except for rounding."""
         steps = np.abs(self.to_unit[:2, :2])
         small = FLAT * steps.max()
         level = max(steps[0, 1], steps[1, 0]) <= small or max(steps[0, 0], steps[1, 1]) <= small
@@ -44,7 +44,7 @@ class Uniforms(NamedTuple):
 def uniforms_of(
     texture: HasTexels, size: Size, view: ViewLike, root: int, base: tuple[int, int] | None = None
 ) -> Uniforms:
-    """Uniforms for a renderer's arguments, after a check of these; `base` is `view_base` by default."""
+    """Check a renderer's arguments; return the uniforms. The default of `base` is `view_base`."""
     size = size_of(size)
     matrix = view_matrix(view, size)
     if not 0 <= root < len(texture.quads):

@@ -1,7 +1,7 @@
 """Views: matrices from pixel coordinates to the unit square, for every renderer.
 
-In pixel coordinates x points right and y **down**; the corner of pixel (0, 0) is the origin, and centres are at +0.5.
-A view is the 3x3 matrix N to the unit square, y **up**: (u, v) = (N0, N1)/N2 of (x, y, 1).
+In pixel coordinates, x points right and y **down**; the origin is a corner of pixel (0, 0), whose centre is (0.5, 0.5).
+A view is a 3x3 matrix N to the unit square, in which y points **up**: (u, v) = (N0, N1)/N2 of (x, y, 1).
 Pixels where N2 is not positive lie beyond the horizon and show nothing.
 """
 
@@ -15,24 +15,24 @@ from numpy.typing import ArrayLike, NDArray
 from vexture.base.errors import ParameterError
 
 SIZE_LIMIT: Final = 16384
-"""Pixels; longest side of an image, and a usual limit of GPUs."""
+"""Longest side of an image in pixels; a usual limit of GPUs."""
 
 HOMOGENEOUS_RANGE: Final = 20
-"""Binary exponent; a view whose largest entry is out of this range is scaled."""
+"""Largest binary exponent, positive or negative, of a view's largest entry; beyond it, the view is rescaled."""
 
 CONDITION_LIMIT: Final = 1e8
-"""Largest condition number of the map from the image to the unit square. It excludes singular maps, and magnifications
-at which float64 cannot resolve 1e-4 pixel."""
+"""Largest condition number of the map from the image to the unit square. The limit excludes singular maps, and
+magnifications at which float64 cannot resolve 1e-4 pixels."""
 
 Size: TypeAlias = int | tuple[int, int]
-"""Width and height of an image in pixels, or the side of a square one."""
+"""Width and height of an image in pixels, or the side of a square image."""
 
 
 class View(Protocol):
-    """The part of the plane that an image shows, for images of any size."""
+    """Part of the plane that an image of any size shows."""
 
     def matrix(self, size: tuple[int, int]) -> NDArray[np.float64]:
-        """From pixel coordinates of an image of that size to the unit square, (3, 3)."""
+        """Matrix (3, 3) from pixel coordinates of an image with this size to the unit square."""
 
 
 ViewLike: TypeAlias = ArrayLike | View | None
@@ -40,7 +40,7 @@ ViewLike: TypeAlias = ArrayLike | View | None
 
 
 def size_of(size: Size) -> tuple[int, int]:
-    """Width and height of an image, as integers in 1..`SIZE_LIMIT`. Raises `ParameterError` otherwise."""
+    """Check a size; return width and height, integers in 1..`SIZE_LIMIT`, or raise a `ParameterError`."""
     try:
         width, height = (size, size) if isinstance(size, int | np.integer) else size
         whole = all(int(side) == side and not isinstance(side, bool) for side in (width, height))
@@ -67,10 +67,10 @@ class ViewWindow:
             raise ParameterError(
                 f"`view` is {x:g},{y:g},{w:g},{h:g} turned by {rotate:g} degrees; all must be finite, w and h above 0"
             )
-        self.matrix((1, 1))  # raises for numbers that no image can resolve
+        self.matrix((1, 1))  # raises an error for numbers that no image can resolve
 
     def matrix(self, size: tuple[int, int]) -> NDArray[np.float64]:
-        """From pixel coordinates of an image of that size to the unit square, (3, 3)."""
+        """Matrix (3, 3) from pixel coordinates of an image with this size to the unit square."""
         width, height = size_of(size)
         pixel = max(self.w / width, self.h / height)
         angle = math.radians(self.rotate)
@@ -84,7 +84,7 @@ class ViewWindow:
 
 
 def window(x: float, y: float, w: float, h: float, rotate: float = 0.0) -> ViewWindow:
-    """View of a rectangle of the unit square, centred at the largest size that fits, for images of any size.
+    """View of a rectangle of the unit square, for images of any size: centred, at the largest size that fits.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def window(x: float, y: float, w: float, h: float, rotate: float = 0.0) -> ViewW
     w, h : float
         Its width and height, unit-square units, above 0.
     rotate : float
-        Degrees by which the picture is turned counter-clockwise about the rectangle's centre.
+        Rotation of the picture about the rectangle's centre, counter-clockwise, in degrees.
 
     Returns
     -------
@@ -122,16 +122,16 @@ def fit(size: Size) -> NDArray[np.float64]:
 def view_matrix(view: ViewLike, size: Size) -> NDArray[np.float64]:
     """Check a caller's view of an image; return its matrix, (3, 3) float64.
 
-    A view is affine, (2, 3), or projective, (3, 3); None fits the square into the image. Raises `ParameterError` if the
-    matrix is of another shape, not finite, singular, looks away from the unit square's plane, or magnifies more than
-    float64 can resolve.
+    A view is affine, (2, 3), or projective, (3, 3); None fits the square into the image. Raises a `ParameterError` if
+    the matrix has another shape, is not finite, is singular, looks away from the unit square's plane, or magnifies more
+    than float64 can resolve.
     """
     width, height = size_of(size)
     if view is None:
         return fit((width, height))
-    given = view.matrix((width, height)) if hasattr(view, "matrix") else view
+    entries = view.matrix((width, height)) if hasattr(view, "matrix") else view
     try:
-        matrix = np.array(given, dtype=np.float64)
+        matrix = np.array(entries, dtype=np.float64)
     except (TypeError, ValueError):
         raise ParameterError("`view` is not a matrix of numbers; give 2x3 or 3x3") from None
     if matrix.shape == (2, 3):
@@ -156,9 +156,9 @@ def view_matrix(view: ViewLike, size: Size) -> NDArray[np.float64]:
 
 
 def view_base(matrix: NDArray[np.float64], size: tuple[int, int]) -> tuple[int, int]:
-    """Point of the unit square at the image's centre, or the nearest one, as 32-bit fixed point.
+    """Point of the unit square nearest to the image's centre, as 32-bit fixed-point numbers.
 
-    In a magnified view, offsets from it are small, so that float32 resolves its pixels.
+    In a magnified view, offsets from this point are small, so that float32 resolves the pixels.
     """
     u, v, w = matrix @ (size[0] / 2, size[1] / 2, 1.0)
     if w <= 0.0:

@@ -1,8 +1,8 @@
-// A texel of at most eight bits describes the box around it: exactly 0 or 1 if no outline passes through the box; else a
-// value in between, from which follows the share of the box that the shape fills.
+// A texel of at most eight bits describes the box around it. It is exactly 0 or 1 if no outline passes through the box;
+// otherwise a value in between encodes the share of the box that the shape fills.
 // Exports: vexture_around, vexture_share.
 
-const float vexture_mixed = 8.0 / 255.0;  // a blend whose nearest texel is mixed is neither 0 nor 1
+const float vexture_mixed = 8.0 / 255.0;  // if the nearest texel is mixed, a blend is neither 0 nor 1
 
 float vexture_around(float share) {
     return mix(vexture_mixed, 1.0 - vexture_mixed, share);

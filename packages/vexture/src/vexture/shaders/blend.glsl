@@ -1,7 +1,7 @@
 // Blend modes (Compositing and Blending Level 1 of the W3C).
 // Exports: vexture_blended.
 
-// B(cb, cs) of one component, b of what is below and s of what is laid over it.
+// Blend function B(cb, cs) of one component: b of the backdrop, s of the source that is laid over it.
 float vexture_separable(uint blend, float b, float s) {
     switch (blend) {
     case uint(VEXTURE_BLEND_MULTIPLY):
@@ -53,24 +53,24 @@ vec3 vexture_with_luminosity(vec3 c, float wanted) {
     return wanted + (c - wanted) * share;
 }
 
-// A colour that is grey but for rounding is grey, or hue and saturation would make much of what is left.
+// Makes a colour grey that differs from grey by rounding only: hue and saturation would amplify the difference.
 vec3 vexture_greyed(vec3 c) {
     return vexture_saturation(c) < VEXTURE_GREY ? vec3(vexture_luminosity(c)) : c;
 }
 
-// A component that is 0 or 1 but for rounding is that: dodge and burn jump there.
+// Makes a component exactly 0 or 1 if it differs by rounding only: dodge and burn jump there.
 float vexture_settled(float c) {
     return c < VEXTURE_LEAST_COLOR ? 0.0 : c > 1.0 - VEXTURE_LEAST_COLOR ? 1.0 : c;
 }
 
-// Straight colour of a premultiplied one.
+// Straight colour of a premultiplied colour.
 vec3 vexture_straight_color(vec4 color, bool is_whole) {
     vec3 c = color.rgb / max(color.a, VEXTURE_NOTHING);
     c = vec3(vexture_settled(c.r), vexture_settled(c.g), vexture_settled(c.b));
     return is_whole ? vexture_greyed(c) : c;
 }
 
-// B(cb, cs), of straight colours.
+// Blend function B(cb, cs) of straight colours.
 vec3 vexture_mixture(uint blend, vec3 b, vec3 s) {
     if (blend < uint(VEXTURE_BLEND_HUE)) {
         float red = vexture_separable(blend, b.r, s.r);
@@ -85,7 +85,7 @@ vec3 vexture_mixture(uint blend, vec3 b, vec3 s) {
     return vexture_with_luminosity(color, vexture_luminosity(blend == uint(VEXTURE_BLEND_LUMINOSITY) ? s : b));
 }
 
-// One premultiplied colour over another.
+// Lays one premultiplied colour over another.
 vec4 vexture_blended(vec4 below, vec4 above, uint mode) {
     if (mode == uint(VEXTURE_BLEND_NORMAL)) {
         return above + (1.0 - above.a) * below;

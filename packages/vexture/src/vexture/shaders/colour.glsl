@@ -1,6 +1,6 @@
 // Colour of a pixel from a planar map (FORMAT.md, part D): the mean of the map's colours over the pixel's footprint,
-// premultiplied. In a cell it is that of the base paint, plus the jump in colour across each piece times the area that lies
-// on the piece's right.
+// premultiplied. In a cell it is the colour of the base paint, plus, for each piece, the jump in colour across the piece
+// times the area on its right.
 // Exports: vextureFlatColor, vextureColor.
 #include "coverage.glsl"
 #include "leaf.glsl"
@@ -11,7 +11,7 @@ uint vexture_leaf_kind(VextureCell cell) {
     return (cell.texel.z >> cell.shift) & ((1u << VEXTURE_COUNT_SHIFT) - 1u);
 }
 
-// Whether a paint in a leaf is a program.
+// Returns whether a paint in a leaf is a program.
 bool vexture_holds_program(VextureCell cell) {
 #if VEXTURE_GRADIENTS
     return (vexture_leaf_kind(cell) & uint(VEXTURE_HOLDS_PROGRAM)) != 0u;
@@ -20,14 +20,14 @@ bool vexture_holds_program(VextureCell cell) {
 #endif
 }
 
-// Whether the mean of a leaf is read and not its pieces: nothing else is known of it, or a paint in it is a program and it
-// lies, all but the least share, in the footprint.
+// Returns whether the mean of a leaf is read instead of its pieces: if the leaf has only a mean, or if one of its paints
+// is a program and nearly all of the leaf lies in the footprint.
 bool vexture_reads_mean(VextureCell cell, float share) {
     bool is_whole = vexture_holds_program(cell) && share > VEXTURE_NEARLY_WHOLE;
     return is_whole || vexture_leaf_kind(cell) == uint(VEXTURE_IS_MEAN);
 }
 
-// Adds the stored mean of a cell of this area: of a quad, about a place in its own unit square.
+// Adds the stored mean of a cell, times its area; the mean of a quad near a point in its own unit square.
 void vexture_add_mean(inout VextureSum sum, VexturePlanar planar, VextureCell cell, vec2 place, float area) {
     uvec4 stored = vexture_texel(vexture_means_at(planar, cell.quad));
     float step = area * (float(VEXTURE_PAINT_ONE) / float(VEXTURE_COVERAGE_ONE));
@@ -37,13 +37,13 @@ void vexture_add_mean(inout VextureSum sum, VexturePlanar planar, VextureCell ce
     sum.color += step * (cell.is_quad ? vexture_mean_color(stored, place) : vexture_unpacked(stored[cell.shift >> 3]));
 }
 
-// The region of a pixel whose sides are these, in positions.
+// Region of a pixel with these sides, in positions.
 VextureRegion vexture_region(VexturePlace place, vec2 right, vec2 up) {
     float unit = 1.0 / float(1 << VEXTURE_POSITION_BITS);
     return VextureRegion((vec2(place.point) + place.rest) * unit, right * unit, up * unit);
 }
 
-// As vexture_first_look, of a pixel whose sides are level and upright; it needs no note of ends on the leaf's left edge.
+// Like vexture_first_look, for a pixel with horizontal and vertical sides; ends on the leaf's left edge need no flag.
 VextureLook vexture_flat_look(uvec4 texel, VextureBox box) {
     vec2 p0 = vexture_word(texel.x);
     vec2 p3 = vexture_word(texel.w);
@@ -58,7 +58,7 @@ VextureLook vexture_flat_look(uvec4 texel, VextureBox box) {
     return VextureLook(filled, false, left < 1.0 && y0 != y3);
 }
 
-// Share of the box that a piece fills, with its moments where a program asks for them.
+// Share of the box that a piece fills, with its moments if a program needs them.
 VextureShare vexture_flat_filled_share(uvec4 texel, VextureLook look, VextureBox box, bool has_moments) {
 #if VEXTURE_GRADIENTS
     if (has_moments) {
@@ -78,7 +78,7 @@ VextureShare vexture_flat_filled_share(uvec4 texel, VextureLook look, VextureBox
     return vexture_area_share(area);
 }
 
-// Adds the colours of a leaf in the box, which has these sides and this middle in the pixel.
+// Adds the colours of a leaf in the box, given the box's sides and centre in the pixel.
 void vexture_add_flat_leaf(
     inout VextureSum sum, VexturePlanar planar, VextureCell cell, VextureBox box, vec2 sides, vec2 middle
 ) {
@@ -116,13 +116,13 @@ void vexture_add_flat_cell(
     }
 }
 
-// A premultiplied colour within its range; 0 for what is NaN.
+// Clamps a premultiplied colour to its range; NaN becomes 0.
 vec4 vexture_held(vec4 color) {
     float alpha = color.a > 0.0 ? min(color.a, 1.0) : 0.0;
     return vec4(mix(vec3(0.0), min(color.rgb, alpha), greaterThan(color.rgb, vec3(0.0))), alpha);
 }
 
-// Parameters: the map's root quad; the others are those of vextureFlatCoverage.
+// Parameters: the map's root quad, then as in vextureFlatCoverage.
 vec4 vextureFlatColor(uint root, uvec2 base, vec2 offset, VextureFlat view) {
     VexturePlanar planar = vexture_planar(root);
     VexturePlace place = vexture_place(base, offset, view.extent);
@@ -151,7 +151,7 @@ vec4 vextureFlatColor(uint root, uvec2 base, vec2 offset, VextureFlat view) {
     return vexture_held(sum.color / float(VEXTURE_PAINT_ONE));
 }
 
-// As vexture_flat_filled_share, of any footprint, of which `whole` is the share in the cell.
+// Like vexture_flat_filled_share, for any footprint; `whole` is its share in the cell.
 VextureShare vexture_filled_share(
     uvec4 texel, VextureLook look, VextureBox box, VextureFrame frame, VextureShare whole, bool has_moments
 ) {
@@ -169,7 +169,7 @@ VextureShare vexture_filled_share(
     return share;
 }
 
-// As vexture_add_flat_leaf, of any footprint.
+// Like vexture_add_flat_leaf, for any footprint.
 void vexture_add_leaf(
     inout VextureSum sum, VexturePlanar planar, VextureCell cell, VextureBox box, VextureFrame frame, VextureShare whole
 ) {
@@ -214,7 +214,7 @@ void vexture_add_cell(
     }
 }
 
-// Parameters: the map's root quad; the others are those of vextureCoverage.
+// Parameters: the map's root quad, then as in vextureCoverage.
 vec4 vextureColor(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VexturePlanar planar = vexture_planar(root);
     VextureFrame frame = vexture_frame(dx, dy);

@@ -3,14 +3,14 @@
 #include "flat.glsl"
 #include "pixel.glsl"
 
-// The box as a parallelogram in the footprint's frame.
+// A box as a parallelogram in the footprint's frame.
 struct VextureCorner {
     vec2 origin;
     vec2 x;  // its sides
     vec2 y;
 };
 
-// The corner of the box where a piece's coordinates, which may be mirrored, begin.
+// Corner of the box at which a piece's coordinates, which may be mirrored, begin.
 VextureCorner vexture_corner(bvec2 falls, VextureBox box, VextureFrame frame) {
     vec2 low = vec2(falls.x ? box.low.x + box.size.x : box.low.x, falls.y ? box.low.y + box.size.y : box.low.y);
     float x = falls.x ? -box.size.x : box.size.x;
@@ -23,7 +23,7 @@ vec2 vexture_from_corner(VextureCorner corner, float x, float y) {
     return corner.origin + corner.x * x + corner.y * y;
 }
 
-// Number of parts that the bend of a piece requires.
+// Number of parts into which a piece is divided because of its bend.
 int vexture_piece_parts(VexturePiece piece, VextureEnds ends, VextureCorner corner) {
     vec2 slope = vexture_slope(piece, ends.start);
     vec2 first = corner.x * slope.x + corner.y * slope.y;
@@ -35,8 +35,8 @@ int vexture_piece_parts(VexturePiece piece, VextureEnds ends, VextureCorner corn
     return 1 + int(min(VEXTURE_BEND * bend, VEXTURE_MOST_PARTS - 1.0));
 }
 
-// Area of the pixel beside a piece between its ends, in as many parts as its bend requires: beside the chord of each, plus
-// the area between the two for the share of the chord in the pixel.
+// Area of the pixel beside a piece between its ends, summed over parts: the area beside each part's chord, plus the area
+// between part and chord times the share of the chord in the pixel.
 float vexture_curve_area(VexturePiece piece, VextureEnds ends, VextureCorner corner) {
     int parts = vexture_piece_parts(piece, ends, corner);
     float step_t = (ends.end - ends.start) / float(parts);
@@ -59,8 +59,8 @@ float vexture_curve_area(VexturePiece piece, VextureEnds ends, VextureCorner cor
     return area;
 }
 
-// The way along the box's sides that closes a piece: the box's left side while the piece is left of the box, and back on its
-// right side.
+// Path along the box's sides that closes a piece: the box's left side while the piece is left of the box, and back on the
+// box's right side.
 struct VexturePath {
     VextureCorner corner;
     vec2 l0;
@@ -98,7 +98,7 @@ VexturePath vexture_path_of(
     return VexturePath(corner, l0, l1, r0, r1, e0, e1);
 }
 
-// Area on the right of a piece inside the box, negative for a piece that goes up.
+// Area on the right of a piece inside the box; negative if the piece goes up.
 float vexture_piece_area(
     uvec4 texel, bool turns, VexturePiece piece, VextureEnds ends, VextureBox box, VextureFrame frame
 ) {
@@ -110,8 +110,8 @@ float vexture_piece_area(
     return area + vexture_curve_area(piece, ends, path.corner);
 }
 
-// Place in a quad, in its own unit square, about which its mean is nearly that over the part of it in the footprint: the
-// middle of that part.
+// Centre of the part of a quad in the footprint, in the quad's own unit square: the quad's mean near this point is nearly
+// the mean over that part.
 vec2 vexture_cut_place(VextureCell cell, VextureBox box, VextureFrame frame) {
     vec2 middle = box.low + 0.5 * box.size;
     vec2 at = vexture_into_frame(frame, middle);
@@ -135,9 +135,9 @@ float vexture_above_ends(vec2 p0, vec2 p3, float y0, float y3) {
     return (p0.x == 0.0 ? 1.0 - y0 : 0.0) - (p3.x == 0.0 ? 1.0 - y3 : 0.0);
 }
 
-// What the ends of a piece say of the box.
+// Result from the ends of a piece alone.
 struct VextureLook {
-    float filled;  // share of it that the piece fills, but for what the close look finds
+    float filled;  // share of the box that the piece fills, without the part that only a close look finds
     bool turns;    // an end lies on the leaf's left edge and in the box
     bool crosses;  // the piece may cross the box, and needs a close look
 };

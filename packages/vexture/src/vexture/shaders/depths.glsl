@@ -25,8 +25,8 @@ VextureField vextureField(vec2 at) {
     return VextureField(depth, clamp(found.y, 0.0, 1.0), fwidth(depth));
 }
 
-// Light and opacity of calm water: what it mirrors, by Schlick's approximation of Fresnel's equations, over its own colour,
-// which hides the ground by Beer's law along the slanted way to it.
+// Light and opacity of calm water: the reflection, by Schlick's approximation of Fresnel's equations, over its own colour,
+// which hides the ground by Beer's law along the slanted path to it.
 vec4 vextureCalm(float depth, vec3 mirrored, float facing) {
     float reflectance = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
     float hidden = (1.0 - reflectance) * (1.0 - (1.0 - vextureMurk.z) * exp(-depth / (vextureMurk.x * max(facing, 0.4))));

@@ -1,9 +1,9 @@
-// Which face of a planar map a point is in (FORMAT.md, D.7): the number of its paint, of which the map's style says the
-// elements.
+// Face of a planar map at a point (FORMAT.md, D.7): the number of its paint, whose elements are listed in the map's
+// style.
 // Exports: vextureFeature.
 #include "leaf.glsl"
 
-// Where a curve is at a height between its ends, in lattice units.
+// Coordinate x of a curve at a height between its ends, in lattice units.
 float vexture_x_at(uvec4 texel, float y) {
     vec2 p0 = vexture_word(texel.x);
     vec2 p1 = vexture_word(texel.y) - float(VEXTURE_CONTROL_OFFSET);
@@ -22,7 +22,7 @@ float vexture_x_at(uvec4 texel, float y) {
     return at.x;
 }
 
-// How often a curve counts its left paint more at a point of its leaf, and its right paint less.
+// Number that a curve adds to the count of its left paint at a point of its leaf and subtracts from its right one's.
 int vexture_counted(uvec4 texel, vec2 point) {
     vec2 p0 = vexture_word(texel.x);
     vec2 p3 = vexture_word(texel.w);
@@ -35,8 +35,8 @@ int vexture_counted(uvec4 texel, vec2 point) {
     return starts - ends - (is_beside ? 1 : 0);
 }
 
-// Parameters: the map's root quad; a point, as 32-bit fixed point (1.0 = 2^32) and an offset from it. It is -1 outside the
-// unit square, where only a mean is known, and in slivers in which no single paint is left.
+// Parameters: the map's root quad; a point, as 32-bit fixed point (1.0 = 2^32) and an offset from it. The result is -1
+// outside the unit square, in leaves with only a mean, and in slivers in which no single paint is left.
 int vextureFeature(uint root, uvec2 base, vec2 offset) {
     VexturePlace place = vexture_place(base, offset, vec2(1.0));
     ivec2 position = place.point + ivec2(place.rest);
@@ -53,7 +53,7 @@ int vextureFeature(uint root, uvec2 base, vec2 offset) {
     vec2 way = vec2(position & ((1 << cell.bit) - 1)) + fract(place.rest);
     vec2 point = way * uintBitsToFloat(uint(127 + VEXTURE_LATTICE_BITS - cell.bit) << 23);
     uint number = vexture_base_paint(planar, cell);
-    uint square = number * number;  // where one paint is left, that of its number
+    uint square = number * number;  // if one paint is left, the square of its number
     VextureLeaf leaf = vexture_leaf(cell);
     int count = vexture_count(cell);
     for (int i = 0; i < count; i++) {

@@ -1,9 +1,9 @@
-// Coverage of a pixel whose sides are level and upright in the drawing, in views in which all pixels are alike: what
-// vextureCoverage gives there, for less work and with half its registers.
+// Coverage of a pixel with horizontal and vertical sides in the drawing, in views in which all pixels are equal: the
+// result of vextureCoverage, with less work and half its registers.
 // Exports: VextureFlat, vextureFlat, vextureFlatCoverage.
 #include "piece.glsl"
 
-// What the pixels of a view have in common.
+// Values that all pixels of a view share.
 struct VextureFlat {
     vec2 extent;  // half a pixel, in positions
     float inverse;  // of its area
@@ -18,7 +18,7 @@ VextureFlat vextureFlat(vec2 dx, vec2 dy) {
     return VextureFlat(extent, 1.0 / area, vexture_finest_bit(area, longer * longer));
 }
 
-// Area of the box on the right of a piece, negative for one that rises.
+// Area of the box to the right of a piece; negative if the piece rises.
 float vexture_flat_piece_area(VexturePiece piece, VextureEnds ends) {
     vec2 chord = ends.leave - ends.enter;
     vec2 first = vexture_slope(piece, ends.start);

@@ -1,7 +1,7 @@
 // Texture folding: a small texture displaces the positions at which a shape is looked up, over time (FORMAT.md, part C).
 // Exports: VextureFolded, vextureFold.
 //
-// Beyond the unit square the fold's border applies, or with VEXTURE_WRAP_REPEAT the fold again.
+// Outside the unit square the fold's border applies, or with VEXTURE_WRAP_REPEAT the fold repeats.
 
 #ifndef VEXTURE_WRAP
 #define VEXTURE_WRAP VEXTURE_WRAP_NONE

@@ -1,7 +1,7 @@
 // Paints that hold gradients (FORMAT.md, D.6): the colour of a program over a region, the part of a footprint in a cell.
 // Exports: VextureRegion, vexture_halves, vexture_program.
 //
-// VEXTURE_GRADIENTS is 0 where no map has programs: their text is left out then, for it takes registers.
+// VEXTURE_GRADIENTS is 0 if no map has programs: their text is then left out, because it takes registers.
 #include "tree.glsl"
 #include "blend.glsl"
 
@@ -16,27 +16,27 @@ struct VextureRegion {
     vec2 up;
 };
 
-// Four numbers in two words, 0..65535.
+// Unpacks four numbers, 0..65535, from two words.
 vec4 vexture_halves(uvec2 words) {
     return vec4(uvec4(words.x & 0xffffu, words.x >> 16, words.y & 0xffffu, words.y >> 16));
 }
 
 #if VEXTURE_GRADIENTS
 
-// A place on a ramp, and how it changes along x and y of the unit square.
+// A position on a ramp, and its gradient in x and y of the unit square.
 struct VextureRamp {
     float t;
     vec2 way;
-    bool exists;  // beside a cone there is no place
-    vec2 parts;   // along the sides of a region, so that the ramp is straight in each
+    bool exists;  // false outside a cone
+    vec2 parts;   // per side of a region, so that the ramp is nearly straight in each
 };
 
-// GLSL's mod, which not every language has.
+// GLSL's mod, which other shading languages lack.
 float vexture_mod(float x, float y) {
     return x - y * floor(x / y);
 }
 
-// How far a value goes along each side of a region, that changes along x and y like this.
+// Change of a value along each side of a region, from the value's gradient in x and y.
 vec2 vexture_spans(vec2 way, VextureRegion region) {
     return abs(vec2(dot(way, region.right), dot(way, region.up)));
 }
@@ -50,9 +50,9 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     vec2 spans = max(vexture_spans(across.xy, region), vexture_spans(up.xy, region));
     vec2 parts = float(VEXTURE_RAMP_PARTS) * spans;
     float grows = 1.0 - focus.y;
-    float tip = focus.x / max(grows, VEXTURE_NOTHING) - focus.x;  // where the circles have no radius
+    float tip = focus.x / max(grows, VEXTURE_NOTHING) - focus.x;  // where the circles have radius 0
     parts = length(q - vec2(tip, 0.0)) < length(spans) ? vec2(float(VEXTURE_MOST_RAMP_PARTS)) : parts;
-    float a = (focus.x - grows) * (focus.x + grows);  // 0 of circles that touch, also where products are fused
+    float a = (focus.x - grows) * (focus.x + grows);  // exactly 0 for circles that touch, even if products are fused
     if (a >= 0.0 && grows > 0.0) {
         // the middle of a part of what is in a cone may be beside it, and then in the cone behind the tip
         float outside = q.x - tip + sqrt(a) / grows * abs(q.y);
@@ -74,7 +74,7 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
         }
     }
     float root = sqrt(max(inside, 0.0));
-    float far = b < 0.0 ? b - root : b + root;  // the roots are far / a and c / far: neither is a small difference
+    float far = b < 0.0 ? b - root : b + root;  // the roots are far / a and c / far, neither of which cancels
     float first = a != 0.0 ? far / a : VEXTURE_NO_PLACE;
     float second = far != 0.0 ? c / far : VEXTURE_NO_PLACE;
     float t = max(first, second);
@@ -82,7 +82,7 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     float radius = focus.y + t * grows;
     bool exists = radius >= -VEXTURE_LEAST_RADIUS && t > VEXTURE_NO_PLACE;
     vec2 e = vec2(q.x + t * focus.x, q.y);
-    e = length(e) > VEXTURE_LEAST_RADIUS ? normalize(e) : vec2(0.0);  // of a point, no direction is known
+    e = length(e) > VEXTURE_LEAST_RADIUS ? normalize(e) : vec2(0.0);  // a circle of radius 0 has no direction
     float down = grows - e.x * focus.x;
     vec2 beside = vexture_spans(e.x * up.xy - e.y * across.xy, region);
     float bend = dot(beside, beside) / 12.0;
@@ -95,10 +95,10 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     return VextureRamp(t + inverse * bend, way, exists, parts);
 }
 
-// A sum, to which is added the integral of a stretch of a ramp between two stops, given by its colour and slope at its begin.
-// The weights are a trapezoid: places count more and more from the first of its edges to the second, fully up to the third,
-// less and less up to the fourth. In each of these parts Simpson's rule is exact, of a quadratic, a premultiplied colour,
-// times a straight weight.
+// Adds to a sum the integral of a stretch of a ramp between two stops, given by the colour and slope at its start. The
+// weights are a trapezoid: they rise from the first of its edges to the second, are 1 up to the third, and fall up to the
+// fourth. In each of these parts Simpson's rule is exact: a premultiplied colour, which is quadratic, is multiplied by a
+// linear weight.
 vec4 vexture_add_stretch(vec4 total, vec4 color, vec4 slope, vec2 stretch, vec4 edges) {
     for (int k = 0; k < 3; k++) {
         vec2 part = clamp(k == 0 ? edges.xy : k == 1 ? edges.yz : edges.zw, stretch.x, stretch.y);
@@ -118,7 +118,7 @@ vec4 vexture_add_stretch(vec4 total, vec4 color, vec4 slope, vec2 stretch, vec4 
     return total;
 }
 
-// A sum with the same of a ramp between bounds; it goes on in the colours of its first stop and its last.
+// Adds the same of a whole ramp between bounds; before its first stop and after its last, their colours continue.
 vec4 vexture_add_ramp(vec4 total, uint stops, uint number, vec4 edges, vec2 bounds) {
     vec4 before = vec4(0.0);
     float begin = bounds.x;
@@ -146,7 +146,7 @@ vec4 vexture_add_ramp(vec4 total, uint stops, uint number, vec4 edges, vec2 boun
     return total;
 }
 
-// The integral of a ramp that goes on as its spread says; over no more than two periods, if it is not padded.
+// Integral of a ramp with its spread method; over at most two periods if it is not padded.
 vec4 vexture_spread_sum(uint stops, uint number, uint spread, vec4 edges) {
     bool pads = spread == uint(VEXTURE_SPREAD_PAD);
     vec4 sum = vec4(0.0);
@@ -163,9 +163,9 @@ vec4 vexture_spread_sum(uint stops, uint number, uint spread, vec4 edges) {
     return sum;
 }
 
-// Mean of a ramp about a place over a parallelogram along whose sides it goes this far: the weights of its places are those
-// of a trapezoid. Of one that goes on, whole periods of a side have its mean; what a side is longer or shorter than those
-// counts for that share of it, half of them away.
+// Mean of a ramp over a parallelogram, given the position at its centre and the change along its sides: the weights of
+// positions are a trapezoid. If the ramp repeats, whole periods of a side have the mean of a period; the rest of the side
+// counts with its share, moved by half of these periods.
 vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 spans) {
     bool pads = spread == uint(VEXTURE_SPREAD_PAD);
     spans = clamp(spans, pads ? 0.0 : VEXTURE_SHORTEST_RAMP, VEXTURE_LONGEST_RAMP);
@@ -177,7 +177,7 @@ vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 
     if (abs(share) >= 1.0 - VEXTURE_NEARLY_WHOLE) {
         float wide = max(max(rest.x, rest.y), VEXTURE_SHORTEST_RAMP);
         float narrow = min(rest.x, rest.y);
-        // what goes on is the same after 2, and finer there
+        // a repeated ramp is periodic in 2, and float32 is finer near 0
         float turned = vexture_mod(vexture_mod(middle, 2.0) - 0.5 * vexture_mod(whole.x + whole.y, 4.0), 2.0);
         middle = pads ? clamp(middle, -wide - narrow, 1.0 + wide + narrow) : turned;
         vec4 edges = middle + 0.5 * vec4(-wide - narrow, narrow - wide, wide - narrow, wide + narrow);
@@ -191,7 +191,7 @@ vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 
     return mean;
 }
 
-// The ramp of a gradient, whose first texel is given with its index, over a region.
+// Ramp of a gradient over a region, from the gradient's first texel and its index.
 VextureRamp vexture_gradient_ramp(uint at, uvec4 record, VextureRegion region) {
     uint kind = record.w >> VEXTURE_KIND_SHIFT;
     vec3 across = uintBitsToFloat(record.xyz);
@@ -205,8 +205,8 @@ VextureRamp vexture_gradient_ramp(uint at, uvec4 record, VextureRegion region) {
     return vexture_round_ramp(across, uintBitsToFloat(vexture_texel(at + 1u).xyz), focus, region);
 }
 
-// Premultiplied colour of a gradient, whose first texel is given with its index, and its number of stops; of a region in
-// which its ramp is straight.
+// Premultiplied mean colour of a gradient, from its first texel, the texel's index and the number of stops, over a region
+// in which its ramp is straight.
 vec4 vexture_gradient(uint at, uvec4 record, uint number, VextureRegion region) {
     VextureRamp ramp = vexture_gradient_ramp(at, record, region);
     uint stops = at + (record.w & ((1u << VEXTURE_STOP_BITS) - 1u));
@@ -218,7 +218,7 @@ vec4 vexture_gradient(uint at, uvec4 record, uint number, VextureRegion region) 
     return mean;
 }
 
-// What was kept when a group began, with the group's colour on it, or masked by it.
+// Ends a group: lays its colour on the colour kept at its begin, or masks that colour with it.
 vec4 vexture_ended(vec4 kept, vec4 color, uint how) {
     if (how < uint(VEXTURE_MASKS)) {
         return vexture_blended(kept, color, how);
@@ -233,7 +233,7 @@ vec4 vexture_program_part(uint at, uint end, VextureRegion region) {
     vec4 kept = vec4(0.0);
     vec4 kept_before = vec4(0.0);
     vec4 kept_first = vec4(0.0);
-    uint left = uint(VEXTURE_MOST_STOPS);  // what is no program ends as well
+    uint left = uint(VEXTURE_MOST_STOPS);  // bounds the work for invalid texels
     for (; at < end; at++) {
         uvec4 texel = vexture_texel(at);
         uint kind = texel.w >> VEXTURE_KIND_SHIFT;
@@ -259,13 +259,13 @@ vec4 vexture_program_part(uint at, uint end, VextureRegion region) {
     return color;
 }
 
-// In how many parts each side of a region is divided for a program: so that circles are straight in each, and, where a
-// product of gradients or a blend mode is averaged, ramps are short. What is little of a pixel is divided less: what all regions
-// of a pixel cost is bounded so.
+// Number of parts into which each side of a region is divided for a program, so that circles are nearly straight in each
+// part, and ramps are short if a product of gradients or a blend mode is averaged. A small region of a pixel is divided
+// less, which limits the cost of all regions of a pixel.
 vec2 vexture_program_parts(uint at, uint end, VextureRegion region, float area) {
     vec2 bends = vec2(0.0);
     vec2 ramps = vec2(0.0);
-    int factors = 0;  // what a blend mode or a mask makes has two at least
+    int factors = 0;  // a blend mode or a mask counts as two factors
     float for_each = float(VEXTURE_PRODUCT_PARTS);
     for (; at < end; at++) {
         uvec4 texel = vexture_texel(at);
@@ -288,8 +288,8 @@ vec2 vexture_program_parts(uint at, uint end, VextureRegion region, float area) 
     return ceil(clamp(ramps, 1.0, most));
 }
 
-// Premultiplied colour of a program, given by its first texel and how many it has, over a region that is so much of a pixel;
-// in steps of a paint.
+// Premultiplied mean colour, 0..65535, of a program, given by its first texel and their number, over a region with this
+// area of a pixel.
 vec4 vexture_program(uint at, uint count, VextureRegion region, float area) {
     uint end = at + min(count, uint(VEXTURE_MOST_PROGRAM));
     vec2 parts = vexture_program_parts(at, end, region, area);

@@ -27,7 +27,7 @@ bool vexture_meets(uvec4 box, VextureSpot spot) {
     return all(lessThan(abs(way), 0.5 * (high - low) + spot.reach + VEXTURE_BORDER));
 }
 
-// The highest layer below another one that the footprint meets, or the one below the first.
+// Highest layer below another one that the footprint meets, or the number below the first layer.
 int vexture_layer_below(int layer, int first, VextureSpot spot) {
     bool meets = false;
     while (!meets && layer >= first) {
@@ -40,8 +40,8 @@ int vexture_layer_below(int layer, int first, VextureSpot spot) {
 // Colour of a pixel, premultiplied, composited in sRGB as in SVG. Parameters: the number of the lowest layer, the number of
 // layers, then those of vextureCoverage.
 //
-// Layers are visited from the top until no lower one would show. Those that the footprint does not meet are no iterations:
-// a branch would cost as much as drawing them on devices that execute both of its sides.
+// Layers are visited from the top until no lower one would show. Layers that the footprint does not meet take no
+// iteration: on devices that execute both sides of a branch, skipping them by a branch would cost as much as drawing them.
 vec4 vextureLayers(int first, int count, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureSpot spot = vexture_spot(base, offset, dx, dy);
     vec4 color = vec4(0.0);

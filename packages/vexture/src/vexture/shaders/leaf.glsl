@@ -1,5 +1,5 @@
-// The pieces of a planar map's leaf (FORMAT.md, D.2): each a texel, or, where all are straight, two to a texel.
-// Those that share a texel, or a texel of sides, cost one fetch if they are read one after another.
+// The pieces of a planar map's leaf (FORMAT.md, D.2): one per texel, or two per texel if all are straight.
+// Pieces that share a texel, or a texel of sides, cost one fetch if they are read one after the other.
 // Exports: VextureLeaf, vexture_leaf, vexture_leaf_piece, vexture_leaf_sides.
 #include "paints.glsl"
 #include "piece.glsl"
@@ -8,8 +8,8 @@ struct VextureLeaf {
     uint first;     // texel of its first piece
     uint number;    // of that piece in the map
     bool is_straight;
-    uint at;        // texel of pieces that was read last,
-    uvec4 texel;    // what is there,
+    uint at;        // index of the texel of pieces that was read last,
+    uvec4 texel;    // its content,
     uint sides_at;  // and the same of sides
     uvec4 sides;
 };
@@ -24,7 +24,7 @@ VextureLeaf vexture_leaf(VextureCell cell) {
     return VextureLeaf(first, number, is_straight, 0u, uvec4(0u), 0u, uvec4(0u));
 }
 
-// The texel of a curve between two ends, with P1 and P2 nearest to its thirds.
+// Texel of a curve between two ends, with P1 and P2 nearest to the thirds of its chord.
 uvec4 vexture_straight(uvec2 ends) {
     vec2 p0 = vexture_word(ends.x);
     vec2 p3 = vexture_word(ends.y);

@@ -1,14 +1,14 @@
-// Where in a pixel the area lies that a piece fills: first and second moments beside the area. They give the middle of a
-// paint's part of a cell, and how far that part reaches each way; over both, its gradients are averaged.
+// Area and first and second moments of the part of a pixel that a piece fills. The moments give the centre and the extent
+// of a paint's part of a cell, over which the paint's gradients are averaged.
 //
-// Each moment is an integral over the heights of a straight line of what lies on its right, a polynomial of at most the
-// third degree: Gauss-Legendre quadrature with two points is exact.
-// VEXTURE_GRADIENTS is 0 where no map has programs: a share is an area then.
+// Each moment is an integral, over the heights of a straight line, of a polynomial of at most the third degree, so that
+// Gauss-Legendre quadrature with two points is exact.
+// VEXTURE_GRADIENTS is 0 if no map has programs: a share is then only an area.
 // Exports: VextureShare, vexture_plus_share, vexture_box_share, vexture_piece_share, vexture_flat_piece_share.
 #include "coverage.glsl"
 #include "gradient.glsl"
 
-// Of a part of a pixel; moments about the pixel's middle, in its sides.
+// Share of a pixel: area, and moments about the pixel's centre, in units of its sides.
 struct VextureShare {
     float area;
 #if VEXTURE_GRADIENTS
@@ -20,7 +20,7 @@ struct VextureShare {
 #endif
 };
 
-// An area of which no moments are wanted.
+// Share with an area but without moments.
 VextureShare vexture_area_share(float area) {
 #if VEXTURE_GRADIENTS
     return VextureShare(area, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -29,7 +29,7 @@ VextureShare vexture_area_share(float area) {
 #endif
 }
 
-// A whole pixel.
+// Share of a whole pixel.
 VextureShare vexture_whole_share() {
 #if VEXTURE_GRADIENTS
     return VextureShare(1.0, 0.0, 0.0, 1.0 / 12.0, 0.0, 1.0 / 12.0);
@@ -38,7 +38,7 @@ VextureShare vexture_whole_share() {
 #endif
 }
 
-// The first share, with so many times the second.
+// Sum of a share and a multiple of another.
 VextureShare vexture_plus_share(VextureShare a, VextureShare b, float times) {
 #if VEXTURE_GRADIENTS
     return VextureShare(
@@ -54,7 +54,7 @@ VextureShare vexture_plus_share(VextureShare a, VextureShare b, float times) {
 #endif
 }
 
-// A share of a box as one of the pixel in which the box lies: with these sides, about this middle.
+// Converts a share of a box to one of its pixel, given the box's sides and centre in the pixel.
 VextureShare vexture_moved_share(VextureShare share, vec2 sides, vec2 middle) {
     float area = sides.x * sides.y * share.area;
 #if VEXTURE_GRADIENTS
@@ -71,7 +71,7 @@ VextureShare vexture_moved_share(VextureShare share, vec2 sides, vec2 middle) {
 
 #if VEXTURE_GRADIENTS
 
-// What lies on the right of a place, on its level.
+// Area and moments, per unit of height, of the part of the pixel to the right of a point at its height.
 VextureShare vexture_share_at(vec2 place) {
     float wide = 0.5 - place.x;
     float first = 0.5 * (0.25 - place.x * place.x);
@@ -79,7 +79,7 @@ VextureShare vexture_share_at(vec2 place) {
     return VextureShare(wide, first, place.y * wide, second, place.y * first, place.y * place.y * wide);
 }
 
-// Share on the right of a straight line in the pixel; negative if it goes up.
+// Share to the right of a straight line inside the pixel; negative if the line goes up.
 VextureShare vexture_stretch_share(vec2 p, vec2 q) {
     vec2 middle = 0.5 * (p + q);
     vec2 way = VEXTURE_GAUSS * (q - p);
@@ -88,7 +88,7 @@ VextureShare vexture_stretch_share(vec2 p, vec2 q) {
     return vexture_plus_share(share, vexture_share_at(middle + way), fall);
 }
 
-// The same of any straight line: where it is left of the pixel, all of the pixel lies on its right.
+// The same for any straight line: where it is left of the pixel, all of the pixel lies on its right.
 VextureShare vexture_share_beside(vec2 p, vec2 q) {
     vec2 way = q - p;
     float run = abs(way.x) > VEXTURE_NOTHING ? way.x : VEXTURE_NOTHING;
@@ -118,7 +118,7 @@ VextureShare vexture_box_share(VextureFrame frame, vec2 low, vec2 size) {
     return vexture_plus_share(share, vexture_share_beside(s, p), 1.0);
 }
 
-// As vexture_curve_area; what lies beyond a chord counts as if it lay in the chord's middle.
+// Like vexture_curve_area, with moments; the area between a part and its chord counts as if it lay at the chord's middle.
 VextureShare vexture_curve_share(VexturePiece piece, VextureEnds ends, VextureCorner corner) {
     int parts = vexture_piece_parts(piece, ends, corner);
     float step_t = (ends.end - ends.start) / float(parts);
@@ -144,7 +144,7 @@ VextureShare vexture_curve_share(VexturePiece piece, VextureEnds ends, VextureCo
     return share;
 }
 
-// As vexture_piece_area.
+// Like vexture_piece_area, with moments.
 VextureShare vexture_piece_share(
     uvec4 texel, bool turns, VexturePiece piece, VextureEnds ends, VextureBox box, VextureFrame frame
 ) {
@@ -156,7 +156,7 @@ VextureShare vexture_piece_share(
     return vexture_plus_share(share, vexture_share_beside(path.r1, path.e0), 1.0);
 }
 
-// As vexture_flat_piece_area, of a box as the pixel.
+// Like vexture_flat_piece_area, with moments, for a box as the pixel.
 VextureShare vexture_flat_piece_share(VexturePiece piece, VextureEnds ends) {
     vec2 origin = vec2(piece.falls.x ? 0.5 : -0.5, piece.falls.y ? 0.5 : -0.5);
     VextureCorner corner = VextureCorner(origin, vec2(-2.0 * origin.x, 0.0), vec2(0.0, -2.0 * origin.y));
@@ -167,13 +167,13 @@ VextureShare vexture_flat_piece_share(VexturePiece piece, VextureEnds ends) {
     return vexture_plus_share(share, vexture_stretch_share(vec2(-0.5, left.x), vec2(-0.5, left.y)), 1.0);
 }
 
-// Share of a box above a height in it, 0..1.
+// Share of a box above a height in 0..1.
 VextureShare vexture_share_above(float y) {
     return vexture_stretch_share(vec2(-0.5, 0.5), vec2(-0.5, y - 0.5));
 }
 
-// What vexture_flat_look finds filled: the box above ends of the piece on the leaf's left edge and, unless the piece crosses
-// the box, beside a piece on the box's left.
+// Share that vexture_flat_look finds filled: the box above ends of the piece on the leaf's left edge and, unless the piece
+// crosses the box, the box beside a piece on its left.
 VextureShare vexture_flat_ends_share(uvec4 texel, bool crosses, VextureBox box) {
     vec2 p0 = vexture_word(texel.x);
     vec2 p3 = vexture_word(texel.w);

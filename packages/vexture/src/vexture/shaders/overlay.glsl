@@ -4,8 +4,8 @@
 #include "layers.glsl"
 
 uniform highp uint vextureOverlayRoot;    // the quad whose tree is shown
-uniform bool vextureOverlayOfMap;         // whether it is that of a planar map
-uniform highp uvec2 vextureOverlayMeans;  // then the texel of the root's means, and two to which power quads are in a block
+uniform bool vextureOverlayOfMap;         // is it the root quad of a planar map
+uniform highp uvec2 vextureOverlayMeans;  // of a map: texel of the root's means; log2 of the quads in a block
 uniform vec3 vextureOverlayShow;          // opacity of borders, coverage and depth; 0 hides them
 uniform float vextureOverlayCutoff;       // levels by which the cut-off is exaggerated; 0: not shown
 uniform vec3 vextureOverlayCoverage[2];   // colours, sRGB, of an empty and a full cell
@@ -26,7 +26,7 @@ vec4 vexture_over(vec4 color, vec3 paint, float opacity) {
     return mix(color, vec4(paint, 1.0), opacity);
 }
 
-// Dark on light colours, light on dark ones.
+// A dark colour on light colours, a light one on dark colours.
 vec3 vexture_contrast(vec4 color) {
     return vec3(dot(color.rgb, vec3(0.299, 0.587, 0.114)) > 0.5 ? 0.0 : 1.0);
 }

@@ -1,8 +1,8 @@
 // The paints of a planar map (FORMAT.md, D.5), and a sum of them.
 // Exports: VexturePlanar, VextureSum, vexture_planar, vexture_nothing, vexture_add_paint, vexture_add_piece, vexture_settle.
 //
-// VEXTURE_LINEAR is 0 for a mean in sRGB, or 1 for one in linear light, with linear components. VEXTURE_GRADIENTS is 0 where
-// no map has programs.
+// VEXTURE_LINEAR is 0 for a mean in sRGB, or 1 for a mean in linear light, with linear components. VEXTURE_GRADIENTS is 0
+// if no map has programs.
 #include "gradient.glsl"
 #include "moment.glsl"
 #include "srgb.glsl"
@@ -11,29 +11,29 @@
 #define VEXTURE_LINEAR 0
 #endif
 
-// Where the parts of a map begin.
+// First texel of each part of a map.
 struct VexturePlanar {
     uint root;
     uint cells;
     uint sides;
     uint paints;
-    uint packing;  // logarithm of how many numbers of paints are in a word
+    uint packing;  // logarithm to base 2 of the count of paint numbers in a word
 };
 
-// The map with a root quad; its head comes before that.
+// Reads the head of a map, which precedes its root quad.
 VexturePlanar vexture_planar(uint root) {
     uvec4 head = vexture_texel(root - 1u);
     uint packing = head.x > uint(VEXTURE_MOST_HALF_PAINTS) ? 0u : head.x > uint(VEXTURE_MOST_BYTE_PAINTS) ? 1u : 2u;
     return VexturePlanar(root, head.y, head.z, head.w, packing);
 }
 
-// The texel of the means of a quad's cells. Before those of each quad, or two, or four, is one of base paints.
+// Index of the texel with the means of a quad's cells. A texel of base paints precedes each block of 1, 2 or 4 quads.
 uint vexture_means_at(VexturePlanar planar, uint quad) {
     uint place = quad - planar.root;
     return planar.cells + 1u + place + (place >> planar.packing);
 }
 
-// The number at a place among others that fill words, of which `word` is that of the place.
+// Number at a place in a sequence of packed numbers; `word` is the word that contains it.
 uint vexture_numbered(VexturePlanar planar, uint word, uint place) {
     uint bits = 32u >> planar.packing;
     return (word >> (bits * (place & ((1u << planar.packing) - 1u)))) & (0xffffffffu >> (32u - bits));
@@ -48,7 +48,7 @@ uint vexture_base_paint(VexturePlanar planar, VextureCell cell) {
     return vexture_numbered(planar, numbers[(k >> planar.packing) & 3u], k);
 }
 
-// A stored colour as what is averaged, premultiplied. In whole steps, sums of differences are exact.
+// Converts a stored colour to the premultiplied colour that is averaged. Sums of differences of whole steps are exact.
 vec4 vexture_averaged(vec4 stored) {
 #if VEXTURE_LINEAR
     return vec4(vexture_linear(min(stored.rgb / max(stored.a, 1.0), 1.0)) * stored.a, stored.a);
@@ -62,23 +62,23 @@ uvec2 vexture_paint_words(VexturePlanar planar, uint number) {
     return (number & 1u) == 0u ? both.xy : both.zw;
 }
 
-// Whether a paint is a program: it has no opacity, though its first word is not 0.
+// Returns whether a paint is a program: its opacity is 0, but its first word is not.
 bool vexture_is_program(uvec2 words) {
     return words.x != 0u && words.y >> 16 == 0u;
 }
 
-// The colours of a pixel, times their areas. Pieces of a cell name the same few paints again and again, and of most nothing is
-// left: where paints are programs, their shares are summed first, so that each is run once, over its part of the cell. There
-// is room for four; those with the least numbers above `done` come first, and others are left to another round.
+// Sum of a pixel's colours, times their areas. The pieces of a cell name the same few paints again and again, and most of
+// their shares cancel. The shares of programs are summed first, so that each program runs once, over its part of the cell.
+// There is room for four programs: those with the smallest numbers above `done`. The others are left for another round.
 struct VextureSum {
     vec4 color;
 #if VEXTURE_GRADIENTS
-    uint kept;     // program of the cells that it fills, as far as they are in the pixel, and its share:
-    VextureShare kept_share;  // where only cells part it, it is run once
+    uint kept;     // program that fills whole cells, within the pixel, and its share:
+    VextureShare kept_share;  // across the borders of cells, it runs once
     uint done;
     bool is_left;
-    float cell;    // area of the cell, as far as it is in the pixel
-    uvec4 paints;  // 0 is room for another one, as paint 0 is no program
+    float cell;    // area of the cell within the pixel
+    uvec4 paints;  // 0 is a free slot, because paint 0 is no program
     vec4 areas;    // of each paint the parts of its share
     vec4 x;
     vec4 y;
@@ -98,7 +98,7 @@ VextureSum vexture_nothing() {
 }
 
 #if VEXTURE_GRADIENTS
-// The place of a paint among the four: its own, or a free one, or that with the greatest number, if it is greater; else 4.
+// Slot for a paint: its own, else a free one, else the slot of the greatest number if that is greater than its own; else 4.
 int vexture_slot(VextureSum sum, uint paint) {
     int best = 0;
     for (int slot = 0; slot < 4; slot++) {
@@ -111,7 +111,7 @@ int vexture_slot(VextureSum sum, uint paint) {
     return sum.paints[best] - 1u >= paint ? best : 4;
 }
 
-// Adds a program's share, as long as there is room.
+// Adds a program's share if there is room.
 void vexture_add_program(inout VextureSum sum, uint paint, VextureShare share) {
     int slot = vexture_slot(sum, paint);
     bool is_new = slot < 4 && sum.paints[slot & 3] != paint;
@@ -133,7 +133,7 @@ void vexture_add_program(inout VextureSum sum, uint paint, VextureShare share) {
 void vexture_add_paint(inout VextureSum sum, VexturePlanar planar, uint paint, VextureShare share) {
 #if VEXTURE_GRADIENTS
     if (paint > sum.done) {
-        uvec2 words = uvec2(1u, 0u);  // as those of the programs that are summed already
+        uvec2 words = uvec2(1u, 0u);  // as of a program: its share is summed already
         if (!any(equal(sum.paints, uvec4(paint)))) {
             words = vexture_paint_words(planar, paint);
         }
@@ -148,7 +148,7 @@ void vexture_add_paint(inout VextureSum sum, VexturePlanar planar, uint paint, V
 #endif
 }
 
-// Whether a program is kept.
+// Returns whether a program is kept.
 bool vexture_holds_kept(VextureSum sum) {
 #if VEXTURE_GRADIENTS
     return sum.kept != 0u;
@@ -157,12 +157,12 @@ bool vexture_holds_kept(VextureSum sum) {
 #endif
 }
 
-// Adds the program that is kept.
+// Adds the kept program.
 void vexture_add_kept(inout VextureSum sum, VexturePlanar planar) {
 #if VEXTURE_GRADIENTS
     vexture_add_paint(sum, planar, sum.kept, sum.kept_share);
     sum.kept = 0u;
-    sum.cell = VEXTURE_NO_SHARE;  // even a small share fills no cell: it would be kept for ever
+    sum.cell = VEXTURE_NO_SHARE;  // so that no share fills the cell: the program would be kept forever
 #endif
 }
 
@@ -174,15 +174,15 @@ void vexture_add_base(inout VextureSum sum, VexturePlanar planar, uint paint, Ve
     vexture_add_paint(sum, planar, paint, share);
 }
 
-// Adds the paint on the left of a piece, and takes away that on its right.
+// Adds the paint on the left of a piece, and subtracts the paint on its right.
 void vexture_add_piece(inout VextureSum sum, VexturePlanar planar, uvec2 sides, VextureShare share) {
     vexture_add_paint(sum, planar, sides.x, share);
     vexture_add_paint(sum, planar, sides.y, vexture_plus_share(vexture_area_share(0.0), share, -1.0));
 }
 
 #if VEXTURE_GRADIENTS
-// The parallelogram that has the moments of a share of a region: it lies about the share's middle, and its sides are those
-// of the region times the symmetric root of the share's covariance, in which a whole region has 1.
+// Parallelogram with the moments of a share of a region. Its centre is the share's, and its sides are the region's times
+// the symmetric root of the share's covariance, which is 1 for a whole region.
 VextureRegion vexture_part(VextureRegion region, VextureShare share) {
     vec2 at = clamp(vec2(share.x, share.y) / share.area, -0.5, 0.5);
     float xx = clamp(12.0 * (share.xx / share.area - at.x * at.x), 0.0, 3.0);
@@ -198,7 +198,7 @@ VextureRegion vexture_part(VextureRegion region, VextureShare share) {
 
 #endif
 
-// Adds the colours of programs of which only the shares are known; returns whether more are left.
+// Adds the colours of the programs whose shares are summed; returns whether more programs are left.
 bool vexture_settle(inout VextureSum sum, VexturePlanar planar, VextureRegion region) {
 #if VEXTURE_GRADIENTS
     uint last = sum.done;
@@ -208,7 +208,7 @@ bool vexture_settle(inout VextureSum sum, VexturePlanar planar, VextureRegion re
             uint paint = sum.paints[slot];
             VextureShare share = VextureShare(area, sum.x[slot], sum.y[slot], sum.xx[slot], sum.xy[slot], sum.yy[slot]);
             if (abs(area - sum.cell) <= 1.0 - VEXTURE_NEARLY_WHOLE) {
-                // it fills the cell: it is kept, and what was kept before, if it is another one, is run
+                // it fills the cell: it is kept, and another program that was kept before runs
                 bool is_same = paint == sum.kept;
                 VextureShare before = sum.kept_share;
                 sum.kept_share = vexture_plus_share(share, before, is_same ? 1.0 : 0.0);
@@ -235,12 +235,12 @@ bool vexture_settle(inout VextureSum sum, VexturePlanar planar, VextureRegion re
 #endif
 }
 
-// In steps of a byte.
+// Unpacks a stored mean, 0..255.
 vec4 vexture_unpacked(uint word) {
     return vexture_averaged(vec4(uvec4(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u, word >> 24)));
 }
 
-// Mean of a quad about a place in its own unit square: as vexture_mean, in steps of a byte.
+// Mean colour of a quad near a point of its own unit square, like vexture_mean; 0..255.
 vec4 vexture_mean_color(uvec4 stored, vec2 place) {
     vec2 at = 2.0 * place - 0.5;
     vec4 low = mix(vexture_unpacked(stored.x), vexture_unpacked(stored.y), at.x);

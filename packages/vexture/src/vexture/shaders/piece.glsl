@@ -11,7 +11,7 @@ struct VextureBox {
     vec2 size;   // in positions
 };
 
-// Monotone in x and y. Coordinates that fall are mirrored in the box, so that both rise.
+// A piece, monotone in x and y. Falling coordinates are mirrored in the box, so that both rise.
 struct VexturePiece {
     vec2 a;  // coefficients of t^3, t^2, t and 1
     vec2 b;
@@ -21,7 +21,7 @@ struct VexturePiece {
     bvec2 falls;
 };
 
-// Where a piece enters and leaves the box.
+// Points where a piece enters and leaves the box.
 struct VextureEnds {
     float start;  // t
     float end;
@@ -29,7 +29,7 @@ struct VextureEnds {
     vec2 leave;
 };
 
-// The part of a cell in the box of the footprint, which reaches `extent` from the pixel's centre.
+// Part of a cell in the footprint's box, which extends by `extent` from the pixel's centre.
 VextureBox vexture_box(ivec2 origin, int bit, VexturePlace place, vec2 extent) {
     vec2 way = vec2(place.point - origin);
     vec2 low = max(-way - place.rest, -extent);
@@ -118,8 +118,8 @@ float vexture_bulge(float third, vec2 first, vec2 last, vec2 chord) {
     return 0.15 * third * (2.0 * vexture_cross(first - last, chord) - third * vexture_cross(first, last));
 }
 
-// Mean of a quad about a place in its own unit square: of the plane, bent between its corners, that has the four stored
-// coverages as means of the four cells.
+// Mean of a quad near a point of its own unit square: the value of the bilinear function whose means over the four cells
+// are the stored coverages.
 float vexture_mean(uint stored, vec2 place) {
     vec4 cells = vec4(ivec4(stored & 255u, (stored >> 8) & 255u, (stored >> 16) & 255u, stored >> 24));
     vec2 at = 2.0 * place - 0.5;

@@ -16,7 +16,7 @@ VextureFrame vexture_frame(vec2 dx, vec2 dy) {
     float smallest = VEXTURE_SMALLEST_PIXEL * float(1 << VEXTURE_POSITION_BITS);
     float longer = max(dot(dx, dx), dot(dy, dy));
     float area = dx.x * dy.y - dx.y * dy.x;
-    bool exists = longer > smallest * smallest;  // not so if a parameter is NaN
+    bool exists = longer > smallest * smallest;  // false if a parameter is NaN
     if (!exists || abs(area) < VEXTURE_THINNEST_PIXEL * longer) {  // the plane is seen from its edge
         float width = exists ? VEXTURE_THINNEST_PIXEL : 1.0;
         dx = dot(dx, dx) == longer ? dx : dy;
@@ -34,7 +34,7 @@ vec2 vexture_into_frame(VextureFrame frame, vec2 point) {
     return vec2(dot(frame.right, point), dot(frame.up, point));
 }
 
-// dx / dy and dy / dx of a direction; 0 for what is infinite.
+// Slopes dx / dy and dy / dx of a direction; 0 in place of infinity.
 vec2 vexture_slopes(float dx, float dy) {
     return vec2(dy != 0.0 ? dx / dy : 0.0, dx != 0.0 ? dy / dx : 0.0);
 }
@@ -60,7 +60,7 @@ float vexture_beside(vec2 p, vec2 q) {
     return vexture_beside_sloped(p, q.y, vexture_slopes(q.x - p.x, q.y - p.y));
 }
 
-// Approximate share of a straight line in the pixel; its factor is small.
+// Approximate fraction of a straight line that lies in the pixel; the factor that it scales is small.
 float vexture_part_inside(vec2 p, vec2 q) {
     vec2 way = q - p;
     vec2 held = clamp(q, -0.5, 0.5) - clamp(p, -0.5, 0.5);

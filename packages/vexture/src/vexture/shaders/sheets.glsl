@@ -1,7 +1,7 @@
 // Planar maps, and drawings of several sheets: maps and layers, the lowest first, composited.
 // Exports: vextureWrappedColor, vextureSheets, vextureSheetCoverage, vextureLight.
 //
-// With VEXTURE_LINEAR, all colours here are of linear light, but for those of vextureLight, which always are.
+// With VEXTURE_LINEAR, all colours in this file are linear; those of vextureLight always are.
 #include "layers.glsl"
 #include "colour.glsl"
 
@@ -19,7 +19,7 @@ vec4 vexture_whole_color(uint root) {
     return vexture_mean_color(means, vec2(0.5)) / float(VEXTURE_COVERAGE_ONE);
 }
 
-// As vexture_spot_coverage, of a planar map.
+// Like vexture_spot_coverage, for a planar map.
 vec4 vexture_spot_color(uint root, VextureSpot spot) {
 #if VEXTURE_WRAP == VEXTURE_WRAP_REPEAT
     VextureTiles tiles = vexture_tiles(spot);
@@ -55,7 +55,7 @@ vec4 vexture_sheet_color(uvec4 head, VextureSpot spot) {
     return paint.a * vexture_spot_coverage(head.x, spot) * vec4(paint.rgb, 1.0);
 }
 
-// As vextureLayers, of layers and maps.
+// Like vextureLayers, for layers and maps.
 vec4 vextureSheets(int first, int count, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureSpot spot = vexture_spot(base, offset, dx, dy);
     vec4 color = vec4(0.0);
@@ -71,7 +71,7 @@ vec4 vextureSheets(int first, int count, vec2 uv, vec2 dx, vec2 dy) {
     return vextureSheets(first, count, uvec2(0u), uv, dx, dy);
 }
 
-// Coverage by one root, given by its number in the texture: of a map its opacity, of a layer its area without its paint.
+// Coverage by one root, given by its number in the texture: a map's opacity, or a layer's area without its paint.
 float vextureSheetCoverage(uint root, vec2 uv, vec2 dx, vec2 dy) {
     VextureSpot spot = vexture_spot(uvec2(0u), uv, dx, dy);
     uvec4 head = texelFetch(vexturePaints, ivec2(0, int(root)), 0);

@@ -6,7 +6,7 @@
 
 const int vexture_most_cells = 256;  // a box that needs more counts as crossed
 
-// Whether no outline, however small, passes through a box: then all its cells are constant and equal. A cell with curves
+// Returns whether no outline, however small, passes through a box: all its cells are constant and equal. A cell with curves
 // counts as crossed.
 bool vexture_is_clear(uint root, VextureSpot spot) {
     VexturePlace place = vexture_place(spot.base, spot.offset, spot.reach * float(1 << VEXTURE_POSITION_BITS));

@@ -1,4 +1,4 @@
-// Reading the packed texture (FORMAT.md, part B): positions, and the cells down the tree.
+// Reading the packed texture (FORMAT.md, part B): positions, and the descent to the cells.
 // Exports: VexturePlace, VextureCell, VextureSquare, vexture_place, vexture_texel, vexture_top, vexture_descend.
 //
 // Positions are signed integers in units of 2^-POSITION_BITS of the unit square, so that a pixel beyond the square's edge
@@ -6,24 +6,24 @@
 
 uniform highp usampler2D vextureTexels;
 
-// A point and the box of a pixel around it.
+// A point and the bounding box of the pixel around it.
 struct VexturePlace {
-    ivec2 point;  // a multiple of 2^REST_BITS, so that a float holds its way to any cell
+    ivec2 point;  // a multiple of 2^REST_BITS, so that a float holds its distance from any cell
     vec2 rest;    // of the point, in the same unit, 0 or more
     ivec2 low;    // first and last position of the box, clipped to the unit square;
     ivec2 high;   // high < low if it lies outside
 };
 
-// A leaf, as the byte of a texel; or a quad.
+// A leaf, given by its byte in a quad's texel; or a quad.
 struct VextureCell {
-    uint quad;    // that holds the leaf, or the quad itself
-    uvec4 texel;  // of it
+    uint quad;    // quad that holds the leaf, or the quad itself
+    uvec4 texel;  // its texel
     uint shift;   // of the cell's byte in the words of the quad that holds it
     int bit;
     bool is_quad;
 };
 
-// A square of cells: its lowest position in a pixel's box.
+// A square of cells, given by its lowest position in a pixel's box.
 struct VextureSquare {
     ivec2 position;
     int bit;
@@ -61,7 +61,7 @@ VexturePlace vexture_place(uvec2 base, vec2 offset, vec2 extent) {
     return VexturePlace(point, rest, low, high);
 }
 
-// The smallest cell that holds the whole box of a place, or the smallest of all cells. If the box lies outside of the unit
+// Smallest cell that contains the whole box of a place, or the smallest of all cells. If the box lies outside the unit
 // square, there is none: x is NO_CELL.
 VextureSquare vexture_first_square(VexturePlace place) {
     int differ = (place.low.x ^ place.high.x) | (place.low.y ^ place.high.y);
@@ -71,7 +71,7 @@ VextureSquare vexture_first_square(VexturePlace place) {
     return VextureSquare(position, max(bits, VEXTURE_POSITION_BITS - VEXTURE_MOST_DEPTH));
 }
 
-// The next square of cells that meets the box, after a cell with the upper right corner `beyond`; x is NO_CELL if there is
+// Next square of cells that meets the box, after a cell with the upper right corner `beyond`; x is NO_CELL if there is
 // none. The order is Morton's: of the two sides across which the next square may lie, the one that ends the smaller square.
 VextureSquare vexture_next_square(ivec2 position, ivec2 beyond, VexturePlace place) {
     ivec2 step = beyond & -beyond;
@@ -85,12 +85,12 @@ VextureSquare vexture_next_square(ivec2 position, ivec2 beyond, VexturePlace pla
     return VextureSquare(next, (floatBitsToInt(float(least)) >> 23) - 127);
 }
 
-// Of the largest cells that are no larger than a square of this area, in positions.
+// Bit of the largest cells that are no larger than a square of this area, in positions.
 int vexture_bit_of(float area) {
     return ((floatBitsToInt(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127) >> 1;
 }
 
-// Of the smallest cells that the sum over cells visits, if the tree has them: a quarter to half as wide as the footprint;
+// Bit of the smallest cells that the sum over cells visits, if the tree has them: a quarter to half as wide as the footprint;
 // half of that in pictures of few pixels, where drawings have few deep cells; wider for a long footprint. Parameters: the
 // footprint's area, and the square of its length.
 int vexture_finest_bit(float area, float longer) {
@@ -137,7 +137,7 @@ int vexture_count(VextureCell cell) {
     return int((cell.texel.z >> (cell.shift + uint(VEXTURE_COUNT_SHIFT))) & uint(VEXTURE_MOST_CURVES));
 }
 
-// 0 marks a constant leaf.
+// Corner winding of the leaf plus WINDING_OFFSET; 0 marks a constant leaf.
 int vexture_winding_code(VextureCell cell) {
     return int((cell.texel.z >> cell.shift) & 7u);
 }

@@ -6,7 +6,7 @@
 #include "wrap.glsl"
 #include "around.glsl"
 
-uniform int vextureShapes;    // none, one, or two while one turns into the other
+uniform int vextureShapes;    // number: 0, 1, or 2 during a transition
 uniform uvec2 vextureQuads;   // their roots,
 uniform ivec2 vextureRows;    // the first row of each one's texels,
 uniform vec2 vextureShares;   // weight of each in the picture; 0 if there is none
@@ -94,7 +94,7 @@ struct VextureLight {
     vec3 horizon; // and at its edge
 };
 
-// Light of the sky in a direction that is so steep: the sine of its height.
+// Light of the sky in a direction, given by the sine of its elevation.
 vec3 vextureSkyOf(VextureLight light, float steep) {
     return mix(light.horizon, light.zenith, smoothstep(0.0, 0.6, abs(steep)));
 }

@@ -1,8 +1,8 @@
-// Coverage of pixels anywhere: beyond the unit square lies nothing, the border's value, or the shape again.
+// Coverage of pixels anywhere: outside the unit square is nothing, the border's value, or the repeated shape.
 // Exports: VextureSpot, vexture_spot, VextureTiles, vexture_tiles, vexture_tile, vexture_spot_coverage, vextureWrapped.
 //
 // VEXTURE_WRAP selects one of VEXTURE_WRAP_NONE, VEXTURE_WRAP_CLAMP or VEXTURE_WRAP_REPEAT. VEXTURE_FLAT is 1 for views
-// whose pixels are upright in the drawing and all alike, which cost less, or 0 for any view.
+// whose pixels are equal upright rectangles in the drawing, which cost less, or 0 for any view.
 #include "coverage.glsl"
 
 #ifndef VEXTURE_WRAP
@@ -53,7 +53,7 @@ struct VextureTiles {
     int columns;
     uvec2 next_base;   // in the next tile the base is on the border between the two, where positions of both are exact
     vec2 next_offset;
-    float whole;       // share of the mean of all of the shape in the result: the footprint is about as large as a tile
+    float whole;       // share of the whole shape's mean in the result, for a footprint about as large as a tile
 };
 
 VextureTiles vexture_tiles(VextureSpot spot) {
@@ -72,7 +72,7 @@ VextureTiles vexture_tiles(VextureSpot spot) {
     return VextureTiles(whole < 1.0 ? columns * rows : 0, columns, next_base, next_offset, whole);
 }
 
-// The footprint in one of them.
+// Footprint in one of these tiles.
 VextureSpot vexture_tile(VextureTiles tiles, VextureSpot spot, int tile) {
     bool next_column = (tile & (tiles.columns - 1)) == 1;
     bool next_row = tile >= tiles.columns;

@@ -1,4 +1,4 @@
-"""Whether the texels of a texture are what FORMAT.md says, all of them."""
+"""Validate all texels of a texture against FORMAT.md."""
 
 from collections.abc import Sequence
 
@@ -16,7 +16,7 @@ from vexture.texture.walk import REMEDY, check_ends, walk
 def check_texels(flat: NDArray[np.uint32], plain: NDArray[np.int64], maps: list[int]) -> None:
     """Raise a `FormatError` where texels contradict FORMAT.md.
 
-    `plain` are the root quads of silhouettes and layers, `maps` the different ones of planar maps.
+    `plain` holds the root quads of silhouettes and layers, `maps` the distinct root quads of planar maps.
     """
     levels = walk(flat, plain)
     times = np.zeros(len(flat), np.int64)
@@ -39,7 +39,7 @@ def check_texels(flat: NDArray[np.uint32], plain: NDArray[np.int64], maps: list[
 
 
 def check_styles(flat: NDArray[np.uint32], roots: Sequence[Root]) -> None:
-    """Raise a `FormatError` where the style of a map, which is sound, is that of another number of paints."""
+    """Raise a `FormatError` where a map's style has another number of paints; the maps themselves are valid."""
     for root in roots:
         if root.style is None:
             continue

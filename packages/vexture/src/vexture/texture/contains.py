@@ -1,4 +1,4 @@
-"""Whether points lie inside a shape of a packed texture, by the texture's own windings."""
+"""Test whether points lie inside a shape of a packed texture, by its stored winding numbers."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,21 +22,21 @@ BYTE = (1 << CELL_BITS) - 1
 
 
 def checked_points(points: ArrayLike) -> NDArray[np.float64]:
-    """Points as an array (n, 2); raises a `ParameterError` if they are no such array of numbers."""
+    """Convert points to an array (n, 2); raise a `ParameterError` if they are no such array of numbers."""
     try:
-        wanted = np.asarray(points, np.float64)
+        array = np.asarray(points, np.float64)
     except (TypeError, ValueError):
         raise ParameterError("`points` is no array of numbers; give (n, 2)") from None
-    if wanted.ndim != 2 or wanted.shape[1] != 2:
-        raise ParameterError(f"`points` has the shape {wanted.shape}; it must be (n, 2)")
-    return wanted
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise ParameterError(f"`points` has the shape {array.shape}; it must be (n, 2)")
+    return array
 
 
 @kernel
 def _winding(
     flat: NDArray[np.uint32], first: int, count: int, corner: int, x: float, y: float, curve: NDArray[np.float64]
 ) -> int:
-    """Winding number at a point of a leaf; `curve` is written to."""
+    """Winding number at a point of a leaf; `curve` is scratch."""
     winding = corner
     for i in range(first, min(first + count, len(flat))):
         read_curve(flat[i], curve)
@@ -54,7 +54,7 @@ def _winding(
 
 @kernel
 def _inside(flat: NDArray[np.uint32], root: int, x: float, y: float, curve: NDArray[np.float64]) -> bool:
-    """Whether a point of the unit square is inside; all arithmetic down to the leaf is exact."""
+    """Return whether a point of the unit square is inside; all arithmetic down to the leaf is exact."""
     quad = root
     for _ in range(MOST_DEPTH):
         if quad >= len(flat):
@@ -81,9 +81,9 @@ def _inside(flat: NDArray[np.uint32], root: int, x: float, y: float, curve: NDAr
 
 @kernel
 def points_inside(flat: NDArray[np.uint32], root: int, points: NDArray[np.float64], inside: NDArray[np.bool_]) -> None:
-    """Write to `inside` (m,) which points (m, 2), in unit-square units, are inside the shape with the root quad `root`.
+    """Write to `inside` (m,) whether points (m, 2), in unit-square units, are inside the shape with root quad `root`.
 
-    Points outside 0 <= x < 1, 0 <= y < 1 are not inside. The texels need no validation: no index leads out of them.
+    Points outside 0 <= x < 1, 0 <= y < 1 are not inside. The texels need no validation: all indices are checked.
     """
     curve = np.empty((4, 2))
     for i in range(len(points)):

@@ -1,4 +1,4 @@
-"""Curves as texels, one to a texel, or, in leaves of a planar map that are all straight, two (FORMAT.md, B.4, D.2)."""
+"""Encode curves: one per texel, or two if all curves of a planar map's leaf are straight (FORMAT.md, B.4, D.2)."""
 
 from typing import NamedTuple
 
@@ -17,19 +17,19 @@ from vexture.base.layout import (
 
 COORDINATE = (1 << COORDINATE_BITS) - 1
 OFFSETS = np.array([0, CONTROL_OFFSET, CONTROL_OFFSET, 0])[:, None]
-"""Of P0 to P3, as stored."""
+"""Offsets of the stored coordinates of P0 to P3."""
 
 NEAR = 1
-"""Lattice units by which P1 and P2 of a straight curve may differ from the thirds."""
+"""Lattice units by which P1 and P2 of a straight curve may differ from the thirds of its chord."""
 
 
 def curve_texels(curves: NDArray[np.int32]) -> NDArray[np.uint32]:
-    """A texel for each curve (n, 4, 2), in lattice units."""
+    """Encode curves (n, 4, 2), in lattice units, as one texel each."""
     return _words(curves + OFFSETS)
 
 
 def curve_points(texels: NDArray[np.uint32]) -> NDArray[np.int32]:
-    """Points of curves in lattice units of their leaf, (n, 4) -> (n, 4, 2)."""
+    """Decode texels (n, 4) to the points of curves, (n, 4, 2), in lattice units of their leaf."""
     return _points(texels) - OFFSETS.astype(np.int32)
 
 
@@ -43,21 +43,21 @@ def _points(words: NDArray[np.uint32]) -> NDArray[np.int32]:
 
 
 def _straight(ends: NDArray[np.int32]) -> NDArray[np.int32]:
-    """The straight curves between ends, (n, 2, 2) -> (n, 4, 2)."""
+    """Straight curves (n, 4, 2) between ends (n, 2, 2)."""
     p0, p3 = ends[:, 0], ends[:, 1]
     return np.stack([p0, (2 * p0 + p3 + 1) // 3, (p0 + 2 * p3 + 1) // 3, p3], axis=1)
 
 
 class LeafCurves(NamedTuple):
-    """Positions of the curves of leaves in the texels of all these leaves."""
+    """Positions of the curves of some leaves in the joint texels of these leaves."""
 
     texel: NDArray[np.int64]  # (curves,)
     half: NDArray[np.int64]  # (curves,): 0 or 1 in a texel of two; 0 elsewhere
-    is_straight: NDArray[np.bool_]  # (curves,): whether it is in a texel of two
+    is_straight: NDArray[np.bool_]  # (curves,): is it in a texel of two
 
     @classmethod
     def of_counts(cls, count: NDArray[np.int64], is_straight: NDArray[np.bool_]) -> "LeafCurves":
-        """Of leaves with so many curves (leaves,), which are all straight or not."""
+        """Positions for leaves with `count` (leaves,) curves; `is_straight` (leaves,) marks leaves of straight ones."""
         texels, paired = texels_in(count, is_straight), np.repeat(is_straight, count)
         number = np.arange(len(paired)) - np.repeat(np.cumsum(count) - count, count)
         first = np.repeat(np.cumsum(texels) - texels, count)
@@ -65,12 +65,12 @@ class LeafCurves(NamedTuple):
 
 
 def texels_in(count: NDArray[np.int64], is_straight: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Texels that the curves of leaves take."""
+    """Number of texels of the curves of each leaf."""
     return np.where(is_straight, (count + 1) >> 1, count)
 
 
 def are_straight(curves: NDArray[np.int32], count: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Whether leaves with so many curves (leaves,) have some, all of which are straight but for their rounding."""
+    """Return which leaves have curves that are all straight, except for rounding; `count` (leaves,) is their number."""
     off = abs(curves - _straight(curves[:, [0, 3]])).max(axis=(1, 2), initial=0)
     bent = np.append(0, np.cumsum(off > NEAR))
     last = np.cumsum(count)
@@ -81,7 +81,7 @@ def are_straight(curves: NDArray[np.int32], count: NDArray[np.int64]) -> NDArray
 def leaf_texels(
     curves: NDArray[np.int32], count: NDArray[np.int64], is_straight: NDArray[np.bool_]
 ) -> NDArray[np.uint32]:
-    """Texels of the curves (n, 4, 2) of leaves with so many curves (leaves,), which are all straight or not."""
+    """Encode the curves (n, 4, 2) of leaves with `count` (leaves,) curves; see `LeafCurves.of_counts`."""
     at = LeafCurves.of_counts(count, is_straight)
     texels, full = np.zeros((texels_in(count, is_straight).sum(), 4), np.uint32), curve_texels(curves)
     texels[at.texel[~at.is_straight]] = full[~at.is_straight]
@@ -91,7 +91,7 @@ def leaf_texels(
 
 
 def leaf_points(texels: NDArray[np.uint32], at: LeafCurves) -> NDArray[np.int32]:
-    """Points of the curves of leaves, (n, 4, 2), in the texels of all these leaves."""
+    """Decode the curves of leaves, (n, 4, 2), at their positions in the joint texels of these leaves."""
     points = curve_points(texels[at.texel])
     ends = _points(texels).reshape(-1, 2, 2, 2)[at.texel, at.half]
     points[at.is_straight] = _straight(ends[at.is_straight])
@@ -100,7 +100,7 @@ def leaf_points(texels: NDArray[np.uint32], at: LeafCurves) -> NDArray[np.int32]
 
 @kernel
 def read_curve(texel: NDArray[np.uint32], curve: NDArray[np.float64]) -> None:
-    """Write the points of a curve in lattice units."""
+    """Write the points of a curve to `curve`, in lattice units."""
     for k in range(4):
         offset = CONTROL_OFFSET if k in (1, 2) else 0
         word = int(texel[k])
@@ -109,7 +109,7 @@ def read_curve(texel: NDArray[np.uint32], curve: NDArray[np.float64]) -> None:
 
 @kernel
 def read_leaf_curve(flat: NDArray[np.uint32], first: int, cell: int, i: int, curve: NDArray[np.float64]) -> None:
-    """Write the points of curve i of a map's leaf, whose curves begin at texel `first`; `cell` is its byte."""
+    """Write to `curve` the points of curve i of a map's leaf; `first` is its first texel of curves, `cell` its byte."""
     if cell & STRAIGHT == 0:
         read_curve(flat[first + i], curve)
         return
@@ -123,7 +123,7 @@ def read_leaf_curve(flat: NDArray[np.uint32], first: int, cell: int, i: int, cur
 
 @kernel
 def texels_of_cell(cell: int) -> int:
-    """Texels that the curves of a cell of a map take, by its byte."""
+    """Number of texels of the curves of a map's cell, from its byte."""
     if cell >= QUAD_FLAG:
         return 0
     count = cell >> COUNT_SHIFT & MOST_CURVES

@@ -1,4 +1,4 @@
-"""From a texture (FORMAT.md, part B) back to the trees of its shapes."""
+"""Decode a texture (FORMAT.md, part B) to the trees of its shapes."""
 
 from typing import Any
 
@@ -13,11 +13,11 @@ from vexture.tree.tree import Tree
 
 
 def decode(texture: Texture, root: str | int | None = None) -> Tree:
-    """Tree of one shape, by its name or number, with `deviation` and `unresolved` 0.
+    """Decode the tree of one shape, by its name or number, with `deviation` and `unresolved` set to 0.
 
-    It equals the tree given to `encode` except for the rounding of coverages, and encodes to the same texels. Other
-    writers may store quads and curves in another order; here they are numbered as in `Tree`. Raises a `ParameterError`
-    as `Texture.root` does, and a `FormatError` if the texels are no tree.
+    The tree equals the one that was encoded, except for the rounding of coverages, and encodes to the same texels.
+    Other writers may store quads and curves in another order; the result has them in the order of `Tree`. Raises a
+    `ParameterError` as `Texture.root` does, and a `FormatError` if the texels are not a tree.
     """
     flat = texture.flat
     levels = walk(flat, np.array([texture.root(root).quad]))

@@ -1,4 +1,4 @@
-"""Facts about the shapes of a texture, ready for JSON."""
+"""Describe the shapes of a texture as JSON-ready data."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -13,7 +13,7 @@ from vexture.texture.walk import walk
 
 
 def facts_of(flat: NDArray[np.uint32], roots: Sequence[Root]) -> dict[str, Any]:
-    """Number of texels, depth, and the facts of each shape. Shapes with one root are one tree."""
+    """Number of texels, depth, and a description of each shape; shapes with the same root quad share one tree."""
     plain = np.array([root.quad for root in roots if not root.is_map], np.int64)
     trees = _tree_facts(flat, plain) | {root.quad: _map_facts(flat, root.quad) for root in roots if root.is_map}
     return {
@@ -37,7 +37,7 @@ def facts_of(flat: NDArray[np.uint32], roots: Sequence[Root]) -> dict[str, Any]:
 
 
 def _tree_facts(flat: NDArray[np.uint32], roots: NDArray[np.int64]) -> dict[int, dict[str, Any]]:
-    """Facts of silhouettes and layers, by their root quads."""
+    """Describe silhouettes and layers, by their root quads."""
     levels = walk(flat, roots)
     if not levels:
         return {}
@@ -62,7 +62,7 @@ def _tree_facts(flat: NDArray[np.uint32], roots: NDArray[np.int64]) -> dict[int,
 
 
 def _map_facts(flat: NDArray[np.uint32], quad: int) -> dict[str, Any]:
-    """Facts of a planar map."""
+    """Describe a planar map."""
     found = read_map(flat, quad)
     alpha = flat[found.cells + 1] >> layout.CELL_BITS * 3
     return {

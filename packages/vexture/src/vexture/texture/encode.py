@@ -1,4 +1,4 @@
-"""From trees to one texture (FORMAT.md, part B)."""
+"""Encode trees as one texture (FORMAT.md, part B)."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -17,7 +17,7 @@ from vexture.tree.tree import Tree
 
 
 def texel_rows(texels: NDArray[np.uint32]) -> NDArray[np.uint32]:
-    """Texels in rows of an image; the last row is filled with zeros."""
+    """Arrange texels in rows of an image; fill the last row with zeros."""
     width = min(1 << (len(texels) - 1).bit_length(), 1 << layout.ROW_BITS)
     rows = -(-len(texels) // width)
     out = np.zeros((rows * width, 4), np.uint32)
@@ -28,10 +28,10 @@ def texel_rows(texels: NDArray[np.uint32]) -> NDArray[np.uint32]:
 def encode(
     trees: Sequence[Tree | PlanarMap], roots: Sequence[Root], *, name: str, source: str | None = None
 ) -> Texture:
-    """Texture of some trees and planar maps, one after another: of a tree its quads, then its curves.
+    """Encode trees and planar maps one after another; the quads of a tree precede its curves.
 
-    Each root describes one of them; its `quad` is filled in here, and whether it is a map. Raises a `LimitError` if
-    there is no tree, or if the trees need more texels than a texture has.
+    Each root describes one of them; this function sets its `quad` and `is_map`. Raises a `LimitError` if there is no
+    tree, or if the trees need more texels than a texture can have.
     """
     texels: list[NDArray[np.uint32]] = []
     placed: list[Root] = []

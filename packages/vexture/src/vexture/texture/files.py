@@ -1,4 +1,4 @@
-"""Names of a texture's file; writing several files, all or none."""
+"""Name a texture's file; write several files atomically, all or none."""
 
 import errno
 import os
@@ -16,22 +16,22 @@ TEMPORARY = ".tmp"
 """Suffix of incomplete files."""
 
 LEFT_SECONDS = 3600.0
-"""An incomplete file that is older was left by a process that was killed, and is removed when its place is written."""
+"""Age from which an incomplete file is a killed process's leftover, and is removed when its target is written."""
 
 OTHER_FILES = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".svg", ".svgz", ".json", ".geojson", ".html", ".glsl")
-"""Suffixes that a texture's file must not have: programs would open it as a picture or a drawing."""
+"""Suffixes that a texture's file must not have, because programs would open it as a picture or a drawing."""
 
 NAME_BYTES = 200  # file systems allow 255, and suffixes are added
 
 
 def file_name(name: str) -> str:
-    """File name for a drawing's name: letters, digits, spaces and ``._-`` only, so that it is in no other folder."""
+    """File name for a drawing's name, of letters, digits, spaces and ``._-``, so that it cannot name another folder."""
     safe = re.sub(r"[^\w .-]", "_", name).strip(". ")
     return safe.encode()[:NAME_BYTES].decode(errors="ignore") or "drawing"
 
 
 def target_of(path: str | os.PathLike[str], name: str) -> Path:
-    """The packed texture's file to write: `name` in a folder, or the path itself.
+    """Path of the packed texture's file to write: `name` in a folder, or the path itself.
 
     Raises a `ParameterError` if the path ends in a suffix of `OTHER_FILES`.
     """
@@ -43,14 +43,14 @@ def target_of(path: str | os.PathLike[str], name: str) -> Path:
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:
-    """Whether a path to write to is an existing folder, or ends with a separator."""
+    """Return whether a path to write to is an existing folder, or ends with a separator."""
     return os.fspath(path).endswith(("/", os.sep)) or os.path.isdir(path)
 
 
 def writable(folder: Path) -> Path:
-    """The folder, if it exists or can be made.
+    """Return the folder if it is writable or can be made, else raise a `DeviceError`.
 
-    Raises a `DeviceError` otherwise. Callers check this before a long computation.
+    Callers check this before a long computation.
     """
     there = folder.absolute()
     while not os.path.lexists(there):
@@ -63,7 +63,7 @@ def writable(folder: Path) -> Path:
 
 
 def write_together(files: Mapping[Path, bytes]) -> None:
-    """Write all the files or none, as `replace_files` does; a `DeviceError` names the file that cannot be written."""
+    """Write all files or none, as `replace_files` does; a `DeviceError` names the file that cannot be written."""
     try:
         replace_files(files)
     except OSError as error:
@@ -71,19 +71,20 @@ def write_together(files: Mapping[Path, bytes]) -> None:
 
 
 def replace_files(files: Mapping[Path, bytes], *, durable: bool = False) -> None:
-    """Write all the files or none; missing folders are made.
+    """Write all files or none; make missing folders.
 
-    Each file is written under a temporary name beside its place. When all are complete they are renamed, in their
-    order. The target of a link is replaced, not the link. With `durable` they survive a loss of power after this
-    function returns, and none is kept without those before it. An `OSError` names the file that cannot be written.
+    Each file is written under a temporary name beside its target. When all are complete, they are renamed in their
+    order. The target of a symbolic link is replaced, not the link. With `durable`, the files survive a loss of power
+    after this function has returned, and a loss of power before never leaves a file without those before it. An
+    `OSError` names the file that cannot be written.
     """
     places = {path.resolve(): data for path, data in files.items()}
-    made: dict[Path, Path] = {}
+    temporary: dict[Path, Path] = {}
     try:
         for path, data in places.items():
             make_folder(path.parent, durable=durable)
             with _temporary(path) as file:
-                made[path] = Path(file.name)
+                temporary[path] = Path(file.name)
                 file.write(data)
                 if durable:
                     file.flush()
@@ -99,14 +100,14 @@ def replace_files(files: Mapping[Path, bytes], *, durable: bool = False) -> None
             if durable and path.parent != before:
                 _keep_entries(before)
             before = path.parent
-            moved = made[path].replace(path)
-            if path in replaced:  # what was there is gone: it is not to be removed as well
-                del made[path]
+            moved = temporary[path].replace(path)
+            if path in replaced:  # the old file is gone: an error must not remove the new one
+                del temporary[path]
             else:
-                made[path] = moved
+                temporary[path] = moved
     except BaseException as error:
-        for file_made in made.values():
-            file_made.unlink(missing_ok=True)
+        for file_left in temporary.values():
+            file_left.unlink(missing_ok=True)
         if isinstance(error, OSError):
             raise OSError(error.errno, error.strerror, str(path)) from None
         raise
@@ -115,7 +116,7 @@ def replace_files(files: Mapping[Path, bytes], *, durable: bool = False) -> None
 
 
 def make_folder(folder: Path, *, durable: bool) -> None:
-    """Make a folder and those around it, if they are missing."""
+    """Make a folder and its parents if they are missing."""
     if not folder.is_dir():
         make_folder(folder.parent, durable=durable)
         folder.mkdir(exist_ok=True)
@@ -124,13 +125,13 @@ def make_folder(folder: Path, *, durable: bool) -> None:
 
 
 def _temporary(path: Path) -> BinaryIO:
-    """Open a new file beside a path, and remove those that killed processes left there."""
+    """Open a new file beside a path, and remove leftovers of killed processes."""
     number = 0
     while True:
         partial = path.with_name(f".{path.name}.{number}{TEMPORARY}")
         try:
             return partial.open("xb")
-        except FileExistsError:  # of a process that writes the same file now, unless it is old
+        except FileExistsError:  # another process is writing the same file, unless it is old
             number += 1
             with suppress(OSError):
                 if time.time() - partial.lstat().st_mtime > LEFT_SECONDS:
@@ -138,7 +139,7 @@ def _temporary(path: Path) -> BinaryIO:
 
 
 def _keep_entries(folder: Path) -> None:
-    """Write a folder's entries to the disk: without it a rename may not survive a loss of power."""
+    """Write a folder's entries to the disk; without this, a rename may not survive a loss of power."""
     handle = os.open(folder, os.O_RDONLY)
     try:
         os.fsync(handle)
@@ -147,9 +148,9 @@ def _keep_entries(folder: Path) -> None:
 
 
 def read_file(path: Path, limit: int, remedy: str) -> bytes:
-    """The bytes of a file, at most `limit` + 1.
+    """Read at most `limit` + 1 bytes of a file.
 
-    `remedy` ends the message of the `FormatError` for a missing file. A `DeviceError` means that it cannot be read.
+    Raises a `FormatError` that ends in `remedy` if the file is missing, and a `DeviceError` if it cannot be read.
     """
     try:
         with path.open("rb") as file:

@@ -1,6 +1,6 @@
-"""One image of four unsigned 32-bit words per texel, with texts, to KTX 2.0 and back; untrusted files are validated.
+"""Write and read KTX 2.0: one image of four unsigned 32-bit words per texel, with texts; files are validated.
 
-The container follows the Khronos KTX File Format Specification, version 2.0. Its description of the words follows the
+The container follows the Khronos KTX File Format Specification, version 2.0. The descriptor of the words follows the
 Khronos Data Format Specification, version 1.3.
 """
 
@@ -19,7 +19,7 @@ from vexture.base.layout import MOST_ROWS, MOST_TEXT_BYTES, ROW_BITS
 MAGIC: Final = b"\xabKTX 20\xbb\r\n\x1a\n"
 
 R32G32B32A32_UINT: Final = 107
-"""VkFormat."""
+"""The VkFormat of a texture."""
 
 NONE: Final = 0
 ZLIB: Final = 3
@@ -40,7 +40,7 @@ DEFLATE_RATIO: Final = 1032
 
 
 class Ktx2Header(NamedTuple):
-    """The file's header; fields are named as in the specification."""
+    """Header of the file; fields are named as in the specification."""
 
     identifier: bytes
     vk_format: int
@@ -61,7 +61,7 @@ class Ktx2Header(NamedTuple):
 
 
 def check_size(width: int, rows: int) -> None:
-    """Raise a `FormatError` if no texture has this size in texels."""
+    """Raise a `FormatError` if a texture cannot have this size in texels."""
     widest = 1 << ROW_BITS
     if width.bit_count() != 1 or width > widest or not 1 <= rows <= (MOST_ROWS if width == widest else 1):
         raise FormatError(
@@ -71,7 +71,7 @@ def check_size(width: int, rows: int) -> None:
 
 
 def _descriptor() -> bytes:
-    """The data format descriptor: one basic block, four unsigned integers of 32 bits."""
+    """Data format descriptor: one basic block of four unsigned integers of 32 bits."""
     samples = b"".join(
         struct.pack("<HBB4B2I", 8 * WORD_BYTES * k, 8 * WORD_BYTES - 1, channel, 0, 0, 0, 0, 0, 1)
         for k, channel in enumerate((0, 1, 2, ALPHA))
@@ -83,10 +83,10 @@ def _descriptor() -> bytes:
 
 
 def write_ktx2(texels: NDArray[np.uint32], texts: Mapping[str, str | bytes], deflate: bool = True) -> bytes:
-    """KTX 2.0 file of texels (rows, width, 4), plain or deflated; texts are stored as UTF-8 with a zero byte."""
+    """Return a KTX 2.0 file of texels (rows, width, 4), deflated or not; texts are stored as UTF-8 with a zero byte."""
     height, width, _ = texels.shape
     raw = np.ascontiguousarray(texels, "<u4").tobytes()
-    # level 6 saves 0.2% but takes 1.6 times as long: most of a map's conversion
+    # level 6 saves 0.2% but takes 1.6 times as long, and deflating is most of a map's conversion
     stored = zlib.compress(raw, 4) if deflate else raw
     descriptor, pairs = _descriptor(), _key_values(texts)
     dfd_offset = HEADER.size + LEVEL.size
@@ -101,7 +101,7 @@ def write_ktx2(texels: NDArray[np.uint32], texts: Mapping[str, str | bytes], def
 
 
 def _key_values(texts: Mapping[str, str | bytes]) -> bytes:
-    """The key/value data: sorted by key, each pair padded to four bytes."""
+    """Key/value data, sorted by key, each pair padded to four bytes."""
     pairs = b""
     for key, value in sorted((key.encode(), value) for key, value in texts.items()):
         pair = key + b"\0" + (value if isinstance(value, bytes) else value.encode() + b"\0")
@@ -110,11 +110,11 @@ def _key_values(texts: Mapping[str, str | bytes]) -> bytes:
 
 
 def read_ktx2(data: bytes, name: str) -> tuple[NDArray[np.uint32], dict[str, str]]:
-    """Texels (rows, width, 4) and texts of an untrusted KTX 2.0 file; `name` names the file in messages.
+    """Read texels (rows, width, 4) and texts of an untrusted KTX 2.0 file; `name` is its name in messages.
 
-    The header bounds everything that needs memory, and the format's limits bound the header. Texts are without their
-    final zero byte; those that are not UTF-8 are left out. Raises a `FormatError` if the file is damaged or anything
-    else than one image of R32G32B32A32_UINT, deflated or plain.
+    The header limits all memory that is allocated, and the format limits the header. Texts lose their final zero byte;
+    texts that are not UTF-8 are left out. Raises a `FormatError` if the file is damaged, or is not one image of
+    R32G32B32A32_UINT, deflated or not.
     """
     try:
         header = _read_header(data)
@@ -127,7 +127,7 @@ def read_ktx2(data: bytes, name: str) -> tuple[NDArray[np.uint32], dict[str, str
 
 
 def _part(data: bytes, offset: int, length: int, label: str) -> bytes:
-    """Bytes of the file, if it has so many."""
+    """Part of the file; raises a `FormatError` if it lies outside the file."""
     if length and not HEADER.size <= offset <= len(data) - length:
         raise FormatError(f"{label} at bytes {offset} to {offset + length} of a file of {len(data)}; it is damaged")
     return data[offset : offset + length]
@@ -160,14 +160,14 @@ def _read_header(data: bytes) -> Ktx2Header:
 
 
 def _read_descriptor(descriptor: bytes) -> None:
-    """Check the length only: other writers may describe the same words differently."""
+    """Check only the length of the descriptor: other writers may describe the same words differently."""
     total = LENGTH.unpack_from(descriptor)[0] if len(descriptor) >= LENGTH.size else 0
     if total != len(descriptor) or total % LENGTH.size:
         raise FormatError(f"the data format descriptor says {total} bytes and has {len(descriptor)}")
 
 
 def read_value(data: bytes, key: str) -> bytes | None:
-    """The value of a key, which is no text, in a file that `read_ktx2` has read; None without it."""
+    """Return a key's binary value, from a file that `read_ktx2` has validated; None if the key is missing."""
     header = _read_header(data)
     pairs = _part(data, header.kvd_offset, header.kvd_length, "key/value data")
     return _read_values(pairs).get(key.encode())
@@ -209,13 +209,13 @@ def _read_image(data: bytes, header: Ktx2Header) -> NDArray[np.uint32]:
         raw = inflate(stored, size, "image")
     if len(raw) != size:
         raise FormatError(f"the image has {len(raw)} bytes; its size in texels makes it {size}")
-    # a writable copy: kernels are compiled for such arrays, as a conversion makes them
+    # a writable copy, as a conversion makes: kernels are compiled for such arrays
     texels = np.frombuffer(raw, "<u4").astype(np.uint32)
     return texels.reshape(header.height, header.width, CHANNELS)
 
 
 def inflate(stored: bytes, size: int, label: str) -> bytes:
-    """Inflate to at most `size` bytes; a `FormatError` names what it is if it is damaged."""
+    """Inflate to at most `size` bytes; raise a `FormatError` with `label` if the data are damaged."""
     if size > DEFLATE_RATIO * (len(stored) + 1):
         raise FormatError(f"{len(stored)} bytes of {label}; they cannot inflate to {size}")
     stream = zlib.decompressobj()

@@ -1,4 +1,4 @@
-"""Reading a texture's file."""
+"""Read a texture's file."""
 
 import os
 from pathlib import Path
@@ -14,7 +14,7 @@ from vexture.texture.texture import Texture
 from vexture.texture.walk import REMEDY
 
 FOLD: Final = "fold"
-"""Encoding in a file of `vexture fold`, which is no texture of shapes."""
+"""Encoding of a file from `vexture fold`, which is not a texture of shapes."""
 
 NOT_FOUND: Final = f"a texture is a file NAME{layout.PACKED_SUFFIX}; convert a drawing to make one"
 
@@ -40,18 +40,18 @@ def load(path: str | os.PathLike[str], *, encoding: str = DEFAULT) -> EncodedTex
     Returns
     -------
     Texture
-        Checked: none of its indices leads outside it. Or the texture of another encoding.
+        Validated: all its indices lie within it. Or the texture of another encoding.
 
     Raises
     ------
     FormatError
         If the file is missing, damaged or not a texture.
     DeviceError
-        If it may not be read.
+        If the file cannot be read.
     ParameterError
         If there is no such encoding.
     TypeError
-        If `path` is no path.
+        If `path` is not a path.
 
     Examples
     --------
@@ -67,39 +67,39 @@ def load(path: str | os.PathLike[str], *, encoding: str = DEFAULT) -> EncodedTex
         raise TypeError(f"`path` is of the type {type(path).__name__}; give the path of a texture's file")
     if encoding != DEFAULT:
         return find_encoding(encoding).load(path)
-    given = Path(path)
-    if not given.is_file():
-        named = given.with_name(given.name + layout.PACKED_SUFFIX) if given.name else given
+    file = Path(path)
+    if not file.is_file():
+        named = file.with_name(file.name + layout.PACKED_SUFFIX) if file.name else file
         if named.is_file():
-            given = named
-        elif (other := owner_of(given)) is not None:
+            file = named
+        elif (other := owner_of(file)) is not None:
             raise FormatError(f"{path}: a texture in the encoding {other}; load it with `encoding`='{other}'")
-    return texture_from(read_file(given, layout.PACKED_FILE_LIMIT, NOT_FOUND), str(given))
+    return texture_from(read_file(file, layout.PACKED_FILE_LIMIT, NOT_FOUND), str(file))
 
 
 def load_any(path: str | os.PathLike[str]) -> EncodedTexture:
-    """Read a texture in the encoding that the path means. Errors as in `load`.
+    """Read a texture in the encoding that its path implies. Errors as in `load`.
 
-    A path that means textures in two encodings is an error, too.
+    A path that could name textures in two encodings is an error, too.
     """
-    given = Path(path)
-    other = None if _is_ktx2(given) else owner_of(given)
-    packed = given.with_name(given.name + layout.PACKED_SUFFIX) if given.name else given
-    if other is not None and packed.is_file() and not given.is_file():
-        first = given.with_name(given.name + find_encoding(other).SUFFIXES[0])
+    file = Path(path)
+    other = None if _is_ktx2(file) else owner_of(file)
+    packed = file.with_name(file.name + layout.PACKED_SUFFIX) if file.name else file
+    if other is not None and packed.is_file() and not file.is_file():
+        first = file.with_name(file.name + find_encoding(other).SUFFIXES[0])
         raise FormatError(f"{path} means {packed} as well as {first}; name one of them")
-    if other is None and not given.is_file() and not packed.is_file():
-        if given.is_dir():
+    if other is None and not file.is_file() and not packed.is_file():
+        if file.is_dir():
             raise FormatError(f"{path}: is a folder; name a file in it")
-        if given.suffix.lower() not in ("", layout.PACKED_SUFFIX):
+        if file.suffix.lower() not in ("", layout.PACKED_SUFFIX):
             raise FormatError(f"{path}: not found; check the file's name")
         names = (", ".join(f"NAME{suffix}" for suffix in find_encoding(name).SUFFIXES) for name in REGISTERED)
         raise FormatError(f"{path}: not found; a texture is NAME{layout.PACKED_SUFFIX}, or {'; or '.join(names)}")
-    return load(given, encoding=other or DEFAULT)
+    return load(file, encoding=other or DEFAULT)
 
 
 def _is_ktx2(path: Path) -> bool:
-    """Whether the file exists and begins with the KTX 2.0 identifier."""
+    """Return whether the file exists and begins with the KTX 2.0 identifier."""
     try:
         with path.open("rb") as file:
             return file.read(len(MAGIC)) == MAGIC
@@ -110,7 +110,7 @@ def _is_ktx2(path: Path) -> bool:
 def texture_from(data: bytes, source: str) -> Texture:
     """Read and validate the content of a texture's file.
 
-    `source` is the name of the file: it stands in messages, and names a texture that has no name of its own.
+    `source` is the name of the file, for messages and for a texture that has no name of its own.
     """
     if len(data) > layout.PACKED_FILE_LIMIT:
         raise FormatError(f"{source}: longer than {layout.PACKED_FILE_LIMIT} bytes, so not a texture; {REMEDY}")

@@ -1,10 +1,10 @@
-"""The outlines of a shape, restored from its packed leaves, and as an SVG document in the units of their source.
+"""Restore the outlines of a shape from its packed leaves, and write them as SVG in the units of the source.
 
 The filled part of a leaf has a closed boundary: its pieces, and stretches of the leaf's edges, whose multiplicity at
 each height follows from the windings. In the sum over all leaves, stretches between neighbours that agree cancel. The
 rest is the boundary of the whole shape, which is closed for any texels. All coordinates are integers on the lattice of
-the smallest leaf, so that cancelling and meeting are exact. Horizontal parts change no winding, and there is only one
-way to close the boundary by them at each height.
+the smallest leaf, so that stretches cancel and ends meet exactly. Horizontal parts change no winding, and at each
+height they can close the boundary in only one way.
 """
 
 import math
@@ -27,7 +27,7 @@ SIDE = int(LATTICE) << MOST_DEPTH
 """Side of the unit square, in units of the finest lattice."""
 
 STRAIGHT = 1.0
-"""Lattice units of the leaf. A cubic whose inner control points are this close to a line's is a rounded line."""
+"""Lattice units of the leaf. A cubic is a rounded line if its inner control points are this close to a line's."""
 
 
 class OutlineLeaves(NamedTuple):
@@ -38,14 +38,14 @@ class OutlineLeaves(NamedTuple):
     corner: NDArray[np.int64]  # (n,): corner winding; 1 for full leaves
     pieces: NDArray[np.int64]  # (m, 4, 2)
     owner: NDArray[np.int64]  # (m,): leaf of each piece
-    on_left: NDArray[np.bool_]  # (m, 2): whether each piece starts, and ends, on its leaf's left edge
+    on_left: NDArray[np.bool_]  # (m, 2): does the piece start, and does it end, on its leaf's left edge
     is_line: NDArray[np.bool_]  # (m,)
 
 
 def outlines(flat: NDArray[np.uint32], root: int) -> list[NDArray[np.float64]]:
     """Closed contours of a shape: cubics (n, 4, 2) in unit-square units, with the filled side on their left.
 
-    `root` is the index of its root quad. Raises a `FormatError` if the texels (n, 4) are no tree.
+    `root` is the index of its root quad. Raises a `FormatError` if the texels (n, 4) are not a tree.
     """
     leaves = _leaves(flat, root)
     steep = leaves.pieces[:, 0, 1] != leaves.pieces[:, 3, 1]
@@ -67,25 +67,25 @@ def _leaves(flat: NDArray[np.uint32], root: int) -> OutlineLeaves:
         cells = (2 * origins[:, None] + HALVES).reshape(-1, 2)
         full = ~level.is_quad & (level.counts == 0) & (2 * level.coverages > COVERAGE_ONE)
         counts = level.counts.ravel()
-        kept = (counts > 0) | full.ravel()
+        is_filled = (counts > 0) | full.ravel()
         unit = 1 << (MOST_DEPTH - depth - 1)
         side = int(LATTICE) * unit
         points = curve_points(flat[level.curves]).astype(np.int64)
-        leaf = np.repeat(np.arange(kept.sum()), counts[kept])
-        low.append(cells[kept] * side)
-        sides.append(np.full(kept.sum(), side))
-        corner.append(np.where(full, 1, level.windings).ravel()[kept])
+        leaf = np.repeat(np.arange(is_filled.sum()), counts[is_filled])
+        low.append(cells[is_filled] * side)
+        sides.append(np.full(is_filled.sum(), side))
+        corner.append(np.where(full, 1, level.windings).ravel()[is_filled])
         pieces.append(points * unit + low[-1][leaf][:, None])
         owner.append(leaf + total)
         on_left.append(points[:, [0, 3], 0] == 0)
         is_line.append(abs(points - _lines(points[:, [0, 3]])).max(axis=(1, 2)) <= STRAIGHT)
-        total += kept.sum()
+        total += is_filled.sum()
         origins = cells[level.is_quad.ravel()]
     return OutlineLeaves(*map(np.concatenate, (low, sides, corner, pieces, owner, on_left, is_line)))
 
 
 def _lines(ends: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Straight lines as cubics, from their ends, (n, 2, 2)."""
+    """Straight cubics between ends (n, 2, 2)."""
     start, stop = np.moveaxis(ends.astype(np.float64), 1, 0)
     return line_cubics(start, stop)
 
@@ -93,7 +93,7 @@ def _lines(ends: NDArray[np.int64]) -> NDArray[np.float64]:
 def _edges(leaves: OutlineLeaves) -> NDArray[np.int64]:
     """Stretches of the leaves' left and right edges that bound the filled part, (n, 2, 2).
 
-    In the code, `change` is added at x, above y, to the number of times that the edge runs upwards.
+    In the code, `change` is added to the number of times that the edge at x runs upwards above y.
     """
     left, bottom = leaves.low.T
     right, top = left + leaves.side, bottom + leaves.side
@@ -110,7 +110,7 @@ def _edges(leaves: OutlineLeaves) -> NDArray[np.int64]:
 
 
 def _closing(ends: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Horizontal lines (n, 2, 2) that close a boundary, given by the starts and ends of its other parts."""
+    """Horizontal lines (n, 2, 2) that close a boundary, from the starts and ends of its other parts."""
     start, stop = ends[:, 0], ends[:, 1]
     change = np.repeat([1, -1], len(ends))  # a line starts where another part ends
     x, y = np.concatenate([stop, start]).T
@@ -118,9 +118,10 @@ def _closing(ends: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 def _stretches(along: NDArray[np.int64], place: NDArray[np.int64], change: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Parts (n, 2, 2) of the lines at `along`, repeated and directed as the sum of the changes at each `place` demands.
+    """Parts (n, 2, 2) of the lines at `along`, between the places where their multiplicity changes.
 
-    On each line the changes add up to 0.
+    The multiplicity is the sum of the changes so far; each part is repeated that many times, and reversed if it is
+    negative. On each line the changes add up to 0.
     """
     order = np.lexsort((place, along))
     points = np.stack([along[order], place[order]], axis=1)
@@ -152,7 +153,7 @@ def _cycles(ends: NDArray[np.int64]) -> list[NDArray[np.int64]]:
 
 
 def _merge_lines(arcs: NDArray[np.float64], is_line: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """One contour, in which each vertical or horizontal line is one part, and other lines are exactly straight."""
+    """Merge consecutive vertical or horizontal lines of a contour, and make its other lines exactly straight."""
     step = np.sign(arcs[:, 3] - arcs[:, 0])
     aligned = is_line & (step == 0.0).any(axis=1)
     before = np.roll(step, 1, axis=0), np.roll(aligned, 1)
@@ -167,15 +168,15 @@ def _merge_lines(arcs: NDArray[np.float64], is_line: NDArray[np.bool_]) -> NDArr
 
 
 DIGITS = 9
-"""Decimal digits of a coordinate, in unit-square units: finer than the lattices of all but the smallest leaves."""
+"""Decimal digits of a coordinate in unit-square units: finer than the lattice of all but the smallest leaves."""
 
 NOT_IN_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def svg_document(shapes: Iterable[tuple[Root, list[NDArray[np.float64]]]], name: str) -> str:
-    """SVG document with the title `name` and a path for each shape, given by its closed contours in unit-square units.
+    """SVG document with the title `name` and a path for each shape, from its closed contours in unit-square units.
 
-    The view box holds the unit square of every shape. A source whose y points up is flipped by a `transform`.
+    The view box contains the unit square of every shape. A `transform` flips a source whose y points up.
     """
     paths, corners, digits = [], [], 0
     for root, contours in shapes:
@@ -197,7 +198,7 @@ def svg_document(shapes: Iterable[tuple[Root, list[NDArray[np.float64]]]], name:
 
 
 def _places(matrix: NDArray[np.float64]) -> int:
-    """Digits after the decimal point of a coordinate."""
+    """Digits after the decimal point of a coordinate in source units."""
     scale = float(abs(matrix[:, :2]).max())
     return max(DIGITS - math.floor(math.log10(scale)), 0) if scale > 0.0 else 0
 
@@ -215,7 +216,7 @@ def _contour(cubics: NDArray[np.float64], is_line: NDArray[np.bool_], places: in
         points = cubic[3:] if line else cubic[1:]
         data.append(("L" if line else "C") + " ".join(_number(value, places) for value in points.flat))
     if is_line[-1]:
-        data.pop()  # Z draws it
+        data.pop()  # Z draws the last line
     return f"M{_number(x, places)} {_number(y, places)}{''.join(data)}Z"
 
 
@@ -232,5 +233,5 @@ def _fill(paint: Paint | None) -> str:
 
 
 def _text(text: str) -> str:
-    """Text with XML's special characters escaped and forbidden ones replaced."""
+    """Escape XML's special characters and replace forbidden ones."""
     return escape(NOT_IN_XML.sub("\ufffd", text))

@@ -33,14 +33,14 @@ BYTE = (1 << CELL_BITS) - 1
 class Elements(NamedTuple):
     """The topmost element at each of some points."""
 
-    name: NDArray[np.str_]  # (n,): empty where nothing is, and of elements without a name
-    element: NDArray[np.int64]  # (n,): its place in the `names` of its shape's style; -1 where nothing is
-    root: NDArray[np.int64]  # (n,): its shape; -1 where nothing is
+    name: NDArray[np.str_]  # (n,): empty at points without an element, and for an element without a name
+    element: NDArray[np.int64]  # (n,): its index in the `names` of its shape's style; -1 without an element
+    root: NDArray[np.int64]  # (n,): index of its shape; -1 without an element
 
 
 @kernel
 def _tally(ids: NDArray[np.int64], counts: NDArray[np.int64], n: int, paint: int, by: int) -> int:
-    """Count a paint; return how many different ones there are."""
+    """Add `by` to the count of a paint; return the number of distinct paints."""
     for k in range(n):
         if ids[k] == paint:
             counts[k] += by
@@ -51,7 +51,7 @@ def _tally(ids: NDArray[np.int64], counts: NDArray[np.int64], n: int, paint: int
 
 @kernel
 def _times(curve: NDArray[np.float64], x: float, y: float) -> int:
-    """Count by which a curve of a leaf raises its left paint at a point, and lowers its right paint."""
+    """Number that a leaf's curve adds to the count of its left paint at a point and subtracts from its right one's."""
     start, end = curve[0, 1], curve[3, 1]
     times = 0
     if curve[0, 0] == 0.0 and start <= y:
@@ -74,7 +74,7 @@ def _paint_at(
     curve: NDArray[np.float64],
     tally: NDArray[np.int64],
 ) -> int:
-    """Paint at a point of the unit square; where only a mean is known, -2 less the number of its word in the cells."""
+    """Paint at a point of the unit square; in a leaf with only a mean, -2 minus the index of its word in the cells."""
     quad = root
     for _ in range(MOST_DEPTH):
         right, upper = 1 if x >= 0.5 else 0, 1 if y >= 0.5 else 0
@@ -113,10 +113,10 @@ def paints_at(
     points: NDArray[np.float64],
     paints: NDArray[np.int64],
 ) -> None:
-    """Write the paint at each point (m, 2), in unit-square units, of the planar map with a root quad, which is sound.
+    """Write to `paints` the paint at each point (m, 2), in unit-square units, of a valid planar map.
 
-    The paint is -1 outside 0 <= x < 1, 0 <= y < 1; where only a mean
-    is known, it is -2 less the number of its word in the cells.
+    The paint is -1 outside 0 <= x < 1, 0 <= y < 1. In a leaf with only a mean, it is -2 minus the index of the mean's
+    word in the cells.
     """
     curve, tally = np.empty((4, 2)), np.empty((2, 2 * MOST_CURVES + 1), np.int64)
     for i in range(len(points)):
@@ -129,14 +129,14 @@ def paints_at(
 def programs_paint(
     texels: NDArray[np.uint32], words: NDArray[np.uint32], points: NDArray[np.float64], painted: NDArray[np.bool_]
 ) -> None:
-    """Write where programs paint something: number k, of the paint's `words` (n, 2), at point k."""
+    """Write to `painted` (n,) whether program k, of a paint with `words[k]`, paints anything at point k."""
     for k in range(len(points)):
         point = VextureRegion((points[k, 0], points[k, 1]), (0.0, 0.0), (0.0, 0.0))
         painted[k] = program(texels, int(words[k, 0]), int(words[k, 1]), point, 1.0)[3] > 0.0
 
 
 def painted_at(texels: NDArray[np.uint32], root: Root, points: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether the planar map of a root paints anything at points (n, 2); texels (rows, columns, 4)."""
+    """Return whether the planar map of a root paints anything at points (n, 2); texels are (rows, columns, 4)."""
     flat = texels.reshape(-1, 4)
     head, found = head_of(flat, root.quad), np.empty(len(points), np.int64)
     paints_at(flat, root.quad, points, found)
@@ -147,30 +147,30 @@ def painted_at(texels: NDArray[np.uint32], root: Root, points: NDArray[np.float6
     painted[of_means] = flat[head.cells :].ravel()[-2 - found[of_means]] >> 3 * CELL_BITS > 0
     of_programs = (found >= 0) & (opacity == 0) & (words[:, 0] != 0)
     if of_programs.any():
-        shown = np.empty(np.count_nonzero(of_programs), np.bool_)
-        programs_paint(texels, words[of_programs], points[of_programs], shown)
-        painted[of_programs] = shown
+        results = np.empty(np.count_nonzero(of_programs), np.bool_)
+        programs_paint(texels, words[of_programs], points[of_programs], results)
+        painted[of_programs] = results
     return painted
 
 
 def style_of_root(root: Root) -> PlanarStyle:
-    """The style of a shape; a `ParameterError` without any."""
+    """Style of a shape; raises a `ParameterError` if it has none."""
     if root.style is None:
         raise ParameterError(f"`root` {root.name!r} has no elements; convert the drawing with `restyle`")
     return root.style
 
 
 def elements_at(flat: NDArray[np.uint32], roots: Sequence[Root], places: Sequence[int], points: ArrayLike) -> Elements:
-    """The topmost element at points (n, 2) of the sheets of a drawing, given from below."""
-    wanted = checked_points(points)
-    element, owner = np.full(len(wanted), -1), np.full(len(wanted), -1)
-    name = np.full(len(wanted), "", dtype=np.object_)
+    """Topmost element at points (n, 2) of a drawing's sheets, which are listed from below."""
+    locations = checked_points(points)
+    element, owner = np.full(len(locations), -1), np.full(len(locations), -1)
+    name = np.full(len(locations), "", dtype=np.object_)
     for place in reversed(places):
         root = roots[place]
         style = style_of_root(root)
-        paints, bare = np.empty(len(wanted), np.int64), element < 0
-        paints_at(flat, root.quad, wanted, paints)
-        paints, top = np.maximum(paints, -1), np.append(style.top, -1)  # the last is that of paint -1
+        paints, bare = np.empty(len(locations), np.int64), element < 0
+        paints_at(flat, root.quad, locations, paints)
+        paints, top = np.maximum(paints, -1), np.append(style.top, -1)  # the last entry is for paint -1
         here = bare & (top[paints] >= 0)
         element[here], owner[here] = top[paints[here]], place
         name[here] = np.array([*style.names, ""], dtype=np.object_)[element[here]]

@@ -1,4 +1,4 @@
-"""Pictures of one shape of a texture, by the renderer that is asked for."""
+"""Pictures of one shape of a texture, by the selected renderer."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from vexture.texture.registry import TextureRenderer
 def coverage_of(
     texture: HasTexels, place: int, is_map: bool, size: Size, view: ViewLike, renderer: TextureRenderer
 ) -> NDArray[np.float32]:
-    """Covered part of each pixel, (height, width), by the shape with a number."""
+    """Part of each pixel that shape number `place` covers, (height, width)."""
     if is_map:
         return colours_of(texture, place, size, view, renderer)[..., 3]
     if renderer == "cpu":
@@ -28,7 +28,7 @@ def coverage_of(
 def colours_of(
     texture: HasTexels, place: int, size: Size, view: ViewLike, renderer: TextureRenderer
 ) -> NDArray[np.float32]:
-    """Picture of a planar map, (height, width, 4), premultiplied."""
+    """Picture of planar map number `place`, (height, width, 4), premultiplied."""
     if renderer == "cpu":
         from vexture.renderers.colour import render_cpu_colours  # late: compiled code, not needed for reading
 

@@ -1,4 +1,4 @@
-"""From a planar map to texels, and back (FORMAT.md, part D)."""
+"""Encode a planar map as texels, and decode it (FORMAT.md, part D)."""
 
 from typing import Final, NamedTuple
 
@@ -15,7 +15,7 @@ from vexture.tree.planar.programs import Program
 
 
 def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
-    """The texels of a map, (n, 4), of which the first has index `at`, in the order of `PARTS`."""
+    """Encode a map as texels (n, 4), in the order of `PARTS`; `at` is the index of the first texel."""
     quads = len(planar.count)
     count = planar.count.ravel().astype(np.int64)
     straight = are_straight(planar.curves, count)
@@ -60,13 +60,13 @@ def _quad_texels(
 
 
 def _before(count: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The sum of those before each."""
+    """Exclusive cumulative sum: for each element, the sum of the elements before it."""
     before: NDArray[np.int64] = np.cumsum(count) - count
     return before
 
 
 def _holds_program(planar: PlanarMap) -> NDArray[np.bool_]:
-    """Whether the base paint of a cell, or a paint beside a curve of it, is a program; (quads, 4)."""
+    """Return whether a cell's base paint, or a paint beside one of its curves, is a program; (quads, 4)."""
     is_program = np.zeros(len(planar.paints), np.bool_)
     is_program[list(planar.programs)] = True
     beside = np.append(0, np.cumsum(is_program[planar.sides].any(axis=1)))
@@ -76,10 +76,10 @@ def _holds_program(planar: PlanarMap) -> NDArray[np.bool_]:
 
 
 def cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
-    """Blocks of some quads: a texel with the base paints of all their cells, and one for each with its cells' means."""
+    """Encode cells in blocks of quads: a texel with all base paints, then for each quad a texel with its means."""
     shift = np.arange(4, dtype=np.int64) * layout.CELL_BITS
     means = np.rint(planar.mean.clip(0.0, 1.0) * layout.COVERAGE_ONE).astype(np.int64)
-    means = np.minimum(means, means[..., 3:])  # sums of areas round
+    means = np.minimum(means, means[..., 3:])  # rounding in the sums of areas could lift a colour above its opacity
     quads, inside = len(means), quads_in_block(len(planar.paints))
     blocks = np.zeros((-(-quads // inside), 1 + inside, 4), np.uint32)
     base = np.zeros((inside * len(blocks), 4), _number(len(planar.paints)))
@@ -92,24 +92,24 @@ def cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
 
 
 def _number(paints: int) -> np.dtype[np.unsignedinteger]:
-    """Encoding of the number of a paint beside a curve, in a map with `paints` paints."""
+    """Data type of a paint number in a map with `paints` paints."""
     if paints > layout.MOST_HALF_PAINTS:
         return np.dtype("<u4")
     return np.dtype("<u1" if paints <= layout.MOST_BYTE_PAINTS else "<u2")
 
 
 def quads_in_block(paints: int) -> int:
-    """Quads of which a texel holds all base paints, in a map with so many paints."""
+    """Number of quads whose base paints fit in one texel of a map with `paints` paints."""
     return sides_in_texel(paints) // 2
 
 
 def sides_in_texel(paints: int) -> int:
-    """Curves of which a texel holds the paints beside them, in a map with so many paints."""
+    """Number of curves whose left and right paints fit in one texel of a map with `paints` paints."""
     return np.dtype("4<u4").itemsize // (2 * _number(paints).itemsize)
 
 
 def side_texels(sides: NDArray[np.int32], paints: int) -> NDArray[np.uint32]:
-    """Paints on the left and right of curves, (n, 2), as texels of a map with so many paints."""
+    """Encode the paints on the left and right of curves, (n, 2), as texels of a map with `paints` paints."""
     room = np.zeros((-(-len(sides) // sides_in_texel(paints)) * sides_in_texel(paints), 2), _number(paints))
     room[: len(sides)] = sides
     return room.ravel().view("<u4").astype(np.uint32).reshape(-1, 4)
@@ -118,9 +118,9 @@ def side_texels(sides: NDArray[np.int32], paints: int) -> NDArray[np.uint32]:
 def paint_texels(
     paints: NDArray[np.uint16], programs: ProgramTexels = NO_PROGRAMS, after: int = 0
 ) -> NDArray[np.uint32]:
-    """Two paints to a texel: red and green, blue and opacity; or a program's first texel and how many it has.
+    """Encode two paints per texel, each as red and green, blue and opacity, or as a program's first texel and length.
 
-    The paints begin at texel `after`, and programs follow on them.
+    The paints begin at texel `after`, and the programs follow them.
     """
     size = -(-len(paints) // 2)
     halves = np.zeros((2 * size, 4), np.int64)
@@ -132,7 +132,7 @@ def paint_texels(
 
 
 class MapHead(NamedTuple):
-    """The head of a planar map (FORMAT.md, D.1)."""
+    """Head of a planar map (FORMAT.md, D.1)."""
 
     used: int  # number of paints
     cells: int
@@ -141,12 +141,12 @@ class MapHead(NamedTuple):
 
     @property
     def paint_texels(self) -> slice:
-        """Position of the paints."""
+        """Position of the paints in the texels."""
         return slice(self.paints, self.paints + (self.used + 1) // 2)
 
 
 def head_of(flat: NDArray[np.uint32], quad: int) -> MapHead:
-    """The head of the map with a root quad, which is not checked."""
+    """Read the head of the map with root quad `quad`, without checks."""
     return MapHead(*flat[quad - 1].tolist())
 
 
@@ -159,9 +159,9 @@ class MapTexels(NamedTuple):
     levels: list[WalkLevel]
     quad: int
     first_curve: int
-    curves: int  # number of their texels
-    points: NDArray[np.int32]  # of each curve, (curves, 4, 2), in the order of the levels
-    texels: NDArray[np.int64]  # of each of them
+    curves: int  # number of texels of curves
+    points: NDArray[np.int32]  # (curves, 4, 2): control points, in the order of the levels
+    texels: NDArray[np.int64]  # (curves,): index of each curve's texel
     cells: int
     sides: int
     paints: int
@@ -172,7 +172,7 @@ class MapTexels(NamedTuple):
 
     @property
     def ranges(self) -> list[tuple[int, int]]:
-        """First and last + 1 of the texels of each part."""
+        """Half-open range of the texels of each part."""
         quads = sum(len(level.quads) for level in self.levels)
         return [
             (self.quad - layout.MAP_HEAD, self.quad),
@@ -186,7 +186,7 @@ class MapTexels(NamedTuple):
 
 
 def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
-    """The parts of the planar map with a root quad; raises a `FormatError` where they contradict FORMAT.md."""
+    """Read the planar map with root quad `quad`; raise a `FormatError` where it contradicts FORMAT.md."""
     levels = walk(flat, np.array([quad]), of_maps=True)
     if quad < layout.MAP_HEAD:
         raise FormatError(f"the root of a map is quad {quad}, which has no head before it; {REMEDY}")
@@ -225,7 +225,7 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
 def _curves(
     flat: NDArray[np.uint32], levels: list[WalkLevel], texels: NDArray[np.int64]
 ) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
-    """The curves of a map, (curves, 4, 2), and the texel of each, both in the order of the levels, as are `texels`."""
+    """Curves of a map, (curves, 4, 2), and the texel of each; like `texels`, they are in the order of the levels."""
     count = np.concatenate([level.counts.ravel() for level in levels])
     straight = np.concatenate([level.windings.ravel() & layout.STRAIGHT > 0 for level in levels])
     at = LeafCurves.of_counts(count, straight)
@@ -242,7 +242,7 @@ def _parts(flat: NDArray[np.uint32], found: MapTexels, part: int) -> NDArray[np.
 
 
 def _blocks(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.uint32]:
-    """The texels of cells, (blocks, 1 + quads, 4), of which the last block ends in others."""
+    """Texels of cells, (blocks, 1 + quads, 4); the last block is filled with zeros."""
     texels, size = _parts(flat, found, 3), 1 + quads_in_block(found.used)
     blocks = np.zeros((-(-len(texels) // size), size, 4), np.uint32)
     blocks.reshape(-1, 4)[: len(texels)] = texels
@@ -250,7 +250,7 @@ def _blocks(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.uint32]:
 
 
 def _bases(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
-    """Base paint of each cell, (quads, 4); 0 of those that have none."""
+    """Base paint of each cell, (quads, 4); 0 for a cell without one."""
     blocks, number = _blocks(flat, found)[:, 0], _number(found.used)
     bases = np.ascontiguousarray(blocks).astype("<u4").view(number).reshape(-1, 4).astype(np.int64)
     quads = np.concatenate([level.quads for level in found.levels]) - found.quad
@@ -275,24 +275,24 @@ def _sides(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
 
 
 def paints_from(texels: NDArray[np.uint32], used: int) -> NDArray[np.uint16]:
-    """Paints, (used, 4), from the texels that hold them, none of which is a program."""
+    """Decode paints (used, 4) from their texels; none of them is a program."""
     return halves(texels.reshape(-1, 2)[:used]).astype(np.uint16)
 
 
 def _paint_words(flat: NDArray[np.uint32], found: MapTexels) -> tuple[NDArray[np.uint32], NDArray[np.bool_]]:
-    """Both words of each paint, (paints, 2), and whether it is a program: without opacity, but with a first word."""
+    """Words of each paint, (paints, 2), and whether it is a program: opacity 0, but a first word that is not 0."""
     words = _parts(flat, found, 5).reshape(-1, 2)[: found.used]
     return words, (words[:, 0] != 0) & (words[:, 1] >> layout.COORDINATE_BITS == 0)
 
 
 def _paints(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.uint16]:
-    """Paints, (paints, 4); of programs 0."""
+    """Paints, (paints, 4); 0 for programs."""
     words, is_program = _paint_words(flat, found)
     return np.where(is_program[:, None], 0, halves(words)).astype(np.uint16)
 
 
 def _programs(flat: NDArray[np.uint32], found: MapTexels) -> dict[int, Program]:
-    """The programs of paints."""
+    """Decode the programs of paints."""
     words, is_program = _paint_words(flat, found)
     starts = {int(j): (int(words[j, 0]) - found.programs, int(words[j, 1])) for j in np.flatnonzero(is_program)}
     texels = _parts(flat, found, 6)
@@ -300,7 +300,7 @@ def _programs(flat: NDArray[np.uint32], found: MapTexels) -> dict[int, Program]:
 
 
 def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
-    """The planar map with a root quad, its means rounded to 8 bits; quads and curves are numbered as in `PlanarMap`."""
+    """Decode the planar map with root quad `quad`, in the order of `PlanarMap`; its means are rounded to 8 bits."""
     found = read_map(flat, quad)
     levels = found.levels
     quads = np.concatenate([level.quads for level in levels])

@@ -15,17 +15,17 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PICTURE: Final = 256
-"""Pixels of the picture's side."""
+"""Side of the picture in pixels."""
 
 RESOLUTION: Final = 160
 """Pixels per inch in a notebook."""
 
 FINEST: Final = 256
-"""Quads below 1/256 of the unit square are shown as one cell of their mean coverage."""
+"""Quads with a side below 1/256 of the unit square are shown as one cell with their mean coverage."""
 
 
 def cells_of(flat: NDArray[np.uint32], quad: int) -> NDArray[np.float64]:
-    """Cells of one shape that are not divided, or are too small to be visible, (n, 5).
+    """Cells of one shape that are leaves, or whose parts are too small to be visible, (n, 5).
 
     The columns are left, bottom and side in unit-square units, depth, and coverage in 0..1.
     """
@@ -34,8 +34,8 @@ def cells_of(flat: NDArray[np.uint32], quad: int) -> NDArray[np.float64]:
         low = (corners[:, None] + side * HALVES).reshape(-1, 2)
         divided = level.is_quad.ravel() & (side * FINEST > 1.0)
         coverage = level.coverages.ravel() / layout.COVERAGE_ONE
-        shown = np.column_stack([low, np.full(len(low), side), np.full(len(low), depth), coverage])
-        found.append(shown[~divided])
+        cells = np.column_stack([low, np.full(len(low), side), np.full(len(low), depth), coverage])
+        found.append(cells[~divided])
         if not divided.any():
             break
         corners, side = low[level.is_quad.ravel()], side / 2

@@ -1,4 +1,4 @@
-"""From the programs of a planar map to texels, and back (FORMAT.md, D.6)."""
+"""Encode the programs of a planar map as texels, and decode them (FORMAT.md, D.6)."""
 
 from collections.abc import Sequence
 from typing import Final, NamedTuple
@@ -14,13 +14,13 @@ from vexture.texture.walk import REMEDY
 from vexture.tree.planar.programs import Keep, Mix, Operation, Program, Solid, ending_of, number_of_ending
 
 ENDS: Final = [*map(number_of_ending, Blend), *(number_of_ending(mask) for mask in Mask if mask)]
-"""How a group may end."""
+"""Numbers of the allowed endings of a group."""
 
 FOLLOWING: Final = np.array([0, 0, 0, 1, 2, 0, 0, 0])
-"""Texels of the kind `FOLLOWS` after the first of an operation, by its kind."""
+"""Number of texels of the kind `FOLLOWS` after the first texel of an operation, by its kind."""
 
 STOP_BYTES: Final = 16
-"""Of the texel of a stop."""
+"""Size of the texel of a stop."""
 
 SPREAD_SHIFT: Final = layout.STOP_BITS + layout.STOP_COUNT_BITS
 
@@ -29,8 +29,8 @@ class ProgramTexels(NamedTuple):
     """The texels of a map's programs."""
 
     operations: NDArray[np.uint32]  # (n, 4)
-    stops: NDArray[np.uint32]  # (m, 4): right after them
-    starts: dict[int, tuple[int, int]]  # of each paint that is a program: its first texel, of n, and how many
+    stops: NDArray[np.uint32]  # (m, 4): they follow the operations
+    starts: dict[int, tuple[int, int]]  # for each paint that is a program: its first operation texel and their number
 
 
 NO_PROGRAMS: Final = ProgramTexels(np.zeros((0, 4), np.uint32), np.zeros((0, 4), np.uint32), {})
@@ -43,7 +43,7 @@ def halves(words: NDArray[np.uint32]) -> NDArray[np.uint32]:
 
 
 def program_texels(programs: dict[int, Program], name: str = "a map") -> ProgramTexels:
-    """The texels of programs; gradients of the same stops share these."""
+    """Encode programs as texels; gradients with equal stops share them."""
     rows: list[list[int]] = []
     runs: dict[bytes, int] = {}
     of_row: dict[int, bytes] = {}
@@ -67,7 +67,7 @@ def program_texels(programs: dict[int, Program], name: str = "a map") -> Program
 
 
 def _rows(operation: Operation) -> list[list[int]]:
-    """Texels of an operation, without the place of its stops."""
+    """Texels of an operation, without the position of its stops."""
     if isinstance(operation, Keep):
         return [[0, 0, 0, layout.KIND_KEEP << layout.KIND_SHIFT]]
     if isinstance(operation, Mix):
@@ -97,7 +97,7 @@ def _stop_texels(stops: Sequence[Stop]) -> NDArray[np.uint32]:
 def read_programs(
     operations: NDArray[np.uint32], stops: NDArray[np.uint32], starts: dict[int, tuple[int, int]]
 ) -> dict[int, Program]:
-    """The programs of paints, from the parts of `ProgramTexels`; raises a `FormatError` where FORMAT.md is broken."""
+    """Decode the programs of paints from the parts of `ProgramTexels`; raise a `FormatError` for invalid texels."""
     _check(operations, stops, np.array([*starts.values()], np.int64).reshape(-1, 2))
     listed = _stops(stops)
     return {
@@ -116,7 +116,7 @@ def _need(holds: bool, message: str) -> None:
 
 
 def _check(operations: NDArray[np.uint32], stops: NDArray[np.uint32], starts: NDArray[np.int64]) -> None:
-    """Raise a `FormatError` unless the programs are what FORMAT.md allows."""
+    """Raise a `FormatError` unless the programs conform to FORMAT.md."""
     begin, counts = starts.T
     _need(bool((begin == np.cumsum(counts) - counts).all()) and counts.sum() == len(operations), "they leave gaps")
     _need(counts.min(initial=1) >= 1 and counts.max(initial=1) <= layout.MOST_PROGRAM, "one is empty or too long")
@@ -172,7 +172,7 @@ def _stops(stops: NDArray[np.uint32]) -> list[Stop]:
 
 
 def _operation(operations: NDArray[np.uint32], row: int, stops: list[Stop]) -> Operation:
-    """The operation at a row; it has been checked."""
+    """Decode the operation at a row of checked texels."""
     words, kind = operations[row].tolist(), int(operations[row, 3] >> layout.KIND_SHIFT)
     if kind == layout.KIND_KEEP:
         return Keep()

@@ -1,7 +1,6 @@
-"""The interface of an encoding, and the encodings that are registered by name beside the default one.
+"""The interface of an encoding, and the registered encodings besides the default one.
 
-An encoding is a package with the functions of `Encoding`. It is imported at its first use; nothing else in vexture
-imports it.
+An encoding is a package with the functions of `Encoding`. It is imported at its first use, and only from here.
 """
 
 import os
@@ -19,14 +18,14 @@ if TYPE_CHECKING:
     from vexture.renderers.view import Size, ViewLike
 
 TextureRenderer: TypeAlias = Literal["cpu", "gpu"]
-"""Renderer of a texture: the shader's counterpart in Python, or the shader."""
+"""Renderer of a texture: "cpu" is the shader's mirror in Python, "gpu" the shader."""
 
 
 DEFAULT: Final = "packed"
 """Encoding of `vexture.Texture`."""
 
 REGISTERED: Final = {"thesis": "vexture.thesis"}
-"""Packages of the other encodings by name."""
+"""Packages of the other encodings, by name."""
 
 
 class EncodedTexture(Protocol):
@@ -38,7 +37,7 @@ class EncodedTexture(Protocol):
 
     @property
     def nbytes(self) -> int:
-        """Size in memory, also that of a GPU."""
+        """Size in bytes, in main memory or on a GPU."""
 
     def coverage(
         self,
@@ -61,10 +60,10 @@ class EncodedTexture(Protocol):
         """Picture, (height, width, 4), premultiplied RGBA; see `vexture.render`."""
 
     def info(self) -> dict[str, Any]:
-        """Describe the texture, ready for JSON."""
+        """Describe the texture as JSON-ready data."""
 
     def files(self) -> dict[str, bytes]:
-        """Contents of its file or files by suffix, which follows the texture's name in their names."""
+        """Contents of its file or files, keyed by the suffix after the texture's name."""
 
     def save(self, path: str | os.PathLike[str]) -> Path | tuple[Path, ...]:
         """Write its file or files, all or none; return their paths."""
@@ -73,7 +72,7 @@ class EncodedTexture(Protocol):
 class Encoded(NamedTuple):
     """A drawing in an encoding."""
 
-    tree: Any  # with coverage, curves, deviation and unresolved as those of vexture.tree.tree.Tree
+    tree: Any  # has coverage, curves, deviation and unresolved, as vexture.tree.tree.Tree has
     texture: EncodedTexture
     rounding: float  # largest shift of the outline by rounding, in unit-square units
 
@@ -86,17 +85,17 @@ class Encoding(Protocol):
         """Suffixes of a texture's files."""
 
     def convert(self, drawing: "Drawing", **parameters: Any) -> Encoded:
-        """Tree and texture of a drawing."""
+        """Convert a drawing to a tree and a texture."""
 
     def owns(self, path: Path) -> bool:
-        """Whether a path that a user gives means a texture of this encoding."""
+        """Return whether a path from the user names a texture of this encoding."""
 
     def load(self, path: str | os.PathLike[str]) -> EncodedTexture:
         """Read a texture's file or files."""
 
 
 def find_encoding(name: str) -> Encoding:
-    """Return the registered encoding of a name.
+    """Return a registered encoding by its name.
 
     Examples
     --------
@@ -113,5 +112,5 @@ def find_encoding(name: str) -> Encoding:
 
 
 def owner_of(path: Path) -> str | None:
-    """Name of the registered encoding whose texture a path means, or None."""
+    """Name of the registered encoding whose texture a path names, or None."""
     return next((name for name in REGISTERED if find_encoding(name).owns(path)), None)

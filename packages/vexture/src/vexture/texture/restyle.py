@@ -1,4 +1,4 @@
-"""New colours for the elements of planar maps: another table of paints and other means, for the same tree."""
+"""New colours for the elements of planar maps: a new table of paints and new means for the same tree."""
 
 import difflib
 from collections.abc import Mapping, Sequence
@@ -32,11 +32,11 @@ from vexture.tree.planar.layers import solid_layers
 from vexture.tree.planar.style import PlanarStyle, round_colours
 
 Colour: TypeAlias = str | Sequence[float] | Paint | None
-"""A CSS colour, three or four components in 0..1, a flat paint, or None for nothing."""
+"""A CSS colour, three or four components in 0..1, a flat paint, or None for full transparency."""
 
 NOTHING: Final = (0.0, 0.0, 0.0, 0.0)
 MOST_NEAR: Final = 5
-"""Names that a message proposes."""
+"""Most names that a message proposes."""
 
 BYTE = (1 << CELL_BITS) - 1
 
@@ -48,7 +48,7 @@ def restyle_texels(
     colours: Mapping[str, Colour],
     texture: str,
 ) -> tuple[NDArray[np.uint32], tuple[Root, ...]]:
-    """Texels and roots with other colours of elements, in some of the shapes; errors as in `Texture.with_paints`."""
+    """Recolour elements in some of the shapes; return new texels and roots. Errors as in `Texture.with_paints`."""
     rgba = checked_colours(roots, places, colours, texture)
     names = {name: k for k, name in enumerate(colours)}
     texels, new = flat.copy(), list(roots)
@@ -69,7 +69,7 @@ def restyle_texels(
 def checked_colours(
     roots: Sequence[Root], places: Sequence[int], colours: Mapping[str, Colour], texture: str
 ) -> NDArray[np.float64]:
-    """Components of the new colours of elements of some shapes, (n, 4); errors as in `Texture.with_paints`."""
+    """Check new colours for elements of some shapes; return components (n, 4). Errors as in `Texture.with_paints`."""
     if not isinstance(colours, Mapping) or not all(isinstance(name, str) for name in colours):
         raise ParameterError("the colours are no mapping of elements' names, such as {'sun': 'red'}")
     names = {name: k for k, name in enumerate(colours)}
@@ -89,7 +89,7 @@ def checked_colours(
 
 
 def _replace_colours(style: PlanarStyle, names: Mapping[str, int], rgba: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Components of all elements of a style, with new ones for some of them."""
+    """Colour components of all elements of a style, with new colours for some of them."""
     which = np.array([names.get(name, -1) for name in style.names], np.int64)
     styled = style.rgba.copy()
     styled[which >= 0] = rgba[which[which >= 0]]
@@ -97,9 +97,9 @@ def _replace_colours(style: PlanarStyle, names: Mapping[str, int], rgba: NDArray
 
 
 def components(name: str, colour: Any) -> tuple[float, ...]:
-    """Red, green, blue and opacity of a colour that a user gives, in 0..1."""
+    """Red, green, blue and opacity, in 0..1, of a colour from the user."""
     if isinstance(colour, str) and colour.strip().lower() != "none":
-        from vexture.drawing.colors import Color, parse_color  # late: CSS is needed for texts only
+        from vexture.drawing.colors import Color, parse_color  # late: only texts need CSS
 
         parsed = parse_color(colour)
         if isinstance(parsed, Color):
@@ -121,7 +121,7 @@ def components(name: str, colour: Any) -> tuple[float, ...]:
 
 
 def _check_names(names: Mapping[str, int], known: set[str], texture: str) -> None:
-    """Refuse names that no element has; propose near ones."""
+    """Raise a `ParameterError` for a name that no element has; propose similar names."""
     for name in names:
         if name not in known:
             near = difflib.get_close_matches(name, known, n=MOST_NEAR) or sorted(known)[:MOST_NEAR]
@@ -130,7 +130,7 @@ def _check_names(names: Mapping[str, int], known: set[str], texture: str) -> Non
 
 
 def _repaint(flat: NDArray[np.uint32], quad: int, style: PlanarStyle, changed: NDArray[np.bool_]) -> None:
-    """Write the colours of all paints that some elements are part of, and all means."""
+    """Write the colours of all paints that contain a changed element, and all means."""
     head = head_of(flat, quad)
     colours = np.zeros((head.used, 4))
     composite_stacks(solid_layers(style.rgba, style.group, style.groups), style.starts, style.members, colours)
@@ -144,7 +144,7 @@ def _repaint(flat: NDArray[np.uint32], quad: int, style: PlanarStyle, changed: N
 
 @kernel
 def _count_quads(flat: NDArray[np.uint32], root: int) -> int:
-    """Number of quads of a map, which are consecutive, each before those below it."""
+    """Count the quads of a map; they are consecutive, and each precedes its children."""
     quad, stop = root, root + 1
     while quad < stop:
         below = 0
@@ -169,7 +169,7 @@ def _set_leaf_mean(
 ) -> None:
     """Write the mean colour (4,) of a leaf (FORMAT.md, D.8); `curve` is scratch.
 
-    `cell` is the leaf's byte; `first` are the texel and the number of its first curve.
+    `cell` is the leaf's byte; `first` holds the texel and the number of its first curve.
     """
     for c in range(4):
         mean[c] = table[base, c]
@@ -185,9 +185,9 @@ def _set_leaf_mean(
 
 @kernel
 def renew_means(flat: NDArray[np.uint32], root: int, cells: int, table: NDArray[np.float64]) -> None:
-    """Write the means of a sound map's cells for a table of paints; leaves of which only the mean is known keep it.
+    """Write the mean of each cell of a valid map from a table of paints; leaves with only a mean keep it.
 
-    `cells` is that of the map's head.
+    `cells` is the index of the first texel of cells, from the map's head.
     """
     quads, curve = _count_quads(flat, root), np.empty((4, 2))
     means = np.empty((quads, 4, 4))

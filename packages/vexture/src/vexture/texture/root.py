@@ -1,4 +1,4 @@
-"""A shape of a packed texture, and the description of all shapes in the texture's file (FORMAT.md, B.5 and D.10)."""
+"""A shape of a packed texture, and the JSON of all shapes in the texture's file (FORMAT.md, B.5 and D.10)."""
 
 import json
 import math
@@ -22,10 +22,10 @@ from vexture.texture.walk import REMEDY
 from vexture.tree.planar.style import PlanarStyle, round_colours
 
 WORTH: Final = 200
-"""Bytes of styles from which they are deflated: shorter ones take more room so."""
+"""Bytes of styles from which they are deflated: shorter styles would grow."""
 
 LENGTH_BYTES: Final = 4
-"""Before deflated styles: the length of their text."""
+"""Size of the length of the text, which precedes deflated styles."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,21 +35,21 @@ class Root:
     Parameters
     ----------
     name : str
-        Names the shape within its texture.
+        Name of the shape within its texture.
     quad : int
-        Index of its root quad's texel; a shader needs nothing else of a silhouette.
+        Index of the texel of its root quad; a shader needs nothing else to draw a silhouette.
     to_source : (2, 3) float64 array
         Affine map from the unit square to the units of the source.
     tolerance : float
         Largest distance between the drawing's outline and the texture's before quantisation, in unit-square units.
     crs : str or None
-        Coordinate reference system of the source units, if there is one.
+        Coordinate reference system of the source units, if any.
     paint : Paint or None
         The colour, if the shape is one layer of a drawing; None for a silhouette.
     is_map : bool
-        Whether the shape is a planar map: a whole drawing in its colours.
+        True if the shape is a planar map: a whole drawing in its colours.
     style : Style or None
-        The elements of a planar map whose colours can be changed, and whose names can be found.
+        The elements of a planar map that can be recoloured and picked by a point.
 
     Examples
     --------
@@ -69,7 +69,7 @@ class Root:
 
 
 def roots_text(roots: tuple[Root, ...]) -> str:
-    """JSON text of a texture's roots (FORMAT.md, B.5): compact, and always the same for the same roots.
+    """Write a texture's roots as JSON (FORMAT.md, B.5): compact, and byte-identical for equal roots.
 
     Raises a `LimitError` if a number is not finite.
     """
@@ -80,7 +80,7 @@ def roots_text(roots: tuple[Root, ...]) -> str:
 
 
 def deflated_texts(roots: tuple[Root, ...]) -> dict[str, str | bytes]:
-    """Texts of a texture's roots by their keys, with long styles deflated by themselves.
+    """Key/value texts of a texture's roots; long styles are deflated under a key of their own.
 
     Raises a `LimitError` if a number is not finite, or the styles are too long.
     """
@@ -120,7 +120,7 @@ def _as_json(root: Root) -> dict[str, Any]:
 
 
 def read_roots(text: str, styles: bytes | None = None) -> tuple[Root, ...]:
-    """Roots from their JSON text, and their styles if these are deflated; unknown members are ignored.
+    """Parse roots from their JSON text, and their styles if these are deflated; ignore unknown members.
 
     Raises a `FormatError` if the text contradicts FORMAT.md.
     """
@@ -139,7 +139,7 @@ def read_roots(text: str, styles: bytes | None = None) -> tuple[Root, ...]:
 
 
 def _text(styles: bytes) -> str:
-    """The text of deflated styles."""
+    """Inflate the text of styles."""
     length = int.from_bytes(styles[:LENGTH_BYTES], "little")
     if not 0 < length <= MOST_STYLE_BYTES or len(styles) <= LENGTH_BYTES:
         raise FormatError(f"{TEXT_STYLES} says that it has {length} bytes; the limit is {MOST_STYLE_BYTES}; {REMEDY}")
@@ -187,25 +187,25 @@ BLENDS: Final = {blend.name.lower().replace("_", "-"): blend for blend in Blend}
 """Blend modes by their names in CSS."""
 
 MASKS: Final = {mask.name.lower(): mask for mask in Mask}
-"""Kinds of masks; the first is none."""
+"""Kinds of masks by their names; the first is no mask."""
 
 NAMES: Final = {blend: name for name, blend in BLENDS.items()}
 
 
 def short(number: float) -> float:
-    """A number as JSON writes it shortest: integers without a point, except -0.0, which keeps its sign."""
+    """Convert a number to the shortest in JSON: integers without a point, except -0.0, which keeps its sign."""
     value = float(number)
     whole = value.is_integer() and abs(value) < 2.0**53 and (value != 0.0 or math.copysign(1.0, value) > 0.0)
     return int(value) if whole else value
 
 
 def paint_as_json(paint: Paint) -> dict[str, Any]:
-    """A flat colour."""
+    """Describe a flat colour in JSON."""
     return {"color": [*map(short, paint.color)], "opacity": short(paint.opacity)}
 
 
 def style_as_json(style: PlanarStyle) -> dict[str, Any]:
-    """Describe in JSON what can be restyled in a planar map."""
+    """Describe in JSON the style of a planar map: its elements, groups and stacks."""
     listed = zip(style.names, style.rgba.tolist(), style.group.tolist(), style.hides.tolist(), strict=True)
     elements = [
         {"name": name, "color": [*map(short, rgba[:3])]}
@@ -225,7 +225,7 @@ def style_as_json(style: PlanarStyle) -> dict[str, Any]:
 
 
 def read_style(value: Any, label: str) -> PlanarStyle:
-    """A style from JSON; a `FormatError` if it contradicts FORMAT.md."""
+    """Parse a style from JSON; raise a `FormatError` if it contradicts FORMAT.md."""
     if not isinstance(value, dict):
         raise FormatError(f"{label}: style is {line(value)}; it must be an object; {REMEDY}")
     elements = [_read_element(entry, label) for entry in _list(value.get("elements"), f"{label}: elements")]
@@ -252,7 +252,7 @@ def read_style(value: Any, label: str) -> PlanarStyle:
 
 
 def _read_element(entry: Any, label: str) -> tuple[str, tuple[float, ...], int, bool]:
-    """Name, colour and opacity, group, and whether it hides something."""
+    """Parse an element: name, colour and opacity, group, and whether it hides something."""
     if not isinstance(entry, dict) or not isinstance(entry.get("name"), str):
         raise FormatError(f"{label}: an element is {line(entry)}; it must be an object with a name; {REMEDY}")
     group, hides = entry.get("group", -1), entry.get("hides", False)
@@ -281,7 +281,7 @@ def _list(value: Any, label: str) -> list[Any]:
 
 
 def read_paint(paint: Any, label: str) -> Paint:
-    """A flat colour from JSON; a `FormatError` if it is none."""
+    """Parse a flat colour from JSON; raise a `FormatError` if it is not one."""
     if not isinstance(paint, dict):
         raise FormatError(f"{label}: paint is {line(paint)}; it must be an object; {REMEDY}")
     red, green, blue = numbers(paint.get("color"), 3, f"{label}: color")
@@ -292,7 +292,7 @@ def read_paint(paint: Any, label: str) -> Paint:
 
 
 def numbers(values: Any, count: int, label: str) -> list[float]:
-    """The finite numbers of a list of `count`."""
+    """Return a list of `count` finite numbers as floats; raise a `FormatError` if it is not one."""
     fits = isinstance(values, list) and len(values) == count
     if fits and all(type(value) in (int, float) and abs(value) <= sys.float_info.max for value in values):
         return [float(value) for value in values]
@@ -301,6 +301,6 @@ def numbers(values: Any, count: int, label: str) -> list[float]:
 
 
 def line(value: Any) -> str:
-    """An untrusted value, or an error, as one short line."""
+    """Format an untrusted value, or an error, as one short line."""
     text = str(value) if isinstance(value, Exception) else reprlib.repr(value)
     return " ".join(text.split())[:60].encode(errors="backslashreplace").decode()

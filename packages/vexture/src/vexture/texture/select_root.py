@@ -1,7 +1,7 @@
-"""Select the shape or the layers of a texture that `root` means; this module defines a missing `root`.
+"""Select the shape or the layers of a texture from a parameter `root`, which may be None.
 
-A missing `root` means the whole texture where the answer can be of the whole: all outlines, or all layers of the only
-drawing. Where one shape is needed it means the only one; if there are several, an error lists them.
+Where a result can be of the whole texture, None means all of it: all outlines, or all layers of the only drawing.
+Where one shape is needed, None means the only shape; if there are several, an error lists them.
 """
 
 import difflib
@@ -22,10 +22,10 @@ LAYER: Final = re.compile(r"(?<=.)/\d+(-[^/]*)?\Z")
 
 
 def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "texture") -> int:
-    """Number of the shape that `root` means: a name, a number from 0, or None for the only shape.
+    """Find the number of the shape that `root` names: a name, a number from 0, or None for the only shape.
 
-    `texture` names the texture in messages. Raises a `ParameterError` if there is no such shape, or if `root` is
-    missing and there are several; a `TypeError` if it is of another type.
+    `texture` is the texture's name in messages. Raises a `ParameterError` if there is no such shape, or if `root` is
+    None and there are several; a `TypeError` if `root` has another type.
     """
     if root is None:
         if len(roots) > 1:
@@ -50,7 +50,7 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
 
 
 def drawing_of(root: Root) -> str:
-    """Name of the drawing that a shape belongs to: a layer's name is that, and ``/NUMBER-COLOUR`` or ``/NUMBER-faces``.
+    """Name of a shape's drawing: a layer's name without its ending ``/NUMBER-COLOUR`` or ``/NUMBER-faces``.
 
     Examples
     --------
@@ -63,9 +63,8 @@ def drawing_of(root: Root) -> str:
 def layers_of(roots: Sequence[Root], root: str | int | None, texture: str = "texture") -> list[int]:
     """Numbers of the shapes that a picture shows, in painting order.
 
-    `root` is the name of a drawing, as `drawing_of` finds it. Or it is the name or number of one shape. None means the
-    only drawing. Raises a `ParameterError` if there is no such drawing or shape, or if `root` is missing and there are
-    several drawings.
+    `root` is the name of a drawing (see `drawing_of`), the name or number of one shape, or None for the only drawing.
+    Raises a `ParameterError` if there is no such drawing or shape, or if `root` is None and there are several drawings.
     """
     owners = [drawing_of(one) for one in roots]
     if root is None:

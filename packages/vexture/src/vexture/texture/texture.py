@@ -48,12 +48,12 @@ class Texture:
     name : str
         Names the texture in messages and files.
     source : str or None
-        Where it was made from, for people.
+        Its source, for people to read.
 
     Raises
     ------
     FormatError
-        If the texels are of another shape or type, or there is no root.
+        If the texels have another shape or type, or there is no root.
 
     Examples
     --------
@@ -78,13 +78,13 @@ class Texture:
             raise FormatError("a texture has at least one root; give one for each shape")
 
     def __repr__(self) -> str:
-        """Name, size and number of shapes."""
+        """Show name, size and number of shapes."""
         height, width, _ = self.texels.shape
         return f"<Texture {self.name!r}: {width} x {height} texels, shapes: {len(self.roots)}>"
 
     @property
     def flat(self) -> NDArray[np.uint32]:
-        """The texels by their index, (n, 4)."""
+        """Texels by their index, (n, 4)."""
         return self.texels.reshape(-1, 4)
 
     @property
@@ -94,30 +94,30 @@ class Texture:
 
     @property
     def version(self) -> str:
-        """Version of the format: the least that has all kinds of its shapes."""
+        """Version of the format: the lowest that supports all kinds of its shapes."""
         return layout.PACKED_VERSION if not any(root.is_map for root in self.roots) else layout.MAP_VERSION
 
     @property
     def depth(self) -> int:
-        """Depth of the deepest quad; a root has depth 0. A shader descends at most this often."""
+        """Depth of the deepest quad; a root has depth 0. A shader descends at most this many times."""
         plain, maps = self._trees()
         depths = [len(walk(self.flat, plain)), *(len(read_map(self.flat, quad).levels) for quad in maps)]
         return max(depths) - 1
 
     @property
     def nbytes(self) -> int:
-        """Size in memory, of a GPU too."""
+        """Size in bytes, in main memory or on a GPU."""
         return self.texels.nbytes
 
     def _trees(self) -> tuple[NDArray[np.int64], list[int]]:
-        """Root quads of the silhouettes and layers, and those of the planar maps, each of these once."""
+        """Root quads of the silhouettes and layers, and the distinct root quads of the planar maps."""
         plain = np.array([root.quad for root in self.roots if not root.is_map], np.int64)
         return plain, sorted({root.quad for root in self.roots if root.is_map})
 
     def root(self, root: str | int | None = None) -> Root:
-        """One of the shapes, by its name or number; the only one if `root` is missing.
+        """Return a shape by its name or number, or the only shape if `root` is None.
 
-        Raises a `ParameterError` if there is no such shape, or if `root` is missing and there are several.
+        Raises a `ParameterError` if there is no such shape, or if `root` is None and there are several.
         """
         return self.roots[place_of(self.roots, root, self.name)]
 
@@ -127,7 +127,7 @@ class Texture:
         check_styles(self.flat, self.roots)
 
     def contains(self, points: ArrayLike, root: str | int | None = None) -> NDArray[np.bool_]:
-        """Mark the points inside a shape by the stored outlines; in a planar map, those where it paints anything.
+        """Test whether points are inside a shape's stored outline or, for a planar map, where it paints anything.
 
         Parameters
         ----------
@@ -139,13 +139,13 @@ class Texture:
         Returns
         -------
         (n,) bool array
-            For each point whether it is inside.
+            True for each point that is inside.
 
         Raises
         ------
         ParameterError
-            If the points are no numbers or have another shape, there is no such shape, or `root` is missing and there
-            are several.
+            If the points are not numbers or not (n, 2), there is no such shape, or `root` is None and there are
+            several.
 
         Examples
         --------
@@ -156,17 +156,17 @@ class Texture:
         """
         from vexture.texture.contains import checked_points, points_inside  # late: compiled code, not needed to read
 
-        wanted, shape = checked_points(points), self.root(root)
+        locations, shape = checked_points(points), self.root(root)
         if shape.is_map:
             from vexture.texture.pick import painted_at
 
-            return painted_at(self.texels, shape, wanted)
-        inside = np.empty(len(wanted), np.bool_)
-        points_inside(self.flat, shape.quad, wanted, inside)
+            return painted_at(self.texels, shape, locations)
+        inside = np.empty(len(locations), np.bool_)
+        points_inside(self.flat, shape.quad, locations, inside)
         return inside
 
     def element_at(self, points: ArrayLike, *, root: str | int | None = None) -> "Elements":
-        """Find the topmost element of a drawing at points; the drawing was converted with `restyle`.
+        """Find the topmost element at points of a drawing that was converted with `restyle`.
 
         Parameters
         ----------
@@ -178,7 +178,7 @@ class Texture:
         Returns
         -------
         Elements
-            The names, and which elements they are of which shapes.
+            The elements' names and indices, and the indices of their shapes.
 
         Raises
         ------
@@ -198,21 +198,21 @@ class Texture:
         return elements_at(self.flat, self.roots, layers_of(self.roots, root, self.name), points)
 
     def with_paints(self, paints: "Mapping[str, Colour]", *, root: str | int | None = None) -> "Texture":
-        """The same shapes with other colours of some elements; the drawing was converted with `restyle`.
+        """Recolour elements of a drawing that was converted with `restyle`; return a new texture.
 
         Parameters
         ----------
         paints : mapping of str to colour
-            For the names of elements, a CSS colour, its components in 0..1 (three, or four with the opacity), a flat
-            `Paint`, or None for nothing. It replaces the element's colour and opacity.
+            By the element's name: a CSS colour, its components in 0..1 (three, or four with the opacity), a flat
+            `Paint`, or None for full transparency. It replaces the element's colour and opacity.
         root : str, int or None
             As in `render`.
 
         Raises
         ------
         ParameterError
-            If there is no such shape, element or colour, or an opaque element becomes translucent that hides what is
-            below it: the texture does not have that.
+            If there is no such shape, element or colour, or if an opaque element that hides others becomes
+            translucent: the texture does not contain the hidden ones.
 
         Examples
         --------
@@ -229,7 +229,7 @@ class Texture:
         return Texture(texels.reshape(self.texels.shape), roots, self.name, self.source)
 
     def _silhouette(self, root: str | int | None) -> Root:
-        """A shape that is no planar map."""
+        """Return a shape with outlines; raise a `ParameterError` for a planar map."""
         found = self.root(root)
         if found.is_map:
             raise ParameterError(
@@ -240,7 +240,7 @@ class Texture:
     def coverage(
         self, size: Size, view: ViewLike = None, *, renderer: TextureRenderer = "cpu", root: str | int | None = None
     ) -> NDArray[np.float32]:
-        """Covered part of each pixel by one shape. Parameters, result and errors as in `vexture.coverage`.
+        """Part of each pixel that a shape covers. Parameters, result and errors as in `vexture.coverage`.
 
         Examples
         --------
@@ -254,7 +254,7 @@ class Texture:
     def render(
         self, size: Size, view: ViewLike = None, *, renderer: TextureRenderer = "cpu", root: str | int | None = None
     ) -> NDArray[np.float32]:
-        """Picture of a drawing in its colours, as `vexture.render` makes it. Parameters, result and errors as there."""
+        """Picture of a drawing in its colours. Parameters, result and errors as in `vexture.render`."""
         pictures = (
             colours_of(self, place, size, view, renderer)
             if self.roots[place].is_map
@@ -266,7 +266,7 @@ class Texture:
         return composite_pictures(size_of(size), pictures)
 
     def plot(self, root: str | int | None = None) -> "Figure":
-        """Figure of a shape's cells by depth, their coverage, and the picture. `root` as in `contains`.
+        """Figure with the depths of a shape's cells, their coverage, and its picture. `root` as in `contains`.
 
         Returns
         -------
@@ -292,7 +292,7 @@ class Texture:
         return plot_shape(self.flat, shape.quad, self.coverage(PICTURE, root=root), title)
 
     def to_svg(self, root: str | int | None = None) -> str:
-        """SVG document in the units of the source: the outlines of each shape are one path, in its colour, else black.
+        """SVG document in the units of the source, with one path for each shape, in its colour or else black.
 
         Parameters
         ----------
@@ -317,7 +317,7 @@ class Texture:
         return svg_document(((one, outlines(self.flat, one.quad)) for one in roots), self.name)
 
     def info(self) -> dict[str, Any]:
-        """Facts about the texture and its shapes, ready for JSON.
+        """Describe the texture and its shapes as JSON-ready data.
 
         Examples
         --------
@@ -337,7 +337,7 @@ class Texture:
         }
 
     def texts(self) -> dict[str, str]:
-        """Key/value data of the file (FORMAT.md, B.5), by their keys."""
+        """Key/value data of the file (FORMAT.md, B.5)."""
         return {**self._texts(), layout.TEXT_ROOTS: roots_text(self.roots)}
 
     def _texts(self) -> dict[str, str]:
@@ -351,7 +351,7 @@ class Texture:
         return {key: text.encode(errors="replace").decode() for key, text in texts.items() if text is not None}
 
     def to_ktx2(self, *, deflate: bool = True) -> bytes:
-        """Contents of the file; a `LimitError` if the names and transforms of the roots are too long."""
+        """Content of the file; raises a `LimitError` if the description of the roots is too long."""
         texts: dict[str, str | bytes] = {**self._texts()}
         texts |= deflated_texts(self.roots) if deflate else {layout.TEXT_ROOTS: roots_text(self.roots)}
         length = sum(
@@ -365,7 +365,7 @@ class Texture:
         return write_ktx2(self.texels, texts, deflate)
 
     def files(self, *, deflate: bool = True) -> dict[str, bytes]:
-        """Contents of the file, keyed by its suffix."""
+        """Content of the file, keyed by its suffix."""
         return {layout.PACKED_SUFFIX: self.to_ktx2(deflate=deflate)}
 
     def save(self, path: str | os.PathLike[str], *, deflate: bool = True) -> Path:
@@ -374,11 +374,11 @@ class Texture:
         Parameters
         ----------
         path : path
-            A folder (that exists or ends with a separator): the file gets the texture's name and ``.ktx2``. Else
-            the file itself, whose name does not end as that of a drawing or a picture.
+            A folder (existing, or with a separator at its end): the file gets the texture's name and ``.ktx2``.
+            Otherwise the file itself, whose suffix must not be that of a drawing or a picture.
         deflate : bool
-            False stores the words as they are, for a server that compresses its answers: Brotli or Zstandard then
-            sends a third less than of deflated words.
+            False stores the words uncompressed, for a server that compresses its responses: Brotli or Zstandard
+            then sends a third less than with deflated words.
 
         Returns
         -------

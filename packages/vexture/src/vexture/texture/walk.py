@@ -1,6 +1,6 @@
-"""From the roots of a packed texture down to its leaves, all quads of a depth at a time.
+"""Walk a packed texture from its roots to its leaves, all quads of one depth at a time.
 
-Untrusted texels are validated: a walk stays within them, meets each of them once, and ends.
+Untrusted texels are validated: a walk stays within them, visits each at most once, and ends.
 """
 
 from typing import Final, NamedTuple
@@ -19,22 +19,22 @@ HALVES: Final = np.array([(0, 0), (1, 0), (0, 1), (1, 1)])
 
 
 class WalkLevel(NamedTuple):
-    """The n quads of one depth, in the order of their parents and of the parents' cells."""
+    """The n quads of one depth, ordered by their parents, then by the parents' cells."""
 
     quads: NDArray[np.int64]  # (n,): index of each quad's texel
-    tree: NDArray[np.int64]  # (n,): which root each belongs to, among the different roots in order of their quads
+    tree: NDArray[np.int64]  # (n,): root of each, as an index into the distinct roots in order of their quads
     is_quad: NDArray[np.bool_]  # (n, 4)
     counts: NDArray[np.int64]  # (n, 4): curves of each leaf
-    windings: NDArray[np.int64]  # (n, 4): corner winding of each leaf with curves; 0 elsewhere; in maps, the low bits
+    windings: NDArray[np.int64]  # (n, 4): corner winding of each leaf with curves, else 0; in maps, the cell's low bits
     coverages: NDArray[np.int64]  # (n, 4): coverage byte of each cell
-    curves: NDArray[np.int64]  # (m,): index of each texel of curves, in the order of the quads and their cells
+    curves: NDArray[np.int64]  # (m,): index of each texel of curves, ordered by quads, then by cells
 
 
 def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64], of_maps: bool = False) -> list[WalkLevel]:
-    """Walk the trees of some roots, given by the indices of their quads; equal roots are one tree.
+    """Walk the trees of some roots, which are indices of quads; equal roots are one tree.
 
-    The roots are silhouettes, or, if `of_maps`, planar maps, whose cells have neither windings nor coverages.
-    Raises a `FormatError` if the texels (n, 4) are no forest, or a cell has a value that FORMAT.md does not allow.
+    The roots are silhouettes, or planar maps if `of_maps`; cells of maps have neither windings nor coverages.
+    Raises a `FormatError` if the texels (n, 4) are not a forest, or a cell has a value that FORMAT.md does not allow.
     """
     quads = np.unique(roots)
     if not len(quads):
@@ -61,7 +61,7 @@ def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64], of_maps: bool = Fal
 def _cells(
     flat: NDArray[np.uint32], quads: NDArray[np.int64], of_maps: bool
 ) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """Cells of quads: whether they are quads, their number of curves, corner winding and coverage."""
+    """Fields of the cells of quads, (n, 4) each: is it a quad, number of curves, corner winding, coverage."""
     shift = layout.CELL_BITS * np.arange(4)
     last = (1 << layout.CELL_BITS) - 1
     cells = (flat[quads, 2].astype(np.int64)[:, None] >> shift) & last
@@ -82,7 +82,7 @@ def _cells(
 def _below(
     first: NDArray[np.uint32], quads: NDArray[np.int64], counts: NDArray[np.int64], met: NDArray[np.bool_], noun: str
 ) -> NDArray[np.int64]:
-    """Indices of the texels that quads refer to, `counts` for each from its `first`; marks them in `met`."""
+    """Indices of the texels that quads refer to: `counts` texels from `first` for each; marks them in `met`."""
     some = counts > 0
     start, counts = first[quads[some]].astype(np.int64), counts[some]
     wrong = (start <= quads[some]) | (start + counts > len(met))
@@ -104,7 +104,7 @@ def _below(
 
 
 def check_ends(ends: NDArray[np.int32], texels: NDArray[np.int64]) -> None:
-    """Raise a `FormatError` where an end of a curve, (n, 2, 2), lies beyond its leaf; `texels` are the curves' (n,)."""
+    """Raise a `FormatError` where an end of a curve, (n, 2, 2), lies outside its leaf; `texels` (n,) are its texels."""
     most = ends.max(axis=(1, 2), initial=0)
     if len(most) and most.max() > layout.LATTICE:
         raise FormatError(

@@ -1,7 +1,7 @@
-"""The encoding of the thesis on which vexture is based: one cubic or one corner in a leaf, a pair of PNG files.
+"""The encoding of the thesis on which vexture is based: a leaf has one cubic or one corner; a texture is two PNG files.
 
-It is the baseline for comparisons. It is registered by name (`vexture.texture.registry`), with the functions `convert`,
-`load` and `owns` of a registered encoding; nothing else in vexture imports it.
+It is the baseline for comparisons. It is registered by name (`vexture.texture.registry`) with the functions `convert`,
+`load` and `owns` of an encoding; nothing else in vexture imports it.
 """
 
 from pathlib import Path
@@ -16,7 +16,7 @@ from vexture.thesis.texture import ThesisTexture, load, pair_of
 __all__ = ["SUFFIXES", "ThesisTexture", "convert", "load", "owns"]
 
 SUFFIXES: Final = (QUADS_SUFFIX, CURVES_SUFFIX)
-"""Endings of the names of a texture's files."""
+"""Suffixes of a texture's files."""
 
 
 def convert(
@@ -27,20 +27,20 @@ def convert(
     bits: int | None = None,
     strategy: Literal["direct", "sampled"] | None = None,
 ) -> Encoded:
-    """Tree and texture of a drawing's silhouette.
+    """Convert a drawing's silhouette to a tree and a texture.
 
     Parameters
     ----------
     drawing : Drawing
     tolerance : float or "auto"
         Largest distance between the drawing's outline and the texture's before rounding, in unit-square units. "auto"
-        follows the smallest detail of the drawing and the size of each cell.
+        depends on the smallest detail of the drawing and the size of each cell.
     max_depth : int, optional
-        Cells of this depth are not divided further; 10 by default.
+        Depth at which cells are not divided further; 10 by default.
     bits : int, optional
         Bits per channel, 8 or 16; 16 by default.
     strategy : str, optional
-        ``"direct"``, the default, takes leaves from the drawing's own cubics; ``"sampled"`` samples the outlines and
+        ``"direct"``, the default, makes leaves from the drawing's own cubics. ``"sampled"`` samples the outlines and
         fits curves to the samples, as the thesis does.
 
     Raises
@@ -69,7 +69,7 @@ def convert(
 
 
 def owns(path: Path) -> bool:
-    """Whether a path names a file of a pair, or the common stem of an existing pair.
+    """Return whether a path names a file of a pair, or the common stem of an existing pair.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The permitted distance between a leaf's outline and the drawing's."""
+"""Permitted distance between a leaf's outline and the drawing's."""
 
 from typing import Literal, NamedTuple
 
@@ -11,11 +11,11 @@ from vexture.base.tolerance import CELL_SHARE, COARSEST, DETAIL_SHARE, FINEST
 
 
 class Accuracy(NamedTuple):
-    """Largest distance between the outlines before quantisation, as a rule for cells of any size."""
+    """Rule for the largest distance between the outlines before quantisation, in cells of any size."""
 
     distance: float  # upper limit, in unit-square units
     share: float  # upper limit, as a share of the cell
-    step: float  # lower limit, as a share of the cell: quantisation moves the outline by as much
+    step: float  # lower limit, as a share of the cell: quantisation moves the outline that far
 
 
 @kernel
@@ -25,11 +25,11 @@ def cell_tolerance(accuracy: Accuracy, size: float) -> float:
 
 
 def accuracy_of(tolerance: float | Literal["auto"], cubics: NDArray[np.float64], step: float = 0.0) -> Accuracy:
-    """Accuracy for a tolerance in unit-square units, or "auto". Raises `ParameterError` if it is not between 0 and 1.
+    """Accuracy for a tolerance in unit-square units or "auto"; raises a `ParameterError` unless it is between 0 and 1.
 
-    "auto" follows the smallest detail of the drawing's cubics, (n, 4, 2) (thesis 5.2.1), and the size of the cell
-    (thesis 6.2.1). It is no coarser than what shows at usual sizes, no finer than what a depth limit can use, and no
-    finer than `step`, the share of a cell by which quantisation moves an outline.
+    "auto" depends on the smallest detail of the drawing's cubics (n, 4, 2) (thesis 5.2.1) and on the size of the cell
+    (thesis 6.2.1). It is no coarser than what is invisible at usual sizes, and no finer than usual depth limits can use
+    or than `step`, the share of a cell by which quantisation moves an outline.
 
     Examples
     --------

@@ -1,7 +1,7 @@
-"""The boundary in a cell as a chain of cubics from edge to edge of the cell, if it forms a single one.
+"""Chain of cubics, from edge to edge of a cell, that the boundary in the cell forms, if it is a single one.
 
-`cell_chain` resolves overlaps and crossings first. `plain_chain` is for cells that one path crosses once: their pieces
-need neither quantising nor resolving.
+`cell_chain` first resolves overlaps and crossings. `plain_chain` is for cells that one path crosses once: their pieces
+need neither be quantised nor resolved.
 """
 
 from typing import NamedTuple
@@ -20,27 +20,27 @@ from vexture.tree.boundary import Boundary, cell_paths, quantise, resolve
 from vexture.tree.winding import inside, winding_area
 
 JOIN = 3.0 / LATTICE
-"""Cell-local units. Closer ends are one point: runs that meet at a crossing may differ by two lattice units."""
+"""Cell-local units. Closer ends are one point: runs that meet at a crossing may be two lattice units apart."""
 
 LEFT_EDGE, RIGHT_EDGE = -1, -2
-"""Ends of a connector that are points of the cell's edge rather than ends of parts."""
+"""Ends of a connector that are points on the cell's edge rather than ends of parts."""
 
 
 class Chain(NamedTuple):
     """Cubics of a cell's boundary, each with the filled side on its right."""
 
     curves: NDArray[np.float64]  # (n, 4, 2): in the cell's own unit square
-    segment: NDArray[np.int64]  # (n,): cubic of the source that each is a part of; -1 for a horizontal connector
+    segment: NDArray[np.int64]  # (n,): cubic of the source that contains each; -1 for a horizontal connector
     span: NDArray[np.float64]  # (n, 2): parameter interval on that cubic, in the direction of travel
-    chains: int  # 0: no boundary inside the cell; 1: the cubics form one open chain, in order; 2: they form several
+    chains: int  # 0: no boundary inside the cell; 1: one open chain, in order; 2: anything else
     area: float  # filled part of the cell
 
 
 @kernel
 def boundary_area(boundary: Boundary, parts: NDArray[np.float64]) -> float:
-    """Filled part of the cell: the area inside at the left edge, corrected at each run by the part on its right.
+    """Filled part of the cell: the slabs that are inside at the left edge, corrected by the area right of each run.
 
-    `parts` are the runs of the boundary as cubics in the cell's unit square, their filled side on the right.
+    `parts` holds the runs of the boundary as cubics in the cell's unit square, with the filled side on the right.
     """
     area = 0.0
     for slab in range(len(boundary.left)):
@@ -53,7 +53,7 @@ def boundary_area(boundary: Boundary, parts: NDArray[np.float64]) -> float:
 
 @kernel
 def _run_parts(curves: NDArray[np.float64], pieces: Pieces, boundary: Boundary, room: int) -> Chain:
-    """Runs as cubics in the cell's unit square, followed by room for connectors; the area is not set."""
+    """Convert runs to cubics in the cell's unit square, followed by room for connectors; the area is not set."""
     runs = len(boundary.run_piece)
     out, out_span = np.zeros((runs + room, 4, 2)), np.zeros((runs + room, 2))
     out_segment = np.empty(runs + room, np.int64)
@@ -74,14 +74,14 @@ def _run_parts(curves: NDArray[np.float64], pieces: Pieces, boundary: Boundary, 
         out_segment[r] = pieces.segment[i]
         for end, u in ((0, u0), (1, u1)):
             t0, t1 = pieces.span[i, 0], pieces.span[i, 1]
-            whole = t0 if u == 0.0 else t1  # bit for bit the adjacent piece's number
+            whole = t0 if u == 0.0 else t1  # equal, bit for bit, to the adjacent piece's parameter
             out_span[r, end] = whole if u == 0.0 or u == 1.0 else t0 + u * (t1 - t0)
     return Chain(out, out_segment, out_span, runs, 0.0)
 
 
 @kernel
 def _ends_at(parts: NDArray[np.float64], runs: int, y: float, ends: NDArray[np.int64]) -> int:
-    """Write the runs' ends at a height from left to right, as 2 r (start of run r) or 2 r + 1; count them."""
+    """Write the runs' ends at a height, left to right, as 2 r (start of run r) or 2 r + 1 (end); return the number."""
     count = 0
     for r in range(runs):
         for which in range(2):
@@ -97,7 +97,7 @@ def _ends_at(parts: NDArray[np.float64], runs: int, y: float, ends: NDArray[np.i
 
 @kernel
 def _end_x(parts: NDArray[np.float64], end: int) -> float:
-    """X of a run's end, or of an edge of the cell."""
+    """Coordinate x of a run's end, or of an edge of the cell."""
     if end < 0:
         return 0.0 if end == LEFT_EDGE else 1.0
     return parts[end // 2, 3 * (end & 1), 0]
@@ -107,8 +107,8 @@ def _end_x(parts: NDArray[np.float64], end: int) -> float:
 def _connect(chain: Chain, parts: int, source: int, target: int, y: float, following: NDArray[np.int64]) -> int:
     """Connect one end to another at the same height; return the new number of parts.
 
-    Ends that nearly meet are joined at their midpoint. Others are joined by a horizontal part: the sweep drops that
-    boundary because horizontal pieces span no slab.
+    Ends that nearly meet are joined at their midpoint. Others are joined by a horizontal part, because horizontal
+    pieces span no slab and the sweep drops them.
     """
     a, b = _end_x(chain.curves, source), _end_x(chain.curves, target)
     if abs(a - b) <= JOIN:
@@ -142,9 +142,9 @@ def _link_at(
 ) -> int:
     """Link all ends at one height; return the new number of parts.
 
-    Along that height from left to right, inside differs between just below and just above exactly between the first and
-    the second end, the third and the fourth, and so on. The cell's left edge counts as an end if inside differs there,
-    and its right edge if the number is odd then.
+    Along that height, the state just below (inside or outside) differs from the state just above exactly between the
+    first and the second end from the left, the third and the fourth, and so on. The cell's left edge counts as an end
+    if the states differ there; its right edge counts as one if the number of ends is odd then.
     """
     count = _ends_at(chain.curves, runs, y, ends)
     if below != above:
@@ -158,13 +158,13 @@ def _link_at(
     k = 0
     while k + 1 < count:
         first = ends[k]
-        m = k + 1  # a start must meet an end; the order of crossing curves at a common point is arbitrary
+        m = k + 1  # a start must meet an end; curves that cross at a common point are in any order
         while m + 1 < count and first >= 0 and ends[m] >= 0 and (first & 1) == (ends[m] & 1):
             m += 1
         second = ends[m]
         ends[m] = ends[k + 1]
         if first == LEFT_EDGE and second == RIGHT_EDGE:
-            forward = below == 1  # filled below: going right has it on the right
+            forward = below == 1  # filled below: the filled side is on the right of the direction to the right
         else:
             forward = (first & 1) == 1 if first >= 0 else (second & 1) == 0
         if forward:
@@ -177,13 +177,13 @@ def _link_at(
 
 @kernel
 def on_edge(x: float, y: float) -> bool:
-    """Whether a point lies on the edge of the unit square, within `JOIN`."""
+    """Return whether a point lies on the edge of the unit square, within `JOIN`."""
     return min(x, 1.0 - x, y, 1.0 - y) <= JOIN
 
 
 @kernel
 def _along_edge(curve: NDArray[np.float64]) -> bool:
-    """Whether a part of a chain follows the cell's edge, where it bounds nothing inside the cell."""
+    """Return whether a part of a chain follows the cell's edge, where it bounds nothing inside the cell."""
     for axis in range(2):
         for line in (0.0, 1.0):
             if abs(curve[0, axis] - line) <= JOIN and abs(curve[3, axis] - line) <= JOIN:
@@ -210,7 +210,7 @@ def _travel(chain: Chain, parts: int, following: NDArray[np.int64], area: float)
         order[length] = head
         length += 1
         head = following[head]
-    if heads != 1 or length + beside != parts:  # no chain, several, or an additional closed one
+    if heads != 1 or length + beside != parts:  # no chain, several chains, or an additional closed one
         none = heads == 0 and beside == parts
         return Chain(chain.curves[:parts], chain.segment[:parts], chain.span[:parts], 0 if none else 2, area)
     first, last = 0, length
@@ -265,17 +265,17 @@ def to_cell(cell: LevelCell) -> NDArray[np.float64]:
 
 @kernel(allocates=False)
 def touches_edge(point: NDArray[np.float64]) -> bool:
-    """Whether a coordinate of a point is exactly 0 or 1."""
+    """Return whether a coordinate of a point is exactly 0 or 1."""
     return point[0] == 0.0 or point[0] == 1.0 or point[1] == 0.0 or point[1] == 1.0
 
 
 @kernel
 def filled_sides(cell: LevelCell, curves: NDArray[np.float64], rule: int, signed_area: float) -> tuple[bool, bool]:
-    """Whether the right and the left side of one chain from edge to edge are filled.
+    """Return whether the right and the left side of one chain from edge to edge are filled.
 
-    The winding number is w on the right and w + 1 on the left, except in loops; its mean over the cell gives w.
-    `curves` are the cell's pieces in its unit square, all of one path. `signed_area` is the area on the right of the
-    chain, with loops counted by their direction.
+    The winding number is w on the right and w + 1 on the left, except in loops; w follows from its mean over the cell.
+    `curves` holds the cell's pieces in its unit square, all of one path. `signed_area` is the area on the right of the
+    chain, in which the sign of a loop depends on its direction.
     """
     w = int(np.rint(winding_area(curves, cell.present[0, 1], 1.0) - 1.0 + signed_area))
     return inside(w, rule), inside(w + 1, rule)
@@ -283,7 +283,7 @@ def filled_sides(cell: LevelCell, curves: NDArray[np.float64], rule: int, signed
 
 @kernel(allocates=False)
 def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
-    """Whether the bounding boxes of two monotone pieces share no more than an edge."""
+    """Return whether the bounding boxes of two monotone pieces share at most an edge."""
     for axis in range(2):
         if max(a[0, axis], a[3, axis]) <= min(b[0, axis], b[3, axis]):
             return True
@@ -294,7 +294,7 @@ def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
 
 @kernel(allocates=False)
 def _is_plain(curves: NDArray[np.float64]) -> bool:
-    """Whether monotone pieces form one open chain between edges that cannot cross itself or follow an edge."""
+    """Return whether monotone pieces form one open chain between edges that cannot cross itself or follow an edge."""
     n = len(curves)
     for axis in range(2):
         for i in range(n):
@@ -315,7 +315,7 @@ def _is_plain(curves: NDArray[np.float64]) -> bool:
 
 @kernel
 def plain_chain(cell: LevelCell, rules: NDArray[np.int64]) -> Chain:
-    """Chain of a cell with one path if nothing in it needs to be resolved; else one of `chains` 2 without area."""
+    """Chain of a cell with one path if nothing in it needs to be resolved; else `chains` is 2 and the area not set."""
     curves = to_cell(cell)
     n, segment, span = len(curves), cell.pieces.segment, cell.pieces.span
     if not _is_plain(curves):

@@ -1,4 +1,4 @@
-"""Builds the `CellTree` of a drawing, level by level."""
+"""Build the `CellTree` of a drawing, level by level."""
 
 from typing import Literal
 
@@ -37,15 +37,15 @@ from vexture.tree.cubics import gather
 from vexture.tree.tree import MOST_QUADS
 
 DEFAULT_DEPTH = 10
-"""Its cells are a thousandth of the drawing wide."""
+"""Default depth limit: its cells have a thousandth of the drawing's width."""
 
 CROWDED = 8
-"""Pieces in a cell above which it is resolved only if its boundary meets the cell's edge exactly twice."""
+"""Number of pieces above which a cell is resolved only if its boundary meets the cell's edge exactly twice."""
 
 
 @kernel
 def _ends_on_edge(cell: LevelCell) -> int:
-    """Number of ends of chains on the cell's edge: ends of pieces there that the next piece does not continue."""
+    """Number of ends of chains on the cell's edge: ends of pieces that no neighbouring piece continues."""
     points, count = cell.pieces.points, 0
     for i in range(len(points)):
         for end in (0, 3):
@@ -65,7 +65,7 @@ def _ends_on_edge(cell: LevelCell) -> int:
 def _leaf_or_limit(
     chain: Chain, cubics: NDArray[np.float64], cell: LevelCell, tolerance: float, at_limit: bool
 ) -> ThesisLeaf:
-    """Leaf of a chain; at the depth limit never `NO_LEAF`."""
+    """Leaf of a chain; never `NO_LEAF` at the depth limit."""
     leaf = chain_leaf(chain, cubics, cell, tolerance / cell.size)
     if leaf.kind == NO_LEAF and at_limit:
         return limit_leaf(chain)
@@ -112,7 +112,7 @@ def _add_quads(cells: NDArray[np.float64], level: ThesisLevel, split_cells: NDAr
 
 @kernel
 def _with_room(rows: NDArray[np.float64], count: int, room: int) -> NDArray[np.float64]:
-    """The rows, or a copy twice as large if there is no room for `room` more behind the first `count`."""
+    """Return the rows, or a copy twice as large if there is no room for `room` more after the first `count`."""
     if count + room <= len(rows):
         return rows
     out = np.empty((2 * count + room, rows.shape[1], rows.shape[2]))
@@ -134,9 +134,9 @@ def grow(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float, int]:
     """Divide the unit square level by level until every cell is a leaf.
 
-    Returned are the cells, (quads, 4, 3): kind, reference, coverage; the curves; the deviation; the number of
-    unresolved cells. If the tree needs more than `most_quads`, the arrays are empty and the last value is minus the
-    number so far.
+    Returns the cells (quads, 4, 3), which are kind, reference and coverage, the curves, the deviation, and the number
+    of unresolved cells. If the tree needs more than `most_quads`, the arrays are empty, and the last value is minus the
+    number of quads so far.
     """
     cells, quads = np.empty((16, 4, 3)), 0
     curves, curve_count = np.empty((16, 4, 2)), 0
@@ -183,10 +183,10 @@ def grow(
 
 
 def root_level(drawing: Drawing, pieces: Pieces) -> ThesisLevel:
-    """The unit square as the only cell of its level. The corner winding of every path is 0 there."""
+    """Level with the unit square as its only cell, in which the corner winding of every path is 0."""
     ends = pieces.points[:, [0, 3]]
     worst = np.abs(ends - np.clip(ends, 0.0, 1.0)).max()
-    if not worst <= CLOSED:  # not a number counts as outside
+    if not worst <= CLOSED:  # NaN counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {worst:.3g}; clip or scale it first")
     pieces.points[:, [0, 3]] = np.clip(ends, 0.0, 1.0)
     paths = np.unique(pieces.path)
@@ -208,10 +208,10 @@ def build(
     step: float = 0.0,
     most_quads: int = MOST_QUADS,
 ) -> CellTree:
-    """Quad-tree of a drawing in normal form; other parameters and errors as in `vexture.thesis.convert`.
+    """Build the quad-tree of a drawing in normal form; other parameters and errors as in `vexture.thesis.convert`.
 
-    `step` is the share of a cell by which an encoding's quantisation moves an outline: tolerance "auto" is no finer. A
-    tree of more than `most_quads` is not built.
+    `step` is the share of a cell by which an encoding's quantisation moves an outline; the tolerance "auto" is no
+    finer. A tree with more than `most_quads` quads raises a `LimitError`.
 
     Raises
     ------

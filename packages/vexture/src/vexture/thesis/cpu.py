@@ -1,6 +1,6 @@
-"""The shader's mirror on the CPU: every function of ``shaders/`` again, by the same name, in float64.
+"""The shader's mirror on the CPU: each function of ``shaders/``, by the same name, in float64.
 
-The root solver is in `vexture.thesis.cubic`. As for `vexture.renderers.cpu`, change both sides together.
+The root solver is in `vexture.thesis.cubic`. As with `vexture.renderers.cpu`, change both sides together.
 """
 
 import math
@@ -30,7 +30,7 @@ List = NDArray[np.float64]
 
 
 class ThesisCell(NamedTuple):
-    """A leaf; or a quad smaller than a pixel, as a constant."""
+    """A leaf, or as a constant a quad smaller than a pixel."""
 
     origin: Vec2
     size: float
@@ -225,7 +225,7 @@ def view_point(to_unit: List, pixel: Vec2) -> Vec3:
 
 @kernel
 def view_step(to_unit: List, center: Vec2, pixel: Vec2, step: Vec2) -> Vec2:
-    """As dFdx and dFdy: the difference between the two pixels of a 2 x 2 group, the same for both."""
+    """Mirror dFdx and dFdy: the difference between two pixels of a 2 x 2 group, equal for both."""
     sign = -1.0 if int(pixel[0] * step[0] + pixel[1] * step[1]) % 2 == 1 else 1.0
     x, y, w = view_point(to_unit, (pixel[0] + sign * step[0], pixel[1] + sign * step[1]))
     return sign * (x / w - center[0]), sign * (y / w - center[1])

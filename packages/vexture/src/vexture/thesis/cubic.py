@@ -19,7 +19,7 @@ from vexture.thesis.method import (
 
 
 class Roots(NamedTuple):
-    """Real roots: the first `found` of `t`."""
+    """Real roots: the first `found` values of `t`."""
 
     found: int
     t: tuple[float, float, float]
@@ -72,7 +72,7 @@ def discriminant(a: float, b: float, c: float, d: float) -> tuple[float, float]:
 
 @kernel
 def solution_path(a: float, b: float, c: float, d: float) -> int:
-    """Solution path of thesis Figure 3.5 for a t^3 + b t^2 + c t + d, as numbered in `vexture.thesis.method`."""
+    """Solution path (thesis, Figure 3.5) for a t^3 + b t^2 + c t + d; the numbers are in `vexture.thesis.method`."""
     size = max(abs(a), abs(b), abs(c))
     if max(abs(a), abs(b)) <= NEARLY_ZERO * size:
         return STRAIGHT
@@ -131,9 +131,9 @@ def solve_three(a: float, b: float, c: float, d: float) -> Roots:
 
 @kernel
 def solve_cubic(a: float, b: float, c: float, d: float) -> Roots:
-    """Real roots of a t^3 + b t^2 + c t + d that may lie in 0..1, without double roots.
+    """Find the real roots of a t^3 + b t^2 + c t + d that may lie in 0..1, except double roots.
 
-    The coefficients are those of x(t) - C.x in the basis of a curve's chord, where a + b + c is 1.
+    The coefficients belong to x(t) - C.x in the basis of a curve's chord, where a + b + c is 1.
 
     Examples
     --------

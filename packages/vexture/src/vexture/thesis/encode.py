@@ -1,4 +1,4 @@
-"""The thesis encoding (FORMAT.md, part A): from a `CellTree` to a pair of textures."""
+"""Encode a `CellTree` as the thesis's pair of textures (FORMAT.md, part A)."""
 
 import math
 from typing import Any
@@ -21,9 +21,9 @@ def encode(
     name: str,
     crs: str | None = None,
 ) -> ThesisTexture:
-    """Pair of textures of a tree, with 8 or 16 bits per channel.
+    """Encode a tree as a pair of textures with 8 or 16 bits per channel.
 
-    Raises `LimitError` if a list is too long for the bits, or if the format cannot express a point.
+    Raises a `LimitError` if a list is too long for the bits, or if the format cannot express a point.
 
     Examples
     --------
@@ -82,18 +82,18 @@ def _curve_pixels(tree: CellTree, dtype: np.dtype[Any], name: str) -> NDArray[An
     pixels = np.zeros((layout.CONSTANT_ROWS + len(tree.curves), layout.CURVE_WIDTH, 3), dtype)
     written = pixels[layout.CONSTANT_ROWS :]
     written[:, :, 0] = quantised_ends(index, x1 * y2 < x2 * y1, maximum)
-    written[:, :, 1:] = rounded.swapaxes(1, 2)  # pixels are axes, channels points
+    written[:, :, 1:] = rounded.swapaxes(1, 2)  # a pixel holds an axis, a channel a point
     written[corner, :, 2] = 0
     return pixels
 
 
 def quantised_ends(index: NDArray[np.float64], clockwise: NDArray[np.bool_], steps: int) -> NDArray[np.int64]:
-    """Edge indices of P0 and P3, (n, 2), rounded to whole steps around the cell; distinct in each row.
+    """Round edge indices of P0 and P3, (n, 2), to whole steps around the cell; distinct in each row.
 
-    The order of the two around the cell tells which side is filled: the filled part is bounded by the edge from P3
-    clockwise to P0. Where both round to the same step, the end with the smaller error moves to the next step in the
-    direction that preserves this order. No end is then off by more than one step. `clockwise`, (n,), tells in which
-    direction a curve turns; it decides where P0 and P3 are the same point.
+    The order of P0 and P3 around the cell determines the filled side: the edge from P3 clockwise to P0 bounds the
+    filled part. If both round to the same step, the end with the smaller error moves to the next step in the direction
+    that preserves this order. No end is then off by more than one step. `clockwise` (n,) is True for curves that turn
+    clockwise; it decides the order if P0 and P3 are the same point.
 
     Examples
     --------
@@ -106,7 +106,7 @@ def quantised_ends(index: NDArray[np.float64], clockwise: NDArray[np.bool_], ste
     for i in np.flatnonzero(whole[:, 0] == whole[:, 1]):
         walk = (exact[i, 0] - exact[i, 1]) % steps  # clockwise from P3 to P0
         first = clockwise[i] if walk == 0.0 else walk < 0.5 * steps
-        direction = 1 if first else -1  # of P0, seen from P3
+        direction = 1 if first else -1  # of P0 as seen from P3
         moved = exact[i] - nearest[i]
         if direction * (moved[0] + moved[1]) >= 0.0:
             whole[i, 0] += direction
@@ -116,7 +116,7 @@ def quantised_ends(index: NDArray[np.float64], clockwise: NDArray[np.bool_], ste
 
 
 def _on_edge(ends: NDArray[np.float64], half_step: float) -> NDArray[np.bool_]:
-    """Mark the curves, (n,), whose two ends, (n, 2, 2), lie on the edge of their cell, within half a step."""
+    """Return which curves have both ends (n, 2, 2) on the edge of their cell, within half a step; (n,)."""
     off = np.minimum(abs(ends), abs(1.0 - ends)).min(axis=2)
     near = (off <= half_step) & (abs(ends - 0.5) <= 0.5 + half_step).all(axis=2)
     both: NDArray[np.bool_] = near.all(axis=1)

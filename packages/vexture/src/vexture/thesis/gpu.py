@@ -1,4 +1,4 @@
-"""Renders a texture of the thesis's encoding by its shader on the GPU, without a window."""
+"""Render a texture of the thesis's encoding with its shader on the GPU, without a window."""
 
 from functools import lru_cache
 from typing import Any
@@ -13,15 +13,15 @@ from vexture.thesis.shader_text import TextureSizes, ThesisPair, view_source
 
 @lru_cache(maxsize=64)
 def program(sizes: TextureSizes) -> Any:
-    """Compiled shader for all textures of the same sizes, with its triangle."""
+    """Compiled shader, with its triangle, for all textures with the same sizes."""
     return compile_shader(view_source(VERSION, sizes))
 
 
 def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:
-    """Lay a list out as a texture no higher than a limit; row r goes to row r % height, in block r // height.
+    """Arrange a list as a texture of at most `height` rows; row r goes to row r % height in block r // height.
 
-    `rows` are (rows, width, 3) uint8 or uint16; the result is (min(rows, height), blocks * width, 4) float32 in 0..1,
-    unused values 0.
+    `rows` is a (rows, width, 3) array, uint8 or uint16. The result is (min(rows, height), blocks * width, 4), float32
+    in 0..1; unused values are 0.
     """
     count, width, channels = rows.shape
     blocks = -(-count // height)
@@ -34,11 +34,11 @@ def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:
 def render_thesis_gpu(
     texture: ThesisPair, size: Size, view: ViewLike = None, fold_height: int | None = None
 ) -> NDArray[np.float32]:
-    """Render a texture by the thesis's shader; parameters as in `vexture.coverage`.
+    """Render a texture with the thesis's shader; parameters as in `vexture.coverage`.
 
-    The lists are folded at `fold_height` rows, or at the device's own limit if it is None. Raises `FormatError` if the
-    texture's quads do not form a tree, `DeviceError` without OpenGL, and `LimitError` if the device cannot draw such a
-    large image.
+    The lists are folded at `fold_height` rows; None folds them at the device's limit. Raises a `FormatError` if the
+    texture's quads do not form a tree, a `DeviceError` without OpenGL, and a `LimitError` if the device cannot draw
+    such a large image.
     """
     width, height = size_of(size)
     matrix = view_matrix(view, (width, height))

@@ -1,8 +1,8 @@
-"""The thesis leaf: one cubic, or one straight corner, from edge to edge of its cell, or full, or empty.
+"""The thesis's leaf: full, empty, or divided from edge to edge by one cubic or one straight corner.
 
-A cell becomes, in this order of preference (thesis 6.2.1 and 6.1.2): an exact part of one cubic of the source; two
-straight runs that meet in a corner; a cubic fitted to one chain within tolerance. The filled side is on the right of
-the direction from P0 to P3.
+A leaf is, in this order of preference (thesis 6.2.1 and 6.1.2): an exact part of one cubic of the source, two straight
+runs that meet in a corner, or a cubic that is fitted to one chain within the tolerance. The filled side is on the right
+of the direction from P0 to P3.
 """
 
 from typing import NamedTuple
@@ -20,17 +20,17 @@ from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
 from vexture.thesis.subdivide import LevelCell
 from vexture.thesis.tree import CellKind
 
-CURVE, QUAD, CORNER, FULL, EMPTY = (int(kind) for kind in CellKind)  # as kernels can use them
+CURVE, QUAD, CORNER, FULL, EMPTY = (int(kind) for kind in CellKind)  # plain integers, as kernels need
 NO_LEAF = -1
 
 SHORTEST_CHORD = 16.0 * JOIN
-"""Cell-local units. A curve with a shorter chord has no reliable direction for its basis."""
+"""Cell-local units. A shorter chord gives a curve's basis no reliable direction."""
 
 SLIVER = 1e-9
-"""Share of the cell. A curve that cuts off less follows the cell's edge."""
+"""Share of the cell's area. A curve that cuts off less follows the cell's edge."""
 
 MAX_SAMPLES, SAMPLES_PER_PART = 64, 8
-"""Samples of a chain for a fit: at most so many in all, and so many on each part of a short chain."""
+"""Most samples of a chain for a fit, and the samples on each part of a short chain."""
 
 
 class ThesisLeaf(NamedTuple):
@@ -38,9 +38,9 @@ class ThesisLeaf(NamedTuple):
 
     kind: int  # a `CellKind` other than QUAD, or `NO_LEAF`
     curve: NDArray[np.float64]  # (4, 2): P0 P1 P2 P3 in the cell's unit square; for a corner P1 = P2 = the corner
-    coverage: float  # part of the cell that the drawing fills; the curve may differ
+    coverage: float  # part of the cell that the drawing fills; the part beside the curve may differ
     distance: float  # largest distance of the drawing's outline from the curve, in cell-local units
-    resolved: bool  # false for an approximation beyond the tolerance, at the depth limit
+    resolved: bool  # False for an approximation beyond the tolerance, at the depth limit
 
 
 @kernel
@@ -57,13 +57,13 @@ def _constant_leaf(is_full: bool) -> ThesisLeaf:
 
 @kernel
 def nearest_constant(area: float) -> ThesisLeaf:
-    """Full or empty leaf as a last resort: an outline in the cell is up to its diagonal away."""
+    """Full or empty leaf as a last resort: its distance from an outline in the cell is at most the cell's diagonal."""
     return ThesisLeaf(FULL if area > 0.5 else EMPTY, np.zeros((4, 2)), area, np.sqrt(2.0), False)
 
 
 @kernel
 def snap_to_edge(point: NDArray[np.float64]) -> None:
-    """Move a point exactly onto the nearest side of the unit square."""
+    """Move a point to the nearest side of the unit square, exactly."""
     x, y = min(max(point[0], 0.0), 1.0), min(max(point[1], 0.0), 1.0)
     if min(x, 1.0 - x) <= min(y, 1.0 - y):
         x = 0.0 if x <= 1.0 - x else 1.0
@@ -74,7 +74,7 @@ def snap_to_edge(point: NDArray[np.float64]) -> None:
 
 @kernel
 def _expressible(curve: NDArray[np.float64]) -> bool:
-    """Whether the format can store a curve: inner control points in range, chord long enough."""
+    """Return whether the format can store a curve: inner control points in range, chord long enough."""
     for k in (1, 2):
         for axis in range(2):
             if not CONTROL_MIN <= curve[k, axis] <= CONTROL_MAX:
@@ -84,10 +84,10 @@ def _expressible(curve: NDArray[np.float64]) -> bool:
 
 @kernel
 def own_leaf(cell: LevelCell, cubics: NDArray[np.float64], rules: NDArray[np.int64]) -> ThesisLeaf:
-    """Leaf of a cell with one path if a single cubic of it crosses the cell once from edge to edge: its exact part.
+    """Leaf of a cell that a single cubic of one path crosses once from edge to edge: the exact part of the cubic.
 
     Nothing is quantised or resolved. A cubic that crosses itself in the cell is accepted only under the even-odd rule,
-    because the shader counts crossings. `cubics`, (m, 4, 2), are the source's; `rules` has the `FillRule` of each path.
+    because the shader counts crossings. `cubics` (m, 4, 2) belong to the source; `rules` has each path's `FillRule`.
     """
     points, _, segment, span = cell.pieces
     last, rule = len(points) - 1, rules[cell.present[0, 0]]
@@ -121,7 +121,7 @@ def own_leaf(cell: LevelCell, cubics: NDArray[np.float64], rules: NDArray[np.int
 
 @kernel
 def _own_chain(chain: Chain, cubics: NDArray[np.float64], cell: LevelCell) -> ThesisLeaf:
-    """Leaf of a chain whose parts are consecutive on one cubic of the source: the exact part of that cubic."""
+    """Leaf of a chain with consecutive parts of one cubic of the source: the exact part of that cubic."""
     n = len(chain.segment)
     segment = chain.segment[0]
     if segment < 0:
@@ -156,7 +156,7 @@ def _off_line(curves: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np
 
 @kernel
 def _corner(chain: Chain, tolerance: float) -> ThesisLeaf:
-    """Leaf of a chain of two straight runs that meet at one of its joints inside the cell."""
+    """Leaf of a chain that consists of two straight runs, which meet at a joint inside the cell."""
     n = len(chain.curves)
     best, worst = 0, np.inf
     for joint in range(1, n):
@@ -179,7 +179,7 @@ def _corner(chain: Chain, tolerance: float) -> ThesisLeaf:
 
 @kernel
 def _sample(chain: Chain, per_part: int) -> NDArray[np.float64]:
-    """Points along a chain, including its joints."""
+    """Sample points along a chain, including its joints."""
     n = len(chain.curves)
     out = np.empty((n * per_part + 1, 2))
     for k in range(n):
@@ -193,7 +193,7 @@ def _sample(chain: Chain, per_part: int) -> NDArray[np.float64]:
 
 @kernel
 def _fit(chain: Chain, tolerance: float) -> ThesisLeaf:
-    """Leaf of a chain that one cubic approximates within tolerance."""
+    """Leaf of a chain that one cubic approximates within the tolerance."""
     per_part = min(max(MAX_SAMPLES // len(chain.curves), 2), SAMPLES_PER_PART)
     curve = np.empty((4, 2))
     distance = fit_cubic(_sample(chain, per_part), tolerance, curve)
@@ -226,9 +226,9 @@ def chain_leaf(chain: Chain, cubics: NDArray[np.float64], cell: LevelCell, toler
 
 @kernel
 def limit_leaf(chain: Chain) -> ThesisLeaf:
-    """Leaf of a cell at the depth limit: the straight line from edge to edge, or constant, of the nearest area.
+    """Leaf of a cell at the depth limit: the straight line or constant whose area is nearest to the chain's.
 
-    A line joins two points at which the boundary meets the cell's edge.
+    A line connects two points at which the boundary meets the cell's edge.
     """
     area = chain.area
     best = nearest_constant(area)
@@ -249,7 +249,7 @@ def limit_leaf(chain: Chain) -> ThesisLeaf:
             off = abs(area_right_of(line[0], line[3], integral_x_dy(line)) - area)
             if off < error:
                 error = off
-                kept = np.empty((4, 2))
-                copy_curve(line, kept)
-                best = ThesisLeaf(CURVE, kept, area, _off_line(chain.curves, kept[0], kept[3]), False)
+                chosen = np.empty((4, 2))
+                copy_curve(line, chosen)
+                best = ThesisLeaf(CURVE, chosen, area, _off_line(chain.curves, chosen[0], chosen[3]), False)
     return best

@@ -1,4 +1,4 @@
-"""Writes compact PNG files with text chunks; reads RGB images and their texts from untrusted files."""
+"""Write compact PNG files with text chunks; read RGB images and their texts from untrusted files."""
 
 import io
 import struct
@@ -21,7 +21,7 @@ COLOUR_TYPES = {1: 0, CHANNELS: RGB}
 def write_png(pixels: NDArray[Any], texts: dict[str, str]) -> bytes:
     """Write a PNG, RGB or grey: (height, width, 3) or (height, width, 1) uint8 or uint16.
 
-    One filter for all rows and one deflate strategy are chosen for the smallest file. The keywords of the texts are
+    The filter, one for all rows, and the deflate strategy are those of the smallest file. The keywords of the texts are
     Latin-1.
 
     Examples
@@ -45,7 +45,7 @@ def _write_chunks(*chunks: tuple[bytes, bytes]) -> bytes:
 
 
 def _deflate(image: bytes, strategy: int) -> bytes:
-    """Deflate at zlib's default level: level 9 saves 0.3% at most and takes ten times as long on the longest lists."""
+    """Deflate at zlib's default level: level 9 saves at most 0.3% and takes ten times as long for the longest lists."""
     stream = zlib.compressobj(strategy=strategy)
     return stream.compress(image) + stream.flush()
 
@@ -53,7 +53,7 @@ def _deflate(image: bytes, strategy: int) -> bytes:
 def _filter_rows(pixels: NDArray[Any]) -> list[bytes]:
     """Filter image bytes by None, Sub and Up (PNG specification, 9.2), with a filter byte for each row.
 
-    The filters Average and Paeth make no texture of our drawings smaller.
+    The filters Average and Paeth make none of our textures smaller.
     """
     height, width, channels = pixels.shape
     step = channels * pixels.dtype.itemsize
@@ -75,15 +75,15 @@ def _text_chunk(key: str, value: str) -> tuple[bytes, bytes]:
 
 
 def read_png(data: bytes, width: int, name: str) -> tuple[NDArray[Any], dict[str, str]]:
-    """Pixels, (height, width, 3) uint8 or uint16, and texts of an untrusted PNG; `name` names it in messages.
+    """Read pixels (height, width, 3), uint8 or uint16, and texts of an untrusted PNG; `name` is its name in messages.
 
-    The header bounds all memory that is used, and the format's limits bound the header. The texts are those of tEXt and
-    uncompressed iTXt chunks, by keyword.
+    The header limits all memory that is allocated, and the format limits the header. The texts of tEXt and uncompressed
+    iTXt chunks are keyed by keyword.
 
     Raises
     ------
     FormatError
-        If it is damaged, or anything but an RGB image of 8 or 16 bits and this width, not interlaced.
+        If the file is damaged, or is not an RGB image of 8 or 16 bits and this width without interlacing.
     """
     if len(data) > FILE_LIMIT:
         raise FormatError(f"{name}: longer than {FILE_LIMIT} bytes, so not a texture; convert the drawing again")
@@ -94,9 +94,7 @@ def read_png(data: bytes, width: int, name: str) -> tuple[NDArray[Any], dict[str
             raise png.FormatError("its last chunk is no end")
         deflated = b"".join(body for tag, body in chunks if tag == b"IDAT")
         _check_inflated(deflated, width, height, bits)
-        rows = png.Reader(bytes=_write_chunks(chunks[0], (b"IDAT", deflated))).read()[
-            2
-        ]  # without other programs' chunks
+        rows = png.Reader(bytes=_write_chunks(chunks[0], (b"IDAT", deflated))).read()[2]  # no other programs' chunks
         image = np.frombuffer(b"".join(bytes(row) for row in rows), np.uint8 if bits == 8 else np.uint16)
         return image.reshape(height, width, CHANNELS), _read_texts(chunks)
     except (png.Error, zlib.error, EOFError, UnicodeDecodeError) as error:
@@ -104,7 +102,7 @@ def read_png(data: bytes, width: int, name: str) -> tuple[NDArray[Any], dict[str
 
 
 def _read_header(chunks: list[tuple[bytes, bytes]], width: int, name: str) -> tuple[int, int]:
-    """Height and bits per channel."""
+    """Check the header; return height and bits per channel."""
     (tag, body), *others = chunks
     if tag != b"IHDR" or len(body) != HEADER.size or b"IHDR" in dict(others):
         raise png.FormatError("its first chunk is not the only header")
@@ -123,7 +121,7 @@ def _read_header(chunks: list[tuple[bytes, bytes]], width: int, name: str) -> tu
 
 
 def _check_inflated(data: bytes, width: int, height: int, bits: int) -> None:
-    """Refuse image data that inflate to a size other than the header's; inflate no more than that."""
+    """Raise an error if image data do not inflate to the header's size; inflate at most that much."""
     size = height * (1 + width * CHANNELS * bits // 8)
     stream = zlib.decompressobj()
     if len(stream.decompress(data, size + 1)) != size or not stream.eof:

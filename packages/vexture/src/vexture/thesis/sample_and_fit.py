@@ -1,7 +1,7 @@
-"""Builds the tree as the thesis does (4.2.1 to 4.2.3): the baseline of the evaluation.
+"""Build the tree as the thesis does (4.2.1 to 4.2.3): the baseline of the evaluation.
 
-The outline is sampled; a cell's samples are fitted by one cubic, or the cell is divided. Corners are approximated by
-division, crossings and overlaps are not resolved, and coverage is that of the straight line from P0 to P3.
+The outline is sampled. One cubic is fitted to a cell's samples, or the cell is divided. Corners are approximated by
+division, crossings and overlaps are not resolved, and the coverage is that of the straight line from P0 to P3.
 """
 
 from dataclasses import dataclass
@@ -21,34 +21,34 @@ from vexture.thesis.tree import CellKind, CellTree
 from vexture.tree.winding import inside
 
 SAMPLES_ACROSS = 256
-"""Initial density: samples on a line across the unit square."""
+"""Initial density: number of samples on a line across the unit square."""
 
 DENSER = 3
-"""Factor of the density of a segment that crosses a cell without a sample in it (thesis 4.2.2)."""
+"""Factor on the density of a segment that crosses a cell without a sample in it (thesis 4.2.2)."""
 
 FINE = 1 / 9
-"""Share of a cell: a shorter chord across it cuts a corner, and needs no denser samples."""
+"""Share of a cell's width. A shorter chord in the cell cuts a corner of it and needs no denser samples."""
 
 BESIDE = 1e-3
-"""Share of a chord's length: the distance from the chord at which inside and outside are tested."""
+"""Distance from a chord at which inside and outside are tested, as a share of the chord's length."""
 
 Polyline = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class _Run:
-    """Consecutive samples of the outline in a cell: points, and the segment of the source at each."""
+    """Consecutive samples of the outline in a cell: points, and the source segment of each."""
 
     points: Polyline
     segment: NDArray[np.int64]
-    sampled: NDArray[np.bool_]  # false for a point interpolated on a cell's edge
+    sampled: NDArray[np.bool_]  # False for a point interpolated on a cell's edge
 
 
 def _outline(drawing: Drawing, cubics: NDArray[np.float64], density: NDArray[np.int64]) -> list[_Run]:
-    """One closed run for each contour."""
+    """Sample the outline: one closed run for each contour."""
     samples = []
     for cubic, n in zip(cubics, density, strict=True):
-        t = (np.arange(n) / n)[:, None]  # from the cubic's start, without its end
+        t = (np.arange(n) / n)[:, None]  # includes the cubic's start, not its end
         s = 1.0 - t
         points = s * s * (s * cubic[0] + 3 * t * cubic[1]) + t * t * (3 * s * cubic[2] + t * cubic[3])
         samples.append(np.rint(points / GRAIN) * GRAIN)
@@ -64,7 +64,7 @@ def _outline(drawing: Drawing, cubics: NDArray[np.float64], density: NDArray[np.
 
 
 def _halves(run: _Run, axis: int, line: float) -> tuple[list[_Run], list[_Run]]:
-    """Parts of a run below and above a line, each ending in a point interpolated exactly on it."""
+    """Cut a run into the parts below and above a line; cut points are interpolated exactly on the line."""
     side = run.points[:, axis] >= line
     cuts = np.flatnonzero(side[1:] != side[:-1])
     parts: tuple[list[_Run], list[_Run]] = ([], [])
@@ -89,7 +89,7 @@ def _halves(run: _Run, axis: int, line: float) -> tuple[list[_Run], list[_Run]]:
 
 
 def _join_runs(runs: list[_Run]) -> list[_Run]:
-    """Join the runs of a cell that meet at a contour's start."""
+    """Join runs of a cell that meet at the start of a contour."""
     out = list(runs)
     while True:
         pair = next(((a, b) for a, b in permutations(out, 2) if _continues(a, b)), None)
@@ -107,12 +107,12 @@ def _join_runs(runs: list[_Run]) -> list[_Run]:
 
 
 def _continues(a: _Run, b: _Run) -> bool:
-    """Whether one run starts at the sample where another ends."""
+    """Return whether run b starts at the sample where run a ends."""
     return bool(a.sampled[-1] and b.sampled[0] and (a.points[-1] == b.points[0]).all())
 
 
 def _fit(points: Polyline) -> tuple[NDArray[np.float64], float]:
-    """Cubic through the ends, least squares at chord-length parameters, and the largest squared distance."""
+    """Fit a cubic to points by least squares at chord-length parameters; return it and the largest squared distance."""
     step = np.hypot(*np.diff(points, axis=0).T)
     t = np.append(0.0, np.cumsum(step)) / step.sum()
     s = 1.0 - t
@@ -130,7 +130,7 @@ def _fit(points: Polyline) -> tuple[NDArray[np.float64], float]:
 def inside_outline(
     points: NDArray[np.float64], chords: NDArray[np.float64], owner: NDArray[np.int64], rules: NDArray[np.int64]
 ) -> NDArray[np.bool_]:
-    """Whether points, (n, 2), are inside any path, from the chords of the outline, (m, 2, 2), and their paths."""
+    """Return whether points (n, 2) are inside any path, given the chords (m, 2, 2) of the outline and their paths."""
     out = np.zeros(len(points), np.bool_)
     windings = np.empty(len(rules), np.int64)
     for i in range(len(points)):
@@ -151,17 +151,17 @@ class _Found:
 
     quad: int
     cell: int
-    curve: NDArray[np.float64] | None  # cell-local; None where it is constant
-    probe: NDArray[np.float64]  # two points, on the right and on the left of it, in unit-square units
+    curve: NDArray[np.float64] | None  # cell-local; None for a constant cell
+    probe: NDArray[np.float64]  # (2, 2): a point on its right and one on its left, in unit-square units
 
 
 def _longest(runs: list[_Run]) -> _Run:
-    """The run with the longest chord."""
+    """Run with the longest chord."""
     return max(runs, key=lambda run: float(np.hypot(*(run.points[-1] - run.points[0]))))
 
 
 def _from_edge_to_edge(run: _Run, origin: NDArray[np.float64], size: float) -> bool:
-    """Whether both ends of a run lie on the edge of a cell."""
+    """Return whether both ends of a run lie on the edge of a cell."""
     ends = run.points[[0, -1]]
     return bool(((ends == origin) | (ends == origin + size)).any(axis=1).all())
 
@@ -169,7 +169,7 @@ def _from_edge_to_edge(run: _Run, origin: NDArray[np.float64], size: float) -> b
 def _leaf(
     runs: list[_Run], origin: NDArray[np.float64], size: float, tolerance: float, at_limit: bool
 ) -> tuple[NDArray[np.float64] | None, float] | None:
-    """Cell-local curve of a cell, None where constant, with its distance from the samples; None to divide the cell."""
+    """Cell-local curve of a cell, or None if constant, and its distance from the samples; None to divide the cell."""
     if not runs:
         return None, 0.0
     if len(runs) == 1 and _from_edge_to_edge(runs[0], origin, size):
@@ -188,7 +188,7 @@ def _leaf(
 
 
 def _too_coarse(runs: list[_Run], size: float) -> set[int]:
-    """Segments that cross a cell by a long chord without a sample in it."""
+    """Segments that cross a cell in a long chord without a sample in the cell."""
     return {
         int(segment)
         for run in runs
@@ -198,7 +198,7 @@ def _too_coarse(runs: list[_Run], size: float) -> set[int]:
 
 
 def _probe(runs: list[_Run], origin: NDArray[np.float64], size: float) -> NDArray[np.float64]:
-    """Points beside the longest chord in a cell, right and left; the cell's centre twice if there is none."""
+    """Points on the right and left of the longest chord in a cell; the cell's centre twice if there is no chord."""
     if not runs:
         return origin + np.full((2, 2), 0.5) * size
     points = _longest(runs).points
@@ -212,10 +212,10 @@ def _probe(runs: list[_Run], origin: NDArray[np.float64], size: float) -> NDArra
 def _divide(
     outline: list[_Run], accuracy: Accuracy, max_depth: int
 ) -> tuple[list[list[int]], list[_Found], set[int], float, int]:
-    """Divide breadth first.
+    """Divide the unit square breadth first.
 
-    Results: four child quads or -1 for each quad; the leaves; the segments to be sampled more densely; the largest
-    distance; the number of unresolved cells.
+    Returns four child quads or -1 for each quad, the leaves, the segments to sample more densely, the largest distance,
+    and the number of unresolved cells.
     """
     quads: list[list[int]] = [[-1] * 4]
     leaves: list[_Found] = []
@@ -249,7 +249,7 @@ def _divide(
 def _finish(
     quads: list[list[int]], leaves: list[_Found], filled: NDArray[np.bool_], worst: float, unresolved: int
 ) -> CellTree:
-    """Give each leaf its filled side and its straight-line area (thesis, Figure 4.3)."""
+    """Set the filled side of each leaf and its straight-line area (thesis, Figure 4.3); return the tree."""
     ref = np.array(quads, np.int32)
     kind = np.where(ref >= 0, CellKind.QUAD, CellKind.EMPTY).astype(np.uint8)
     coverage = np.zeros(ref.shape)
@@ -281,10 +281,10 @@ def build_sampled(
     accuracy: Accuracy,
     max_depth: int,
 ) -> CellTree:
-    """Quad-tree of a drawing in normal form by sampling and fitting, as the thesis does it.
+    """Build the quad-tree of a drawing in normal form by sampling and fitting, as the thesis does.
 
-    `cubics`, `owner` and `rules` are those of `vexture.tree.cubics.gather`. A fit is accepted if every sample is within
-    the accuracy. Cells of depth `max_depth` are not divided further.
+    `cubics`, `owner` and `rules` come from `vexture.tree.cubics.gather`. A fit is accepted if the distance of every
+    sample is within the accuracy. Cells of depth `max_depth` are not divided further.
     """
     extent = np.hypot(*np.diff(cubics, axis=1).transpose(2, 0, 1)).sum(axis=1)
     density = np.maximum(np.ceil(extent * SAMPLES_ACROSS).astype(np.int64), 3)

@@ -1,7 +1,7 @@
-"""Shader text of the thesis's encoding: the files of ``shaders/`` beside this module, preceded by their numbers.
+"""Shader text of the thesis's encoding: the files of this package's folder ``shaders/``, preceded by constants.
 
-The numbers are constants: the layout of the textures, the numbers of the method, and the sizes of the texture to draw,
-because loops need constant bounds (thesis 4.4.2). The lengths of its lists bound no loop. They are uniforms, so that
+The constants are the layout of the textures, the numbers of the method and the sizes of the texture to draw, because
+loops need constant bounds (thesis 4.4.2). The lengths of the texture's lists bound no loop, so they are uniforms. Thus
 one program serves all textures of a depth: compiling takes longer than drawing most pictures.
 """
 
@@ -17,38 +17,38 @@ from vexture.renderers.shader import PICTURE_MAIN, VERSIONS, read_shader
 from vexture.thesis import layout, method
 
 PACKAGE: Final = "vexture.thesis"
-"""Its folder ``shaders/`` holds the files."""
+"""Package whose folder ``shaders/`` holds the files."""
 
 FOLD_HEIGHT: Final = 16384
-"""Rows; a longer list continues in the columns to its right."""
+"""Most rows of a texture; a longer list continues in the columns to the right."""
 
 
 class ThesisPair(Protocol):
-    """The part of a `vexture.thesis.ThesisTexture` that a renderer reads."""
+    """Part of a `vexture.thesis.ThesisTexture` that a renderer reads."""
 
     @property
     def quads(self) -> NDArray[Any]:
-        """Rows of quads, (n, 4, 3) uint8 or uint16."""
+        """Rows of quads, (n, 4, 3), uint8 or uint16."""
 
     @property
     def curves(self) -> NDArray[Any]:
-        """Rows of curves, (n, 2, 3) of the same type."""
+        """Rows of curves, (n, 2, 3), of the same type."""
 
     @property
     def name(self) -> str:
-        """Names it in messages."""
+        """Name of the texture in messages."""
 
 
 @dataclass(frozen=True, slots=True)
 class TextureSizes:
-    """Sizes of a texture that are needed to compile a shader for it."""
+    """Sizes of a texture that a shader for it is compiled with."""
 
     levels: int  # quads on the longest path from the root to a leaf
-    fold_height: int  # rows of a list; the next ones start again at the top, in the columns to the right
+    fold_height: int  # rows of a list; further rows start at the top again, in the columns to the right
 
     @classmethod
     def of_texture(cls, texture: ThesisPair, fold_height: int = FOLD_HEIGHT) -> "TextureSizes":
-        """Sizes of a texture, by all references from its root. Raises `FormatError` if its quads do not form a tree."""
+        """Measure a texture by all references from its root; raise a `FormatError` if its quads do not form a tree."""
         cells = texture.quads.astype(np.float64) / np.iinfo(texture.quads.dtype).max
         last = len(cells) - 1
         below = np.rint(cells[:, :, 1] * last).astype(np.int64)
@@ -80,15 +80,14 @@ def constants(module: ModuleType) -> str:
 
 
 def compose(version: str, file: str, main: str, sizes: TextureSizes | None = None) -> str:
-    """Whole shader: the version's first lines, the constants, a file with its includes, and `main`.
+    """Compose a shader: the version's first lines, the constants, a file with its includes, and `main`.
 
-    `main` declares the outputs and defines the function ``main``. `sizes` are those of the texture that is read, if
-    any.
+    `main` declares the outputs and defines the function ``main``. `sizes` belong to the texture that is read, if any.
     """
     injected = "".join(f"const int {name.upper()} = {size};\n" for name, size in asdict(sizes).items()) if sizes else ""
     return VERSIONS[version] + constants(layout) + constants(method) + injected + read_shader(file, PACKAGE) + main
 
 
 def view_source(version: str, sizes: TextureSizes) -> str:
-    """Fragment shader that draws textures of some sizes in one colour channel."""
+    """Fragment shader that draws textures with given sizes in one colour channel."""
     return compose(version, "view.glsl", PICTURE_MAIN, sizes)

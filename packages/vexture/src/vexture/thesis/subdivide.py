@@ -1,4 +1,4 @@
-"""Divides the cells of one depth into those of the next, by the rules of `vexture.tree.divide`."""
+"""Divide the cells of one depth into those of the next, by the rules of `vexture.tree.divide`."""
 
 from typing import NamedTuple
 
@@ -15,10 +15,10 @@ from vexture.tree.winding import child_windings, inside
 
 
 class ThesisLevel(NamedTuple):
-    """Cells of one depth that are neither leaves nor constant yet.
+    """Cells of one depth that are not yet leaves or constant.
 
-    Each cell owns a range of `pieces` and a range of `present`: the paths that have pieces in it, with their corner
-    windings (see `vexture.tree.winding`). Both are in the order of the paths, so that the pieces of a path are
+    Each cell owns a range of `pieces` and a range of `present`: the paths with pieces in the cell, and their corner
+    windings (see `vexture.tree.winding`). Both ranges are in the order of the paths, so that the pieces of a path are
     consecutive.
     """
 
@@ -31,7 +31,7 @@ class ThesisLevel(NamedTuple):
 
 
 class LevelCell(NamedTuple):
-    """One cell of a level: its bottom-left corner and width, in unit-square units, and what it owns."""
+    """One cell of a level: its bottom-left corner and width in unit-square units, its pieces and paths."""
 
     x0: float
     y0: float
@@ -42,7 +42,7 @@ class LevelCell(NamedTuple):
 
 @kernel
 def cell_of(level: ThesisLevel, c: int, size: float) -> LevelCell:
-    """Cell c of a level whose cells have this width."""
+    """Cell c of a level whose cells have width `size`."""
     first, last = level.piece_at[c], level.piece_at[c + 1]
     points, path, segment, span = level.pieces
     pieces = Pieces(points[first:last], path[first:last], segment[first:last], span[first:last])
@@ -52,7 +52,7 @@ def cell_of(level: ThesisLevel, c: int, size: float) -> LevelCell:
 
 @kernel(allocates=False)
 def _copy_piece(source: Pieces, i: int, target: Pieces, k: int) -> None:
-    """Copy piece i to place k."""
+    """Copy piece i of `source` to index k of `target`."""
     copy_curve(source.points[i], target.points[k])
     target.path[k] = source.path[i]
     target.segment[k] = source.segment[i]
@@ -61,7 +61,7 @@ def _copy_piece(source: Pieces, i: int, target: Pieces, k: int) -> None:
 
 @kernel(allocates=False)
 def _cut(source: Pieces, count: int, axis: int, line: float, target: Pieces) -> int:
-    """Copy pieces to `target`, cut where they cross a line; return their new number."""
+    """Copy pieces to `target`, cut where they cross a line; return the new number of pieces."""
     other, end = 1 - axis, 0
     for i in range(count):
         curve = source.points[i]
@@ -91,7 +91,7 @@ def _cut(source: Pieces, count: int, axis: int, line: float, target: Pieces) -> 
 def _sort_by_child(
     cut: Pieces, count: int, xm: float, ym: float, target: Pieces, end: int, child_at: NDArray[np.int64]
 ) -> int:
-    """Append cut pieces child by child, without point-like ones; write where each child starts; return the new end."""
+    """Append cut pieces child by child, except point-like ones; write the start of each child; return the new end."""
     for child in range(4):
         child_at[child] = end
         for i in range(count):
@@ -113,7 +113,7 @@ def _copy_present(
     present: NDArray[np.int64],
     end: int,
 ) -> int:
-    """Append the paths that have pieces in a child; return the new end, or -1 if another path fills the child."""
+    """Append the paths with pieces in a child; return the new end, or -1 if another path fills the child."""
     for k in range(len(windings)):
         path = cell.present[k, 0]
         if windings[k, 4 + child]:
@@ -126,7 +126,7 @@ def _copy_present(
 
 @kernel(allocates=False)
 def _room_for(level: ThesisLevel, split_cells: NDArray[np.bool_]) -> tuple[int, int, int, int]:
-    """Upper bounds: children, pieces of all children, pieces of one cell, paths of all children."""
+    """Upper bounds of array sizes: children, pieces of all children, pieces of one cell, paths of all children."""
     cells, pieces, widest, paths = 0, 0, 0, 0
     for c in range(len(split_cells)):
         if split_cells[c]:
@@ -145,7 +145,7 @@ def children(
     """Divide cells of a level, each `size` wide; return the next level and the slots of full children.
 
     Each cell in the mask `split_cells` becomes a quad, numbered from `first_quad`. The next level holds the children
-    that have pieces and are not covered by another path. Those in neither result are empty.
+    with pieces that no other path covers. Children in neither result are empty.
     """
     half = 0.5 * size
     room, piece_room, widest, path_room = _room_for(level, split_cells)

@@ -35,20 +35,20 @@ class ThesisTexture:
     Parameters
     ----------
     quads : (quads, 4, 3) uint8 or uint16 array
-        A row for each quad, a pixel for each cell: its kind, its index, the quad's coverage.
+        A row for each quad, a pixel for each cell: the cell's kind, its index, and the quad's coverage.
     curves : (2 + curves, 2, 3) array of the same type
-        A row for each curve; the first two stand for *full* and *empty*.
+        A row for each curve; the first two rows represent *full* and *empty*.
     to_source : (2, 3) float64 array
         Affine map from the unit square to the units of the source.
     name : str
-        Names the shape in messages and files.
+        Name of the shape in messages and files.
     crs : str or None
-        Coordinate reference system of the source units, where there is one.
+        Coordinate reference system of the source units, if any.
 
     Raises
     ------
     FormatError
-        If the arrays are of another shape or type, or longer than `layout.LIST_LIMIT`.
+        If the arrays have another shape or type, or are longer than `layout.LIST_LIMIT`.
 
     Examples
     --------
@@ -88,15 +88,15 @@ class ThesisTexture:
 
     @property
     def maximum(self) -> int:
-        """The channel value that stands for 1."""
+        """Channel value that represents 1."""
         return (1 << self.bits) - 1
 
     def cells(self) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
-        """Kind and index of each cell; checks that the quads form a tree.
+        """Read the kind and index of each cell; check that the quads form a tree.
 
-        Both are (quads, 4), in the order of `vexture.thesis.tree.CellTree`: a `CellKind` as uint8, and the index of the
-        quad or curve (without the constants) as int32, -1 for constant cells. Raises `FormatError` if a row is not
-        referred to exactly once, in order.
+        Both results are (quads, 4), in the order of `vexture.thesis.tree.CellTree`: a `CellKind` as uint8, and the
+        index of the quad or curve (not counting the constants) as int32, -1 for constant cells. Raises a `FormatError`
+        unless there is exactly one reference to each row, in order.
         """
         red, green, _ = np.moveaxis(self.quads[:, np.argsort(layout.CELL_ORDER)] / self.maximum, 2, 0)
         is_quad = red > layout.THRESHOLD_QUAD
@@ -138,7 +138,7 @@ class ThesisTexture:
 
     @property
     def depth(self) -> int:
-        """Depth of the deepest quad; the unit square has depth 0. A shader descends at most this often."""
+        """Depth of the deepest quad; the unit square has depth 0. A shader descends at most this many times."""
         kind, ref = self.cells()
         is_quad = kind == CellKind.QUAD
         level = np.zeros(1, np.int32)
@@ -150,7 +150,7 @@ class ThesisTexture:
 
     @property
     def nbytes(self) -> int:
-        """Size in memory, of a GPU too."""
+        """Size in bytes, in main memory or on a GPU."""
         return int(self.quads.nbytes + self.curves.nbytes)
 
     def coverage(
@@ -161,7 +161,7 @@ class ThesisTexture:
         renderer: TextureRenderer = "cpu",
         root: str | int | None = None,
     ) -> NDArray[np.float32]:
-        """Covered part of each pixel; the parameters are those of `vexture.coverage`."""
+        """Part of each pixel that the shape covers; parameters as in `vexture.coverage`."""
         if root not in (None, 0, self.name):
             raise ParameterError(f"`root` is {root!r}; {self.name} is a texture of one shape, leave it out")
         if renderer == "cpu":
@@ -182,12 +182,12 @@ class ThesisTexture:
         renderer: TextureRenderer = "cpu",
         root: str | int | None = None,
     ) -> NDArray[np.float32]:
-        """Picture of the shape in black; the parameters are those of `vexture.render`."""
+        """Picture of the shape in black; parameters as in `vexture.render`."""
         covered = self.coverage(size, view, renderer=renderer, root=root)
         return composite_pictures(size_of(size), [paint_layer(Paint(), covered)])
 
     def info(self) -> dict[str, Any]:
-        """Describe the texture, ready for JSON.
+        """Describe the texture as JSON-ready data.
 
         Examples
         --------
@@ -231,7 +231,7 @@ class ThesisTexture:
         return files
 
     def files(self) -> dict[str, bytes]:
-        """Contents of the two files, by what follows the texture's name in their names."""
+        """Contents of the two files, keyed by their suffixes."""
         return dict(zip((layout.QUADS_SUFFIX, layout.CURVES_SUFFIX), self.to_png(), strict=True))
 
     def save(self, path: str | os.PathLike[str]) -> tuple[Path, Path]:
@@ -240,13 +240,13 @@ class ThesisTexture:
         Parameters
         ----------
         path : path
-            A folder (that exists or ends with a separator): the files get the texture's name. Otherwise either file or
-            their common stem, with or without ``.png``.
+            A folder (existing, or with a separator at its end): the files get the texture's name. Otherwise either file
+            or their common stem, with or without ``.png``.
 
         Raises
         ------
         DeviceError
-            If the disk refuses.
+            If a file cannot be written.
         """
         targets = pair_of(Path(path) / (file_name(self.name) + layout.QUADS_SUFFIX) if is_folder(path) else path)
         write_together(dict(zip(targets, self.to_png(), strict=True)))
@@ -254,7 +254,7 @@ class ThesisTexture:
 
 
 def _check_rising(rows: NDArray[np.int32], first: int, count: int, noun: str) -> None:
-    """Check that each row of a list, from `first` on, is referred to once, in order."""
+    """Raise a `FormatError` unless there is one reference to each row of a list, from `first` on, in order."""
     if len(rows) != count - first:
         raise FormatError(f"{len(rows)} references to {count - first} {noun} rows; each must have one; {REMEDY}")
     wrong = rows != np.arange(first, count)
@@ -266,18 +266,18 @@ def _check_rising(rows: NDArray[np.int32], first: int, count: int, noun: str) ->
 
 
 def pair_of(path: str | os.PathLike[str]) -> tuple[Path, Path]:
-    """Both files of a pair, from either of them, their common stem, or that stem with ``.png``.
+    """Paths of both files of a pair, from either of them, their common stem, or the stem with ``.png``.
 
     Examples
     --------
     >>> [str(file) for file in pair_of("maps/delft.curves.png")]
     ['maps/delft.quads.png', 'maps/delft.curves.png']
     """
-    given = Path(path)
+    file = Path(path)
     suffixes = (layout.QUADS_SUFFIX, layout.CURVES_SUFFIX, ".png")
-    suffix = next((suffix for suffix in suffixes if given.name.endswith(suffix) and given.name != suffix), "")
-    stem = given.name.removesuffix(suffix)
-    return given.parent / (stem + layout.QUADS_SUFFIX), given.parent / (stem + layout.CURVES_SUFFIX)
+    suffix = next((suffix for suffix in suffixes if file.name.endswith(suffix) and file.name != suffix), "")
+    stem = file.name.removesuffix(suffix)
+    return file.parent / (stem + layout.QUADS_SUFFIX), file.parent / (stem + layout.CURVES_SUFFIX)
 
 
 def load(path: str | os.PathLike[str]) -> ThesisTexture:
@@ -293,7 +293,7 @@ def load(path: str | os.PathLike[str]) -> ThesisTexture:
     FormatError
         If a file is missing, damaged or not a texture, or if the two do not belong together.
     DeviceError
-        If a file may not be read.
+        If a file cannot be read.
     """
     quads_path, curves_path = pair_of(path)
     (quads, texts), (curves, other_texts) = (
@@ -318,7 +318,7 @@ def load(path: str | os.PathLike[str]) -> ThesisTexture:
 
 
 def _read_transform(texts: dict[str, str]) -> NDArray[np.float64]:
-    """Affine map to the source, (2, 3), after a check of the version and the encoding."""
+    """Check version and encoding; return the affine map to the source, (2, 3)."""
     for key, known in ((TEXT_VERSION, layout.FORMAT_VERSION), (TEXT_ENCODING, layout.ENCODING_THESIS)):
         if texts.get(key) != known:
             raise FormatError(f"{key} is {texts.get(key)!r}; this program reads {known!r}; update it or {REMEDY}")

@@ -21,21 +21,21 @@ class CellKind(IntEnum):
 class CellTree:
     """A quad-tree with thesis leaves: one cubic or one straight corner from edge to edge of its cell.
 
-    Quads are numbered breadth first, quad 0 is the unit square; cell k of a quad is its (x half) + 2 (y half),
-    y up. References rise with the index of the quad and the cell that hold them. The filled side of a curve or
+    Quads are numbered breadth first, and quad 0 is the unit square. The number of a cell in its quad is (x half) +
+    2 (y half), y up. References increase with the quad and the cell that hold them. The filled side of a curve or
     corner is on the right of the direction from P0 to P3.
     """
 
     kind: NDArray[np.uint8]  # (quads, 4): a `CellKind` for each cell
-    ref: NDArray[np.int32]  # (quads, 4): index of the quad or of the curve (CURVE, CORNER); -1 where constant
+    ref: NDArray[np.int32]  # (quads, 4): index of the quad or curve; -1 for a constant cell
     coverage: NDArray[np.float64]  # (quads, 4): filled part of each cell, 0..1
-    curves: NDArray[np.float64]  # (curves, 4, 2): P0 P1 P2 P3 in their cell's unit square; a corner is P1 and P2
+    curves: NDArray[np.float64]  # (curves, 4, 2): P0 P1 P2 P3 in the cell's unit square; P1 = P2 is a corner
     deviation: float  # largest distance between the outlines before quantisation, in unit-square units
     unresolved: int  # number of cells at the depth limit whose content a leaf cannot represent
 
     @property
     def quad_coverage(self) -> NDArray[np.float64]:
-        """Filled part of each quad, (quads,): the mean of its cells'."""
+        """Filled part of each quad, (quads,): the mean over its cells."""
         mean: NDArray[np.float64] = self.coverage.mean(axis=1)
         return mean
 

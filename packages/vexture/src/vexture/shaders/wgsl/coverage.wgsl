@@ -28,30 +28,30 @@ const VEXTURE_SMALL_FINEST: i32 = 8;
 const VEXTURE_STEPS: i32 = 6;
 const VEXTURE_THINNEST_PIXEL: f32 = 0.015625;
 const VEXTURE_WINDING_OFFSET: i32 = 4;
-// Reading the packed texture (FORMAT.md, part B): positions, and the cells down the tree.
+// Reading the packed texture (FORMAT.md, part B): positions, and the descent to the cells.
 // Exports: VexturePlace, VextureCell, VextureSquare, vexture_place, vexture_texel, vexture_top, vexture_descend.
 //
 // Positions are signed integers in units of 2^-POSITION_BITS of the unit square, so that a pixel beyond the square's edge
 // has one too; a float holds the rest. A cell's side is a power of two, 2^bit positions.
 
-// A point and the box of a pixel around it.
+// A point and the bounding box of the pixel around it.
 struct VexturePlace {
-    point: vec2i,  // a multiple of 2^REST_BITS, so that a float holds its way to any cell
+    point: vec2i,  // a multiple of 2^REST_BITS, so that a float holds its distance from any cell
     rest: vec2f,  // of the point, in the same unit, 0 or more
     low: vec2i,  // first and last position of the box, clipped to the unit square;
     high: vec2i,  // high < low if it lies outside
 }
 
-// A leaf, as the byte of a texel; or a quad.
+// A leaf, given by its byte in a quad's texel; or a quad.
 struct VextureCell {
-    quad: u32,  // that holds the leaf, or the quad itself
-    texel: vec4u,  // of it
+    quad: u32,  // quad that holds the leaf, or the quad itself
+    texel: vec4u,  // its texel
     shift: u32,  // of the cell's byte in the words of the quad that holds it
     bit: i32,
     is_quad: bool,
 }
 
-// A square of cells: its lowest position in a pixel's box.
+// A square of cells, given by its lowest position in a pixel's box.
 struct VextureSquare {
     position: vec2i,
     bit: i32,
@@ -91,7 +91,7 @@ fn vexture_place(base: vec2u, offset: vec2f, extent_given: vec2f) -> VexturePlac
     return VexturePlace(point, rest, low, high);
 }
 
-// The smallest cell that holds the whole box of a place, or the smallest of all cells. If the box lies outside of the unit
+// Smallest cell that contains the whole box of a place, or the smallest of all cells. If the box lies outside the unit
 // square, there is none: x is NO_CELL.
 fn vexture_first_square(place: VexturePlace) -> VextureSquare {
     let differ: i32 = (place.low.x ^ place.high.x) | (place.low.y ^ place.high.y);
@@ -101,7 +101,7 @@ fn vexture_first_square(place: VexturePlace) -> VextureSquare {
     return VextureSquare(position, max(bits, VEXTURE_POSITION_BITS - VEXTURE_MOST_DEPTH));
 }
 
-// The next square of cells that meets the box, after a cell with the upper right corner `beyond`; x is NO_CELL if there is
+// Next square of cells that meets the box, after a cell with the upper right corner `beyond`; x is NO_CELL if there is
 // none. The order is Morton's: of the two sides across which the next square may lie, the one that ends the smaller square.
 fn vexture_next_square(position: vec2i, beyond: vec2i, place: VexturePlace) -> VextureSquare {
     var step: vec2i = beyond & -beyond;
@@ -115,12 +115,12 @@ fn vexture_next_square(position: vec2i, beyond: vec2i, place: VexturePlace) -> V
     return VextureSquare(next, (bitcast<i32>(f32(least)) >> 23u) - 127);
 }
 
-// Of the largest cells that are no larger than a square of this area, in positions.
+// Bit of the largest cells that are no larger than a square of this area, in positions.
 fn vexture_bit_of(area: f32) -> i32 {
     return ((bitcast<i32>(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23u) - 127) >> 1u;
 }
 
-// Of the smallest cells that the sum over cells visits, if the tree has them: a quarter to half as wide as the footprint;
+// Bit of the smallest cells that the sum over cells visits, if the tree has them: a quarter to half as wide as the footprint;
 // half of that in pictures of few pixels, where drawings have few deep cells; wider for a long footprint. Parameters: the
 // footprint's area, and the square of its length.
 fn vexture_finest_bit(area: f32, longer: f32) -> i32 {
@@ -169,7 +169,7 @@ fn vexture_count(cell: VextureCell) -> i32 {
     return i32((cell.texel.z >> (cell.shift + u32(VEXTURE_COUNT_SHIFT))) & u32(VEXTURE_MOST_CURVES));
 }
 
-// 0 marks a constant leaf.
+// Corner winding of the leaf plus WINDING_OFFSET; 0 marks a constant leaf.
 fn vexture_winding_code(cell: VextureCell) -> i32 {
     return i32((cell.texel.z >> cell.shift) & 7u);
 }
@@ -191,7 +191,7 @@ struct VextureBox {
     size: vec2f,  // in positions
 }
 
-// Monotone in x and y. Coordinates that fall are mirrored in the box, so that both rise.
+// A piece, monotone in x and y. Falling coordinates are mirrored in the box, so that both rise.
 struct VexturePiece {
     a: vec2f,  // coefficients of t^3, t^2, t and 1
     b: vec2f,
@@ -201,7 +201,7 @@ struct VexturePiece {
     falls: vec2<bool>,
 }
 
-// Where a piece enters and leaves the box.
+// Points where a piece enters and leaves the box.
 struct VextureEnds {
     start: f32,  // t
     end: f32,
@@ -209,7 +209,7 @@ struct VextureEnds {
     leave: vec2f,
 }
 
-// The part of a cell in the box of the footprint, which reaches `extent` from the pixel's centre.
+// Part of a cell in the footprint's box, which extends by `extent` from the pixel's centre.
 fn vexture_box(origin: vec2i, bit: i32, place: VexturePlace, extent: vec2f) -> VextureBox {
     let way: vec2f = vec2f(place.point - origin);
     let low: vec2f = max(-way - place.rest, -extent);
@@ -298,8 +298,8 @@ fn vexture_bulge(third: f32, first: vec2f, last: vec2f, chord: vec2f) -> f32 {
     return 0.15 * third * (2.0 * vexture_cross(first - last, chord) - third * vexture_cross(first, last));
 }
 
-// Mean of a quad about a place in its own unit square: of the plane, bent between its corners, that has the four stored
-// coverages as means of the four cells.
+// Mean of a quad near a point of its own unit square: the value of the bilinear function whose means over the four cells
+// are the stored coverages.
 fn vexture_mean(stored: u32, place: vec2f) -> f32 {
     let cells: vec4f = vec4f(vec4i(i32(stored & 255u), i32((stored >> 8u) & 255u), i32((stored >> 16u) & 255u),
         i32(stored >> 24u)));
@@ -308,11 +308,11 @@ fn vexture_mean(stored: u32, place: vec2f) -> f32 {
     return clamp(mix(rows.x, rows.y, at.y) / f32(VEXTURE_COVERAGE_ONE), 0.0, 1.0);
 }
 
-// Coverage of a pixel whose sides are level and upright in the drawing, in views in which all pixels are alike: what
-// vextureCoverage gives there, for less work and with half its registers.
+// Coverage of a pixel with horizontal and vertical sides in the drawing, in views in which all pixels are equal: the
+// result of vextureCoverage, with less work and half its registers.
 // Exports: VextureFlat, vextureFlat, vextureFlatCoverage.
 
-// What the pixels of a view have in common.
+// Values that all pixels of a view share.
 struct VextureFlat {
     extent: vec2f,  // half a pixel, in positions
     inverse: f32,  // of its area
@@ -328,7 +328,7 @@ fn vextureFlat(dx: vec2f, dy: vec2f) -> VextureFlat {
     return VextureFlat(extent, 1.0 / area, vexture_finest_bit(area, longer * longer));
 }
 
-// Area of the box on the right of a piece, negative for one that rises.
+// Area of the box to the right of a piece; negative if the piece rises.
 fn vexture_flat_piece_area(piece: VexturePiece, ends: VextureEnds) -> f32 {
     let chord: vec2f = ends.leave - ends.enter;
     let first: vec2f = vexture_slope(piece, ends.start);
@@ -417,7 +417,7 @@ fn vexture_frame(dx_given: vec2f, dy_given: vec2f) -> VextureFrame {
     let smallest: f32 = VEXTURE_SMALLEST_PIXEL * f32(1 << u32(VEXTURE_POSITION_BITS));
     var longer: f32 = max(dot(dx, dx), dot(dy, dy));
     var area: f32 = dx.x * dy.y - dx.y * dy.x;
-    let exists: bool = longer > smallest * smallest;  // not so if a parameter is NaN
+    let exists: bool = longer > smallest * smallest;  // false if a parameter is NaN
     if (!exists || abs(area) < VEXTURE_THINNEST_PIXEL * longer) {  // the plane is seen from its edge
         let width: f32 = select(1.0, VEXTURE_THINNEST_PIXEL, exists);
         dx = select(dy, dx, dot(dx, dx) == longer);
@@ -435,7 +435,7 @@ fn vexture_into_frame(frame: VextureFrame, point: vec2f) -> vec2f {
     return vec2f(dot(frame.right, point), dot(frame.up, point));
 }
 
-// dx / dy and dy / dx of a direction; 0 for what is infinite.
+// Slopes dx / dy and dy / dx of a direction; 0 in place of infinity.
 fn vexture_slopes(dx: f32, dy: f32) -> vec2f {
     return vec2f(select(0.0, dx / dy, dy != 0.0), select(0.0, dy / dx, dx != 0.0));
 }
@@ -461,7 +461,7 @@ fn vexture_beside(p: vec2f, q: vec2f) -> f32 {
     return vexture_beside_sloped(p, q.y, vexture_slopes(q.x - p.x, q.y - p.y));
 }
 
-// Approximate share of a straight line in the pixel; its factor is small.
+// Approximate fraction of a straight line that lies in the pixel; the factor that it scales is small.
 fn vexture_part_inside(p: vec2f, q: vec2f) -> f32 {
     let way: vec2f = q - p;
     let held: vec2f = clamp(q, vec2f(-0.5), vec2f(0.5)) - clamp(p, vec2f(-0.5), vec2f(0.5));
@@ -485,14 +485,14 @@ fn vexture_box_area(frame: VextureFrame, low: vec2f, size: vec2f) -> f32 {
 // Coverage of a pixel by a shape in a packed texture: the exact area of the shape in the pixel's footprint.
 // Exports: vextureCoverage.
 
-// The box as a parallelogram in the footprint's frame.
+// A box as a parallelogram in the footprint's frame.
 struct VextureCorner {
     origin: vec2f,
     x: vec2f,  // its sides
     y: vec2f,
 }
 
-// The corner of the box where a piece's coordinates, which may be mirrored, begin.
+// Corner of the box at which a piece's coordinates, which may be mirrored, begin.
 fn vexture_corner(falls: vec2<bool>, box: VextureBox, frame: VextureFrame) -> VextureCorner {
     let low: vec2f = vec2f(select(box.low.x, box.low.x + box.size.x, falls.x),
         select(box.low.y, box.low.y + box.size.y, falls.y));
@@ -506,7 +506,7 @@ fn vexture_from_corner(corner: VextureCorner, x: f32, y: f32) -> vec2f {
     return corner.origin + corner.x * x + corner.y * y;
 }
 
-// Number of parts that the bend of a piece requires.
+// Number of parts into which a piece is divided because of its bend.
 fn vexture_piece_parts(piece: VexturePiece, ends: VextureEnds, corner: VextureCorner) -> i32 {
     var slope: vec2f = vexture_slope(piece, ends.start);
     let first: vec2f = corner.x * slope.x + corner.y * slope.y;
@@ -518,8 +518,8 @@ fn vexture_piece_parts(piece: VexturePiece, ends: VextureEnds, corner: VextureCo
     return 1 + i32(min(VEXTURE_BEND * bend, VEXTURE_MOST_PARTS - 1.0));
 }
 
-// Area of the pixel beside a piece between its ends, in as many parts as its bend requires: beside the chord of each, plus
-// the area between the two for the share of the chord in the pixel.
+// Area of the pixel beside a piece between its ends, summed over parts: the area beside each part's chord, plus the area
+// between part and chord times the share of the chord in the pixel.
 fn vexture_curve_area(piece: VexturePiece, ends: VextureEnds, corner: VextureCorner) -> f32 {
     var parts: i32 = vexture_piece_parts(piece, ends, corner);
     let step_t: f32 = (ends.end - ends.start) / f32(parts);
@@ -542,8 +542,8 @@ fn vexture_curve_area(piece: VexturePiece, ends: VextureEnds, corner: VextureCor
     return area;
 }
 
-// The way along the box's sides that closes a piece: the box's left side while the piece is left of the box, and back on its
-// right side.
+// Path along the box's sides that closes a piece: the box's left side while the piece is left of the box, and back on the
+// box's right side.
 struct VexturePath {
     corner: VextureCorner,
     l0: vec2f,
@@ -581,7 +581,7 @@ fn vexture_path_of(
     return VexturePath(corner, l0, l1, r0, r1, e0, e1);
 }
 
-// Area on the right of a piece inside the box, negative for a piece that goes up.
+// Area on the right of a piece inside the box; negative if the piece goes up.
 fn vexture_piece_area(
     texel: vec4u, turns: bool, piece: VexturePiece, ends: VextureEnds, box: VextureBox, frame: VextureFrame,
 ) -> f32 {
@@ -594,8 +594,8 @@ fn vexture_piece_area(
     return area + vexture_curve_area(piece, ends, path.corner);
 }
 
-// Place in a quad, in its own unit square, about which its mean is nearly that over the part of it in the footprint: the
-// middle of that part.
+// Centre of the part of a quad in the footprint, in the quad's own unit square: the quad's mean near this point is nearly
+// the mean over that part.
 fn vexture_cut_place(cell: VextureCell, box: VextureBox, frame: VextureFrame) -> vec2f {
     var middle: vec2f = box.low + 0.5 * box.size;
     let at: vec2f = vexture_into_frame(frame, middle);
@@ -619,9 +619,9 @@ fn vexture_above_ends(p0: vec2f, p3: vec2f, y0: f32, y3: f32) -> f32 {
     return select(0.0, 1.0 - y0, p0.x == 0.0) - select(0.0, 1.0 - y3, p3.x == 0.0);
 }
 
-// What the ends of a piece say of the box.
+// Result from the ends of a piece alone.
 struct VextureLook {
-    filled: f32,  // share of it that the piece fills, but for what the close look finds
+    filled: f32,  // share of the box that the piece fills, without the part that only a close look finds
     turns: bool,  // an end lies on the leaf's left edge and in the box
     crosses: bool,  // the piece may cross the box, and needs a close look
 }

@@ -92,38 +92,38 @@ const VEXTURE_WINDING_OFFSET: i32 = 4;
 const VEXTURE_WRAP_CLAMP: i32 = 1;
 const VEXTURE_WRAP_NONE: i32 = 0;
 const VEXTURE_WRAP_REPEAT: i32 = 2;
-// Colours as light.
+// Conversion of colours to linear light.
 // Exports: vexture_linear.
 
-// Linear components of sRGB (IEC 61966-2-1).
+// Converts sRGB components to linear ones (IEC 61966-2-1).
 fn vexture_linear(encoded: vec3f) -> vec3f {
     let bent: vec3f = pow((encoded + 0.055) / 1.055, vec3f(2.4));
     return select(bent, encoded / 12.92, encoded <= vec3f(0.04045));
 }
-// Reading the packed texture (FORMAT.md, part B): positions, and the cells down the tree.
+// Reading the packed texture (FORMAT.md, part B): positions, and the descent to the cells.
 // Exports: VexturePlace, VextureCell, VextureSquare, vexture_place, vexture_texel, vexture_top, vexture_descend.
 //
 // Positions are signed integers in units of 2^-POSITION_BITS of the unit square, so that a pixel beyond the square's edge
 // has one too; a float holds the rest. A cell's side is a power of two, 2^bit positions.
 
-// A point and the box of a pixel around it.
+// A point and the bounding box of the pixel around it.
 struct VexturePlace {
-    point: vec2i,  // a multiple of 2^REST_BITS, so that a float holds its way to any cell
+    point: vec2i,  // a multiple of 2^REST_BITS, so that a float holds its distance from any cell
     rest: vec2f,  // of the point, in the same unit, 0 or more
     low: vec2i,  // first and last position of the box, clipped to the unit square;
     high: vec2i,  // high < low if it lies outside
 }
 
-// A leaf, as the byte of a texel; or a quad.
+// A leaf, given by its byte in a quad's texel; or a quad.
 struct VextureCell {
-    quad: u32,  // that holds the leaf, or the quad itself
-    texel: vec4u,  // of it
+    quad: u32,  // quad that holds the leaf, or the quad itself
+    texel: vec4u,  // its texel
     shift: u32,  // of the cell's byte in the words of the quad that holds it
     bit: i32,
     is_quad: bool,
 }
 
-// A square of cells: its lowest position in a pixel's box.
+// A square of cells, given by its lowest position in a pixel's box.
 struct VextureSquare {
     position: vec2i,
     bit: i32,
@@ -163,7 +163,7 @@ fn vexture_place(base: vec2u, offset: vec2f, extent_given: vec2f) -> VexturePlac
     return VexturePlace(point, rest, low, high);
 }
 
-// The smallest cell that holds the whole box of a place, or the smallest of all cells. If the box lies outside of the unit
+// Smallest cell that contains the whole box of a place, or the smallest of all cells. If the box lies outside the unit
 // square, there is none: x is NO_CELL.
 fn vexture_first_square(place: VexturePlace) -> VextureSquare {
     let differ: i32 = (place.low.x ^ place.high.x) | (place.low.y ^ place.high.y);
@@ -173,7 +173,7 @@ fn vexture_first_square(place: VexturePlace) -> VextureSquare {
     return VextureSquare(position, max(bits, VEXTURE_POSITION_BITS - VEXTURE_MOST_DEPTH));
 }
 
-// The next square of cells that meets the box, after a cell with the upper right corner `beyond`; x is NO_CELL if there is
+// Next square of cells that meets the box, after a cell with the upper right corner `beyond`; x is NO_CELL if there is
 // none. The order is Morton's: of the two sides across which the next square may lie, the one that ends the smaller square.
 fn vexture_next_square(position: vec2i, beyond: vec2i, place: VexturePlace) -> VextureSquare {
     var step: vec2i = beyond & -beyond;
@@ -187,12 +187,12 @@ fn vexture_next_square(position: vec2i, beyond: vec2i, place: VexturePlace) -> V
     return VextureSquare(next, (bitcast<i32>(f32(least)) >> 23u) - 127);
 }
 
-// Of the largest cells that are no larger than a square of this area, in positions.
+// Bit of the largest cells that are no larger than a square of this area, in positions.
 fn vexture_bit_of(area: f32) -> i32 {
     return ((bitcast<i32>(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23u) - 127) >> 1u;
 }
 
-// Of the smallest cells that the sum over cells visits, if the tree has them: a quarter to half as wide as the footprint;
+// Bit of the smallest cells that the sum over cells visits, if the tree has them: a quarter to half as wide as the footprint;
 // half of that in pictures of few pixels, where drawings have few deep cells; wider for a long footprint. Parameters: the
 // footprint's area, and the square of its length.
 fn vexture_finest_bit(area: f32, longer: f32) -> i32 {
@@ -241,7 +241,7 @@ fn vexture_count(cell: VextureCell) -> i32 {
     return i32((cell.texel.z >> (cell.shift + u32(VEXTURE_COUNT_SHIFT))) & u32(VEXTURE_MOST_CURVES));
 }
 
-// 0 marks a constant leaf.
+// Corner winding of the leaf plus WINDING_OFFSET; 0 marks a constant leaf.
 fn vexture_winding_code(cell: VextureCell) -> i32 {
     return i32((cell.texel.z >> cell.shift) & 7u);
 }
@@ -263,7 +263,7 @@ struct VextureBox {
     size: vec2f,  // in positions
 }
 
-// Monotone in x and y. Coordinates that fall are mirrored in the box, so that both rise.
+// A piece, monotone in x and y. Falling coordinates are mirrored in the box, so that both rise.
 struct VexturePiece {
     a: vec2f,  // coefficients of t^3, t^2, t and 1
     b: vec2f,
@@ -273,7 +273,7 @@ struct VexturePiece {
     falls: vec2<bool>,
 }
 
-// Where a piece enters and leaves the box.
+// Points where a piece enters and leaves the box.
 struct VextureEnds {
     start: f32,  // t
     end: f32,
@@ -281,7 +281,7 @@ struct VextureEnds {
     leave: vec2f,
 }
 
-// The part of a cell in the box of the footprint, which reaches `extent` from the pixel's centre.
+// Part of a cell in the footprint's box, which extends by `extent` from the pixel's centre.
 fn vexture_box(origin: vec2i, bit: i32, place: VexturePlace, extent: vec2f) -> VextureBox {
     let way: vec2f = vec2f(place.point - origin);
     let low: vec2f = max(-way - place.rest, -extent);
@@ -370,8 +370,8 @@ fn vexture_bulge(third: f32, first: vec2f, last: vec2f, chord: vec2f) -> f32 {
     return 0.15 * third * (2.0 * vexture_cross(first - last, chord) - third * vexture_cross(first, last));
 }
 
-// Mean of a quad about a place in its own unit square: of the plane, bent between its corners, that has the four stored
-// coverages as means of the four cells.
+// Mean of a quad near a point of its own unit square: the value of the bilinear function whose means over the four cells
+// are the stored coverages.
 fn vexture_mean(stored: u32, place: vec2f) -> f32 {
     let cells: vec4f = vec4f(vec4i(i32(stored & 255u), i32((stored >> 8u) & 255u), i32((stored >> 16u) & 255u),
         i32(stored >> 24u)));
@@ -380,11 +380,11 @@ fn vexture_mean(stored: u32, place: vec2f) -> f32 {
     return clamp(mix(rows.x, rows.y, at.y) / f32(VEXTURE_COVERAGE_ONE), 0.0, 1.0);
 }
 
-// Coverage of a pixel whose sides are level and upright in the drawing, in views in which all pixels are alike: what
-// vextureCoverage gives there, for less work and with half its registers.
+// Coverage of a pixel with horizontal and vertical sides in the drawing, in views in which all pixels are equal: the
+// result of vextureCoverage, with less work and half its registers.
 // Exports: VextureFlat, vextureFlat, vextureFlatCoverage.
 
-// What the pixels of a view have in common.
+// Values that all pixels of a view share.
 struct VextureFlat {
     extent: vec2f,  // half a pixel, in positions
     inverse: f32,  // of its area
@@ -400,7 +400,7 @@ fn vextureFlat(dx: vec2f, dy: vec2f) -> VextureFlat {
     return VextureFlat(extent, 1.0 / area, vexture_finest_bit(area, longer * longer));
 }
 
-// Area of the box on the right of a piece, negative for one that rises.
+// Area of the box to the right of a piece; negative if the piece rises.
 fn vexture_flat_piece_area(piece: VexturePiece, ends: VextureEnds) -> f32 {
     let chord: vec2f = ends.leave - ends.enter;
     let first: vec2f = vexture_slope(piece, ends.start);
@@ -489,7 +489,7 @@ fn vexture_frame(dx_given: vec2f, dy_given: vec2f) -> VextureFrame {
     let smallest: f32 = VEXTURE_SMALLEST_PIXEL * f32(1 << u32(VEXTURE_POSITION_BITS));
     var longer: f32 = max(dot(dx, dx), dot(dy, dy));
     var area: f32 = dx.x * dy.y - dx.y * dy.x;
-    let exists: bool = longer > smallest * smallest;  // not so if a parameter is NaN
+    let exists: bool = longer > smallest * smallest;  // false if a parameter is NaN
     if (!exists || abs(area) < VEXTURE_THINNEST_PIXEL * longer) {  // the plane is seen from its edge
         let width: f32 = select(1.0, VEXTURE_THINNEST_PIXEL, exists);
         dx = select(dy, dx, dot(dx, dx) == longer);
@@ -507,7 +507,7 @@ fn vexture_into_frame(frame: VextureFrame, point: vec2f) -> vec2f {
     return vec2f(dot(frame.right, point), dot(frame.up, point));
 }
 
-// dx / dy and dy / dx of a direction; 0 for what is infinite.
+// Slopes dx / dy and dy / dx of a direction; 0 in place of infinity.
 fn vexture_slopes(dx: f32, dy: f32) -> vec2f {
     return vec2f(select(0.0, dx / dy, dy != 0.0), select(0.0, dy / dx, dx != 0.0));
 }
@@ -533,7 +533,7 @@ fn vexture_beside(p: vec2f, q: vec2f) -> f32 {
     return vexture_beside_sloped(p, q.y, vexture_slopes(q.x - p.x, q.y - p.y));
 }
 
-// Approximate share of a straight line in the pixel; its factor is small.
+// Approximate fraction of a straight line that lies in the pixel; the factor that it scales is small.
 fn vexture_part_inside(p: vec2f, q: vec2f) -> f32 {
     let way: vec2f = q - p;
     let held: vec2f = clamp(q, vec2f(-0.5), vec2f(0.5)) - clamp(p, vec2f(-0.5), vec2f(0.5));
@@ -557,14 +557,14 @@ fn vexture_box_area(frame: VextureFrame, low: vec2f, size: vec2f) -> f32 {
 // Coverage of a pixel by a shape in a packed texture: the exact area of the shape in the pixel's footprint.
 // Exports: vextureCoverage.
 
-// The box as a parallelogram in the footprint's frame.
+// A box as a parallelogram in the footprint's frame.
 struct VextureCorner {
     origin: vec2f,
     x: vec2f,  // its sides
     y: vec2f,
 }
 
-// The corner of the box where a piece's coordinates, which may be mirrored, begin.
+// Corner of the box at which a piece's coordinates, which may be mirrored, begin.
 fn vexture_corner(falls: vec2<bool>, box: VextureBox, frame: VextureFrame) -> VextureCorner {
     let low: vec2f = vec2f(select(box.low.x, box.low.x + box.size.x, falls.x),
         select(box.low.y, box.low.y + box.size.y, falls.y));
@@ -578,7 +578,7 @@ fn vexture_from_corner(corner: VextureCorner, x: f32, y: f32) -> vec2f {
     return corner.origin + corner.x * x + corner.y * y;
 }
 
-// Number of parts that the bend of a piece requires.
+// Number of parts into which a piece is divided because of its bend.
 fn vexture_piece_parts(piece: VexturePiece, ends: VextureEnds, corner: VextureCorner) -> i32 {
     var slope: vec2f = vexture_slope(piece, ends.start);
     let first: vec2f = corner.x * slope.x + corner.y * slope.y;
@@ -590,8 +590,8 @@ fn vexture_piece_parts(piece: VexturePiece, ends: VextureEnds, corner: VextureCo
     return 1 + i32(min(VEXTURE_BEND * bend, VEXTURE_MOST_PARTS - 1.0));
 }
 
-// Area of the pixel beside a piece between its ends, in as many parts as its bend requires: beside the chord of each, plus
-// the area between the two for the share of the chord in the pixel.
+// Area of the pixel beside a piece between its ends, summed over parts: the area beside each part's chord, plus the area
+// between part and chord times the share of the chord in the pixel.
 fn vexture_curve_area(piece: VexturePiece, ends: VextureEnds, corner: VextureCorner) -> f32 {
     var parts: i32 = vexture_piece_parts(piece, ends, corner);
     let step_t: f32 = (ends.end - ends.start) / f32(parts);
@@ -614,8 +614,8 @@ fn vexture_curve_area(piece: VexturePiece, ends: VextureEnds, corner: VextureCor
     return area;
 }
 
-// The way along the box's sides that closes a piece: the box's left side while the piece is left of the box, and back on its
-// right side.
+// Path along the box's sides that closes a piece: the box's left side while the piece is left of the box, and back on the
+// box's right side.
 struct VexturePath {
     corner: VextureCorner,
     l0: vec2f,
@@ -653,7 +653,7 @@ fn vexture_path_of(
     return VexturePath(corner, l0, l1, r0, r1, e0, e1);
 }
 
-// Area on the right of a piece inside the box, negative for a piece that goes up.
+// Area on the right of a piece inside the box; negative if the piece goes up.
 fn vexture_piece_area(
     texel: vec4u, turns: bool, piece: VexturePiece, ends: VextureEnds, box: VextureBox, frame: VextureFrame,
 ) -> f32 {
@@ -666,8 +666,8 @@ fn vexture_piece_area(
     return area + vexture_curve_area(piece, ends, path.corner);
 }
 
-// Place in a quad, in its own unit square, about which its mean is nearly that over the part of it in the footprint: the
-// middle of that part.
+// Centre of the part of a quad in the footprint, in the quad's own unit square: the quad's mean near this point is nearly
+// the mean over that part.
 fn vexture_cut_place(cell: VextureCell, box: VextureBox, frame: VextureFrame) -> vec2f {
     var middle: vec2f = box.low + 0.5 * box.size;
     let at: vec2f = vexture_into_frame(frame, middle);
@@ -691,9 +691,9 @@ fn vexture_above_ends(p0: vec2f, p3: vec2f, y0: f32, y3: f32) -> f32 {
     return select(0.0, 1.0 - y0, p0.x == 0.0) - select(0.0, 1.0 - y3, p3.x == 0.0);
 }
 
-// What the ends of a piece say of the box.
+// Result from the ends of a piece alone.
 struct VextureLook {
-    filled: f32,  // share of it that the piece fills, but for what the close look finds
+    filled: f32,  // share of the box that the piece fills, without the part that only a close look finds
     turns: bool,  // an end lies on the leaf's left edge and in the box
     crosses: bool,  // the piece may cross the box, and needs a close look
 }
@@ -797,11 +797,11 @@ fn vextureCoverage(vextureTexels: texture_2d<u32>, root: u32, uv: vec2f, dx: vec
     return vextureCoverageFrom(vextureTexels, root, vec2u(0u), uv, dx, dy);
 }
 
-// Coverage of pixels anywhere: beyond the unit square lies nothing, the border's value, or the shape again.
+// Coverage of pixels anywhere: outside the unit square is nothing, the border's value, or the repeated shape.
 // Exports: VextureSpot, vexture_spot, VextureTiles, vexture_tiles, vexture_tile, vexture_spot_coverage, vextureWrapped.
 //
 // VEXTURE_WRAP selects one of VEXTURE_WRAP_NONE, VEXTURE_WRAP_CLAMP or VEXTURE_WRAP_REPEAT. VEXTURE_FLAT is 1 for views
-// whose pixels are upright in the drawing and all alike, which cost less, or 0 for any view.
+// whose pixels are equal upright rectangles in the drawing, which cost less, or 0 for any view.
 
 // A pixel's footprint, moved to the position where the shape is looked up.
 struct VextureSpot {
@@ -849,7 +849,7 @@ struct VextureTiles {
     columns: i32,
     next_base: vec2u,  // in the next tile the base is on the border between the two, where positions of both are exact
     next_offset: vec2f,
-    whole: f32,  // share of the mean of all of the shape in the result: the footprint is about as large as a tile
+    whole: f32,  // share of the whole shape's mean in the result, for a footprint about as large as a tile
 }
 
 fn vexture_tiles(spot: VextureSpot) -> VextureTiles {
@@ -869,7 +869,7 @@ fn vexture_tiles(spot: VextureSpot) -> VextureTiles {
     return VextureTiles(select(0, columns * rows, whole < 1.0), columns, next_base, next_offset, whole);
 }
 
-// The footprint in one of them.
+// Footprint in one of these tiles.
 fn vexture_tile(tiles: VextureTiles, spot_given: VextureSpot, tile: i32) -> VextureSpot {
     var spot = spot_given;
     let next_column: bool = (tile & (tiles.columns - 1)) == 1;
@@ -943,7 +943,7 @@ fn vexture_meets(box: vec4u, spot: VextureSpot) -> bool {
     return all(abs(way) < 0.5 * (high - low) + spot.reach + VEXTURE_BORDER);
 }
 
-// The highest layer below another one that the footprint meets, or the one below the first.
+// Highest layer below another one that the footprint meets, or the number below the first layer.
 fn vexture_layer_below(vexturePaints: texture_2d<u32>, layer_given: i32, first: i32, spot: VextureSpot) -> i32 {
     var layer = layer_given;
     var meets: bool = false;
@@ -957,8 +957,8 @@ fn vexture_layer_below(vexturePaints: texture_2d<u32>, layer_given: i32, first: 
 // Colour of a pixel, premultiplied, composited in sRGB as in SVG. Parameters: the number of the lowest layer, the number of
 // layers, then those of vextureCoverage.
 //
-// Layers are visited from the top until no lower one would show. Those that the footprint does not meet are no iterations:
-// a branch would cost as much as drawing them on devices that execute both of its sides.
+// Layers are visited from the top until no lower one would show. Layers that the footprint does not meet take no
+// iteration: on devices that execute both sides of a branch, skipping them by a branch would cost as much as drawing them.
 fn vextureLayersFrom(
     vextureTexels: texture_2d<u32>, vexturePaints: texture_2d<u32>, first: i32, count: i32, base: vec2u, offset: vec2f,
     dx: vec2f, dy: vec2f,
@@ -991,7 +991,7 @@ fn vextureStraight(color: vec4f) -> vec4f {
 // Blend modes (Compositing and Blending Level 1 of the W3C).
 // Exports: vexture_blended.
 
-// B(cb, cs) of one component, b of what is below and s of what is laid over it.
+// Blend function B(cb, cs) of one component: b of the backdrop, s of the source that is laid over it.
 fn vexture_separable(blend: u32, b: f32, s: f32) -> f32 {
     switch (blend) {
         case u32(VEXTURE_BLEND_MULTIPLY): {
@@ -1054,24 +1054,24 @@ fn vexture_with_luminosity(c_given: vec3f, wanted: f32) -> vec3f {
     return wanted + (c - wanted) * share;
 }
 
-// A colour that is grey but for rounding is grey, or hue and saturation would make much of what is left.
+// Makes a colour grey that differs from grey by rounding only: hue and saturation would amplify the difference.
 fn vexture_greyed(c: vec3f) -> vec3f {
     return select(c, vec3f(vexture_luminosity(c)), vexture_saturation(c) < VEXTURE_GREY);
 }
 
-// A component that is 0 or 1 but for rounding is that: dodge and burn jump there.
+// Makes a component exactly 0 or 1 if it differs by rounding only: dodge and burn jump there.
 fn vexture_settled(c: f32) -> f32 {
     return select(select(c, 1.0, c > 1.0 - VEXTURE_LEAST_COLOR), 0.0, c < VEXTURE_LEAST_COLOR);
 }
 
-// Straight colour of a premultiplied one.
+// Straight colour of a premultiplied colour.
 fn vexture_straight_color(color: vec4f, is_whole: bool) -> vec3f {
     var c: vec3f = color.rgb / max(color.a, VEXTURE_NOTHING);
     c = vec3f(vexture_settled(c.r), vexture_settled(c.g), vexture_settled(c.b));
     return select(c, vexture_greyed(c), is_whole);
 }
 
-// B(cb, cs), of straight colours.
+// Blend function B(cb, cs) of straight colours.
 fn vexture_mixture(blend: u32, b: vec3f, s: vec3f) -> vec3f {
     if (blend < u32(VEXTURE_BLEND_HUE)) {
         let red: f32 = vexture_separable(blend, b.r, s.r);
@@ -1086,7 +1086,7 @@ fn vexture_mixture(blend: u32, b: vec3f, s: vec3f) -> vec3f {
     return vexture_with_luminosity(color, vexture_luminosity(select(b, s, blend == u32(VEXTURE_BLEND_LUMINOSITY))));
 }
 
-// One premultiplied colour over another.
+// Lays one premultiplied colour over another.
 fn vexture_blended(below: vec4f, above: vec4f, mode: u32) -> vec4f {
     if (mode == u32(VEXTURE_BLEND_NORMAL)) {
         return above + (1.0 - above.a) * below;
@@ -1104,7 +1104,7 @@ fn vexture_blended(below: vec4f, above: vec4f, mode: u32) -> vec4f {
 // Paints that hold gradients (FORMAT.md, D.6): the colour of a program over a region, the part of a footprint in a cell.
 // Exports: VextureRegion, vexture_halves, vexture_program.
 //
-// VEXTURE_GRADIENTS is 0 where no map has programs: their text is left out then, for it takes registers.
+// VEXTURE_GRADIENTS is 0 if no map has programs: their text is then left out, because it takes registers.
 
 // In the unit square.
 struct VextureRegion {
@@ -1113,27 +1113,27 @@ struct VextureRegion {
     up: vec2f,
 }
 
-// Four numbers in two words, 0..65535.
+// Unpacks four numbers, 0..65535, from two words.
 fn vexture_halves(words: vec2u) -> vec4f {
     return vec4f(vec4u(words.x & 0xffffu, words.x >> 16u, words.y & 0xffffu, words.y >> 16u));
 }
 
 #if VEXTURE_GRADIENTS
 
-// A place on a ramp, and how it changes along x and y of the unit square.
+// A position on a ramp, and its gradient in x and y of the unit square.
 struct VextureRamp {
     t: f32,
     way: vec2f,
-    exists: bool,  // beside a cone there is no place
-    parts: vec2f,  // along the sides of a region, so that the ramp is straight in each
+    exists: bool,  // false outside a cone
+    parts: vec2f,  // per side of a region, so that the ramp is nearly straight in each
 }
 
-// GLSL's mod, which not every language has.
+// GLSL's mod, which other shading languages lack.
 fn vexture_mod(x: f32, y: f32) -> f32 {
     return x - y * floor(x / y);
 }
 
-// How far a value goes along each side of a region, that changes along x and y like this.
+// Change of a value along each side of a region, from the value's gradient in x and y.
 fn vexture_spans(way: vec2f, region: VextureRegion) -> vec2f {
     return abs(vec2f(dot(way, region.right), dot(way, region.up)));
 }
@@ -1147,9 +1147,9 @@ fn vexture_round_ramp(across: vec3f, up: vec3f, focus: vec2f, region: VextureReg
     let spans: vec2f = max(vexture_spans(across.xy, region), vexture_spans(up.xy, region));
     var parts: vec2f = f32(VEXTURE_RAMP_PARTS) * spans;
     let grows: f32 = 1.0 - focus.y;
-    let tip: f32 = focus.x / max(grows, VEXTURE_NOTHING) - focus.x;  // where the circles have no radius
+    let tip: f32 = focus.x / max(grows, VEXTURE_NOTHING) - focus.x;  // where the circles have radius 0
     parts = select(parts, vec2f(f32(VEXTURE_MOST_RAMP_PARTS)), length(q - vec2f(tip, 0.0)) < length(spans));
-    let a: f32 = (focus.x - grows) * (focus.x + grows);  // 0 of circles that touch, also where products are fused
+    let a: f32 = (focus.x - grows) * (focus.x + grows);  // exactly 0 for circles that touch, even if products are fused
     if (a >= 0.0 && grows > 0.0) {
         // the middle of a part of what is in a cone may be beside it, and then in the cone behind the tip
         let outside: f32 = q.x - tip + sqrt(a) / grows * abs(q.y);
@@ -1171,7 +1171,7 @@ fn vexture_round_ramp(across: vec3f, up: vec3f, focus: vec2f, region: VextureReg
         }
     }
     let root: f32 = sqrt(max(inside, 0.0));
-    let far: f32 = select(b + root, b - root, b < 0.0);  // the roots are far / a and c / far: neither is a small difference
+    let far: f32 = select(b + root, b - root, b < 0.0);  // the roots are far / a and c / far, neither of which cancels
     let first: f32 = select(VEXTURE_NO_PLACE, far / a, a != 0.0);
     let second: f32 = select(VEXTURE_NO_PLACE, c / far, far != 0.0);
     var t: f32 = max(first, second);
@@ -1179,7 +1179,7 @@ fn vexture_round_ramp(across: vec3f, up: vec3f, focus: vec2f, region: VextureReg
     let radius: f32 = focus.y + t * grows;
     let exists: bool = radius >= -VEXTURE_LEAST_RADIUS && t > VEXTURE_NO_PLACE;
     var e: vec2f = vec2f(q.x + t * focus.x, q.y);
-    e = select(vec2f(0.0), normalize(e), length(e) > VEXTURE_LEAST_RADIUS);  // of a point, no direction is known
+    e = select(vec2f(0.0), normalize(e), length(e) > VEXTURE_LEAST_RADIUS);  // a circle of radius 0 has no direction
     let down: f32 = grows - e.x * focus.x;
     let beside: vec2f = vexture_spans(e.x * up.xy - e.y * across.xy, region);
     var bend: f32 = dot(beside, beside) / 12.0;
@@ -1192,10 +1192,10 @@ fn vexture_round_ramp(across: vec3f, up: vec3f, focus: vec2f, region: VextureReg
     return VextureRamp(t + inverse * bend, way, exists, parts);
 }
 
-// A sum, to which is added the integral of a stretch of a ramp between two stops, given by its colour and slope at its begin.
-// The weights are a trapezoid: places count more and more from the first of its edges to the second, fully up to the third,
-// less and less up to the fourth. In each of these parts Simpson's rule is exact, of a quadratic, a premultiplied colour,
-// times a straight weight.
+// Adds to a sum the integral of a stretch of a ramp between two stops, given by the colour and slope at its start. The
+// weights are a trapezoid: they rise from the first of its edges to the second, are 1 up to the third, and fall up to the
+// fourth. In each of these parts Simpson's rule is exact: a premultiplied colour, which is quadratic, is multiplied by a
+// linear weight.
 fn vexture_add_stretch(total_given: vec4f, color: vec4f, slope: vec4f, stretch: vec2f, edges: vec4f) -> vec4f {
     var total = total_given;
     for (var k: i32 = 0; k < 3; k++) {
@@ -1217,7 +1217,7 @@ fn vexture_add_stretch(total_given: vec4f, color: vec4f, slope: vec4f, stretch: 
     return total;
 }
 
-// A sum with the same of a ramp between bounds; it goes on in the colours of its first stop and its last.
+// Adds the same of a whole ramp between bounds; before its first stop and after its last, their colours continue.
 fn vexture_add_ramp(
     vextureTexels: texture_2d<u32>, total_given: vec4f, stops: u32, number: u32, edges: vec4f, bounds: vec2f,
 ) -> vec4f {
@@ -1248,7 +1248,7 @@ fn vexture_add_ramp(
     return total;
 }
 
-// The integral of a ramp that goes on as its spread says; over no more than two periods, if it is not padded.
+// Integral of a ramp with its spread method; over at most two periods if it is not padded.
 fn vexture_spread_sum(vextureTexels: texture_2d<u32>, stops: u32, number: u32, spread: u32, edges: vec4f) -> vec4f {
     let pads: bool = spread == u32(VEXTURE_SPREAD_PAD);
     var sum: vec4f = vec4f(0.0);
@@ -1266,9 +1266,9 @@ fn vexture_spread_sum(vextureTexels: texture_2d<u32>, stops: u32, number: u32, s
     return sum;
 }
 
-// Mean of a ramp about a place over a parallelogram along whose sides it goes this far: the weights of its places are those
-// of a trapezoid. Of one that goes on, whole periods of a side have its mean; what a side is longer or shorter than those
-// counts for that share of it, half of them away.
+// Mean of a ramp over a parallelogram, given the position at its centre and the change along its sides: the weights of
+// positions are a trapezoid. If the ramp repeats, whole periods of a side have the mean of a period; the rest of the side
+// counts with its share, moved by half of these periods.
 fn vexture_ramp_mean(
     vextureTexels: texture_2d<u32>, stops: u32, number: u32, spread: u32, middle_given: f32, spans_given: vec2f,
 ) -> vec4f {
@@ -1284,7 +1284,7 @@ fn vexture_ramp_mean(
     if (abs(share) >= 1.0 - VEXTURE_NEARLY_WHOLE) {
         let wide: f32 = max(max(rest.x, rest.y), VEXTURE_SHORTEST_RAMP);
         let narrow: f32 = min(rest.x, rest.y);
-        // what goes on is the same after 2, and finer there
+        // a repeated ramp is periodic in 2, and float32 is finer near 0
         let turned: f32 = vexture_mod(vexture_mod(middle, 2.0) - 0.5 * vexture_mod(whole.x + whole.y, 4.0), 2.0);
         middle = select(turned, clamp(middle, -wide - narrow, 1.0 + wide + narrow), pads);
         let edges: vec4f = middle + 0.5 * vec4f(-wide - narrow, narrow - wide, wide - narrow, wide + narrow);
@@ -1299,7 +1299,7 @@ fn vexture_ramp_mean(
     return mean;
 }
 
-// The ramp of a gradient, whose first texel is given with its index, over a region.
+// Ramp of a gradient over a region, from the gradient's first texel and its index.
 fn vexture_gradient_ramp(vextureTexels: texture_2d<u32>, at: u32, record: vec4u, region: VextureRegion) -> VextureRamp {
     let kind: u32 = record.w >> u32(VEXTURE_KIND_SHIFT);
     let across: vec3f = bitcast<vec3f>(record.xyz);
@@ -1313,8 +1313,8 @@ fn vexture_gradient_ramp(vextureTexels: texture_2d<u32>, at: u32, record: vec4u,
     return vexture_round_ramp(across, bitcast<vec3f>(vexture_texel(vextureTexels, at + 1u).xyz), focus, region);
 }
 
-// Premultiplied colour of a gradient, whose first texel is given with its index, and its number of stops; of a region in
-// which its ramp is straight.
+// Premultiplied mean colour of a gradient, from its first texel, the texel's index and the number of stops, over a region
+// in which its ramp is straight.
 fn vexture_gradient(
     vextureTexels: texture_2d<u32>, at: u32, record: vec4u, number: u32, region: VextureRegion,
 ) -> vec4f {
@@ -1328,7 +1328,7 @@ fn vexture_gradient(
     return mean;
 }
 
-// What was kept when a group began, with the group's colour on it, or masked by it.
+// Ends a group: lays its colour on the colour kept at its begin, or masks that colour with it.
 fn vexture_ended(kept: vec4f, color: vec4f, how: u32) -> vec4f {
     if (how < u32(VEXTURE_MASKS)) {
         return vexture_blended(kept, color, how);
@@ -1344,7 +1344,7 @@ fn vexture_program_part(vextureTexels: texture_2d<u32>, at_given: u32, end: u32,
     var kept: vec4f = vec4f(0.0);
     var kept_before: vec4f = vec4f(0.0);
     var kept_first: vec4f = vec4f(0.0);
-    var left: u32 = u32(VEXTURE_MOST_STOPS);  // what is no program ends as well
+    var left: u32 = u32(VEXTURE_MOST_STOPS);  // bounds the work for invalid texels
     for (; at < end; at++) {
         let texel: vec4u = vexture_texel(vextureTexels, at);
         let kind: u32 = texel.w >> u32(VEXTURE_KIND_SHIFT);
@@ -1371,16 +1371,16 @@ fn vexture_program_part(vextureTexels: texture_2d<u32>, at_given: u32, end: u32,
     return color;
 }
 
-// In how many parts each side of a region is divided for a program: so that circles are straight in each, and, where a
-// product of gradients or a blend mode is averaged, ramps are short. What is little of a pixel is divided less: what all regions
-// of a pixel cost is bounded so.
+// Number of parts into which each side of a region is divided for a program, so that circles are nearly straight in each
+// part, and ramps are short if a product of gradients or a blend mode is averaged. A small region of a pixel is divided
+// less, which limits the cost of all regions of a pixel.
 fn vexture_program_parts(
     vextureTexels: texture_2d<u32>, at_given: u32, end: u32, region: VextureRegion, area: f32,
 ) -> vec2f {
     var at = at_given;
     var bends: vec2f = vec2f(0.0);
     var ramps: vec2f = vec2f(0.0);
-    var factors: i32 = 0;  // what a blend mode or a mask makes has two at least
+    var factors: i32 = 0;  // a blend mode or a mask counts as two factors
     var for_each: f32 = f32(VEXTURE_PRODUCT_PARTS);
     for (; at < end; at++) {
         let texel: vec4u = vexture_texel(vextureTexels, at);
@@ -1403,8 +1403,8 @@ fn vexture_program_parts(
     return ceil(clamp(ramps, vec2f(1.0), vec2f(most)));
 }
 
-// Premultiplied colour of a program, given by its first texel and how many it has, over a region that is so much of a pixel;
-// in steps of a paint.
+// Premultiplied mean colour, 0..65535, of a program, given by its first texel and their number, over a region with this
+// area of a pixel.
 fn vexture_program(vextureTexels: texture_2d<u32>, at: u32, count: u32, region: VextureRegion, area: f32) -> vec4f {
     let end: u32 = at + min(count, u32(VEXTURE_MOST_PROGRAM));
     let parts: vec2f = vexture_program_parts(vextureTexels, at, end, region, area);
@@ -1421,15 +1421,15 @@ fn vexture_program(vextureTexels: texture_2d<u32>, at: u32, count: u32, region: 
 }
 #endif
 
-// Where in a pixel the area lies that a piece fills: first and second moments beside the area. They give the middle of a
-// paint's part of a cell, and how far that part reaches each way; over both, its gradients are averaged.
+// Area and first and second moments of the part of a pixel that a piece fills. The moments give the centre and the extent
+// of a paint's part of a cell, over which the paint's gradients are averaged.
 //
-// Each moment is an integral over the heights of a straight line of what lies on its right, a polynomial of at most the
-// third degree: Gauss-Legendre quadrature with two points is exact.
-// VEXTURE_GRADIENTS is 0 where no map has programs: a share is an area then.
+// Each moment is an integral, over the heights of a straight line, of a polynomial of at most the third degree, so that
+// Gauss-Legendre quadrature with two points is exact.
+// VEXTURE_GRADIENTS is 0 if no map has programs: a share is then only an area.
 // Exports: VextureShare, vexture_plus_share, vexture_box_share, vexture_piece_share, vexture_flat_piece_share.
 
-// Of a part of a pixel; moments about the pixel's middle, in its sides.
+// Share of a pixel: area, and moments about the pixel's centre, in units of its sides.
 struct VextureShare {
     area: f32,
 #if VEXTURE_GRADIENTS
@@ -1441,7 +1441,7 @@ struct VextureShare {
 #endif
 }
 
-// An area of which no moments are wanted.
+// Share with an area but without moments.
 fn vexture_area_share(area: f32) -> VextureShare {
 #if VEXTURE_GRADIENTS
     return VextureShare(area, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -1450,7 +1450,7 @@ fn vexture_area_share(area: f32) -> VextureShare {
 #endif
 }
 
-// A whole pixel.
+// Share of a whole pixel.
 fn vexture_whole_share() -> VextureShare {
 #if VEXTURE_GRADIENTS
     return VextureShare(1.0, 0.0, 0.0, 1.0 / 12.0, 0.0, 1.0 / 12.0);
@@ -1459,7 +1459,7 @@ fn vexture_whole_share() -> VextureShare {
 #endif
 }
 
-// The first share, with so many times the second.
+// Sum of a share and a multiple of another.
 fn vexture_plus_share(a: VextureShare, b: VextureShare, times: f32) -> VextureShare {
 #if VEXTURE_GRADIENTS
     return VextureShare(a.area + times * b.area, a.x + times * b.x, a.y + times * b.y, a.xx + times * b.xx, a.xy
@@ -1469,7 +1469,7 @@ fn vexture_plus_share(a: VextureShare, b: VextureShare, times: f32) -> VextureSh
 #endif
 }
 
-// A share of a box as one of the pixel in which the box lies: with these sides, about this middle.
+// Converts a share of a box to one of its pixel, given the box's sides and centre in the pixel.
 fn vexture_moved_share(share: VextureShare, sides: vec2f, middle: vec2f) -> VextureShare {
     let area: f32 = sides.x * sides.y * share.area;
 #if VEXTURE_GRADIENTS
@@ -1486,7 +1486,7 @@ fn vexture_moved_share(share: VextureShare, sides: vec2f, middle: vec2f) -> Vext
 
 #if VEXTURE_GRADIENTS
 
-// What lies on the right of a place, on its level.
+// Area and moments, per unit of height, of the part of the pixel to the right of a point at its height.
 fn vexture_share_at(place: vec2f) -> VextureShare {
     let wide: f32 = 0.5 - place.x;
     let first: f32 = 0.5 * (0.25 - place.x * place.x);
@@ -1494,7 +1494,7 @@ fn vexture_share_at(place: vec2f) -> VextureShare {
     return VextureShare(wide, first, place.y * wide, second, place.y * first, place.y * place.y * wide);
 }
 
-// Share on the right of a straight line in the pixel; negative if it goes up.
+// Share to the right of a straight line inside the pixel; negative if the line goes up.
 fn vexture_stretch_share(p: vec2f, q: vec2f) -> VextureShare {
     let middle: vec2f = 0.5 * (p + q);
     let way: vec2f = VEXTURE_GAUSS * (q - p);
@@ -1503,7 +1503,7 @@ fn vexture_stretch_share(p: vec2f, q: vec2f) -> VextureShare {
     return vexture_plus_share(share, vexture_share_at(middle + way), fall);
 }
 
-// The same of any straight line: where it is left of the pixel, all of the pixel lies on its right.
+// The same for any straight line: where it is left of the pixel, all of the pixel lies on its right.
 fn vexture_share_beside(p: vec2f, q: vec2f) -> VextureShare {
     let way: vec2f = q - p;
     let run: f32 = select(VEXTURE_NOTHING, way.x, abs(way.x) > VEXTURE_NOTHING);
@@ -1533,7 +1533,7 @@ fn vexture_box_share(frame: VextureFrame, low: vec2f, size: vec2f) -> VextureSha
     return vexture_plus_share(share, vexture_share_beside(s, p), 1.0);
 }
 
-// As vexture_curve_area; what lies beyond a chord counts as if it lay in the chord's middle.
+// Like vexture_curve_area, with moments; the area between a part and its chord counts as if it lay at the chord's middle.
 fn vexture_curve_share(piece: VexturePiece, ends: VextureEnds, corner: VextureCorner) -> VextureShare {
     var parts: i32 = vexture_piece_parts(piece, ends, corner);
     let step_t: f32 = (ends.end - ends.start) / f32(parts);
@@ -1559,7 +1559,7 @@ fn vexture_curve_share(piece: VexturePiece, ends: VextureEnds, corner: VextureCo
     return share;
 }
 
-// As vexture_piece_area.
+// Like vexture_piece_area, with moments.
 fn vexture_piece_share(
     texel: vec4u, turns: bool, piece: VexturePiece, ends: VextureEnds, box: VextureBox, frame: VextureFrame,
 ) -> VextureShare {
@@ -1571,7 +1571,7 @@ fn vexture_piece_share(
     return vexture_plus_share(share, vexture_share_beside(path.r1, path.e0), 1.0);
 }
 
-// As vexture_flat_piece_area, of a box as the pixel.
+// Like vexture_flat_piece_area, with moments, for a box as the pixel.
 fn vexture_flat_piece_share(piece: VexturePiece, ends: VextureEnds) -> VextureShare {
     let origin: vec2f = vec2f(select(-0.5, 0.5, piece.falls.x), select(-0.5, 0.5, piece.falls.y));
     let corner: VextureCorner = VextureCorner(origin, vec2f(-2.0 * origin.x, 0.0), vec2f(0.0, -2.0 * origin.y));
@@ -1582,13 +1582,13 @@ fn vexture_flat_piece_share(piece: VexturePiece, ends: VextureEnds) -> VextureSh
     return vexture_plus_share(share, vexture_stretch_share(vec2f(-0.5, left.x), vec2f(-0.5, left.y)), 1.0);
 }
 
-// Share of a box above a height in it, 0..1.
+// Share of a box above a height in 0..1.
 fn vexture_share_above(y: f32) -> VextureShare {
     return vexture_stretch_share(vec2f(-0.5, 0.5), vec2f(-0.5, y - 0.5));
 }
 
-// What vexture_flat_look finds filled: the box above ends of the piece on the leaf's left edge and, unless the piece crosses
-// the box, beside a piece on the box's left.
+// Share that vexture_flat_look finds filled: the box above ends of the piece on the leaf's left edge and, unless the piece
+// crosses the box, the box beside a piece on its left.
 fn vexture_flat_ends_share(texel: vec4u, crosses: bool, box: VextureBox) -> VextureShare {
     let p0: vec2f = vexture_word(texel.x);
     let p3: vec2f = vexture_word(texel.w);
@@ -1606,19 +1606,19 @@ fn vexture_flat_ends_share(texel: vec4u, crosses: bool, box: VextureBox) -> Vext
 // The paints of a planar map (FORMAT.md, D.5), and a sum of them.
 // Exports: VexturePlanar, VextureSum, vexture_planar, vexture_nothing, vexture_add_paint, vexture_add_piece, vexture_settle.
 //
-// VEXTURE_LINEAR is 0 for a mean in sRGB, or 1 for one in linear light, with linear components. VEXTURE_GRADIENTS is 0 where
-// no map has programs.
+// VEXTURE_LINEAR is 0 for a mean in sRGB, or 1 for a mean in linear light, with linear components. VEXTURE_GRADIENTS is 0
+// if no map has programs.
 
-// Where the parts of a map begin.
+// First texel of each part of a map.
 struct VexturePlanar {
     root: u32,
     cells: u32,
     sides: u32,
     paints: u32,
-    packing: u32,  // logarithm of how many numbers of paints are in a word
+    packing: u32,  // logarithm to base 2 of the count of paint numbers in a word
 }
 
-// The map with a root quad; its head comes before that.
+// Reads the head of a map, which precedes its root quad.
 fn vexture_planar(vextureTexels: texture_2d<u32>, root: u32) -> VexturePlanar {
     let head: vec4u = vexture_texel(vextureTexels, root - 1u);
     let packing: u32 = select(select(2u, 1u, head.x > u32(VEXTURE_MOST_BYTE_PAINTS)), 0u,
@@ -1626,13 +1626,13 @@ fn vexture_planar(vextureTexels: texture_2d<u32>, root: u32) -> VexturePlanar {
     return VexturePlanar(root, head.y, head.z, head.w, packing);
 }
 
-// The texel of the means of a quad's cells. Before those of each quad, or two, or four, is one of base paints.
+// Index of the texel with the means of a quad's cells. A texel of base paints precedes each block of 1, 2 or 4 quads.
 fn vexture_means_at(planar: VexturePlanar, quad: u32) -> u32 {
     let place: u32 = quad - planar.root;
     return planar.cells + 1u + place + (place >> planar.packing);
 }
 
-// The number at a place among others that fill words, of which `word` is that of the place.
+// Number at a place in a sequence of packed numbers; `word` is the word that contains it.
 fn vexture_numbered(planar: VexturePlanar, word: u32, place: u32) -> u32 {
     let bits: u32 = 32u >> planar.packing;
     return (word >> (bits * (place & ((1u << planar.packing) - 1u)))) & (0xffffffffu >> (32u - bits));
@@ -1647,7 +1647,7 @@ fn vexture_base_paint(vextureTexels: texture_2d<u32>, planar: VexturePlanar, cel
     return vexture_numbered(planar, numbers[(k >> planar.packing) & 3u], k);
 }
 
-// A stored colour as what is averaged, premultiplied. In whole steps, sums of differences are exact.
+// Converts a stored colour to the premultiplied colour that is averaged. Sums of differences of whole steps are exact.
 fn vexture_averaged(stored: vec4f) -> vec4f {
 #if VEXTURE_LINEAR
     return vec4f(vexture_linear(min(stored.rgb / max(stored.a, 1.0), vec3f(1.0))) * stored.a, stored.a);
@@ -1661,23 +1661,23 @@ fn vexture_paint_words(vextureTexels: texture_2d<u32>, planar: VexturePlanar, nu
     return select(both.zw, both.xy, (number & 1u) == 0u);
 }
 
-// Whether a paint is a program: it has no opacity, though its first word is not 0.
+// Returns whether a paint is a program: its opacity is 0, but its first word is not.
 fn vexture_is_program(words: vec2u) -> bool {
     return words.x != 0u && words.y >> 16u == 0u;
 }
 
-// The colours of a pixel, times their areas. Pieces of a cell name the same few paints again and again, and of most nothing is
-// left: where paints are programs, their shares are summed first, so that each is run once, over its part of the cell. There
-// is room for four; those with the least numbers above `done` come first, and others are left to another round.
+// Sum of a pixel's colours, times their areas. The pieces of a cell name the same few paints again and again, and most of
+// their shares cancel. The shares of programs are summed first, so that each program runs once, over its part of the cell.
+// There is room for four programs: those with the smallest numbers above `done`. The others are left for another round.
 struct VextureSum {
     color: vec4f,
 #if VEXTURE_GRADIENTS
-    kept: u32,  // program of the cells that it fills, as far as they are in the pixel, and its share:
-    kept_share: VextureShare,  // where only cells part it, it is run once
+    kept: u32,  // program that fills whole cells, within the pixel, and its share:
+    kept_share: VextureShare,  // across the borders of cells, it runs once
     done: u32,
     is_left: bool,
-    cell: f32,  // area of the cell, as far as it is in the pixel
-    paints: vec4u,  // 0 is room for another one, as paint 0 is no program
+    cell: f32,  // area of the cell within the pixel
+    paints: vec4u,  // 0 is a free slot, because paint 0 is no program
     areas: vec4f,  // of each paint the parts of its share
     x: vec4f,
     y: vec4f,
@@ -1697,7 +1697,7 @@ fn vexture_nothing() -> VextureSum {
 }
 
 #if VEXTURE_GRADIENTS
-// The place of a paint among the four: its own, or a free one, or that with the greatest number, if it is greater; else 4.
+// Slot for a paint: its own, else a free one, else the slot of the greatest number if that is greater than its own; else 4.
 fn vexture_slot(sum: VextureSum, paint: u32) -> i32 {
     var best: i32 = 0;
     for (var slot: i32 = 0; slot < 4; slot++) {
@@ -1710,7 +1710,7 @@ fn vexture_slot(sum: VextureSum, paint: u32) -> i32 {
     return select(4, best, sum.paints[best] - 1u >= paint);
 }
 
-// Adds a program's share, as long as there is room.
+// Adds a program's share if there is room.
 fn vexture_add_program(sum: ptr<function, VextureSum>, paint: u32, share: VextureShare) {
     let slot: i32 = vexture_slot(*sum, paint);
     let is_new: bool = slot < 4 && (*sum).paints[slot & 3] != paint;
@@ -1735,7 +1735,7 @@ fn vexture_add_paint(
 ) {
 #if VEXTURE_GRADIENTS
     if (paint > (*sum).done) {
-        var words: vec2u = vec2u(1u, 0u);  // as those of the programs that are summed already
+        var words: vec2u = vec2u(1u, 0u);  // as of a program: its share is summed already
         if (!any((*sum).paints == vec4u(paint))) {
             words = vexture_paint_words(vextureTexels, planar, paint);
         }
@@ -1750,7 +1750,7 @@ fn vexture_add_paint(
 #endif
 }
 
-// Whether a program is kept.
+// Returns whether a program is kept.
 fn vexture_holds_kept(sum: VextureSum) -> bool {
 #if VEXTURE_GRADIENTS
     return sum.kept != 0u;
@@ -1759,12 +1759,12 @@ fn vexture_holds_kept(sum: VextureSum) -> bool {
 #endif
 }
 
-// Adds the program that is kept.
+// Adds the kept program.
 fn vexture_add_kept(vextureTexels: texture_2d<u32>, sum: ptr<function, VextureSum>, planar: VexturePlanar) {
 #if VEXTURE_GRADIENTS
     vexture_add_paint(vextureTexels, sum, planar, (*sum).kept, (*sum).kept_share);
     (*sum).kept = 0u;
-    (*sum).cell = VEXTURE_NO_SHARE;  // even a small share fills no cell: it would be kept for ever
+    (*sum).cell = VEXTURE_NO_SHARE;  // so that no share fills the cell: the program would be kept forever
 #endif
 }
 
@@ -1779,7 +1779,7 @@ fn vexture_add_base(
     vexture_add_paint(vextureTexels, sum, planar, paint, share);
 }
 
-// Adds the paint on the left of a piece, and takes away that on its right.
+// Adds the paint on the left of a piece, and subtracts the paint on its right.
 fn vexture_add_piece(
     vextureTexels: texture_2d<u32>, sum: ptr<function, VextureSum>, planar: VexturePlanar, sides: vec2u,
     share: VextureShare,
@@ -1789,8 +1789,8 @@ fn vexture_add_piece(
 }
 
 #if VEXTURE_GRADIENTS
-// The parallelogram that has the moments of a share of a region: it lies about the share's middle, and its sides are those
-// of the region times the symmetric root of the share's covariance, in which a whole region has 1.
+// Parallelogram with the moments of a share of a region. Its centre is the share's, and its sides are the region's times
+// the symmetric root of the share's covariance, which is 1 for a whole region.
 fn vexture_part(region: VextureRegion, share: VextureShare) -> VextureRegion {
     let at: vec2f = clamp(vec2f(share.x, share.y) / share.area, vec2f(-0.5), vec2f(0.5));
     let xx: f32 = clamp(12.0 * (share.xx / share.area - at.x * at.x), 0.0, 3.0);
@@ -1805,7 +1805,7 @@ fn vexture_part(region: VextureRegion, share: VextureShare) -> VextureRegion {
 }
 #endif
 
-// Adds the colours of programs of which only the shares are known; returns whether more are left.
+// Adds the colours of the programs whose shares are summed; returns whether more programs are left.
 fn vexture_settle(
     vextureTexels: texture_2d<u32>, sum: ptr<function, VextureSum>, planar: VexturePlanar, region: VextureRegion,
 ) -> bool {
@@ -1818,7 +1818,7 @@ fn vexture_settle(
             var share: VextureShare = VextureShare(area, (*sum).x[slot], (*sum).y[slot], (*sum).xx[slot],
                 (*sum).xy[slot], (*sum).yy[slot]);
             if (abs(area - (*sum).cell) <= 1.0 - VEXTURE_NEARLY_WHOLE) {
-                // it fills the cell: it is kept, and what was kept before, if it is another one, is run
+                // it fills the cell: it is kept, and another program that was kept before runs
                 let is_same: bool = paint == (*sum).kept;
                 let before: VextureShare = (*sum).kept_share;
                 (*sum).kept_share = vexture_plus_share(share, before, select(0.0, 1.0, is_same));
@@ -1846,12 +1846,12 @@ fn vexture_settle(
 #endif
 }
 
-// In steps of a byte.
+// Unpacks a stored mean, 0..255.
 fn vexture_unpacked(word: u32) -> vec4f {
     return vexture_averaged(vec4f(vec4u(word & 255u, (word >> 8u) & 255u, (word >> 16u) & 255u, word >> 24u)));
 }
 
-// Mean of a quad about a place in its own unit square: as vexture_mean, in steps of a byte.
+// Mean colour of a quad near a point of its own unit square, like vexture_mean; 0..255.
 fn vexture_mean_color(stored: vec4u, place: vec2f) -> vec4f {
     let at: vec2f = 2.0 * place - 0.5;
     let low: vec4f = mix(vexture_unpacked(stored.x), vexture_unpacked(stored.y), vec4f(at.x));
@@ -1859,16 +1859,16 @@ fn vexture_mean_color(stored: vec4u, place: vec2f) -> vec4f {
     return clamp(mix(low, high, vec4f(at.y)), vec4f(0.0), vec4f(f32(VEXTURE_COVERAGE_ONE)));
 }
 
-// The pieces of a planar map's leaf (FORMAT.md, D.2): each a texel, or, where all are straight, two to a texel.
-// Those that share a texel, or a texel of sides, cost one fetch if they are read one after another.
+// The pieces of a planar map's leaf (FORMAT.md, D.2): one per texel, or two per texel if all are straight.
+// Pieces that share a texel, or a texel of sides, cost one fetch if they are read one after the other.
 // Exports: VextureLeaf, vexture_leaf, vexture_leaf_piece, vexture_leaf_sides.
 
 struct VextureLeaf {
     first: u32,  // texel of its first piece
     number: u32,  // of that piece in the map
     is_straight: bool,
-    at: u32,  // texel of pieces that was read last,
-    texel: vec4u,  // what is there,
+    at: u32,  // index of the texel of pieces that was read last,
+    texel: vec4u,  // its content,
     sides_at: u32,  // and the same of sides
     sides: vec4u,
 }
@@ -1883,7 +1883,7 @@ fn vexture_leaf(cell: VextureCell) -> VextureLeaf {
     return VextureLeaf(first, number, is_straight, 0u, vec4u(0u), 0u, vec4u(0u));
 }
 
-// The texel of a curve between two ends, with P1 and P2 nearest to its thirds.
+// Texel of a curve between two ends, with P1 and P2 nearest to the thirds of its chord.
 fn vexture_straight(ends: vec2u) -> vec4u {
     let p0: vec2f = vexture_word(ends.x);
     let p3: vec2f = vexture_word(ends.y);
@@ -1920,15 +1920,15 @@ fn vexture_leaf_sides(
 }
 
 // Colour of a pixel from a planar map (FORMAT.md, part D): the mean of the map's colours over the pixel's footprint,
-// premultiplied. In a cell it is that of the base paint, plus the jump in colour across each piece times the area that lies
-// on the piece's right.
+// premultiplied. In a cell it is the colour of the base paint, plus, for each piece, the jump in colour across the piece
+// times the area on its right.
 // Exports: vextureFlatColor, vextureColor.
 
 fn vexture_leaf_kind(cell: VextureCell) -> u32 {
     return (cell.texel.z >> cell.shift) & ((1u << u32(VEXTURE_COUNT_SHIFT)) - 1u);
 }
 
-// Whether a paint in a leaf is a program.
+// Returns whether a paint in a leaf is a program.
 fn vexture_holds_program(cell: VextureCell) -> bool {
 #if VEXTURE_GRADIENTS
     return (vexture_leaf_kind(cell) & u32(VEXTURE_HOLDS_PROGRAM)) != 0u;
@@ -1937,14 +1937,14 @@ fn vexture_holds_program(cell: VextureCell) -> bool {
 #endif
 }
 
-// Whether the mean of a leaf is read and not its pieces: nothing else is known of it, or a paint in it is a program and it
-// lies, all but the least share, in the footprint.
+// Returns whether the mean of a leaf is read instead of its pieces: if the leaf has only a mean, or if one of its paints
+// is a program and nearly all of the leaf lies in the footprint.
 fn vexture_reads_mean(cell: VextureCell, share: f32) -> bool {
     let is_whole: bool = vexture_holds_program(cell) && share > VEXTURE_NEARLY_WHOLE;
     return is_whole || vexture_leaf_kind(cell) == u32(VEXTURE_IS_MEAN);
 }
 
-// Adds the stored mean of a cell of this area: of a quad, about a place in its own unit square.
+// Adds the stored mean of a cell, times its area; the mean of a quad near a point in its own unit square.
 fn vexture_add_mean(
     vextureTexels: texture_2d<u32>, sum: ptr<function, VextureSum>, planar: VexturePlanar, cell: VextureCell,
     place: vec2f, area: f32,
@@ -1958,13 +1958,13 @@ fn vexture_add_mean(
         * select(vexture_unpacked(stored[cell.shift >> 3u]), vexture_mean_color(stored, place), cell.is_quad);
 }
 
-// The region of a pixel whose sides are these, in positions.
+// Region of a pixel with these sides, in positions.
 fn vexture_region(place: VexturePlace, right: vec2f, up: vec2f) -> VextureRegion {
     let unit: f32 = 1.0 / f32(1 << u32(VEXTURE_POSITION_BITS));
     return VextureRegion((vec2f(place.point) + place.rest) * unit, right * unit, up * unit);
 }
 
-// As vexture_first_look, of a pixel whose sides are level and upright; it needs no note of ends on the leaf's left edge.
+// Like vexture_first_look, for a pixel with horizontal and vertical sides; ends on the leaf's left edge need no flag.
 fn vexture_flat_look(texel: vec4u, box: VextureBox) -> VextureLook {
     let p0: vec2f = vexture_word(texel.x);
     let p3: vec2f = vexture_word(texel.w);
@@ -1979,7 +1979,7 @@ fn vexture_flat_look(texel: vec4u, box: VextureBox) -> VextureLook {
     return VextureLook(filled, false, left < 1.0 && y0 != y3);
 }
 
-// Share of the box that a piece fills, with its moments where a program asks for them.
+// Share of the box that a piece fills, with its moments if a program needs them.
 fn vexture_flat_filled_share(texel: vec4u, look: VextureLook, box: VextureBox, has_moments: bool) -> VextureShare {
 #if VEXTURE_GRADIENTS
     if (has_moments) {
@@ -1999,7 +1999,7 @@ fn vexture_flat_filled_share(texel: vec4u, look: VextureLook, box: VextureBox, h
     return vexture_area_share(area);
 }
 
-// Adds the colours of a leaf in the box, which has these sides and this middle in the pixel.
+// Adds the colours of a leaf in the box, given the box's sides and centre in the pixel.
 fn vexture_add_flat_leaf(
     vextureTexels: texture_2d<u32>, sum: ptr<function, VextureSum>, planar: VexturePlanar, cell: VextureCell,
     box: VextureBox, sides: vec2f, middle: vec2f,
@@ -2041,13 +2041,13 @@ fn vexture_add_flat_cell(
     }
 }
 
-// A premultiplied colour within its range; 0 for what is NaN.
+// Clamps a premultiplied colour to its range; NaN becomes 0.
 fn vexture_held(color: vec4f) -> vec4f {
     let alpha: f32 = select(0.0, min(color.a, 1.0), color.a > 0.0);
     return vec4f(select(vec3f(0.0), min(color.rgb, vec3f(alpha)), color.rgb > vec3f(0.0)), alpha);
 }
 
-// Parameters: the map's root quad; the others are those of vextureFlatCoverage.
+// Parameters: the map's root quad, then as in vextureFlatCoverage.
 fn vextureFlatColor(vextureTexels: texture_2d<u32>, root: u32, base: vec2u, offset: vec2f, view: VextureFlat) -> vec4f {
     let planar: VexturePlanar = vexture_planar(vextureTexels, root);
     let place: VexturePlace = vexture_place(base, offset, view.extent);
@@ -2078,7 +2078,7 @@ fn vextureFlatColor(vextureTexels: texture_2d<u32>, root: u32, base: vec2u, offs
     return vexture_held(sum.color / f32(VEXTURE_PAINT_ONE));
 }
 
-// As vexture_flat_filled_share, of any footprint, of which `whole` is the share in the cell.
+// Like vexture_flat_filled_share, for any footprint; `whole` is its share in the cell.
 fn vexture_filled_share(
     texel: vec4u, look: VextureLook, box: VextureBox, frame: VextureFrame, whole: VextureShare, has_moments: bool,
 ) -> VextureShare {
@@ -2096,7 +2096,7 @@ fn vexture_filled_share(
     return share;
 }
 
-// As vexture_add_flat_leaf, of any footprint.
+// Like vexture_add_flat_leaf, for any footprint.
 fn vexture_add_leaf(
     vextureTexels: texture_2d<u32>, sum: ptr<function, VextureSum>, planar: VexturePlanar, cell: VextureCell,
     box: VextureBox, frame: VextureFrame, whole: VextureShare,
@@ -2144,7 +2144,7 @@ fn vexture_add_cell(
     }
 }
 
-// Parameters: the map's root quad; the others are those of vextureCoverage.
+// Parameters: the map's root quad, then as in vextureCoverage.
 fn vextureColor(vextureTexels: texture_2d<u32>, root: u32, base: vec2u, offset: vec2f, dx: vec2f, dy: vec2f) -> vec4f {
     let planar: VexturePlanar = vexture_planar(vextureTexels, root);
     let frame: VextureFrame = vexture_frame(dx, dy);
@@ -2189,7 +2189,7 @@ fn vextureColor(vextureTexels: texture_2d<u32>, root: u32, base: vec2u, offset: 
 // Planar maps, and drawings of several sheets: maps and layers, the lowest first, composited.
 // Exports: vextureWrappedColor, vextureSheets, vextureSheetCoverage, vextureLight.
 //
-// With VEXTURE_LINEAR, all colours here are of linear light, but for those of vextureLight, which always are.
+// With VEXTURE_LINEAR, all colours in this file are linear; those of vextureLight always are.
 
 fn vexture_color_at(vextureTexels: texture_2d<u32>, root: u32, spot: VextureSpot) -> vec4f {
 #if VEXTURE_FLAT
@@ -2205,7 +2205,7 @@ fn vexture_whole_color(vextureTexels: texture_2d<u32>, root: u32) -> vec4f {
     return vexture_mean_color(means, vec2f(0.5)) / f32(VEXTURE_COVERAGE_ONE);
 }
 
-// As vexture_spot_coverage, of a planar map.
+// Like vexture_spot_coverage, for a planar map.
 fn vexture_spot_color(vextureTexels: texture_2d<u32>, root: u32, spot: VextureSpot) -> vec4f {
 #if VEXTURE_WRAP == VEXTURE_WRAP_REPEAT
     let tiles: VextureTiles = vexture_tiles(spot);
@@ -2243,7 +2243,7 @@ fn vexture_sheet_color(vextureTexels: texture_2d<u32>, head: vec4u, spot: Vextur
     return paint.a * vexture_spot_coverage(vextureTexels, head.x, spot) * vec4f(paint.rgb, 1.0);
 }
 
-// As vextureLayers, of layers and maps.
+// Like vextureLayers, for layers and maps.
 fn vextureSheetsFrom(
     vextureTexels: texture_2d<u32>, vexturePaints: texture_2d<u32>, first: i32, count: i32, base: vec2u, offset: vec2f,
     dx: vec2f, dy: vec2f,
@@ -2266,7 +2266,7 @@ fn vextureSheets(
     return vextureSheetsFrom(vextureTexels, vexturePaints, first, count, vec2u(0u), uv, dx, dy);
 }
 
-// Coverage by one root, given by its number in the texture: of a map its opacity, of a layer its area without its paint.
+// Coverage by one root, given by its number in the texture: a map's opacity, or a layer's area without its paint.
 fn vextureSheetCoverage(
     vextureTexels: texture_2d<u32>, vexturePaints: texture_2d<u32>, root: u32, uv: vec2f, dx: vec2f, dy: vec2f,
 ) -> f32 {

@@ -4,10 +4,10 @@
 
 uniform ivec2 list_lengths;  // rows of quads and of curves
 
-// A leaf; or a quad smaller than a pixel, as a constant.
+// A leaf, or as a constant a quad smaller than a pixel.
 struct Cell {
     vec2 origin;  // lower left corner
-    float size;   // of its side
+    float size;   // length of its side
     int shape;    // CONSTANT, CURVE or CORNER
     float value;  // coverage of a constant
     vec2 start;   // P0 in the cell's own square
@@ -26,7 +26,7 @@ vec4 fetch(sampler2D list, int width, int row, int column) {
     return texelFetch(list, ivec2(row / FOLD_HEIGHT * width + column, row % FOLD_HEIGHT), 0);
 }
 
-// Table 4.1.
+// Point at a position on the cell's edge (thesis, Table 4.1).
 vec2 edge_point(float edge) {
     float s = 4.0 * edge;
     return s < 1.0 ? vec2(s, 1.0) : s < 2.0 ? vec2(1.0, 2.0 - s) : s < 3.0 ? vec2(3.0 - s, 0.0) : vec2(0.0, s - 3.0);

@@ -1,4 +1,4 @@
-// Whether a point is inside the curve or corner of a cell.
+// Test whether a point is inside the curve or corner of a cell.
 // Exports: change_basis, inside_curve, inside_corner.
 //
 // Points are in the basis of the chord: P0 = (0, 0), P3 = (1, 0) (thesis 3.2), where the filled side, on the right from P0
