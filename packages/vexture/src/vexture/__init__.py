@@ -118,7 +118,7 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> Any:
-    """Import a public name when it is first used: the command line answers before NumPy is loaded (PEP 562)."""
+    """Import a public name on first use (PEP 562), so that the command line can answer without loading NumPy."""
     if name == "__version__":
         return import_module("importlib.metadata").version("vexture")
     for home, names in _HOMES.items():
@@ -130,7 +130,7 @@ def __getattr__(name: str) -> Any:
 
 
 def _home_of(home: str, name: str) -> Any:
-    """Import the module of a public name; say what to install where it is in vexture-geo, and that is missing."""
+    """Import the module of a public name; if it is in vexture-geo, and that is missing, say what to install."""
     try:
         return import_module(home)
     except ModuleNotFoundError as error:

@@ -64,10 +64,10 @@ BELONGS_TO: Final = {
     "bits": "thesis",
     "strategy": "thesis",
 }
-"""Encoding that an option is for."""
+"""Encoding that each option belongs to."""
 
 FILE_SUFFIXES: Final = (PACKED_SUFFIX, ".svg", ".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp")
-"""Endings of files: a folder of such a name would be a mistake."""
+"""Suffixes of files; a folder with such a name would be a mistake."""
 
 EXAMPLE = """\b
 Examples:
@@ -163,8 +163,8 @@ def convert(
     """Convert drawings into textures.
 
     A source is an SVG, GeoJSON, a picture to trace (PNG, JPEG, WebP, GIF, BMP), geographic data (polygons in any
-    format that vexture map reads; depths in GeoTIFF, Esri grid, NetCDF or GRIB, at the first time), a folder, for the
-    SVGs in it, or - for standard input.
+    format that vexture map reads; depths in GeoTIFF, Esri grid, NetCDF or GRIB, at the first time step), a folder for
+    the SVGs in it, or - for standard input.
     """
     with one_line():
         parameters = _encoding_parameters(encoding, options)
@@ -195,30 +195,30 @@ def convert(
 
 
 def _encoding_parameters(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
-    """Parameters of the conversion, without those that were not given."""
+    """Return the parameters of the conversion that are set; raise a `ParameterError` for those of another encoding."""
     parameters = given_options(options)
     for name, owner in BELONGS_TO.items():
         if name in parameters and owner != encoding:
             value = parameters[name]
-            given = f"`no_{name}`" if value is False else f"`{name}`{as_given(name, value)}"
+            option = f"`no_{name}`" if value is False else f"`{name}`{as_given(name, value)}"
             raise ParameterError(
-                f"{given} means nothing to the encoding {encoding}; leave it out or use `encoding` {owner}"
+                f"{option} means nothing to the encoding {encoding}; leave it out or use `encoding` {owner}"
             )
     if encoding != DEFAULT:
-        parameters.pop("split", None)  # other encodings have silhouettes only
+        parameters.pop("split", None)  # other encodings convert only silhouettes
     if "bits" in parameters:
         parameters["bits"] = int(parameters["bits"])
     return parameters
 
 
 def given_options(options: dict[str, Any]) -> dict[str, Any]:
-    """Parameters that are given as options."""
+    """Return the parameters that are set by options."""
     parameters = {name: value for name, value in options.items() if value is not None}
     return parameters | split_of(parameters.get("split"), parameters.pop("silhouette", None))
 
 
 def options_of_convert(*names: str) -> Callable[[click.Command], click.Command]:
-    """Give a command some of the options of `convert`, at the end of its own, without flags that it has already."""
+    """Append some of the options of `convert` to a command, without flags that the command has already."""
 
     def with_options(command: click.Command) -> click.Command:
         known = {option.name: option for option in convert.params}
@@ -233,7 +233,7 @@ def options_of_convert(*names: str) -> Callable[[click.Command], click.Command]:
 
 
 def drawings_in(sources: tuple[Path, ...]) -> tuple[Path, ...]:
-    """The sources, with the SVG files in a folder, in the order of their names, in place of the folder."""
+    """Replace each folder by its SVG files, sorted by name."""
     files = list[Path]()
     for source in sources:
         if not source.is_dir():
@@ -247,7 +247,7 @@ def drawings_in(sources: tuple[Path, ...]) -> tuple[Path, ...]:
 
 
 def _is_drawing(file: Path) -> bool:
-    """Whether a file of a folder is an SVG by its name, and not hidden."""
+    """Return whether a file in a folder has an SVG suffix and is not hidden."""
     return file.suffix.lower() in (".svg", ".svgz") and not file.name.startswith(".") and file.is_file()
 
 
@@ -294,18 +294,16 @@ def _convert_one(
     strict: bool,
     quiet: bool,
 ) -> list[ConversionResult]:
-    """Convert one source, in this process or another; an error is returned as its line.
+    """Convert one source, in this process or another; return an error as a result.
 
-    Of a sprite, there is an outcome for each symbol in an atlas.
-
-    `stored` are the parameters of the texture's `files`.
+    In an atlas, a sprite has one result for each symbol. `stored` are the parameters of the texture's `files`.
     """
     from vexture.base.notes import check_losses, line_of
     from vexture.conversion.parameters import READING, Parameters
     from vexture.conversion.pipeline import parts_of, run, run_encoding
     from vexture.conversion.reading import read_drawing
 
-    if quiet:  # kernels announce that they are compiled
+    if quiet:  # kernels log that they are being compiled
         logging.getLogger("vexture").setLevel(logging.ERROR)
     try:
         if for_atlas:
@@ -332,7 +330,7 @@ def _convert_one(
 
 
 def _for_atlas(source: Path, part: "Conversion[Any]") -> ConversionResult:
-    """Outcome of a drawing whose trees become a part of an atlas."""
+    """Return the result of a drawing whose trees become part of an atlas."""
     from vexture.base.notes import line_of
     from vexture.texture.ktx2 import TEXEL_BYTES
 
@@ -343,7 +341,7 @@ def _for_atlas(source: Path, part: "Conversion[Any]") -> ConversionResult:
 def _outcomes(
     work: Any, sources: tuple[Path, ...], jobs: int, level: int, max_seconds: float
 ) -> Iterator[ConversionResult]:
-    """Outcomes in the order of the sources, from other processes; a terminal shows the progress of several."""
+    """Yield results from worker processes in the order of the sources; with several, a terminal shows progress."""
     from vexture.base.apart import each_apart
 
     tasks = [(source, read_stream(source)) for source in sources]
@@ -365,7 +363,7 @@ def _outcomes(
 def _write_atlas(
     outcomes: list[ConversionResult], atlas: Path, stored: dict[str, Any], *, silent: bool, to_pipe: bool
 ) -> None:
-    """Write one texture of all shapes."""
+    """Write one texture with all shapes."""
     from vexture.conversion.pipeline import combine
 
     parts = [outcome.trees for outcome in outcomes if outcome.trees is not None]

@@ -22,9 +22,9 @@ Example:
 @click.option(
     "--amplitude", metavar="A", type=float, default=0.005, show_default=True, help="Largest shift, unit-square units."
 )
-@click.option("--period", metavar="SECONDS", type=float, default=8.0, show_default=True, help="From wave to wave.")
+@click.option("--period", metavar="SECONDS", type=float, default=8.0, show_default=True, help="Time between two waves.")
 @click.option("--size", metavar="N", type=int, default=64, show_default=True, help="Texels each way, 8 to 256.")
-@click.option("--picture", metavar="PNG", type=PATH, help="Draw what moves where, too.")
+@click.option("--picture", metavar="PNG", type=PATH, help="Also draw the motion as a picture.")
 @font_option
 def fold(
     drawing: Path,
@@ -51,20 +51,20 @@ def fold(
         if not output.is_dir() and output.suffix.lower() != PACKED_SUFFIX:
             raise ParameterError(f"`output` {output}: folds are KTX2 files; name one that ends in {FOLD_SUFFIX}")
         shape = apart(partial(read_drawing, fonts=fonts or ()), drawing, name=str(drawing))
-        made = fold_of_shore(shape, amplitude=amplitude, period=period, size=size)
-        say_notes(drawing, (*shape.notes, *made.notes))
+        result = fold_of_shore(shape, amplitude=amplitude, period=period, size=size)
+        say_notes(drawing, (*shape.notes, *result.notes))
         target = output / (file_name(shape.name) + FOLD_SUFFIX) if output.is_dir() else output
-        files = {target: made.to_ktx2()}
+        files = {target: result.to_ktx2()}
         if picture is not None:
             from vexture.fold.picture import fold_picture
 
             data = BytesIO()
-            fold_picture(made, shape).save(data, format="PNG")
+            fold_picture(result, shape).save(data, format="PNG")
             files[picture] = data.getvalue()
         write_together(files)
-        largest = float(np.hypot(made.displacement[..., 0], made.displacement[..., 1]).max())
-        columns, rows = made.size
+        largest = float(np.hypot(result.displacement[..., 0], result.displacement[..., 1]).max())
+        columns, rows = result.size
         echo(
             f"{target}: {columns} x {rows} texels, {len(files[target])} bytes, largest shift {largest:.3g}, "
-            f"{made.cycle:g} s"
+            f"{result.cycle:g} s"
         )

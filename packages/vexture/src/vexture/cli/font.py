@@ -35,7 +35,7 @@ Examples:
     "ranges",
     metavar="U+A-B",
     multiple=True,
-    help="Those of a range that the font has, such as U+0400-04FF; may be given several times.",
+    help="Characters of a range that the font has, such as U+0400-04FF; may be given several times.",
 )
 @face_options
 @click.option("--name", help="Name of the texture.  [default: the family]")
@@ -79,7 +79,7 @@ def font(
 
 
 class FontFiles(NamedTuple):
-    """The texture of a font."""
+    """The files of a font's texture, with its notes."""
 
     about: str
     files: dict[Path, bytes]
@@ -98,7 +98,7 @@ def _convert_font(
     output: Path,
     strict: bool,
 ) -> FontFiles:
-    """Files of a font, which may be a stranger's."""
+    """Convert a font into its files; the font may be untrusted."""
     from vexture.base.notes import check_losses
     from vexture.conversion.glyph_atlas import PRINTABLE, made_atlas
     from vexture.fonts.text import TextOptions
@@ -106,17 +106,17 @@ def _convert_font(
 
     weight, style, stretch, name = styled
     options = TextOptions(font or (), (), weight, style, stretch, name=name)
-    made = made_atlas(options, PRINTABLE if characters is None else characters, ranged, **parameters)
-    about = str(font or made.texture.name)
-    check_losses(about, made.notes, is_empty=False, strict=strict)
-    place = output if is_texture_file(output, DEFAULT) else output / (file_name(made.texture.name) + PACKED_SUFFIX)
+    result = made_atlas(options, PRINTABLE if characters is None else characters, ranged, **parameters)
+    about = str(font or result.texture.name)
+    check_losses(about, result.notes, is_empty=False, strict=strict)
+    place = output if is_texture_file(output, DEFAULT) else output / (file_name(result.texture.name) + PACKED_SUFFIX)
     return FontFiles(
-        about, made.files(place, **stored), len(made.metrics["glyphs"]), len(made.texture.roots), made.notes
+        about, result.files(place, **stored), len(result.metrics["glyphs"]), len(result.texture.roots), result.notes
     )
 
 
 def read_text(file: Path) -> str:
-    """Characters of a file; those that control lines are none."""
+    """Read the printable characters of a file, and so no line breaks."""
     from vexture.base.content import about, read_bytes
 
     with about(str(file)):
@@ -127,7 +127,7 @@ def read_text(file: Path) -> str:
 
 
 def codes_of(text: str) -> range:
-    """Characters of a range such as U+0400-04FF.
+    """Return the characters of a range such as U+0400-04FF.
 
     Examples
     --------

@@ -26,12 +26,12 @@ Examples:
 
 
 class NumberPair(click.ParamType):  # type: ignore[type-arg]
-    """Two numbers, separated by a comma, or one that is both."""
+    """Two numbers separated by a comma, or one number for both."""
 
     name = "X,Y"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the numbers."""
+        """Parse the numbers."""
         if isinstance(value, tuple):
             return value
         try:
@@ -83,13 +83,13 @@ class NumberPair(click.ParamType):  # type: ignore[type-arg]
 )
 @click.option("--invert", is_flag=True, help="Exchange inside and outside; not in mode paint.")
 @click.option(
-    "--background", type=click.Choice(["own", "none"]), help="Mode paint, around the drawing.  [default: own]"
+    "--background", type=click.Choice(["own", "none"]), help="Mode paint: colour around the drawing.  [default: own]"
 )
 @click.option("--color", metavar="COLOR", help="Mode mix: a CSS colour.  [default: white]")
 @click.option("--threshold", metavar="T", type=float, help="Mode cut: least coverage that is drawn.  [default: 0.5]")
 @click.option("--tex-coord", metavar="N", type=click.IntRange(0, 1), help="Set of texture coordinates.  [default: 0]")
-@click.option("--scale", type=NumberPair(), help="Of texture coordinates: 4 makes the drawing a quarter as large.")
-@click.option("--rotation", metavar="DEG", type=float, help="Turns the drawing counter-clockwise about their origin.")
+@click.option("--scale", type=NumberPair(), help="Of the texture coordinates: 4 makes the drawing a quarter as large.")
+@click.option("--rotation", metavar="DEG", type=float, help="Turns the drawing counter-clockwise about the origin.")
 @click.option("--offset", type=NumberPair(), help="Moves texture coordinates, after --scale and --rotation.")
 def gltf(
     model: Path,
@@ -103,8 +103,8 @@ def gltf(
 ) -> None:
     """Put drawings on materials of a model (glTF 2.0, .glb or .gltf).
 
-    three.js shows them by the plugin of the npm entry vexture/gltf. Programs that do not know them show the materials
-    as they were; everything else in the model stays as it is.
+    three.js shows them with the plugin of the npm entry vexture/gltf. Other programs show the original materials;
+    everything else in the model stays as it is.
     """
     with one_line():
         from vexture.gltf.appearance import Appearance
@@ -122,7 +122,7 @@ def gltf(
         parameters = given_options(options)
         changed = read_model(model)
         for material in materials:
-            changed.place_of(material)  # before anything is converted
+            changed.place_of(material)  # so that errors come before any conversion
         textures = [_texture_of(drawing, Appearance(**shown), parameters, strict, quiet) for drawing in drawings]
         for place, material in enumerate(materials):
             changed = changed.with_drawing(material, textures[min(place, len(textures) - 1)], **shown)
@@ -130,7 +130,7 @@ def gltf(
 
 
 def _output_of(materials: Sequence[str], drawings: Sequence[Path], output: Path | None) -> Path:
-    """The file to write; raises a `ParameterError` if an option is missing."""
+    """Return the file to write; raise a `ParameterError` if an option is missing."""
     from vexture.gltf.model import target_of
 
     for name, given in (("material", materials), ("drawing", drawings), ("output", output)):
@@ -146,7 +146,7 @@ def _output_of(materials: Sequence[str], drawings: Sequence[Path], output: Path 
 
 
 def _texture_of(drawing: Path, appearance: Any, parameters: dict[str, Any], strict: bool, quiet: bool) -> "Texture":
-    """The texture of a file, which may be one, or is converted."""
+    """Return the texture in a file, or convert the drawing in it."""
     from vexture.base.apart import apart
     from vexture.base.notes import check_losses
     from vexture.conversion.parameters import Parameters
@@ -166,7 +166,7 @@ def _texture_of(drawing: Path, appearance: Any, parameters: dict[str, Any], stri
 
 
 def _write(model: "Model", output: Path, materials: Sequence[str], quiet: bool) -> None:
-    """Write the model, and say so."""
+    """Write the model, and print a line about it."""
     from vexture.texture.files import write_together
 
     files = model.files(output)

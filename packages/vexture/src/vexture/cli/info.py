@@ -12,7 +12,7 @@ from vexture.cli.messages import echo, one_line
 from vexture.cli.options import PATH, drawing_kind, read_stream, shown_name
 
 MOST_NAMED = 8
-"""Elements of a shape that a line for people names."""
+"""Most elements of a shape that the text output names."""
 
 EXAMPLE = """\b
 Examples:
@@ -50,7 +50,7 @@ def info(texture: Path, as_json: bool) -> None:
 
 
 def _lines(facts: dict[str, Any]) -> Iterator[str]:
-    """Facts for people: one in a line, and two lines for each shape; values that are missing are left out."""
+    """Yield the facts as text: one per line, two lines for each shape, without facts that are missing."""
     for name, value in facts.items():
         if name == "bytes":
             yield f"{'memory':<12}{value} bytes on the GPU"
@@ -64,7 +64,7 @@ def _lines(facts: dict[str, Any]) -> Iterator[str]:
 
 
 def _text(name: str, value: Any) -> str:
-    """A value in at most six digits; a colour as CSS writes it; a transform from the unit square as two sums."""
+    """Format a value: numbers with at most six digits, colours as in CSS, transforms as two sums."""
     if name == "paint":
         from vexture.drawing.paint import Paint
 

@@ -1,4 +1,4 @@
-"""The command line: its commands, each in a module of its own."""
+"""The command line; each command has a module of its own."""
 
 import signal
 import sys
@@ -32,13 +32,13 @@ SUMMARIES: Final = {
     "fold": "Make the outline of a drawing slide to and fro, as water on a beach.",
     "gltf": "Put drawings on materials of a model (glTF 2.0, .glb or .gltf).",
 }
-"""The commands in the order of their list, and the first sentence of each: the list imports no command."""
+"""Commands in the order of the help, each with its first sentence, so that the help need not import them."""
 
 COMMANDS: Final = {name: f"vexture.cli.{name}" for name in SUMMARIES}
-"""Module of each command; it is imported when the command is used."""
+"""Module of each command, which is imported only when the command runs."""
 
 PLUGINS: Final = "vexture.commands"
-"""Entry points of other distributions that add commands."""
+"""Group of entry points by which other distributions add commands."""
 
 OF_GEO: Final = "the package vexture-geo adds it: pip install 'vexture[geo]'"
 
@@ -48,18 +48,18 @@ ELSEWHERE: Final = {
     "tiles": OF_GEO,
     "report": "the package vexture-evidence adds it: in a clone, pip install packages/vexture-evidence",
 }
-"""Commands of known distributions, and how to install these."""
+"""Commands of known distributions, with instructions to install them."""
 
 ADDED_SUMMARIES: Final = {
     "flood": "Show a flood as a living sea, on one page or on a server.",
     "map": "Make a map of geographic data: one texture, and a table of the attributes beside it.",
     "tiles": "Make a pyramid of tiles of a map's polygons: one file (PMTiles), or a folder with a TileJSON.",
 }
-"""First sentences of commands of vexture-geo: the list imports none of these, either."""
+"""First sentences of the commands of vexture-geo, so that the help need not import these either."""
 
 
 class _Commands(click.Group):
-    """The commands by name, and those that other distributions add."""
+    """The commands, with those that other distributions add."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return [*COMMANDS, *_plugin_commands(ctx)]
@@ -74,7 +74,7 @@ class _Commands(click.Group):
         return None if added is None else added.load()
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """List the commands without their modules, which take longer to import than all else of the help."""
+        """List the commands without importing their modules, which would take longer than the rest of the help."""
         listed = {name: click.Command(name, help=line) for name, line in SUMMARIES.items()}
         for name, point in _plugin_commands(ctx).items():
             line = ADDED_SUMMARIES.get(name)
@@ -86,7 +86,7 @@ class _Commands(click.Group):
             return super().parse_args(ctx, args)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run a command; Ctrl-C ends it in a line, also while modules are imported and kernels compiled."""
+        """Run a command; Ctrl-C ends it with one line, even while modules are imported or kernels are compiled."""
         before = signal.getsignal(signal.SIGINT)
         ours = current_thread() is main_thread() and before in (signal.default_int_handler, at_once)
         if ours:
@@ -103,14 +103,14 @@ class _Commands(click.Group):
 
 
 class _Listed(click.Group):
-    """Commands that are listed in the order in which they are given."""
+    """A group that lists its commands in the order in which they were added."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return [*self.commands]
 
 
 def _plugin_commands(ctx: click.Context) -> "dict[str, EntryPoint]":
-    """Commands of other distributions by name; all that are installed are looked through once."""
+    """Return the commands of other distributions by name; the installed ones are searched only once."""
     if PLUGINS not in ctx.meta:
         from importlib.metadata import entry_points
 
@@ -121,16 +121,16 @@ def _plugin_commands(ctx: click.Context) -> "dict[str, EntryPoint]":
 
 @contextmanager
 def _printable_errors() -> Iterator[None]:
-    """Let no word of the command line, such as a file's name, control the terminal by an error about it."""
+    """Make errors printable, so that an argument such as a file name cannot control the terminal through them."""
     try:
         yield
     except click.ClickException as error:
-        error.message = printable(error.message)  # type: ignore[misc]  # declared final, but by no means
+        error.message = printable(error.message)  # type: ignore[misc]  # mypy reads a class attribute as final
         raise
 
 
 def _on_ctrl_c(number: int, frame: FrameType | None) -> None:
-    """Raise a `KeyboardInterrupt`; later within calls that lose it or crash: LLVM's, Numba's that do not compile."""
+    """Raise a `KeyboardInterrupt`, later if LLVM or Numba run: within their calls it would get lost or crash them."""
     places = set()
     while frame is not None:
         places |= {frame.f_globals.get("__name__", "").partition(".")[0], frame.f_code.co_name}

@@ -1,4 +1,4 @@
-"""Messages of the command line, each of one line."""
+"""Messages of the command line, one line each."""
 
 import errno
 import re
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from vexture.base.notes import Note
 
 PARAMETER = re.compile(r"`([a-z_]+)`")
-"""A parameter in a message of the library."""
+"""Pattern of a parameter in a message of the library."""
 
 NAMED_OTHERWISE = {"fonts": "font", "page_colors": "color", "characters": "chars"}
-"""Parameters whose options have other names: lists, whose options are given once for each entry, and long ones."""
+"""Parameters whose options have other names: options that are given once per entry of a list, and shortened ones."""
 
 
 OF_FLOODS = frozenset({"layer", "time_dim", "variable"})
-"""Parameters of depths and areas that other commands read, too, but choose nothing of."""
+"""Parameters of the flood commands: other commands read depths and areas, too, but have no options for these."""
 
 
 def print_message(message: str) -> None:
@@ -32,17 +32,17 @@ def print_message(message: str) -> None:
 
 
 def echo(line: str, *, err: bool = False) -> None:
-    """Print a line, in which names of strangers control no terminal."""
+    """Print a line in which names from untrusted files cannot control the terminal."""
     click.echo(printable(line), err=err)
 
 
 def as_options(message: str) -> str:
-    """Return a message of the library with options in place of the parameters that it names in backticks."""
+    """Replace the parameters in backticks in a message of the library by the options that set them."""
     return PARAMETER.sub(lambda found: option_of(found[1]), message)
 
 
 def option_of(parameter: str) -> str:
-    """The option for a parameter of the library: that of the command that runs, or else the usual one."""
+    """Return the option for a parameter of the library: that of the running command, or else the usual one."""
     context = click.get_current_context(silent=True)
     options = {} if context is None else {option.name: option for option in context.command.params}
     if parameter in options and parameter in NAMED_OTHERWISE:
@@ -52,12 +52,12 @@ def option_of(parameter: str) -> str:
 
 
 def note_facts(notes: Sequence["Note"]) -> list[dict[str, Any]]:
-    """Notes ready for JSON, with the options of the command line."""
+    """Return notes as JSON values, with option names in place of parameters."""
     return [note.facts() | {"message": as_options(note.message)} for note in notes]
 
 
 def say_notes(source: object, notes: Sequence["Note"]) -> None:
-    """Print the notes about a source in one line, if there are any."""
+    """Print the notes about a source as one line, if there are any."""
     from vexture.base.notes import line_of  # the list of the commands does not wait for it
 
     if line := line_of(str(source), notes):
@@ -70,14 +70,14 @@ def one_line() -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.showwarning = lambda message, *_args, **_kwargs: print_message(f"warning: {message}")
         warnings.simplefilter("always")
-        warnings.simplefilter("ignore", ResourceWarning)  # what Ctrl-C interrupts is left open
+        warnings.simplefilter("ignore", ResourceWarning)  # Ctrl-C leaves open what it interrupts
         try:
             yield
         except EXPECTED as error:
             print_message(str(error))
             sys.exit(1)
         except BrokenPipeError:
-            raise  # click ends in silence: who reads standard output has enough, such as head
+            raise  # click ends silently: the reader of the pipe, such as head, has enough
         except OSError as error:
             remedy = "make room, or choose another place" if error.errno == errno.ENOSPC else "choose another file"
             print_message(f"{error.filename or 'the output'}: {error.strerror or reason_of(error)}; {remedy}")

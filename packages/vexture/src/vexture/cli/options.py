@@ -1,4 +1,4 @@
-"""Types of options, and options that several commands have."""
+"""Types of options, and options that several commands share."""
 
 import sys
 from collections.abc import Callable
@@ -20,7 +20,7 @@ else:  # generic since click 8.4
 
 
 class PathArgument(click.Path):
-    """A path; an empty one, as of a shell's variable that is not set, would be the folder "."."""
+    """A path; an empty one, as from an unset shell variable, is refused because it would mean the folder "."."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path."""
@@ -33,14 +33,14 @@ class PathArgument(click.Path):
 PATH: Final[Any] = PathArgument(path_type=Path)
 
 STANDARD: Final = "-"
-"""Name of standard input and output among files."""
+"""File name that stands for standard input and output."""
 
 RESEARCH: Final = ("encoding", "bits", "strategy")
-"""Options for comparisons of encodings."""
+"""Options for comparing encodings."""
 
 
 class Sectioned(click.Command):
-    """A command whose help lists the options for research in a section of their own."""
+    """A command whose help lists the research options in a section of their own."""
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options in two sections."""
@@ -57,12 +57,12 @@ class Sectioned(click.Command):
 
 
 class RectangleArgument(ParamType):
-    """Four numbers, separated by commas."""
+    """Four numbers separated by commas."""
 
     name = "X,Y,W,H"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the numbers."""
+        """Parse the numbers."""
         try:
             x, y, w, h = (float(part) for part in str(value).split(","))
         except ValueError:
@@ -91,7 +91,7 @@ class Colour(ParamType):
 
 
 def standard_input() -> bytes:
-    """All that standard input holds, up to the limit of a file."""
+    """Read all of standard input, up to the limit for files."""
     from vexture.base.content import LARGEST_FILE
 
     if sys.stdin is None:
@@ -100,7 +100,7 @@ def standard_input() -> bytes:
 
 
 def read_stream(path: Path) -> bytes | None:
-    """Content of standard input, or of a pipe of a name, which can be read only once; None of a file."""
+    """Read standard input or a named pipe, which can be read only once; return None for a file."""
     from vexture.base.content import about, is_stream, read_bytes
 
     if path == Path(STANDARD):
@@ -112,7 +112,7 @@ def read_stream(path: Path) -> bytes | None:
 
 
 def refuse_stream(path: Path, subject: str) -> None:
-    """Raise a `SourceError` if what is read several times is a pipe."""
+    """Raise a `SourceError` if a source that is read several times is a pipe."""
     from vexture.base.content import is_stream
 
     if is_stream(path):
@@ -120,12 +120,12 @@ def refuse_stream(path: Path, subject: str) -> None:
 
 
 def shown_name(path: Path) -> str:
-    """Name of a source in messages."""
+    """Return the name of a source for messages."""
     return "standard input" if path == Path(STANDARD) else str(path)
 
 
 def check_output(output: Path | None) -> None:
-    """Raise a `DeviceError` if standard output is to be written, and is closed."""
+    """Raise a `DeviceError` if the output is standard output and that is closed."""
     if output == Path(STANDARD) and sys.stdout is None:
         raise DeviceError("standard output is closed; name a file with -o")
 
@@ -133,11 +133,11 @@ def check_output(output: Path | None) -> None:
 def write_output(data: bytes) -> None:
     """Write to standard output."""
     sys.stdout.buffer.write(data)
-    sys.stdout.buffer.flush()  # an error is this command's, and not one at the end of Python
+    sys.stdout.buffer.flush()  # an error belongs to this command, not to the exit of Python
 
 
 def drawing_kind(path: Path) -> "FileKind | None":
-    """Kind of a file that is not a texture, or None."""
+    """Return the kind of a file that is not a texture; None for anything else."""
     from vexture.base.content import FileKind, kind_of, start_of
     from vexture.texture.registry import owner_of
 
@@ -153,7 +153,7 @@ class Tolerance(ParamType):
     name = "T"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the number, or the word."""
+        """Parse the number, or the word."""
         if value == "auto" or isinstance(value, float):
             return value
         try:
@@ -205,7 +205,7 @@ class NamedColour(ParamType):
     name = "NAME=COLOR"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the name and the colour, which the reader checks."""
+        """Split the name from the colour, which the reader checks."""
         if isinstance(value, tuple):
             return value
         name, equals, colour = str(value).rpartition("=")
@@ -227,7 +227,7 @@ page_color_option = click.option(
 
 
 def as_given(name: str, value: Any) -> str:
-    """A value of an option after its name in a message, as one types it: of several the first one.
+    """Format the value of an option for a message, as the user typed it; of several values, only the first.
 
     Examples
     --------
@@ -247,7 +247,7 @@ SILHOUETTE_HELP: Final = "the covered area of a drawing, without colours."
 
 
 def split_of(split: str | None, silhouette: bool | None) -> dict[str, str | None]:
-    """The parameter `split` by two options, if one of them is given."""
+    """Return the parameter `split` according to two options, if one of them is set."""
     if not silhouette:
         return {} if split is None else {"split": split}
     if split is not None:
@@ -256,7 +256,7 @@ def split_of(split: str | None, silhouette: bool | None) -> dict[str, str | None
 
 
 def conversion_options(command: Callable[..., None]) -> Callable[..., None]:
-    """Add the options of the viewer's conversions to a command."""
+    """Add the options for the viewer's conversions to a command."""
     precision = click.option("--precision", metavar="P", type=float, help="Largest shift by rounding.  [default: 1e-7]")
     select = click.option("--select", metavar="SELECTOR", help="Show only the elements that a CSS selector matches.")
     split = click.option(
@@ -278,11 +278,11 @@ def viewer_parameters(
     trace_images: bool | None,
     page_colors: dict[str, str] | None,
 ) -> "Parameters":
-    """The viewer's parameters, with those that are given as options."""
+    """Return the viewer's parameters, changed by the options that are set."""
     from vexture.server.publish_file import VIEWER_PARAMETERS
 
-    given: dict[str, Any] = {"tolerance": tolerance, "select": select, "fonts": fonts, "page_colors": page_colors}
-    given |= {"trace_images": bool(trace_images), **split_of(split, silhouette)}
+    values: dict[str, Any] = {"tolerance": tolerance, "select": select, "fonts": fonts, "page_colors": page_colors}
+    values |= {"trace_images": bool(trace_images), **split_of(split, silhouette)}
     if precision is not None:
-        given["precision"] = precision
-    return replace(VIEWER_PARAMETERS, **given)
+        values["precision"] = precision
+    return replace(VIEWER_PARAMETERS, **values)

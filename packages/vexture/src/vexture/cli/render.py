@@ -113,7 +113,7 @@ def render(
         if output != Path(STANDARD) and output.suffix.lower() != ".png":
             raise ParameterError(f"`output` {output}: pictures are PNG files; name one that ends in .png")
         _check_sides(size, width, height)
-        seen = None if view is None else window(*view, rotate)  # refused before anything is read
+        seen = None if view is None else window(*view, rotate)  # checked before anything is read
         given = {"select": select, "fonts": fonts, "trace_images": trace_images, "page_colors": page_colors}
         reading = {name: value for name, value in given.items() if value is not None}
         shown = _read_or_load(source, reading, strict=strict, max_seconds=max_seconds)
@@ -125,7 +125,7 @@ def render(
 
 
 def _check_sides(size: int | None, width: int | None, height: int | None) -> None:
-    """Refuse sides of a picture that cannot be, or that say one thing twice."""
+    """Refuse impossible sizes of a picture, and sizes that contradict each other."""
     from vexture.renderers.view import SIZE_LIMIT
 
     if size is not None and (width is not None or height is not None):
@@ -136,7 +136,7 @@ def _check_sides(size: int | None, width: int | None, height: int | None) -> Non
 
 
 def _box_of(subject: "Shown") -> tuple[float, float, float, float]:
-    """The part of the unit square that a drawing's box fills; of a texture, which does not know it, all."""
+    """Return the part of the unit square that a drawing's box fills; all of it for a texture, which has no box."""
     from vexture.drawing.drawing import Drawing
 
     width, height = subject.sides if isinstance(subject, Drawing) else (1.0, 1.0)
@@ -146,7 +146,7 @@ def _box_of(subject: "Shown") -> tuple[float, float, float, float]:
 def _pixels(
     size: int | None, width: int | None, height: int | None, view: tuple[float, float, float, float]
 ) -> tuple[int, int]:
-    """Width and height of the picture; a side that is not given follows from the view."""
+    """Return the width and height of the picture; a missing one follows from the view."""
     _, _, w, h = view
     ratio = w / h if w > 0.0 and h > 0.0 else 1.0
     if width is None and height is None:
@@ -161,7 +161,7 @@ def _pixels(
 def _picture(
     subject: "Shown", pixels: tuple[int, int], view: Any, *, silhouette: bool, **options: Any
 ) -> "NDArray[Any]":
-    """Premultiplied RGBA."""
+    """Render a picture as premultiplied RGBA."""
     import numpy as np
 
     from vexture.conversion.images import coverage
@@ -174,7 +174,7 @@ def _picture(
 
 
 def _over(picture: "NDArray[Any]", background: tuple[float, float, float, float]) -> "NDArray[np.uint8]":
-    """Picture on a background, as bytes: RGB on an opaque one, else RGBA, not premultiplied."""
+    """Put a picture on a background; return bytes: RGB if the background is opaque, else RGBA, not premultiplied."""
     import numpy as np
 
     whole = picture + (1.0 - picture[..., 3:]) * np.array(background, np.float32)
@@ -186,7 +186,7 @@ def _over(picture: "NDArray[Any]", background: tuple[float, float, float, float]
 
 
 def _root_of(subject: "Shown", root: str | None) -> str | int | None:
-    """The name of a shape, or if none has that name, its index."""
+    """Return a shape's name, or its index if no shape has that name."""
     from vexture.texture.select_root import drawing_of
     from vexture.texture.texture import Texture
 
@@ -199,7 +199,7 @@ def _root_of(subject: "Shown", root: str | None) -> str | int | None:
 
 
 def _read_or_load(path: Path, reading: dict[str, Any], *, strict: bool, max_seconds: float) -> "Shown":
-    """Read a drawing with parameters, or load a texture by one of its files or what their names have in common."""
+    """Read a drawing with parameters, or load a texture by one of its files or by the common part of their names."""
     from vexture.base.apart import apart
     from vexture.base.content import FileKind, kind_of, start_of
     from vexture.base.notes import check_losses
@@ -221,7 +221,7 @@ def _read_or_load(path: Path, reading: dict[str, Any], *, strict: bool, max_seco
 
 
 def _write_png(image: "NDArray[np.uint8]", output: Path) -> None:
-    """Write a picture, (height, width, 3 or 4)."""
+    """Write a picture (height, width, 3 or 4) as PNG."""
     from PIL import Image
 
     from vexture.texture.files import write_together

@@ -31,7 +31,7 @@ Example:
 def restyle(texture: Path, paints: tuple[str, ...], output: Path, root: str | None) -> None:
     """Give elements of a planar map other colours.
 
-    A colour is one of CSS, or none. The texture was made with --split faces --restyle; vexture info names its elements.
+    A colour is a CSS colour, or none. Make the texture with --split faces --restyle; vexture info lists its elements.
     """
     with one_line():
         from vexture.texture.load import load
@@ -44,6 +44,6 @@ def restyle(texture: Path, paints: tuple[str, ...], output: Path, root: str | No
             raise ParameterError(f"`output` {output}: textures are KTX2 files; name one that ends in {PACKED_SUFFIX}")
         if place != output and place.exists() and place.samefile(texture):
             raise ParameterError(f"`output` {output}: it holds {texture.name} itself; name a file, or another folder")
-        wanted = {name: colour for name, _, colour in (text.rpartition("=") for text in paints)}
-        target = load(texture).with_paints(wanted, root=root).save(place)
-        echo(f"{target}: {format_count(len(wanted), 'element')} in other colours, {target.stat().st_size} bytes")
+        colours = {name: colour for name, _, colour in (text.rpartition("=") for text in paints)}
+        target = load(texture).with_paints(colours, root=root).save(place)
+        echo(f"{target}: {format_count(len(colours), 'element')} in other colours, {target.stat().st_size} bytes")

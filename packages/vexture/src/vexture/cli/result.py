@@ -18,7 +18,7 @@ QUIET, NORMAL, VERBOSE = -1, 0, 1
 
 @dataclass(frozen=True, slots=True)
 class ConversionResult:
-    """Result of one source: the contents of its files, or for an atlas its trees; or why there are none."""
+    """Result of one source: the contents of its files, its trees if it goes into an atlas, or an error."""
 
     source: Path | str
     facts: dict[str, Any]
@@ -29,7 +29,7 @@ class ConversionResult:
 
 
 def shape_facts(done: "Conversion[Any]") -> dict[str, Any]:
-    """Facts of a conversion, ready for JSON."""
+    """Return the facts of a conversion as JSON values."""
     shapes = [
         {"quads": len(tree.coverage), "curves": len(tree.curves), "unresolved": int(tree.unresolved)}
         for tree in done.trees
@@ -50,12 +50,12 @@ def shape_facts(done: "Conversion[Any]") -> dict[str, Any]:
 
 
 def is_texture_file(output: Path, encoding: str) -> bool:
-    """Whether a path to write to is that of a file, and not of a folder."""
+    """Return whether an output path is a file, not a folder."""
     return encoding == DEFAULT and output.suffix.lower() == PACKED_SUFFIX and not output.is_dir()
 
 
 def written(outcome: ConversionResult, output: Path, owners: dict[str, Path | str]) -> ConversionResult:
-    """Write the files of an outcome, and return it with their names, or with an error."""
+    """Write the files of a result; return the result with the files' names, or with an error."""
     from vexture.texture.files import file_name, write_together
 
     assert outcome.files is not None
@@ -97,7 +97,7 @@ def say_outcome(outcome: ConversionResult, level: int, *, quiet: bool, to_pipe: 
 
 
 def line_of_facts(facts: dict[str, Any]) -> str:
-    """One line about a source."""
+    """Return the facts of a source as one line of text."""
     named = [name for name in ("segments", "layers", "quads", "curves", "bytes") if name != "layers" or facts[name] > 1]
     counts = ", ".join(format_count(facts[name], name.removesuffix("s")) for name in named)
     line = (
@@ -108,7 +108,7 @@ def line_of_facts(facts: dict[str, Any]) -> str:
 
 
 def facts_of(outcome: ConversionResult) -> dict[str, Any]:
-    """Facts of a source for JSON, its error or warning included."""
+    """Return the facts of a source as JSON values, including its error or warning."""
     facts: dict[str, Any] = {"source": str(outcome.source)}
     if outcome.error:
         return facts | {"error": as_options(outcome.error)}

@@ -24,7 +24,7 @@ Examples:
 """
 
 STYLED = ("family", "weight", "style", "stretch", "features", "direction", "language", "align", "line_height", "name")
-"""Options that are parameters of `vexture.text`."""
+"""Options that set parameters of `vexture.text`."""
 
 
 def face_options(command: Any) -> Any:
@@ -37,10 +37,10 @@ def face_options(command: Any) -> Any:
         type=click.Choice(["normal", "italic", "oblique"]),
         default="normal",
         show_default=True,
-        help="Whether letters slope.",
+        help="Slope of the letters.",
     )
     weight = click.option(
-        "--weight", metavar="W", type=float, default=400, show_default=True, help="1 to 1000; 700 is bold."
+        "--weight", metavar="W", type=float, default=400, show_default=True, help="Weight, 1 to 1000; 700 is bold."
     )
     return weight(style(stretch(command)))
 
@@ -79,11 +79,15 @@ def face_options(command: Any) -> Any:
     type=click.Choice(["auto", "ltr", "rtl"]),
     default="auto",
     show_default=True,
-    help="Of the text as a whole; auto is that of its first letter.",
+    help="Direction of the whole text; auto follows its first letter.",
 )
 @click.option("--language", metavar="TAG", help="Language of the text, such as nl or zh-Hant.")
 @click.option(
-    "--align", type=click.Choice(["start", "center", "end"]), default="start", show_default=True, help="Lines."
+    "--align",
+    type=click.Choice(["start", "center", "end"]),
+    default="start",
+    show_default=True,
+    help="Alignment of lines.",
 )
 @click.option("--line-height", metavar="EM", type=float, help="Distance of baselines.  [default: the font's]")
 @click.option("--color", type=Colour(), help="A CSS colour, which the texture then has.  [default: none of its own]")
@@ -101,8 +105,8 @@ def text(
 ) -> None:
     r"""Convert a word or lines of text into a texture.
 
-    In TEXT, \n begins a line; - is standard input. Letters are shaped and kerned, in any script. The colours of a
-    colour font (COLR) become a planar map.
+    In TEXT, \n starts a new line; - reads standard input. Letters of any script are shaped and kerned. The colours
+    of a colour font (COLR) become a planar map.
     """
     with one_line():
         from vexture.base.apart import apart
@@ -132,7 +136,7 @@ def text(
 def _convert_text(
     words: str, styled: dict[str, Any], parameters: dict[str, Any], stored: dict[str, Any], strict: bool
 ) -> ConversionResult:
-    """The texture of a text, whose fonts may be a stranger's."""
+    """Convert a text into a texture; the fonts may be untrusted."""
     from vexture.base.deadline import within
     from vexture.base.notes import check_losses, line_of
     from vexture.conversion.parameters import Parameters
@@ -143,7 +147,7 @@ def _convert_text(
         drawing = text_drawing(words, TextOptions(**styled))
         if not drawing.paths:
             raise SourceError(f"{drawing.name}: nothing of the text is painted; give characters that a font has")
-        parameters.setdefault("split", "auto" if drawing.is_coloured else None)  # else programs colour it
+        parameters.setdefault("split", "auto" if drawing.is_coloured else None)  # otherwise programs set the colour
         done = run(drawing, Parameters.from_mapping(parameters))
     check_losses(drawing.name, done.notes, is_empty=False, strict=strict)
     files = done.texture.files(**stored)
@@ -152,7 +156,7 @@ def _convert_text(
 
 
 def paint_of(color: tuple[float, float, float, float] | None) -> "Paint":
-    """Paint of a premultiplied colour; black without any."""
+    """Return the paint of a premultiplied colour; black if there is no colour."""
     from vexture.drawing.paint import BLACK, Paint
 
     if color is None:

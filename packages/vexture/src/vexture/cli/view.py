@@ -18,15 +18,15 @@ Examples:
 
 @click.command(epilog=EXAMPLE)
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=PATH)
-@click.option("--watch", "watching", is_flag=True, help="Show files anew whenever they are saved.")
+@click.option("--watch", "watching", is_flag=True, help="Show files again whenever they are saved.")
 @click.option("--port", metavar="P", type=int, default=0, help="Port to listen on.  [default: any that is free]")
 @click.option("--host", metavar="HOST", default="127.0.0.1", show_default=True, help="Address to listen on.")
-@click.option("--no-open", "opening", is_flag=True, flag_value=False, default=True, help="Open no browser.")
+@click.option("--no-open", "opening", is_flag=True, flag_value=False, default=True, help="Do not open a browser.")
 @conversion_options
 def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening: bool, **conversion: Any) -> None:
     """Show drawings or packed textures in the browser, until Ctrl-C.
 
-    The page's own texture is made for deep zoom; the page tells the smaller size that `vexture convert` writes, too.
+    The page shows a texture made for deep zoom; it also reports the smaller size that `vexture convert` writes.
     """
     with one_line():
         from vexture.pages.view import view as serve

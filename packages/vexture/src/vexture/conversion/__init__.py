@@ -1,1 +1,1 @@
-"""From a file to a texture or a picture: reading, parameters and the pipeline."""
+"""Conversion of a file into a texture or a picture: reading, parameters and the pipeline."""

@@ -1,4 +1,4 @@
-"""Readers that other distributions add: geographic data, by the entry point ``geographic`` of `vexture.readers`."""
+"""Readers that other distributions add: `vexture.readers` has the entry point ``geographic`` for geographic data."""
 
 import os
 from functools import cache
@@ -26,7 +26,7 @@ class GeographicReader(Protocol):
     """A reader of geographic data; `vexture_geo.extension` is one."""
 
     def unpack(self, source: Source, file_name: str) -> Source:
-        """Return the source or, of a zip, what it holds; refuse formats that are known and not read."""
+        """Return the source, or the content of a zip; refuse formats that are recognized but not supported."""
 
     def pack(self, path: Path) -> bytes | None:
         """Pack a shapefile or FileGDB, which is several files, into one zip; return None for anything else."""
@@ -34,10 +34,10 @@ class GeographicReader(Protocol):
     def read_drawing(
         self, kind: FileKind, source: Source, file_name: str, name: str, *, names: str | None, snap: float | None
     ) -> "Drawing":
-        """Read the areas of a file, at the first of its times."""
+        """Read the areas of a file, at its first time step."""
 
     def describe_tiles(self, path: Path) -> tuple[dict[str, Any], list[str]] | None:
-        """Describe a pyramid of tiles, as JSON and in lines; return None for anything else."""
+        """Describe a pyramid of tiles, as JSON and as lines of text; return None for anything else."""
 
     def flood_widget(self, source: Any, options: dict[str, Any]) -> Any:
         """Make the widget of a flood from its page or data; return None for anything else."""

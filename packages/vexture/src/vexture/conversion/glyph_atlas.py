@@ -1,4 +1,4 @@
-"""The characters of a font as the shapes of one texture, with the metrics by which programs lay out text."""
+"""A texture with the glyphs of a font as its shapes, and the metrics that programs need to lay out text."""
 
 import json
 import os
@@ -30,7 +30,7 @@ PRINTABLE: Final = "".join(map(chr, range(0x20, 0x7F)))
 MOST_CHARACTERS: Final = 4096
 
 MOST_KERNED: Final = 1024
-"""Characters of which all pairs are shaped: a million pairs."""
+"""Kerning is left out above this number of characters, because every pair is shaped: here a million pairs."""
 
 UNKERNED: Final = f"kerning: there are more than {MOST_KERNED:,} characters, so that there are too many pairs"
 
@@ -51,7 +51,7 @@ class FontAtlas:
     metrics : dict
         Ready for JSON, as the guide to fonts describes it; all lengths are in ems.
     notes : tuple of Note
-        Characters that the font does not have, and what was left out.
+        Characters that the font lacks, and everything else that was left out.
     """
 
     texture: "Texture"
@@ -59,12 +59,12 @@ class FontAtlas:
     notes: tuple[Note, ...] = ()
 
     def files(self, path: Path, *, deflate: bool = True) -> dict[Path, bytes]:
-        """Contents of the texture's file and of the metrics', which is beside it and ends in ``.json``."""
+        """Return the contents of two files: the texture, and next to it the metrics, with the suffix ``.json``."""
         text = json.dumps(self.metrics, ensure_ascii=False, separators=(",", ":")) + "\n"
         return {path: self.texture.to_ktx2(deflate=deflate), path.with_suffix(".json"): text.encode()}
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the texture's file and the metrics beside it; returns the former, and raises as `Texture.save` does."""
+        """Write the texture's file and the metrics next to it; return its path; raise as `Texture.save` does."""
         from vexture.texture.files import target_of, write_together
 
         target = target_of(path, self.texture.name)
@@ -89,15 +89,15 @@ def font_atlas(
     font : path or sequence of path
         A font file, or a folder of the faces of a font; by default the default font, Noto Sans.
     characters : iterable of str
-        By default the printable ones of ASCII. A shape has the name of its character; characters that look alike may
-        share one. One more, named ``.notdef``, is the font's for characters that are not there. Ligatures and the forms
-        of joined scripts are no characters: draw those as a `vexture.text`.
+        By default the printable characters of ASCII. Each shape is named after its character; characters with the
+        same glyph share a shape. One more shape, named ``.notdef``, is the font's glyph for characters that it lacks.
+        Ligatures and the joined forms of cursive scripts are not characters: draw them with `vexture.text`.
     weight, style, stretch
-        Of the face, as in `vexture.text`.
+        Selects the face, as in `vexture.text`.
     name : str, optional
-        Names the texture; by default the font's family.
+        Name of the texture; by default the font's family.
     **parameters
-        Those of `vexture.atlas`, such as `tolerance`.
+        Parameters of `vexture.atlas`, such as `tolerance`.
 
     Returns
     -------
@@ -117,7 +117,7 @@ def font_atlas(
     Warns
     -----
     SourceWarning
-        Once, of all notes.
+        Once, with all notes.
 
     Examples
     --------
@@ -127,40 +127,40 @@ def font_atlas(
     >>> made.metrics["kerning"]["A"]
     {'V': -0.04}
     """
-    made = made_atlas(TextOptions(font, (), weight, style, stretch, name=name), characters, **parameters)
-    warn_of(made.texture.name, made.notes)
-    return made
+    result = made_atlas(TextOptions(font, (), weight, style, stretch, name=name), characters, **parameters)
+    warn_of(result.texture.name, result.notes)
+    return result
 
 
 def made_atlas(
     options: TextOptions, characters: Iterable[str], optional: Iterable[int] = (), **parameters: Any
 ) -> FontAtlas:
-    """Make an atlas as `font_atlas` does, but without a warning; of `options`, the font and its style count.
+    """Make an atlas as `font_atlas` does, but without a warning.
 
-    `optional` are codes of characters that the font need not have.
+    Of `options`, only the font and its style are used. The font may lack the characters whose codes are `optional`.
     """
     notes = Notes()
-    given, ranged = [*characters], [*optional]
-    if not given and not ranged:
+    required, ranged = [*characters], [*optional]
+    if not required and not ranged:
         raise ParameterError("`characters` is empty; give some, such as a text that holds them")
-    for each in given:
+    for each in required:
         if not (isinstance(each, str) and len(each) == 1):
             raise ParameterError(f"`characters` holds {each!r}, which is not one character; give them one by one")
     with within(parameters.get("max_seconds", DEFAULT_SECONDS)):
-        asked = [*dict.fromkeys([*given, *map(chr, ranged)])]
-        choice = options.choice(notes, asked)
+        unique = [*dict.fromkeys([*required, *map(chr, ranged)])]
+        choice = options.choice(notes, unique)
         face = choice.first
-        faces = faces_of_characters(choice, asked)
-        found = {character: faces[character] for character in asked if character in faces}
-        missing = [character for character in dict.fromkeys(given) if character not in found]
+        faces = faces_of_characters(choice, unique)
+        found = {character: faces[character] for character in unique if character in faces}
+        missing = [character for character in dict.fromkeys(required) if character not in found]
         if len(found) + len(missing) > MOST_CHARACTERS:
             many = f"{len(found) + len(missing):,} characters, of at most {MOST_CHARACTERS:,}"
             raise LimitError(f"{many}; make several atlases")
         for character in missing:
             notes.left_out(f"{describe_character(character)}, which {face.family} lacks")
         if not found:
-            number = format_count(len(given) + len(ranged), "character")
-            raise SourceError(f"{face.family} has none of what is asked for ({number}); give others as `characters`")
+            number = format_count(len(required) + len(ranged), "character")
+            raise SourceError(f"{face.family} has none of what is unique for ({number}); give others as `characters`")
         glyphs = {character: shape(of, character, features=PLAIN)[0] for character, of in found.items()}
         box = missing_glyph(face)
         shapes = drawn(glyphs | {NOTDEF: box}, notes)
@@ -185,7 +185,7 @@ def made_atlas(
 
 
 def faces_of_characters(choice: FaceChoice, characters: Iterable[str]) -> dict[str, Face]:
-    """The face of each character: the first of all, or another subset of the same font; without those of neither."""
+    """Map each character to the first face or other subset of the font that has it; leave out those of neither."""
     left = dict.fromkeys(characters)
     found: dict[str, Face] = {}
     for face in choice.subsets():
@@ -198,15 +198,15 @@ def faces_of_characters(choice: FaceChoice, characters: Iterable[str]) -> dict[s
 
 
 PLAIN: Final = ("-liga", "-clig", "-calt", "-rlig")
-"""No feature that makes one glyph of several characters."""
+"""Switch off the features that make one glyph of several characters."""
 
 
 NOTDEF: Final = ".notdef"
-"""Name of the glyph of a character that a font lacks, as in the font."""
+"""Name of the glyph that stands for characters that a font lacks; fonts call it that, too."""
 
 
 def missing_glyph(face: Face) -> Glyph:
-    """The glyph of a character that a font lacks."""
+    """Return the glyph that a font shows for characters that it lacks."""
     privates = map(chr, range(0x10FFFD, 0xF0000, -1))
     lacked = next(character for character in privates if not face.has(ord(character)))
     return shape(face, lacked, features=PLAIN)[0]
@@ -214,19 +214,19 @@ def missing_glyph(face: Face) -> Glyph:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GlyphShape:
-    """A glyph that shows something: its drawing, and its box (left, bottom, right, top); both in ems, y up."""
+    """A glyph that has an outline: its drawing, and its box (left, bottom, right, top); both in ems, y up."""
 
     drawing: Drawing
     box: tuple[float, float, float, float]
 
 
 def key_of(glyph: Glyph) -> tuple[Face, int]:
-    """Key that tells glyphs apart: several faces may be subsets of one font."""
+    """Return a key for a glyph that includes the face, as several faces may be subsets of one font."""
     return glyph.face, glyph.glyph
 
 
 def drawn(glyphs: dict[str, Glyph], notes: Notes) -> dict[tuple[Face, int], GlyphShape]:
-    """Shapes by the keys of their glyphs, each named after the first character that it stands for."""
+    """Draw each distinct glyph once, and name its shape after the first of its characters."""
     found: dict[tuple[Face, int], GlyphShape] = {}
     for character, glyph in glyphs.items():
         if key_of(glyph) in found:
@@ -242,7 +242,7 @@ def drawn(glyphs: dict[str, Glyph], notes: Notes) -> dict[tuple[Face, int], Glyp
 
 
 def entry(glyph: Glyph, shapes: dict[tuple[Face, int], GlyphShape]) -> dict[str, Any]:
-    """Metrics of a character."""
+    """Return the metrics of one character."""
     advance = glyph.advance[0] / glyph.face.units_per_em
     if key_of(glyph) not in shapes:
         return {"shape": None, "advance": round_length(advance)}
@@ -259,8 +259,8 @@ def entry(glyph: Glyph, shapes: dict[tuple[Face, int], GlyphShape]) -> dict[str,
 
 
 def kerning(glyphs: dict[str, Glyph]) -> dict[str, dict[str, float]]:
-    """Distance added to the advance of a character before another of its face, in ems, where it is not 0."""
-    kinds = {character: scripts([character])[0] for character in glyphs}  # Latin, if it is common to several
+    """Return the nonzero kerning of pairs of characters of one face: first character, second character, ems."""
+    kinds = {character: scripts([character])[0] for character in glyphs}  # a script that several share counts as Latin
     groups: dict[Face, dict[str, list[str]]] = {}
     for character, script in kinds.items():
         groups.setdefault(glyphs[character].face, {}).setdefault(script, []).append(character)
@@ -283,12 +283,12 @@ def kerning(glyphs: dict[str, Glyph]) -> dict[str, dict[str, float]]:
 
 
 def facts(face: Face) -> dict[str, Any]:
-    """Facts that identify the font."""
+    """Return the properties that identify the font."""
     return {"family": face.family, "weight": face.weight, "style": face.style, "stretch": face.stretch}
 
 
 def lines(face: Face) -> dict[str, Any]:
-    """Metrics of lines, in ems."""
+    """Return the metrics of lines, in ems."""
     em = face.units_per_em
     heights = {name: round_length(getattr(face, name) / em) for name in LINE_METRICS}
     places = {name: [round_length(part / em) for part in getattr(face, name)] for name in ("underline", "strikeout")}
@@ -296,5 +296,5 @@ def lines(face: Face) -> dict[str, Any]:
 
 
 def round_length(length: float) -> float:
-    """A length as metrics have it."""
+    """Round a length to the precision of the metrics."""
     return round(length, DIGITS)

@@ -1,6 +1,6 @@
-"""Rendering of a drawing or a texture: the covered part of each pixel, or the picture in colours.
+"""Rendering of a drawing or a texture: the coverage of each pixel, or the picture in colours.
 
-From nearby, what a view shows of a drawing becomes a drawing of its own, as exact as the view needs.
+For a view from nearby, the visible part of a drawing is converted by itself, as exactly as the view needs.
 """
 
 from dataclasses import replace
@@ -25,13 +25,13 @@ RENDERERS: Final[tuple[Renderer, ...]] = ("exact", "cpu", "gpu")
 """``"exact"`` renders a drawing; the others render a texture."""
 
 SHARE: Final = 0.04
-"""Pixels. Largest distance of an outline that shows nowhere; `UNSEEN` is this in a picture of 2,000 pixels."""
+"""Largest error of an outline that cannot be seen, in pixels; `UNSEEN` is this error in a picture of 2,000 pixels."""
 
 MARGIN: Final = 2.0
-"""Pixels around the view, so that the cut sides of what it shows lie in no pixel."""
+"""Pixels around the view, so that no pixel shows the sides along which the drawing was cut."""
 
 FLIP: Final[Affine] = ((1.0, 0.0, 0.0), (0.0, -1.0, 1.0))
-"""From the unit square to itself, y up and y down."""
+"""Flip of the unit square, between y up and y down."""
 
 
 def coverage(
@@ -42,14 +42,14 @@ def coverage(
     *,
     root: str | int | None = None,
 ) -> NDArray[np.float32]:
-    """Covered part of each pixel, by a drawing's silhouette or by a shape of a texture.
+    """Return the coverage of each pixel by the silhouette of a drawing or by a shape of a texture.
 
     Parameters
     ----------
     thing : Drawing or Texture
-        ``"exact"`` renders a drawing; ``"cpu"`` and ``"gpu"`` render a texture, and convert the silhouette of a
-        drawing first, with the defaults of `vexture.convert`; of views from nearby, only what they show, as exactly as
-        they need it.
+        ``"exact"`` renders a drawing; ``"cpu"`` and ``"gpu"`` render a texture. They convert the silhouette of a
+        drawing first, with the defaults of `vexture.convert`. For a view from nearby they convert only the visible
+        part, as exactly as the view needs.
     size : int or tuple of int
         Width and height of the image in pixels, or the side of a square one.
     view : (2, 3) or (3, 3) array, View or None
@@ -58,7 +58,7 @@ def coverage(
     renderer : str
         ``"exact"``, ``"cpu"`` or ``"gpu"``.
     root : str or int, optional
-        Which shape of a texture, by its name or its place in `Texture.roots`; not needed if there is only one.
+        Name of a shape of a texture, or its index in `Texture.roots`; may be left out if there is only one shape.
 
     Returns
     -------
@@ -68,8 +68,8 @@ def coverage(
     Raises
     ------
     ParameterError
-        If an argument is out of range, ``"exact"`` is asked of a texture, or a texture holds several shapes and `root`
-        is missing.
+        If an argument is out of range, `renderer` is ``"exact"`` for a texture, or `root` is missing and the texture
+        has several shapes.
     TypeError
         If `thing` is neither a drawing nor a texture.
     DeviceError
@@ -92,8 +92,8 @@ def coverage(
         return render_exact(cast("Drawing", thing).without_masks(), size, view)
     if not isinstance(thing, Drawing):
         return thing.coverage(size, view, renderer=renderer, root=root)
-    shown, view, precision = close_up(thing, size, view)
-    texture: EncodedTexture = convert(shown, split=None, **_conversion(precision))
+    part, view, precision = close_up(thing, size, view)
+    texture: EncodedTexture = convert(part, split=None, **_conversion(precision))
     return texture.coverage(size, view, renderer=renderer)
 
 
@@ -105,18 +105,18 @@ def render(
     *,
     root: str | int | None = None,
 ) -> NDArray[np.float32]:
-    """Picture of a drawing or a texture in its colours. Silhouettes are black.
+    """Render a drawing or a texture in its colours; silhouettes are black.
 
-    A drawing is one picture, with its groups: no background shines through where two shapes touch. The layers of a
-    texture that was split by paint are drawn one over the other.
+    A drawing is rendered as one picture, with its groups: where two shapes touch, the background does not shine
+    through. If a texture was split by paint, its layers are drawn one over the other.
 
     Parameters
     ----------
     thing, size, view, renderer
         As in `vexture.coverage`. A drawing is split into faces before it is converted.
     root : str or int, optional
-        Which drawing of an atlas, by its name, or which shape, by its name or place; not needed if a texture holds
-        only one drawing.
+        Name of a drawing in an atlas, or name or index of a shape; may be left out if the texture has only one
+        drawing.
 
     Returns
     -------
@@ -155,13 +155,13 @@ def render(
 
 
 def _conversion(precision: float | None) -> dict[str, Any]:
-    """Parameters of a conversion whose distances are those of a close-up, in the time that is left to it."""
+    """Return the parameters of a conversion with the precision of a close-up, within the time that remains."""
     accuracy = {} if precision is None else {"precision": precision, "tolerance": precision}
     return {"max_seconds": allowed_seconds(), **accuracy}
 
 
 def _check(thing: Shown, renderer: Renderer, root: str | int | None) -> None:
-    """Raise an error unless the arguments fit each other: the renderer ``"exact"`` is for drawings alone."""
+    """Raise an error if the arguments do not fit together: the renderer ``"exact"`` accepts only drawings."""
     from vexture.drawing.drawing import Drawing
 
     if renderer not in RENDERERS:
@@ -178,7 +178,7 @@ def _check(thing: Shown, renderer: Renderer, root: str | int | None) -> None:
 
 
 class CloseUp(NamedTuple):
-    """The part of a drawing that a view shows.
+    """The visible part of a drawing.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ class CloseUp(NamedTuple):
     view : (3, 3) array
         From pixels to the drawing's unit square.
     precision : float or None
-        What the texture of the drawing needs; None is what it has without any.
+        Precision to convert the part with; None for the default.
     """
 
     drawing: Drawing
@@ -195,9 +195,9 @@ class CloseUp(NamedTuple):
 
 
 def close_up(drawing: Drawing, size: Size, view: ViewLike) -> CloseUp:
-    """Return the part of a drawing that an image of a size shows, if the usual texture is too coarse for its view.
+    """Cut out the visible part of a drawing if the view is too close for the usual texture; else keep the drawing.
 
-    Views in perspective keep the drawing: no one box is near enough to all of their pixels.
+    Views in perspective keep the whole drawing, because no single box suits all of their pixels.
 
     Examples
     --------
@@ -232,7 +232,7 @@ def close_up(drawing: Drawing, size: Size, view: ViewLike) -> CloseUp:
 
 
 def _part(drawing: Drawing, low: NDArray[np.float64], high: NDArray[np.float64]) -> Drawing:
-    """Part of a drawing in a box of the unit square, scaled up; `to_source` leads to the unit square with y down."""
+    """Cut a box out of a drawing and scale it up; `to_source` of the part leads to the unit square with y down."""
     flipped = (
         replace(
             path,

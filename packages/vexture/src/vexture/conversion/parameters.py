@@ -15,15 +15,15 @@ if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take 
     from vexture.tree.bounds import TreeParameters
 
 Split: TypeAlias = Literal["auto", "faces", "paint"] | None
-"""How a drawing becomes shapes; see `vexture.convert`."""
+"""Way in which a drawing is split into shapes; see `vexture.convert`."""
 
 SPLITS = get_args(get_args(Split)[0])
 
 READING: Final = ("select", "names", "snap", "fonts", "trace_images", "page_colors")
-"""Parameters of the source's reader."""
+"""Parameters of the reader of the source."""
 
 Fonts: TypeAlias = "Sequence[str | os.PathLike[str]] | None"
-"""Font files, and folders of them, for the texts of SVG."""
+"""Font files, and folders of font files, for the texts of an SVG."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,13 +63,13 @@ class Parameters:
 
     @classmethod
     def from_mapping(cls, values: "Mapping[str, Any]") -> "Parameters":
-        """Parameters by name; raises a `TypeError` for one that there is not."""
+        """Make parameters from a mapping; raise a `TypeError` for an unknown name."""
         refuse_unknown(values, cls.__dataclass_fields__, DEFAULT)
         return cls(**values)
 
     @property
     def bounds(self) -> "TreeParameters":
-        """Those of the tree that are given, but the tolerance."""
+        """Parameters of the tree that are not None, without the tolerance."""
         bounds: TreeParameters = {}
         if self.max_depth is not None:
             bounds["max_depth"] = self.max_depth
@@ -81,20 +81,20 @@ class Parameters:
 
     @property
     def overrides(self) -> dict[str, Any]:
-        """Those that differ from the defaults, by name."""
+        """Parameters that differ from their defaults, by name."""
         values = ((field.name, getattr(self, field.name)) for field in fields(self))
         return {name: value for name, value in values if value != getattr(DEFAULTS, name)}
 
     @property
     def reading(self) -> dict[str, Any]:
-        """Those of the source's reader that are given."""
+        """Parameters of the reader that are set, by name."""
         values = ((name, getattr(self, name)) for name in READING)
         return {name: value for name, value in values if value is not None and value is not False}
 
     def split_of(self, drawing: "Drawing") -> Split:
-        """The split of a drawing into shapes, with "auto" decided.
+        """Return the split of a drawing, with ``"auto"`` resolved.
 
-        A drawing of one colour is a silhouette in that colour, unless it is translucent and may overlap itself.
+        A drawing of one colour becomes a silhouette in that colour, unless it is translucent and may overlap itself.
         """
         if self.split != "auto":
             return self.split
@@ -121,7 +121,7 @@ def check_reading(
     *,
     trace_images: bool,
 ) -> None:
-    """Raise a `ParameterError` for a parameter of a reader that means nothing for files of a kind."""
+    """Raise a `ParameterError` for a parameter of a reader that has no meaning for a kind of file."""
     if names is not None and kind not in (FileKind.GEOJSON, FileKind.SVG):
         raise ParameterError(f"`names` {names!r} is for the elements of GeoJSON and SVG; leave it out")
     if snap is not None and kind in (FileKind.SVG, FileKind.PICTURE):
@@ -131,8 +131,8 @@ def check_reading(
     if select is not None:
         raise ParameterError(f"`select` {select!r} chooses elements of an SVG; leave it out")
     if fonts:
-        given = fonts if isinstance(fonts, str | os.PathLike) else fonts[0]
-        raise ParameterError(f"`fonts` {os.fspath(given)!r} is for the texts of an SVG; leave it out")
+        font = fonts if isinstance(fonts, str | os.PathLike) else fonts[0]
+        raise ParameterError(f"`fonts` {os.fspath(font)!r} is for the texts of an SVG; leave it out")
     if trace_images:
         raise ParameterError("`trace_images` is for the images in an SVG; leave it out")
     if page_colors:

@@ -1,4 +1,4 @@
-"""Conversion: from a source to its drawing, its trees and a texture."""
+"""The conversion pipeline: source, drawing, trees, texture."""
 
 import inspect
 import os
@@ -20,32 +20,32 @@ if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take 
     from vexture.texture.texture import Texture
 
 Source: TypeAlias = "Drawing | str | os.PathLike[str]"
-"""A drawing, or the path of a file that `vexture.read` reads."""
+"""A drawing, or the path of a file that `vexture.read` can read."""
 
 AnyTexture = TypeVar("AnyTexture", bound=EncodedTexture, covariant=True)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Conversion(Generic[AnyTexture]):
-    """A conversion of one source, with all steps between the source and the texture."""
+    """The conversion of one source, with all intermediate results."""
 
-    drawing: "Drawing"  # if it was split, its layers() became the trees
-    trees: tuple[Any, ...]  # of `Tree`, or the one tree of another encoding
-    texture: AnyTexture  # None of trees that are not combined yet
-    seconds: float  # from the source to the texture or the trees
+    drawing: "Drawing"  # its layers() became the trees if it was split
+    trees: tuple[Any, ...]  # of type `Tree`, or one tree of another encoding
+    texture: AnyTexture  # None until `combine` encodes the trees
+    seconds: float  # time from the source to the trees or the texture
     rounding: float  # largest shift of an outline by rounding to the texture's bits, in unit-square units
-    roots: "tuple[Root, ...]" = ()  # of the trees in a packed texture
-    source: str = ""  # its name in messages
-    notes: tuple[Note, ...] = ()  # of the drawing, or if it was split, of its layers
+    roots: "tuple[Root, ...]" = ()  # one for each tree of a packed texture
+    source: str = ""  # name of the source in messages
+    notes: tuple[Note, ...] = ()  # of the drawing, or of its layers if it was split
 
     @property
     def tree(self) -> Any:
-        """The first tree: the only one, unless the drawing was split."""
+        """First tree; it is the only one unless the drawing was split."""
         return self.trees[0]
 
 
 def run(source: Source, parameters: Parameters = DEFAULTS) -> "Conversion[Texture]":
-    """Convert as `convert` does, but without a warning, and keep the steps."""
+    """Convert as `convert` does, but without a warning, and keep the intermediate results."""
     start = CLOCK.seconds()
     part = trees_of(source, parameters)
     texture = combine([part], part.drawing.name, None if _is_drawing(source) else Path(part.source).name)
@@ -60,7 +60,7 @@ def run_encoding(
     max_seconds: float = DEFAULT_SECONDS,
     **parameters: Any,
 ) -> Conversion[EncodedTexture]:
-    """Convert as `run` does, to a registered encoding; `parameters` are those of its `convert`."""
+    """Convert to a registered encoding as `run` does; `parameters` are those of the encoding's `convert`."""
     from vexture.conversion.reading import drawing_of
 
     start, other = CLOCK.seconds(), find_encoding(encoding)
@@ -72,25 +72,25 @@ def run_encoding(
 
 
 def parts_of(source: "Source | bytes", parameters: Parameters, name: str | None = None) -> Iterator[Conversion[Any]]:
-    """Read the drawings of one source for an atlas, and build the trees of each, as `trees_of` does.
+    """Read the drawings of one source for an atlas, and build their trees as `trees_of` does.
 
-    `name` is that of a source that is the content of a file.
+    `name` is the name of a source that is given as its content.
     """
     if not isinstance(source, str | bytes | os.PathLike):
         yield trees_of(source, parameters)
         return
     from vexture.conversion.sprites import read_drawings
 
-    given = replace(parameters, select=None, names=None, snap=None, fonts=None, trace_images=False, page_colors=None)
+    plain = replace(parameters, select=None, names=None, snap=None, fonts=None, trace_images=False, page_colors=None)
     with within(parameters.max_seconds):
         start = CLOCK.seconds()
-        for shown, drawing in read_drawings(source, name=name, **parameters.reading):
-            yield replace(trees_of(drawing, given), source=shown, seconds=CLOCK.seconds() - start)
+        for label, drawing in read_drawings(source, name=name, **parameters.reading):
+            yield replace(trees_of(drawing, plain), source=label, seconds=CLOCK.seconds() - start)
             start = CLOCK.seconds()
 
 
 def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
-    """Read one source, split it if the parameters say so, and build its trees."""
+    """Read one source, split it according to the parameters, and build its trees."""
     from vexture.conversion.reading import drawing_of
     from vexture.texture.root import Root
     from vexture.tree.bounds import TreeParameters, largest_shift
@@ -134,7 +134,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
 
 
 def combine(parts: Sequence[Conversion[Any]], name: str, source: str | None = None) -> "Texture":
-    """One texture of the trees of some sources; raises a `ParameterError` as `atlas` does."""
+    """Encode the trees of several sources as one texture; raise a `ParameterError` as `atlas` does."""
     from vexture.texture.encode import encode
 
     owner: dict[str, str] = {}
@@ -203,41 +203,42 @@ def convert(
     source : Drawing or path
         A drawing, or a file that `vexture.read` reads.
     encoding : str
-        ``"packed"``, the encoding of `Texture`, or a registered one, whose parameters its package documents:
-        ``"thesis"`` (`vexture.thesis.convert`).
+        ``"packed"``, the encoding of `Texture`, or a registered encoding, such as ``"thesis"``
+        (`vexture.thesis.convert`). Its package documents its parameters.
     split : str or None
-        ``"faces"`` makes the whole drawing, in its colours, one planar map. ``"paint"`` makes each layer of the
-        drawing (`Drawing.layers`) a shape of its own, with its colour. None converts the silhouette, of no colour.
-        ``"auto"`` is ``"faces"`` of a drawing of more than one colour (`Drawing.is_coloured`). One of a single colour
-        becomes a silhouette with that colour: it needs no map.
+        ``"faces"`` converts the whole drawing, with its colours, into one planar map. ``"paint"`` converts each layer
+        of the drawing (`Drawing.layers`) into a shape with its own colour. None converts the silhouette, without a
+        colour. ``"auto"`` means ``"faces"`` for a drawing of several colours (`Drawing.is_coloured`). It makes a
+        drawing of one colour a silhouette in that colour, because no map is needed.
     select : str, optional
-        Convert only what a CSS selector chooses of an SVG; see `vexture.read_svg`.
+        Convert only the elements of an SVG that a CSS selector matches; see `vexture.read_svg`.
     tolerance : float or "auto"
         Largest distance between the drawing's outline and the texture's before rounding, in unit-square units. Pieces
-        that one cubic fits within it become one. 0 loses nothing but by rounding, for deep zoom; "auto" is 2e-5, which
-        shows at no size up to 2,000 pixels, and 0 if there is a `precision`.
+        that one cubic fits within the tolerance are merged. With 0, only rounding changes the outline, for deep zoom.
+        "auto" is 2e-5, which cannot be seen at sizes up to 2,000 pixels, or 0 if there is a `precision`.
     max_depth : int, optional
-        Cells of this depth are not divided further; 16 by default.
+        Cells at this depth are not subdivided; 16 by default.
     capacity : int, optional
-        Pieces in a leaf, 1 to 15; 8 by default, 12 of a planar map. Fewer draw faster and make the texture larger.
+        Most pieces in a leaf, 1 to 15; by default 8, or 12 for a planar map. Fewer draw faster in a larger texture.
     precision : float, optional
-        Largest shift of the outline by rounding, in unit-square units; leaves are divided until it holds. By default
-        rounding alone divides no leaf.
+        Largest shift of the outline by rounding, in unit-square units; leaves are subdivided until it holds. By default
+        no leaf is subdivided because of rounding.
     max_seconds : float, optional
-        Most seconds that reading the source and building its trees may take; 300 by default.
+        Time limit in seconds for reading the source and building its trees; 300 by default.
     names : str, optional
-        What names elements: a property of GeoJSON, an attribute or ``title`` of SVG; see `vexture.read`.
+        Source of the elements' names: a property of GeoJSON, or an attribute or ``title`` of SVG; see `vexture.read`.
     snap : float, optional
-        How far borders of a map's polygons that become one may differ; see `vexture.read_geojson`.
+        Largest gap between borders of a map's polygons that are merged; see `vexture.read_geojson`.
     restyle : bool
-        With ``split="faces"``: the colours of elements can be changed in the texture (`Texture.with_paints`), and it
-        tells which element is at a point (`Texture.element_at`). Elements of one colour keep their borders.
+        With ``split="faces"``: keep the elements apart, so that the texture can change their colours
+        (`Texture.with_paints`) and find the element at a point (`Texture.element_at`). Neighbouring elements of one
+        colour then keep the border between them.
     fonts : sequence of path, optional
-        Font files, and folders of them, for the texts of an SVG; see `vexture.read_svg`.
+        Font files, and folders of font files, for the texts of an SVG; see `vexture.read_svg`.
     trace_images : bool
         Trace the pictures in an SVG; see `vexture.read`.
     page_colors : mapping of str to str, optional
-        Colours that its page would give an SVG; see `vexture.read_svg`.
+        Colours that a page would pass to the SVG; see `vexture.read_svg`.
     **others
         Parameters of another encoding.
 
@@ -260,7 +261,7 @@ def convert(
     Warns
     -----
     SourceWarning
-        Once for a source: of all notes of a file's reader (`Drawing.notes`), and of what the layers of a drawing lose.
+        Once for each source: with the reader's notes (`Drawing.notes`), and with the losses of a drawing's layers.
 
     Examples
     --------
@@ -277,10 +278,10 @@ def convert(
         refuse_unknown(others, (), encoding)
         conversion: Conversion[Any] = run(source, named)
     else:
-        given = named.overrides
+        overrides = named.overrides
         if split is None:
-            del given["split"]  # other encodings have silhouettes only
-        conversion = run_encoding(source, encoding, **given, **others)
+            del overrides["split"]  # other encodings convert only silhouettes
+        conversion = run_encoding(source, encoding, **overrides, **others)
     if isinstance(source, str | os.PathLike):
         warn_of(os.fspath(source), conversion.notes)
     else:
@@ -290,7 +291,7 @@ def convert(
 
 
 def warn_of_loss(drawing: "Drawing", notes: Iterable[Note], *, stacklevel: int = 2) -> None:
-    """Warn of notes that a drawing does not have itself: `vexture.read` has warned of those."""
+    """Warn of the notes that a drawing does not have: `vexture.read` has already warned of those that it has."""
     lost = [note for note in notes if note not in drawing.notes]
     warn_of(drawing.name, lost, stacklevel=stacklevel + 1)
 
@@ -313,15 +314,15 @@ def atlas(
     trace_images: bool = False,
     page_colors: Mapping[str, str] | None = None,
 ) -> "Texture":
-    """Convert many drawings into one texture: a shape for each, or if `split` is ``"paint"`` for each layer of each.
+    """Convert many drawings into one texture, with one shape per drawing, or per layer if `split` is ``"paint"``.
 
     Parameters
     ----------
     sources : iterable of Drawing or path
-        A shape is named after its drawing; that of a file after the file, without its last suffix. Layers are
-        ``name/layer``. An SVG that holds symbols and paints nothing is a shape for each symbol, named after its id.
+        A shape is named after its drawing, or after its file without the last suffix. A layer is named
+        ``name/layer``. An SVG that defines symbols and paints nothing becomes one shape per symbol, named after its id.
     name : str
-        Names the texture.
+        Name of the texture.
     split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts, trace_images, \
 page_colors
         As in `vexture.convert`, for each source.
@@ -333,7 +334,7 @@ page_colors
     Raises
     ------
     ParameterError
-        If two shapes have one name, or there is no source. For other errors and warnings see `vexture.convert`.
+        If two shapes have the same name, or there is no source. For other errors and warnings see `vexture.convert`.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The entry point of all sources: the content of a file decides how it is read, in every command and server."""
+"""The entry point for all sources: every command and server reads a file according to its content."""
 
 import io
 import os
@@ -31,7 +31,7 @@ if TYPE_CHECKING:  # at run time a reader is imported when it is needed
 
 Place: TypeAlias = str | os.PathLike[str]
 Source: TypeAlias = Place | bytes | bytearray | memoryview | IO[bytes]
-"""A path, the content of a file, or a binary file that is open."""
+"""A path, the content of a file, or an open binary file."""
 
 UNNAMED = "drawing"
 
@@ -47,50 +47,50 @@ def read(
     trace_images: bool = False,
     page_colors: Mapping[str, str] | None = None,
 ) -> "Drawing":
-    """Read a drawing from a file of any supported kind; its content decides, not its suffix.
+    """Read a drawing from a file of any supported kind, which is recognized by its content, not its suffix.
 
     - SVG, plain or gzipped (`vexture.read_svg`).
     - GeoJSON (`vexture.read_geojson`).
     - PNG, JPEG, WebP, GIF or BMP, traced (`vexture.read_image`; needs ``vexture[trace]``).
     - Wet areas of a GeoPackage, SpatiaLite, FlatGeobuf, zipped shapefile or FileGDB, KML, KMZ, GPX, GML, GeoTIFF,
-      Esri grid, NetCDF or GRIB, of a series at its first time (`vexture.read_extent`; needs ``vexture[gis]``),
-      GeoParquet, Feather or CSV (``vexture[map]``).
+      Esri grid, NetCDF or GRIB (`vexture.read_extent`; needs ``vexture[gis]``), GeoParquet, Feather or CSV
+      (``vexture[map]``). A time series is read at its first time step.
 
     Parameters
     ----------
     source : path, bytes or binary file
-        The file, or its content. The paths of a shapefile and of the folder of a FileGDB need no zip.
+        The file, or its content. A shapefile, or the folder of a FileGDB, need not be zipped if its path is given.
     name : str, optional
         Name of the file in messages and, without its suffix, of the drawing; by default the path.
     select : str, optional
-        A CSS selector, of SVG only; see `vexture.read_svg`.
+        A CSS selector, for SVG only; see `vexture.read_svg`.
     names : str, optional
-        What names paths: a property of GeoJSON (`vexture.read_geojson`), an attribute or ``title`` of SVG
-        (`vexture.read_svg`).
+        Source of the paths' names: a property of GeoJSON (`vexture.read_geojson`), or an attribute or ``title`` of
+        SVG (`vexture.read_svg`).
     snap : float, optional
-        How far borders of polygons that become one may differ, of maps only; see `vexture.read_geojson`.
+        Largest gap between borders of polygons that are merged, for maps only; see `vexture.read_geojson`.
     fonts : sequence of path
-        Font files, and folders of them, for the texts of an SVG; see `vexture.read_svg`.
+        Font files, and folders of font files, for the texts of an SVG; see `vexture.read_svg`.
     trace_images : bool
-        Trace the pictures in an SVG (PNG, JPEG, WebP, GIF, BMP; needs ``vexture[trace]``): those in it, and those in
-        files beside it or in folders below, if `source` is a path. Drawings in both places are always drawn. Other
-        files and addresses are never read.
+        Trace the pictures in an SVG (PNG, JPEG, WebP, GIF, BMP; needs ``vexture[trace]``): embedded ones and, if
+        `source` is a path, files in its folder or in folders below. SVG images in both places are always drawn. Other
+        files and URLs are never read.
     page_colors : mapping of str to str, optional
-        Colours that its page would give an SVG, such as of ``currentColor``; see `vexture.read_svg`.
+        Colours that a page would pass to the SVG, such as that of ``currentColor``; see `vexture.read_svg`.
 
     Returns
     -------
     Drawing
-        Its `notes` say what was left out, simplified or chosen.
+        Its `notes` list everything that was left out, simplified or chosen.
 
     Raises
     ------
     SourceError
-        If it cannot be read, or is a texture.
+        If the source cannot be read, or is a texture.
     ParameterError
-        If `select`, `fonts`, `trace_images` or `page_colors` is given for anything but an SVG, `names` for neither
-        GeoJSON nor SVG, `snap` for anything but a map, `select` is no selector, `page_colors` holds no colour, `source`
-        is the text of a file, or a parameter is of the wrong type.
+        If `select`, `fonts`, `trace_images` or `page_colors` is given for anything but SVG, `names` for anything but
+        GeoJSON and SVG, or `snap` for anything but a map; if `select` is not a selector, `page_colors` holds something
+        that is not a colour, `source` is the text of a file, or a parameter has the wrong type.
     TypeError
         If `source` is something else, such as a file that is open in text mode.
     LimitError
@@ -101,7 +101,7 @@ def read(
     Warns
     -----
     SourceWarning
-        Once, of all notes.
+        Once, with all notes.
 
     Examples
     --------
@@ -130,30 +130,30 @@ def read_drawing(
     page_colors: Mapping[str, str] | None = None,
 ) -> "Drawing":
     """Read a drawing as `read` does, but without a warning."""
-    source, shown = _check_source(source), name_of(source, name)
+    source, label = _check_source(source), name_of(source, name)
     if not isinstance(trace_images, bool):
         raise ParameterError(f"`trace_images` is {trace_images!r:.80}; it must be True or False")
-    with about(shown):
+    with about(label):
         given = unpack_source(
             source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1)
         )
         kind = FileKind.AREAS
         if not is_geodatabase(given):
             if not _is_drawing(given) and (reader := find_geographic_reader()) is not None:
-                given = reader.unpack(given, shown)
-            kind = known_kind(start_of(given) or read_bytes(given), shown)
+                given = reader.unpack(given, label)
+            kind = known_kind(start_of(given) or read_bytes(given), label)
         check_reading(kind, select, names, snap, fonts, page_colors, trace_images=trace_images)
         if kind is not FileKind.SVG:
-            return _read_other(kind, given, shown, names, snap)
+            return _read_other(kind, given, label, names, snap)
         content = read_bytes(given)
     from vexture.svg.read import svg_drawing
 
     folder = Path(source).parent if isinstance(source, str | os.PathLike) else None
-    return svg_drawing(content, shown, select, names, fonts, images_of(folder, traced=trace_images), page_colors)
+    return svg_drawing(content, label, select, names, fonts, images_of(folder, traced=trace_images), page_colors)
 
 
 def images_of(folder: Path | None, *, traced: bool) -> "Images":
-    """Images that are read: those in an SVG, and those in a folder, if there is one; pictures if they are `traced`."""
+    """Return the access to images of an SVG: embedded ones, those in a folder if given, and pictures if `traced`."""
     from vexture.svg.images import Images
 
     if not traced:
@@ -164,7 +164,7 @@ def images_of(folder: Path | None, *, traced: bool) -> "Images":
 
 
 def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":
-    """Drawing that a source is or holds, with the parameters of its reader."""
+    """Return a source that is a drawing, or read the drawing with the parameters of its reader."""
     from vexture.drawing.drawing import Drawing
 
     if not isinstance(source, Drawing):
@@ -183,7 +183,7 @@ def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":
 
 
 def _check_source(source: object) -> Place | bytes | IO[bytes]:
-    """Return a source as it is, or a buffer as bytes; refuse anything else."""
+    """Return a source, with a buffer as bytes; refuse anything that is not a source."""
     if isinstance(source, bytearray | memoryview):
         return bytes(source)
     if isinstance(source, io.TextIOBase):
@@ -198,19 +198,19 @@ def _check_source(source: object) -> Place | bytes | IO[bytes]:
 
 
 def name_of(source: Source, name: str | None = None) -> str:
-    """Name of a source in messages: the given one, or its path."""
+    """Return the name of a source for messages: `name`, or else its path."""
     if name is not None:
         return name
     if isinstance(source, bytes):
         return UNNAMED
     if isinstance(source, str | os.PathLike):
         return os.fspath(source)
-    called = getattr(source, "name", None)  # of a pipe it is a number
+    called = getattr(source, "name", None)  # a number for a pipe
     return called if isinstance(called, str) else UNNAMED
 
 
 def _read_other(kind: FileKind, source: Place | bytes, label: str, names: str | None, snap: float | None) -> "Drawing":
-    """Read anything but SVG; the caller puts the name in front of errors."""
+    """Read anything but SVG; the caller adds the file's name to errors."""
     if kind is FileKind.TEXTURE:
         raise SourceError("is a texture already; give the drawing that it was made from")
     name = Path(label).stem or UNNAMED
@@ -222,7 +222,7 @@ def _read_other(kind: FileKind, source: Place | bytes, label: str, names: str | 
 
 
 def _is_drawing(source: Place | bytes) -> bool:
-    """Whether a source is a drawing, a picture or a texture by its first bytes, and no geographic data."""
+    """Return whether the first bytes belong to an SVG drawing, a picture or a texture, not to geographic data."""
     start = start_of(source)
     kind = kind_of(start)
     return kind in (FileKind.TEXTURE, FileKind.PICTURE) or (
@@ -231,7 +231,7 @@ def _is_drawing(source: Place | bytes) -> bool:
 
 
 def content_of(path: str | os.PathLike[str]) -> bytes:
-    """Content of a file as `read_bytes` has it; a zip of a FileGDB, or of a shapefile and the files beside it."""
+    """Return the content of a file; a FileGDB, or a shapefile with the files next to it, is packed as a zip."""
     with about(os.fspath(path)):
         if not is_stream(path) and (is_geodatabase(path) or start_of(path).startswith(SHAPEFILE)):
             return geographic_reader().pack(Path(path)) or read_bytes(path)

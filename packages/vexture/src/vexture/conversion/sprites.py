@@ -1,4 +1,4 @@
-"""The drawings of a source for an atlas: one, or of a sprite one for each symbol."""
+"""The drawings of a source for an atlas: one drawing, or one per symbol of a sprite."""
 
 import os
 from collections.abc import Iterator
@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
 
 def read_drawings(source: Place | bytes, *, name: str | None = None, **reading: Any) -> "Iterator[tuple[str, Drawing]]":
-    """Read the drawings of a source, each with its name in messages: one, or of a sprite one for each symbol.
+    """Read the drawings of a source, each with its name for messages: one drawing, or one per symbol of a sprite.
 
-    A sprite is an SVG of symbols that paints nothing else. With `select` it is one drawing, of what is chosen.
-    `reading` holds parameters of `read_drawing`, whose errors are raised.
+    A sprite is an SVG that defines symbols and paints nothing else. With `select`, the matching elements are one
+    drawing. `reading` holds parameters of `read_drawing`, and errors are the same.
 
     Examples
     --------
@@ -24,12 +24,12 @@ def read_drawings(source: Place | bytes, *, name: str | None = None, **reading: 
     >>> [(shown, drawing.name) for shown, drawing in read_drawings(sprite, name="arrows.svg")]
     [('arrows.svg#up', 'up')]
     """
-    shown = name_of(source, name)
-    given = read_bytes(source) if is_stream(source) else source
-    drawing = read_drawing(given, name=shown, **reading)
-    plain = b"" if drawing.paths or reading.get("select") is not None else unpack_source(given)
-    if not plain or known_kind(start_of(plain), shown) is not FileKind.SVG:
-        yield shown, drawing
+    label = name_of(source, name)
+    content = read_bytes(source) if is_stream(source) else source
+    drawing = read_drawing(content, name=label, **reading)
+    plain = b"" if drawing.paths or reading.get("select") is not None else unpack_source(content)
+    if not plain or known_kind(start_of(plain), label) is not FileKind.SVG:
+        yield label, drawing
         return
     from vexture.svg.sprite import symbol_drawings
 
@@ -37,8 +37,8 @@ def read_drawings(source: Place | bytes, *, name: str | None = None, **reading: 
     of_symbols: dict[str, Any] = {key: reading[key] for key in ("names", "fonts", "page_colors") if key in reading}
     of_symbols["images"] = images_of(folder, traced=reading.get("trace_images", False))
     is_sprite = False
-    for symbol in symbol_drawings(read_bytes(plain), shown, **of_symbols):
+    for symbol in symbol_drawings(read_bytes(plain), label, **of_symbols):
         is_sprite = True
-        yield f"{shown}#{symbol.name}", symbol
+        yield f"{label}#{symbol.name}", symbol
     if not is_sprite:
-        yield shown, drawing
+        yield label, drawing

@@ -1,4 +1,4 @@
-"""Functions of CSS that calculate: `calc()`, `min()`, `clamp()` and the others (CSS Values 4, 10)."""
+"""CSS math functions: `calc()`, `min()`, `clamp()` and the others (CSS Values 4, 10)."""
 
 import math
 from collections.abc import Callable
@@ -10,42 +10,42 @@ import tinycss2
 NUMBER, PERCENT, LENGTH, ANGLE = "number", "percentage", "length", "angle"
 
 LONGEST: Final = 1_000
-"""Characters of a calculation."""
+"""Longest calculation that is evaluated, in characters."""
 
 CONSTANTS: Final = {"e": math.e, "pi": math.pi, "infinity": math.inf, "-infinity": -math.inf, "nan": math.nan}
 
 INFINITE: Final = 1e9
-"""What is written for infinity, which has no text of its own outside calculations."""
+"""Number written for infinity, which has no notation outside calculations."""
 
 ANGLES: Final = {"deg": 1.0, "grad": 0.9, "rad": 180.0 / math.pi, "turn": 360.0}
 """Degrees of each unit."""
 
 
 class Quantity(NamedTuple):
-    """A number, and what it counts."""
+    """A number with its kind."""
 
     value: float
     kind: str  # NUMBER, PERCENT, LENGTH (in user units) or ANGLE (in degrees)
 
 
 Resolve = Callable[[float, str], Quantity | None]
-"""What a number and its unit, or "%", are; None if they are nothing here."""
+"""Function that resolves a number and its unit, or "%"; it returns None if the unit is not allowed."""
 
 Function = Callable[[list[Quantity]], Quantity]
-"""What makes one value of arguments."""
+"""Function that computes one value from its arguments."""
 
 UNITS: Final = {NUMBER: "", PERCENT: "%", LENGTH: "px", ANGLE: "deg"}
 
 SAMPLES: Final = {kind: f"1{unit}" for kind, unit in UNITS.items()}
-"""A text of each kind."""
+"""An example text of each kind."""
 
 
 class InvalidCalculationError(Exception):
-    """A calculation is not valid."""
+    """The calculation is not valid."""
 
 
 def calculate(text: str, resolve: Resolve) -> Quantity | None:
-    """Value of a text that is one of these functions; None if it is not, or not valid.
+    """Evaluate a text that is one math function; return None if it is something else or is not valid.
 
     Examples
     --------
@@ -62,7 +62,7 @@ def calculate(text: str, resolve: Resolve) -> Quantity | None:
 
 @lru_cache(maxsize=512)
 def parse_tokens(text: str) -> tuple[Any, ...]:
-    """Tokens of a text; none if it holds a number that is too long."""
+    """Parse a text into tokens; return none if it holds a number that is too long."""
     try:
         return tuple(tinycss2.parse_component_value_list(text, skip_comments=True))
     except ValueError:  # an integer of more than 4,300 digits
@@ -70,7 +70,7 @@ def parse_tokens(text: str) -> tuple[Any, ...]:
 
 
 def sample_calculations(text: str) -> str:
-    """A value with a number or length of the same kind in place of each calculation, to tell whether it is valid.
+    """Replace each calculation by a constant of the same kind, so that the syntax of the value can be checked.
 
     Examples
     --------
@@ -81,7 +81,7 @@ def sample_calculations(text: str) -> str:
 
 
 def reduce_calculations(text: str) -> str:
-    """A value with what each calculation of numbers, percentages or angles gives in its place.
+    """Replace each calculation of numbers, percentages or angles by its result.
 
     Examples
     --------
@@ -92,14 +92,14 @@ def reduce_calculations(text: str) -> str:
 
 
 def replace_calculations(text: str, instead: Callable[[Any], str | None]) -> str:
-    """A value with other texts in place of calculations that have one."""
+    """Replace each calculation in a value by the text that `instead` returns, if it returns one."""
     if "(" not in text or len(text) > LONGEST:
         return text
     return "".join(written(token, instead) for token in parse_tokens(text))
 
 
 def written(token: Any, instead: Callable[[Any], str | None]) -> str:
-    """Text of a token, as in `replace_calculations`."""
+    """Serialize a token with the replacements of `replace_calculations`."""
     if token.type != "function":
         return str(tinycss2.serialize([token]))
     if token.lower_name not in MATH:
@@ -109,7 +109,7 @@ def written(token: Any, instead: Callable[[Any], str | None]) -> str:
 
 
 def sample(token: Any) -> str | None:
-    """Text for a calculation, as in `sample_calculations`; None if it is not valid."""
+    """Return the text that `sample_calculations` inserts for a calculation; None if it is not valid."""
     for kind in (PERCENT, LENGTH):
         found = attempt(token, partial(of_kind, percentages=kind))
         if found is not None:
@@ -118,7 +118,7 @@ def sample(token: Any) -> str | None:
 
 
 def result(token: Any) -> str | None:
-    """Text for a calculation, as in `reduce_calculations`; None if it is not valid."""
+    """Return the text that `reduce_calculations` inserts for a calculation; None if it is not valid."""
     found = attempt(token, lambda value, unit: Quantity(value, PERCENT) if unit == "%" else None)
     if found is None:
         return None
@@ -127,7 +127,7 @@ def result(token: Any) -> str | None:
 
 
 def attempt(token: Any, resolve: Resolve) -> Quantity | None:
-    """Value of a function; None if it is not valid."""
+    """Evaluate a function; return None if it is not valid."""
     try:
         return evaluate_function(token, resolve)
     except (InvalidCalculationError, OverflowError):
@@ -135,14 +135,14 @@ def attempt(token: Any, resolve: Resolve) -> Quantity | None:
 
 
 def of_kind(value: float, unit: str, percentages: str) -> Quantity:
-    """A quantity by its unit, where percentages are of a kind."""
+    """Return a quantity whose kind follows from its unit; `percentages` is the kind of percentages."""
     if unit in ANGLES:
         return Quantity(value, ANGLE)
     return Quantity(value, percentages if unit == "%" else LENGTH)
 
 
 def evaluate_function(token: Any, resolve: Resolve) -> Quantity:
-    """Value of a function."""
+    """Evaluate a math function."""
     name, arguments = token.lower_name, split_arguments(token.arguments)
     if name == "round" and len(arguments) > 1 and (word := keyword(arguments[0])) in ROUNDINGS:
         return round_to(ROUNDINGS[word], [total(part, resolve) for part in arguments[1:]])
@@ -162,7 +162,7 @@ def evaluate_function(token: Any, resolve: Resolve) -> Quantity:
 
 
 def split_arguments(tokens: list[Any]) -> list[list[Any]]:
-    """Arguments between commas."""
+    """Split the arguments of a function at the commas."""
     found: list[list[Any]] = [[]]
     for token in tokens:
         if token == ",":
@@ -173,13 +173,13 @@ def split_arguments(tokens: list[Any]) -> list[list[Any]]:
 
 
 def keyword(tokens: list[Any]) -> str:
-    """The word that some tokens are, or an empty text."""
+    """Return the word if the tokens are a single word, or else an empty text."""
     words = [token for token in tokens if token.type != "whitespace"]
     return str(words[0].lower_value) if len(words) == 1 and words[0].type == "ident" else ""
 
 
 def total(tokens: list[Any], resolve: Resolve) -> Quantity:
-    """Value of a sum of products. Plus and minus stand between spaces, so that they are no signs."""
+    """Evaluate a sum of products. Plus and minus must have spaces around them, or they would be signs."""
     terms: list[list[Any]] = [[]]
     signs = [1.0]
     for at, token in enumerate(tokens):
@@ -196,7 +196,7 @@ def total(tokens: list[Any], resolve: Resolve) -> Quantity:
 
 
 def product(tokens: list[Any], resolve: Resolve) -> Quantity:
-    """Value of factors and divisors."""
+    """Evaluate a product of factors and divisors."""
     if len(tokens) % 2 == 0:
         raise InvalidCalculationError
     value, kind = single(tokens[0], resolve)
@@ -212,14 +212,14 @@ def product(tokens: list[Any], resolve: Resolve) -> Quantity:
 
 
 def divide(a: float, b: float) -> float:
-    """Quotient, infinite where the divisor is zero."""
+    """Return the quotient, infinite if the divisor is zero."""
     if b == 0.0:
         return math.nan if a == 0.0 or math.isnan(a) else math.copysign(math.inf, a) * math.copysign(1.0, b)
     return a / b
 
 
 def single(token: Any, resolve: Resolve) -> Quantity:
-    """Value of one token."""
+    """Evaluate one token."""
     found: Quantity | None = None
     if token.type == "number":
         found = Quantity(token.value, NUMBER)
@@ -240,7 +240,7 @@ def single(token: Any, resolve: Resolve) -> Quantity:
 
 
 def alike(values: list[Quantity]) -> str:
-    """The kind of all values."""
+    """Return the kind that all values share; raise an error if they differ."""
     kinds = {one.kind for one in values}
     if len(kinds) != 1:
         raise InvalidCalculationError
@@ -248,7 +248,7 @@ def alike(values: list[Quantity]) -> str:
 
 
 def same(function: Callable[..., float], least: int = 1, most: int | None = None) -> Function:
-    """A function of values of one kind that gives one of it."""
+    """Make a math function whose arguments and result are of one kind."""
 
     def evaluate(values: list[Quantity]) -> Quantity:
         if not least <= len(values) <= (most or len(values)):
@@ -259,7 +259,7 @@ def same(function: Callable[..., float], least: int = 1, most: int | None = None
 
 
 def plain(function: Callable[..., float], least: int = 1, most: int = 1) -> Function:
-    """A function of numbers that gives a number."""
+    """Make a math function of numbers that returns a number."""
 
     def evaluate(values: list[Quantity]) -> Quantity:
         found = same(function, least, most)(values)
@@ -271,7 +271,7 @@ def plain(function: Callable[..., float], least: int = 1, most: int = 1) -> Func
 
 
 def function_of_angle(function: Callable[[float], float]) -> Function:
-    """A function of an angle, in radians where it is a number."""
+    """Make a math function of one angle; a number counts as radians."""
 
     def evaluate(values: list[Quantity]) -> Quantity:
         if len(values) != 1 or values[0].kind not in (NUMBER, ANGLE):
@@ -283,7 +283,7 @@ def function_of_angle(function: Callable[[float], float]) -> Function:
 
 
 def to_angle(function: Callable[..., float], count: int = 1) -> Function:
-    """A function that gives an angle."""
+    """Make a math function that returns an angle."""
 
     def evaluate(values: list[Quantity]) -> Quantity:
         if count == 1 and values[0].kind != NUMBER:
@@ -294,7 +294,7 @@ def to_angle(function: Callable[..., float], count: int = 1) -> Function:
 
 
 def finite(function: Callable[..., float], *values: float) -> float:
-    """Value of a function; not a number where it has none."""
+    """Evaluate a function; return NaN where it is undefined."""
     try:
         return float(function(*values))
     except (ValueError, ZeroDivisionError):
@@ -310,7 +310,7 @@ ROUNDINGS: Final[dict[str, Callable[[float], float]]] = {
 
 
 def round_to(rule: Callable[[float], float], values: list[Quantity]) -> Quantity:
-    """A value rounded to a multiple of another one, or of one."""
+    """Round a value to a multiple of another value, by default of 1."""
     if len(values) == 1 and values[0].kind == NUMBER:
         values = [*values, Quantity(1.0, NUMBER)]
     return same(lambda value, step: rule(value / step) * step, 2, 2)(values)
@@ -340,4 +340,4 @@ MATH: Final[dict[str, Function | None]] = {
     "atan": to_angle(math.atan),
     "atan2": to_angle(math.atan2, 2),
 }
-"""Functions of lists of arguments; that of a bounded value, `clamp`, is `evaluate_function` itself."""
+"""Math functions of a list of arguments; `evaluate_function` itself handles `clamp`."""

@@ -1,4 +1,4 @@
-"""Functions of CSS colours beyond sRGB: other spaces, mixtures, and colours made of others (CSS Color 4 and 5)."""
+"""CSS colour functions beyond sRGB: other colour spaces, mixtures, and relative colours (CSS Color 4 and 5)."""
 
 from math import isnan
 from typing import Any, Final, NamedTuple
@@ -9,15 +9,15 @@ from coloraide import Color
 from vexture.drawing.calculation import keyword, reduce_calculations, split_arguments
 
 Rgba = tuple[float, float, float, float]
-"""Red, green, blue and opacity in sRGB; the colours may be outside 0..1."""
+"""Red, green, blue and opacity in sRGB; the channels may lie outside 0..1."""
 
 
 class ColorModel(NamedTuple):
-    """A function that gives a colour by three numbers."""
+    """A colour function of three channels."""
 
     space: str
     channels: str
-    scales: tuple[float, float, float] = (1.0, 1.0, 1.0)  # from the space's own numbers to those of the function
+    scales: tuple[float, float, float] = (1.0, 1.0, 1.0)  # factors from the space's units to the function's
 
 
 MODELS: Final = {
@@ -40,7 +40,7 @@ XYZ_SPACES: Final = {"xyz": "xyz-d65", "xyz-d50": "xyz-d50", "xyz-d65": "xyz-d65
 MIXED_IN: Final = (
     {name: name for name in RGB_SPACES} | XYZ_SPACES | {model.space: model.space for model in MODELS.values()}
 )
-"""Spaces of `color-mix()` by their names."""
+"""Colour spaces of `color-mix()`, by name."""
 
 HUES: Final = frozenset({"shorter", "longer", "increasing", "decreasing"})
 
@@ -48,11 +48,11 @@ DEFAULT_SPACE: Final = "oklab"
 
 
 class InvalidColorError(Exception):
-    """A colour is not valid."""
+    """The colour is not valid."""
 
 
 def color_of_function(token: Any, current: Rgba | None) -> Rgba | None:
-    """Colour that a function gives, where `current` is `currentcolor`; None if it is not valid.
+    """Return the colour of a function, with `current` as `currentcolor`; None if it is not valid.
 
     Examples
     --------
@@ -69,7 +69,7 @@ def color_of_function(token: Any, current: Rgba | None) -> Rgba | None:
 
 
 def wide(token: Any, current: Rgba | None) -> Color:
-    """Colour of a token, in the space in which it is written."""
+    """Return the colour of a token in its own colour space."""
     if token.type == "ident" and token.lower_value == "currentcolor" and current is not None:
         return Color("srgb", current[:3], current[3])
     if token.type != "function":
@@ -90,7 +90,7 @@ def wide(token: Any, current: Rgba | None) -> Color:
 
 
 def plain(text: str) -> Color:
-    """Colour of a text without calculations and other colours in it."""
+    """Parse a colour that contains neither calculations nor other colours."""
     found = Color(text)
     if found.space() in ("lab", "lch", "oklab", "oklch"):  # clamped as browsers do (CSS Color 4, 9.3)
         whole = 1.0 if found.space().startswith("ok") else 100.0
@@ -101,7 +101,7 @@ def plain(text: str) -> Color:
 
 
 def pair(token: Any) -> list[list[Any]]:
-    """Two arguments of a function."""
+    """Return the two arguments of a function."""
     parts = split_arguments(token.arguments)
     if len(parts) != 2:
         raise InvalidColorError
@@ -109,7 +109,7 @@ def pair(token: Any) -> list[list[Any]]:
 
 
 def single(tokens: list[Any]) -> Any:
-    """The one token that is no space."""
+    """Return the only token that is not whitespace."""
     found = [token for token in tokens if token.type != "whitespace"]
     if len(found) != 1:
         raise InvalidColorError
@@ -117,7 +117,7 @@ def single(tokens: list[Any]) -> Any:
 
 
 def mixture(token: Any, current: Rgba | None) -> Color:
-    """Colour of `color-mix()` (CSS Color 5, 2)."""
+    """Return the colour of `color-mix()` (CSS Color 5, 2)."""
     parts = split_arguments(token.arguments)
     words = [str(part.lower_value) if part.type == "ident" else "" for part in parts[0] if part.type != "whitespace"]
     space, hue = DEFAULT_SPACE, "shorter"
@@ -155,7 +155,7 @@ def mixture(token: Any, current: Rgba | None) -> Color:
 
 
 def weighted_color(tokens: list[Any], current: Rgba | None) -> tuple[Color, float | None]:
-    """A colour of a mixture and its part, if it says one."""
+    """Return a colour of a mixture with its share, or None if no share is given."""
     weights = [tinycss2.parse_one_component_value(reduce_calculations(tinycss2.serialize([token]))) for token in tokens]
     found = [weight.value / 100.0 for weight in weights if weight.type == "percentage"]
     others = [token for token, weight in zip(tokens, weights, strict=True) if weight.type != "percentage"]
@@ -165,7 +165,7 @@ def weighted_color(tokens: list[Any], current: Rgba | None) -> tuple[Color, floa
 
 
 def relative(name: str, arguments: list[Any], current: Rgba | None) -> Color:
-    """Colour from the channels of another one (CSS Color 5, 4)."""
+    """Return a relative colour, which is made from the channels of another colour (CSS Color 5, 4)."""
     if not arguments:
         raise InvalidColorError
     origin, prefix = wide(arguments[0], current), ""
@@ -192,7 +192,7 @@ def relative(name: str, arguments: list[Any], current: Rgba | None) -> Color:
 
 
 def fill_channels(token: Any, channels: dict[str, float]) -> str:
-    """Text of a token with numbers for the names of channels."""
+    """Serialize a token, with numbers in place of the names of channels."""
     if token.type == "ident" and token.lower_value in channels:
         return f"{channels[token.lower_value]:.12f}"
     if token.type == "function":

@@ -1,4 +1,4 @@
-"""Colours and paints: the text of `fill` or `stroke` becomes a flat colour or a reference to a paint server."""
+"""Colours and paints: parse `fill` and `stroke` into flat colours or references to paint servers."""
 
 import re
 from functools import lru_cache
@@ -8,11 +8,11 @@ import tinycss2
 import tinycss2.color4
 
 LONGEST = 400
-"""Characters. A colour is hardly longer, and the cache must not keep long untrusted texts."""
+"""Longest colour in characters. Real colours are shorter, and the cache must not keep long untrusted texts."""
 
 REFERENCE = re.compile(r"url\(\s*(['\"]?)(.*?)\1\s*\)\s*(.*)", re.IGNORECASE | re.DOTALL)
 CONTEXT = {"context-fill": "fill", "context-stroke": "stroke"}
-"""Paints of the context element, and the properties that give them (SVG 2, 13.2)."""
+"""Paints taken from the context element, and the properties that they come from (SVG 2, 13.2)."""
 
 
 class Color(NamedTuple):
@@ -46,19 +46,19 @@ SYSTEM: Final = {
     **dict.fromkeys(("captiontext", "inactiveborder", "infotext", "menutext", "windowframe", "windowtext"), BLACK),
     **dict.fromkeys(("threeddarkshadow", "threedhighlight", "threedlightshadow", "threedshadow"), BLACK),
 }
-"""Colours of the system (CSS Color 4, 6.2 and A), as Chromium has them where a page is light."""
+"""System colours (CSS Color 4, 6.2 and A), as Chromium defines them for light pages."""
 
 
 class PaintText(NamedTuple):
-    """A paint as written."""
+    """The value of `fill` or `stroke`."""
 
     reference: str | None  # paint server to use if possible
-    color: Color | str | None  # None for no paint; a text if it depends on the element's own colour; or of `CONTEXT`
+    color: Color | str | None  # None: no paint; str: depends on the element's own colour, or a key of `CONTEXT`
 
 
 @lru_cache(maxsize=512)
 def read_color(text: str, current: Color | None) -> Color | str | None:
-    """Colour of a short text, see `parse_color`."""
+    """Parse a short text as `parse_color` does."""
     try:
         token = tinycss2.parse_one_component_value(text, skip_comments=True)
         parsed = tinycss2.color4.parse_color(token)
@@ -72,7 +72,7 @@ def read_color(text: str, current: Color | None) -> Color | str | None:
         return None if token.type != "function" else read_function(token, text, current)
     if token.type == "function" and parsed.space == "hsl" and not is_hsl(token):
         return None
-    if parsed.space == "hsl":  # its saturation and lightness are clamped before they are converted, as browsers do
+    if parsed.space == "hsl":  # browsers clamp saturation and lightness before the conversion
         hue, *parts = parsed.coordinates
         parts = [min(max(part or 0.0, 0.0), 100.0) for part in parts]
         parsed = tinycss2.color4.Color("hsl", (hue, *parts), parsed.alpha)
@@ -81,7 +81,7 @@ def read_color(text: str, current: Color | None) -> Color | str | None:
 
 
 def read_function(token: Any, text: str, current: Color | None) -> Color | str | None:
-    """Colour of a function that is not of sRGB, or that calculates; the text if it depends on the own colour."""
+    """Return the colour of a function outside sRGB or with calculations; its text if `currentcolor` is unknown."""
     from vexture.drawing.color_functions import color_of_function  # late: few drawings have such colours
 
     own = current or Color((0.0, 0.0, 0.0), 1.0)
@@ -92,21 +92,21 @@ def read_function(token: Any, text: str, current: Color | None) -> Color | str |
 
 
 def is_hsl(token: Any) -> bool:
-    """Whether a function `hsl()` is valid: between commas, its saturation and lightness are percentages."""
+    """Return whether `hsl()` is valid: in the comma syntax, saturation and lightness must be percentages."""
     parts = [part for part in token.arguments if part.type not in ("whitespace", "comment")]
     return "," not in parts or all(part.type == "percentage" for part in parts[2:5:2])
 
 
 def clip_color(red: float | None, green: float | None, blue: float | None, alpha: float) -> Color:
-    """Colour of channels, each of which is brought into the range of sRGB, as browsers do."""
+    """Return a colour whose channels are clamped to the range of sRGB, as in browsers."""
     first, second, third = (min(max(float(channel or 0.0), 0.0), 1.0) for channel in (red, green, blue))
     return Color((first, second, third), float(alpha))
 
 
 def parse_color(text: str, current: Color | None = None) -> Color | str | None:
-    """A CSS colour (CSS Color 5), as it is where a page is light; None if the text is no colour.
+    """Parse a CSS colour (CSS Color 5) for a light page; return None if the text is not a colour.
 
-    `current` is the colour of the element, `currentcolor`. Without it, a colour that depends on it is a text.
+    `current` is the element's own colour, `currentcolor`. Without it, a colour that depends on it is returned as text.
 
     Examples
     --------
@@ -119,7 +119,7 @@ def parse_color(text: str, current: Color | None = None) -> Color | str | None:
 
 
 def parse_paint(text: str) -> PaintText | None:
-    """Value of `fill` or `stroke`; None if the text is no paint.
+    """Parse the value of `fill` or `stroke`; return None if the text is not a paint.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Contours of cubics: many of them as parts of one array, which is never copied to be looked at whole."""
+"""Contours of cubics: parts of one shared array, which can be read as a whole without a copy."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -11,29 +11,29 @@ from vexture.base.errors import SourceError
 from vexture.bezier.convert import write_lines
 
 BLOCK = 1 << 18
-"""Cubics of short contours that are checked together, 17 MB."""
+"""Cubics of short contours that are checked in one batch, 17 MB."""
 
 
 MANY, SHORT = 1 << 12, 16
-"""So many contours of fewer cubics than this, on average, are copied sooner than found to be parts of one array."""
+"""Limits on the number of contours and on their mean length: for many short ones, copying is faster than looking."""
 
 LINES: Final = 1 << 13
-"""Lines that are made together: they stay in the processor's cache, 0.5 MB."""
+"""Lines that are written in one batch, which fits the processor's cache: 0.5 MB."""
 
 
 class Closed(tuple[NDArray[np.float64], ...]):
-    """Contours that were made closed, with the array of which they are all, in order."""
+    """Contours that were built closed, with the array that holds them all in order."""
 
     whole: NDArray[np.float64]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return tuple, (list(self),)  # in another process they are parts of no array
+        return tuple, (list(self),)  # in another process they do not share an array
 
 
 def ring_contours(points: NDArray[np.float64], ends: NDArray[np.intp]) -> tuple[NDArray[np.float64], ...]:
-    """Contours with straight sides through points (n, 2), as parts of one array.
+    """Make contours with straight sides through points (n, 2), as parts of one array.
 
-    `ends` are the places after the last point of each ring; its first point is not repeated.
+    `ends` are the indices after the last point of each ring. The first point of a ring is not repeated at its end.
 
     Examples
     --------
@@ -58,20 +58,20 @@ def ring_contours(points: NDArray[np.float64], ends: NDArray[np.intp]) -> tuple[
 
 
 def _parts(cubics: NDArray[np.float64], ends: NDArray[np.intp]) -> list[NDArray[np.float64]]:
-    """Parts of an array; `numpy.split` takes four times as long."""
+    """Split an array at indices; `numpy.split` takes four times as long."""
     places = [0, *ends.tolist()]
     return [cubics[start:end] for start, end in pairwise(places)]
 
 
 def together(of_paths: Sequence[Sequence[NDArray[np.float64]]]) -> Sequence[NDArray[np.float64]]:
-    """All contours of some paths."""
+    """Return all contours of several paths."""
     if len(of_paths) == 1:
-        return of_paths[0]  # they may know the array that they are parts of
+        return of_paths[0]  # may know its shared array
     return [contour for contours in of_paths for contour in contours]
 
 
 def join_contours(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
-    """All cubics of contours, (n, 4, 2): a part of the array whose parts they are, or else a copy; only to be read.
+    """Return all cubics of contours, (n, 4, 2), read-only: a view of the array that they share, or else a copy.
 
     Examples
     --------
@@ -85,7 +85,7 @@ def join_contours(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64
         return np.empty((0, 4, 2))
     if len(contours) > MANY and sum(map(len, contours)) < SHORT * len(contours):
         return _copy_contours(contours)
-    base: Any = contours[0] if len(contours) == 1 else contours[0].base  # of another process's array, bytes
+    base: Any = contours[0] if len(contours) == 1 else contours[0].base  # bytes if the array came from another process
     if not isinstance(base, np.ndarray) or base.dtype != np.float64:
         return _copy_contours(contours)
     if not (base.flags.c_contiguous and base.flags.writeable):
@@ -105,7 +105,7 @@ def _copy_contours(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float6
 
 
 def _is_plain(contour: NDArray[np.float64]) -> bool:
-    """Whether kernels read it without a copy."""
+    """Return whether kernels can read a contour without a copy."""
     return contour.flags.c_contiguous and contour.dtype == np.float64
 
 
@@ -114,22 +114,22 @@ def _address(array: NDArray[np.float64]) -> int:
 
 
 def check_contours(contours: Sequence[NDArray[np.float64]]) -> None:
-    """Raise a `SourceError` unless each is a float64 array (n, 4, 2), finite and closed bit for bit."""
+    """Raise a `SourceError` unless each contour is a float64 array (n, 4, 2), finite and closed bit for bit."""
     if isinstance(contours, Closed):
         _check_finite(contours.whole)
         return
-    held: list[NDArray[np.float64]] = []
+    batch: list[NDArray[np.float64]] = []
     cubics = 0
     for contour in contours:
         if contour.dtype != np.float64 or contour.ndim != 3 or contour.shape[1:] != (4, 2) or not len(contour):
             raise SourceError(f"a contour is {contour.dtype}{contour.shape}; it must be float64 (n, 4, 2), n >= 1")
-        held.append(contour)
+        batch.append(contour)
         cubics += len(contour)
         if cubics >= BLOCK:
-            _check_values(held)
-            held, cubics = [], 0
-    if held:
-        _check_values(held)
+            _check_values(batch)
+            batch, cubics = [], 0
+    if batch:
+        _check_values(batch)
 
 
 def _check_finite(cubics: NDArray[np.float64]) -> None:
@@ -143,7 +143,7 @@ def _check_values(contours: Sequence[NDArray[np.float64]]) -> None:
     _check_finite(cubics)
     lasts = np.cumsum([len(contour) for contour in contours]) - 1
     firsts = np.append(0, lasts[:-1] + 1)
-    for axis in range(2):  # NumPy is slow in rows of two
+    for axis in range(2):  # NumPy is slow along an axis of length two
         begins, ends = cubics[:, 0, axis], cubics[:, 3, axis]
         apart = ends[:-1] != begins[1:]
         apart[lasts[:-1]] = False

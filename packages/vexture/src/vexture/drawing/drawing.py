@@ -1,4 +1,4 @@
-"""The normal form of all sources, from which quad-trees are built.
+"""The normal form of all sources, from which quadtrees are built.
 
 A `Drawing` is a list of painted `Path` objects in the unit square: x to the right, **y up**, origin at the bottom
 left. Every contour is closed and made of cubics only; a straight line is a cubic with its inner control points at
@@ -28,13 +28,13 @@ from vexture.drawing.unit_square import clip_contours, tidy_contours
 SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
 BLENDING, MASKING, SHADED = "mix-blend-mode", "clip-path or mask", "gradient shown as its mean colour"
 SOLID: Final = "pattern shown as solid"
-"""Messages about layers and silhouettes, which know no groups; layers know no gradients either."""
+"""Notes on what layers and silhouettes lose: neither has groups, and layers have no gradients either."""
 
 IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 
 
 class FillRule(IntEnum):
-    """Rule by which winding numbers are inside: all but 0, or the odd ones."""
+    """Rule by which a winding number is inside: nonzero, or odd."""
 
     NONZERO = 0
     EVENODD = 1
@@ -42,27 +42,27 @@ class FillRule(IntEnum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Path:
-    """Closed contours that are filled together by one rule.
+    """Closed contours that are filled together by one fill rule.
 
     Parameters
     ----------
     contours : tuple of (n, 4, 2) float64 arrays
-        Cubics P0 P1 P2 P3 in unit-square units; each starts, bit for bit, where the one before it ends, and the
-        first starts where the last ends.
+        Cubics P0 P1 P2 P3 in unit-square units. Each cubic starts, bit for bit, at the end of the one before it, and
+        the first starts at the end of the last.
     fill_rule : FillRule
     paint : Paint
     group : int
-        The innermost group around it, as a place in `Drawing.groups`; -1 if there is none.
+        Index of the innermost group around it in `Drawing.groups`; -1 if there is none.
     element : str
-        Name of the element of the source that it draws, for picking and restyling; several paths may share one. Empty
-        if the element has none.
+        Name of the source's element that the path draws, for picking and restyling. Several paths may share a name; it
+        is empty if the element has none.
     hides : bool
-        Whether it hides something that the drawing does not have: in a map to be restyled it then stays opaque.
+        True if the path hides something that the drawing leaves out. A map made for restyling then keeps it opaque.
 
     Raises
     ------
     SourceError
-        If a contour is of another shape, is not closed or is not finite.
+        If a contour has another shape, is not closed or is not finite.
     """
 
     contours: tuple[NDArray[np.float64], ...]
@@ -85,8 +85,8 @@ class Path:
         element: str = "",
         hides: bool = False,
     ) -> "Path":
-        """Path of contours that are known to be finite and closed, without a check, which costs more than the rest."""
-        path, assign = object.__new__(cls), object.__setattr__  # a loop over the names takes three times as long
+        """Make a path from contours that are known to be finite and closed; a check would take most of the time."""
+        path, assign = object.__new__(cls), object.__setattr__  # a loop takes three times as long
         assign(path, "contours", contours)
         assign(path, "fill_rule", fill_rule)
         assign(path, "paint", paint)
@@ -97,14 +97,14 @@ class Path:
 
     @classmethod
     def _unchecked(cls, contours: tuple[NDArray[np.float64], ...], like: "Path", to_source: Affine) -> "Path":
-        """Sound path whose rest is another's, moved."""
+        """Make a path from valid contours; its other attributes are those of `like`, with the paint moved."""
         return cls.unchecked(
             contours, like.fill_rule, like.paint.after(to_source), like.group, like.element, like.hides
         )
 
     @property
     def box(self) -> NDArray[np.float64]:
-        """Least and greatest coordinates of all control points, (2, 2): no part of the path is outside."""
+        """Bounding box of all control points, (2, 2): least and greatest coordinates; it contains the whole path."""
         if not self.contours:
             return np.array([[np.inf, np.inf], [-np.inf, -np.inf]])
         points = join_contours(self.contours)
@@ -128,11 +128,11 @@ class Drawing:
     crs : str or None
         Coordinate reference system of the source's units, if it has one.
     notes : tuple of Note
-        What was left out, simplified or invalid when it was read.
+        Everything that the reader left out, simplified or found invalid.
     groups : tuple of Group
-        Each after the group around it. The paths of a group, with those of the groups in it, follow one another.
+        Each group comes after the group around it. The paths of a group and of its inner groups are consecutive.
     sides : tuple of float
-        Width and height of the source's box, which is in the middle of the unit square; the longer one is 1.
+        Width and height of the source's box, which is centred in the unit square; the longer side is 1.
 
     Examples
     --------
@@ -159,7 +159,7 @@ class Drawing:
             raise SourceError(f"{self.name}: a contour leaves the unit square; clip or scale it first")
 
     def _check_groups(self) -> None:
-        """Raise a `SourceError` unless groups are nested, and each path names one of them that is still open."""
+        """Raise a `SourceError` unless groups are nested, and the paths of each group are consecutive."""
         if not self.groups and all(path.group == -1 for path in self.paths):
             return
         for place, group in enumerate(self.groups):
@@ -177,7 +177,7 @@ class Drawing:
                 raise SourceError(f"{self.name}: paths of group {path.group} do not follow one another")
 
     def around(self, group: int) -> list[int]:
-        """The groups from the outermost to a given one, which may be -1."""
+        """Return the groups from the outermost to a given one, which may be -1."""
         return groups_around(self.groups, group)
 
     @property
@@ -187,7 +187,7 @@ class Drawing:
 
     @property
     def is_coloured(self) -> bool:
-        """Whether it has more than one colour: several paints, a gradient, or groups, which change colours.
+        """True if the drawing has more than one colour: several paints, a gradient, or groups, which change colours.
 
         Examples
         --------
@@ -198,17 +198,17 @@ class Drawing:
         return len(paints) > 1 or bool(self.groups) or any(paint.gradient is not None for paint in paints)
 
     def layers(self) -> "tuple[Drawing, ...]":
-        """Split the drawing by paint: drawn in this order, the layers give the drawing in its colours.
+        """Split the drawing by paint; drawn in order, the layers reproduce the drawing in its colours.
 
-        Consecutive paths of one opaque paint are one layer. A translucent paint shows twice where two paths overlap,
-        so its paths share a layer only if their boxes do not touch. Layers know no groups: each path has the opacities
-        of all groups around it by itself, and blends normally. A gradient becomes its mean colour.
+        Consecutive paths with the same opaque paint form one layer. A translucent paint would show twice where two
+        paths overlap, so paths with such a paint share a layer only if their boxes do not touch. Layers have no groups:
+        each path gets the opacities of all groups around it, and blends normally. A gradient becomes its mean colour.
 
         Returns
         -------
         tuple of Drawing
-            In painting order, each of one paint and named ``name/number-colour``, counted from 1, with the notes of
-            the whole, and of what the groups and gradients would change; an empty tuple if nothing is painted.
+            In painting order, each with one paint, named ``name/number-colour`` and counted from 1. Each has the notes
+            of the drawing and those on lost groups and gradients. The tuple is empty if nothing is painted.
 
         Examples
         --------
@@ -236,10 +236,10 @@ class Drawing:
         )
 
     def flat(self) -> "Drawing":
-        """The drawing without groups, and so without masks, and without gradients.
+        """Return the drawing without groups, masks and gradients.
 
-        Each path has the opacities of the groups around it by itself, and a shape that a pattern fills is solid. Notes
-        say where a picture differs.
+        Each path gets the opacities of the groups around it, and a shape filled with a pattern becomes solid. Notes
+        list what a picture of the result lacks.
         """
         opacities, hidden = {-1: 1.0}, set[int]()
         patterns = {place for place, group in enumerate(self.groups) if group.pattern}
@@ -248,14 +248,14 @@ class Drawing:
             if group.outer in hidden or bool(group.mask) != (group.outer in patterns):
                 hidden.add(place)
         hidden |= patterns
-        shown = [path for path in self.paths if path.group not in hidden]
-        paints = (path.paint.fade(opacities[path.group]) for path in shown)
+        visible = [path for path in self.paths if path.group not in hidden]
+        paints = (path.paint.fade(opacities[path.group]) for path in visible)
         flat = (Paint(paint.color, paint.opacity) for paint in paints)
-        paths = tuple(replace(path, paint=paint, group=-1) for path, paint in zip(shown, flat, strict=True))
+        paths = tuple(replace(path, paint=paint, group=-1) for path, paint in zip(visible, flat, strict=True))
         return replace(self, paths=paths, groups=(), notes=(*self.notes, *self._lost()))
 
     def without_masks(self) -> "Drawing":
-        """The drawing of which a silhouette is made: without its masks, with a note of them if it has any."""
+        """Return the drawing without its masks, for its silhouette; a note counts the masks if there are any."""
         if not any(group.mask for group in self.groups):
             return self
         plain = self.flat()
@@ -263,14 +263,14 @@ class Drawing:
         return replace(plain, notes=(*self.notes, *lost))
 
     def _lost(self) -> Iterator[Note]:
-        """Notes of what layers lose of groups and gradients; a path by itself loses no opacity."""
-        held = Counter(path.group for path in self.paths)
+        """Yield notes on what layers lose of groups and gradients; the opacity of a group of one path is not lost."""
+        sizes = Counter(path.group for path in self.paths)
         for place in reversed(range(len(self.groups))):
             if self.groups[place].pattern:
-                held[place] = min(held[place], 1)  # the shape that it fills
-            held[self.groups[place].outer] += held[place]
-        shared = sum(group.opacity < 1.0 and held[place] > 1 for place, group in enumerate(self.groups))
-        blended = sum(group.blend is not Blend.NORMAL and held[place] > 0 for place, group in enumerate(self.groups))
+                sizes[place] = min(sizes[place], 1)  # the shape that it fills
+            sizes[self.groups[place].outer] += sizes[place]
+        shared = sum(group.opacity < 1.0 and sizes[place] > 1 for place, group in enumerate(self.groups))
+        blended = sum(group.blend is not Blend.NORMAL and sizes[place] > 0 for place, group in enumerate(self.groups))
         patterns = sum(group.pattern for group in self.groups)
         masks = sum(group.mask is not Mask.NONE for group in self.groups) - patterns
         shaded = sum(path.paint.gradient is not None for path in self.paths)
@@ -280,7 +280,7 @@ class Drawing:
                 yield Note("simplified", message, count)
 
     def _part(self, start: int, end: int, name: str) -> "Drawing":
-        """Drawing of some of the paths, which were checked already."""
+        """Return a drawing of some of the paths, without checking them again."""
         part = copy(self)
         object.__setattr__(part, "paths", self.paths[start:end])
         object.__setattr__(part, "name", name)
@@ -288,7 +288,7 @@ class Drawing:
 
     @classmethod
     def polygon(cls, *contours: Iterable[tuple[float, float]], fill_rule: FillRule = FillRule.NONZERO) -> "Drawing":
-        """Drawing of one path with straight sides, from its corners in unit-square units.
+        """Make a drawing of one path with straight sides, from its corners in unit-square units.
 
         Examples
         --------
@@ -314,8 +314,8 @@ class Drawing:
     ) -> "Drawing":
         """Bring the paths of a source into the normal form.
 
-        The source's box keeps its aspect ratio, is centred in the unit square and flipped to y up. Parts outside of the
-        box are clipped. Cubics without length and contours that enclose nothing are dropped.
+        The source's box keeps its aspect ratio, is centred in the unit square and is flipped to y up. Parts outside the
+        box are clipped. Cubics of zero length and contours that enclose nothing are dropped.
 
         Parameters
         ----------
@@ -329,7 +329,7 @@ class Drawing:
         Raises
         ------
         SourceError
-            If the box has no area or a coordinate is too far from it.
+            If the box has no area, or a coordinate is too far from it.
 
         Examples
         --------
@@ -356,14 +356,14 @@ class Drawing:
         cubics = (join_contours(contours) - (x, y)) / size + low
         cubics[..., 1] = 1.0 - cubics[..., 1]
         ends = np.cumsum([len(contour) for contour in contours])
-        kept = tidy_contours(*clip_contours(cubics, ends, low, 1.0 - low))
+        tidy = tidy_contours(*clip_contours(cubics, ends, low, 1.0 - low))
         normal = []
         a, b, c, d, e, f = to_source.ravel().tolist()
         rows = ((a, b, c), (d, e, f))
         at = 0
         for path in listed:
             after = at + len(path.contours)
-            inside = tuple(kept[k] for k in range(at, after) if k in kept)
+            inside = tuple(tidy[k] for k in range(at, after) if k in tidy)
             at = after
             if inside:
                 normal.append(Path._unchecked(inside, path, rows))

@@ -1,4 +1,4 @@
-"""Groups of a drawing's paths: opacity, blend modes and masks, as SVG and CSS have them."""
+"""Groups of paths: opacity, blend modes and masks, as in SVG and CSS."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from vexture.base.errors import SourceError
 
 
 class Blend(IntEnum):
-    """Mixing of a group's colours with those below, as in *Compositing and Blending Level 1* of the W3C."""
+    """Blend mode of a group, as in *Compositing and Blending Level 1* of the W3C."""
 
     NORMAL = 0
     MULTIPLY = 1
@@ -30,9 +30,9 @@ class Blend(IntEnum):
 
 
 class Mask(IntEnum):
-    """The part of a group's colour that masks the group around it, which is hidden where that is 0.
+    """Property of a group that masks the group around it, which is hidden where that is 0.
 
-    A clip is a mask by opacity, of opaque paths. Luminance is that of premultiplied sRGB (CSS Masking 1, 7.10.1).
+    A clip is a mask by opacity whose paths are opaque. Luminance is that of premultiplied sRGB (CSS Masking 1, 7.10.1).
     """
 
     NONE = 0
@@ -42,21 +42,21 @@ class Mask(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """Paths that are composited by themselves, on nothing, before the result goes on what is below.
+    """Paths that are composited with each other first, before the result is composited on what lies below.
 
-    A mask is a group that is not shown itself. It may stand anywhere in the group around it; several multiply.
+    A mask is a group that is not shown itself. It may be anywhere in the group around it; several masks multiply.
 
     Parameters
     ----------
     outer : int
-        The group around it, as a place in `Drawing.groups` before its own; -1 if there is none.
+        Index of the group around it in `Drawing.groups`, which is less than its own; -1 if there is none.
     opacity : float
-        Of the whole, 0..1.
+        Opacity of the whole group, 0..1.
     blend : Blend
     mask : Mask
-        Whether it masks the group around it, and by what.
+        Property by which it masks the group around it, if it does.
     pattern : bool
-        Whether it is a pattern, masked by the shape that the pattern fills. Whatever knows no masks shows that shape
+        True if it is a pattern, masked by the shape that the pattern fills. Renderers without masks show that shape
         instead.
     """
 
@@ -74,7 +74,7 @@ class Group:
 
 
 def groups_around(groups: Sequence[Group], inner: int) -> list[int]:
-    """Places of the groups from the outermost to a given one, which may be -1."""
+    """Return the indices of the groups from the outermost to a given one, which may be -1."""
     found = []
     while inner >= 0:
         found.append(inner)

@@ -1,4 +1,4 @@
-"""Paints: flat colours, and gradients as SVG has them."""
+"""Paints: flat colours, and gradients as in SVG."""
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
@@ -10,11 +10,11 @@ Color = tuple[float, float, float]
 """Red, green and blue, sRGB, each in 0..1."""
 
 Affine = tuple[tuple[float, float, float], tuple[float, float, float]]
-"""Rows of a map from (x, y, 1)."""
+"""Rows of an affine map of (x, y, 1)."""
 
 
 class Spread(IntEnum):
-    """Behaviour of a gradient beyond its first and last stop: keep their colours, go back and forth, or begin again."""
+    """Continuation of a gradient beyond its first and last stop: constant, mirrored or repeated."""
 
     PAD = 0
     REFLECT = 1
@@ -23,7 +23,7 @@ class Spread(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """A colour at a place of a gradient's ramp; between two stops, unpremultiplied sRGB components run straight."""
+    """A colour at an offset of a gradient's ramp; unpremultiplied sRGB is interpolated linearly between stops."""
 
     offset: float
     color: Color
@@ -36,19 +36,19 @@ class Stop:
 
 @dataclass(frozen=True, slots=True)
 class Gradient:
-    """Colours by the place t on a ramp, as in SVG 2, 14.2.
+    """Colours along a ramp, by its parameter t, as in SVG 2, 14.2.
 
     Parameters
     ----------
     to_ramp : Affine
-        Map from the drawing's coordinates to the ramp's own, in which a linear gradient has t = x. A radial one has its
-        outer circle about the origin, of radius 1, and its focal point on the x axis.
+        Map from the drawing's coordinates to those of the ramp. There, t = x for a linear gradient. The outer circle
+        of a radial one is the unit circle, and its focal point lies on the x axis.
     stops : tuple of Stop
-        One or more; no offset is below the one before it.
+        One or more, with offsets that do not decrease.
     spread : Spread
     focus : (float, float) or None
-        Of a radial gradient: x, at least 0, of its focal point, and the focal radius. Its circle at t is about
-        (x (1 - t), 0) and has the radius (1 - t) times the focal one plus t. None for a linear gradient.
+        For a radial gradient: x of the focal point, at least 0, and the focal radius. Its circle at t has the centre
+        (x (1 - t), 0) and the radius (1 - t) times the focal radius plus t. None for a linear gradient.
     """
 
     to_ramp: Affine
@@ -65,7 +65,7 @@ class Gradient:
             raise SourceError(f"a gradient has the map {self.to_ramp} and the focus {self.focus}; all must be finite")
 
     def after(self, matrix: Affine) -> "Gradient":
-        """The gradient in other coordinates, from which `matrix` leads to those of before."""
+        """Return the gradient in new coordinates; `matrix` maps the new ones to the old ones."""
         (a, b, c), (d, e, f) = matrix
         rows = [(p * a + q * d, p * b + q * e, p * c + q * f + r) for p, q, r in self.to_ramp]
         return replace(self, to_ramp=(rows[0], rows[1]))
@@ -73,9 +73,9 @@ class Gradient:
 
 @dataclass(frozen=True, slots=True)
 class Paint:
-    """A flat colour, sRGB components and opacity, each in 0..1; or a gradient, of which it is then the mean.
+    """A flat colour, as sRGB components and opacity in 0..1, or a gradient with its mean as the flat colour.
 
-    Whatever knows no gradients shows the flat colour.
+    Renderers without gradients show the flat colour.
     """
 
     color: Color = (0.0, 0.0, 0.0)
@@ -88,7 +88,7 @@ class Paint:
 
     @classmethod
     def from_gradient(cls, gradient: Gradient) -> "Paint":
-        """Paint of a gradient, with the mean of its stops' colours.
+        """Make the paint of a gradient; its flat colour is the mean of the stops.
 
         Examples
         --------
@@ -100,7 +100,7 @@ class Paint:
         return cls((red, green, blue), sum(stop.opacity for stop in stops) / len(stops), gradient)
 
     def fade(self, opacity: float) -> "Paint":
-        """The paint with its opacity, and that of all stops, multiplied."""
+        """Return the paint with its opacity, and those of all stops, multiplied."""
         if opacity == 1.0:
             return self
         gradient = self.gradient
@@ -110,21 +110,21 @@ class Paint:
         return Paint(self.color, opacity * self.opacity, gradient)
 
     def after(self, matrix: Affine) -> "Paint":
-        """The paint in other coordinates, from which `matrix` leads to those of before."""
+        """Return the paint in new coordinates; `matrix` maps the new ones to the old ones."""
         return self if self.gradient is None else replace(self, gradient=self.gradient.after(matrix))
 
     @property
     def is_opaque(self) -> bool:
-        """Whether nothing below is seen through any part of it."""
+        """True if nothing below shows through any part of the paint."""
         if self.gradient is None:
             return self.opacity >= 1.0
         focus = self.gradient.focus
-        inside = focus is None or focus[0] + focus[1] < 1.0  # else it is a cone, with nothing beside it
+        inside = focus is None or focus[0] + focus[1] < 1.0  # otherwise it is a cone with nothing beside it
         return inside and all(stop.opacity >= 1.0 for stop in self.gradient.stops)
 
     @property
     def hex(self) -> str:
-        """The flat colour as CSS writes it, rounded to 8 bits: ``#rrggbb``, and ``#rrggbbaa`` where it is translucent.
+        """Flat colour in CSS notation, rounded to 8 bits: ``#rrggbb``, or ``#rrggbbaa`` if it is translucent.
 
         Examples
         --------

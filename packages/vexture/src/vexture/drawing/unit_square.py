@@ -1,4 +1,4 @@
-"""Contours in the unit square: clipped to a drawing's box, and without what encloses nothing."""
+"""Contours in the unit square: clipping to a drawing's box, and removal of contours that enclose nothing."""
 
 from typing import Final
 
@@ -10,13 +10,13 @@ from vexture.base.tolerance import CLOSED
 from vexture.bezier.convert import line_cubics, straight
 
 FARTHEST: Final = 1e9
-"""Unit-square units. Beyond it, float64 cannot tell points within the drawing apart by 1e-6."""
+"""Farthest coordinate in unit-square units. Beyond it, float64 cannot resolve 1e-6 within the drawing."""
 
 
 def clip_contours(
     joined: NDArray[np.float64], ends: NDArray[np.intp], low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """Clip contours to a box: all their cubics one after another, and the indices at which the contours end."""
+    """Clip contours to a box; they come and return as all cubics in one array, and the index after each contour."""
     reach = np.abs(joined).max()
     if not reach <= FARTHEST:
         raise SourceError(
@@ -38,9 +38,9 @@ def clip_contours(
 
 
 def tidy_contours(joined: NDArray[np.float64], ends: NDArray[np.intp]) -> dict[int, NDArray[np.float64]]:
-    """Contours that enclose an area, by index, without cubics of no length, closed bit for bit, with exact lines.
+    """Return the contours that enclose an area, by index: no cubics of zero length, closed bit for bit, exact lines.
 
-    The parameters are those that `clip_contours` returns.
+    The parameters are the results of `clip_contours`.
     """
     keep = np.abs(joined - joined[:, :1]).max(axis=(1, 2)) > CLOSED
     joined, owner = joined[keep], np.searchsorted(ends, np.flatnonzero(keep), side="right")

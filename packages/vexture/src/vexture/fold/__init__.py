@@ -1,1 +1,1 @@
-"""Texture folding: a shape that moves although its texture does not."""
+"""Texture folding: animation of a shape whose texture does not change."""

@@ -1,6 +1,6 @@
-"""The functions of ``shaders/fold.glsl`` on the CPU, for many places at once, in float64.
+"""The functions of ``shaders/fold.glsl`` on the CPU, in float64, for many points at once.
 
-They have the shader's names without its prefix, as in `vexture.renderers.cpu`, and take its uniforms first. The
+They have the shader's names without the prefix, as in `vexture.renderers.cpu`, and take its uniforms first. The
 shader's comments explain them.
 """
 
@@ -23,7 +23,7 @@ Words = NDArray[np.uint32]
 
 
 class Folded(NamedTuple):
-    """Places where the shape is looked up, and the footprints of pixels there."""
+    """Points at which the shape is looked up, and the footprints of pixels there."""
 
     uv: Numbers
     dx: Numbers
@@ -31,7 +31,7 @@ class Folded(NamedTuple):
 
 
 def progress(time: float, cycle: float, texel: Words) -> Numbers:
-    """Share of its displacement that each texel, (..., 4) words, has at a time."""
+    """Return the fraction of its displacement that each texel, (..., 4) words, has at a time."""
     kind = texel[..., 2] >> np.uint32(FOLD_KIND_SHIFT)
     since = time - (texel[..., 2] & np.uint32((1 << FOLD_KIND_SHIFT) - 1)) / FOLD_TICKS
     if cycle > 0.0:
@@ -46,10 +46,10 @@ def progress(time: float, cycle: float, texel: Words) -> Numbers:
 
 
 def fold(now: Numbers, wrap: str, base: NDArray[np.uint32], offset: Numbers, dx: Numbers, dy: Numbers) -> Folded:
-    """Displace places and footprints, all (n, 2), by the current displacements of all texels, (rows, columns, 2)."""
+    """Displace points and footprints, all (n, 2), by the current displacements of all texels, (rows, columns, 2)."""
     size = np.array([now.shape[1], now.shape[0]])
     near = offset - np.floor(offset) if wrap == "repeat" else np.clip(offset, -2.0, 2.0)
-    scaled = base * size / 2.0**32 + near * size  # in two parts in the shader, for its float32
+    scaled = base * size / 2.0**32 + near * size  # the shader keeps the two parts apart, because of its float32
     middle = np.floor(scaled).astype(np.int64)
     t = scaled - middle - 0.5
     weights = (0.5 * (0.5 - t) ** 2, 0.75 - t * t, 0.5 * (0.5 + t) ** 2)

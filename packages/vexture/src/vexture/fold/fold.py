@@ -1,4 +1,4 @@
-"""`Fold`: displacements of a shape that change with time (thesis 4.6.2), as an array, a file and a function."""
+"""`Fold`: time-dependent displacements of a shape (thesis 4.6.2), as an array, a file and a function."""
 
 import json
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ WRAPS: Final = ("none", "clamp", "repeat")
 
 
 class Kind(IntEnum):
-    """Movement of a texel from its place to its end position.
+    """Movement of a texel from its position to its end position.
 
     With x = (time - begin) / duration clamped to 0..1, the progress is x (linear), x^2 (smooth start), 1 - (1 - x)^2
     (smooth end) or x^2 (3 - 2 x) (smooth both). The periodic kind has the progress 0 before its begin, and then
@@ -39,26 +39,26 @@ class Kind(IntEnum):
 class Fold:
     """A field of displacements that change with time.
 
-    A fragment at the place p shows what the texture has at p + d(p, time). The displacement d is a quadratic B-spline,
-    so its gradient is continuous; its control points, at the middles of the texels, are the end positions times the
-    progress (`Kind`). Beyond the unit square the border texels continue; where the shape repeats, the fold repeats.
+    A fragment at p shows the texture at p + d(p, time). The displacement d is a quadratic B-spline, so its gradient is
+    continuous. Its control points, at the centres of the texels, are the end positions times the progress (`Kind`).
+    Beyond the unit square the border texels continue; if the shape repeats, the fold repeats.
 
-    With a cycle, time - begin is taken modulo the cycle, so that each texel starts again at its own begin. The periodic
-    kind then continues without a jump if the cycle is a whole number of durations; the others jump back to 0. With a
-    cycle of 0, each texel moves once and stays.
+    With a cycle, time - begin is taken modulo the cycle, so that each texel restarts at its own begin. The periodic
+    kind then continues without a jump if the cycle is a whole number of durations; the other kinds jump back to 0. With
+    a cycle of 0, each texel moves once and stays there.
 
     Parameters
     ----------
     displacement : (rows, columns, 2) array
-        End positions relative to the texels' places, x right, y up, in unit-square units; the top row first.
-        Kept as float32.
+        End positions relative to the texels' positions, x right, y up, in unit-square units; the top row first. Stored
+        as float32.
     kind : (rows, columns) array of `Kind`, or one
     begin, duration : (rows, columns) array, or one number
-        Seconds, kept in steps of 1/65536. With a cycle, begin is below it and duration is not above.
+        Seconds, stored in steps of 1/65536. With a cycle, begin is below it, and duration is not above it.
     cycle : float
         Seconds, in the same steps.
     notes : tuple of Note
-        Remarks about how it was made; a file does not hold them.
+        Remarks of the function that made the fold; a file does not contain them.
 
     Raises
     ------
@@ -114,7 +114,7 @@ class Fold:
 
     @property
     def texels(self) -> NDArray[np.uint32]:
-        """The words of FORMAT.md, C.2, (rows, columns, 4)."""
+        """Words of FORMAT.md, C.2, (rows, columns, 4)."""
         words = np.empty((*self.kind.shape, 4), np.uint32)
         words[..., :2] = self.displacement.view(np.uint32)
         begin = np.rint(self.begin * layout.FOLD_TICKS).astype(np.uint32)
@@ -123,17 +123,17 @@ class Fold:
         return words
 
     def progress(self, seconds: float) -> NDArray[np.float64]:
-        """Share of its displacement that each texel has at a time, (rows, columns)."""
+        """Return the fraction of its displacement that each texel has at a time, (rows, columns)."""
         return progress(self.clock(seconds), self.cycle, self.texels)
 
     def clock(self, seconds: float) -> float:
-        """Time for the shader: within the cycle, because its float32 has few digits."""
+        """Return the time for the shader, reduced to the cycle because float32 has few digits."""
         return seconds % self.cycle if self.cycle > 0.0 else seconds
 
     def at(
         self, points: ArrayLike, seconds: float, *, wrap: str = "none"
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Places of the texture that points show at a time: the shader's function in float64.
+        """Return the points of the texture that points show at a time: the shader's function in float64.
 
         Parameters
         ----------
@@ -142,14 +142,14 @@ class Fold:
         seconds : float
             The time.
         wrap : str
-            ``"repeat"`` where the shape repeats, else ``"none"`` or ``"clamp"``, which are equal here.
+                ``"repeat"`` if the shape repeats, otherwise ``"none"`` or ``"clamp"``, which are equivalent here.
 
         Returns
         -------
         places : (n, 2) array
             In unit-square units.
         jacobians : (n, 2, 2) array
-            Derivatives of the places; [k, i, j] is that of coordinate i by coordinate j.
+                Derivatives of the places; [k, i, j] is that of coordinate i with respect to coordinate j.
 
         Raises
         ------
@@ -186,7 +186,7 @@ def _check(
     duration: NDArray[np.float64],
     cycle: float,
 ) -> None:
-    """Refuse values that FORMAT.md, C.3 does not allow."""
+    """Raise an error for values that FORMAT.md, C.3 does not allow."""
     most, tick = layout.FOLD_MOST_SECONDS, 1.0 / layout.FOLD_TICKS
     if not (np.abs(displacement) <= layout.FOLD_MOST_DISPLACEMENT).all():
         raise ParameterError(f"a displacement is not a number within {layout.FOLD_MOST_DISPLACEMENT:g} of 0")
@@ -205,14 +205,14 @@ def _check(
 
 
 def fold_from(data: bytes, source: str = "fold") -> Fold:
-    """Read the content of a fold's file, which need not be trusted.
+    """Read the content of a fold's file, which may be untrusted.
 
     Parameters
     ----------
     data : bytes
-        What `Fold.to_ktx2` returned, or the content of a file of `vexture fold`.
+        Result of `Fold.to_ktx2`, or the content of a file written by `vexture fold`.
     source : str
-        Names it in messages.
+        Name of the file in messages.
 
     Returns
     -------
@@ -245,7 +245,7 @@ def fold_from(data: bytes, source: str = "fold") -> Fold:
 
 
 def _read_facts(text: str) -> tuple[int, int, float]:
-    """Columns, rows and cycle from their JSON text."""
+    """Parse columns, rows and cycle from their JSON text."""
     try:
         facts: Any = json.loads(text)
     except (ValueError, RecursionError):
@@ -263,7 +263,7 @@ def _read_facts(text: str) -> tuple[int, int, float]:
 
 
 def _fold_of_texels(texels: NDArray[np.uint32], columns: int, rows: int, cycle: float) -> Fold:
-    """Fold of a file's texels."""
+    """Return the fold with the texels of a file."""
     flat, count = texels.reshape(-1, 4), rows * columns
     width = min(1 << (count - 1).bit_length(), 1 << ROW_BITS)
     if len(flat) != -(-count // width) * width:

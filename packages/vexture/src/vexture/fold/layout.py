@@ -1,4 +1,4 @@
-"""Layout of the fold texture (FORMAT.md, part C); the shader and the web modules take their constants from here."""
+"""Layout of the fold texture (FORMAT.md, part C), from which the shader and the web modules take their constants."""
 
 from typing import Final
 
@@ -17,19 +17,19 @@ FOLD_PERIODIC: Final = 4
 """Kinds of interpolation."""
 
 FOLD_KIND_SHIFT: Final = 29
-"""A texel's third word holds the kind above this many bits of its begin."""
+"""Position of the kind in a texel's third word, above the bits of its begin."""
 
 FOLD_TICKS: Final = 65536
 """Units of time in a second."""
 
 FOLD_MOST_SECONDS: Final = 8191
-"""Largest begin, duration or cycle in seconds: what fits below the kind."""
+"""Largest begin, duration or cycle in seconds that fits below the kind."""
 
 FOLD_MOST_SIDE: Final = 256
-"""Most columns or rows: a fold is smooth, so few are enough."""
+"""Most columns or rows; a fold is smooth, so few are enough."""
 
 FOLD_MOST_DISPLACEMENT: Final = 1.0
 """Largest displacement along each axis, in unit-square units."""
 
 FOLD_FILE_LIMIT: Final = 1 << 22
-"""Bytes. Longer files are refused: this is four times the most texels, uncompressed."""
+"""Largest file in bytes: four times the most texels, uncompressed."""

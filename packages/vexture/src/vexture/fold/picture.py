@@ -1,4 +1,4 @@
-"""A picture that explains a fold: its end positions, kinds and begins."""
+"""Picture of a fold for people: its end positions, kinds and begins."""
 
 from typing import TYPE_CHECKING, Any, Final
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 LEAST, MOST = 256, 4096
 STILL: Final = 0.02
-"""Share of the largest displacement. Texels that move less are not coloured by kind and begin."""
+"""Fraction of the largest displacement below which texels are not coloured by kind and begin."""
 
 ARROWS: Final = 24
 """Most arrows along a side."""
@@ -36,7 +36,7 @@ Pixels = NDArray[np.float64]
 
 
 def fold_picture(fold: Fold, drawing: "Drawing | None" = None, size: int = 768) -> "Image":
-    """Draw a fold: end positions as colours and arrows and, smaller, the kinds and the begins.
+    """Draw a fold: end positions as colours and arrows, and smaller pictures of the kinds and the begins.
 
     Parameters
     ----------
@@ -92,13 +92,13 @@ def _image(pixels: Pixels) -> "Image":
 
 
 def _ground(drawing: "Drawing | None", size: int) -> Pixels:
-    """Land and water, (size, size, 3)."""
+    """Return land and water, (size, size, 3)."""
     covered = np.zeros((size, size)) if drawing is None else render_exact(drawing, (size, size)).astype(np.float64)
     return np.array(LAND) + covered[..., None] * (np.array(WATER, np.float64) - LAND)
 
 
 def _grown(values: NDArray[Any], size: int) -> NDArray[Any]:
-    """Texels enlarged to squares of a picture."""
+    """Enlarge texels to squares of a picture."""
     rows, columns = values.shape[:2]
     at = np.arange(size)
     grown: NDArray[Any] = values[(at * rows // size)[:, None], at * columns // size]
@@ -106,13 +106,13 @@ def _grown(values: NDArray[Any], size: int) -> NDArray[Any]:
 
 
 def _hue(turn: Pixels) -> Pixels:
-    """Colours around a wheel, red at 0, of about equal lightness."""
+    """Return colours around a wheel, red at 0, of about equal lightness."""
     angles = 2.0 * np.pi * (turn[..., None] - np.arange(3) / 3.0)
     return 128.0 + 105.0 * np.cos(angles)
 
 
 def _wheel_over(fold: Fold, ground: Pixels, largest: float) -> Pixels:
-    """The ground, coloured by the direction of displacements as hue and their length as strength."""
+    """Colour the ground by displacements: hue is their direction, strength their length."""
     x, y = np.moveaxis(fold.displacement.astype(np.float64), 2, 0)
     strength = np.hypot(x, y)[..., None] / max(largest, 1e-30)
     size = len(ground)
@@ -121,7 +121,7 @@ def _wheel_over(fold: Fold, ground: Pixels, largest: float) -> Pixels:
 
 
 def _span(fold: Fold) -> float:
-    """Seconds that the whole wheel of hues stands for."""
+    """Return the time in seconds that corresponds to the whole wheel of hues."""
     return fold.cycle or float(fold.begin.max()) or 1.0
 
 
@@ -131,7 +131,7 @@ def _begins(fold: Fold) -> Pixels:
 
 
 def _draw_arrows(draw: Any, fold: Fold, size: int, largest: float) -> None:
-    """Arrows from places to their end positions, all enlarged by one factor if the longest would be too short."""
+    """Draw arrows from positions to end positions, all enlarged by one factor if the longest would be too short."""
     if largest == 0.0:
         return
     columns, rows = fold.size
@@ -159,7 +159,7 @@ def _font(size: int) -> Any:
 
 
 def _caption(draw: Any, place: tuple[int, int], text: str, size: int) -> None:
-    """Text on a white rectangle, so that it can be read over anything."""
+    """Draw text on a white rectangle, so that it is legible on any background."""
     font = _font(size)
     at = (place[0] + size // 96, place[1] + size // 96)
     left, top, right, bottom = draw.textbbox(at, text, font=font)
@@ -168,7 +168,7 @@ def _caption(draw: Any, place: tuple[int, int], text: str, size: int) -> None:
 
 
 def _legend(draw: Any, fold: Fold, place: tuple[int, int], size: int) -> None:
-    """Colours of the kinds, durations and cycle, at the bottom of the picture of kinds."""
+    """Draw the legend of kinds, durations and cycle at the bottom of the picture of kinds."""
     font, step = _font(size), max(14, size // 32)
     present = [kind for kind in Kind if (fold.kind == kind).any()]
     least, most = float(fold.duration.min()), float(fold.duration.max())

@@ -17,65 +17,65 @@ if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
 
 STEEPEST: Final = 0.5
-"""Largest gradient of the displacements; at 1 two places would be displaced to the same one."""
+"""Largest gradient of the displacements; at 1, two points could move to the same position."""
 
 MOST_AMPLITUDE: Final = 0.25
 LEAST_SIDE: Final = 8
 
 REACH_TEXELS: Final = 2.0
 REACH_AMPLITUDES: Final = 2.5
-"""The default reach, inland and offshore, is the larger of these."""
+"""Factors of texel size and amplitude; the larger result is the default reach, inland and offshore."""
 
 SOFT: Final = 0.35
-"""Share of a straight shore's slope. Where the blurred slope is this small, as on islets, shores move 2/3 as far."""
+"""Fraction of a straight shore's slope: where the blurred slope is this small, as on islets, shores move 2/3 as far."""
 
 MARGIN: Final = 1 / 16
-"""Share of the square's side, along its border, over which the movement grows from 0."""
+"""Fraction of the square's side, along its border, over which the movement grows from 0."""
 
 PHASE_SLOPE: Final = 0.1
 """Largest contribution of the phases to the gradient of the displacements."""
 
 WAVES: Final = ((0.19, 0.83, 0.37, 0.1), (0.15, -0.41, 1.13, 0.6), (0.07, 2.3, 1.7, 0.3))
-"""Phases, in periods, are a sum of waves: height, waves per side to the right and up, and phase."""
+"""Waves whose sum is the phase in periods: height, waves per side to the right and up, and phase."""
 
 GRAIN: Final = 2.0**20
 MOMENTS: Final = 1024
-"""Steps of displacements in a side, and of phases in a period: the rounding is invisible and cuts the file to 1/3."""
+"""Steps of displacements per side, and of phases per period; the rounding is invisible and cuts the file to 1/3."""
 
 cos, exp, sin = (np.vectorize(function, otypes=[float]) for function in (math.cos, math.exp, math.sin))
-"""Those of the C library: NumPy's differ in the last bit from one processor to another, and so would files."""
+"""Functions of the C library: NumPy's differ in the last bit between processors, and so would files."""
 
 TIMES: Final = 16
-"""Times in half a period at which the gradient is measured."""
+"""Number of times in half a period at which the gradient is measured."""
 
 
 def shore_fold(
     drawing: "Drawing", *, amplitude: float, period: float, size: int = 64, reach: float | None = None
 ) -> Fold:
-    """Fold that moves the outline of a drawing to and fro along its normals, as waves on a beach.
+    """Make a fold that moves the outline of a drawing to and fro along its normals, like waves on a beach.
 
-    The movement is largest at the outline, fades over `reach` on both sides of it, and is 0 at the border of the unit
-    square. Its phase varies slowly with the place. Outlines that are nearer to one another than the reach, as in a
-    channel, move less. The shape never turns over: if the gradient of the displacements would exceed 0.5, the
-    amplitude is reduced, with a warning.
+    The movement is largest at the outline, fades over `reach` on both sides, and is 0 at the border of the unit square.
+    Its phase varies slowly with the position. Outlines that are closer together than the reach, as in a channel, move
+    less. The shape never turns over: if the gradient of the displacements would exceed 0.5, the amplitude is reduced,
+    with a warning.
 
     Parameters
     ----------
     drawing : Drawing
-        The water; without paths nothing moves.
+        The water; a drawing without paths does not move.
     amplitude : float
         Largest displacement to either side, in unit-square units.
     period : float
-        Seconds from one wave to the next.
+        Time between two waves in seconds.
     size : int
-        Texels each way.
+        Texels per side.
     reach : float, optional
-        In unit-square units; by default two texels or 2.5 amplitudes, whichever is more.
+        Width in unit-square units; by default two texels or 2.5 amplitudes, whichever is greater.
 
     Returns
     -------
     Fold
-        Periodic, its cycle one period.
+        Periodic, with a cycle of one period.
 
     Raises
     ------
@@ -95,15 +95,15 @@ def shore_fold(
     >>> bool(np.abs(moved.displacement[32, 32, 0]) > 0.018), moved.cycle
     (True, 8.0)
     """
-    made = fold_of_shore(drawing, amplitude=amplitude, period=period, size=size, reach=reach)
-    warn_of(drawing.name, made.notes)
-    return made
+    result = fold_of_shore(drawing, amplitude=amplitude, period=period, size=size, reach=reach)
+    warn_of(drawing.name, result.notes)
+    return result
 
 
 def fold_of_shore(
     drawing: "Drawing", *, amplitude: float, period: float, size: int = 64, reach: float | None = None
 ) -> Fold:
-    """Fold of `shore_fold`, without a warning: the notes are in the fold."""
+    """Make the fold of `shore_fold`, without a warning: the fold contains the notes."""
     if not 0.0 < amplitude <= MOST_AMPLITUDE:
         raise ParameterError(
             f"`amplitude` is {amplitude:g}; it must be above 0 and at most {MOST_AMPLITUDE} (unit-square units)"
@@ -134,12 +134,12 @@ def fold_of_shore(
 
 
 def _middles(size: int) -> NDArray[np.float64]:
-    """Middles of texels, from the left or from the bottom."""
+    """Return the centres of texels, from the left or from the bottom."""
     return (np.arange(size) + 0.5) / size
 
 
 def _blur(size: int, reach: float) -> NDArray[np.float64]:
-    """Matrix of a Gaussian blur of a column of texels, whose border values extend beyond it."""
+    """Return the matrix of a Gaussian blur of a column of texels, extended by its border values."""
     far = int(np.ceil(4.0 * reach * size))
     steps = np.arange(-far, far + 1)
     weights = exp(-0.5 * (steps / (reach * size)) ** 2)
@@ -150,7 +150,7 @@ def _blur(size: int, reach: float) -> NDArray[np.float64]:
 
 
 def _normals(drawing: "Drawing", size: int, reach: float) -> NDArray[np.float64]:
-    """Normals towards the filled side, of length 1 at the outline and shorter far from it, (rows, columns, 2)."""
+    """Return normals towards the filled side, (rows, columns, 2): of length 1 at the outline, shorter far from it."""
     if not drawing.paths:
         return np.zeros((size, size, 2))
     blur = _blur(size, reach)
@@ -168,7 +168,7 @@ def _normals(drawing: "Drawing", size: int, reach: float) -> NDArray[np.float64]
 
 
 def _phases(size: int, amplitude: float) -> NDArray[np.float64]:
-    """Delay of each texel, in periods, (rows, columns)."""
+    """Return the delay of each texel in periods, (rows, columns)."""
     x, y = _middles(size)[None, :], _middles(size)[::-1, None]
     slope = sum(2.0 * np.pi * height * float(np.hypot(right, up)) for height, right, up, _ in WAVES)
     phases = np.zeros((size, size))
@@ -178,9 +178,9 @@ def _phases(size: int, amplitude: float) -> NDArray[np.float64]:
 
 
 def _steepest(displacement: NDArray[np.float64], phase: NDArray[np.float64]) -> float:
-    """Largest singular value of the displacements' gradient at any place and time.
+    """Return the largest singular value of the displacements' gradient over all positions and times.
 
-    The gradient of a quadratic spline is largest near knots and middles of texels, where it is measured.
+    It is measured near knots and centres of texels, where the gradient of a quadratic spline is largest.
     """
     rows, columns, _ = displacement.shape
     x, y = np.meshgrid(np.arange(2 * columns + 1) / (2.0 * columns), np.arange(2 * rows + 1) / (2.0 * rows))
@@ -198,4 +198,4 @@ def _steepest(displacement: NDArray[np.float64], phase: NDArray[np.float64]) -> 
         a, b, c, d = (gradient[:, i, j] for i in (0, 1) for j in (0, 1))
         largest = 0.5 * (np.hypot(a + d, c - b) + np.hypot(a - d, b + c))
         most = max(most, float(largest.max()))
-    return most * 1.02  # a margin for other times and places
+    return most * 1.02  # margin for other positions and times

@@ -1,1 +1,1 @@
-"""Fonts: their outlines, metrics and colours, and the shaping of text with them."""
+"""Fonts: their outlines, metrics and colours, and text shaping."""

@@ -9,7 +9,7 @@ from vexture.base.errors import DeviceError
 
 @cache
 def harfbuzz() -> Any:
-    """Return the module `uharfbuzz`; raises a `DeviceError` if it is not installed."""
+    """Return the module `uharfbuzz`; raise a `DeviceError` if it is not installed."""
     try:
         return import_module("uharfbuzz")
     except ImportError:

@@ -19,52 +19,52 @@ from vexture.fonts.layers import GlyphLayers, glyph_layers
 from vexture.fonts.places import NO_FILE
 
 FAMILY_NAMES: Final = (16, 21, 1)
-"""Name IDs of families: typographic, of weights and widths and slopes only, and the legacy one."""
+"""Name IDs of the family, in order of preference: typographic, WWS (weight, width, slope), legacy."""
 
 VERTICAL: Final = frozenset({"vmtx", "VORG"})
-"""Tables of origins of glyphs in vertical text."""
+"""Tables that place the glyphs of vertical text."""
 
 OWN: Final = frozenset({4, 6})
-"""Name IDs of a face itself: full and PostScript."""
+"""Name IDs of a single face: full name and PostScript name."""
 
 RAISED: Final = 250
-"""Weight class that fonts lighter than it have instead of their own: older Windows made those bolder."""
+"""Smallest usable weight class: older Windows emboldened smaller ones, so that light fonts state this one instead."""
 
 LIGHTEST: Final = {"thin": 100, "hairline": 100, "extralight": 200, "ultralight": 200}
-"""Weights of such fonts, by how the style begins in their PostScript names."""
+"""True weights of such fonts, by the start of the style in their PostScript names."""
 
 POSTSCRIPT: Final = 6
-"""Name ID."""
+"""Name ID of the PostScript name."""
 
 MOST_FACES: Final = 1000
-"""Of a collection."""
+"""Most faces that are read from a collection."""
 
 Contours = tuple[NDArray[np.float64], ...]
 
 
 @dataclass(frozen=True, eq=False)
 class Face:
-    """A face of a font, with its variations set if it is a variable one.
+    """A face of a font; if the font is variable, with values for its axes.
 
-    All lengths are in font units, of which `units_per_em` make an em, y up.
+    All lengths are in font units, y up; `units_per_em` of them make an em.
 
     Parameters
     ----------
     blob : uharfbuzz.Blob
-        A TrueType or OpenType font, or a collection of them; `faces_in` and `faces_of` make it of bytes and files.
+        A TrueType or OpenType font, or a collection; `faces_in` and `faces_of` make it from bytes and from files.
     index : int
-        Which of a collection.
+        Index in the collection.
     variations : tuple of (str, float)
-        Places on the axes of a variable font, such as ``("wght", 700)``; the others have their defaults.
+        Values on the axes of a variable font, such as ``("wght", 700)``; other axes keep their defaults.
     ranges : tuple of (int, int)
-        First and last characters of ranges that it is to be used for; all of its characters without any.
+        First and last characters of the ranges that the face may be used for; if empty, all of its characters.
     load : callable, optional
-        Returns the whole font, if `blob` holds only the tables that describe it.
+        Function that returns the whole font, if `blob` holds only the tables that describe it.
 
     Raises
     ------
     SourceError
-        If it is no font; what is damaged in the rest of the font is met when a glyph is first used.
+        If it is not a font. Damage in other tables is found only when a glyph is first used.
     DeviceError
         If uharfbuzz is not installed.
     """
@@ -81,12 +81,12 @@ class Face:
 
     @cached_property
     def _font(self) -> Any:
-        """The whole font."""
+        """Complete font."""
         return self._described_font if self.load is None else self._font_of(self.load())
 
     @cached_property
     def _described_font(self) -> Any:
-        """The font, of which only the tables that describe it may be there."""
+        """Font that may contain only the tables that describe it."""
         return self._font_of(self.blob)
 
     def _font_of(self, blob: Any) -> Any:
@@ -98,7 +98,7 @@ class Face:
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """All names of its family, in all languages; the first is `family`."""
+        """Names of the family in all languages, starting with `family`."""
         face = self._described_font.face
         entries = {(entry.name_id, entry.language) for entry in face.list_names()}
         english = [face.get_name(number) for number in FAMILY_NAMES if any(number == known for known, _ in entries)]
@@ -107,14 +107,14 @@ class Face:
 
     @cached_property
     def full_names(self) -> frozenset[str]:
-        """Its own names, of which no other face of its family has one: in words, and as PostScript knows it."""
+        """Full and PostScript names, which no other face of the family shares."""
         face = self._described_font.face
         found = (face.get_name(entry.name_id, entry.language) for entry in face.list_names() if entry.name_id in OWN)
         return frozenset(name.casefold() for name in found if name)
 
     @property
     def family(self) -> str:
-        """Name of its family, in English if it has one; ``unnamed`` without any."""
+        """Name of the family, in English if there is one; ``unnamed`` if there is none."""
         return self.names[0] if self.names else "unnamed"
 
     @cached_property
@@ -128,7 +128,7 @@ class Face:
 
     @cached_property
     def stretch(self) -> float:
-        """Width in percent of the normal one."""
+        """Width as a percentage of the normal width."""
         return float(self._style("WIDTH"))
 
     @cached_property
@@ -144,12 +144,12 @@ class Face:
 
     @cached_property
     def axes(self) -> dict[str, tuple[float, float]]:
-        """Least and greatest place on each axis of a variable font."""
+        """Least and greatest value on each axis of a variable font."""
         return {axis.tag: (axis.min_value, axis.max_value) for axis in self._described_font.face.axis_infos}
 
     @property
     def units_per_em(self) -> int:
-        """Units that make an em."""
+        """Font units in an em."""
         return int(self._described_font.face.upem)
 
     @property
@@ -159,7 +159,7 @@ class Face:
 
     @property
     def descender(self) -> float:
-        """Depth of a line below the baseline: below 0."""
+        """Depth of a line below the baseline, as a negative number."""
         return self._metric("HORIZONTAL_DESCENDER")
 
     @property
@@ -169,32 +169,32 @@ class Face:
 
     @property
     def x_height(self) -> float:
-        """Height of an x; that of the glyph if the font says none."""
+        """Height of an x; measured from the glyph if the font does not state it."""
         return self._metric("X_HEIGHT")
 
     @property
     def cap_height(self) -> float:
-        """Height of an H; that of the glyph if the font says none."""
+        """Height of an H; measured from the glyph if the font does not state it."""
         return self._metric("CAP_HEIGHT")
 
     @property
     def underline(self) -> tuple[float, float]:
-        """Position of the middle of the line, and its thickness."""
+        """Position of the middle of the underline, and its thickness."""
         return self._metric("UNDERLINE_OFFSET"), self._metric("UNDERLINE_SIZE")
 
     @property
     def strikeout(self) -> tuple[float, float]:
-        """Position of the middle of the line, and its thickness."""
+        """Position of the middle of the strikeout line, and its thickness."""
         return self._metric("STRIKEOUT_OFFSET"), self._metric("STRIKEOUT_SIZE")
 
     @property
     def shifts(self) -> tuple[float, float]:
-        """Baselines of subscripts, below 0, and of superscripts."""
+        """Baselines of subscripts (negative) and of superscripts."""
         return -self._metric("SUBSCRIPT_EM_Y_OFFSET"), self._metric("SUPERSCRIPT_EM_Y_OFFSET")
 
     @property
     def vertical(self) -> tuple[float, float]:
-        """Ascender and descender of vertical lines: to the right and left of their middle."""
+        """Ascender and descender of vertical lines: the distances to the right and left of their middle."""
         return self._metric("VERTICAL_ASCENDER"), self._metric("VERTICAL_DESCENDER")
 
     def _metric(self, name: str) -> float:
@@ -202,21 +202,21 @@ class Face:
         return float(self._font.get_metric_position_with_fallback(tag))
 
     def has(self, codepoint: int) -> bool:
-        """Whether it has a glyph of a character, and is to be used for it."""
+        """Return whether the face has a glyph for a character, and may be used for it."""
         if self.ranges and not any(first <= codepoint <= last for first, last in self.ranges):
             return False
         return self._described_font.get_nominal_glyph(codepoint) is not None
 
     @cached_property
     def characters(self) -> frozenset[int]:
-        """Codes of the characters in its table; a font of symbols `has` others in their stead, too."""
+        """Codes of the characters in the face's table. In a symbol font, `has` is true for further ones, too."""
         return frozenset(self._described_font.face.unicodes)
 
     def vertical_offset(self, glyph: int) -> float:
-        """Distance by which a glyph of vertical text is moved from where HarfBuzz puts it.
+        """Return the correction to HarfBuzz's position of a glyph in vertical text.
 
-        HarfBuzz centres each glyph of a font without vertical metrics in its cell. Browsers put all of a font on the
-        baseline, at the ascent below the top, so that letters have even steps.
+        In a font without vertical metrics, HarfBuzz centres each glyph in its cell. Browsers place all glyphs of such a
+        font at the same baseline, the ascent below the top, so that letters are evenly spaced.
         """
         if self._has_vertical:
             return 0.0
@@ -224,7 +224,7 @@ class Face:
 
     @cached_property
     def _has_vertical(self) -> bool:
-        """Whether the font says where the glyphs of vertical text are."""
+        """True if the font contains positions for vertical text."""
         return not VERTICAL.isdisjoint(self._font.face.table_tags)
 
     @property
@@ -233,7 +233,7 @@ class Face:
         return int(self._described_font.face.glyph_count)
 
     def outline(self, glyph: int) -> tuple[NDArray[np.float64], ...]:
-        """Closed contours of cubics (n, 4, 2), filled by the nonzero rule; none of a glyph that is empty."""
+        """Return the closed contours (n, 4, 2) of a glyph, filled by the nonzero rule; none if it is empty."""
         if glyph not in self._outlines:
             self._outlines[glyph] = glyph_outline(self._font, glyph)
         return self._outlines[glyph]
@@ -243,9 +243,9 @@ class Face:
         return {}
 
     def missing(self, glyph: int) -> str:
-        """Message of a note about a glyph that has a box and no outline; empty for any other.
+        """Return the text of a note if HarfBuzz cannot draw a glyph, which then has a box but no outline; else "".
 
-        HarfBuzz draws none that is composed of itself, or of more than its limits allow.
+        HarfBuzz does not draw glyphs that contain themselves, or that are composed of too many others.
         """
         if self.outline(glyph) or self._in_colour:
             return ""
@@ -255,24 +255,24 @@ class Face:
         return f"glyph {glyph} of font {self.family[:40]!r}, which is composed of itself or of too many others"
 
     def layers(self, glyph: int, foreground: Color = (0.0, 0.0, 0.0)) -> GlyphLayers | None:
-        """Layers of a glyph in colour, with the text's own colour where the font says so; None of any other."""
+        """Return the layers of a colour glyph; None for others. `foreground` is the text's own colour."""
         return glyph_layers(self._font, glyph, self.outline, foreground) if self._in_colour else None
 
     @cached_property
     def _in_colour(self) -> bool:
-        """Whether it may have glyphs in colour."""
+        """True if the face may have colour glyphs."""
         face = self._font.face
         return bool(face.has_color_paint or face.has_color_layers or face.has_color_svg or face.has_color_png)
 
     def with_style(self, weight: float, stretch: float, style: str) -> "Face":
-        """The face nearest to a style; itself if it is not variable."""
+        """Return the face at the axis values nearest to a style; the face itself if it has no such axes."""
         slant = {"italic": ("ital", 1.0), "oblique": ("slnt", -14.0)}
-        wanted = dict([("wght", weight), ("wdth", stretch), *([slant[style]] if style in slant else [])])
+        targets = dict([("wght", weight), ("wdth", stretch), *([slant[style]] if style in slant else [])])
         if style == "italic" and "ital" not in self.axes:
-            wanted["slnt"] = slant["oblique"][1]
+            targets["slnt"] = slant["oblique"][1]
         places = {
             tag: min(max(value, low), high)
-            for tag, value in wanted.items()
+            for tag, value in targets.items()
             for low, high in [self.axes.get(tag, (None, None))]
             if low is not None and high is not None
         }
@@ -280,13 +280,13 @@ class Face:
 
 
 def faces_in(content: bytes) -> list[Face]:
-    """All faces of the content of a font file or collection; raises as `sfnt_of` does."""
+    """Return all faces in the content of a font file or collection; raise as `sfnt_of` does."""
     return _all_faces(harfbuzz().Blob(sfnt_of(content)))
 
 
 def faces_of(path: Path) -> list[Face]:
-    """All faces of a font file, of which only those parts are read that are used; raises as `faces_in` does."""
-    if not path.is_file():  # a pipe would be waited for
+    """Return all faces of a font file, which is read only as far as needed; raise as `faces_in` does."""
+    if not path.is_file():  # opening a pipe would block
         raise SourceError(NO_FILE)
     start = start_of(path)
     if is_sfnt(start):
@@ -309,21 +309,21 @@ def _all_faces(blob: Any, load: Callable[[], Any] | None = None) -> list[Face]:
 
 
 def glyph_outline(font: Any, glyph: int) -> Contours:
-    """Closed contours (n, 4, 2) of a glyph in font units, y up, filled by the nonzero rule."""
+    """Return the closed contours (n, 4, 2) of a glyph in font units, y up, filled by the nonzero rule."""
     pen = OutlinePen()
     font.draw_glyph(glyph, draw_funcs(), pen)
     return tuple(np.array(points, dtype=np.float64).reshape(-1, 4, 2) for points in pen.contours if points)
 
 
 class OutlinePen:
-    """Collects cubics: P0 to P3 of each in turn, one flat list for each contour. HarfBuzz closes contours by lines."""
+    """Pen that collects P0 to P3 of cubics, one flat list for each contour; HarfBuzz closes contours with lines."""
 
     def __init__(self) -> None:
         self.contours: list[list[float]] = []
         self.at = (0.0, 0.0)
 
     def move(self, x: float, y: float) -> None:
-        """Begin a contour."""
+        """Start a contour."""
         self.contours.append([])
         self.at = (x, y)
 
@@ -334,7 +334,7 @@ class OutlinePen:
             self.cubic(a + dx / 3.0, b + dy / 3.0, a + dx * (2.0 / 3.0), b + dy * (2.0 / 3.0), x, y)
 
     def quadratic(self, u: float, v: float, x: float, y: float) -> None:
-        """Add a quadratic as the same curve of degree three."""
+        """Add a quadratic curve, raised to a cubic."""
         a, b = self.at
         third = 2.0 / 3.0
         self.cubic(a + (u - a) * third, b + (v - b) * third, x + (u - x) * third, y + (v - y) * third, x, y)
@@ -347,7 +347,7 @@ class OutlinePen:
 
 @cache
 def draw_funcs() -> Any:
-    """Callbacks by which HarfBuzz draws with a `OutlinePen`."""
+    """Return the callbacks by which HarfBuzz draws with an `OutlinePen`."""
     funcs = harfbuzz().DrawFuncs()
     funcs.set_move_to_func(lambda x, y, pen: pen.move(x, y))
     funcs.set_line_to_func(lambda x, y, pen: pen.line(x, y))

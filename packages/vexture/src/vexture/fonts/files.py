@@ -1,4 +1,4 @@
-"""Files of fonts: TrueType and OpenType, collections of those, WOFF and WOFF2."""
+"""Font files: TrueType and OpenType, collections, WOFF and WOFF2."""
 
 import io
 import logging
@@ -11,33 +11,32 @@ from typing import Final
 from vexture.base.errors import DeviceError, SourceError, reason_of
 
 SUFFIXES: Final = (".ttf", ".otf", ".ttc", ".otc", ".woff", ".woff2")
-"""Of files that hold fonts."""
+"""Suffixes of font files."""
 
 SFNT: Final = (b"\0\1\0\0", b"OTTO", b"true", b"ttcf")
-"""First bytes of fonts that HarfBuzz reads: TrueType, CFF, Apple's TrueType, collections."""
+"""First bytes of the fonts that HarfBuzz reads: TrueType, CFF, Apple's TrueType, collections."""
 
 DESCRIBING: Final = frozenset({"OS/2", "STAT", "cmap", "fvar", "head", "hhea", "maxp", "name", "post"})
-"""Tables that say what a face is called, which style it has and of which characters it has glyphs."""
+"""Tables that state the names, the style and the characters of a face."""
 
 WOFF, WOFF2 = b"wOFF", b"wOF2"
 WOFF_HEADER, WOFF2_HEADER, METADATA = 44, 48, 20
-"""Bytes of the headers, and of their end, which says where metadata is."""
+"""Lengths of the headers, and of the part at their end that locates the metadata."""
 
 LARGEST_FONT: Final = 64 * 2**20
-"""Bytes, after decompression; the largest fonts of the Han scripts have 30 MB."""
+"""Largest font in bytes, after decompression; the largest fonts for Han scripts have 30 MB."""
 
 
 def is_sfnt(start: bytes) -> bool:
-    """Whether a file of some first bytes holds fonts as HarfBuzz reads them."""
+    """Return whether a file with these first bytes is a font that HarfBuzz reads."""
     return start.startswith(SFNT)
 
 
 def sfnt_of(content: bytes, tables: Collection[str] | None = None) -> bytes:
-    """Content of a font file as HarfBuzz reads it: that of a WOFF or WOFF2 decompressed.
+    """Return the content of a font file as HarfBuzz reads it; WOFF and WOFF2 are decompressed.
 
-    Of a WOFF or WOFF2 it is some `tables` only, if they are given: the outlines of a WOFF2 take most of the time.
-
-    Raises a `SourceError` if it is no font, is damaged or too large, a `DeviceError` if a package is missing.
+    If `tables` are given, only these are decompressed, because the outlines of a WOFF2 take most of the time. Raise a
+    `SourceError` if it is not a font, is damaged or too large, and a `DeviceError` if a package is missing.
     """
     check_size(len(content))
     if content.startswith((WOFF, WOFF2)):
@@ -46,7 +45,7 @@ def sfnt_of(content: bytes, tables: Collection[str] | None = None) -> bytes:
             content = decompress(content, tables)
         except (SourceError, DeviceError):
             raise
-        except Exception as error:  # fontTools raises whatever a damaged table leads to
+        except Exception as error:  # fontTools raises all kinds of errors for damaged tables
             raise SourceError(f"the font is damaged ({reason_of(error)}); save it again") from None
     if not is_sfnt(content):
         raise SourceError("holds no font; give a TrueType, OpenType, WOFF or WOFF2 font")
@@ -54,24 +53,24 @@ def sfnt_of(content: bytes, tables: Collection[str] | None = None) -> bytes:
 
 
 def check_size(size: int) -> None:
-    """Raise a `SourceError` about a font that is too large."""
+    """Raise a `SourceError` if a font is too large."""
     if size > LARGEST_FONT:
         raise SourceError(f"the font is larger than {LARGEST_FONT:,} bytes; give a subset of it")
 
 
 def check_woff(content: bytes) -> None:
-    """Raise an error if fontTools would decompress more than a font may have: it trusts the tables (WOFF 1.0, 5)."""
+    """Raise an error if decompression would exceed the largest font: fontTools trusts the table (WOFF 1.0, 5)."""
     left = LARGEST_FONT
     (count,) = struct.unpack_from(">H", content, 12)
     for entry in range(count):
         start, packed, size = struct.unpack_from(">3I", content, WOFF_HEADER + 20 * entry + 4)
-        if packed < size:  # else it is stored as it is
+        if packed < size:  # otherwise it is stored uncompressed
             left -= len(zlib.decompressobj().decompress(content[start : start + packed], left + 1))
             check_size(LARGEST_FONT - left)
 
 
 def check_woff2(content: bytes) -> None:
-    """Raise an error if fontTools would decompress more than a font may have (WOFF 2.0, 4)."""
+    """Raise an error if decompression would exceed the largest font (WOFF 2.0, 4)."""
     from fontTools.ttLib.woff2 import WOFF2DirectoryEntry
 
     try:
@@ -87,10 +86,10 @@ def check_woff2(content: bytes) -> None:
 
 
 def decompress(content: bytes, tables: Collection[str] | None) -> bytes:
-    """Font in a WOFF or WOFF2, or some of its tables, without the metadata, which may be of any size."""
+    """Decompress a WOFF or WOFF2, or some of its tables, without the metadata, whose size is unlimited."""
     from fontTools.ttLib import TTFont
 
-    logging.getLogger("fontTools").addHandler(logging.NullHandler())  # errors are raised, and warnings are nobody's
+    logging.getLogger("fontTools").addHandler(logging.NullHandler())  # errors are raised, and nobody needs the warnings
     header = WOFF_HEADER if content.startswith(WOFF) else WOFF2_HEADER
     file = io.BytesIO(content[: header - METADATA] + bytes(METADATA) + content[header:])
     font = TTFont(file, recalcBBoxes=False, recalcTimestamp=False)

@@ -1,4 +1,4 @@
-"""Glyphs in colour as painted paths and groups."""
+"""Colour glyphs as painted paths and groups."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -16,7 +16,7 @@ from vexture.drawing.paint import BLACK, Color, Paint
 from vexture.fonts.paint_tree import Clip, Composite, Contours, Fill, Node, paint_tree, rectangle
 
 MOST_PATHS: Final = 10_000
-"""Of one glyph, with its groups; groups that mask each other paint what they hold several times."""
+"""Most paths and groups of one glyph; groups that mask each other paint their content several times."""
 
 BLENDS: Final = {
     "PLUS": Blend.PLUS_LIGHTER,
@@ -25,12 +25,12 @@ BLENDS: Final = {
     "HSL_COLOR": Blend.COLOR,
     "HSL_LUMINOSITY": Blend.LUMINOSITY,
 }
-"""Modes whose names differ from those of `Blend`."""
+"""Blend modes whose names differ from those of `Blend`."""
 
 WHITE: Final = Paint((1.0, 1.0, 1.0))
 
 NOTHING, ALL, WITHIN, WITHOUT = range(4)
-"""What is left of a layer: nothing, all, what is within the other one's opacity, what is without it."""
+"""Part of a layer that remains: nothing, all, inside the opacity of the other layer, or outside it."""
 
 PORTER_DUFF: Final = {
     "CLEAR": (NOTHING, NOTHING),
@@ -44,21 +44,21 @@ PORTER_DUFF: Final = {
     "DEST_ATOP": (WITHIN, WITHOUT),
     "XOR": (WITHOUT, WITHOUT),
 }
-"""What is left of the layer below and of the layer above, which add up (Compositing and Blending 1, 9.1)."""
+"""Remaining parts of the lower and of the upper layer, which are added (Compositing and Blending 1, 9.1)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GlyphLayers:
-    """The paths and groups of a glyph in colour.
+    """The paths and groups of a colour glyph.
 
     Parameters
     ----------
     paths : tuple of Path
-        In painting order, in font units, y up; so are their gradients. `Path.group` is a place in `groups`, or -1.
+        In painting order, in font units, y up, like their gradients. `Path.group` is an index in `groups`, or -1.
     groups : tuple of Group
-        Each after the group around it, as in `Drawing.groups`.
+        Each group comes after the group around it, as in `Drawing.groups`.
     notes : tuple of Note
-        What of it is not as it should be.
+        Differences from the glyph that the font describes.
     """
 
     paths: tuple[Path, ...]
@@ -67,7 +67,7 @@ class GlyphLayers:
 
 
 def glyph_layers(font: Any, glyph: int, outline: Callable[[int], Contours], foreground: Color) -> GlyphLayers | None:
-    """Layers of a glyph in colour; None of any other glyph."""
+    """Return the layers of a colour glyph; None for any other glyph."""
     face = font.face
     notes = Notes()
     if (face.has_color_paint and face.glyph_has_color_paint(glyph)) or (
@@ -87,7 +87,7 @@ def glyph_layers(font: Any, glyph: int, outline: Callable[[int], Contours], fore
 
 
 def other_kind(font: Any, glyph: int) -> str | None:
-    """Kind of a glyph that is a picture."""
+    """Return the kind of a glyph that is an image."""
     if font.face.has_color_svg and font.face.get_glyph_color_svg(glyph):
         return "SVG documents"
     if font.face.has_color_png and font.get_glyph_color_png(glyph):
@@ -99,7 +99,7 @@ Box = tuple[float, float, float, float]
 
 
 def bounds_of(nodes: Sequence[Node]) -> Box:
-    """Box (left, bottom, right, top) of the clips of some nodes; what is not clipped has no part in it."""
+    """Return the box (left, bottom, right, top) of the clips among nodes; unclipped content is left out."""
     boxes = []
     for node in nodes:
         if isinstance(node, Clip) and node.contours:
@@ -112,19 +112,19 @@ def bounds_of(nodes: Sequence[Node]) -> Box:
 
 
 def is_plain(node: Node) -> bool:
-    """Whether all in it goes on what is below as if it were there by itself."""
+    """Return whether the content of a node composites normally with what is below, so that it needs no group."""
     if isinstance(node, Fill):
         return True
     return (isinstance(node, Clip) or node.mode == "SRC_OVER") and all(map(is_plain, node.children))
 
 
 def is_clipped(node: Node) -> bool:
-    """Whether all in it is within some outline."""
+    """Return whether all content of a node is clipped by an outline."""
     return isinstance(node, Clip) or (isinstance(node, Composite) and all(map(is_clipped, node.children)))
 
 
 def blacken(paint: Paint) -> Paint:
-    """A paint in black, with its opacity."""
+    """Return a black paint with the opacity of a paint."""
     if paint.gradient is None:
         return Paint(opacity=paint.opacity)
     return Paint.from_gradient(
@@ -133,7 +133,7 @@ def blacken(paint: Paint) -> Paint:
 
 
 class LayerStack:
-    """Paths and groups that the nodes of a tree become; `black` leaves of what they paint only its opacity."""
+    """Builds paths and groups from the nodes of a tree; with `black`, colours are lost and only opacity remains."""
 
     def __init__(self, box: Box) -> None:
         self.box = box
@@ -143,14 +143,14 @@ class LayerStack:
         self.count = 0
 
     def _count(self) -> None:
-        """Count a path or group, also one that shows nothing: a chain of 50 that mask each other has 2^50."""
+        """Count a path or group, even one that shows nothing: a chain of 50 that mask each other has 2^50."""
         check_time()
         self.count += 1
         if self.count > MOST_PATHS:
             raise SourceError(f"a glyph paints more than {MOST_PATHS:,} paths and groups; use another font")
 
     def group(self, group: Group) -> int:
-        """Place of a new group."""
+        """Add a group; return its index."""
         self._count()
         self.groups.append(group)
         return len(self.groups) - 1
@@ -162,7 +162,7 @@ class LayerStack:
             self.paths.append(Path(contours, paint=blacken(paint) if black else paint, group=group))
 
     def paint(self, nodes: Sequence[Node], group: int, black: bool = False) -> None:
-        """Paint nodes one on another."""
+        """Paint nodes, each over the one before."""
         for place in reversed(range(len(nodes))):
             node = nodes[place]
             if isinstance(node, Composite) and (node.mode in PORTER_DUFF or node.mode == "DEST_OVER"):
@@ -178,15 +178,15 @@ class LayerStack:
                 self._composite(node, group, black)
 
     def _clip(self, clip: Clip, group: int, black: bool) -> None:
-        """Paint what is in a clip: its outline, where that is filled, or else a group with a mask."""
+        """Paint the content of a clip: its outline if the content only fills it, else a group with a mask."""
         if all(isinstance(node, Fill) for node in clip.children):
             for node in clip.children:
                 if isinstance(node, Fill):
                     self.path(clip.contours, node.paint, group, black)
             return
-        held = bounds_of(clip.children) if all(map(is_clipped, clip.children)) else self.box
+        content = bounds_of(clip.children) if all(map(is_clipped, clip.children)) else self.box
         left, bottom, right, top = bounds_of([clip])
-        if clip.is_box and left <= held[0] and bottom <= held[1] and right >= held[2] and top >= held[3]:
+        if clip.is_box and left <= content[0] and bottom <= content[1] and right >= content[2] and top >= content[3]:
             self.paint(clip.children, group, black)
             return
         inner = self.group(Group(group))
@@ -194,14 +194,14 @@ class LayerStack:
         self.path(clip.contours, BLACK, self.group(Group(inner, mask=Mask.OPACITY)))
 
     def _composite(self, node: Composite, group: int, black: bool) -> None:
-        """Paint a group whose mode is a blend mode; without a group where that makes no difference."""
+        """Paint a group with a blend mode; leave the group out if that makes no difference."""
         if not is_plain(node):
             mode = BLENDS.get(node.mode) or Blend["NORMAL" if node.mode == "SRC_OVER" else node.mode]
             group = self.group(Group(group, blend=Blend.NORMAL if black else mode))
         self.paint(node.children, group, black)
 
     def _combine(self, below: Sequence[Node], above: Composite, group: int, black: bool) -> None:
-        """Paint two layers by a mode of Porter and Duff."""
+        """Paint two layers by a Porter-Duff mode."""
         if above.mode == "DEST_OVER":
             self.paint(above.children, group, black)
             self.paint(below, group, black)
@@ -211,7 +211,7 @@ class LayerStack:
         self._part(above.children, kept_above, below, Group(group, blend=Blend.PLUS_LIGHTER), black)
 
     def _part(self, nodes: Sequence[Node], region: int, other: Sequence[Node], group: Group, black: bool) -> None:
-        """Paint in a new group what is left of a layer beside another one."""
+        """Paint the remaining part of a layer, in a new group; the other layer masks it."""
         if region == NOTHING:
             return
         inner = self.group(group)

@@ -14,7 +14,7 @@ CURSIVE: Final = frozenset(
         *("Beng", "Deva", "Guru", "Modi", "Shrd", "Sylo", "Tirh"),
     }
 )
-"""Scripts whose letters join, so that no space comes between them (CSS Text 3, D)."""
+"""Scripts with joined letters, between which no space is inserted (CSS Text 3, D)."""
 
 COMMON: Final = frozenset({"Zyyy", "Zinh", "Zzzz"})
 LATIN: Final = "Latn"
@@ -35,33 +35,33 @@ UPRIGHT: Final = (
     *((0x1B170, 0x1B2FF), (0x1CF00, 0x1CFCF), (0x1D000, 0x1D1FF), (0x1D2E0, 0x1D37F), (0x1D800, 0x1DAAF)),
     *((0x1F000, 0x1F7FF), (0x1F900, 0x1FAFF), (0x20000, 0x3FFFD), (0xF0000, 0x10FFFD)),
 )
-"""First and last characters that stand upright in vertical text, or are transformed for it (Unicode Annex 50)."""
+"""First and last characters of ranges that are upright or transformed in vertical text (Unicode Annex 50)."""
 
 STARTS: Final = [first for first, _ in UPRIGHT]
 
 BRACKETS: Final = "()[]{}⁅⁆⁽⁾₍₎⌈⌉⌊⌋❨❩❪❫❬❭❮❯❰❱❲❳❴❵⟅⟆⟦⟧⟨⟩⟪⟫⟬⟭⟮⟯⦃⦄⦅⦆〈〉《》「」『』【】〔〕〖〗〘〙〚〛（）［］｛｝｟｠｢｣"
 CLOSING: Final = dict(zip(BRACKETS[::2], BRACKETS[1::2], strict=True))
-"""Brackets that close what others open (BidiBrackets.txt, without those of rare scripts)."""
+"""Closing bracket of each opening bracket (BidiBrackets.txt, without rare scripts)."""
 
 DEEPEST_BRACKETS: Final = 63
-"""Open brackets from which on no more are paired (BD16)."""
+"""Most open brackets; deeper ones are not paired (BD16)."""
 
 STRONG: Final = {"L": "L", "R": "R", "EN": "R", "AN": "R"}
-"""Directions of characters, for brackets around and beside them."""
+"""Direction that a character gives to brackets around it or next to it."""
 
 EMBEDDING: Final = {"LRI": "LRE", "RLI": "RLE", "FSI": "LRE", "PDI": "PDF"}
-"""What stands for the isolates, which python-bidi does not know."""
+"""Replacements of isolates, which python-bidi does not support."""
 
 
 def is_upright(character: str) -> bool:
-    """Whether a character stands upright in vertical text."""
+    """Return whether a character is upright in vertical text."""
     code = ord(character)
     at = bisect_right(STARTS, code) - 1
     return at >= 0 and code <= UPRIGHT[at][1]
 
 
 def scripts(text: Sequence[str]) -> list[str]:
-    """Script of each character; one that is common to several has that of its neighbours."""
+    """Return the script of each character; common characters take the script of their neighbours."""
     from fontTools.unicodedata import script
 
     found = [script(character) for character in text]
@@ -75,9 +75,9 @@ def scripts(text: Sequence[str]) -> list[str]:
 
 
 def levels(text: Sequence[str], base: int, controls: Sequence[tuple[int, str]]) -> list[int]:
-    """Embedding level of each character: odd ones run from right to left (Unicode Annex 9).
+    """Return the embedding level of each character; odd levels run from right to left (Unicode Annex 9).
 
-    `controls` are formatting characters, in order, and the places before which they stand.
+    `controls` are formatting characters in order, each with the index of the character that follows it.
     """
     from fontTools.unicodedata import bidirectional
 
@@ -103,7 +103,7 @@ def levels(text: Sequence[str], base: int, controls: Sequence[tuple[int, str]]) 
         if character["at"] >= 0:
             found[character["at"]] = character["level"]
     last = base
-    for k, level in enumerate(found):  # formatting characters are as what is before them
+    for k, level in enumerate(found):  # formatting characters have the level of the character before
         last = found[k] = last if level < 0 else level
     end = len(text)
     while end and kinds[end - 1] in ("WS", "BN"):  # rule L1
@@ -113,7 +113,7 @@ def levels(text: Sequence[str], base: int, controls: Sequence[tuple[int, str]]) 
 
 
 def bidirectional_algorithm() -> Any:
-    """Return the module of python-bidi; raises a `DeviceError` if it is not installed."""
+    """Return the module of python-bidi; raise a `DeviceError` if it is not installed."""
     try:
         return import_module("bidi.algorithm")
     except ImportError:
@@ -123,15 +123,15 @@ def bidirectional_algorithm() -> Any:
 
 
 def characters_of(storage: dict[str, Any], run: dict[str, Any]) -> list[dict[str, Any]]:
-    """Characters of a run of one level, as python-bidi keeps them."""
+    """Return the characters of a run of one level, in python-bidi's data structure."""
     found: list[dict[str, Any]] = storage["chars"][run["start"] : run["start"] + run["length"]]
     return found
 
 
 def pair_brackets(text: Sequence[str], run: list[dict[str, Any]], before: str) -> None:
-    """Give the brackets of a run one direction in pairs (rule N0, which python-bidi lacks).
+    """Give paired brackets of a run the same direction (rule N0, which python-bidi lacks).
 
-    `before` is the direction of what is before the run.
+    `before` is the direction before the run.
     """
     strong = [STRONG.get(character["type"]) for character in run]
     for first, last in bracket_pairs(text, run):
@@ -146,7 +146,7 @@ def pair_brackets(text: Sequence[str], run: list[dict[str, Any]], before: str) -
 
 
 def bracket_pairs(text: Sequence[str], run: list[dict[str, Any]]) -> list[tuple[int, int]]:
-    """Places of brackets that belong together in a run, in the order of the first ones (definition BD16)."""
+    """Return the indices of paired brackets in a run, sorted by the opening bracket (definition BD16)."""
     opened: list[tuple[str, int]] = []
     pairs = []
     for place, character in enumerate(run):
@@ -165,14 +165,14 @@ def bracket_pairs(text: Sequence[str], run: list[dict[str, Any]]) -> list[tuple[
 
 
 def entry(kind: str, level: int, at: int) -> dict[str, object]:
-    """A character as python-bidi keeps it."""
+    """Return a character in python-bidi's data structure."""
     kind = EMBEDDING.get(kind, kind) or "L"
     kind = "WS" if kind == "B" else kind
     return {"level": level, "type": kind, "orig": kind, "at": at}
 
 
 def visual_order(embedding: Sequence[int]) -> list[int]:
-    """Places of a line's parts in visual order, by their levels (rule L2).
+    """Return the indices of a line's parts in visual order, given their levels (rule L2).
 
     Examples
     --------

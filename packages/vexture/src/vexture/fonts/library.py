@@ -1,4 +1,4 @@
-"""The fonts that a text may use: given ones, those of the system and the default one; and which of them it gets."""
+"""Fonts for texts, from files, the drawing, the system and the default font, and the choice among them."""
 
 import os
 import shutil
@@ -33,46 +33,46 @@ GENERIC: Final = {
     "emoji": ("Noto Color Emoji", "Apple Color Emoji", "Segoe UI Emoji", "Twemoji Mozilla"),
     "math": ("Noto Sans Math", "STIX Two Math", "Cambria Math"),
 }
-"""Generic families, and what may stand for them where fontconfig does not say."""
+"""Generic families, with families that can replace them if fontconfig offers none."""
 
 DEFAULT_PACKAGE: Final = "fontpkg_noto_sans"
-"""Holds the default font, Noto Sans, in its folder ``files``."""
+"""Package that contains the default font, Noto Sans, in its folder ``files``."""
 
 PATIENCE: Final = 20.0
-"""Seconds for a program of fontconfig, which may build its caches."""
+"""Time limit in seconds for a program of fontconfig, which may have to build its caches."""
 
 LINUX: Final = ("/usr/share/fonts", "/usr/local/share/fonts", "~/.fonts", "~/.local/share/fonts")
 MACOS: Final = ("/System/Library/Fonts", "/Library/Fonts", "~/Library/Fonts")
 WINDOWS: Final = ("%WINDIR%/Fonts", "%LOCALAPPDATA%/Microsoft/Windows/Fonts")
-"""The usual folders of fonts."""
+"""Usual font folders of each system."""
 
 
 @dataclass(frozen=True, slots=True)
 class EmbeddedFont:
-    """A font of a drawing, as an ``@font-face`` rule describes it; where it says nothing, the font itself does."""
+    """A font of a drawing, from an ``@font-face`` rule; what the rule leaves out is taken from the font itself."""
 
     family: str
     content: bytes | Face
     weights: tuple[float, float] | None = None
     stretches: tuple[float, float] | None = None
     style: str | None = None
-    ranges: tuple[tuple[int, int], ...] = ()  # first and last characters that it is used for; all without any
+    ranges: tuple[tuple[int, int], ...] = ()  # first and last characters of its ranges; empty for all
 
 
 @dataclass(frozen=True)
 class Listed:
-    """A face that may be used."""
+    """An available face."""
 
     names: frozenset[str]
     traits: Traits
     face: Face
-    place: int = 0  # of the given files and folders, that which it is from
-    file: Path | None = None  # None of a font of the drawing
+    place: int = 0  # index of the file or folder that it comes from
+    file: Path | None = None  # None for a font of the drawing
 
 
 @dataclass(frozen=True, slots=True)
 class FontRequest:
-    """The face that a text asks for: a style, and glyphs of some characters, by their codes."""
+    """Request for a face: a style, and the codes of characters that need glyphs."""
 
     weight: float
     style: str
@@ -80,14 +80,14 @@ class FontRequest:
     codes: frozenset[int] = frozenset()
 
     def rank(self, listed: Listed) -> tuple[float, ...]:
-        """Sorts faces by their style, the best first."""
+        """Return a sort key that puts the best style first."""
         return preference(listed.traits, self.weight, self.style, self.stretch)
 
     def best_of(self, faces: Sequence[Listed]) -> list[Listed]:
-        """The best of some faces; all subsets of it, if it is cut into some, that with most of the characters first.
+        """Return the best face, or all subsets of it if the font is split, those with most of the characters first.
 
-        Many subsets have a few Latin letters, too: of those with as many of the characters, that with most of these is
-        first, so that pairs of letters are kerned.
+        Many subsets contain a few Latin letters. Among subsets with equally many of the characters, the one with most
+        Latin letters comes first, so that pairs of letters are kerned.
         """
         best = min(faces, key=self.rank)
         name, rank = best.face.full_names, self.rank(best)
@@ -105,16 +105,16 @@ class Fonts:
     Parameters
     ----------
     files : iterable of path
-        Font files, and folders of them.
+        Font files, and folders of font files.
     embedded : iterable of EmbeddedFont
         Fonts of the drawing.
     system : bool
-        Whether the system's fonts are used too.
+        True to use the system's fonts, too.
 
     Raises
     ------
     SourceError
-        If a file cannot be read or is no font, or a folder holds none.
+        If a file cannot be read or is not a font, or a folder contains none.
     DeviceError
         If uharfbuzz is not installed.
     """
@@ -132,35 +132,35 @@ class Fonts:
         stretch: float = 100.0,
         characters: Iterable[str] = ascii_letters,
     ) -> Iterator[Face]:
-        """Faces for a text, the best first: use for each character the first that has it.
+        """Yield the faces for a text, the best first: each character uses the first face that has it.
 
-        Those of the families come first, and then one of each other family: of the given files, of the default font,
-        of the system. `Face.family` tells what a face is of. A font may be cut into subsets, as those of the web are:
-        all of a face come one after another, that with most of the `characters` first.
+        Faces of `families` come first, then one of each other family: from the files, the default font and the system.
+        `Face.family` names the family. A font may be split into subsets, as web fonts are: all subsets of a face are
+        consecutive, those with most of the `characters` first.
         """
-        shown: set[int] = set()
+        seen: set[int] = set()
         for listed in self._candidates(families, FontRequest(weight, style, stretch, frozenset(map(ord, characters)))):
-            if id(listed) not in shown:
-                shown.add(id(listed))
+            if id(listed) not in seen:
+                seen.add(id(listed))
                 yield listed.face.with_style(weight, stretch, style)
 
     def substitute(
         self, families: Sequence[str], weight: int = 400, style: str = "normal", stretch: float = 100.0
     ) -> Path | None:
-        """File of the first of `faces`, if it lacks the weight, the width or the upright style that is asked for.
+        """Return the file of the first of `faces` if it lacks the requested weight, width or upright style, else None.
 
-        None, too, if there is nothing to choose: only one face is there, and it is not asked for another weight or
-        width than the normal one. A slope that is asked for and lacking is not looked at.
+        Also return None if there is no choice: only one face exists, and the normal weight and width are requested. A
+        missing slope is ignored.
         """
-        wanted = FontRequest(weight, style, stretch)
-        first = next(self._candidates(families, wanted), None)
+        request = FontRequest(weight, style, stretch)
+        first = next(self._candidates(families, request), None)
         if first is None or first.traits.offers(weight, style if style == "normal" else None, stretch):
             return None
         is_one = len({one.traits for one in self._beside(first)}) == 1
         return None if is_one and (weight, stretch) == (REGULAR, NORMAL_STRETCH) else first.file
 
     def _beside(self, listed: Listed) -> Iterator[Listed]:
-        """The faces among which one was chosen: of the same given file or folder, or else of the same family."""
+        """Yield the alternatives to a chosen face: the faces in the same file or folder, or else of the same family."""
         for source in self._sources():
             if listed in source:
                 if source is self._given_faces:
@@ -170,32 +170,32 @@ class Fonts:
                 return
 
     def _candidates(self, families: Sequence[str], request: FontRequest) -> Iterator[Listed]:
-        """Faces that may be used, the best first; some of it several times."""
+        """Yield the candidate faces, the best first, with repetitions."""
         return chain(self._named(families, request), self._others(request))
 
     def count_named(
         self, families: Sequence[str], weight: int = 400, style: str = "normal", stretch: float = 100.0
     ) -> int:
-        """Number of the first `faces` that are of the families; the others stand in for these."""
+        """Return how many of the first `faces` belong to the families; the others are substitutes."""
         return len({id(listed) for listed in self._named(families, FontRequest(weight, style, stretch))})
 
     def _named(self, families: Sequence[str], request: FontRequest) -> Iterator[Listed]:
-        """The best face of each of some families."""
+        """Yield the best face of each family."""
         for name in self._family_names(families):
             yield from self._chosen(name, request)
 
     def _family_names(self, families: Sequence[str]) -> Iterator[str]:
-        """Names of families, with those that stand for generic ones: given ones, the system's choice, and others."""
+        """Yield family names; a generic one is replaced by those of the files, of fontconfig, and common ones."""
         for family in families:
             yield family
             if family.lower() in GENERIC:
-                given = {name for listed in (*self._given_faces, *self._embedded) for name in listed.names}
-                yield from (name for name in GENERIC[family.lower()] if name.casefold() in given)
+                available = {name for listed in (*self._given_faces, *self._embedded) for name in listed.names}
+                yield from (name for name in GENERIC[family.lower()] if name.casefold() in available)
                 yield from filter(None, [generic_family(family.lower()) if self.system else ""])
                 yield from GENERIC[family.lower()]
 
     def local(self, name: str) -> Face | None:
-        """The face of a full or PostScript name among the given fonts and those of the system; None without it."""
+        """Return the face with a full or PostScript name, but none of the drawing's; None if there is none."""
         found = (
             listed.face
             for source in self._sources()
@@ -206,10 +206,10 @@ class Fonts:
         return next(found, None)
 
     def _chosen(self, name: str, request: FontRequest) -> Iterator[Listed]:
-        """The best face of a family in the first source that has the family.
+        """Yield the best face of a family from the first source that has the family.
 
-        Of a family of the drawing all that are as good come, the last one first: each is for characters of its own
-        (CSS Fonts 4, 5.3).
+        For a family of the drawing, yield all equally good faces, the last first: each is for its own characters (CSS
+        Fonts 4, 5.3).
         """
         for source in self._sources():
             named = [listed for listed in source if name.casefold() in listed.names]
@@ -222,10 +222,10 @@ class Fonts:
                 return
 
     def _others(self, request: FontRequest) -> Iterator[Listed]:
-        """The best face of each family of each source; a font of the drawing stands in for no other one.
+        """Yield the best face of each family of each source; fonts of the drawing are no substitutes.
 
-        Of the families in a given folder, that which has the style comes first: fonts with nine weights often have a
-        family for each.
+        Of the families in a given folder, those with the style come first: fonts with nine weights often have a family
+        for each weight.
         """
         for source in self._sources():
             if source is self._embedded:
@@ -279,7 +279,7 @@ class Fonts:
 
 @cache
 def of_files(paths: tuple[Path, ...]) -> tuple[Listed, ...]:
-    """All faces of files; those that cannot be read are passed over."""
+    """Return all faces of files, without unreadable files."""
     found: list[Listed] = []
     for path in paths:
         try:
@@ -290,7 +290,7 @@ def of_files(paths: tuple[Path, ...]) -> tuple[Listed, ...]:
 
 
 def listed_of(face: Face, file: Path | None = None) -> Listed:
-    """A face with its names, what it offers, and its file."""
+    """Return a face with its names, its traits, and its file."""
     axes = face.axes
     slopes = [style for style, axis in (("italic", "ital"), ("oblique", "slnt")) if axis in axes]
     traits = Traits(
@@ -302,9 +302,9 @@ def listed_of(face: Face, file: Path | None = None) -> Listed:
 
 
 def font_files(folder: Path) -> Iterator[Path]:
-    """All font files in a folder and the folders in it, in the order of their names.
+    """Yield all font files in a folder and its subfolders, sorted by name.
 
-    A WOFF beside the WOFF2 of its name is passed over: packages of web fonts have each font as both.
+    A WOFF next to a WOFF2 of the same name is left out: packages of web fonts contain each font as both.
     """
     found = [path for path in sorted(folder.rglob("*")) if path.suffix.lower() in SUFFIXES and path.is_file()]
     newer = {path.with_suffix("") for path in found if path.suffix.lower() == ".woff2"}
@@ -313,7 +313,7 @@ def font_files(folder: Path) -> Iterator[Path]:
 
 @cache
 def system_files() -> tuple[Path, ...]:
-    """Font files of the system: those that fontconfig lists, or those of the usual folders."""
+    """Return the system's font files: those that fontconfig lists, or else those in the usual folders."""
     listed = run_program("fc-list", "--format", "%{file}\n")
     if listed:
         paths = {Path(line) for line in listed.splitlines()}
@@ -325,12 +325,12 @@ def system_files() -> tuple[Path, ...]:
 
 @cache
 def generic_family(name: str) -> str:
-    """Family that fontconfig chooses for a generic one; empty without it."""
+    """Return the family that fontconfig chooses for a generic one; empty without fontconfig."""
     return run_program("fc-match", "--format", "%{family[0]}", name)
 
 
 def run_program(program: str, *arguments: str) -> str:
-    """Output of a program of fontconfig; empty if it is not there or fails."""
+    """Return the output of a program of fontconfig; empty if it is missing or fails."""
     found = shutil.which(program)
     if found is None:
         return ""
@@ -342,7 +342,7 @@ def run_program(program: str, *arguments: str) -> str:
 
 
 def default_files() -> tuple[Path, ...]:
-    """Files of the default font; none if ``vexture[text]`` is not installed."""
+    """Return the files of the default font; none if ``vexture[text]`` is not installed."""
     spec = find_spec(DEFAULT_PACKAGE)
     places = () if spec is None else spec.submodule_search_locations or ()
     return tuple(path for place in places for path in font_files(Path(place) / "files"))

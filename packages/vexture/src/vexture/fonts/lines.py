@@ -1,4 +1,4 @@
-"""Lines of text: which face shows each character, and where its glyphs go."""
+"""Lines of text: the face of each character, and the positions of its glyphs."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -14,12 +14,12 @@ from vexture.fonts.levels import levels, scripts, visual_order
 from vexture.fonts.shaping import Glyph, shape
 
 SELECTORS: Final = frozenset(map(chr, (*range(0xFE00, 0xFE10), *range(0xE0100, 0xE01F0))))
-"""Variation selectors, which choose a form of the character before them."""
+"""Variation selectors, which choose a form of the preceding character."""
 
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """A glyph of a line: its origin on the baseline, in ems, y up, and the characters that it stands for."""
+    """A glyph in a line: its origin on the baseline, in ems, y up, and the characters that it stands for."""
 
     glyph: Glyph
     x: float
@@ -29,12 +29,12 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class Typesetting:
-    """Settings of lines.
+    """Settings for lines.
 
     Parameters
     ----------
     base : int
-        Level of the text: 0 from left to right, 1 from right to left.
+        Embedding level of the text: 0 from left to right, 1 from right to left.
     language : str or None
     features : sequence of str
     """
@@ -46,23 +46,23 @@ class Typesetting:
 
 @dataclass(slots=True)
 class FaceChoice:
-    """The faces that a text may use, in order; each character gets the first that has it."""
+    """The available faces in order; each character gets the first one that has it."""
 
     faces: Iterator[Face]
     notes: Notes
-    is_asked: bool  # whether the first face was asked for, so that another one is to be named
+    is_asked: bool  # the first face was requested, so that a note names any other face
     tried: list[Face] = field(default_factory=list)
-    others: dict[str, str] = field(default_factory=dict)  # families in its stead, and a character of each
+    others: dict[str, str] = field(default_factory=dict)  # families of other faces, each with an example character
 
     @property
     def first(self) -> Face:
-        """The first face of all; raises a `SourceError` if there is none."""
+        """First face of all; raises a `SourceError` if there is none."""
         for face in self._all():
             return face
         raise SourceError("there is no font; give `font`, or install the default one: pip install 'vexture[text]'")
 
     def of(self, character: str, last: Face | None) -> Face:
-        """The face of a character; `last` is that of the one before, with which it may have to go."""
+        """Return the face of a character; `last` is the face of the character before, which it may have to share."""
         if last is not None and belongs(character, last):
             return last
         for face in self._all():
@@ -77,11 +77,11 @@ class FaceChoice:
         return last or self.first
 
     def subsets(self) -> Iterator[Face]:
-        """The first face, and other subsets of the same font."""
+        """Yield the first face, and other subsets of the same font."""
         return takewhile(self.is_first, self._all())
 
     def is_first(self, face: Face) -> bool:
-        """Whether a face is the first one, or another subset of the same font."""
+        """Return whether a face is the first one, or another subset of the same font."""
         return face.full_names == self.first.full_names
 
     def _all(self) -> Iterator[Face]:
@@ -97,23 +97,23 @@ class FaceChoice:
 
 
 def belongs(character: str, last: Face) -> bool:
-    """Whether a character goes with the one before it, which has a face: selectors do, and marks that the face has."""
+    """Return whether a character must share the face of the one before: selectors, and marks that this face has."""
     kind = category(character)
     return kind == "Cf" or character in SELECTORS or (kind[0] == "M" and last.has(ord(character)))
 
 
 def is_seen(character: str) -> bool:
-    """Whether a character shows anything by itself."""
+    """Return whether a character is visible by itself."""
     return category(character) not in ("Cc", "Cf", "Zs") and character not in SELECTORS
 
 
 def describe_character(character: str) -> str:
-    """A character as a message names it."""
+    """Describe a character for a message."""
     return f"character {format_character(character)}"
 
 
 def line_of_glyphs(text: str, choice: FaceChoice, setting: Typesetting) -> tuple[list[Placed], float]:
-    """Glyphs of a line from left to right, the first at 0, and the line's width; all in ems."""
+    """Return the glyphs of a line from left to right, starting at 0, and the line's width; all in ems."""
     if not text:
         return [], 0.0
     embedding = levels(text, setting.base, ())
@@ -134,7 +134,7 @@ def line_of_glyphs(text: str, choice: FaceChoice, setting: Typesetting) -> tuple
 
 
 def shape_run(text: str, face: Face, level: int, script: str, setting: Typesetting) -> Iterator[tuple[Glyph, str]]:
-    """Glyphs of a run in visual order, each with the characters of its cluster."""
+    """Yield the glyphs of a run in visual order, each with the characters of its cluster."""
     direction = "rtl" if level % 2 else "ltr"
     glyphs = shape(face, text, direction=direction, script=script, language=setting.language, features=setting.features)
     starts = sorted({glyph.cluster for glyph in glyphs})

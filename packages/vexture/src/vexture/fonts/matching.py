@@ -1,4 +1,4 @@
-"""Choosing among the faces of a family as CSS Fonts 4, 5.2 does."""
+"""Choice among the faces of a family, as in CSS Fonts 4, 5.2."""
 
 from dataclasses import dataclass
 from math import inf
@@ -9,30 +9,30 @@ STYLES: Final = {
     "italic": ("italic", "oblique", "normal"),
     "oblique": ("oblique", "italic", "normal"),
 }
-"""Styles in the order in which they stand in for one that is asked for."""
+"""Styles that can replace a requested style, in order."""
 
 REGULAR, MEDIUM = 400, 500
-"""Weights between which heavier ones, up to the second, stand in before lighter ones."""
+"""Range of requested weights that prefer heavier faces, up to the upper end, over lighter ones."""
 
 NORMAL_STRETCH: Final = 100.0
 
 
 @dataclass(frozen=True, slots=True)
 class Traits:
-    """The range of a face: the least and greatest weight and stretch, and its styles."""
+    """The traits that a face offers: least and greatest weight and stretch, and styles."""
 
     weights: tuple[float, float]
     stretches: tuple[float, float]
     styles: tuple[str, ...]
 
     def offers(self, weight: float, style: str | None, stretch: float) -> bool:
-        """Whether it has a weight, a style (or None: whichever) and a stretch."""
+        """Return whether it offers a weight, a style (None: any) and a stretch."""
         (light, heavy), (narrow, wide) = self.weights, self.stretches
         return light <= weight <= heavy and narrow <= stretch <= wide and (style is None or style in self.styles)
 
 
 def preference(traits: Traits, weight: float, style: str, stretch: float) -> tuple[float, ...]:
-    """Sorts the faces of a family: that with the least tuple stands in for what is asked for.
+    """Return a sort key for the faces of a family: the face with the least key replaces the requested one.
 
     Examples
     --------
@@ -52,7 +52,7 @@ def preference(traits: Traits, weight: float, style: str, stretch: float) -> tup
 
 
 def distances(offered: tuple[float, float], value: float, first: float) -> tuple[float, float]:
-    """Rank of the side on which an offered range lies, and how far: the side towards `first`, and up to it, is before.
+    """Return rank and distance of an offered range: 1 is the side towards `first` and up to it, the preferred side.
 
     Examples
     --------

@@ -1,7 +1,7 @@
-"""The tree of clips, fills and groups by which HarfBuzz paints a glyph in colour (COLR of OpenType, 0 and 1).
+"""The tree of clips, fills and groups by which HarfBuzz paints a colour glyph (OpenType COLR, versions 0 and 1).
 
-Its gradients go beyond those of SVG: stops outside of 0..1, a slanted linear one, any two circles. Equations and rules
-are those of the OpenType specification, 1.9.1, "COLR", section "Gradients".
+Its gradients are more general than those of SVG: stops outside 0..1, slanted linear gradients, any two circles.
+Equations and rules are from the OpenType specification, 1.9.1, "COLR", section "Gradients".
 """
 
 from collections.abc import Callable
@@ -26,25 +26,25 @@ IDENTITY: Affine = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
 SPREADS: Final = {"PAD": Spread.PAD, "REPEAT": Spread.REPEAT, "REFLECT": Spread.REFLECT}
 
 TIP: Final = 1.0 / 512.0
-"""Part of a ramp to radius 0 that is left away: `Gradient` needs a circle at its end, and no 8-bit colour differs."""
+"""Part of a ramp that is cut off at radius 0: `Gradient` needs a circle there, and no 8-bit colour changes."""
 
 Circle: TypeAlias = tuple[float, ...]
-"""Its middle and radius."""
+"""Centre and radius."""
 
 Line: TypeAlias = tuple[float, float, tuple[Stop, ...]]
-"""The places of the first and last stop on the paint's own ramp, and the stops between them, at 0..1."""
+"""Positions of the first and last stop on the paint's own ramp, and the stops, rescaled to 0..1."""
 
 
 @dataclass(frozen=True, slots=True)
 class Fill:
-    """A paint everywhere within the clips around it."""
+    """A paint that fills the clips around it."""
 
     paint: Paint
 
 
 @dataclass(slots=True)
 class Clip:
-    """Content within an outline, in font units; or within a box, which is there for its bounds."""
+    """Content clipped to an outline in font units, or to a box that states bounds."""
 
     contours: Contours
     is_box: bool = False
@@ -53,7 +53,7 @@ class Clip:
 
 @dataclass(slots=True)
 class Composite:
-    """Content painted on nothing, before it goes on what is below by a mode that HarfBuzz names."""
+    """Content that is composited by itself and then with what is below, by a mode named as in HarfBuzz."""
 
     mode: str = "SRC_OVER"
     children: list["Node"] = field(default_factory=list)
@@ -63,7 +63,7 @@ Node: TypeAlias = Fill | Clip | Composite
 
 
 def paint_tree(font: Any, glyph: int, outline: Callable[[int], Contours], foreground: Color, notes: Notes) -> Composite:
-    """Tree of what a glyph paints, with a note of what of it is not as it should be."""
+    """Return the tree of nodes that paint a glyph; note all differences from the font's description."""
     painter = GlyphPainter(outline, foreground, notes)
     red, green, blue = (round(255.0 * part) for part in foreground)
     font.paint_glyph(glyph, paint_funcs(), painter, 0, harfbuzz().Color(red, green, blue, 255))
@@ -71,7 +71,7 @@ def paint_tree(font: Any, glyph: int, outline: Callable[[int], Contours], foregr
 
 
 class GlyphPainter:
-    """Builds the tree: HarfBuzz opens and closes transforms, clips and groups in turn."""
+    """Painter that builds the tree; HarfBuzz opens and closes transforms, clips and groups in turn."""
 
     def __init__(self, outline: Callable[[int], Contours], foreground: Color, notes: Notes) -> None:
         self.outline = outline
@@ -82,14 +82,14 @@ class GlyphPainter:
         self.matrices = [IDENTITY]
 
     def transform(self, matrix: Affine) -> None:
-        """Open a transform, which comes before those that are open."""
+        """Open a transform, which is applied before the open ones."""
         (a, b, c), (d, e, f) = self.matrices[-1]
         (p, q, r), (s, t, u) = matrix
         rows = (a * p + b * s, a * q + b * t, a * r + b * u + c), (d * p + e * s, d * q + e * t, d * r + e * u + f)
         self.matrices.append(rows)
 
     def clip(self, contours: Contours, is_box: bool = False) -> None:
-        """Open a clip by an outline in the present coordinates."""
+        """Open a clip to an outline in the current coordinates."""
         upright = is_box and self.matrices[-1][0][1] == self.matrices[-1][1][0] == 0.0
         self.begin(Clip(tuple(transform_contour(contour, self.matrices[-1]) for contour in contours), upright))
 
@@ -99,13 +99,13 @@ class GlyphPainter:
         self.open.append(node)
 
     def end(self, mode: str | None = None) -> None:
-        """Close the clip or group that was opened last."""
+        """Close the last open clip or group."""
         node = self.open.pop()
         if mode is not None and isinstance(node, Composite):
             node.mode = mode
 
     def fill(self, paint: Paint | None) -> None:
-        """Paint, unless the paint or the present transform shows nothing."""
+        """Add a paint, unless it or the current transform makes it invisible."""
         (a, b, c), (d, e, f) = self.matrices[-1]
         determinant = a * e - b * d
         if paint is None or determinant == 0.0:
@@ -115,21 +115,21 @@ class GlyphPainter:
 
 
 def transform_contour(contour: NDArray[np.float64], matrix: Affine) -> NDArray[np.float64]:
-    """A contour after an affine map."""
+    """Transform a contour by an affine map."""
     (a, b, c), (d, e, f) = matrix
     x, y = contour[..., 0], contour[..., 1]
     return np.stack([a * x + b * y + c, d * x + e * y + f], axis=-1)
 
 
 def rectangle(left: float, bottom: float, right: float, top: float) -> Contours:
-    """Outline of a rectangle."""
+    """Return the outline of a rectangle."""
     corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
     return (line_cubics(corners, np.roll(corners, -1, axis=0)),)
 
 
 @cache
 def paint_funcs() -> Any:
-    """Callbacks by which HarfBuzz paints with a `GlyphPainter`."""
+    """Return the callbacks by which HarfBuzz paints with a `GlyphPainter`."""
     funcs = harfbuzz().PaintFuncs()
     funcs.set_push_transform_func(lambda a, d, b, e, c, f, painter: painter.transform(((a, b, c), (d, e, f))))
     funcs.set_pop_transform_func(lambda painter: painter.matrices.pop())
@@ -148,13 +148,13 @@ def paint_funcs() -> Any:
 
 
 def solid(color: Any, is_foreground: bool, foreground: Color) -> Paint:
-    """A flat paint; `is_foreground` says that it is the text's colour, which is kept unrounded."""
+    """Return a flat paint; with `is_foreground` it is the text's own colour, which stays unrounded."""
     plain = (color.red / 255.0, color.green / 255.0, color.blue / 255.0)
     return Paint(foreground if is_foreground else plain, color.alpha / 255.0)
 
 
 def line_of(line: Any, foreground: Color) -> Line | None:
-    """Stops of a colour line in order; None without any."""
+    """Return the stops of a colour line in order; None if there are none."""
     found = []
     for stop in sorted(line.color_stops, key=lambda stop: stop.offset):
         paint = solid(stop.color, stop.is_foreground, foreground)
@@ -167,17 +167,17 @@ def line_of(line: Any, foreground: Color) -> Line | None:
 
 
 def spread_of(line: Any) -> Spread:
-    """Behaviour of a colour line beyond its ends."""
+    """Return the spread of a colour line."""
     return SPREADS[line.extend.name]
 
 
 def flat(stop: Stop) -> Paint:
-    """Flat paint of a stop."""
+    """Return the flat paint of a stop."""
     return Paint(stop.color, stop.opacity)
 
 
 def linear(line: Any, points: tuple[float, ...], foreground: Color) -> Paint | None:
-    """Linear gradient from p0 to p1 whose lines of one colour are parallel to p0 p2; None where it shows nothing."""
+    """Return the linear gradient from p0 to p1 with isolines parallel to p0 p2; None if it is invisible."""
     x0, y0, x1, y1, x2, y2 = points
     found = line_of(line, foreground)
     across = hypot(x2 - x0, y2 - y0)
@@ -198,7 +198,7 @@ def linear(line: Any, points: tuple[float, ...], foreground: Color) -> Paint | N
 
 
 def radial(line: Any, circles: tuple[float, ...], foreground: Color, notes: Notes) -> Paint | None:
-    """Radial gradient from one circle to another; None where it shows nothing."""
+    """Return the radial gradient from one circle to another; None if it is invisible."""
     found = line_of(line, foreground)
     if found is None:
         return None
@@ -221,13 +221,13 @@ def radial(line: Any, circles: tuple[float, ...], foreground: Color, notes: Note
 
 
 def circle_at(begins: Circle, ends: Circle, t: float) -> Circle:
-    """The circle at a place between two."""
+    """Interpolate between two circles."""
     x, y, radius = (a + (b - a) * t for a, b in zip(begins, ends, strict=True))
     return x, y, radius
 
 
 def cut(stops: tuple[Stop, ...], low: float, high: float) -> tuple[Stop, ...]:
-    """Stops of the part of a ramp between two places, which are then 0 and 1.
+    """Cut a ramp to the part between two positions, which become 0 and 1.
 
     Examples
     --------
@@ -236,12 +236,12 @@ def cut(stops: tuple[Stop, ...], low: float, high: float) -> tuple[Stop, ...]:
     """
     if low <= 0.0 and high >= 1.0:
         return stops
-    kept = [replace(stop, offset=(stop.offset - low) / (high - low)) for stop in stops if low < stop.offset < high]
-    return replace(stop_at(stops, low), offset=0.0), *kept, replace(stop_at(stops, high), offset=1.0)
+    inner = [replace(stop, offset=(stop.offset - low) / (high - low)) for stop in stops if low < stop.offset < high]
+    return replace(stop_at(stops, low), offset=0.0), *inner, replace(stop_at(stops, high), offset=1.0)
 
 
 def stop_at(stops: tuple[Stop, ...], place: float) -> Stop:
-    """The colour of a ramp at a place between its first and last stop."""
+    """Return the colour of a ramp at a position between its first and last stop."""
     for one, two in pairwise(stops):
         if one.offset <= place <= two.offset and one.offset < two.offset:
             part = (place - one.offset) / (two.offset - one.offset)
@@ -251,7 +251,7 @@ def stop_at(stops: tuple[Stop, ...], place: float) -> Stop:
 
 
 def between(begins: Circle, ends: Circle, stops: tuple[Stop, ...], spread: Spread) -> Paint:
-    """Radial gradient from one circle to another, whose radius is above 0."""
+    """Return the radial gradient from one circle to another one, whose radius is above 0."""
     x, y, radius = ends
     dx, dy = begins[0] - x, begins[1] - y
     away = hypot(dx, dy)
@@ -261,12 +261,12 @@ def between(begins: Circle, ends: Circle, stops: tuple[Stop, ...], spread: Sprea
 
 
 def mean(stops: tuple[Stop, ...]) -> Paint:
-    """Flat paint of the mean colour of stops."""
+    """Return the flat paint of the mean colour of stops."""
     return replace(Paint.from_gradient(Gradient(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), stops)), gradient=None)
 
 
 def swept(line: Any, foreground: Color, notes: Notes) -> Paint | None:
-    """The mean colour of a gradient around a point, of which vexture has none."""
+    """Return the mean colour of a sweep gradient, which vexture does not support."""
     found = line_of(line, foreground)
     if found is None:
         return None

@@ -1,4 +1,4 @@
-"""Fonts as parameters give them: files, and folders of them."""
+"""Font parameters: files, and folders of font files."""
 
 import os
 from pathlib import Path
@@ -9,9 +9,9 @@ NO_FILE = "it is no file; give a font file or a folder of fonts"
 
 
 def font_places(value: object, name: str) -> tuple[Path, ...]:
-    """Paths of the parameter `name`: one of them or several.
+    """Return the paths of the parameter `name`, which is one path or several.
 
-    Raises a `ParameterError` if they are no paths, and a `SourceError` if one leads nowhere, whether it is used or not.
+    Raise a `ParameterError` if they are not paths, and a `SourceError` if one does not exist, even if it is not needed.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Shaping: from characters to glyphs in their places."""
+"""Shaping: from characters to positioned glyphs."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,13 +17,13 @@ class Glyph:
     ----------
     face : Face
     glyph : int
-        Its number in the face; 0 if the face has none of the character.
+        Its index in the face; 0 if the face lacks the character.
     cluster : int
-        Place in the text of the first character that it stands for; all glyphs of one cluster belong together.
+        Index of the first character that it stands for. All glyphs of a cluster belong together.
     advance : (float, float)
-        From its origin to that of the next; downwards, so below 0, in vertical text.
+        Vector from its origin to that of the next glyph; in vertical text it points down, so its y is negative.
     offset : (float, float)
-        From its origin to where it is drawn.
+        Vector from its origin to the position at which it is drawn.
     """
 
     face: Face
@@ -42,20 +42,20 @@ def shape(
     language: str | None = None,
     features: Sequence[str] = (),
 ) -> list[Glyph]:
-    """Glyphs of a text of one direction, script and face, in visual order: from left to right, or top to bottom.
+    """Shape a text of one direction, script and face; return its glyphs from left to right, or from top to bottom.
 
     Parameters
     ----------
     face : Face
     text : str
     direction : {"ltr", "rtl", "ttb", "btt"}, optional
-        By default that of the script.
+        By default the direction of the script.
     script : str, optional
-        ISO 15924, such as ``"Arab"``; by default that of the first character which has one.
+        ISO 15924 code, such as ``"Arab"``; by default the script of the first character that has one.
     language : str, optional
-        BCP 47, such as ``"nl"``.
+        BCP 47 tag, such as ``"nl"``.
     features : sequence of str
-        OpenType features: ``"smcp"`` or ``"smcp=1"`` turns on, ``"-liga"`` or ``"liga=0"`` off, ``"salt=2"`` chooses.
+        OpenType features: ``"smcp"`` or ``"smcp=1"`` turns on, ``"-liga"`` or ``"liga=0"`` off; ``"salt=2"`` chooses.
     """
     hb = harfbuzz()
     buffer = hb.Buffer()
@@ -83,7 +83,7 @@ def shape(
 
 @cache
 def feature_of(text: str) -> tuple[str, int]:
-    """Tag and value of a feature.
+    """Parse a feature into its tag and value.
 
     Examples
     --------

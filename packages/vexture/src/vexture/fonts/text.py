@@ -1,4 +1,4 @@
-"""Drawings of texts."""
+"""Drawings of text."""
 
 import os
 from collections.abc import Iterable, Sequence
@@ -22,31 +22,31 @@ from vexture.fonts.matching import NORMAL_STRETCH
 from vexture.fonts.places import font_places
 
 Places: TypeAlias = "str | os.PathLike[str] | Sequence[str | os.PathLike[str]]"
-"""A font file or a folder of fonts, or several."""
+"""One or several font files or folders of fonts."""
 
 Box: TypeAlias = tuple[float, float, float, float]
 
 MOST_PARTS: Final = 5_000_000
-"""Cubics and groups of a text: a glyph of a colour font may have 10,000."""
+"""Most cubics and groups of a text; a glyph of a colour font may have 10,000."""
 
 MOST_CHARACTERS: Final = 100_000
 
 LARGEST: Final = 1e9
-"""Of a size, a width in percent and a distance of lines; beyond it float64 has no digits left for curves."""
+"""Largest size, width in percent and line height; beyond it, float64 has no digits left for curves."""
 
 LONGEST_NAME: Final = 60
-"""Characters of the name that a text gives to its drawing."""
+"""Longest name, in characters, that a drawing takes from its text."""
 
 ALIGN: Final = {"start": 0.0, "center": 0.5, "end": 1.0}
-"""Part of a line's free space that is before its start."""
+"""Fraction of a line's free space before its start."""
 
 BLANKS: Final = {ord("\t"): " "} | dict.fromkeys((*range(9), *range(11, 32), 127))
-"""Control characters: a tab is a space, and others show nothing."""
+"""Replacements of control characters: a tab becomes a space; others vanish."""
 
 
 @dataclass(frozen=True, slots=True)
 class TextOptions:
-    """Options for drawing a text, as `text` describes them."""
+    """Options for drawing a text; see `text`."""
 
     font: Places = ()
     family: str | Sequence[str] = ()
@@ -86,30 +86,30 @@ class TextOptions:
 
     @property
     def families(self) -> list[str]:
-        """Names of families in order of preference."""
+        """Names of the families in order of preference."""
         return [self.family] if isinstance(self.family, str) else [*self.family]
 
     def choice(self, notes: Notes, characters: Iterable[str]) -> FaceChoice:
-        """Faces of the fonts, with notes of what the first of them is not."""
-        given = [self.font] if isinstance(self.font, str | os.PathLike) else [*self.font]
-        fonts, wanted = Fonts(given), (self.families, round(self.weight), self.style, self.stretch)
-        choice = FaceChoice(fonts.faces(*wanted, characters), notes, is_asked=bool(given or self.families))
+        """Return the available faces; note the requested properties that the first face lacks."""
+        places = [self.font] if isinstance(self.font, str | os.PathLike) else [*self.font]
+        fonts, request = Fonts(places), (self.families, round(self.weight), self.style, self.stretch)
+        choice = FaceChoice(fonts.faces(*request, characters), notes, is_asked=bool(places or self.families))
         face = choice.first
         first = next(iter(self.families), face.family)
         if first.lower() not in GENERIC and first.casefold() not in {name.casefold() for name in face.names}:
             notes.simplification(f"font {first!r} drawn in {face.family}")
         if self.style != "normal" and face.style == "normal":
             notes.simplification(f"{self.style} style, which {face.family} lacks, drawn upright")
-        if file := fonts.substitute(*wanted):
-            asked = style_of(round(self.weight), self.style, self.stretch)
+        if file := fonts.substitute(*request):
+            requested = style_of(round(self.weight), self.style, self.stretch)
             taken = f"{face.family}, {style_of(face.weight, face.style, face.stretch)}"
             choose = "choose another by `weight` and `style`, or give its file"
-            notes.remark(f"no face has {asked}, so that {file.name} is used ({taken}); {choose}")
+            notes.remark(f"no face has {requested}, so that {file.name} is used ({taken}); {choose}")
         return choice
 
 
 def style_of(weight: int, style: str, stretch: float) -> str:
-    """A weight, a style and a width as a message names them; the normal width is not named.
+    """Describe a weight, a style and a width for a message; the normal width is left out.
 
     Examples
     --------
@@ -120,7 +120,7 @@ def style_of(weight: int, style: str, stretch: float) -> str:
 
 
 def format_value(value: object) -> str:
-    """A value as a message shows it."""
+    """Format a value for a message."""
     return f"{value:g}" if isinstance(value, int | float) else repr(value)
 
 
@@ -141,44 +141,44 @@ def text(
     paint: Paint = BLACK,
     name: str | None = None,
 ) -> Drawing:
-    """Draw a text: shaped, kerned, in any script, and in the colours of a colour font.
+    """Draw a text: shaped and kerned, in any script, with the colours of a colour font.
 
     Parameters
     ----------
     text : str
-        A word or several lines, with a newline between two.
+        A word, or several lines separated by newlines.
     font : path or sequence of path
-        Font files (TrueType, OpenType, WOFF, WOFF2) and folders of them, which come before the default font, Noto Sans,
-        and the fonts of the system.
+        Font files (TrueType, OpenType, WOFF, WOFF2) and folders of font files. They take precedence over the default
+        font, Noto Sans, and the fonts of the system.
     family : str or sequence of str
-        Families by name in order of preference, as in CSS, or generic ones such as ``"serif"``; by default the first of
-        `font`. A character that none of them has is drawn in the first other font that has it.
+        Family names in order of preference, as in CSS, or generic names such as ``"serif"``; by default the first
+        family of `font`. A character that they lack is drawn in the first other font that has it.
     weight, style, stretch : float, {"normal", "italic", "oblique"}, float
-        Of the face as CSS has them: 1 to 1000, 700 being bold; and the width in percent.
+        Style of the face, as in CSS: weight 1 to 1000, with 700 for bold; stretch is the width in percent.
     size : float
-        Units of the source that are an em. `Drawing.to_source` maps to them: y down, the origin at the left end of the
-        first baseline.
+        Size of an em in units of the source. `Drawing.to_source` leads to these units: y down, with the origin at the
+        left end of the first baseline.
     features : sequence of str
-        OpenType features: ``"smcp"`` turns one on, ``"-liga"`` off, ``"salt=2"`` chooses.
+        OpenType features: ``"smcp"`` switches on, ``"-liga"`` off; ``"salt=2"`` selects an alternative.
     direction : {"auto", "ltr", "rtl"}
-        Of the text as a whole; by default that of its first letter.
+        Direction of the whole text; by default the direction of its first letter.
     language : str, optional
-        BCP 47, such as ``"nl"``, for fonts whose letters depend on it.
+        BCP 47 tag, such as ``"nl"``, for fonts with letters that depend on the language.
     align : {"start", "center", "end"}
-        Of lines, in the direction of the text.
+        Alignment of lines, in the direction of the text.
     line_height : float, optional
-        Distance of baselines in ems; by default that of the font.
+        Distance between baselines in ems; by default that of the font.
     paint : Paint
-        Of all but the colours of a colour font.
+        Paint of the text, except for the colours of a colour font.
     name : str, optional
         By default the text, or its start if it has more than 60 characters.
 
     Returns
     -------
     Drawing
-        Its box is that of the lines, each from the font's ascender to its descender, and larger where a glyph leaves
-        it. A path's `element` is the characters that it draws. Its `notes` name characters and fonts that are missing,
-        with what was used instead.
+        Its box contains the lines, each from the font's ascender to its descender, and all glyphs that extend beyond
+        them. A path's `element` is the characters that it draws. Its `notes` name missing characters and fonts, with
+        their replacements.
 
     Raises
     ------
@@ -194,7 +194,7 @@ def text(
     Warns
     -----
     SourceWarning
-        Once, of all notes.
+        Once, with all notes.
 
     Examples
     --------
@@ -237,7 +237,7 @@ def text_drawing(text: str, options: TextOptions) -> Drawing:
 
 
 def base_level(text: str, direction: str) -> int:
-    """Level of a text as a whole: that of a direction, or of its first letter."""
+    """Return the embedding level of a whole text: that of a direction, or of its first letter."""
     if direction != "auto":
         return int(direction == "rtl")
     from fontTools.unicodedata import bidirectional
@@ -247,7 +247,7 @@ def base_level(text: str, direction: str) -> int:
 
 
 class TextCanvas:
-    """Glyphs as paths and groups, in units of the source, y down; `size` of them are an em."""
+    """Canvas that collects glyphs as paths and groups, y down; an em is `size` units of the source."""
 
     def __init__(self, size: float, paint: Paint, notes: Notes) -> None:
         self.size = size
@@ -258,7 +258,7 @@ class TextCanvas:
         self.parts = 0
 
     def draw(self, placed: Placed, x: float, y: float) -> None:
-        """Draw a glyph at its place in a line, whose start is at (x, y) in ems, y up."""
+        """Draw a glyph of a line that starts at (x, y) in ems, y up."""
         check_time()
         face, glyph = placed.glyph.face, placed.glyph.glyph
         scale = self.size / face.units_per_em
@@ -281,7 +281,7 @@ class TextCanvas:
                 self.paths.append(replace(path, contours=contours, paint=paint, group=group, element=placed.text))
 
     def _open_groups(self, layers: GlyphLayers) -> tuple[int, int]:
-        """Add the groups of a glyph in colour: the place of the one around all, or -1, and that of the first other."""
+        """Add the groups of a colour glyph; return the indices of the outermost, or -1, and of the glyph's first."""
         for note in layers.notes:
             self.notes.count(note.kind, note.message)
         outer = -1
@@ -296,13 +296,13 @@ class TextCanvas:
 
     @property
     def painted_box(self) -> Box:
-        """Box (left, top, right, bottom) of what is painted, in units of the source; empty if nothing is."""
+        """Box (left, top, right, bottom) of all paths, in units of the source; empty without paths."""
         if not self.paths:
             return inf, inf, -inf, -inf
         return bounds(np.concatenate([contour for path in self.paths for contour in path.contours]))
 
     def drawing(self, box: Box, name: str) -> Drawing:
-        """The drawing, as large as a box (left, top, right, bottom) in units of the source and what is painted."""
+        """Return the drawing; its box holds all paths and `box` (left, top, right, bottom), in units of the source."""
         if not self.paths:
             return Drawing((), name=name, notes=(*self.notes.in_order, Note("remark", "nothing in it is painted")))
         left, top = (min(pair) for pair in zip(box[:2], self.painted_box[:2], strict=True))

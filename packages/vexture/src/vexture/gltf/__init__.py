@@ -1,1 +1,1 @@
-"""Models of glTF: vector textures on their materials."""
+"""glTF models with vector textures on their materials."""

@@ -1,4 +1,4 @@
-"""Appearance of a drawing on a material: the members of the extension of a material (FORMAT.md, E.3)."""
+"""Appearance of a drawing on a material: the members of the material's extension (FORMAT.md, E.3)."""
 
 import math
 from collections.abc import Sequence
@@ -27,11 +27,11 @@ CHOICES: Final[dict[str, tuple[Any, ...]]] = {
 }
 
 FOR_MODES: Final = {"color": ("mix",), "threshold": ("cut",), "background": ("paint",), "invert": MODES[1:]}
-"""Modes that have a use for a parameter."""
+"""Modes in which a parameter has a meaning."""
 
 WHITE: Final = (1.0, 1.0, 1.0)
 HALF: Final = 0.5
-"""Colour and threshold of a mask, unless it has another."""
+"""Default colour and threshold of a mask."""
 
 DIGITS: Final = 6
 """Decimals of a colour."""
@@ -77,7 +77,7 @@ class Appearance:
         self._transform()
 
     def facts(self) -> dict[str, Any]:
-        """Members of the extension, without the texture and what is as it is by default."""
+        """Return the members of the extension that differ from their defaults, without the texture."""
         values: dict[str, Any] = {"root": self.root, "mode": self.mode, "wrap": self.wrap, "invert": self.invert}
         values |= {"background": self.background, "color": self._linear_color(), "threshold": float(self.threshold)}
         values |= {"texCoord": self.tex_coord, "transform": self._transform()}
@@ -87,11 +87,11 @@ class Appearance:
 
     @property
     def split(self) -> "Split":
-        """The split with which a drawing is converted for it: in its colours, or as its silhouette."""
+        """Split for the conversion of the drawing: in its colours, or as its silhouette."""
         return "faces" if self.mode == "paint" else None
 
     def check(self, texture: "Texture") -> None:
-        """Raise a `ParameterError` if the texture has no such root, or several of which none is chosen."""
+        """Raise a `ParameterError` if the texture lacks the root, or has several and none is chosen."""
         from vexture.texture.select_root import layers_of, place_of
 
         if self.mode == "paint":
@@ -115,7 +115,7 @@ class Appearance:
         return [round(part, DIGITS) for part in AnyColor("srgb", rgb).convert("srgb-linear").coords()]
 
     def _transform(self) -> dict[str, Any]:
-        """As in KHR_texture_transform, without what is as it is by default."""
+        """Return the members of KHR_texture_transform that differ from their defaults."""
         numbers = {"offset": self.offset, "scale": self.scale, "rotation": (self.rotation,)}
         for name, pair in numbers.items():
             length = 1 if name == "rotation" else 2

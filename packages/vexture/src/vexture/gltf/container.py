@@ -1,6 +1,6 @@
-"""Files of glTF 2.0, .gltf and .glb, as JSON and bytes; what vexture does not know stays as it is.
+"""Files of glTF 2.0, .gltf and .glb, as JSON and bytes; unknown content is kept unchanged.
 
-No library is used: those for Python read a model into classes of their own, and write only what these know.
+No library is used: Python libraries read a model into their own classes, and write only what these support.
 """
 
 import json
@@ -23,29 +23,29 @@ BINARY_CHUNK: Final = b"BIN\0"
 LARGEST_GLB: Final = 2**32 - 1
 
 MOST_NESTED: Final = 128
-"""Levels of objects and lists in a model; exporters write about ten."""
+"""Deepest nesting of objects and lists in a model; exporters write about ten levels."""
 
 REMEDY: Final = "export the model again"
 
 INDENTED: Final = re.compile(r"\s*\{\s*?\n([ \t]+)\"")
-"""Start of a .gltf that people can read, with the white space of a level."""
+"""Start of an indented .gltf, with the white space of one level."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Container:
-    """A model as its file has it; the document is never changed in place."""
+    """The contents of a model's file; the document is never changed in place."""
 
     document: dict[str, Any]
-    binary: bytes | None = None  # of a .glb: what the first buffer holds
-    others: tuple[tuple[bytes, bytes], ...] = ()  # of a .glb: chunks that its extensions know
-    indent: str | None = None  # of a .gltf
+    binary: bytes | None = None  # content of the first buffer of a .glb
+    others: tuple[tuple[bytes, bytes], ...] = ()  # further chunks of a .glb, for extensions
+    indent: str | None = None  # indentation of a .gltf
     is_glb: bool = False
 
 
 def parse(content: bytes) -> Container:
-    """Read a .glb or a .gltf, by its content.
+    """Read a .glb or a .gltf, recognized by its content.
 
-    Raises a `SourceError` if it is damaged, or is no glTF 2.0.
+    Raise a `SourceError` if it is damaged, or is not glTF 2.0.
     """
     if content.startswith(MAGIC):
         chunks = list(_chunks(content))
@@ -61,7 +61,7 @@ def parse(content: bytes) -> Container:
 
 
 def _chunks(content: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """Type and content of each chunk of a .glb."""
+    """Yield the type and content of each chunk of a .glb."""
     if len(content) < HEADER.size:
         raise SourceError(f"breaks off after {len(content)} bytes; {REMEDY}")
     _, version, length = HEADER.unpack_from(content)
@@ -82,7 +82,7 @@ def _chunks(content: bytes) -> Iterator[tuple[bytes, bytes]]:
 
 
 def _document(text: bytes) -> dict[str, Any]:
-    """The JSON of a model."""
+    """Parse the JSON of a model."""
     try:
         document = json.loads(text.decode("utf-8-sig"), parse_constant=_refuse_constant)
     except (ValueError, RecursionError) as error:
@@ -100,9 +100,9 @@ def _document(text: bytes) -> dict[str, Any]:
 
 
 def values(document: Any) -> Iterator[Any]:
-    """All values in a document, those in objects and lists as well.
+    """Yield all values in a document, including those in objects and lists.
 
-    Raises a `SourceError` if they are nested too deep to be written again.
+    Raise a `SourceError` if they are nested too deeply to be written again.
     """
     level = [document]
     for _ in range(MOST_NESTED):
@@ -114,7 +114,7 @@ def values(document: Any) -> Iterator[Any]:
 
 
 def objects_in(document: dict[str, Any], name: str) -> list[dict[str, Any]]:
-    """A list of objects at the top of a document; empty if there is none."""
+    """Return a list of objects at the top level of a document; empty if there is none."""
     found = document.get(name, [])
     if not isinstance(found, list) or not all(isinstance(one, dict) for one in found):
         raise SourceError(f"{name} is no list of objects; {REMEDY}")
@@ -130,22 +130,22 @@ def _short(error: Exception) -> str:
 
 
 def pad(content: bytes, filler: bytes = b"\0") -> bytes:
-    """Content up to a multiple of four bytes."""
+    """Pad content to a multiple of four bytes."""
     return content + filler * (-len(content) % 4)
 
 
 def to_gltf(document: dict[str, Any], indent: str | None = None) -> bytes:
-    """Contents of a .gltf."""
+    """Return the contents of a .gltf."""
     separators = (",", ":") if indent is None else (",", ": ")
     text = json.dumps(document, ensure_ascii=False, allow_nan=False, indent=indent, separators=separators)
     try:
         return text.encode()
-    except UnicodeEncodeError:  # half of a character, which JSON can escape and UTF-8 cannot hold
+    except UnicodeEncodeError:  # an unpaired surrogate, which JSON can escape but UTF-8 cannot encode
         return json.dumps(document, allow_nan=False, indent=indent, separators=separators).encode()
 
 
 def to_glb(container: Container) -> bytes:
-    """Contents of a .glb; a `LimitError` if they are longer than its header can say."""
+    """Return the contents of a .glb; raise a `LimitError` if its header cannot store the length."""
     chunks = [(JSON_CHUNK, pad(to_gltf(container.document), b" "))]
     if container.binary is not None:
         chunks.append((BINARY_CHUNK, pad(container.binary)))

@@ -1,4 +1,4 @@
-"""A model of glTF whose materials get drawings."""
+"""A glTF model with drawings on its materials."""
 
 import os
 import warnings
@@ -24,26 +24,26 @@ GLB: Final = ".glb"
 GLTF: Final = ".gltf"
 
 MOST_NAMED: Final = 12
-"""Materials that a message lists."""
+"""Most materials in a message."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Model:
-    """A model of glTF 2.0, as `read_model` reads it.
+    """A model of glTF 2.0, as `read_model` returns it.
 
-    Whatever vexture does not know in it stays as it is: all bytes, all members, extensions and extras.
+    Everything unknown to vexture is kept: all bytes, members, extensions and extras.
 
     Attributes
     ----------
     materials : tuple of str
-        Names of its materials in their order; one without a name has an empty one.
+        Names of its materials in order; the name is empty for a material without one.
     """
 
     container: Container
     name: str = "model"
     folder: Path | None = None
     textures: Mapping[int, bytes] = field(default_factory=dict)
-    """Files of the textures that it got, by their places in the list of the extension."""
+    """Files of added textures, by their index in the extension's list."""
 
     def __repr__(self) -> str:
         return f"<Model {self.name}: {format_count(len(self.materials), 'material')}>"
@@ -55,12 +55,12 @@ class Model:
         return tuple(name if isinstance(name, str) else "" for name in names)
 
     def place_of(self, material: str | int) -> int:
-        """Place of a material, which is given by its name or its place.
+        """Return the index of a material, given by name or index.
 
         Raises
         ------
         ParameterError
-            If there is no such material, or several have the name.
+                If there is no such material, or several have that name.
         """
         names = self.materials
         places = [place for place, name in enumerate(names) if name == material]
@@ -97,35 +97,35 @@ class Model:
         scale: tuple[float, float] = (1.0, 1.0),
         conversion: Mapping[str, Any] | None = None,
     ) -> "Model":
-        """The same model with a drawing on a material, in place of the one that it may have.
+        """Return the model with a drawing on a material, in place of any drawing that the material has.
 
         Parameters
         ----------
         material : str or int
-            Its name, or its place from 0 where names are missing or alike.
+            Name of the material, or its index from 0 if names are missing or ambiguous.
         drawing : Texture, Drawing or path
-            A texture or its file, or what `vexture.convert` converts: in its colours, or in other modes than
-            ``"paint"`` as its silhouette.
+            A texture or its file, or a drawing or file that `vexture.convert` converts: in its colours in mode
+            ``"paint"``, and as its silhouette in other modes.
         mode : str
-            ``"paint"``: the drawing's own colours. ``"mix"``: `color` where the drawing is. ``"cut"``: nothing where it
-            is not. ``"alpha"``: the same with a soft edge, which needs blending.
+            ``"paint"`` shows the drawing's own colours, ``"mix"`` shows `color` inside the drawing, and ``"cut"``
+            removes everything outside it. ``"alpha"`` does the same with a soft edge, which needs blending.
         root : str or int, optional
-            Which shape, or in mode ``"paint"`` which drawing, of a texture of several.
+            Shape of a texture with several shapes, or, in mode ``"paint"``, its drawing.
         wrap : str
-            Beyond the unit square: ``"none"``, ``"clamp"`` (the value at its border) or ``"repeat"``.
+            Content beyond the unit square: ``"none"``, ``"clamp"`` (the value at its border) or ``"repeat"``.
         invert : bool
             Exchange inside and outside; not in mode ``"paint"``.
         background : str
-            Mode ``"paint"``, around the drawing: the material's ``"own"`` colour, or ``"none"``.
+            In mode ``"paint"``, the colour around the drawing: the material's ``"own"`` colour, or ``"none"``.
         color : str or sequence of float
-            Mode ``"mix"``: a CSS colour, or sRGB in 0..1; white by default.
+            In mode ``"mix"``, a CSS colour, or sRGB in 0..1; white by default.
         threshold : float
-            Mode ``"cut"``: pixels with at least this coverage are drawn; 0.5 by default.
+            In mode ``"cut"``, the least coverage of pixels that are drawn; 0.5 by default.
         tex_coord : int
             Set of texture coordinates, 0 or 1.
         offset, rotation, scale : pair of float, float, pair of float
-            Of the texture coordinates, as in KHR_texture_transform: a scale of (4, 4) makes the drawing a quarter as
-            large. A positive `rotation`, in degrees, turns the drawing counter-clockwise.
+            Transform of the texture coordinates, as in KHR_texture_transform: a scale of (4, 4) makes the drawing a
+            quarter as large. A positive `rotation`, in degrees, turns the drawing counter-clockwise.
         conversion : mapping, optional
             Parameters of `vexture.convert`, such as ``{"precision": 1e-7}``.
 
@@ -136,14 +136,14 @@ class Model:
         Raises
         ------
         ParameterError
-            If there is no such material or root, or a parameter is out of range or means nothing in the mode.
+            If there is no such material or root, or a parameter is out of range or has no meaning in the mode.
         SourceError
-            If the drawing, or a part of the model that this changes, cannot be read.
+            If the drawing, or a part of the model to be changed, cannot be read.
 
         Warns
         -----
         SourceWarning
-            As `vexture.convert`, and if a mesh with the material has no such texture coordinates.
+            As from `vexture.convert`, and if a mesh with the material lacks these texture coordinates.
 
         Examples
         --------
@@ -165,7 +165,7 @@ class Model:
             return self._with_texture(place, texture.name, texture.to_ktx2(), shown)
 
     def _with_texture(self, place: int, name: str, content: bytes, appearance: Appearance) -> "Model":
-        """The model with the file of a texture on a material; one that other materials have is shared."""
+        """Return the model with the file of a texture on a material; a texture that other materials have is shared."""
         document = dict(self.container.document)
         materials = list(objects_in(document, "materials"))
         extensions = _object(document, "extensions", "extensions")
@@ -186,7 +186,7 @@ class Model:
         return replace(self, container=container, textures={**self.textures, index: content})
 
     def _warn_of_coordinates(self, place: int, tex_coord: int) -> None:
-        """Warn of meshes on which the drawing cannot be seen."""
+        """Warn of meshes on which the drawing is invisible."""
         for number, mesh in enumerate(objects_in(self.container.document, "meshes")):
             for primitive in objects_in(mesh, "primitives"):
                 attributes = primitive.get("attributes")
@@ -202,7 +202,7 @@ class Model:
                     return
 
     def files(self, path: str | os.PathLike[str]) -> dict[Path, bytes]:
-        """Contents of the file, and of those that a .gltf needs beside it; parameters and errors as in `save`."""
+        """Return the contents of the file, and of the files next to a .gltf; parameters and errors as in `save`."""
         target = target_of(path)
         with about(self.name):
             file = missing_file(self.container, self.folder, target)
@@ -220,9 +220,9 @@ class Model:
         Parameters
         ----------
         path : path
-            A ``.glb`` holds everything, files beside a .gltf as well, and those beside a .glb in another folder. A
-            ``.gltf`` has its textures, and the bytes of a .glb, in files beside it that begin with its own name; it
-            refers to other files as before, so that it must be in the folder of the model if there are any.
+            A ``.glb`` contains everything, including files next to a .gltf, and files next to a .glb if it is saved in
+            another folder. For a ``.gltf``, its textures and the bytes of a .glb are saved next to it, in files whose
+            names start with its own. Its references to other files stay, so with such files it must stay in its folder.
 
         Returns
         -------
@@ -231,13 +231,13 @@ class Model:
         Raises
         ------
         ParameterError
-            If the suffix is another, or a .gltf would be in another folder than files that it refers to.
+            If the suffix is wrong, or a .gltf would be in another folder than files that it refers to.
         SourceError
             If a file that the model refers to is missing.
         LimitError
             If a .glb would be too long.
         DeviceError
-            If it cannot be written.
+            If the file cannot be written.
         """
         from vexture.texture.files import write_together
 
@@ -246,7 +246,7 @@ class Model:
         return next(iter(files))
 
     def _embedded(self, whole: bool) -> Container:
-        """The model as a .glb holds it, the `whole` with the files that were beside it."""
+        """Return the model as a .glb; if `whole`, with the files next to it."""
         there = enumerate(_textures(self.container))
         beside = {
             index: content_at(entry["uri"], self.folder) for index, entry in there if whole and files_beside(entry)
@@ -262,7 +262,7 @@ class Model:
         return container
 
     def _beside(self, target: Path) -> dict[Path, bytes]:
-        """Contents of a .gltf and of the files beside it."""
+        """Return the contents of a .gltf and of the files next to it."""
         from vexture.texture.files import file_name
 
         beside: dict[Path, bytes] = {}
@@ -286,7 +286,7 @@ class Model:
         return {target: to_gltf(container.document, container.indent), **beside}
 
     def _with_addresses(self, addresses: Mapping[int, str]) -> Container:
-        """The model with the addresses of its new textures; without one, a texture is nowhere yet."""
+        """Return the model with the addresses of its new textures; a texture without one is not stored yet."""
         container = self.container
         for index in self.textures:
             source = {"uri": addresses[index]} if index in addresses else {}
@@ -295,7 +295,7 @@ class Model:
 
 
 def target_of(path: str | os.PathLike[str]) -> Path:
-    """File to write a model to; a `ParameterError` if its suffix is another."""
+    """Return the file to write a model to; raise a `ParameterError` if its suffix is wrong."""
     target = Path(path)
     if target.suffix.lower() not in (GLB, GLTF):
         raise ParameterError(f"`output` {path}: models are files of glTF; name one that ends in {GLB} or {GLTF}")
@@ -305,7 +305,7 @@ def target_of(path: str | os.PathLike[str]) -> Path:
 def texture_of(
     drawing: "Texture | Drawing | str | os.PathLike[str]", appearance: Appearance, conversion: Mapping[str, Any]
 ) -> "Texture":
-    """The texture that is given, loaded or made of a drawing."""
+    """Return a texture, load one, or convert a drawing to one."""
     from vexture.conversion.pipeline import convert
     from vexture.texture.load import load
     from vexture.texture.texture import Texture
@@ -327,10 +327,10 @@ def read_model(source: str | os.PathLike[str] | bytes, *, name: str | None = Non
     Parameters
     ----------
     source : path or bytes
-        A ``.glb`` or a ``.gltf``, or its content, of which files beside it are unknown. What it holds is not shown, so
-        only its JSON is checked.
+        A ``.glb`` or a ``.gltf``, or its content, in which case files next to it are unknown. Only its JSON is checked,
+        because the model is not displayed.
     name : str, optional
-        Names it in messages; by default the path.
+        Name of the model in messages; by default the path.
 
     Returns
     -------
@@ -339,24 +339,24 @@ def read_model(source: str | os.PathLike[str] | bytes, *, name: str | None = Non
     Raises
     ------
     SourceError
-        If it cannot be read, is damaged, or is no glTF 2.0.
+        If it cannot be read, is damaged, or is not glTF 2.0.
 
     Examples
     --------
     >>> read_model(b'{"asset": {"version": "2.0"}, "materials": [{"name": "Sign"}]}').materials
     ('Sign',)
     """
-    shown = name or ("model" if isinstance(source, bytes) else os.fspath(source))
-    with about(shown):
+    label = name or ("model" if isinstance(source, bytes) else os.fspath(source))
+    with about(label):
         container = parse(read_bytes(source))
-        model = Model(container, shown, None if isinstance(source, bytes) else Path(source).parent)
+        model = Model(container, label, None if isinstance(source, bytes) else Path(source).parent)
         for part in ("materials", "meshes", "buffers", "bufferViews", "images"):
             objects_in(container.document, part)
     return model
 
 
 def _object(owner: dict[str, Any], name: str, location: str) -> dict[str, Any]:
-    """An object in another one; empty if there is none."""
+    """Return an object in another one; empty if there is none."""
     found = owner.get(name, {})
     if not isinstance(found, dict):
         raise SourceError(f"{location} is no object; {REMEDY}")
@@ -370,7 +370,7 @@ def _with_name(used: Any) -> list[Any]:
 
 
 def _free(materials: list[dict[str, Any]], place: int, count: int) -> int:
-    """Place in the list of textures for a new one: that of the material's own, if no other has it, or the next."""
+    """Return the index for a new texture: that of the material's own if no other material uses it, or the next."""
     shown = []
     for material in materials:
         extensions = material.get("extensions")
@@ -387,10 +387,10 @@ def _textures(container: Container) -> list[dict[str, Any]]:
 
 
 def _with_source(container: Container, index: int, source: dict[str, Any]) -> Container:
-    """The model whose texture is there."""
+    """Return the model with a source for a texture."""
     extensions = container.document["extensions"]
     textures = list(_textures(container))
-    kept = {name: value for name, value in textures[index].items() if name not in ("uri", "bufferView")}
-    textures[index] = kept | source
+    rest = {name: value for name, value in textures[index].items() if name not in ("uri", "bufferView")}
+    textures[index] = rest | source
     extensions = extensions | {EXTENSION: extensions[EXTENSION] | {"textures": textures}}
     return replace(container, document=container.document | {"extensions": extensions})

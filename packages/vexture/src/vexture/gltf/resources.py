@@ -1,4 +1,4 @@
-"""Resources that a model refers to beside its JSON: the bytes of its buffers, and files beside it."""
+"""Resources of a model outside its JSON: the bytes of its buffers, and files next to it."""
 
 import binascii
 import os
@@ -17,27 +17,27 @@ KTX2_TYPE: Final = "image/ktx2"
 BYTES_TYPE: Final = "application/octet-stream"
 
 OUTSIDE: Final = re.compile(r"[a-z][a-z0-9+.-]*:|[/\\]", re.IGNORECASE)
-"""Start of an address that is no file beside the model."""
+"""Start of an address that is not a file next to the model."""
 
 DATA: Final = re.compile(r"data:[^,]*;base64,", re.IGNORECASE)
 
 SHOWN: Final = 40
-"""Characters of a file's name in a message."""
+"""Longest file name in a message, in characters."""
 
 
 def data_uri(content: bytes, media_type: str) -> str:
-    """Address that holds the content itself."""
+    """Return a data URL with the content."""
     return f"data:{media_type};base64,{b64encode(content).decode()}"
 
 
 def files_beside(document: dict[str, Any]) -> list[str]:
-    """Addresses in a document, wherever in it, that do not hold their content."""
+    """Return all addresses in a document that are not data URLs."""
     found = (value.get("uri") for value in values(document) if isinstance(value, dict))
     return [uri for uri in found if isinstance(uri, str) and uri[:5].lower() != "data:"]
 
 
 def with_view(container: Container, content: bytes) -> tuple[Container, int | None]:
-    """The model with more bytes in its first buffer, and the place of their view; None if that buffer is elsewhere."""
+    """Append bytes to the first buffer; return the index of their view, too, or None if that buffer is elsewhere."""
     buffers, binary = objects_in(container.document, "buffers"), container.binary or b""
     is_ours = container.binary is not None and "uri" not in buffers[0] if buffers else not binary
     if not is_ours:
@@ -51,10 +51,9 @@ def with_view(container: Container, content: bytes) -> tuple[Container, int | No
 
 
 def pack(container: Container, folder: Path | None) -> Container:
-    """A model as that of a .glb: with the files in it that are beside it.
+    """Embed the files next to a model, as for a .glb.
 
-    Raises a `SourceError` if one is missing, is not beside it or below, or an extension refers to it that vexture does
-    not know.
+    Raise a `SourceError` if a file is missing, is not next to the model or below, or is used by an unknown extension.
     """
     document = dict(container.document)
     buffers = [dict(buffer) for buffer in objects_in(document, "buffers")]
@@ -98,7 +97,7 @@ def _image_type(content: bytes, uri: str) -> str:
 
 
 def content_at(uri: str, folder: Path | None) -> bytes:
-    """Content of an address: of a file beside the model or below, or of the address itself."""
+    """Return the content of a file next to the model or below, or of a data URL."""
     if uri[:5].lower() == "data:":
         start = DATA.match(uri)
         if start is None:
@@ -127,7 +126,7 @@ def content_at(uri: str, folder: Path | None) -> bytes:
 
 
 def missing_file(container: Container, folder: Path | None, target: Path) -> str:
-    """Name of a file that a model would miss in the folder of a target; empty if there is none."""
+    """Return the name of a file that a model would miss in the folder of a target; empty if there is none."""
     left = files_beside(container.document)
     is_elsewhere = folder is None or folder.resolve() != target.absolute().parent.resolve()
     return _label(left[0]) if left and is_elsewhere else ""

@@ -1,1 +1,1 @@
-"""Drawings, textures and floods as widgets of notebooks (`vexture[notebook]`)."""
+"""Notebook widgets for drawings, textures and floods (`vexture[notebook]`)."""

@@ -1,4 +1,4 @@
-"""A widget's view as an array or a PNG: for a page without a kernel, for paper, and for GitHub."""
+"""A widget's view as an array or a PNG: for pages without a kernel, for print, and for GitHub."""
 
 from io import BytesIO
 from typing import Final, Literal, TypeAlias
@@ -14,18 +14,18 @@ Mode: TypeAlias = Literal["paint", "silhouette"]
 MODES: Final = ("paint", "silhouette")
 
 Rect: TypeAlias = tuple[float, float, float, float]
-"""Left, bottom, width and height of what is seen of the unit square, as `vexture.window` takes them."""
+"""Left, bottom, width and height of the visible part of the unit square, as in `vexture.window`."""
 
 WHOLE: Final = (0.0, 0.0, 1.0, 1.0)
 FINEST: Final = 128
-"""Pixels to a side of the picture in which the box of a drawing is found."""
+"""Width and height in pixels of the picture that locates a drawing's box."""
 
 MARGIN: Final = 0.04
-"""Part of the box's longer side that is left free around it."""
+"""Margin around the box, as a fraction of its longer side."""
 
 
 def home_of(texture: Texture, root: str | int | None) -> Rect:
-    """Box of a drawing, with a margin.
+    """Return the box of a drawing, with a margin.
 
     Examples
     --------
@@ -44,7 +44,7 @@ def home_of(texture: Texture, root: str | int | None) -> Rect:
 
 
 def render_view(texture: Texture, size: Size, view: Rect, mode: Mode, root: str | int | None) -> NDArray[np.float32]:
-    """Premultiplied sRGB and opacity of each pixel, (height, width, 4), top row first."""
+    """Render a view as premultiplied sRGB and opacity, (height, width, 4), top row first."""
     picture = texture.render(size, window(*view), root=root)
     if mode == "silhouette":
         picture[..., :3] = 0.0
@@ -52,11 +52,11 @@ def render_view(texture: Texture, size: Size, view: Rect, mode: Mode, root: str 
 
 
 def png_of(picture: NDArray[np.float32], background: str, *, fast: bool = False) -> bytes:
-    """A picture on a background, as a file; one that is made `fast` has more bytes."""
+    """Encode a picture on a background as PNG; `fast` makes a larger file in less time."""
     from PIL import Image
 
     paper = parse_color(background)
-    assert isinstance(paper, Color)  # as was checked when it was given
+    assert isinstance(paper, Color)  # checked when it was set
     below = np.array([*(paper.alpha * part for part in paper.rgb), paper.alpha])
     flat = picture + (1.0 - picture[..., 3:]) * below
     opacity = flat[..., 3:]

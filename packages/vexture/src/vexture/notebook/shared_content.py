@@ -1,4 +1,4 @@
-"""Bytes that several widgets use: a kernel sends them once, and a notebook holds them once."""
+"""Bytes that several widgets share: a kernel sends them once, and a notebook stores them once."""
 
 import hashlib
 from typing import Any, Final
@@ -10,14 +10,14 @@ KEY_LENGTH: Final = 16
 
 
 class SharedContent(ipywidgets.Widget):
-    """A model without a view. `key` tells its content from others."""
+    """A model without a view, shared by all widgets with the same content. `key` identifies the content."""
 
     key = traitlets.Unicode().tag(sync=True)
     content = traitlets.Bytes().tag(sync=True)
     users = 0
 
     def release(self) -> None:
-        """Remove one user; the last one closes the model, and its bytes in the page."""
+        """Remove one user; the last one closes the model, which frees the bytes in the page."""
         self.users -= 1
         if self.users == 0:
             self.close()
@@ -27,7 +27,7 @@ _OPEN: dict[str, SharedContent] = {}
 
 
 def share_content(content: bytes, **options: Any) -> SharedContent:
-    """Return the model of some bytes, with one more user; an open one of the same bytes is used again."""
+    """Return the model of some bytes with one more user; reuse an open model of the same bytes."""
     key = hashlib.sha256(content).hexdigest()[:KEY_LENGTH]
     found = _OPEN.get(key)
     if found is None or found.comm is None:

@@ -1,4 +1,4 @@
-"""`vexture.show`: a widget of whatever vexture draws."""
+"""`vexture.show`: make a widget of anything that vexture can draw."""
 
 import os
 from collections.abc import Mapping
@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from vexture_geo.flood.widget import FloodWidget
 
 READING: Final = ("select", "names", "snap", "fonts", "trace_images", "page_colors")
-"""Options of a conversion that are its reader's."""
+"""Options of a conversion that belong to its reader."""
 
 OPTIONAL: Final = ("root", "width", "colors", "view")
-"""Traits that None leaves as they are."""
+"""Traits that keep their default if the option is None."""
 
 TRAITS: Final = (*OPTIONAL, "mode", "background")
 
@@ -50,51 +50,51 @@ def show(
 
 
 def show(source: Any, /, *, height: int | None = None, **options: Any) -> Any:
-    """Show a drawing, a texture or a flood in a notebook, as a widget whose traits are what it shows.
+    """Show a drawing, a texture or a flood in a notebook, as a widget whose traits hold its state.
 
-    Needs ``vexture[notebook]``. Drag to move, turn the wheel or pinch to zoom, click to pick; the arrow keys, + and −
-    do the same, and a double click or Home shows all again.
+    Needs ``vexture[notebook]``. Drag to move, turn the wheel or pinch to zoom, click to pick. The arrow keys, + and −
+    do the same; a double click or Home shows the whole drawing again.
 
     Parameters
     ----------
     source : path, Drawing, Texture, FloodPage, Dataset, DataArray or Extent
-        A file that `vexture.read` reads or a texture's, a drawing, or a texture; or a flood: its page, or of what
-        `vexture.flood_page` makes one.
+        A drawing, a texture, or the path of a texture or of a file that `vexture.read` reads; or a flood: its page, or
+        a source of `vexture.flood_page`.
     height : int, optional
-        CSS pixels; by default 400, of a flood 600.
+        Height in CSS pixels; by default 400, or 600 for a flood.
     **options
-        Those of `vexture.convert`, for a path or a drawing: by default the texture is precise enough for the deepest
-        zoom, and a drawing of named elements and flat colours can be restyled (`restyle`). Those of
-        `vexture.flood_page`, for a flood.
+        For a path or a drawing: parameters of `vexture.convert`. By default, the texture is precise enough for the
+        deepest zoom, and a drawing of named elements and flat colours can be restyled (`restyle`). For a flood:
+        parameters of `vexture.flood_page`.
 
     Other Parameters
     ----------------
     root : str or int, optional
-        Which drawing of a texture, as in `vexture.render`.
+        Drawing in the texture, as in `vexture.render`.
     width : int, optional
-        CSS pixels; by default it is as wide as its cell.
+        Width in CSS pixels; by default the width of its cell.
     mode : str
-        ``"paint"``, the drawing in its colours, or ``"silhouette"``, what it covers, in black.
+        ``"paint"`` shows the drawing in its colours, ``"silhouette"`` the area that it covers, in black.
     colors : mapping of str to colour, optional
-        Other colours of elements and shapes, as in `Texture.with_paints`.
+        Replacement colours for elements and shapes, as in `Texture.with_paints`.
     background : str
-        A CSS colour, or ``"transparent"``; white in dark notebooks, too, since drawings are made for paper.
+        A CSS colour, or ``"transparent"``; white even in dark notebooks, because most drawings are made for paper.
     view : (float, float, float, float), optional
-        Left, bottom, width and height of what is seen of the unit square; by default all of the drawing.
+        Left, bottom, width and height of the visible part of the unit square; by default the whole drawing.
 
     Returns
     -------
     VectorWidget or FloodWidget
-        A notebook shows it as the value of a cell, and where there are no widgets, a picture. Its traits are those of
-        the parameters, besides `picked` and `hovered`, or of a flood its `step`; `save` writes a page, or of a drawing
-        a picture.
+        A notebook shows it as the value of a cell, or a picture where widgets are not supported. Its traits are the
+        parameters, with `picked` and `hovered` for a drawing and `step` for a flood. `save` writes a page, or for a
+        drawing also a picture.
 
     Raises
     ------
     DeviceError
         If the packages of ``vexture[notebook]`` are missing, or the pages are not built.
     ParameterError
-        If an option is out of range, or a texture is given with options of its conversion. For other errors see
+        If an option is out of range, or options of a conversion are given for a texture. For other errors see
         `vexture.read`, `vexture.convert` and `vexture.flood_page`.
 
     Examples
@@ -110,17 +110,17 @@ def show(source: Any, /, *, height: int | None = None, **options: Any) -> Any:
         from vexture.notebook.widget import HEIGHT, VectorWidget
     except ModuleNotFoundError as error:
         raise DeviceError(f"show needs the package {error.name}: pip install 'vexture[notebook]'") from None
-    asked: dict[str, Any] = {} if height is None else {"height": height}
+    sizes: dict[str, Any] = {} if height is None else {"height": height}
     reader = find_geographic_reader()
-    if reader is not None and (flood := reader.flood_widget(source, {**asked, **options})) is not None:
+    if reader is not None and (flood := reader.flood_widget(source, {**sizes, **options})) is not None:
         return flood
-    given = {name: options.pop(name) for name in TRAITS if name in options}
-    traits: dict[str, Any] = {name: value for name, value in given.items() if value is not None or name not in OPTIONAL}
-    return VectorWidget(_texture_of(source, options), **{"height": HEIGHT, **asked, **traits})
+    extra = {name: options.pop(name) for name in TRAITS if name in options}
+    traits: dict[str, Any] = {name: value for name, value in extra.items() if value is not None or name not in OPTIONAL}
+    return VectorWidget(_texture_of(source, options), **{"height": HEIGHT, **sizes, **traits})
 
 
 def _texture_of(source: Any, options: dict[str, Any]) -> "Texture":
-    """The texture of what is to be shown; `options` are those of a conversion."""
+    """Return the texture to show; convert a drawing with `options`."""
     from vexture.base.content import FileKind, kind_of, start_of
     from vexture.conversion.pipeline import convert
     from vexture.conversion.reading import read

@@ -1,4 +1,4 @@
-"""Traits of widgets that accept what users write, such as numbers of numpy, and refuse other values with one line."""
+"""Traits of widgets that accept usual Python values, such as numbers of numpy, and explain an error in one line."""
 
 from collections.abc import Mapping
 from typing import Any, ClassVar, Final
@@ -11,11 +11,11 @@ from vexture.base.labels import texts_of
 
 PIXELS: Final = "give a whole number of pixels, 1 or more"
 LONGEST: Final = 60
-"""Letters of a value in a message."""
+"""Longest value in a message, in letters."""
 
 
 def format_value(value: Any) -> str:
-    """Write a value for a message; of an array, only its type.
+    """Format a value for a message; an array is shown only as its type.
 
     Examples
     --------
@@ -28,7 +28,7 @@ def format_value(value: Any) -> str:
 
 
 def pixels(name: str, value: Any) -> int:
-    """A whole number of pixels.
+    """Check and return a positive whole number of pixels.
 
     Examples
     --------
@@ -44,7 +44,7 @@ def pixels(name: str, value: Any) -> int:
 
 
 def text_of(label: Any) -> str:
-    """A label as the text by which a feature is known.
+    """Convert a label to the text that identifies a feature.
 
     Examples
     --------
@@ -55,12 +55,12 @@ def text_of(label: Any) -> str:
 
 
 class _CheckedTrait(traitlets.TraitType[Any, Any]):
-    """A trait whose error says what to give."""
+    """A trait whose error message says which values are valid."""
 
     remedy: ClassVar[str]
 
     def _coerce(self, value: Any) -> Any:
-        """Convert a value to the trait's kind."""
+        """Convert a value to the trait's type."""
         return value
 
     def validate(self, obj: Any, value: Any) -> Any:
@@ -82,7 +82,7 @@ class PixelsTrait(_CheckedTrait, traitlets.Int):  # type: ignore[type-arg]
 
 
 class LabelTrait(_CheckedTrait, traitlets.Unicode):  # type: ignore[type-arg]
-    """A name, which may be given as a number: ids and names of columns are texts."""
+    """A name, which may be given as a number: ids and column names are stored as text."""
 
     remedy = "give one name, as of a feature or a column"
 
@@ -93,11 +93,11 @@ class LabelTrait(_CheckedTrait, traitlets.Unicode):  # type: ignore[type-arg]
 
 
 class ChoiceTrait(_CheckedTrait, traitlets.Enum):  # type: ignore[type-arg]
-    """One of some words."""
+    """One of several words."""
 
     @property
     def remedy(self) -> str:  # type: ignore[override]
-        """The words."""
+        """Message that lists the words."""
         return f"give {' or '.join(map(repr, self.values or ()))}"
 
 
@@ -126,7 +126,7 @@ class RectangleTrait(_CheckedTrait, traitlets.Tuple):
 
 
 class ColoursTrait(_CheckedTrait, traitlets.Dict):
-    """Colours by names."""
+    """Colours by name."""
 
     remedy = "give a mapping of names, such as {'sun': 'red'}"
 

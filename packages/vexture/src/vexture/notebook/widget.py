@@ -1,4 +1,4 @@
-"""The widget of a drawing: what it shows is traits, which Python and the page both change."""
+"""The widget of a drawing: its state is in traits, which both Python and the page can change."""
 
 import base64
 import os
@@ -29,18 +29,18 @@ from vexture.texture.texture import Texture
 from vexture.tree.planar.style import round_colours
 
 PAGE: Final = Bundle("notebook.js", "notebook.css")
-"""The engine of all widgets, which is also the script of a page that `save` writes."""
+"""Bundle of the engine of all widgets, which is also the script of the pages that `save` writes."""
 
 LOADER: Final = "notebook-widget.js"
 HEIGHT: Final = 400
-"""Pixels."""
+"""Default height in pixels."""
 
 PICTURE_WIDTH: Final = 640
-"""Pixels of a picture of a widget that is as wide as its cell."""
+"""Width in pixels of a picture of a widget that has the width of its cell."""
 
 PNG: Final = ".png"
 SAVED: Final = ("view", "root", "mode", "background", "colors", "_home", "_name")
-"""Traits that a saved page has; it is as large as its window."""
+"""Traits that a saved page contains; the page itself fills its window."""
 
 
 def _colours_to_json(colours: Mapping[str, Any], widget: "VectorWidget") -> dict[str, list[float]]:
@@ -48,7 +48,7 @@ def _colours_to_json(colours: Mapping[str, Any], widget: "VectorWidget") -> dict
 
 
 def _written(value: Any) -> Any:
-    """A trait as JSON, which has no bytes."""
+    """Convert a trait to JSON values; bytes become base64."""
     if isinstance(value, dict):
         return {name: _written(part) for name, part in value.items()}
     return {"base64": base64.b64encode(value).decode()} if isinstance(value, bytes | memoryview) else value
@@ -60,28 +60,28 @@ class VectorWidget(anywidget.AnyWidget):
     Attributes
     ----------
     view : (float, float, float, float)
-        What is seen: left, bottom, width and height of a rectangle of the unit square (y up), centred at the largest
-        size that fits, as of `vexture.window`. Dragging, the wheel and keys change it, and so may Python.
+        Visible rectangle of the unit square (y up): left, bottom, width and height, centred at the largest size that
+        fits, as in `vexture.window`. Dragging, the wheel and keys change it, and Python may change it, too.
     root : str, int or None
-        Which drawing of the texture; another one is shown whole, unless the view was chosen.
+        Drawing in the texture; a new one is shown as a whole, unless the view was changed before.
     mode : str
-        ``"paint"``, the drawing in its colours, or ``"silhouette"``, what it covers, in black.
+        ``"paint"`` shows the drawing in its colours, ``"silhouette"`` the area that it covers, in black.
     colors : dict
-        Other colours, by the names of elements (of a drawing converted with `restyle`) or of shapes: what
-        `Texture.with_paints` takes. Without an entry a colour is the drawing's own.
+        Replacement colours, by the names of elements (if the drawing was converted with `restyle`) or of shapes, as in
+        `Texture.with_paints`. Everything else keeps its own colour.
     background : str
         A CSS colour, or ``"transparent"``.
     width, height : int
-        CSS pixels; without a width it is as wide as its cell.
+        CSS pixels; without a width, the widget has the width of its cell.
     picked : dict or None
-        What was clicked last: ``root`` and ``element``, names or None; ``position`` in the unit square, and ``source``,
-        the same place in the units of the drawing's file.
+        Result of the last click: ``root`` and ``element``, names or None; ``position`` in the unit square, and
+        ``source``, the same position in the units of the drawing's file.
     hovered : dict or None
-        ``root`` and ``element`` under the pointer.
+        Names of ``root`` and ``element`` under the pointer.
     """
 
     saved_traits: tuple[str, ...] = ()
-    """Traits of a subclass that a saved page has, too."""
+    """Further traits, of a subclass, that a saved page contains."""
 
     _esm = traitlets.Unicode().tag(sync=True)
     _engine = traitlets.Instance(SharedContent).tag(sync=True, **widget_serialization)
@@ -100,7 +100,7 @@ class VectorWidget(anywidget.AnyWidget):
 
     def __init__(self, texture: Texture | None, **traits: Any) -> None:
         self._texture = texture
-        if texture is not None:  # else it comes later
+        if texture is not None:  # otherwise it comes later
             traits |= {"_home": home_of(texture, traits.get("root")), "_name": texture.name}
             traits["_source"] = share_content(texture.to_ktx2())
         traits.setdefault("view", traits["_home"])
@@ -112,12 +112,12 @@ class VectorWidget(anywidget.AnyWidget):
 
     @property
     def texture(self) -> Texture:
-        """Texture that the widget shows; make another widget for another one."""
+        """Texture that the widget shows; it cannot be replaced."""
         assert self._texture is not None
         return self._texture
 
     def close(self) -> None:
-        """End the widget; the last one of a texture frees its bytes."""
+        """End the widget; the last widget of a texture frees its bytes."""
         if self.comm is not None:
             for each in (self._engine, self._source):
                 if each is not None:
@@ -125,41 +125,41 @@ class VectorWidget(anywidget.AnyWidget):
         super().close()
 
     def render(self, size: Size | None = None) -> NDArray[np.float32]:
-        """Draw the widget's view with the CPU renderer, without its background.
+        """Render the widget's view with the CPU renderer, without its background.
 
         Parameters
         ----------
         size : int or (int, int), optional
-            Width and height in pixels; by default those of the widget, 640 pixels wide if it is as wide as its cell.
+            Width and height in pixels; by default those of the widget, with 640 for the width of a cell.
 
         Returns
         -------
         (height, width, 4) float32 array
-            As of `vexture.render`.
+            As from `vexture.render`.
         """
-        shown = self.coloured()
+        texture = self.coloured()
         mode: Mode = self.mode
-        return render_view(shown, size or (self.width or PICTURE_WIDTH, self.height), self.view, mode, self.root)
+        return render_view(texture, size or (self.width or PICTURE_WIDTH, self.height), self.view, mode, self.root)
 
     def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
-        """Red, green, blue and opacity of colours by their names; refuses what cannot be shown."""
+        """Return red, green, blue and opacity of colours by name; raise an error if one is not valid."""
         return components_of(self.texture, colours, self.root)
 
     def coloured(self) -> Texture:
-        """The texture in the colours that the widget shows."""
+        """Return the texture in the colours that the widget shows."""
         return recolour_texture(self.texture, self.colors, self.root)
 
     def only_saved(self) -> dict[str, Any]:
-        """State that a saved page has in place of the kernel."""
+        """Return the additional state of a saved page, which has no kernel."""
         return {}
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write what the widget shows: ``NAME.png`` is a picture, ``NAME.html`` a page that needs no kernel or network.
+        """Save the view: ``NAME.png`` is a picture, ``NAME.html`` a page that works without a kernel and a network.
 
         Raises
         ------
         ParameterError
-            If the name ends otherwise.
+            If the name has another suffix.
         DeviceError
             If the file cannot be written.
         """
@@ -201,7 +201,7 @@ class VectorWidget(anywidget.AnyWidget):
 
     @traitlets.validate("view")
     def _checked_view(self, proposal: Any) -> Any:
-        window(*proposal["value"])  # which says what is wrong
+        window(*proposal["value"])  # raises the error
         return proposal["value"]
 
     @traitlets.observe("root")
@@ -212,24 +212,24 @@ class VectorWidget(anywidget.AnyWidget):
             self.view = self._home
 
     def _repr_mimebundle_(self, **kwargs: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-        """The widget, and a picture of it for where there are no widgets: IPython asks by this name."""
+        """Return the widget, and a picture for frontends without widgets; IPython calls it by this name."""
         data, metadata = super()._repr_mimebundle_(**kwargs) or ({}, {})
         picture = base64.b64encode(png_of(self.render(), self.background)).decode()
         return {**data, "image/png": picture}, metadata
 
 
 def components_of(texture: Texture, colours: Mapping[str, Colour], root: str | int | None) -> dict[str, list[float]]:
-    """Red, green, blue and opacity of each colour, in 0..1, for JSON; refuses what `recolour_texture` cannot show."""
+    """Return red, green, blue and opacity of each colour, 0..1, for JSON; raise an error as `recolour_texture` does."""
     shapes, elements = _split_colours(texture, colours, root)
     if elements:
         checked_colours(texture.roots, layers_of(texture.roots, root, texture.name), elements, texture.name)
-    given: Any = {**shapes, **elements}
-    parts = round_colours([components(name, colour) for name, colour in given.items()]).tolist()
-    return dict(zip(given, parts, strict=True))
+    chosen: Any = {**shapes, **elements}
+    parts = round_colours([components(name, colour) for name, colour in chosen.items()]).tolist()
+    return dict(zip(chosen, parts, strict=True))
 
 
 def recolour_texture(texture: Texture, colours: Mapping[str, Colour], root: str | int | None) -> Texture:
-    """The texture with other colours of some elements and shapes of a drawing.
+    """Return the texture with other colours for some elements and shapes of a drawing.
 
     Examples
     --------
@@ -253,7 +253,7 @@ def recolour_texture(texture: Texture, colours: Mapping[str, Colour], root: str 
 def _split_colours(
     texture: Texture, colours: Mapping[str, Colour], root: str | int | None
 ) -> tuple[dict[str, Colour], dict[str, Colour]]:
-    """Split colours into those of shapes that are no maps, and those of elements."""
+    """Split colours into those of shapes that are not planar maps, and those of elements."""
     if not isinstance(colours, Mapping) or not all(isinstance(name, str) for name in colours):
         raise ParameterError("the colours are no mapping of names, such as {'sun': 'red'}")
     drawn = [texture.roots[place] for place in layers_of(texture.roots, root, texture.name)]

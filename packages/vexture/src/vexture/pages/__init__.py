@@ -1,1 +1,1 @@
-"""The viewer: its page, on a server or in one file."""
+"""The viewer: its page, served by a server or saved in one file."""

@@ -1,4 +1,4 @@
-"""Pages: as a server sends them, and as one file that needs no server."""
+"""HTML pages: served by a server, or saved in one file that needs no server."""
 
 import base64
 import hashlib
@@ -26,10 +26,10 @@ VIEWER: Final = Bundle("viewer.js", "viewer.css")
 SCRIPT, STYLE = VIEWER.script, VIEWER.style
 
 SERVED_SCENE: Final[Mapping[str, Any]] = {"server": "./"}
-"""Data of a served page: where its server is."""
+"""Data of a served page: the address of its server."""
 
 LICENCES: Final = "LICENSES.txt"
-"""Of the packages in the bundles, which ask for a copy wherever their code is."""
+"""Licences of the packages in the bundles; most require a copy wherever their code is."""
 
 PNG_TYPE: Final = "image/png"
 SUFFIXES: Final = (".html", ".htm")
@@ -38,13 +38,13 @@ SERVED_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
     "connect-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-"""A served page may fetch from its own server only."""
+"""Content security policy of a served page, which may fetch only from its own server."""
 
 EXPORTED_POLICY = (
     "default-src 'none'; script-src {script}; style-src 'unsafe-inline'; img-src data: blob:; "
     "connect-src data: blob:; base-uri 'none'; form-action 'none'"
 )
-"""A page in one file may fetch only what it holds."""
+"""Content security policy of a page in one file, which may fetch only its own content."""
 
 PAGE = """<!doctype html>
 <html lang="en">
@@ -67,7 +67,7 @@ PAGE = """<!doctype html>
 
 
 def built(name: str, package: str = VIEWER.package) -> bytes:
-    """Content of a file that `make viewer` builds in a package; raises a `DeviceError` if it is not built."""
+    """Read a file that `make viewer` builds in a package; raise a `DeviceError` if it is not built."""
     try:
         return files(package).joinpath("built", name).read_bytes()
     except OSError:
@@ -78,14 +78,14 @@ def built(name: str, package: str = VIEWER.package) -> bytes:
 
 
 def check_output(output: Path, bundle: Bundle) -> None:
-    """Refuse, before anything is converted, a page that is not built or a name that is not that of a page."""
+    """Check, before anything is converted, that a page is built and that its output is named as a page."""
     if output.suffix.lower() not in SUFFIXES:
         raise ParameterError(f"`output` {output}: the page is an HTML file; name one that ends in {SUFFIXES[0]}")
     built(bundle.script, bundle.package)
 
 
 def served_page(bundle: Bundle = VIEWER, scene: Mapping[str, Any] = SERVED_SCENE, title: str = "vexture") -> bytes:
-    """Return the page of a server; its script and style are files beside it."""
+    """Return a page for a server, with its script and style in separate files."""
     return _page(
         title=title,
         policy="",
@@ -97,13 +97,13 @@ def served_page(bundle: Bundle = VIEWER, scene: Mapping[str, Any] = SERVED_SCENE
 
 
 def exported_page(shapes: Sequence[PublishedShape], title: str) -> bytes:
-    """Return the viewer's page with textures, sources and both thesis encodings of the shapes in it."""
+    """Return the viewer's page with the textures, sources and both thesis encodings of shapes embedded."""
     manifests = [manifest(shape, None, _embedded_pairs(shape), address=data_address) for shape in shapes]
     return whole_page(VIEWER, {"shapes": manifests}, title)
 
 
 def whole_page(bundle: Bundle, scene: Mapping[str, Any], title: str) -> bytes:
-    """Return a page that holds its script, its style, its scene, and the licences of what is in it."""
+    """Return a page that contains its script, style and scene, and the licences of their packages."""
     script = _in_html(built(bundle.script, bundle.package).decode())
     style = built(bundle.style, bundle.package).decode().replace("</", "<\\/")
     licences = _in_html(built(LICENCES, bundle.package).decode())
@@ -120,7 +120,7 @@ def whole_page(bundle: Bundle, scene: Mapping[str, Any], title: str) -> bytes:
 
 
 def data_address(file: PublishedFile) -> str:
-    """Data URL of a file.
+    """Return the data URL of a file.
 
     Examples
     --------
@@ -131,7 +131,7 @@ def data_address(file: PublishedFile) -> str:
 
 
 def _embedded_pairs(shape: PublishedShape) -> dict[str, Any]:
-    """Thesis encodings of a shape, or why there are none; nothing for a texture without its drawing."""
+    """Return the thesis encodings of a shape, or their errors; empty for a texture without its drawing."""
     if "svg" not in shape.views:
         return {}
     pairs: dict[str, Any] = {}
@@ -144,7 +144,7 @@ def _embedded_pairs(shape: PublishedShape) -> dict[str, Any]:
 
 
 def _in_html(script: str) -> str:
-    r"""Return a script that no HTML parser ends early.
+    r"""Escape a script so that no HTML parser ends it early.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Routes of the viewer's server beside its shapes: the page, thesis encodings to compare with, dropped files."""
+"""Routes of the viewer's server besides its shapes: the page, thesis encodings for comparison, dropped files."""
 
 import asyncio
 import unicodedata
@@ -23,13 +23,13 @@ from vexture.server.uploads import read_body
 from vexture.texture.registry import find_encoding
 
 DROPPED = Limits(max_bytes=64 * 2**20)
-"""Limits of the server of the page: a file that is dropped on it is the user's own, and may be larger."""
+"""Limits of the viewer's server: a dropped file is the user's own, and may be larger."""
 
 MOST_DROPPED = 64
-"""Dropped files that are kept; the oldest is removed."""
+"""Most dropped files that are kept; the oldest is removed."""
 
 MOST_PAIRS = 32
-"""Thesis encodings that are kept, each a few kilobytes."""
+"""Most thesis encodings that are kept, each a few kilobytes."""
 
 MOST_NAME_LENGTH = 200
 
@@ -37,7 +37,7 @@ BUSY = {"Retry-After": "5"}
 
 
 def page_routes(bundle: Bundle = VIEWER, page: Callable[[], bytes] | None = None) -> list[Route]:
-    """Routes of a page (made by `served_page`; by default the viewer's), its script and its style."""
+    """Make the routes of a page (from `served_page`; by default the viewer's), its script and its style."""
     common = {"Cache-Control": "no-cache", **NO_SNIFFING, "Referrer-Policy": "no-referrer"}
     policy = {"Content-Security-Policy": SERVED_POLICY}
     return [
@@ -48,7 +48,7 @@ def page_routes(bundle: Bundle = VIEWER, page: Callable[[], bytes] | None = None
 
 
 def thesis_addresses(shape: PublishedShape) -> dict[str, list[str]]:
-    """Addresses of a shape's thesis encodings, relative to its manifest; none without its drawing."""
+    """Return the addresses of a shape's thesis encodings, relative to its manifest; none without its drawing."""
     if "svg" not in shape.views:
         return {}
     return {
@@ -58,7 +58,7 @@ def thesis_addresses(shape: PublishedShape) -> dict[str, list[str]]:
 
 
 def thesis_routes(published: PublishedShapes, converter: Converter) -> list[Route]:
-    """Routes of the thesis encodings of published shapes, which are converted at the first request."""
+    """Make the routes of the thesis encodings of published shapes, which are converted on the first request."""
     files = {
         view + suffix: (bits, place)
         for view, bits in THESIS_BITS.items()
@@ -67,7 +67,7 @@ def thesis_routes(published: PublishedShapes, converter: Converter) -> list[Rout
     pairs: OrderedDict[tuple[str, int], asyncio.Future[tuple[bytes, ...]]] = OrderedDict()
 
     async def convert_pair(shape: PublishedShape, bits: int) -> tuple[bytes, ...]:
-        await converter.run(load_thesis, about=shape.name, seconds=inf)  # perhaps a minute, and of no conversion's
+        await converter.run(load_thesis, about=shape.name, seconds=inf)  # a minute that counts for no conversion
         return await converter.run(thesis_pair, shape, bits, about=shape.name)
 
     async def view(request: Request) -> Response:
@@ -93,9 +93,9 @@ def thesis_routes(published: PublishedShapes, converter: Converter) -> list[Rout
 
 
 def dropping_routes(published: PublishedShapes, converter: Converter, reserved: Collection[str]) -> list[Route]:
-    """Route that converts a file dropped on the page as an upload is converted, and publishes it.
+    """Make the route that converts a file dropped on the page like an upload, and publishes it.
 
-    The names in `reserved` are those of shapes that stay: a dropped file of such a name gets another one.
+    The names in `reserved` belong to shapes that must stay: a dropped file with such a name gets another one.
     """
     dropped: OrderedDict[str, None] = OrderedDict()
 
@@ -134,7 +134,7 @@ def dropping_routes(published: PublishedShapes, converter: Converter, reserved: 
 
 
 def _is_ours(request: Request) -> bool:
-    """Whether a request comes from the page of this server, or from a program that is no browser."""
+    """Return whether a request comes from this server's page, or from a program that is not a browser."""
     if request.headers.get("sec-fetch-site", "same-origin") != "same-origin":
         return False
     origin = request.headers.get("origin")

@@ -31,7 +31,7 @@ def serve(
 ) -> None:
     """Serve a folder until Ctrl-C or SIGTERM; without a token nothing can be published.
 
-    `precision` and `fonts` are those of conversions; `report` takes lines for the user, first the server's address.
+    `precision` and `fonts` are for conversions; `report` gets lines for the user, first the server's address.
     """
     token = None if token_file is None else read_token(token_file)
     with closing(bind(host, port)) as server_socket:
@@ -69,7 +69,7 @@ def serve(
 
 
 def _page() -> list[Route]:
-    """Routes of the viewer's page, if it is built."""
+    """Return the routes of the viewer's page, if it is built."""
     with suppress(DeviceError):
         return page_routes()
     return []

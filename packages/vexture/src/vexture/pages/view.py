@@ -1,4 +1,4 @@
-"""`vexture view` and `vexture export`: files on a server that shows them, or in one page that holds them."""
+"""`vexture view` and `vexture export`: show files on a server, or save them in one page."""
 
 import os
 import sys
@@ -18,7 +18,7 @@ from vexture.server.published import PublishedShape, PublishedShapes
 from vexture.server.watch import WatchedFile, name_files, watch
 
 Report = Callable[[str], None]
-"""Takes a line for the user."""
+"""Function that gets a line for the user."""
 
 SourceResult: TypeAlias = tuple[bytes, PublishedShape]
 
@@ -32,9 +32,9 @@ def export(
     *,
     strict: bool = False,
 ) -> int:
-    """Write one page that shows files and needs nothing else; return its size.
+    """Write one self-contained page that shows files; return its size.
 
-    Raise a `SourceError` if nothing can be drawn of a file, or with `strict` if anything cannot.
+    Raise a `SourceError` if a file has nothing that can be drawn, or with `strict` if anything in it cannot be drawn.
     """
     from vexture.pages.page import VIEWER, check_output, exported_page
     from vexture.texture.files import write_together
@@ -46,7 +46,7 @@ def export(
     ):
         notes = [Note(note["kind"], note["message"], note["count"]) for note in shape.facts["notes"]]
         check_losses(str(source.path), notes, is_empty=shape.facts["segments"] == 0, strict=strict)
-        _report_warnings(shape, report)  # an error says them itself
+        _report_warnings(shape, report)  # an error contains them already
         shapes.append(shape)
     page = exported_page(shapes, title or ", ".join(shape.name for shape in shapes))
     write_together({output: page})
@@ -64,9 +64,9 @@ def view(
     report: Report,
     show: Callable[[str, int], None],
 ) -> None:
-    """Serve files to browsers until Ctrl-C, and convert them again when they change if `watching`.
+    """Serve files to browsers until Ctrl-C; if `watching`, convert them again when they change.
 
-    `report` takes warnings and errors for the user, `show` the address and the number of shapes.
+    `report` gets warnings and errors for the user, `show` the address and the number of shapes.
     """
     from vexture.pages.page_routes import DROPPED, dropping_routes, page_routes, thesis_addresses, thesis_routes
     from vexture.server.converter import Converter
@@ -158,5 +158,5 @@ def _report_warnings(shape: PublishedShape, report: Report) -> None:
 
 
 def _has_display() -> bool:
-    """Whether a browser has somewhere to appear; a text browser would take the terminal."""
+    """Return whether a browser can open a window; a text browser would take over the terminal."""
     return sys.platform in ("darwin", "win32") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))

@@ -1,1 +1,1 @@
-"""Servers: textures that change while people look at them."""
+"""Servers of textures that change while people look at them."""

@@ -1,4 +1,4 @@
-"""Connections of a server: how many there may be, how long each waits for its peer, and how it is refused."""
+"""Connections of a server: their number, the time limits for their peers, and the way to refuse them."""
 
 import asyncio
 import json
@@ -16,27 +16,27 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from vexture.server.limits import Limits
 
 RESERVE: Final = 128
-"""Descriptors that are no connections: files, conversions, what is being accepted or refused."""
+"""File descriptors kept for other uses: files, conversions, and connections being accepted or refused."""
 
 ACCEPTED: Final = 8
-"""Connections that the event loop accepts at once: what it accepts before it counts them stays within the reserve."""
+"""Connections that the event loop accepts in one go. They are not yet counted, so they must fit the reserve."""
 
 LINGERING: Final = 32
-"""Connections above the limit that are told so at one time; further ones are cut off."""
+"""Connections above the limit that get a refusal at the same time; further ones are cut off."""
 
 LINGER_SECONDS: Final = 2.0
 LINGER_BYTES: Final = 2**20
-"""What a refused peer still sends is read so long, up to so much: it would otherwise lose the answer."""
+"""Time and size limits for reading from a refused peer; without reading on, the peer would lose the answer."""
 
 HEAD_BYTES: Final = 2**14
 TOO_LONG: Final = HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE
 
 PIECE_BYTES: Final = 2**16
-"""Part of an answer that is handed to a connection at once. With what it buffers, it keeps about twice as much."""
+"""Bytes of an answer that are handed to a connection at once. With its buffer, it holds about twice as much."""
 
 
 def connections(limits: Limits) -> type[asyncio.Protocol]:
-    """Protocol of connections, as many as the limits and this process's descriptors allow."""
+    """Return the protocol of connections, limited in number by the limits and by this process's file descriptors."""
     most, files = limits.connections, resource.getrlimit(resource.RLIMIT_NOFILE)[0]
     if files != resource.RLIM_INFINITY:
         most = min(most, files - min(RESERVE, files // 2))
@@ -44,9 +44,9 @@ def connections(limits: Limits) -> type[asyncio.Protocol]:
 
 
 class _Strict(h11.Connection):
-    """Refuses a head that came at once and is too long, and a body whose length is said twice.
+    """A parser that refuses too long heads, even if they come at once, and bodies with two lengths.
 
-    A proxy before the server may believe the other length, and so see other requests (RFC 9112, 6.3).
+    A proxy in front of the server may use the other length, and would then see other requests (RFC 9112, 6.3).
     """
 
     def next_event(self) -> Any:
@@ -60,7 +60,7 @@ class _Strict(h11.Connection):
 
 
 class _Connection(H11Protocol):
-    """One connection. It is cut off when its peer neither asks nor takes what it asked for in time."""
+    """A connection that is cut off if its peer is too slow to send a request or to read the answer."""
 
     def __init__(self, *given: Any, limits: Limits, most: int, **named: Any) -> None:
         super().__init__(*given, **named)
@@ -75,13 +75,13 @@ class _Connection(H11Protocol):
         return self.cycle is not None and not self.cycle.response_complete and not self._refused
 
     def _wait(self, seconds: float | None, late: Callable[[], None] | None = None) -> None:
-        """Let the peer have some seconds from now on, or any time."""
+        """Give the peer a number of seconds from now on, or unlimited time."""
         if self._timer is not None:
             self._timer.cancel()
         self._timer = None if seconds is None else self.loop.call_later(seconds, late or self.transport.abort)
 
     def _unless_asked(self) -> None:
-        """Once a request is here, wait for the server, or for a peer that does not take the answer before."""
+        """Stop the clock once a request has arrived, unless the peer is slow to read the answer."""
         if self._answers:
             self._wait(self._limits.stall_seconds if self.flow.write_paused else None)
 
@@ -121,10 +121,10 @@ class _Connection(H11Protocol):
         tail = self._limits.stall_seconds if self.transport.get_write_buffer_size() else 0.0
         self._wait(self._limits.head_seconds + tail, self._without_request)
         super().on_response_complete()
-        self._unless_asked()  # by a request that came before its turn
+        self._unless_asked()  # the next request may already have arrived
 
     def _without_request(self) -> None:
-        """Give a peer up that has not sent the head of a request, or not taken the last answer."""
+        """Close a connection whose peer has not sent the head of a request, or not read the last answer."""
         if self.conn.our_state is not h11.IDLE or self.transport.get_write_buffer_size():
             self.transport.abort()
         elif self.conn.trailing_data[0]:
@@ -133,7 +133,7 @@ class _Connection(H11Protocol):
             self.transport.close()
 
     def send_400_response(self, msg: str) -> None:
-        """Refuse what is no request, as the parser has just raised."""
+        """Refuse input that is not a request, for which the parser has just raised an error."""
         error = sys.exception()
         if isinstance(error, h11.RemoteProtocolError) and error.error_status_hint == TOO_LONG:
             self._refuse(TOO_LONG, f"the head is longer than {HEAD_BYTES} bytes, the limit here; send fewer headers")
@@ -141,8 +141,8 @@ class _Connection(H11Protocol):
             self._refuse(400, f"this is no request of HTTP/1.1 ({error or msg}); correct it")
 
     def _refuse(self, status: int, line: str) -> None:
-        """Answer with one line and close, late enough for a peer that still sends to read it."""
-        if self.conn.our_state not in (h11.IDLE, h11.SEND_RESPONSE):  # an answer is on its way
+        """Answer with one line; close late enough for a peer that is still sending to read it."""
+        if self.conn.our_state not in (h11.IDLE, h11.SEND_RESPONSE):  # an answer has begun
             self.transport.abort()
             return
         self._refused = True
@@ -167,7 +167,7 @@ class _Connection(H11Protocol):
 
 
 class InPieces:
-    """Hands long contents to a connection in pieces, which share the content: a slow reader costs no copy of it."""
+    """Middleware that sends large contents in pieces that share memory, so that a slow reader costs no copy."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app

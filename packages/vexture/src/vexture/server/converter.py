@@ -1,4 +1,4 @@
-"""Conversion in processes of their own, so that one that takes too long or too much memory cannot harm the server."""
+"""Conversion in worker processes, so that one that takes too much time or memory cannot harm the server."""
 
 import asyncio
 import errno
@@ -19,54 +19,54 @@ from vexture.server.worker import Worker
 T = TypeVar("T")
 
 SIDE_BY_SIDE: Final = 2
-"""Conversions at one time: a slow one does not keep all others waiting."""
+"""Number of conversions at the same time: a slow one does not block all others."""
 
 MEMORY_BYTES: Final = 4 * 2**30
-"""Address space of a process."""
+"""Limit of the address space of a worker process."""
 
 TEMPORARY_BYTES: Final = 512 * 2**20
-"""On the disk, of all temporary files of a conversion, and of each."""
+"""Limit of the temporary files of a conversion on the disk, for all together and for each."""
 
 FULL: Final = (errno.EFBIG, errno.ENOSPC, errno.EDQUOT)
-"""Error numbers of systems without room for a file."""
+"""Error numbers for a lack of room on the disk."""
 
 LOOK_SECONDS: Final = 0.2
-"""Between two looks at the temporary files of a conversion."""
+"""Interval at which the temporary files of a conversion are checked."""
 
 SUFFIXES: Final = {FileKind.TEXTURE: ".ktx2", FileKind.GEOJSON: ".geojson", FileKind.SVG: ".svg"}
-"""Added to the name of an upload, which its texture then names as its source."""
+"""Suffixes for the names of uploads; the texture stores the result as its source."""
 
 
 class BusyError(VextureError):
-    """Too many conversions wait: try again later."""
+    """Too many conversions are waiting."""
 
 
 class UploadConversion(Protocol):
-    """A conversion of uploads of another kind, such as into the frame of a flood; it is sent to the processes."""
+    """Conversion of another kind of upload, such as into the frame of a flood; it is sent to the worker processes."""
 
     def warm(self) -> None:
-        """Load what a conversion needs."""
+        """Load everything that a conversion needs."""
 
     def shape_of(self, data: bytes, name: str) -> PublishedShape:
         """Convert an upload."""
 
 
 class Converter:
-    """Converts uploads side by side, as parameters say or by a conversion of another kind."""
+    """Converts several uploads at the same time, with parameters or with a conversion of another kind."""
 
     def __init__(self, limits: Limits, conversion: Parameters | UploadConversion = PUBLISHED_PARAMETERS) -> None:
         self._limits = limits
         self._conversion = conversion
         self._waiting = 0
         self._workers = [Worker(MEMORY_BYTES, TEMPORARY_BYTES) for _ in range(SIDE_BY_SIDE)]
-        self._idle: asyncio.LifoQueue[Worker] = asyncio.LifoQueue()  # the last used is warm; others start when needed
+        self._idle: asyncio.LifoQueue[Worker] = asyncio.LifoQueue()  # the last used is warm; others start on demand
         for worker in self._workers:
             self._idle.put_nowait(worker)
         self._ended = False
 
     @asynccontextmanager
     async def _worker(self) -> AsyncIterator[Worker]:
-        """Wait for a worker that is idle."""
+        """Wait for an idle worker."""
         worker = await self._idle.get()
         try:
             if self._ended:
@@ -76,21 +76,21 @@ class Converter:
             self._idle.put_nowait(worker)
 
     async def warm(self) -> None:
-        """Start a process, so that the first conversion need not wait for it."""
-        async with AsyncExitStack() as held:  # all of them: a second one would compile the same kernels meanwhile
-            first, *_ = [await held.enter_async_context(self._worker()) for _ in self._workers]
-            with suppress(BrokenProcessPool):  # the server stops
+        """Start a worker process, so that the first conversion need not wait for it."""
+        async with AsyncExitStack() as stack:  # take all workers: a second one would compile the same kernels meanwhile
+            first, *_ = [await stack.enter_async_context(self._worker()) for _ in self._workers]
+            with suppress(BrokenProcessPool):  # the server is stopping
                 await self._start_worker(first)
 
     async def _start_worker(self, worker: Worker) -> Worker:
-        """Start a worker's process if it has none, outside of a conversion's time limit; return the worker."""
+        """Start a worker's process if it is not running, outside a conversion's time limit; return the worker."""
         if not worker.is_running:
             await worker.run(_warm, self._conversion)
         return worker
 
     @contextmanager
     def place(self) -> Iterator[None]:
-        """Reserve a place for an upload; raises a `BusyError` if there is none."""
+        """Reserve a place for an upload; raise a `BusyError` if there is none."""
         if self._waiting >= self._limits.conversions:
             raise BusyError(f"{self._waiting} drawings wait to be converted already; try again in a few seconds")
         self._waiting += 1
@@ -100,14 +100,14 @@ class Converter:
             self._waiting -= 1
 
     async def shape_of(self, data: bytes, name: str, file_name: str | None = None) -> PublishedShape:
-        """Shape of an upload, whose content decides what it is; raises a `BusyError` if the server stops.
+        """Convert an upload according to its content; raise a `BusyError` if the server stops.
 
-        `file_name` is what its sender calls it; by default its name, with the suffix of what it is.
+        `file_name` is the sender's name for it; by default `name`, with the suffix of the content's kind.
         """
         return await self.run(_convert, data, name, file_name, self._limits.texture_bytes, self._conversion, about=name)
 
     async def run(self, work: Callable[..., T], *given: Any, about: str, seconds: float | None = None) -> T:
-        """Do work in a process, within so many seconds, by default those of an upload; raises as `shape_of` does."""
+        """Run work in a worker process, by default within the time limit of an upload; raise as `shape_of` does."""
         seconds = self._limits.conversion_seconds if seconds is None else seconds
         async with self._worker() as worker:
             try:
@@ -126,14 +126,14 @@ class Converter:
                 raise LimitError(f"{about}: its conversion {_need(error, seconds)}; simplify the drawing") from None
 
     def close(self) -> None:
-        """End the processes and start no other one."""
+        """End all worker processes and start no more."""
         self._ended = True
         for worker in self._workers:
             worker.kill()
 
 
 async def _watch_files(worker: Worker, work: "asyncio.Future[T]") -> T:
-    """Wait for work while its temporary files have room; raises an `OSError` when they have none left."""
+    """Wait for work; raise an `OSError` if its temporary files need too much room."""
     while not work.done():
         await asyncio.wait([work], timeout=LOOK_SECONDS)
         if worker.temporary_bytes > TEMPORARY_BYTES:
@@ -142,7 +142,7 @@ async def _watch_files(worker: Worker, work: "asyncio.Future[T]") -> T:
 
 
 def _need(error: Exception, seconds: float) -> str:
-    """Describe in words the resource that a conversion has used up."""
+    """Describe the resource that a conversion has used up."""
     if isinstance(error, TimeoutError):
         return f"takes longer than {seconds:g} s"
     if isinstance(error, OSError):
@@ -151,7 +151,7 @@ def _need(error: Exception, seconds: float) -> str:
 
 
 def _warm(conversion: Parameters | UploadConversion) -> None:
-    """Load what a conversion needs."""
+    """Load everything that a conversion needs."""
     if isinstance(conversion, Parameters):
         shape_of(SMALL, "small.svg", "small", conversion)
     else:
@@ -161,7 +161,7 @@ def _warm(conversion: Parameters | UploadConversion) -> None:
 def _convert(
     data: bytes, name: str, file_name: str | None, most: int, conversion: Parameters | UploadConversion
 ) -> PublishedShape:
-    """Convert an upload, in the process."""
+    """Convert an upload, in a worker process."""
     from vexture.texture.ktx2 import TEXEL_BYTES
     from vexture.texture.load import texture_from
 

@@ -1,4 +1,4 @@
-"""Shapes kept on disk: whenever the machine stops, each file is complete or absent."""
+"""Shapes on disk: at any moment at which the machine may stop, each file is complete or absent."""
 
 import asyncio
 import fcntl
@@ -24,8 +24,8 @@ DRAWINGS: Final = (".svg", ".svgz", ".geojson", ".ktx2")
 GEOGRAPHIC: Final = (".gpkg", ".fgb", ".shp", ".zip", ".tif", ".tiff", ".nc", ".nc4", ".cdf")
 PICTURES: Final = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp")
 TAKEN: Final = (DRAWINGS, GEOGRAPHIC, PICTURES)
-"""Suffixes of files that are served; their content decides how they are read. Of files with one name, a drawing comes
-before data, and data before a picture, which often shows the drawing beside it."""
+"""Suffixes of files that are served; their content decides the reader. Of files with the same name, drawings win over
+data, and data over pictures, which often show the drawing next to them."""
 
 Report = Callable[[str], None]
 
@@ -38,16 +38,16 @@ class Folder(LimitedShapes):
     Each file is written under a temporary name, flushed to the disk and then renamed. So the folder always holds the
     last complete state, and a shape that `publish` has returned from survives a crash.
 
-    Drawings and textures that users put beside ``.vexture`` (whatever `vexture.read` reads, and ``.ktx2``) are
-    converted at each start (`take_drawings`) and served under their names, unless a shape of that name was published.
-    These files are never changed. `say` takes a line for the user about each file that is damaged or not served.
+    Drawings and textures that users put next to ``.vexture`` (all files that `vexture.read` accepts, and ``.ktx2``) are
+    converted at each start (`take_drawings`) and served under their names, unless a shape of that name is published.
+    These files are never changed. `report` gets a line for the user about each file that is damaged or not served.
     """
 
     def __init__(self, path: Path, limits: Limits, report: Report) -> None:
         super().__init__(limits)
         self._path, self._report = path, report
         self._shapes_folder, self._files_folder = path / STATE / "shapes", path / STATE / "files"
-        self._kept: set[str] = set()  # names of the files on the disk, whose content has been checked
+        self._kept: set[str] = set()  # names of files on disk whose content has been checked
         self._turn = asyncio.Lock()
         try:
             for folder in (self._shapes_folder, self._files_folder):
@@ -58,11 +58,11 @@ class Folder(LimitedShapes):
             raise DeviceError(f"{path}: cannot be used ({error.strerror}); choose another folder") from None
 
     def release(self) -> None:
-        """Let another server have the folder."""
+        """Release the folder for another server."""
         self._lock.close()
 
     async def publish(self, shape: PublishedShape) -> None:
-        """Keep a shape and tell all clients; raises a `DeviceError` if the disk refuses, and keeps the previous one."""
+        """Store a shape and notify all clients; on a disk error, raise a `DeviceError` and keep the previous shape."""
         async with self._turn:
             self.check_room(shape)
             fresh = [file for file in shape.files if file.name not in self._kept]
@@ -78,7 +78,7 @@ class Folder(LimitedShapes):
             await asyncio.to_thread(self._remove, stale)
 
     async def withdraw(self, name: str) -> None:
-        """Remove a shape from the disk, and tell all clients; raises a `DeviceError` if the disk refuses."""
+        """Remove a shape from the disk and notify all clients; raise a `DeviceError` on a disk error."""
         async with self._turn:
             before = self.shape(name)
             if before is None:
@@ -94,16 +94,16 @@ class Folder(LimitedShapes):
 
     @property
     def drawings(self) -> list[Path]:
-        """Files that users have put into the folder, in the order in which they are read."""
+        """Files that users have put into the folder, in reading order."""
         found = [path for path in sorted(self._path.iterdir()) if not path.name.startswith(".") and path.is_file()]
         return [path for suffixes in TAKEN for path in found if path.suffix.lower() in suffixes]
 
     async def take_drawings(self, converter: Converter) -> None:
-        """Serve the drawings and textures that users have put into the folder; a `BusyError` if the server stops."""
+        """Serve the files that users have put into the folder; raise a `BusyError` if the server stops."""
         for path in self.drawings:
             try:
                 await self._take(path, converter)
-            except BusyError:  # the server stops, and says nothing of what it has not read
+            except BusyError:  # the server is stopping; the unread files are no errors
                 raise
             except EXPECTED as error:
                 self._report(f"{path.name} is not served: {error}")
@@ -125,14 +125,14 @@ class Folder(LimitedShapes):
             data = content_of(path)
         shape = await converter.shape_of(data, name)
         async with self._turn:
-            if self.shape(name) is not None:  # published while it was converted
+            if self.shape(name) is not None:  # it was published during the conversion
                 self._report(taken)
                 return
             self.check_room(shape)
             self.add(shape)
 
     def _check_links(self, path: Path) -> None:
-        """Refuse a file that is, or one of whose parts is, a link out of the folder."""
+        """Refuse a path that is a symbolic link out of the folder, or has such a part."""
         root = self._path.resolve()
         for part in (path, *path.parent.glob(f"{escape(path.stem)}.*")):
             if part.is_symlink() and not part.resolve().is_relative_to(root):
@@ -140,7 +140,7 @@ class Folder(LimitedShapes):
                 raise LimitError(f"{what} is a link that leads out of the folder; put the file itself there")
 
     def _write(self, shape: PublishedShape, fresh: list[PublishedFile]) -> None:
-        """Write a shape: first its files, then the manifest that names them."""
+        """Write the files of a shape, then the manifest that names them."""
         record = {
             "name": shape.name,
             "texture": _entry(shape.texture),
@@ -157,7 +157,7 @@ class Folder(LimitedShapes):
                 (self._files_folder / name).unlink()
 
     def _load(self) -> None:
-        """Read all shapes, and remove files that a crash has left behind."""
+        """Read all shapes, and remove leftover files of a crash."""
         whole = True
         for path in sorted(self._shapes_folder.iterdir()):
             if path.name.endswith(TEMPORARY):
@@ -197,14 +197,14 @@ def _entry(file: PublishedFile) -> dict[str, str]:
 
 
 def _reason(error: Exception) -> str:
-    """Reason why a manifest cannot be read, in a few words."""
+    """Describe in a few words why a manifest cannot be read."""
     if isinstance(error, OSError):
         return f"{Path(error.filename or '').name}: {error.strerror}"
     return f"it has no {error}" if isinstance(error, KeyError) else " ".join(str(error).split())[:200]
 
 
 def _lock_file(path: Path) -> IO[bytes]:
-    """Open a file that only one process at a time can lock."""
+    """Open a file that only one process can lock at a time."""
     file = path.open("ab")
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

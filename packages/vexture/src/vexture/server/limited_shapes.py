@@ -1,4 +1,4 @@
-"""Published shapes within the limits of their server: a number of shapes, and of bytes."""
+"""Published shapes within the limits of their server, on their number and bytes."""
 
 from vexture.base.errors import LimitError
 from vexture.server.limits import Limits
@@ -6,7 +6,7 @@ from vexture.server.published import PublishedShape, PublishedShapes
 
 
 class FullError(LimitError):
-    """There is no room for a shape: remove others or raise the limit."""
+    """There is no room for another shape."""
 
 
 class LimitedShapes(PublishedShapes):
@@ -17,16 +17,16 @@ class LimitedShapes(PublishedShapes):
         self._limits = limits
 
     async def publish(self, shape: PublishedShape) -> None:
-        """Keep a shape and tell all clients; raises what `check_room` raises."""
+        """Publish a shape and notify all clients; raise as `check_room` does."""
         self.check_room(shape)
         self.add(shape)
 
     async def withdraw(self, name: str) -> None:
-        """Keep the shape of a name no longer, and tell all clients."""
+        """Remove a shape, and notify all clients."""
         self.remove(name)
 
     def check_room(self, shape: PublishedShape) -> None:
-        """Raise a `FullError` if there would be too many shapes, or too many bytes."""
+        """Raise a `FullError` if the shape would exceed the number of shapes or of bytes."""
         before = self.shape(shape.name)
         if before is None and len(self.names) >= self._limits.max_shapes:
             raise FullError(f"{shape.name}: there are {len(self.names)} shapes, the limit; replace one of them")

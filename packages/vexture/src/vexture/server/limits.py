@@ -1,4 +1,4 @@
-"""Limits of what a server accepts: sizes, times and rates."""
+"""Limits on the input of a server: sizes, times and rates."""
 
 import time
 from collections import OrderedDict
@@ -9,25 +9,25 @@ from typing import Final
 from vexture.base.errors import ParameterError
 
 MOST_KNOWN: Final = 10_000
-"""Addresses whose pace is remembered; the one that was silent for longest is forgotten first."""
+"""Number of addresses whose rate is stored; the one that was silent longest is dropped first."""
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Limits of a server, each of which it names when it refuses."""
+    """Limits of a server; refusals name the limit."""
 
-    max_bytes: int = 16 * 2**20  # of one upload
+    max_bytes: int = 16 * 2**20  # for one upload
     max_total: int = 2**30  # bytes of all files of all shapes
     max_shapes: int = 10_000
     rate: float = 10.0  # uploads a second from one address
-    burst: int = 20  # uploads at once from one address, after a pause
-    texture_bytes: int = 64 * 2**20  # of one texture in memory
+    burst: int = 20  # uploads at once from one address after a pause
+    texture_bytes: int = 64 * 2**20  # for one texture in memory
     upload_seconds: float = 60.0
     conversion_seconds: float = 60.0
-    conversions: int = 16  # that may run or wait
-    connections: int = 2000  # less where the system allows fewer open files
-    head_seconds: float = 15.0  # from a connection, or the answer before, to the whole head of a request
-    stall_seconds: float = 60.0  # for a client to take what is buffered of its answer, about 128 kB
+    conversions: int = 16  # running or waiting
+    connections: int = 2000  # fewer if the system allows fewer open files
+    head_seconds: float = 15.0  # from the connection or the previous answer to the complete head of a request
+    stall_seconds: float = 60.0  # for a client to read the buffered part of an answer, about 128 kB
 
     def __post_init__(self) -> None:
         for name in self.__slots__:
@@ -37,7 +37,7 @@ class Limits:
 
 
 class Pace:
-    """Limits the rate of each publisher: a bucket of `burst` tokens for each address, refilled by `rate` a second.
+    """Limits the rate of each address by a bucket of `burst` tokens, which is refilled at `rate` tokens a second.
 
     Examples
     --------
@@ -51,7 +51,7 @@ class Pace:
         self._buckets: OrderedDict[str, tuple[float, float]] = OrderedDict()
 
     def wait(self, address: str) -> float:
-        """Take a token; return 0 if there was one, else the seconds until there is."""
+        """Take a token and return 0, or return the seconds until there is one."""
         now = self._clock()
         tokens, before = self._buckets.pop(address, (float(self._burst), now))
         tokens = min(tokens + (now - before) * self._rate, self._burst)

@@ -1,4 +1,4 @@
-"""The life of a server: its socket, work beside its answers, and a stop within a second."""
+"""The life of a server: its socket, its background work, and its stop within a second."""
 
 import asyncio
 import logging
@@ -17,7 +17,7 @@ from vexture.server.connections import ACCEPTED, InPieces, connections
 from vexture.server.limits import Limits, Pace
 
 WAITING: Final = 2048
-"""Connections that may wait to be accepted."""
+"""Length of the queue of connections that wait to be accepted."""
 
 STOP_SECONDS: Final = 1
 
@@ -25,14 +25,14 @@ Lifespan: TypeAlias = Callable[[Any], AbstractAsyncContextManager[None]]
 
 
 def bind(host: str, port: int) -> socket.socket:
-    """Take a port, before anything else is done; clients are refused until `listen`.
+    """Reserve a port before any other work; clients are refused until `listen`.
 
     Raises
     ------
     DeviceError
-        If the address cannot be used, above all because another server listens there.
+        If the address cannot be used, usually because another server listens there.
     ParameterError
-        If the number is not that of a port.
+        If the number is not a valid port.
 
     Examples
     --------
@@ -40,7 +40,7 @@ def bind(host: str, port: int) -> socket.socket:
     ...     listen(first).startswith("http://127.0.0.1:")
     True
     """
-    try:  # without the port: getaddrinfo would take it modulo 2^16
+    try:  # no port here: getaddrinfo would take it modulo 2^16
         family, kind, protocol, _, where = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)[0]
         server_socket = socket.socket(family, kind, protocol)
     except OSError as error:
@@ -58,12 +58,12 @@ def bind(host: str, port: int) -> socket.socket:
 
 
 def listen(server_socket: socket.socket) -> str:
-    """Let clients connect, since all is ready to be served; URL of the server.
+    """Let clients connect once everything is ready; return the URL of the server.
 
     Raises
     ------
     DeviceError
-        If another server has server_socket the port at the same time.
+        If another server took the port at the same time.
     """
     host, port = server_socket.getsockname()[:2]
     try:
@@ -79,7 +79,7 @@ def _unusable(host: str, port: int, error: OSError) -> DeviceError:
 
 
 def background(work: Callable[[], Coroutine[Any, Any, None]]) -> Lifespan:
-    """Context of a server that does `work` while it answers, and cancels it when it stops."""
+    """Return the context of a server that runs `work` in the background and cancels it at its stop."""
 
     @asynccontextmanager
     async def lifespan(_app: Any) -> AsyncIterator[None]:
@@ -106,16 +106,16 @@ class _Server(uvicorn.Server):
         for server_socket in sockets or ():
             server_socket.listen(
                 WAITING
-            )  # the event loop has made the queue as short as the number that it accepts at once
+            )  # the event loop has shortened the queue to the number that it accepts at once
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         self._stop()
-        logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)  # uploads that are cut off are no errors
+        logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)  # interrupted uploads are not errors
         await super().shutdown(sockets)
 
 
 class _Few(logging.Filter):
-    """Drops what was logged a moment ago: no client can fill the disk with a line."""
+    """Filter that drops repeated log lines, so that no client can fill the disk with them."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -127,9 +127,9 @@ class _Few(logging.Filter):
 
 
 def serve_until_stopped(app: ASGIApp, server_socket: socket.socket, stop: Callable[[], None], limits: Limits) -> None:
-    """Serve until Ctrl-C or SIGTERM; `stop` then ends streams and conversions, before the server waits for clients."""
+    """Serve until Ctrl-C or SIGTERM; then call `stop`, which ends streams and conversions, and wait for the clients."""
     _, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
-    with suppress(ValueError, OSError):  # one file for each client: as many as the system allows
+    with suppress(ValueError, OSError):  # each client needs a file descriptor
         resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
 
     errors = logging.StreamHandler()
@@ -140,7 +140,7 @@ def serve_until_stopped(app: ASGIApp, server_socket: socket.socket, stop: Callab
         http=connections(limits),
         backlog=ACCEPTED,
         log_config=None,
-        log_level="error",  # below it are only complaints about clients, which they are told
+        log_level="error",  # lower levels only complain about clients, which get the message
         access_log=False,
         server_header=False,
         ws="none",
@@ -149,7 +149,7 @@ def serve_until_stopped(app: ASGIApp, server_socket: socket.socket, stop: Callab
     server = _Server(config, stop)
 
     def end(*_: Any) -> None:
-        """Stop before Uvicorn listens to signals; it raises them again at its end, where nothing is left to do."""
+        """Stop the server on an early signal. Uvicorn handles later ones; its later repeat of them is harmless."""
         server.should_exit = True
 
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -158,4 +158,4 @@ def serve_until_stopped(app: ASGIApp, server_socket: socket.socket, stop: Callab
         with suppress(KeyboardInterrupt):
             server.run(sockets=[server_socket])
     finally:
-        stop()  # a server that is ended while it starts does not shut down
+        stop()  # a server that is stopped during its start does not shut down

@@ -1,4 +1,4 @@
-"""Names of shapes: the rules that they follow, and the names of their files."""
+"""Names of shapes, and of their files."""
 
 import hashlib
 import unicodedata
@@ -9,14 +9,14 @@ from vexture.base.errors import LimitError
 MOST_BYTES: Final = 100
 OTHERS: Final = frozenset(" ._-")
 CATEGORIES: Final = ("L", "M", "N")
-"""Of Unicode: letters, their marks, and digits."""
+"""Unicode categories: letters, their marks, and digits."""
 
 
 def checked_name(name: str) -> str:
-    """Name of a shape in Unicode's normal form NFC.
+    """Return a valid name of a shape in Unicode normal form NFC.
 
-    It has at most 100 bytes. Each part between slashes holds letters, digits, spaces and ``._-``, but neither starts
-    with a dot nor starts or ends with a space. Other names raise a `LimitError`.
+    It has at most 100 bytes. Each part between slashes consists of letters, digits, spaces and ``._-``; it does not
+    start with a dot, and does not start or end with a space. Other names raise a `LimitError`.
 
     Examples
     --------
@@ -52,7 +52,7 @@ def _check_part(part: str, display_name: str) -> None:
 
 
 def manifest_name(name: str) -> str:
-    """Name of a shape's manifest on disk, which every file system accepts.
+    """Return the file name of a shape's manifest, valid on every file system.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Conversion of a file's content, of any kind, into a shape that can be published."""
+"""Conversion of a file's content, of any kind, into a shape for publishing."""
 
 import time
 from dataclasses import replace
@@ -20,36 +20,36 @@ if TYPE_CHECKING:
     from vexture.svg.frames import Frame
 
 VIEW_PRECISION = 1e-7
-"""Unit-square units. At 10,000x a window of 1000 pixels shows 1e-4 of the square: the outline is within a pixel."""
+"""Precision in unit-square units: at 10,000x, 1000 pixels show 1e-4 of the square, so the error is below a pixel."""
 
 VIEWER_PARAMETERS = Parameters(split="faces", precision=VIEW_PRECISION)
-"""The viewer converts in colours, precise enough for the deepest zoom."""
+"""Parameters of the viewer: in colours, and precise enough for the deepest zoom."""
 
 PUBLISHED_PARAMETERS = Parameters(split="faces")
-"""A server converts in colours, and to a small size, since pages fetch a shape again with each change."""
+"""Parameters of a server: in colours, and small, because pages fetch a shape again after each change."""
 
 THESIS_BITS = {"thesis16": 16, "thesis8": 8}
 """Bits per channel of each view in the thesis encoding."""
 
 CONVERTED = "converted"
-"""The view that is what `vexture convert` writes by default: small, where the viewer's own is made for deep zoom."""
+"""View with the file that `vexture convert` writes by default, which is smaller than the viewer's own texture."""
 
 ANONYMOUS_WINDOW = (300.0, 150.0)
-"""Pixels: the size at which browsers show an SVG without one (CSS 2.1, 10.3.2)."""
+"""Size in pixels at which browsers show an SVG without a size (CSS 2.1, 10.3.2)."""
 
 SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 <path fill="red" d="M2 2C9 2 2 9 7 7S1 6 2 2zM-1 4A3 3 0 0 1 5 4z"/></svg>"""
-"""Uses all kernels: corners, curves, crossings, two colours, parts outside of the box."""
+"""Drawing that uses all kernels: corners, curves, crossings, two colours, parts outside the box."""
 
 
 def shape_of(
     data: bytes, file_name: str, name: str, parameters: Parameters, folder: Path | None = None
 ) -> PublishedShape:
-    """Convert the content of a file, or check and keep that of a packed texture, into a shape that can be published.
+    """Convert the content of a file, or check that of a packed texture, into a shape for publishing.
 
-    The file's name, which stands in messages, is never opened; only the images of an SVG in `folder` are. The facts of
-    the shape hold the notes as text; its views hold what to compare with: the source of an SVG, and, where a precision
-    is asked for, the texture that `vexture convert` writes.
+    The file's name is for messages only; nothing is opened but images of an SVG in `folder`. The facts of the shape
+    hold the notes as text. Its views are for comparison: the source of an SVG and, if a precision is set, the texture
+    that `vexture convert` writes.
 
     Examples
     --------
@@ -87,7 +87,7 @@ def shape_of(
 
 
 def thesis_pair(shape: PublishedShape, bits: int) -> tuple[bytes, ...]:
-    """Convert a shape's source, ``views["svg"]``, in the thesis encoding of 8 or 16 bits; contents of its files."""
+    """Convert a shape's source, ``views["svg"]``, into the thesis encoding of 8 or 16 bits; return the files."""
     from vexture.conversion.pipeline import convert
     from vexture.conversion.reading import read_drawing
 
@@ -101,7 +101,7 @@ def thesis_pair(shape: PublishedShape, bits: int) -> tuple[bytes, ...]:
 
 @cache
 def load_thesis() -> None:
-    """Load the kernels of the thesis's encoding, as `load_kernels` loads the others."""
+    """Load the kernels of the thesis encoding; `load_kernels` loads the others."""
     from vexture.conversion.pipeline import convert
     from vexture.svg.read import svg_drawing
 
@@ -110,7 +110,7 @@ def load_thesis() -> None:
 
 @cache
 def load_kernels() -> None:
-    """Load the kernels, for which only the first conversion of a process waits: no file's time includes it."""
+    """Load the kernels once per process, so that no conversion's time includes it."""
     from vexture.conversion.pipeline import convert
     from vexture.svg.read import svg_drawing
 
@@ -118,10 +118,10 @@ def load_kernels() -> None:
 
 
 def shape_of_drawing(drawing: "Drawing", file_name: str, parameters: Parameters, start: float) -> PublishedShape:
-    """Shape of a drawing, with the facts of its conversion; its notes are one line, if there are any."""
+    """Convert a drawing into a shape, with the facts of its conversion; the notes, if any, form one line."""
     from vexture.conversion.pipeline import combine, trees_of
 
-    reading = replace(parameters, select=None, fonts=None, trace_images=False, page_colors=None)  # read already
+    reading = replace(parameters, select=None, fonts=None, trace_images=False, page_colors=None)  # already read
     part = trees_of(drawing, reading)
     texture = combine([part], drawing.name, PurePath(file_name).name)
     milliseconds = 1000.0 * (time.perf_counter() - start)
@@ -145,7 +145,7 @@ def shape_of_drawing(drawing: "Drawing", file_name: str, parameters: Parameters,
 
 
 def _as_written(drawing: "Drawing", file_name: str, parameters: Parameters) -> PublishedFile:
-    """The file that `vexture convert` writes, at its own accuracy, of a drawing that is read already."""
+    """Return the file that `vexture convert` writes for a drawing, at the default accuracy."""
     split: Split = "auto" if parameters.split == VIEWER_PARAMETERS.split else parameters.split
     return shape_of_drawing(
         drawing, file_name, Parameters(split=split, max_seconds=parameters.max_seconds), 0.0
@@ -153,7 +153,7 @@ def _as_written(drawing: "Drawing", file_name: str, parameters: Parameters) -> P
 
 
 def texture_shape(data: bytes, file_name: str, name: str) -> PublishedShape:
-    """Shape of a texture; facts that the texture does not hold are None."""
+    """Make the shape of a texture; facts that the texture does not store are None."""
     from vexture.texture.load import texture_from
 
     texture = texture_from(data, file_name)
@@ -176,7 +176,7 @@ def texture_shape(data: bytes, file_name: str, name: str) -> PublishedShape:
 
 
 def _box_in_browsers(framed: "Frame | None", to_source: "NDArray[np.float64]") -> list[float]:
-    """Part of the unit square that a browser's picture of an SVG fills: x0, y0, x1, y1."""
+    """Return the part of the unit square that browsers show of an SVG: x0, y0, x1, y1."""
     import numpy as np
 
     size, matrix = ANONYMOUS_WINDOW, np.eye(2, 3)

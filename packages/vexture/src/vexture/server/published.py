@@ -12,19 +12,19 @@ from typing import Any, Final
 
 TEXTURE_TYPE: Final = "image/ktx2"
 
-DIGEST_LENGTH: Final = 32  # hexadecimal digits: 128 bits are enough to name a file after its content
+DIGEST_LENGTH: Final = 32  # hexadecimal digits; 128 bits identify a file's content
 
 REPLACED_BYTES: Final = 32 * 2**20
-"""Of replaced files that are still served, to clients that have just read the previous manifest."""
+"""Bytes of replaced files that are still served, for clients that have just read the previous manifest."""
 
 
 @dataclass(frozen=True)
 class PublishedFile:
-    """Bytes that are served under the name of their digest, and so never change."""
+    """Immutable bytes, served under a name made from their digest."""
 
     data: bytes
     media_type: str
-    suffix: str  # of its name, such as .ktx2
+    suffix: str  # suffix of the name, such as .ktx2
 
     @cached_property
     def name(self) -> str:
@@ -45,18 +45,18 @@ class PublishedShape:
     name: str
     texture: PublishedFile  # packed
     facts: Mapping[str, Any] = field(default_factory=dict)  # counts, sizes and times, ready for JSON
-    views: Mapping[str, PublishedFile] = field(default_factory=dict)  # to compare with the texture: svg, the source
+    views: Mapping[str, PublishedFile] = field(default_factory=dict)  # for comparison, such as the source as svg
 
     @cached_property
     def version(self) -> str:
-        """Digest of all that clients see, but for how long the conversion took."""
+        """Digest of everything that clients see, except the duration of the conversion."""
         facts = {what: fact for what, fact in self.facts.items() if what != "milliseconds"}
         seen = [self.name, self.texture.name, {what: file.name for what, file in self.views.items()}, facts]
         return hashlib.sha256(json.dumps(seen, sort_keys=True).encode()).hexdigest()[:DIGEST_LENGTH]
 
     @property
     def files(self) -> tuple[PublishedFile, ...]:
-        """All files that it consists of."""
+        """All files of the shape."""
         return (self.texture, *self.views.values())
 
 
@@ -68,11 +68,11 @@ def manifest(
     levels: int = 0,
     address: Callable[[PublishedFile], str] | None = None,
 ) -> dict[str, Any]:
-    """Describe a shape to clients, ready for JSON.
+    """Describe a shape to clients, as JSON values.
 
-    The note says why its last update was refused, if it was. The views are addresses of what the texture can be
-    compared with, beside the shape's own files. Addresses are relative to that of the manifest, which is some levels
-    below ``shapes/``. On a page without a server, and so without a stream of changes, `address` gives those of files.
+    The note, if there is one, says why the last update was refused. The views are addresses for comparison, in addition
+    to the shape's own files. Addresses are relative to the manifest, which is `levels` levels below ``shapes/``. On a
+    page without a server, and so without a stream of changes, `address` returns the addresses of files.
     """
     top = "../" * (levels + 1)
     where = address or (lambda file: f"{top}files/{file.name}")
@@ -90,19 +90,19 @@ def manifest(
 
 @dataclass(frozen=True)
 class Event:
-    """Something that happened: ``shape`` (name, version), ``gone`` (name) or ``note`` (name, message)."""
+    """A change: ``shape`` (name, version), ``gone`` (name) or ``note`` (name, message)."""
 
     kind: str
     data: Mapping[str, Any]
 
     @cached_property
     def sent(self) -> bytes:
-        """The event as all clients receive it (HTML, 9.2)."""
+        """The event as bytes, identical for all clients (HTML, 9.2)."""
         return f"event: {self.kind}\r\ndata: {json.dumps(self.data, separators=(',', ':'))}\r\n\r\n".encode()
 
 
 class Listener:
-    """Events that one client has still to receive: the newest of each name, so that a slow client costs no more."""
+    """Pending events of one client: only the newest of each name, so that a slow client needs no more memory."""
 
     def __init__(self) -> None:
         self._pending: OrderedDict[tuple[str, str], Event] = OrderedDict()
@@ -113,7 +113,7 @@ class Listener:
         return len(self._pending)
 
     def add(self, event: Event) -> None:
-        """Add an event, and drop those that it supersedes."""
+        """Add an event, and drop the events that it supersedes."""
         name = event.data["name"]
         for kind in ("note",) if event.kind == "note" else ("shape", "gone", "note"):
             self._pending.pop((kind, name), None)
@@ -121,12 +121,12 @@ class Listener:
         self._something.set()
 
     def close(self) -> None:
-        """End the stream after the events that are pending."""
+        """End the stream after the pending events."""
         self._closed = True
         self._something.set()
 
     async def next(self) -> Event | None:
-        """Wait for the next event; None when the server stops."""
+        """Wait for the next event; return None if the server stops."""
         while not self._pending:
             if self._closed:
                 return None
@@ -136,7 +136,7 @@ class Listener:
 
 
 class PublishedShapes:
-    """Shapes in memory. All methods belong to the event loop's thread."""
+    """Shapes in memory. All methods must run in the event loop's thread."""
 
     def __init__(self) -> None:
         self._shapes: dict[str, PublishedShape] = {}
@@ -149,37 +149,37 @@ class PublishedShapes:
 
     @property
     def names(self) -> list[str]:
-        """Names of the shapes, in the order in which they came."""
+        """Names of the shapes, in the order of publication."""
         return list(self._shapes)
 
     def versions(self, names: Iterable[str]) -> dict[str, str]:
-        """Version of each shape of these names that there is."""
+        """Return the version of each of these shapes that exists."""
         return {name: self._shapes[name].version for name in names if name in self._shapes}
 
     @property
     def notes(self) -> dict[str, str]:
-        """Reasons why the last update of a shape was refused, by the names of those of which it was."""
+        """Reasons why the last update of a shape was refused, by the shape's name."""
         return dict(self._notes)
 
     @property
     def nbytes(self) -> int:
-        """Bytes of all files of the shapes."""
+        """Total bytes of all files of the shapes."""
         return sum(len(file.data) for file in self._files.values())
 
     def shape(self, name: str) -> PublishedShape | None:
-        """The shape of a name, if there is one."""
+        """Return the shape of a name, if there is one."""
         return self._shapes.get(name)
 
     def file(self, name: str) -> PublishedFile | None:
-        """File of a name that the shapes consist of, or consisted of a moment ago."""
+        """Return a file by name, if a shape uses it or used it until recently."""
         return self._files.get(name) or self._replaced.get(name)
 
     def owners(self, file: str) -> int:
-        """Number of times that the shapes use a file, by its name."""
+        """Return the number of times that shapes use a file."""
         return self._owners[file]
 
     def add(self, shape: PublishedShape) -> None:
-        """Publish a shape; it replaces the one of its name."""
+        """Publish a shape, in place of any shape of the same name."""
         self._notes.pop(shape.name, None)
         for file in shape.files:
             self._files[file.name] = file
@@ -191,7 +191,7 @@ class PublishedShapes:
         self._notify(Event("shape", {"name": shape.name, "version": shape.version}))
 
     def remove(self, name: str) -> None:
-        """Remove the shape of a name, and the note about it."""
+        """Remove a shape, and the note about it."""
         shape, note = self._shapes.pop(name, None), self._notes.pop(name, None)
         if shape is not None:
             self._release(shape)
@@ -199,18 +199,18 @@ class PublishedShapes:
             self._notify(Event("gone", {"name": name}))
 
     def refuse(self, name: str, message: str) -> None:
-        """Tell all clients why an update is not published; the last good shape stays."""
+        """Notify all clients why an update is refused; the last good shape stays."""
         self._notes[name] = message
         self._notify(Event("note", {"name": name, "message": message}))
 
     def close(self) -> None:
-        """End the streams of all listeners, and of those that come later."""
+        """End the streams of all listeners, also of future ones."""
         self._closed = True
         for listener in self._listeners:
             listener.close()
 
     def _release(self, shape: PublishedShape | None) -> None:
-        """Give up the files of a replaced shape; those that no shape uses any more are served for a while."""
+        """Release the files of a replaced shape; files without users are served for a while longer."""
         for file in () if shape is None else shape.files:
             self._owners[file.name] -= 1
             if not self._owners[file.name]:
@@ -226,7 +226,7 @@ class PublishedShapes:
 
     @contextmanager
     def events(self) -> Iterator[Listener]:
-        """Listen to what happens from now on."""
+        """Listen to events from now on."""
         listener = Listener()
         self._listeners.add(listener)
         if self._closed:

@@ -12,23 +12,23 @@ from vexture.base.errors import DeviceError, ParameterError, VextureError
 from vexture.server.names import checked_name
 
 SECONDS: Final = 150.0
-"""Longer than a server takes by default to read an upload and to convert it."""
+"""Time limit, longer than the default limits of a server for reading and converting an upload."""
 
 LONGEST_ANSWER: Final = 2**20
 SHAPES: Final = "/shapes"
 
 
 def push(path: Path, url: str, token: str) -> dict[str, str]:
-    """Publish a file at a server, or at ``server/shapes/NAME``; the name is otherwise the file's, without its suffix.
+    """Publish a file on a server, or at ``server/shapes/NAME``; by default the name is the file's without its suffix.
 
-    Returns the manifest's address as ``url``, and its ``name``, ``version`` and ``bytes``.
+    Return the manifest's address as ``url``, and its ``name``, ``version`` and ``bytes``.
     """
     target = target_of(url, path.stem)
     try:
         data = path.read_bytes()
     except OSError as error:
         raise DeviceError(f"{path}: cannot be read ({error.strerror}); name another file") from None
-    # the server decides by the content what it is
+    # the server recognizes the kind by the content
     headers = {"Authorization": f"Bearer {token}", "Content-Type": "application/octet-stream"}
     try:
         with urlopen(Request(target, data, headers, method="PUT"), timeout=SECONDS) as answer:
@@ -45,7 +45,7 @@ def push(path: Path, url: str, token: str) -> dict[str, str]:
 
 
 def target_of(url: str, stem: str) -> str:
-    """Address of a shape.
+    """Return the address of a shape.
 
     Examples
     --------
@@ -69,10 +69,10 @@ def target_of(url: str, stem: str) -> str:
 
 
 def _refusal_error(target: str, error: HTTPError) -> VextureError:
-    """Turn an answer into an error of one line."""
+    """Turn a server's answer into an error of one line."""
     try:
         line = json.loads(error.read(LONGEST_ANSWER))["error"]
     except (OSError, HTTPException, ValueError, KeyError, TypeError):
         line = error.reason or "no reason is given"
-    shown = "".join(letter if letter.isprintable() else " " for letter in str(line))[:1000]
-    return DeviceError(f"{target}: {shown} ({error.code})")
+    text = "".join(letter if letter.isprintable() else " " for letter in str(line))[:1000]
+    return DeviceError(f"{target}: {text} ({error.code})")

@@ -31,31 +31,31 @@ DESCRIPTION: Final = "/openapi.json"
 
 
 def description(routes: Iterable[Route], limits: Limits) -> bytes:
-    """Describe a server to authors of clients; raises a `KeyError` if ``openapi.json`` has not all its routes."""
-    told = json.loads(files("vexture.server").joinpath("openapi.json").read_bytes())
-    paths: dict[str, dict[str, Any]] = {DESCRIPTION: told["paths"][DESCRIPTION]}
+    """Describe a server to authors of clients; raise a `KeyError` if ``openapi.json`` lacks one of its routes."""
+    document = json.loads(files("vexture.server").joinpath("openapi.json").read_bytes())
+    paths: dict[str, dict[str, Any]] = {DESCRIPTION: document["paths"][DESCRIPTION]}
     for route in routes:
-        item = told["paths"][route.path_format]
+        item = document["paths"][route.path_format]
         methods = [method.lower() for method in route.methods or () if method != "HEAD"]
         path = paths.setdefault(route.path_format, {"parameters": item.get("parameters", [])})
         path.update({method: item[method] for method in methods})
-    told["paths"] = paths
-    told["info"]["x-limits"] = asdict(limits)
-    return json.dumps(told, indent=1).encode()
+    document["paths"] = paths
+    document["info"]["x-limits"] = asdict(limits)
+    return json.dumps(document, indent=1).encode()
 
 
 PING_SECONDS: Final = 15
-"""A proxy takes a stream for dead that is silent for long."""
+"""Interval of pings in a stream; a proxy closes a stream that is silent for long."""
 
 TOLD: Final = 256
-"""Shapes that one part of the first event holds: a slow client costs no copy of all."""
+"""Shapes in one part of the first event, so that a slow client costs no copy of all shapes."""
 
 FOREVER: Final = "public, max-age=31536000, immutable"
 SVG_POLICY: Final = "sandbox; default-src 'none'; style-src 'unsafe-inline'"
 NO_SNIFFING: Final = {"X-Content-Type-Options": "nosniff"}
 
 Views: TypeAlias = Callable[[PublishedShape], Mapping[str, Any]]
-"""What a manifest names beside the files of a shape, relative to the manifest."""
+"""Function that returns further entries of a manifest besides the shape's files, relative to the manifest."""
 
 OTHER_ORIGINS: Final = Middleware(
     CORSMiddleware,
@@ -65,11 +65,11 @@ OTHER_ORIGINS: Final = Middleware(
     expose_headers=["ETag"],
     max_age=86400,
 )
-"""Lets pages of other origins read."""
+"""Headers that allow pages of other origins to read."""
 
 
 class _Any(PathConvertor):
-    """Any rest of a path: Starlette's own has no ends of lines in it, and leaves out one at the end."""
+    """Any rest of a path; Starlette's own convertor refuses line breaks, and drops one at the end."""
 
     regex = "(?s:.*)"
 
@@ -99,7 +99,7 @@ class KnownHosts:
         await self.app(scope, receive, send)
 
     def knows(self, host: str) -> bool:
-        """Whether a ``Host`` header names this server.
+        """Return whether a ``Host`` header names this server.
 
         Examples
         --------
@@ -117,10 +117,10 @@ class KnownHosts:
 def application(
     listed: list[Route], limits: Limits, *, only_at: str | None = None, lifespan: Lifespan | None = None
 ) -> Starlette:
-    """Make routes an application that describes itself, and whose errors are JSON.
+    """Make an application from routes; it describes itself, and its errors are JSON.
 
-    With `only_at` it answers only requests that name this host or the machine itself (`KnownHosts`). Otherwise it
-    answers everyone, and lets pages of other origins read.
+    With `only_at` it answers only requests to this host name or to the machine itself (`KnownHosts`). Otherwise it
+    answers all requests, and pages of other origins may read.
     """
     described = fixed_route(DESCRIPTION, description(listed, limits), "application/json", {"Cache-Control": "no-cache"})
     app = Starlette(
@@ -129,38 +129,38 @@ def application(
         lifespan=lifespan,
         exception_handlers={HTTPException: _http_error, Exception: _server_error},
     )
-    app.router.redirect_slashes = False  # to a host that the client names
+    app.router.redirect_slashes = False  # it would redirect to a host that the client names
     return app
 
 
 def refusal(status: int, line: str, headers: Mapping[str, str] | None = None) -> JSONResponse:
-    """Answer with one line that says why not."""
+    """Answer with one line that gives the reason of a refusal."""
     return JSONResponse({"error": line}, status, {"Cache-Control": "no-store", **(headers or {})})
 
 
 async def _http_error(request: Request, error: Exception) -> Response:
-    """Answer in JSON for what the framework refuses."""
+    """Answer in JSON to requests that the framework refuses."""
     assert isinstance(error, HTTPException)
     if error.status_code == 405:
         found = [route for route in request.app.routes if route.matches(request.scope)[0] is not Match.NONE]
-        allowed = sorted(set().union(*(route.methods for route in found)))  # the framework names those of one route
+        allowed = sorted(set().union(*(route.methods for route in found)))  # Starlette names those of one route
         return refusal(405, f"{request.method} is not possible here", {"Allow": ", ".join(allowed)})
     line = f"{request.url.path}: there is nothing here" if error.status_code == 404 else error.detail
     return refusal(error.status_code, line, error.headers)
 
 
 async def _server_error(request: Request, error: Exception) -> Response:
-    """Answer that the server has a fault; the traceback is in its log, not here."""
+    """Answer that the server failed; the traceback goes to its log only."""
     return refusal(500, f"the server failed ({type(error).__name__}); its log says more")
 
 
 def fixed_route(path: str, content: bytes, media_type: str, headers: Mapping[str, str]) -> Route:
-    """Route of content that never changes while the server runs."""
+    """Make the route of a content that never changes while the server runs."""
     return current_route(path, lambda: content, media_type, headers)
 
 
 def current_route(path: str, content: Callable[[], bytes], media_type: str, headers: Mapping[str, str]) -> Route:
-    """Route of content as it is now; the same object is digested once."""
+    """Make the route of a changing content; the digest of an object is computed once."""
     digest = lru_cache(1)(lambda found: hashlib.sha256(found).hexdigest()[:32])
 
     async def answer(request: Request) -> Response:
@@ -172,16 +172,16 @@ def current_route(path: str, content: Callable[[], bytes], media_type: str, head
 
 
 def levels_below(request: Request) -> int:
-    """Count the levels below ``shapes/`` of the address of a shape's manifest, as the client wrote it.
+    """Count the levels of a manifest's address below ``shapes/``, as written by the client.
 
-    The slash in ``flood/00`` is a level, and ``%2F`` in its place is none.
+    The slash in ``flood/00`` starts a level; ``%2F`` in its place does not.
     """
     name = request.path_params["name"]
     return int(name.count("/")) - bytes(request.scope.get("raw_path") or b"").lower().count(b"%2f")
 
 
 def routes(published: PublishedShapes, views: Views = lambda shape: {}) -> list[Route]:
-    """Routes to read published shapes, whose manifests also name what `views` returns."""
+    """Make the routes for reading published shapes; their manifests also contain the result of `views`."""
 
     async def shapes(request: Request) -> Response:
         listed = _shape_list(tuple(published.names))
@@ -194,8 +194,8 @@ def routes(published: PublishedShapes, views: Views = lambda shape: {}) -> list[
             return refusal(404, f"no shape {name[:100]!r}; /shapes lists the names")
         note = published.notes.get(name)
         headers = {"ETag": entity_tag(shape.version, note), "Cache-Control": "no-cache"}
-        told = manifest(shape, note, views(shape), levels=levels_below(request))
-        return _not_modified(request, headers) or JSONResponse(told, headers=headers)
+        body = manifest(shape, note, views(shape), levels=levels_below(request))
+        return _not_modified(request, headers) or JSONResponse(body, headers=headers)
 
     async def file(request: Request) -> Response:
         name = request.path_params["name"]
@@ -212,7 +212,7 @@ def routes(published: PublishedShapes, views: Views = lambda shape: {}) -> list[
         if request.method != "HEAD":
             return StreamingResponse(stream(published), headers=headers)
         answer = Response(headers=headers)
-        del answer.headers["Content-Length"]  # of a stream nobody knows it
+        del answer.headers["Content-Length"]  # the length of a stream is unknown
         return answer
 
     return [
@@ -225,14 +225,14 @@ def routes(published: PublishedShapes, views: Views = lambda shape: {}) -> list[
 
 @lru_cache(1)
 def _shape_list(names: tuple[str, ...]) -> bytes:
-    """Answer that many clients share."""
+    """Encode the list of shapes, once for many clients."""
     return json.dumps({"shapes": names}, ensure_ascii=False, separators=(",", ":")).encode()
 
 
 async def stream(published: PublishedShapes) -> AsyncIterator[bytes]:
-    """First all versions and notes, so that a client that comes back catches up; then the changes.
+    """Yield all versions and notes, so that a client that reconnects catches up, and then the changes.
 
-    The versions are one event, in parts. What changes between two parts is a change that comes after the event.
+    The versions form one event, sent in parts. A change between two parts follows as an event of its own.
     """
     with published.events() as listener:
         yield b'event: hello\r\ndata: {"versions":{'
@@ -257,18 +257,18 @@ async def stream(published: PublishedShapes) -> AsyncIterator[bytes]:
 
 
 def entity_tag(version: str, note: str | None) -> str:
-    """Tag of a manifest: its version, and a digest of the note."""
+    """Return the entity tag of a manifest: its version, and a digest of the note."""
     return f'"{version}"' if note is None else f'"{version}-{hashlib.sha256(note.encode()).hexdigest()[:8]}"'
 
 
 def _not_modified(request: Request, headers: Mapping[str, str]) -> Response | None:
-    """Answer 304 to a client that has the content of this ``ETag`` already, or None."""
+    """Return a 304 answer if the client already has the content of this ``ETag``, else None."""
     known = is_known(headers["ETag"], request.headers.get("if-none-match", ""))
     return Response(status_code=304, headers=headers) if known else None
 
 
 def is_known(tag: str, header: str) -> bool:
-    """Whether ``If-None-Match`` names a tag (RFC 9110, 13.1.2: weak comparison).
+    """Return whether ``If-None-Match`` contains a tag (RFC 9110, 13.1.2: weak comparison).
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The token that authorizes uploads, and the pace of wrong ones."""
+"""The token that authorizes uploads, and the rate limit of wrong tokens."""
 
 import time
 from collections.abc import Callable
@@ -13,11 +13,11 @@ LONGEST_TOKEN: Final = 4096
 
 WRONG_FROM_ONE: Final = (0.1, 5)
 WRONG_FROM_ALL: Final = (1.0, 100)
-"""Wrong tokens a second, and at once after a pause: from one address, and from all together."""
+"""Limits on wrong tokens, as a rate per second and a burst: from one address, and from all addresses together."""
 
 
 def read_token(path: Path) -> str:
-    """Token of a file, without the white space around it."""
+    """Read the token from a file, without surrounding white space."""
     try:
         with path.open("rb") as file:
             content = file.read(LONGEST_TOKEN + 1)
@@ -34,7 +34,7 @@ def read_token(path: Path) -> str:
 
 
 class WrongTokens:
-    """Rate of recent wrong tokens; a client with the right one never waits, whoever shares its address.
+    """Rate limit of wrong tokens; a client with the right one never waits, even if it shares its address.
 
     Examples
     --------
@@ -47,5 +47,5 @@ class WrongTokens:
         self._each, self._all = Pace(*WRONG_FROM_ONE, clock), Pace(*WRONG_FROM_ALL, clock)
 
     def wait(self, address: str) -> float:
-        """Note a wrong token from an address; return the seconds until the next one may be answered as usual, or 0."""
+        """Count a wrong token from an address; return the seconds until the next one may be answered as usual, or 0."""
         return max(self._each.wait(address), self._all.wait(""))

@@ -1,4 +1,4 @@
-"""Uploads of shapes: authorization, limits, and the answer to each upload that is refused."""
+"""Uploads of shapes: authorization, limits, and the answers to refused uploads."""
 
 import asyncio
 import hmac
@@ -21,18 +21,18 @@ from vexture.server.routes import entity_tag, levels_below, refusal
 from vexture.server.tokens import WrongTokens
 
 DRAINED: Final = 4
-"""Times the limit. So much of a refused body is read: a client that still sends does not see the answer."""
+"""Multiple of the size limit up to which a refused body is read: clients do not see an answer while they send."""
 
 DELAY_SECONDS: Final = 1.0
 MOST_DELAYED: Final = 100
-"""How long an answer to one of too many wrong tokens takes, and how many such answers wait at most."""
+"""Delay of an answer to a wrong token above the rate limit, and the most such answers that wait at a time."""
 
 CHALLENGE: Final = {"WWW-Authenticate": 'Bearer realm="vexture"'}
 WRONG: Final = {"WWW-Authenticate": 'Bearer realm="vexture", error="invalid_token"'}
 
 
 class _RefusedError(Exception):
-    """An upload that is answered with one line."""
+    """An upload is refused, with a status and one line."""
 
     def __init__(self, status: int, line: str, headers: dict[str, str] | None = None) -> None:
         super().__init__(line)
@@ -40,11 +40,11 @@ class _RefusedError(Exception):
 
 
 class _WrongTokenError(_RefusedError):
-    """One of too many."""
+    """A wrong token above the rate limit."""
 
 
 def publishing_routes(published: LimitedShapes, converter: Converter, limits: Limits, token: str | None) -> list[Route]:
-    """Routes to publish shapes with the token; without one, all uploads are refused."""
+    """Make the routes for publishing shapes with the token; without a token, all uploads are refused."""
     pace, wrong = Pace(limits.rate, limits.burst), WrongTokens()
     delayed = asyncio.Semaphore(MOST_DELAYED)
     turns: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
@@ -73,8 +73,8 @@ def publishing_routes(published: LimitedShapes, converter: Converter, limits: Li
             return refusal(error.status, error.line, error.headers)
         try:
             data = await _body(request, limits)
-            with converter.place():  # not before the upload is here: a slow sender takes no place
-                async with turns.setdefault(name, asyncio.Lock()):  # of one name the last one that came stays
+            with converter.place():  # only now: a slow sender takes no place
+                async with turns.setdefault(name, asyncio.Lock()):  # of several uploads of one name, the last one wins
                     return await publish(name, data, levels_below(request))
         except _RefusedError as error:
             return refusal(error.status, error.line, error.headers)
@@ -115,7 +115,7 @@ def _check_token(request: Request, token: str | None, wrong: WrongTokens, addres
 
 
 async def _body(request: Request, limits: Limits) -> bytes:
-    """Content of an upload that is not too large and arrives in time."""
+    """Read an upload; refuse one that is too large or too slow."""
     most = limits.max_bytes
     length = request.headers.get("content-length", "0")
     too_large = int(length[:20]) > most if length.isdecimal() else True
@@ -131,9 +131,9 @@ async def _body(request: Request, limits: Limits) -> bytes:
 
 
 async def read_body(request: Request, limits: Limits, max_bytes: int) -> tuple[bytes, int]:
-    """Read a body: its content, if it has at most `max_bytes` bytes, and the number of bytes read.
+    """Read a body; return its content, if it has at most `max_bytes` bytes, and the number of bytes read.
 
-    Raises a `TimeoutError` if that takes too long, and a `ClientDisconnect` if it breaks off.
+    Raise a `TimeoutError` if that takes too long, and a `ClientDisconnect` if the client stops.
     """
     body, size = bytearray(), 0
     async with asyncio.timeout(limits.upload_seconds):

@@ -1,4 +1,4 @@
-"""Files that are converted again whenever someone saves them."""
+"""Files that are converted again whenever they are saved."""
 
 import asyncio
 import unicodedata
@@ -13,15 +13,14 @@ from vexture.server.published import PublishedShape, PublishedShapes
 
 STEP_MILLISECONDS = 10
 DEBOUNCE_MILLISECONDS = 50
-"""Interval between two looks for changes, and the longest time over which changes are gathered."""
+"""Interval between two checks for changes, and the longest time over which changes are collected."""
 
 CHECK_MILLISECONDS = 1000
-"""Interval at which all files are checked. It finds what was saved before watching began, or on a disk that reports no
-changes."""
+"""Interval of full checks. They find files saved before watching began, and changes that a disk does not report."""
 
 SETTLING_SECONDS = (0.03, 0.15, 0.5)
-"""Pauses before a file that cannot be read, or is no drawing, is read again. Editors delete a file, or write it in
-pieces, while they save."""
+"""Pauses before an unreadable or invalid file is read again. Editors delete a file while they save, or write it in
+pieces."""
 
 
 _Stamp = tuple[int, int, int]
@@ -31,12 +30,12 @@ _Stamp = tuple[int, int, int]
 class WatchedFile:
     """A file that is shown."""
 
-    path: Path  # as the user gave it, for messages
-    name: str  # of its shape
+    path: Path  # as the user typed it, for messages
+    name: str  # name of the shape
 
     @property
     def places(self) -> set[Path]:
-        """Paths whose changes change the file: its own and, of a link, its target."""
+        """Paths to watch for changes of the file: its own and, for a symbolic link, its target."""
         return {self.path.parent.resolve() / self.path.name, self.path.resolve()}
 
 
@@ -44,7 +43,7 @@ Convert = Callable[[WatchedFile, bytes], Awaitable[PublishedShape]]
 
 
 def name_files(paths: Sequence[Path]) -> list[WatchedFile]:
-    r"""Give each file a name of its own, made from its stem, in Unicode's normal form NFC.
+    r"""Give each file a unique name, made from its stem, in Unicode normal form NFC.
 
     Examples
     --------
@@ -69,9 +68,9 @@ def name_files(paths: Sequence[Path]) -> list[WatchedFile]:
 async def watch(
     published: PublishedShapes, sources: Sequence[WatchedFile], convert: Convert, contents: Mapping[str, bytes | None]
 ) -> None:
-    """Publish each file again when it changes, or tell clients why not; ends only when it is cancelled.
+    """Publish each file again when it changes, or notify clients why not, until this is cancelled.
 
-    `convert` makes the shape of a file with a content; `contents` is the content that is published already, by name.
+    `convert` makes the shape of a file and its content; `contents` holds the published content of each file by name.
     """
     from watchfiles import awatch
 
@@ -103,7 +102,7 @@ async def watch(
 
 
 def _stamp(path: Path) -> _Stamp | None:
-    """Inode, size and time of a file, which differ when its content does; None if it is not there."""
+    """Return a file's inode, size and time, which change with its content; None if it does not exist."""
     try:
         found = path.stat()
     except OSError:
@@ -114,7 +113,7 @@ def _stamp(path: Path) -> _Stamp | None:
 async def _publish(
     published: PublishedShapes, source: WatchedFile, convert: Convert, content: dict[str, bytes | None]
 ) -> None:
-    """Publish a file once it is a drawing; after the last pause, tell clients why it is none."""
+    """Publish a file once it is a valid drawing; after the last pause, notify clients why it is not."""
     line = ""
     for delay in (*SETTLING_SECONDS, None):
         try:
@@ -130,5 +129,5 @@ async def _publish(
         content[source.name] = data
         published.add(shape)
         return
-    content[source.name] = None  # the last good content, once it is back, is published and clears the note
+    content[source.name] = None  # if the last good content comes back, it is published and clears the note
     published.refuse(source.name, line)

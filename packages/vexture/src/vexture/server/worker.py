@@ -1,8 +1,8 @@
-"""A process that does one piece of work at a time, is started when it is needed and ends with the server.
+"""A worker process that does one piece of work at a time, starts on demand and ends with the server.
 
-Its temporary files, and those of the libraries in it, are in a folder of its own. A second, tiny process removes the
-folder when the first has ended, and ends that when the server has: a library that keeps the interpreter's lock would
-keep a thread from it.
+Its temporary files, and those of its libraries, are in a folder of its own. A second, tiny process ends the worker
+when the server has ended, and removes the folder when the worker has ended. A thread could not do this while a library
+holds the interpreter's lock.
 """
 
 import asyncio
@@ -25,14 +25,14 @@ T = TypeVar("T")
 
 
 ENDING_SECONDS: Final = 1.0
-"""For a process that is killed to be gone, with the files that it has open."""
+"""Time for a killed process to disappear, with its open files."""
 
 PLACES: Final = ("TMPDIR", "CPL_TMPDIR", "SQLITE_TMPDIR")
-"""Variables that say where temporary files are: of all programs, of GDAL, of SQLite."""
+"""Environment variables for the place of temporary files: general, GDAL, SQLite."""
 
 
 class Worker:
-    """A process, which is started when it is needed and can be killed alone.
+    """A process that starts on demand and can be killed by itself.
 
     `memory_bytes` limits its address space, `file_bytes` each file that it writes.
     """
@@ -44,33 +44,33 @@ class Worker:
 
     @property
     def is_running(self) -> bool:
-        """Whether the process is started."""
+        """True if the process has been started."""
         return self._pool is not None
 
     @property
     def temporary_bytes(self) -> int:
-        """Bytes on the disk of its temporary files, also of those that it has removed and not closed."""
+        """Bytes of its temporary files on the disk, including removed files that are still open."""
         return sum(512 * size for size in dict(self._temporary_blocks()).values())
 
     def run(self, work: Callable[..., T], *given: Any) -> asyncio.Future[T]:
-        """Do one piece of work; its temporary files are removed after it."""
+        """Run one piece of work; its temporary files are removed afterwards."""
         if self._pool is None:
-            clean = multiprocessing.get_context("spawn")  # inherits nothing of the server, above all no sockets
+            clean = multiprocessing.get_context("spawn")  # inherits nothing from the server, in particular no sockets
             self._pool = ProcessPoolExecutor(1, clean, _prepare, (self._folder, self._limits))
         return asyncio.get_running_loop().run_in_executor(self._pool, _work, work, given)
 
     def kill(self) -> None:
-        """End the process, whatever it does."""
+        """Kill the process, whatever it is doing."""
         pool, self._pool = self._pool, None
         if pool is not None:
-            for process in list(pool._processes.values()):  # before Python 3.14 there is no kill_workers
+            for process in list(pool._processes.values()):  # kill_workers exists from Python 3.14 on
                 process.kill()
                 process.join(ENDING_SECONDS)
             pool.shutdown(wait=False, cancel_futures=True)
             shutil.rmtree(self._folder, ignore_errors=True)
 
     def _temporary_blocks(self) -> Iterator[tuple[tuple[int, int], int]]:
-        """Place on the disk and number of blocks of each temporary file; what goes meanwhile counts no more."""
+        """Yield the identity and the number of blocks of each temporary file, without files that vanish meanwhile."""
         processes = [] if self._pool is None else list(self._pool._processes)
         open_files = (file for process in processes for file in _entries(f"/proc/{process}/fd"))
         for file in (*_entries(self._folder), *open_files):
@@ -81,12 +81,12 @@ class Worker:
 
 
 def _entries(folder: str) -> list[Path]:
-    """All that is in a folder and in those below; nothing if it is not there."""
+    """Return all files in a folder and its subfolders; none if it does not exist."""
     return [Path(place, name) for place, _, names in os.walk(folder) for name in names]
 
 
 def _work(work: Callable[..., T], arguments: tuple[Any, ...]) -> T:
-    """Do a piece of work in the process, and remove what it leaves."""
+    """Run a piece of work in the process, and remove its leftovers."""
     try:
         return work(*arguments)
     finally:
@@ -96,7 +96,7 @@ def _work(work: Callable[..., T], arguments: tuple[Any, ...]) -> T:
 
 
 def _prepare(folder: str, limits: dict[int, int | None]) -> None:
-    """Set up the process: it ends with the server, ignores Ctrl-C, and may have limits of memory and files."""
+    """Set up the process: it ends with the server, ignores Ctrl-C, and limits memory and files."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     os.makedirs(folder, mode=0o700, exist_ok=True)
@@ -109,15 +109,15 @@ def _prepare(folder: str, limits: dict[int, int | None]) -> None:
 
 
 def _guard(folder: str) -> None:
-    """Start the process that ends this one with the server, and then removes its folder."""
+    """Start the process that ends this one when the server has ended, and then removes its folder."""
     parent = multiprocessing.parent_process()
     assert parent is not None
     guarded = os.getpid()
-    ends_with_this, kept = os.pipe()
+    ends_with_this, writer = os.pipe()
     if os.fork():
-        os.close(ends_with_this)  # the other end stays open as long as this process is
+        os.close(ends_with_this)  # the other end stays open as long as this process runs
         return
-    os.close(kept)
+    os.close(writer)
     wait([parent.sentinel, ends_with_this])
     if os.getppid() == guarded:
         os.kill(guarded, signal.SIGKILL)

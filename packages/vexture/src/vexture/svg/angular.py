@@ -1,6 +1,6 @@
-"""Angular gradients, which SVG has not: Figma writes each as a box of HTML that a `conic-gradient()` fills.
+"""Angular gradients, which SVG lacks: Figma exports each as an HTML box with a `conic-gradient()`.
 
-No paint turns about a point, so that such a gradient becomes sectors of flat colours (CSS Images 4, 3.3).
+No paint turns about a point, so such a gradient becomes sectors of flat colours (CSS Images 4, 3.3).
 """
 
 from dataclasses import replace
@@ -28,31 +28,31 @@ from vexture.svg.viewport import Rectangle
 
 CONIC: Final = frozenset({"conic-gradient", "repeating-conic-gradient"})
 FILLING: Final = {"width": ("100%", "auto"), "height": ("100%",)}
-"""Sizes of a box of HTML that fills the element around it."""
+"""Sizes with which an HTML box fills the element around it."""
 
 STEP: Final = 4 / 255
-"""Largest difference of a channel between neighbouring sectors: each is within 2/255 of what it stands for."""
+"""Largest difference of a channel between neighbouring sectors: each sector is exact to 2/255."""
 
 MOST_SECTORS: Final = 180
 MOST_COURSES: Final = 2 * MOST_SECTORS
-"""Between stops, around a turn: each takes a sector or more."""
+"""Most courses around a turn; each takes at least one sector."""
 
 WIDEST: Final = 1 / 8
-"""Turns. A wider sector is divided, so that its triangle reaches beyond the box."""
+"""Largest angle of a sector, in turns. Wider sectors are divided, so that their triangles reach beyond the box."""
 
 BEYOND: Final = 1.01
-"""How far triangles reach, as a part of what is needed."""
+"""Factor by which triangles reach beyond the necessary distance."""
 
 
 class AngularFill(NamedTuple):
-    """A gradient that fills a box of HTML, and its opacity."""
+    """A gradient that fills an HTML box, and its opacity."""
 
     gradient: CssGradient
     opacity: float
 
 
 class Course(NamedTuple):
-    """A part of a turn, clockwise, along which one colour becomes another; the offsets of its stops mean nothing."""
+    """A part of a turn, clockwise, in which one colour changes to another; the offsets of its stops are meaningless."""
 
     begin: float
     end: float
@@ -60,12 +60,12 @@ class Course(NamedTuple):
     last: Stop
 
     def color(self, at: float) -> Stop:
-        """Colour at a place in it."""
+        """Return the colour at a position in the course."""
         share = (at - self.begin) / (self.end - self.begin)
         return between(replace(self.first, offset=0.0), replace(self.last, offset=1.0), share)
 
     def within(self, low: float, high: float) -> "Course":
-        """The part of it within a range."""
+        """Return the part of the course within a range."""
         begin, end = max(self.begin, low), min(self.end, high)
         return Course(begin, end, self.color(begin), self.color(end))
 
@@ -76,7 +76,7 @@ class Course(NamedTuple):
         return max(abs(a - b) for a, b in zip(before, after, strict=True))
 
     def sectors(self, step: float) -> "list[Course]":
-        """Sectors of one colour each, that of the middle."""
+        """Divide the course into sectors, each in the colour of its middle."""
         count = max(ceil(self.change / step - 1e-9), ceil((self.end - self.begin) / WIDEST), 1)
         ends = np.linspace(self.begin, self.end, count + 1).tolist()
         middles = [self.color((begin + end) / 2.0) for begin, end in pairwise(ends)]
@@ -90,7 +90,7 @@ class AngularScene(Protocol):
 
 
 def angular_fill(element: etree._Element) -> AngularFill | None:
-    """The angular gradient that fills a `foreignObject`; None if it holds anything else."""
+    """Return the angular gradient that fills a `foreignObject`; None for any other content."""
     boxes = list(element.iterchildren("*"))
     if len(boxes) != 1 or boxes[0].tag != f"{HTML}div" or len(boxes[0]) or (boxes[0].text or "").strip():
         return None
@@ -106,7 +106,7 @@ def angular_fill(element: etree._Element) -> AngularFill | None:
 
 
 def paint_angular(scene: AngularScene, element: etree._Element, place: ElementPlace, painter: Painter) -> None:
-    """Paint the angular gradient that fills a `foreignObject`, at a place with its own style."""
+    """Paint the angular gradient that fills a `foreignObject`, at a place with the element's style."""
     fill, box = angular_fill(element), image_sides(place, (0.0, 0.0))
     if fill is None or min(box[2:]) <= 0.0 or place.style["visibility"].lower() != "visible" or place.space.flat:
         return
@@ -128,9 +128,9 @@ def paint_angular(scene: AngularScene, element: etree._Element, place: ElementPl
 
 
 def overlapping(sectors: list[Course]) -> list[Course]:
-    """Sectors around a turn in painting order, each up to the end of the next, so that nothing is seen between them.
+    """Extend opaque sectors to the end of the next one, in painting order, so that no gaps show between them.
 
-    Translucent ones stay beside one another, as their overlaps would show.
+    Translucent sectors only touch, because overlaps would show.
     """
     if any(sector.first.opacity < 1.0 for sector in sectors):
         return sectors
@@ -140,7 +140,7 @@ def overlapping(sectors: list[Course]) -> list[Course]:
 
 
 def center_of(shape: str, box: Rectangle, place: ElementPlace) -> tuple[float, float, float] | None:
-    """Middle of a gradient in a box, and where it begins, in turns from the top; None if `shape` is not valid."""
+    """Return the centre of a gradient in a box and its start, in turns from the top; None if `shape` is not valid."""
     left, top, width, height = box
     turn, _, where = f" {shape.lower()} ".partition(" at ")
     start = angle(turn.strip().removeprefix("from").strip()) if turn.strip() else 0.0
@@ -150,7 +150,7 @@ def center_of(shape: str, box: Rectangle, place: ElementPlace) -> tuple[float, f
 
 
 def triangle(sector: Course, box: Rectangle, x: float, y: float, start: float) -> ShapeOutline:
-    """A sector about a point, beyond a box."""
+    """Return a sector about a point as a triangle that reaches beyond a box."""
     left, top, width, height = box
     far = hypot(max(abs(x - left), abs(left + width - x)), max(abs(y - top), abs(top + height - y)))
     reach = BEYOND * far / cos(pi * (sector.end - sector.begin))
@@ -160,7 +160,7 @@ def triangle(sector: Course, box: Rectangle, x: float, y: float, start: float) -
 
 
 def courses_of(gradient: CssGradient, place: ElementPlace) -> list[Course]:
-    """Courses of a gradient around a whole turn; none if it is not valid, or they are too many."""
+    """Return the courses of a gradient around a whole turn; none if it is not valid or has too many."""
     stops = gradient.place_stops(place.style.solid, turns_of, 1.0)
     if not 0 < len(stops) <= MOST_COURSES:
         return []
@@ -175,12 +175,12 @@ def courses_of(gradient: CssGradient, place: ElementPlace) -> list[Course]:
         rounds = range(floor(-last[0] / long), ceil((1.0 - first[0]) / long) + 1)
         ends = [(at + long * turn, color) for turn in rounds for at, color in ends]
     courses = [Course(low, high, before, after) for (low, before), (high, after) in pairwise(ends) if high > low]
-    shown = [course.within(0.0, 1.0) for course in courses if course.begin < 1.0 and course.end > 0.0]
-    return shown if len(shown) <= MOST_COURSES else []
+    inside = [course.within(0.0, 1.0) for course in courses if course.begin < 1.0 and course.end > 0.0]
+    return inside if len(inside) <= MOST_COURSES else []
 
 
 def turns_of(text: str, axis: int) -> float | None:
-    """A place of a stop, in turns; of a percentage, whose sign is taken off, its number."""
+    """Return the position of a stop in turns; a percentage comes without its sign, as a number."""
     plain = number(text)
     turn = angle(text) if plain is None else None
     return plain if turn is None else turn / (2.0 * pi)

@@ -1,7 +1,7 @@
-"""Animations, which are not run: a drawing is drawn without them.
+"""Animations, which are not run: a drawing shows its static state.
 
-What is hidden in the drawing until an animation shows it, such as a logo that fades in, is drawn as the animation shows
-it. Animations are elements (SVG Animations 2) or keyframes of style sheets (CSS Animations 1).
+Content that stays hidden until an animation shows it, such as a logo that fades in, is drawn as the animation shows it.
+Animations are elements (SVG Animations 2) or keyframes of style sheets (CSS Animations 1).
 """
 
 import re
@@ -20,20 +20,20 @@ ANIMATIONS: Final = frozenset({"animate", "animateColor", "animateMotion", "anim
 """Elements that animate another one."""
 
 KEYFRAMES: Final = frozenset({"keyframes", "-webkit-keyframes"})
-"""Names of the rule that defines an animation."""
+"""Names of the at-rule that defines an animation."""
 
 Values: TypeAlias = dict[str, list[str]]
-"""All values that an animation gives each property, in their order."""
+"""Values that an animation gives to each property, in order."""
 
 FIRST_NUMBER: Final = re.compile(NUMBER)
 STARTS_BY_ITSELF: Final = re.compile(rf"\s*(?:{NUMBER}|[^;]+\.(?:begin|end|repeat)\b)")
-"""A begin that is a time, or an event of another animation; those of a user never happen in a picture."""
+"""Begin of an animation at a time or at an event of another animation; events of a user never happen in a picture."""
 
 OFFSET: Final = re.compile(r"from|to|(\d+(?:\.\d*)?|\.\d+)%", re.ASCII)
-"""Times of a frame, as a percentage of the whole."""
+"""Offset of a keyframe, a percentage of the duration."""
 
 NO_SIZE: Final = re.compile(r"scale[xy3d]*\(\s*[+-]?0*\.?0*\s*[,)]", re.IGNORECASE)
-"""A transform that makes everything a point or a line."""
+"""Transform that reduces everything to a point or a line."""
 
 
 def first_number(text: str) -> float:
@@ -62,13 +62,13 @@ HIDES: Final[dict[str, Callable[[str], bool]]] = {
     "stroke-dasharray": is_zero,
     "transform": lambda text: NO_SIZE.search(text) is not None,
 }
-"""Whether a value of a property hides an element."""
+"""Predicate for each property: True if its value hides an element."""
 
 
 def visible_value(name: str, base: str, values: Iterable[str], dashes: str = "none") -> str | None:
-    """Return the value of an animation that shows what the base value hides; None if that hides nothing, or all do.
+    """Return the value of an animation that shows an element which the base value hides, or None if there is none.
 
-    Of numbers it is the largest, of others the last. `dashes` is the ``stroke-dasharray`` that an offset moves.
+    It is the largest number, or else the last value. `dashes` is the ``stroke-dasharray`` to which an offset refers.
 
     Examples
     --------
@@ -85,12 +85,12 @@ def visible_value(name: str, base: str, values: Iterable[str], dashes: str = "no
     hides = HIDES.get(name)
     if hides is None or not hides(base):
         return None
-    shown = [value for value in values if not hides(value)]
-    return max(reversed(shown), key=first_number, default=None) if hides is is_zero else next(reversed(shown), None)
+    visible = [value for value in values if not hides(value)]
+    return max(reversed(visible), key=first_number, default=None) if hides is is_zero else next(reversed(visible), None)
 
 
 def values_by_element(root: etree._Element) -> dict[etree._Element, Values]:
-    """Find the values that animations by elements give to properties of each element of a document."""
+    """Collect the values that animation elements give to the properties of each element of a document."""
     links, found = Links(root), dict[etree._Element, Values]()
     for element in root.iter("{*}animate", "{*}animateColor", "{*}set"):
         begins = element.get("begin", "0").split(";")
@@ -105,7 +105,7 @@ def values_by_element(root: etree._Element) -> dict[etree._Element, Values]:
 
 
 def values_of(element: etree._Element) -> Iterator[str]:
-    """Yield the values of an animation by an element."""
+    """Yield the values of an animation element."""
     listed = element.get("values") if local_name(element) != "set" else None
     texts = [element.get("from", ""), element.get("to", "")] if listed is None else listed.split(";")
     yield from filter(None, map(str.strip, texts))
@@ -117,7 +117,7 @@ def read_keyframes(rule: Any, read: Callable[[Any], Iterable[tuple[str, str, boo
     for frame in tinycss2.parse_rule_list(rule.content or [], skip_comments=True, skip_whitespace=True):
         if frame.type == "qualified-rule" and is_offset(tinycss2.serialize(frame.prelude)):
             for name, value, important in read(frame.content):
-                if not important:  # which keyframes ignore
+                if not important:  # keyframes ignore important declarations
                     found.setdefault(name, []).append(value)
     return tinycss2.serialize(rule.prelude).strip().strip("\"'"), found
 

@@ -1,4 +1,4 @@
-"""Clips by the basic shapes of CSS, as elements of SVG that say the same (CSS Masking 1, 5.1; CSS Shapes 1, 3)."""
+"""Clips by basic shapes of CSS, converted to equivalent SVG elements (CSS Masking 1, 5.1; CSS Shapes 1, 3)."""
 
 import re
 from collections.abc import Callable
@@ -18,7 +18,7 @@ BOXES: Final = {
     **dict.fromkeys(("border-box", "margin-box", STROKED), STROKED),
     VIEWED: VIEWED,
 }
-"""Reference boxes, and those that they are for elements of SVG."""
+"""Reference boxes, with the box that each one means for SVG elements."""
 
 RULE = r"\s*(?:(nonzero|evenodd)\s*,)?\s*"
 POLYGON = re.compile(RULE + r"(.*)", re.IGNORECASE | re.DOTALL)
@@ -26,30 +26,30 @@ PATH = re.compile(RULE + r"(['\"])(.*)\2\s*", re.IGNORECASE | re.DOTALL)
 SPACES, COMMA, SLASH = re.compile(r"\s+"), re.compile(","), re.compile("/")
 ROUND = re.compile(r"\bround\b(?!\()")
 SIDES_OF: Final = {1: (0, 0, 0), 2: (1, 0, 1), 3: (1, 2, 1), 4: (1, 2, 3)}
-"""Of so many values, the second to fourth of four."""
+"""Indices of the second to fourth of four values, by the number of given values."""
 
 AT = re.compile(r"\bat\b")
 FAR = frozenset({"right", "bottom"})
 
 Element: TypeAlias = tuple[str, dict[str, str]]
-"""Name and attributes of a shape of SVG."""
+"""Name and attributes of an SVG shape."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReferenceBox:
-    """A reference box, and what lengths in it depend on."""
+    """A reference box, with the context of lengths in it."""
 
     left: float
     top: float
-    view: Viewport  # its sides
+    view: Viewport  # sides of the box
     font_size: float
 
     def along(self, text: str, axis: int) -> float | None:
-        """A length across (0) or down (1); None if it is none."""
+        """Return a length across (0) or down (1); None if it is not valid."""
         return self.view.length(text, (self.view.width, self.view.height)[axis], self.font_size)
 
     def four(self, text: str, axes: tuple[int, int, int, int]) -> list[float] | None:
-        """One to four lengths as four, as for margins, along axes; None if they are not valid."""
+        """Expand one to four lengths to four, as for margins, each along its axis; None if they are not valid."""
         parts = words(text, SPACES)
         if not 1 <= len(parts) <= 4:
             return None
@@ -58,7 +58,7 @@ class ReferenceBox:
 
 
 def known(values: list[float | None]) -> list[float] | None:
-    """Values, if all of them are known."""
+    """Return the values if all are known, else None."""
     found = [value for value in values if value is not None]
     return found if len(found) == len(values) else None
 
@@ -66,9 +66,9 @@ def known(values: list[float | None]) -> list[float] | None:
 def clip_element(
     value: str, box_of: Callable[[str], Rectangle | None], root_font_size: float, font_size: float
 ) -> etree._Element | None:
-    """A `clipPath` in user units that says what a value of `clip-path` does; None if that is no shape that we know.
+    """Return a `clipPath` in user units for a value of `clip-path`; None if its shape is not supported.
 
-    `box_of` gives the reference box of a name, None where nothing is to be clipped.
+    `box_of` returns the reference box of a name, or None if nothing is to be clipped.
 
     Examples
     --------
@@ -82,7 +82,7 @@ def clip_element(
     names = f"{head[: len(head) - len(name)]} {tail}".lower().split()
     make = MAKERS.get(name if closed else "", unknown) if opened else whole
     if make is unknown or len(names) > 1 or not {*names} <= BOXES.keys() or not (names or opened):
-        return None  # before all that the element shows is measured for its box
+        return None  # saves measuring the element for its box
     left, top, width, height = box_of(BOXES[names[0]] if names else STROKED) or (0.0, 0.0, 0.0, 0.0)
     box = ReferenceBox(left, top, Viewport(width, height, root_font_size), font_size)
     found = make(arguments, box)
@@ -94,21 +94,21 @@ def clip_element(
 
 
 def numeric_element(name: str, **values: float) -> Element:
-    """An element with attributes that are numbers."""
+    """Return an element with numeric attributes."""
     return name, {key: repr(float(value)) for key, value in values.items()}
 
 
 def unknown(_: str, __: ReferenceBox) -> None:
-    """No shape that we know."""
+    """Return None, for shapes that are not supported."""
 
 
 def whole(_: str, box: ReferenceBox) -> Element | None:
-    """All of the reference box."""
+    """Return the whole reference box."""
     return numeric_element("rect", x=box.left, y=box.top, width=box.view.width, height=box.view.height)
 
 
 def position(text: str, box: ReferenceBox) -> tuple[float, float] | None:
-    """A position in a box, from its corner: two lengths or keywords, one of them, or two edges with distances."""
+    """Parse a position relative to a box's corner: one or two lengths or keywords, or two edges with distances."""
     parts = words(text, SPACES) or ["center"]
     if len(parts) != 4:
         return parse_origin(text or "center", box.along) if len(parts) < 3 else None
@@ -124,7 +124,7 @@ def position(text: str, box: ReferenceBox) -> tuple[float, float] | None:
 
 
 def radii_and_centre(text: str, box: ReferenceBox, most: int) -> tuple[list[str], tuple[float, float]] | None:
-    """The radii that a circle or an ellipse names, at most so many, and its centre from the corner of the box."""
+    """Parse at most `most` radii of a circle or ellipse, and its centre relative to the corner of the box."""
     radii, *places = AT.split(text.lower())
     lengths = words(radii, SPACES)
     centre = position(places[0].strip(), box) if len(places) == 1 else position("", box)
@@ -134,14 +134,14 @@ def radii_and_centre(text: str, box: ReferenceBox, most: int) -> tuple[list[str]
 
 
 def radius(word: str, distances: tuple[float, ...], length: float | None) -> float | None:
-    """A radius: the least or largest distance to a side, or a length, which is not negative."""
+    """Return a radius: the least or largest distance to a side, or a length, which must not be negative."""
     if word in ("closest-side", "farthest-side"):
         return (min if word == "closest-side" else max)(map(abs, distances))
     return None if length is None or length < 0.0 else length
 
 
 def circle(text: str, box: ReferenceBox) -> Element | None:
-    """`circle()`."""
+    """Convert `circle()`."""
     found = radii_and_centre(text, box, 1)
     if found is None:
         return None
@@ -152,7 +152,7 @@ def circle(text: str, box: ReferenceBox) -> Element | None:
 
 
 def ellipse(text: str, box: ReferenceBox) -> Element | None:
-    """`ellipse()`."""
+    """Convert `ellipse()`."""
     found = radii_and_centre(text, box, 2)
     if found is None:
         return None
@@ -165,7 +165,7 @@ def ellipse(text: str, box: ReferenceBox) -> Element | None:
 
 
 def inset(text: str, box: ReferenceBox) -> Element | None:
-    """`inset()`: distances from the sides."""
+    """Convert `inset()`, which has distances from the sides."""
     sides, corners = split_at_round(text)
     found = box.four(sides, (1, 0, 1, 0))
     if found is None:
@@ -175,7 +175,7 @@ def inset(text: str, box: ReferenceBox) -> Element | None:
 
 
 def rect(text: str, box: ReferenceBox) -> Element | None:
-    """`rect()`: places of the sides from the top and the left."""
+    """Convert `rect()`, which has positions of the sides from the top and the left."""
     sides, corners = split_at_round(text)
     parts = words(sides, SPACES)
     if len(parts) != 4:
@@ -190,7 +190,7 @@ def rect(text: str, box: ReferenceBox) -> Element | None:
 
 
 def xywh(text: str, box: ReferenceBox) -> Element | None:
-    """`xywh()`: a corner and two sides."""
+    """Convert `xywh()`, which has a corner and two sides."""
     sides, corners = split_at_round(text)
     found = box.four(sides, (0, 1, 0, 1)) if len(words(sides, SPACES)) == 4 else None
     if found is None or min(found[2:]) < 0.0:
@@ -200,13 +200,13 @@ def xywh(text: str, box: ReferenceBox) -> Element | None:
 
 
 def split_at_round(text: str) -> tuple[str, str]:
-    """Split a text into the parts before and after "round"; radii of zero without it."""
+    """Split a text into the parts before and after "round"; without it, the radii are zero."""
     sides, *corners = ROUND.split(text.lower(), maxsplit=1)
     return sides, corners[0] if corners else "0"
 
 
 def rounded_rectangle(edges: Rectangle, corners: str, box: ReferenceBox) -> Element | None:
-    """A rectangle, by its edges from the corner of the box, with radii as those of `border-radius`."""
+    """Return a rectangle with the radii of a `border-radius`; its edges are relative to the corner of the box."""
     left, top, right, bottom = edges
     width, height = max(right - left, 0.0), max(bottom - top, 0.0)
     parts = words(corners, SLASH)
@@ -234,9 +234,9 @@ def rounded_rectangle(edges: Rectangle, corners: str, box: ReferenceBox) -> Elem
 
 
 def polygon(text: str, box: ReferenceBox) -> Element | None:
-    """`polygon()`."""
+    """Convert `polygon()`."""
     match = POLYGON.fullmatch(text)
-    assert match is not None  # the rule is optional, and points may be anything
+    assert match is not None  # matches any text: the rule is optional
     corners = []
     for point in words(match[2].lower(), COMMA):
         parts = words(point, SPACES)
@@ -250,10 +250,10 @@ def polygon(text: str, box: ReferenceBox) -> Element | None:
 
 
 def path(text: str, box: ReferenceBox) -> Element | None:
-    """`path()`."""
+    """Convert `path()`."""
     match = PATH.fullmatch(text)
     data = " ".join(match[3].split()) if match else ""
-    if match is None or not (data.isascii() and data.isprintable()):  # escapes of CSS give any character
+    if match is None or not (data.isascii() and data.isprintable()):  # CSS escapes can produce any character
         return None
     moved = f"translate({box.left!r} {box.top!r})"
     return "path", {"d": data, "clip-rule": (match[1] or "nonzero").lower(), "transform": moved}

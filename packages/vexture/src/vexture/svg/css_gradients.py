@@ -1,4 +1,4 @@
-"""Gradients of CSS, as the background of the outermost element may be one (CSS Images 3, 3)."""
+"""CSS gradients, which the background of the outermost element may contain (CSS Images 3, 3)."""
 
 import re
 from collections.abc import Callable
@@ -26,12 +26,12 @@ HARMLESS: Final = frozenset(
         *("/", "auto", "cover", "contain", "100%"),
     }
 )
-"""Words of a background that change nothing where its image fills the box."""
+"""Words of a background that change nothing if its image fills the box."""
 
 CORNERS: Final = {"to": (0.0, 0.0), "left": (-1.0, 0.0), "right": (1.0, 0.0), "top": (0.0, -1.0), "bottom": (0.0, 1.0)}
 
 WHOLE: Final = frozenset({"auto", "cover", "contain", "100%", "100% 100%", "auto auto"})
-"""Sizes of an image without one of its own that fill the box."""
+"""Values of the size with which an image without its own size fills the box."""
 
 SIDES: Final = {"closest-side": (min, False), "farthest-side": (max, False), "closest-corner": (min, True)}
 FARTHEST: Final = (max, True)
@@ -39,31 +39,31 @@ FARTHEST: Final = (max, True)
 SPACE: Final = re.compile(r"\s+")
 
 MIXED: Final = 8
-"""Parts of a step between stops of different opacity: CSS mixes premultiplied colours, a paint has straight ones."""
+"""Parts into which a step between stops of different opacity is divided: CSS interpolates premultiplied colours."""
 
 Solid = Callable[[str], Color | None]
-"""The colour of a text, which may depend on the element's own."""
+"""Function that returns the colour of a text, which may depend on the element's own colour."""
 
 
 Line = tuple[Affine, float, bool]
-"""From a box to the ramp, the ramp's length, and whether it goes out from a middle."""
+"""Map from a box to the ramp, the ramp's length, and True if the ramp starts at a centre."""
 
 
 @dataclass(frozen=True, slots=True)
 class CssGradient:
-    """A gradient that fills a box: its function, what its first argument says, and the texts of its stops."""
+    """A gradient that fills a box: its function, its first argument, and the texts of its stops."""
 
     name: str
     shape: str
-    stops: tuple[tuple[str, ...], ...]  # a colour and up to two places
+    stops: tuple[tuple[str, ...], ...]  # a colour and up to two positions
 
     @property
     def repeats(self) -> bool:
-        """Whether it begins again after its last stop."""
+        """True if it repeats after its last stop."""
         return self.name.startswith(REPEATING)
 
     def paint(self, box: Rectangle, solid: Solid, length: Length) -> Paint | None:
-        """Paint of a box; None if it is not valid. `length` has the box's width and height for percentages."""
+        """Return the paint of a box; None if it is not valid. `length` knows the box's sides, for percentages."""
         is_linear = self.name.endswith("linear-gradient")
         line = linear(self.shape, box) if is_linear else radial(self.shape, box, length)
         if line is None:
@@ -90,7 +90,7 @@ class CssGradient:
         )
 
     def outward(self, stops: "list[CssStop]") -> "list[CssStop]":
-        """Stops of a radial gradient that begins before its middle, from there on."""
+        """Return the stops of a radial gradient from its centre outwards, without a part before the centre."""
         first, last = stops[0].offset, stops[-1].offset
         if self.repeats:
             turns = ceil(-first / (last - first)) * (last - first)
@@ -102,7 +102,7 @@ class CssGradient:
         return [CssStop(0.0, start.color, start.opacity), *stops[at + 1 :]]
 
     def place_stops(self, solid: Solid, length: Length, whole: float) -> "list[CssStop]":
-        """Stops in order, in parts of the ramp; none if one is not valid."""
+        """Return the stops in order, with positions as fractions of the ramp; none if one is not valid."""
         found = list[CssStop]()
         for color, *places in self.stops:
             value = solid(color)
@@ -115,7 +115,7 @@ class CssGradient:
 
 @dataclass(frozen=True, slots=True)
 class CssStop:
-    """A stop at any place, or at none yet."""
+    """A stop, with or without a position."""
 
     at: float | None
     color: tuple[float, float, float]
@@ -123,12 +123,12 @@ class CssStop:
 
     @property
     def offset(self) -> float:
-        """Its place."""
+        """Position of the stop."""
         return 0.0 if self.at is None else self.at
 
 
 def background_gradient(text: str) -> CssGradient | None:
-    """The one gradient that a value of `background` or `background-image` fills the box with; None for anything else.
+    """Return the only gradient with which `background` or `background-image` fills the box; None for other values.
 
     Examples
     --------
@@ -148,13 +148,13 @@ def background_gradient(text: str) -> CssGradient | None:
 
 
 def own_background(style: ElementStyle) -> CssGradient | None:
-    """The gradient that fills the box of the outermost element by its style; None without one, or with more."""
+    """Return the gradient that fills the box of the outermost element; None without one, or with several."""
     is_whole = style["background-size"].lower() in WHOLE and style["background-blend-mode"].lower() == "normal"
     return background_gradient(style["background-image"]) if is_whole else None
 
 
 def background_of(style: ElementStyle, frame: Rectangle) -> list[Paint]:
-    """Paints of the background of the outermost element, whose box has a frame, the lowest first."""
+    """Return the background paints of the outermost element, the lowest first; `frame` is its box."""
     found = []
     color = style.solid(style["background-color"])
     if color is not None and color.alpha > 0.0:
@@ -168,12 +168,12 @@ def background_of(style: ElementStyle, frame: Rectangle) -> list[Paint]:
 
 
 def read_function(token: Any) -> CssGradient | None:
-    """A gradient function; None if it says what is not read: hints between colours, spaces of interpolation."""
+    """Parse a gradient function; None for unsupported ones: with colour hints or colour spaces for interpolation."""
     arguments = [tinycss2.serialize(part).strip() for part in split_arguments(token.arguments)]
     shape = "" if parse_color(first_word(arguments[0])) else arguments.pop(0)
     said = words(shape.lower(), SPACE)
     if len(arguments) < 2 or "in" in said or ("at" in said and len(said) - said.index("at") > 3):
-        return None  # a space of interpolation, or a place counted from other sides
+        return None  # an interpolation space, or a position relative to other sides
     stops = []
     for argument in arguments:
         parts = [str(tinycss2.serialize([part])) for part in parse_tokens(argument) if part.type != "whitespace"]
@@ -184,13 +184,13 @@ def read_function(token: Any) -> CssGradient | None:
 
 
 def first_word(text: str) -> str:
-    """The first value in a text."""
+    """Return the first value in a text."""
     tokens = [token for token in parse_tokens(text) if token.type != "whitespace"]
     return str(tinycss2.serialize(tokens[:1])) if tokens else ""
 
 
 def linear(shape: str, box: Rectangle) -> Line | None:
-    """Map of a box to the ramp of a linear gradient, and the length of its line (CSS Images 3, 3.1)."""
+    """Return the map of a box to the ramp of a linear gradient, and the length of its line (CSS Images 3, 3.1)."""
     left, top, width, height = box
     said = shape.lower().split()
     if not said:
@@ -199,7 +199,7 @@ def linear(shape: str, box: Rectangle) -> Line | None:
         sides = [CORNERS[word] for word in said]
         x, y = (sum(side[k] for side in sides) for k in (0, 1))
         if x and y:
-            x, y = x * height, y * width  # what is halfway runs through the two other corners
+            x, y = x * height, y * width  # the line of the middle runs through the other two corners
     else:
         turn = angle(shape)
         if turn is None:
@@ -215,7 +215,7 @@ def linear(shape: str, box: Rectangle) -> Line | None:
 
 
 def radial(shape: str, box: Rectangle, length: Length) -> Line | None:
-    """Map of a box to the ramp of a radial gradient, and the length of its first radius (CSS Images 3, 3.2)."""
+    """Return the map of a box to a radial gradient's ramp, and the length of its first radius (CSS Images 3, 3.2)."""
     left, top, width, height = box
     size, _, place = f" {shape.lower()} ".partition(" at ")
     middle = parse_origin(place.strip() or "center", length)
@@ -244,7 +244,7 @@ def radial(shape: str, box: Rectangle, length: Length) -> Line | None:
 
 
 def part_of(text: str, length: Length, whole: float) -> float | None:
-    """A place of a stop, in parts of the ramp's length; None if it is none."""
+    """Return the position of a stop as a fraction of the ramp's length; None if it is not valid."""
     if text.endswith("%"):
         value = length(text.removesuffix("%"), 0)
         return None if value is None else value / 100.0
@@ -255,7 +255,7 @@ def part_of(text: str, length: Length, whole: float) -> float | None:
 
 
 def even(stops: list[CssStop]) -> list[CssStop]:
-    """Stops with places for all, none before the one before it; those without are even between others (3.4.3)."""
+    """Give all stops positions that do not decrease; missing ones are spread evenly between others (3.4.3)."""
     if not stops:
         return []
     at = [stop.at for stop in stops]
@@ -273,7 +273,7 @@ def even(stops: list[CssStop]) -> list[CssStop]:
 
 
 def add_mixed_stops(stops: list[Stop]) -> list[Stop]:
-    """Stops with others between those of different opacity, that are mixed as premultiplied colours."""
+    """Add stops between those of different opacity, with colours that are interpolated premultiplied."""
     found = stops[:1]
     for before, after in pairwise(stops):
         if before.opacity != after.opacity:
@@ -283,7 +283,7 @@ def add_mixed_stops(stops: list[Stop]) -> list[Stop]:
 
 
 def between(before: Stop, after: Stop, share: float) -> Stop:
-    """A stop between two."""
+    """Interpolate between two stops."""
     opacity = before.opacity + (after.opacity - before.opacity) * share
     if opacity == 0.0:
         return Stop(before.offset + (after.offset - before.offset) * share, before.color, 0.0)

@@ -1,4 +1,4 @@
-"""Declarations of CSS: what style sheets and `style` attributes say of properties, with shorthands expanded."""
+"""CSS declarations from style sheets and `style` attributes, with shorthands expanded."""
 
 import re
 from collections.abc import Iterator
@@ -14,35 +14,35 @@ from vexture.svg.values import words
 from vexture.svg.variables import refers
 
 PLAIN = re.compile(r"[^\"'\\/(){}\[\]@!<&]*")
-"""Style attributes that need no tokeniser: they can be split at ; and :."""
+"""Style attributes that need no tokenizer, as they can be split at ; and :."""
 
 PREFIX: Final = "-webkit-"
-"""Of names under which browsers know many properties, too, as they were before they became standards."""
+"""Prefix under which browsers know many properties from the time before they became standards."""
 
 MARKERS = ("marker-start", "marker-mid", "marker-end")
 
 UNRESET: Final = frozenset({"direction", "unicode-bidi"})
-"""Properties that `all` leaves alone (CSS Cascade 4, 3.2)."""
+"""Properties that `all` does not reset (CSS Cascade 4, 3.2)."""
 
 SIDED: Final = re.compile(
     "(border|outline)(?:-(?:top|right|bottom|left|inline|block)(?:-(?:start|end))?)?(?:-style)?"
     "|(padding)-[a-z-]+|(border)-[a-z-]+(-radius)"
 )
-"""Names of properties of one side or corner of a box, which are named as those of all."""
+"""Names of properties of one side or corner of a box, from which the name of the property of all is derived."""
 
 PAINTED: Final = "("
-"""What images have, and most colours have not."""
+"""Character that images contain and most colours do not."""
 
 SHORTHANDS: Final[dict[str, tuple[str, ...]]] = {
     "all": tuple(name for name in PROPERTIES if name not in UNRESET),
-    "animation": ("animation-name",),  # with all else that it says: names are found in it
+    "animation": ("animation-name",),  # with all its other values, among which names are found
     "background": ("background-color", "background-image"),
     "font": FONT_LONGHANDS,
     "marker": MARKERS,
     "mask-image": ("mask",),
     "offset": ("offset-path",),
 }
-"""Properties that others set, as far as they are known here."""
+"""Shorthands, with those of their longhands that are supported."""
 
 MASK_MODES: Final = ("alpha", "luminance", "match-source")
 
@@ -51,11 +51,11 @@ MASK_WORDS: Final = re.compile(
     r"(?:no-repeat|repeat(?:-[xy])?|space|round|center|left|right|top|bottom|auto|cover|contain|no-clip|[-+.\d]+[a-z%]*"
     r"|(?:content|padding|border|fill|stroke|view)-box|add|subtract|intersect|exclude|alpha|luminance|match-source)"
 )
-"""Words beside the reference of a mask."""
+"""Words besides the reference in a value of `mask`."""
 
 
 class Declaration(NamedTuple):
-    """The value of a property, or of a custom one, whose name begins with two hyphens."""
+    """The value of a property or of a custom property, whose name starts with two hyphens."""
 
     name: str
     value: str
@@ -74,22 +74,22 @@ def read_style(text: str) -> Iterator[Declaration]:
 
 
 def tokens(text: str) -> list[Any]:
-    """Tokens of a style sheet or of a `style` attribute."""
+    """Parse a style sheet or a `style` attribute into tokens."""
     try:
         return cast(list[Any], tinycss2.parse_component_value_list(text, skip_comments=True))
-    except ValueError:  # of int()
+    except ValueError:  # raised by int()
         raise SourceError("an integer in its styles has more than 4,300 digits; round it") from None
 
 
 def read_descriptors(content: Any) -> Iterator[Declaration]:
-    """Yield what the rules of a style sheet's block say, as written."""
+    """Yield the declarations in a block of a style sheet, unchanged."""
     for item in tinycss2.parse_blocks_contents(content, skip_comments=True, skip_whitespace=True):
         if item.type == "declaration":
             yield Declaration(item.name, tinycss2.serialize(item.value).strip(), item.important)
 
 
 def read_declaration(name: str, value: str, important: bool) -> Iterator[Declaration]:
-    """Yield what a declaration says; a shorthand becomes its longhands, unless it refers to custom properties."""
+    """Yield a declaration; a shorthand is expanded into its longhands, unless it refers to custom properties."""
     if name.startswith("--"):
         yield Declaration(name, value, important)
         return
@@ -101,17 +101,17 @@ def read_declaration(name: str, value: str, important: bool) -> Iterator[Declara
     pairs = [*expand_declaration(name, value)]
     for longhand, part in pairs:
         yield Declaration(longhand, part, important)
-    if not pairs and longhands(name) and value:  # to be named where it has no effect
+    if not pairs and longhands(name) and value:  # so that a note names it if it has no effect
         yield Declaration(name, value, important)
 
 
 def canonical(name: str) -> str:
-    """Name of a property in lower case, without a prefix."""
+    """Return the name of a property in lower case, without a prefix."""
     return name.lower().removeprefix(PREFIX)
 
 
 def longhands(name: str) -> tuple[str, ...]:
-    """Properties that a property sets: itself, or what it is a shorthand for; none if it is not known here."""
+    """Return the properties that a property sets: itself, or its longhands; none if it is not supported."""
     if name in PROPERTIES:
         return (name,)
     match = SIDED.fullmatch(name)
@@ -138,9 +138,9 @@ def expand_declaration(name: str, value: str) -> Iterator[tuple[str, str]]:
 
 
 def mask_longhands(value: str) -> Iterator[tuple[str, str]]:
-    """Yield what the shorthand `mask` says: the reference and its mode; a value that is no reference stays whole.
+    """Expand the shorthand `mask` into reference and mode; a value that is not a reference stays whole.
 
-    Of a mask that is an element, only the mode has an effect (CSS Masking 1, 7), not its place, size and repetition.
+    For a mask that is an element, only the mode has an effect, not position, size and repetition (CSS Masking 1, 7).
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""From bytes to an XML tree; nothing outside the file is read or fetched."""
+"""Parsing of bytes into an XML tree; nothing outside the file is read or fetched."""
 
 import re
 from typing import Final
@@ -10,27 +10,27 @@ from vexture.base.errors import SourceError
 SVG = "http://www.w3.org/2000/svg"
 XML = "http://www.w3.org/XML/1998/namespace"
 HTML = "{http://www.w3.org/1999/xhtml}"
-"""Begin of the tags of HTML's elements."""
+"""Start of the tags of HTML elements."""
 
 NOWHERE = "about:blank"
-"""Namespace of elements without one, where the outermost element has that of SVG: they are no SVG, as in browsers."""
+"""Namespace for elements without one if the outermost element has that of SVG: like browsers, they are not SVG."""
 
 MOST_ATTRIBUTES = 1000
-"""Of an element: lxml looks for each by going through all."""
+"""Most attributes of an element, as lxml searches through all for each access."""
 
 WIDE: Final = re.compile(
     rb"""(?:\xef\xbb\xbf)?<\?xml\s[^>]*encoding\s*=\s*["'](?:utf-?(?:16|32)|(?:iso-10646-)?ucs-?[24])""", re.IGNORECASE
 )
-"""A declaration of characters of two bytes or more, in characters of one: it is wrong, and browsers read UTF-8."""
+"""Declaration of a multi-byte encoding in single-byte characters. It is wrong, and browsers read UTF-8."""
 
 LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
 
 
 def parse_svg(content: bytes) -> etree._Element:
-    """Root element of an SVG document.
+    """Return the root element of an SVG document.
 
-    Entities that the document itself defines are expanded within libxml2's limits; external ones are errors. Raises a
+    Entities defined in the document are expanded within libxml2's limits; external ones are errors. Raise a
     `SourceError` if the content is not well-formed, exceeds a limit of libxml2, or is not SVG.
     """
     encoding = "utf-8" if WIDE.match(content) else None
@@ -57,15 +57,15 @@ def parse_svg(content: bytes) -> etree._Element:
             )
     if str(root.tag).startswith(f"{{{SVG}}}"):
         for element in root.iter("{}*"):
-            if ":" not in str(element.tag):  # which has a prefix that is not declared
+            if ":" not in str(element.tag):  # its prefix is not declared
                 element.tag = f"{{{NOWHERE}}}{element.tag}"
     return root
 
 
 def parser_of(encoding: str | None = None, *, recover: bool = False) -> etree.XMLParser:
-    """Parser with all limits; one that recovers takes a prefix without a namespace as a part of the name.
+    """Return a parser with all limits; with `recover`, an undeclared prefix becomes part of the name.
 
-    An `encoding` is used instead of what the document declares.
+    `encoding` overrides the encoding that the document declares.
     """
     return etree.XMLParser(
         encoding=encoding,
@@ -78,7 +78,7 @@ def parser_of(encoding: str | None = None, *, recover: bool = False) -> etree.XM
 
 
 def explain_error(message: str) -> str:
-    """Message of libxml2, with the limit and the remedy if a limit was exceeded."""
+    """Return a message of libxml2, with the limit and a remedy if a limit was exceeded."""
     if "amplification" in message:
         return "its entities expand to too much text (an entity bomb?); write the drawing without entities"
     if "xcessive depth" in message:
@@ -91,7 +91,7 @@ def explain_error(message: str) -> str:
 
 
 def local_name(element: etree._Element) -> str | None:
-    """Name of an SVG element, with or without the namespace; None for comments and other namespaces.
+    """Return the name of an SVG element, with or without the namespace; None for comments and other namespaces.
 
     Examples
     --------
@@ -106,7 +106,7 @@ def local_name(element: etree._Element) -> str | None:
 
 
 def applies(element: etree._Element) -> bool:
-    """Whether the conditions on an element hold (SVG 2, 5.9)."""
+    """Return whether the conditions on an element hold (SVG 2, 5.9)."""
     if element.get("requiredExtensions") is not None:
         return False
     languages = element.get("systemLanguage")
@@ -116,7 +116,7 @@ def applies(element: etree._Element) -> bool:
 
 
 def language(element: etree._Element) -> str | None:
-    """Language of an element, by `xml:lang` or else `lang` of it or of the nearest element around it.
+    """Return the language of an element, from `xml:lang` or `lang` of it or the nearest element around it.
 
     Examples
     --------

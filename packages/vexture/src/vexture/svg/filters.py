@@ -1,7 +1,7 @@
-"""Filters (Filter Effects 1), which are named and not drawn: of which steps they consist, and where they leave nothing.
+"""Filters (Filter Effects 1), which notes list but which are not drawn.
 
 A blur has no outline, and most filters blur: as smooth paints they would be steps or meshes of colours, not a sharp
-drawing. So a shape is drawn as it is without its filter, sharp, and a note names the steps of the filter.
+drawing. So a shape is drawn without its filter, sharp, and a note names the steps of the filter.
 """
 
 import re
@@ -16,7 +16,7 @@ from vexture.svg.paint_servers import LINK, PaintServers
 from vexture.svg.values import number
 
 HIDING: Final = ""
-"""Name of a filter without steps: it leaves nothing of what it is on."""
+"""Name of a filter without steps, which hides its element."""
 
 STEP: Final = re.compile(
     "fe(Blend|ColorMatrix|ComponentTransfer|Composite|ConvolveMatrix|DiffuseLighting|DisplacementMap|DropShadow|Flood"
@@ -25,13 +25,13 @@ STEP: Final = re.compile(
 CAPITAL: Final = re.compile("(?<=[a-z])(?=[A-Z])")
 
 MOST_STEPS: Final = 4
-"""Steps that a name lists."""
+"""Most steps in the name of a filter."""
 
 
 def filter_label(value: str, servers: PaintServers) -> str | None:
-    """Name a filter, the value of the property, for a note; `HIDING`, or None if there is none.
+    """Return the name of a filter for a note: the value of the property, `HIDING`, or None if there is no filter.
 
-    A filter that is not there makes the whole list of filters void (Filter Effects 1, 5).
+    One missing filter makes the whole list of filters void (Filter Effects 1, 5).
     """
     lists: list[dict[str, None]] = []
     for token in tinycss2.parse_component_value_list(value, skip_comments=True):
@@ -49,7 +49,7 @@ def filter_label(value: str, servers: PaintServers) -> str | None:
 
 
 def steps_of(element: etree._Element) -> dict[str, None]:
-    """Names of a filter's steps, each once; none if its region is empty."""
+    """Return the distinct names of a filter's steps; none if its region is empty."""
     sides = (number(element.get(name, "1").strip().removesuffix("%")) for name in ("width", "height"))
     if any(side is not None and side <= 0.0 for side in sides):
         return {}
@@ -58,7 +58,7 @@ def steps_of(element: etree._Element) -> dict[str, None]:
 
 
 def join_names(names: list[str]) -> str:
-    """Names as a sentence lists them.
+    """Join names as in a sentence.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Values of font properties that need the parent's, or that one shorthand gives (CSS Fonts 4, 2)."""
+"""Values of font properties that depend on the parent's, or that the shorthand sets (CSS Fonts 4, 2)."""
 
 import re
 from collections.abc import Iterator
@@ -16,10 +16,10 @@ TEXT_SIZES: Final = {
     "x-large": 24.0,
     "xx-large": 32.0,
 }
-"""User units of each font-size keyword (CSS Fonts 4, 2.5)."""
+"""Size of each font-size keyword, in user units (CSS Fonts 4, 2.5)."""
 
 SPACINGS: Final = ("letter-spacing", "word-spacing")
-"""Inherited lengths, which refer to the font size where they are set."""
+"""Inherited lengths that are relative to the font size of the element that sets them."""
 
 SYSTEM_FONTS: Final = frozenset({"caption", "icon", "menu", "message-box", "small-caption", "status-bar"})
 BEFORE_SIZE: Final = ("font-style", "font-variant", "font-weight", "font-stretch")
@@ -29,15 +29,15 @@ FONT_LONGHANDS: Final = (*BEFORE_SIZE, "font-size", "font-family")
 """Properties that the shorthand sets."""
 
 MOST_BEFORE: Final = 6
-"""Words before the size: four parts, of which a style may have an angle."""
+"""Most words before the size: four parts, of which the style may have an angle."""
 
 PART = re.compile(r"\s*(\"[^\"]*\"|'[^']*'|[^\s/]+|/)")
 LIGHTER_AND_BOLDER: Final = ((350.0, 100.0, 400.0), (550.0, 100.0, 700.0), (750.0, 400.0, 900.0), (900.0, 700.0, 900.0))
-"""Below each weight, what is lighter and bolder (CSS Fonts 4, 2.2.1)."""
+"""Values of lighter and bolder for weights below each limit (CSS Fonts 4, 2.2.1)."""
 
 
 def text_size(text: str, parent: float, view: Viewport) -> float:
-    """Font size in user units, from its value, the parent's size and the outermost viewport."""
+    """Return the font size in user units, from its value, the parent's size and the outermost viewport."""
     word = text.lower()
     if word in TEXT_SIZES:
         return TEXT_SIZES[word]
@@ -47,7 +47,7 @@ def text_size(text: str, parent: float, view: Viewport) -> float:
 
 
 def font_weight(text: str, parent: str = "normal") -> float:
-    """Weight from 1 to 1000, from its value and the parent's.
+    """Return the weight, 1 to 1000, from its value and the parent's.
 
     Examples
     --------
@@ -67,13 +67,13 @@ def font_weight(text: str, parent: str = "normal") -> float:
 
 
 def in_pixels(spacing: str, font_size: float, view: Viewport) -> str:
-    """Spacing as a length that does not depend on a font."""
+    """Return a spacing as a length that does not depend on a font."""
     length = view.length(spacing, font_size, font_size)
     return "0" if length is None else repr(length)
 
 
 def font_longhands(value: str) -> Iterator[tuple[str, str]]:
-    """Properties that the shorthand `font` sets; none if its value is not valid, or is a font of the system.
+    """Yield the properties that the shorthand `font` sets; none if its value is not valid, or is a system font.
 
     Examples
     --------
@@ -99,7 +99,7 @@ def font_longhands(value: str) -> Iterator[tuple[str, str]]:
 
 
 def is_of(name: str, word: str) -> bool:
-    """Whether a word is of a property before the size."""
+    """Return whether a word is a value of a property before the size."""
     if name == "font-variant":
         return word.lower() == "small-caps"
     if name == "font-stretch" and word.endswith("%"):

@@ -1,4 +1,4 @@
-"""The frame of a drawing: what its outermost element sets, or else what is painted."""
+"""The frame of a drawing, set by its outermost element or else by the painted content."""
 
 from math import ceil, floor, log10
 from typing import Final, TypeAlias
@@ -22,20 +22,20 @@ Bounds: TypeAlias = tuple[float, float, float, float]
 """Least x, least y, largest x and largest y."""
 
 LITTLE: Final = 0.5
-"""A drawing that is less wide and less high than this part of its frame fills a small part of it."""
+"""Fraction of the frame's width and height below which a drawing counts as small."""
 
 ROUNDING: Final = 1e-9
-"""Part of a frame's longer side by which rounding may move what touches the frame's sides."""
+"""Tolerance for rounding at the frame's sides, as a fraction of its longer side."""
 
 Frame: TypeAlias = tuple[Size, Viewport, Transform]
 """Size of a drawing in pixels, the root's viewport, and the map from user units to pixels."""
 
 EMPTY: Final[Frame] = (0.0, 0.0), Viewport(0.0, 0.0), Identity
-"""Frame that shows nothing."""
+"""Frame of a drawing that shows nothing."""
 
 
 def frame(scene: SvgScene) -> Frame:
-    """Frame that the outermost element sets; `EMPTY`, with a note, if a side is zero."""
+    """Return the frame that the outermost element sets; `EMPTY`, with a note, if a side is zero."""
     root, style = scene.root, scene.style
     box = scene.view(root)
     absolute = Viewport(0.0, 0.0, style.font_size)
@@ -64,19 +64,19 @@ def frame(scene: SvgScene) -> Frame:
 
 
 def painted_frame(scene: SvgScene) -> Frame:
-    """Frame around what is painted, with a note; `EMPTY` if nothing is."""
+    """Return the frame around the painted content, with a note; `EMPTY` if there is none."""
     viewport = viewport_of(scene, ANONYMOUS)
     box = painted_box(scene, viewport)
     if box is None:
         return EMPTY
     x, y, width, height = round_box(box)
-    told = "it has no viewBox and no size; its frame is what it paints"
-    scene.report.remark(f'{told}, viewBox="{view_box_text((x, y, width, height))}"')
+    message = "it has no viewBox and no size; its frame is what it paints"
+    scene.report.remark(f'{message}, viewBox="{view_box_text((x, y, width, height))}"')
     return (width, height), viewport, Identity.translate(-x, -y)
 
 
 def viewport_of(scene: SvgScene, sides: Size, size: Size | None = None) -> Viewport:
-    """Viewport of a size in user units; `size` is that in pixels, if it is another."""
+    """Return a viewport with sides in user units; `size` is its size in pixels, if that is different."""
     return Viewport(*sides, scene.style.font_size, size)
 
 
@@ -88,10 +88,10 @@ def painted_box(
     *,
     is_whole: bool = False,
 ) -> Rectangle | None:
-    """Bounding box of what is seen in a viewport, before the frame cuts it; None if that is nothing.
+    """Return the bounding box of the visible content in a viewport, not cut by the frame; None if there is none.
 
-    `matrix` and `size` are as in `Scene.paint`. `is_whole` asks for the box of the whole document, of which a part may
-    be chosen.
+    `matrix` and `size` are as in `Scene.paint`. With `is_whole` it is the box of the whole document, even if only a
+    part is selected.
     """
     fonts, page = scene.typesetter.files, scene.cascade.page
     chosen = None if is_whole else scene.chosen
@@ -101,21 +101,21 @@ def painted_box(
 
 
 def visible_box(paths: list[Path], groups: tuple[Group, ...]) -> Rectangle | None:
-    """Bounding box of paths, each inside those that mask the groups around it; None if it is empty."""
-    shown: list[list[Bounds | None]] = [[] for _ in range(len(groups) + 1)]  # in each group; the last is in none
+    """Return the bounding box of paths, each cut by the masks of the groups around it; None if it is empty."""
+    parts: list[list[Bounds | None]] = [[] for _ in range(len(groups) + 1)]  # for each group; last: no group
     masks: list[list[Bounds | None]] = [[] for _ in range(len(groups) + 1)]
     for path in paths:
         if path.contours:
-            shown[path.group].append(bounds(np.concatenate(path.contours)))
+            parts[path.group].append(bounds(np.concatenate(path.contours)))
     for place in reversed(range(len(groups))):  # from the innermost one
         group = groups[place]
-        (masks if group.mask else shown)[group.outer].append(visible_bounds(shown[place], masks[place]))
-    box = visible_bounds(shown[-1], [])
+        (masks if group.mask else parts)[group.outer].append(visible_bounds(parts[place], masks[place]))
+    box = visible_bounds(parts[-1], [])
     return None if box is None else (box[0], box[1], box[2] - box[0], box[3] - box[1])
 
 
 def visible_bounds(parts: list[Bounds | None], masks: list[Bounds | None]) -> Bounds | None:
-    """Box around some boxes, as far as it is in each of those of masks; None is an empty one."""
+    """Return the box around some boxes, cut by each box of masks; None is an empty box."""
     boxes = [box for box in parts if box is not None]
     if not boxes or None in masks:
         return None
@@ -128,7 +128,7 @@ def visible_bounds(parts: list[Bounds | None], masks: list[Bounds | None]) -> Bo
 
 
 def round_box(box: Rectangle) -> Rectangle:
-    """A box around another one in whole units, or of a small one in parts of ten.
+    """Round a box outwards to whole units, or a small one to tenths.
 
     Examples
     --------
@@ -145,41 +145,41 @@ def round_box(box: Rectangle) -> Rectangle:
 
 
 def view_box_text(box: Rectangle) -> str:
-    """A box as `viewBox` has it."""
+    """Format a box as a `viewBox`."""
     return " ".join(f"{value:.10g}" for value in box)
 
 
 def missing_size_note(scene: SvgScene, size: Size, lacking: str) -> str:
-    """Message of a note about a drawing that lacks a size and a `viewBox`, and the `viewBox` that would fit it."""
-    told = f"it has no viewBox and no {lacking}, and is {size[0]:g} x {size[1]:g}, as in browsers"
+    """Return the message of a note on a drawing without size and `viewBox`, with a `viewBox` that fits it."""
+    message = f"it has no viewBox and no {lacking}, and is {size[0]:g} x {size[1]:g}, as in browsers"
     box = painted_box(scene, viewport_of(scene, size), Identity, size, is_whole=True)
     if box is None or fits(box, size):
-        return told
+        return message
     if is_cut(box, size):
         wrong, gain = "which cuts it", "shows all"
     else:
         wrong, gain = "of which it fills a small part", "fills all of it"
     fitting = view_box_text(round_box(box))
     remedy = f' (with viewBox="{fitting}" it {gain})' if fits_with(scene, fitting) else ""
-    return f"{told}, {wrong}{remedy}"
+    return f"{message}, {wrong}{remedy}"
 
 
 def is_cut(box: Rectangle, size: Size) -> bool:
-    """Whether a box reaches beyond a frame."""
+    """Return whether a box extends beyond a frame."""
     left, top, right, bottom = box[0], box[1], box[0] + box[2], box[1] + box[3]
     spare = max(size) * ROUNDING
     return min(left, top) < -spare or right > size[0] + spare or bottom > size[1] + spare
 
 
 def fits(box: Rectangle, size: Size) -> bool:
-    """Whether a frame shows all of a box, which fills more than a small part of it."""
+    """Return whether a frame contains a box, and the box is not too small in it."""
     return not is_cut(box, size) and (box[2] >= LITTLE * size[0] or box[3] >= LITTLE * size[1])
 
 
 def fits_with(scene: SvgScene, box: str) -> bool:
-    """Whether a drawing is known to fit the frame of a `viewBox`, to which percentages and media refer, too."""
+    """Return whether a drawing certainly fits the frame of a `viewBox`, which also affects percentages and media."""
     root = scene.root
-    if not scene.style.own.keys().isdisjoint(TRANSFORMS):  # they move the frame itself, which cuts before that
+    if not scene.style.own.keys().isdisjoint(TRANSFORMS):  # they move the frame itself, which cuts first
         return False
     before = root.get("viewBox")
     root.set("viewBox", box)
@@ -188,7 +188,7 @@ def fits_with(scene: SvgScene, box: str) -> bool:
         size, viewport, matrix = frame(silent)
         found = painted_box(silent, viewport, matrix, size, is_whole=True)
         return found is not None and fits(found, size)
-    except SourceError:  # it is too much there
+    except SourceError:  # too complex with that frame
         return False
     finally:
         if before is None:

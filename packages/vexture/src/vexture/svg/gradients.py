@@ -1,4 +1,4 @@
-"""Gradients of an SVG: what their elements say, and where they lie on what they paint (SVG 2, 14.2)."""
+"""SVG gradients: their elements, and their position on the painted shapes (SVG 2, 14.2)."""
 
 from dataclasses import dataclass, replace
 from math import hypot
@@ -22,24 +22,24 @@ LENGTHS: Final = {
     "linearGradient": {"x1": "0%", "y1": "0%", "x2": "100%", "y2": "0%"},
     "radialGradient": {"cx": "50%", "cy": "50%", "r": "50%", "fx": "", "fy": "", "fr": "0%"},
 }
-"""Attributes of the geometry, and their initial values; fx and fy are cx and cy."""
+"""Attributes of the geometry, with their initial values; fx and fy default to cx and cy."""
 
 GRADIENTS: Final = frozenset(LENGTHS)
 SPREADS = {spread.name.lower(): spread for spread in Spread}
 BOXED = {"objectBoundingBox": True, "userSpaceOnUse": False}
 WHOLE = Viewport(1.0, 1.0)
-"""Percentages of an `objectBoundingBox`."""
+"""Viewport for percentages in `objectBoundingBox` units."""
 
 SHORTEST: Final = 1 / LARGEST
-"""User units, or parts of a bounding box. A ramp that is shorter has only its end, a tile that is shorter no area."""
+"""Shortest ramp and tile, in user units or parts of a bounding box: shorter ones have one colour and no area."""
 
 TOUCHING: Final = 1 / 4096
-"""Part of the outer radius. Circles that nearly touch from inside do touch, as in Skia, which browsers draw by: if they
-touch, half of the plane has colours; if they just cross, the colours there are others."""
+"""Distance, relative to the outer radius, at which circles count as touching, as in Skia, which browsers use. If
+circles touch from inside, half of the plane has colours; if they just cross, the colours there differ."""
 
 
 def touching(focal: float) -> tuple[float, float]:
-    """Distance and radius of a focal circle that touches the end circle, whose radius is 1, also in float32.
+    """Return centre distance and radius of a focal circle that touches the end circle of radius 1, exactly in float32.
 
     Examples
     --------
@@ -47,7 +47,7 @@ def touching(focal: float) -> tuple[float, float]:
     >>> float(np.float32(away)) == away, float(np.float32(focal)) == focal, away == 1.0 - focal
     (True, True, True)
     """
-    if focal < 0.5:  # of this and its difference to 1, the larger one is rounded: then the other is exact
+    if focal < 0.5:  # round the larger of the radius and its difference to 1, so that the other one is exact
         away = float(np.float32(1.0 - focal))
         return away, 1.0 - away
     focal = float(np.float32(focal))
@@ -56,19 +56,19 @@ def touching(focal: float) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GradientRamp:
-    """A gradient as its element and those that it refers to say, with no place yet."""
+    """A gradient as defined by its element and those it refers to, without a position yet."""
 
     radial: bool
-    lengths: dict[str, str]  # all of `LENGTHS`
-    boxed: bool  # whether in parts of the bounding box
+    lengths: dict[str, str]  # one for each of `LENGTHS`
+    boxed: bool  # True for parts of the bounding box
     moved: Transform  # `gradientTransform`
-    origin: str  # about which it is
+    origin: str  # origin of the transform
     spread: Spread
-    stops: tuple[Stop, ...]  # one or more
-    font_size: float  # of the element
+    stops: tuple[Stop, ...]  # at least one
+    font_size: float  # font size of the element
 
     def paint(self, place: ElementPlace, outlines: list[ShapeOutline]) -> Paint | None:
-        """The paint of outlines at a place, in the drawing's coordinates; None if the gradient has no area there."""
+        """Return the paint of outlines at a place, in the drawing's coordinates; None if it has no area there."""
         whole = place.space.whole
         if self.boxed:
             left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
@@ -85,13 +85,13 @@ class GradientRamp:
         return Paint.from_gradient(gradient.after(rows(whole.inverse())))
 
     def along(self, view: Viewport) -> Gradient | None:
-        """The gradient in its own coordinates; None if it has one colour, that of the last stop (SVG 2, 14.2)."""
+        """Return the gradient in its own coordinates; None if only the last stop's colour shows (SVG 2, 14.2)."""
         if len(self.stops) == 1:
             return None
         return self.radial_along(view) if self.radial else self.linear_along(view)
 
     def linear_along(self, view: Viewport) -> Gradient | None:
-        """`along` of a linear gradient."""
+        """Return `along` for a linear gradient."""
         x1, y1 = self.length("x1", view), self.length("y1", view)
         x, y = self.length("x2", view) - x1, self.length("y2", view) - y1
         if hypot(x, y) < SHORTEST:
@@ -101,9 +101,9 @@ class GradientRamp:
         return Gradient(rows(to_ramp), self.stops, self.spread)
 
     def radial_along(self, view: Viewport) -> Gradient | None:
-        """`along` of a radial gradient.
+        """Return `along` for a radial gradient.
 
-        A focal circle that is not inside the outer one spans a cone with it, as SVG 2 and all browsers have it. SVG 1.1
+        A focal circle that is not inside the outer one spans a cone with it, as in SVG 2 and all browsers. SVG 1.1
         moved the focal point onto the circle.
         """
         cx, cy, r = self.length("cx", view), self.length("cy", view), self.length("r", view)
@@ -114,7 +114,7 @@ class GradientRamp:
         away, focal = hypot(x, y), self.length("fr", view) / r
         cos, sin = (x / away, y / away) if away else (1.0, 0.0)
         to_ramp = rows(Transform(cos / r, -sin / r, sin / r, cos / r, 0.0, 0.0).translate(-cx, -cy))
-        if max(away, abs(1.0 - focal)) <= TOUCHING:  # one circle: the first colour inside, the last one outside
+        if max(away, abs(1.0 - focal)) <= TOUCHING:  # a single circle: the first colour inside, the last one outside
             first, last = (replace(stop, offset=1.0) for stop in (self.stops[0], self.stops[-1]))
             return Gradient(to_ramp, (first, last), focus=(0.0, 0.0))
         if abs(away - abs(1.0 - focal)) <= TOUCHING:
@@ -122,13 +122,13 @@ class GradientRamp:
         return Gradient(to_ramp, self.stops, self.spread, (away, focal))
 
     def length(self, name: str, view: Viewport) -> float:
-        """Value of an attribute of the geometry."""
+        """Return the value of an attribute of the geometry."""
         whole = {"x": view.width, "y": view.height}.get(name.strip("cf12"), view.diagonal)
         return view.length(self.lengths[name], whole, self.font_size) or 0.0
 
 
 def rows(matrix: Transform) -> Affine:
-    """An affine map as a paint has it."""
+    """Convert an affine map to the form that paints use."""
     a, b, c, d, e, f = matrix
     return (a, c, e), (b, d, f)
 
@@ -136,12 +136,12 @@ def rows(matrix: Transform) -> Affine:
 def read_ramp(
     chain: list[etree._Element], stops: tuple[Stop, ...], style: ElementStyle, report: Report
 ) -> GradientRamp:
-    """Ramp of the first of some gradient elements, which has a style, and each of which refers to the next."""
+    """Return the ramp of the first of some gradient elements, each of which refers to the next."""
     name = local_name(chain[0]) or ""
     lengths = dict(LENGTHS[name])
     words = dict.fromkeys(("gradientUnits", "spreadMethod", "gradientTransform"), "")
     for element in reversed(chain):
-        if local_name(element) == name:  # of one of the other kind, only what both kinds have counts (SVG 2, 14.1.1)
+        if local_name(element) == name:  # from the other kind, only common attributes count (SVG 2, 14.1.1)
             lengths.update(own_lengths(element, name, report))
         words.update({key: text for key in words if (text := element.get(key)) is not None})
     words["gradientTransform"], moved = transform_of(words["gradientTransform"], chain[0], style)
@@ -157,9 +157,9 @@ def read_ramp(
 
 
 def transform_of(text: str, element: etree._Element, style: ElementStyle) -> tuple[str, Transform | None]:
-    """Text and value of the transform of a paint server: the CSS property, or else the text of its attribute.
+    """Return the transform of a paint server as text and value: the CSS property, or else the attribute's text.
 
-    An attribute `transform` means nothing here, though the cascade takes it for the property.
+    An attribute `transform` has no meaning here, although the cascade maps it to the property.
     """
     css = style["transform"]
     if css.lower() != "none" and not isinstance(css, Attribute):
@@ -169,7 +169,7 @@ def transform_of(text: str, element: etree._Element, style: ElementStyle) -> tup
 
 
 def own_lengths(element: etree._Element, name: str, report: Report) -> dict[str, str]:
-    """Valid attributes of the geometry that an element has; a negative radius is zero, as browsers take it."""
+    """Return the valid geometry attributes of an element; a negative radius counts as zero, as in browsers."""
     found = {}
     for key in LENGTHS[name]:
         text = element.get(key)
@@ -185,7 +185,7 @@ def own_lengths(element: etree._Element, name: str, report: Report) -> dict[str,
 
 
 def stop_offsets(stops: list[etree._Element], report: Report) -> list[float]:
-    """Offsets of stops, in 0..1, none below the one before it; 0 for one without a number."""
+    """Return the offsets of stops, in 0..1 and not decreasing; 0 for a stop without a number."""
     offsets, least = [], 0.0
     for stop in stops:
         text = stop.get("offset", "0")

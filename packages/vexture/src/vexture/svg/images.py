@@ -1,6 +1,7 @@
-"""Images in an SVG (SVG 2, 12.3): drawings are drawn, pictures are traced if that is asked for.
+"""Images in an SVG (SVG 2, 12.3): drawings are drawn, and pictures are traced if requested.
 
-Nothing but data: URLs is read, unless a folder is given: then files in it and below it, never by a link that leads out.
+Only data: URLs are read. If a folder is given, files in it and below are read, too, but not through symbolic links that
+lead out.
 """
 
 import binascii
@@ -27,33 +28,33 @@ from vexture.svg.transform import Identity, Transform, map_points
 from vexture.svg.viewport import THINNEST, Rectangle, own_size
 
 DEEPEST: Final = 4
-"""Drawings in images of one another."""
+"""Deepest nesting of drawings in images."""
 
 MOST_IMAGES: Final = 256
-"""Different images of a drawing, those in its images included."""
+"""Most different images of a drawing, including those in its images."""
 
 OUTSIDE: Final = "only files beside the drawing and in folders below are read"
 
 BESIDE: Final = re.compile(r"(?![a-z][a-z0-9+.-]*:|[/\\])[^\0]+", re.IGNORECASE)
-"""A link that can lead to a file in the folder: neither an address with a scheme or a host, nor an absolute path."""
+"""Link that can lead to a file in the folder: without a scheme, a host, or an absolute path."""
 
 ADDRESS: Final = re.compile(r"(?!file:)[a-z][a-z0-9+.-]+:|//", re.IGNORECASE)
-"""A link that leads to a server; a single letter before a colon is that of a drive."""
+"""Link that leads to a server; a single letter before a colon is a drive."""
 
 SHOWN: Final = 40
-"""Characters of a file's name in a message."""
+"""Longest file name in a message, in characters."""
 
 
 ImageContent: TypeAlias = etree._Element | Drawing
-"""Root of a drawing, or a picture as it is traced."""
+"""Root of a drawing, or a traced picture."""
 
 
 @dataclass(frozen=True, slots=True)
 class Images:
-    """The images of a drawing that are read."""
+    """The images that a drawing may contain."""
 
-    trace: Callable[[bytes], Drawing] | None = None  # a picture's content; None leaves pictures and files out
-    folder: Path | None = None  # of files that may be read
+    trace: Callable[[bytes], Drawing] | None = None  # traces a picture's content; None leaves pictures out
+    folder: Path | None = None  # folder with files that may be read
     depth: int = 0
     known: dict[tuple[int, str], ImageContent | SourceError | LimitError] = field(
         default_factory=dict
@@ -61,13 +62,13 @@ class Images:
 
     @property
     def inside(self) -> "Images":
-        """Those of a drawing in an image: it may hold others, and refers to no file."""
+        """Images for a drawing in an image, which may contain images, but no links to files."""
         return replace(self, folder=None, depth=self.depth + 1)
 
     def read(self, link: str) -> ImageContent:
-        """Root of the drawing that a link leads to, or the picture traced; a `SourceError` or `LimitError` if none.
+        """Return the root of a linked drawing, or a traced picture; raise a `SourceError` or `LimitError` otherwise.
 
-        The error is what a note says: it names the image, and why it is left out.
+        The error is the text of a note: it names the image, and the reason why it is left out.
         """
         key = self.depth, link
         if key not in self.known:
@@ -83,7 +84,7 @@ class Images:
         return found
 
     def open_link(self, link: str) -> ImageContent:
-        """As `read`, without looking whether it is known, and with errors that do not name the image."""
+        """Read an image as `read` does, but without the cache, and with errors that do not name the image."""
         content = unpack_source(decode_data_url(link) if is_embedded(link) else self.beside(link))
         start = start_of(content) or read_bytes(content)
         kind = kind_of(start)
@@ -98,7 +99,7 @@ class Images:
         return parse_svg(read_bytes(content))
 
     def beside(self, link: str) -> Path:
-        """A file in the folder or below it."""
+        """Return the path of a file in the folder or below it."""
         path = unquote(link.partition("#")[0])
         if ADDRESS.match(path):
             raise SourceError("nothing is fetched from an address")
@@ -121,12 +122,12 @@ class Images:
 
 
 def is_embedded(link: str) -> bool:
-    """Whether a link is a data: URL."""
+    """Return whether a link is a data: URL."""
     return link[:5].lower() == "data:"
 
 
 def image_label(link: str) -> str:
-    """An image as a message names it: by its file's name, or by what is embedded.
+    """Describe an image for a message: by its file name, or as embedded.
 
     Examples
     --------
@@ -155,14 +156,14 @@ class ImageScene(Protocol):
     images: Images
 
     def fit(self, element: etree._Element, box: Rectangle, width: float, height: float) -> Transform:
-        """Map from a view box to a viewport, by the element's `preserveAspectRatio`."""
+        """Return the map from a view box to a viewport, according to the element's `preserveAspectRatio`."""
 
     def paint_embedded(self, root: etree._Element, place: ElementPlace, painter: Painter) -> None:
         """Paint another document at a place inside its viewport."""
 
 
 def decode_data_url(link: str) -> bytes:
-    """Content of a data: URL (RFC 2397).
+    """Decode the content of a data: URL (RFC 2397).
 
     Examples
     --------
@@ -182,7 +183,7 @@ def decode_data_url(link: str) -> bytes:
 
 
 def paint_image(scene: ImageScene, element: etree._Element, place: ElementPlace, painter: Painter) -> None:
-    """Paint an image at a place with its own style, or name it."""
+    """Paint an image at a place with its own style, or note why not."""
     link = (reference(element) or "").strip()
     if not link or place.style["visibility"].lower() != "visible" or place.space.flat:
         return
@@ -211,15 +212,15 @@ def paint_image(scene: ImageScene, element: etree._Element, place: ElementPlace,
 
 
 def size_of(found: ImageContent) -> tuple[float, float]:
-    """Width and height of a picture, or of a drawing in its own pixels."""
-    if isinstance(found, Drawing):  # whose pixels begin at 0, 0, in the middle of the unit square
+    """Return the width and height of a picture, or of a drawing in its own pixels."""
+    if isinstance(found, Drawing):  # its pixels start at 0, 0 and are centred in the unit square
         (side, _, left), (_, _, bottom) = found.to_source.tolist()
         return side + 2.0 * left, 2.0 * bottom - side
     return own_size(found)
 
 
 def image_sides(place: ElementPlace, size: tuple[float, float]) -> Rectangle:
-    """Place and size of an image; what it leaves to the picture follows from the size of that."""
+    """Return position and size of an image; missing sides follow from the size of its content."""
     style, view = place.style, place.viewport
     wholes = {"x": view.width, "y": view.height, "width": view.width, "height": view.height}
     x, y, width, height = (view.length(style[name], whole, style.font_size) for name, whole in wholes.items())

@@ -1,4 +1,4 @@
-"""Links from one element of a document to another."""
+"""Links between elements of a document."""
 
 import re
 import sys
@@ -7,7 +7,7 @@ from urllib.parse import unquote
 from lxml import etree
 
 HREF = ("href", "{http://www.w3.org/1999/xlink}href", "xlink:href")
-"""Attributes that link, the last one in files that do not declare its prefix, as HTML allows."""
+"""Attributes with links; the last one is for files that do not declare its prefix, which HTML allows."""
 
 FRAGMENT = re.compile(r"\s*#(.*?)\s*", re.DOTALL)
 
@@ -16,21 +16,21 @@ ESCAPE = re.compile(r"\\(?:([0-9a-fA-F]{1,6})\s?|(.))", re.DOTALL)
 
 
 def reference(element: etree._Element) -> str | None:
-    """Link to another element (`href`), or None."""
+    """Return the link of an element (`href`), or None."""
     return next((element.get(name) for name in HREF if element.get(name)), None)
 
 
 class Links:
-    """Finds the elements of a document by their `id`."""
+    """Index of a document's elements by their `id`."""
 
     def __init__(self, root: etree._Element) -> None:
         self.root = root
         self.by_id: dict[str, etree._Element] = {}
 
     def target(self, link: str) -> etree._Element | None:
-        r"""Element of this document that a link like "#name" refers to, or None.
+        r"""Return the element of this document that a link such as "#name" refers to, or None.
 
-        A name that no element has as it is written is decoded, as that of an address or of a style sheet.
+        If no element has the literal name, it is decoded, as from a URL or a style sheet.
 
         Examples
         --------
@@ -49,7 +49,7 @@ class Links:
 
 
 def unescape(match: re.Match[str]) -> str:
-    """The character of an escape (CSS Syntax 3, 4.3.7)."""
+    """Return the character of a CSS escape (CSS Syntax 3, 4.3.7)."""
     if not match[1]:
         return match[2]
     code = int(match[1], 16)

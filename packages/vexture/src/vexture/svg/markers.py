@@ -1,4 +1,4 @@
-"""Markers on the vertices of a shape, in the direction of its outline (SVG 2, 9.4 and 13.7)."""
+"""Markers on the vertices of a shape, turned along its outline (SVG 2, 9.4 and 13.7)."""
 
 from cmath import isclose
 from collections.abc import Iterator
@@ -28,42 +28,42 @@ DEFAULT_SIZE = "3"
 REVERSED = "auto-start-reverse"
 
 RIGHT = (1.0, 0.0)
-"""Direction where nothing has a length."""
+"""Direction at a point where all segments have zero length."""
 
 
 class MarkerScene(MeasuredScene, Protocol):
     """The part of a scene that markers need."""
 
     def check_used(self, more: int, masks: int) -> None:
-        """Raise a `SourceError` if so many more elements are too many; `masks` as in `ElementPlace`."""
+        """Raise a `SourceError` if `more` further elements are too many; `masks` as in `ElementPlace`."""
 
     def window(self, element: etree._Element, style: ElementStyle, sides: Rectangle) -> ContentWindow | None:
-        """Viewport of an element with sides; None if it shows nothing."""
+        """Return the viewport of an element with sides; None if it shows nothing."""
 
     def note_effects(self, element: etree._Element, style: ElementStyle) -> bool:
-        """Note effects that are not supported; return whether anything is seen of an element with its filter."""
+        """Note unsupported effects; return whether anything of the element is visible with its filter."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Marker:
-    """A marker as a shape shows it."""
+    """A marker, resolved for a shape."""
 
     element: etree._Element
     style: ElementStyle
     window: ContentWindow
-    anchor: tuple[float, float]  # what of it lies on the vertex, in the units around the window
-    scale: float  # of those units
+    anchor: tuple[float, float]  # the point that lies on the vertex, in the units around the window
+    scale: float  # size of those units
     angle: float  # radians
-    follows: bool  # whether the angle is from the direction of the outline
+    follows: bool  # True if the angle is relative to the outline
 
 
 def has_markers(name: str, style: ElementStyle) -> bool:
-    """Whether an element of a name may have markers."""
+    """Return whether an element of a name can have markers."""
     return name in MARKED and any(style[end].lower() != "none" for end in MARKERS)
 
 
 def markers(scene: MarkerScene, element: etree._Element, place: ElementPlace) -> Iterator[list[PlacedElement]]:
-    """Content of each marker of a shape, in painting order; of each, what is painted first is last."""
+    """Yield the content of each marker of a shape, in painting order; within a marker, the last is painted first."""
     shape = ShapeElement(element, place.style, place.viewport, ROUND * place.viewport.diagonal, scene.report)
     found = [read_marker(scene, name, shape, place) for name in MARKERS]
     if not any(found):
@@ -87,7 +87,7 @@ def marker_content(
     place: ElementPlace,
     context: Context,
 ) -> list[PlacedElement]:
-    """Content of a marker on one vertex of a shape at a place."""
+    """Return the content of a marker on one vertex of a shape at a place."""
     (x, y), turn = marker.anchor, marker.angle + (direction if marker.follows else 0.0)
     matrix = Identity.translate(*point).rotate(turn).scale(marker.scale).translate(-x, -y)
     inner = ElementPlace(
@@ -109,7 +109,7 @@ def marker_content(
 
 
 def read_marker(scene: MarkerScene, name: str, shape: ShapeElement, place: ElementPlace) -> Marker | None:
-    """The marker that one of `MARKERS` gives a shape; None if it shows nothing."""
+    """Return the marker that one of `MARKERS` gives a shape; None if it shows nothing."""
     element = scene.servers.referenced_element(name, "marker", place)
     if element is None:
         return None
@@ -130,7 +130,7 @@ def read_marker(scene: MarkerScene, name: str, shape: ShapeElement, place: Eleme
 
 
 def side(marker: ShapeElement, name: str, whole: float) -> float:
-    """Width or height of a marker, in its units."""
+    """Return the width or height of a marker, in its units."""
     text = marker.element.get(name, DEFAULT_SIZE)
     length = marker.viewport.length(text, whole, marker.style.font_size)
     if length is None or length < 0.0:
@@ -140,9 +140,9 @@ def side(marker: ShapeElement, name: str, whole: float) -> float:
 
 
 def anchor(marker: ShapeElement, name: str, whole: float) -> float:
-    """Coordinate of a marker's reference point, in the units of its content.
+    """Return a coordinate of a marker's reference point, in the units of its content.
 
-    A keyword is a part of the marker's own view box, and a percentage one of the viewport around, as in browsers.
+    As in browsers, a keyword refers to the marker's own view box, and a percentage to the viewport around it.
     """
     text = marker.element.get(name, "0")
     word, view = KEYWORDS.get(text.strip()), marker.viewport
@@ -155,7 +155,7 @@ def anchor(marker: ShapeElement, name: str, whole: float) -> float:
 
 
 def orientation(marker: ShapeElement, name: str) -> tuple[float, bool]:
-    """Angle of a marker in radians, and whether it is from the direction of the outline."""
+    """Return the angle of a marker in radians, and whether it is relative to the outline."""
     text = marker.element.get("orient", "0").strip()
     if text in ("auto", REVERSED):
         return (pi if text == REVERSED and name == MARKERS[0] else 0.0), True
@@ -173,7 +173,7 @@ class Vertices(NamedTuple):
 
 
 def vertices(shape: ShapeElement) -> Vertices:
-    """Vertices of a path, a line, a polyline or a polygon; a closed part has its first one again as its last one."""
+    """Return the vertices of a path, line, polyline or polygon; a closed part repeats its first one at its end."""
     if etree.QName(shape.element).localname == "path":
         pen = Segments(inf)
         pen.follow(path_data(shape))
@@ -190,22 +190,22 @@ def vertices(shape: ShapeElement) -> Vertices:
 
 
 class Subpath(NamedTuple):
-    """A subpath, of one curve for each segment."""
+    """A subpath, with one curve for each segment."""
 
     start: Point
     cubics: NDArray[np.float64]  # (n, 4, 2)
     closed: bool
-    joined: bool = False  # whether its first vertex is the last one of the part before it
+    joined: bool = False  # True if its first vertex is the last one of the part before it
 
     @property
     def points(self) -> NDArray[np.float64]:
-        """Its own vertices, (n + 1, 2) or (n, 2)."""
+        """Own vertices, (n + 1, 2) or (n, 2)."""
         ends: NDArray[np.float64] = self.cubics[:, 3]
         return ends if self.joined else np.concatenate([np.array([self.start]), ends])
 
     @property
     def angles(self) -> NDArray[np.float64]:
-        """Direction at each of them: halfway between those of the segments there."""
+        """Direction at each vertex: halfway between those of the adjacent segments."""
         if not len(self.cubics):
             return np.zeros(1)
         leaving, arriving = (np.arctan2(found[:, 1], found[:, 0]) for found in directions(self.cubics))
@@ -218,7 +218,7 @@ class Subpath(NamedTuple):
 
 
 class Segments(PathPen):
-    """Keeps each segment as one curve with its directions at both ends, and what paints nothing, too."""
+    """Pen that keeps each segment as one curve with its end directions, including segments that paint nothing."""
 
     def __init__(self, tolerance: float) -> None:
         super().__init__(tolerance)
@@ -226,34 +226,35 @@ class Segments(PathPen):
         self.joined: bool = False
 
     def draw(self, letter: str, text: str) -> None:
-        """Draw a command; all but a move continue from where the part before was closed."""
+        """Draw a command; all commands but a move continue a closed part from its start."""
         super().draw(letter, text)
         self.joined = self.joined and letter not in "Mm"
 
     def arc_to(self, rx: float, ry: float, rotation: float, large: bool, sweep: bool, end: Point) -> None:
-        """Draw an arc as one curve that begins and ends like it."""
+        """Draw an arc as one curve with the arc's ends and end directions."""
         first = len(self.cubics)
         super().arc_to(rx, ry, rotation, large, sweep, end)
         if len(self.cubics) > first:
             self.cubics[first:] = [self.cubics[first][:4] + self.cubics[-1][4:]]
 
     def close(self) -> None:
-        """Close the part by a segment, which has no length if the pen is back already."""
+        """Close the part with a segment, which has zero length if the pen is back at the start."""
         if self.down and isclose(complex(*self.at), complex(*self.start), rel_tol=1e-15, abs_tol=1e-15):
             self.cubics.append(self.start * 4)
         super().close()
 
     def finish(self, closed: bool) -> None:
-        """Store the part, if there is one; it may be a point."""
+        """Store the part, if there is one; it may be a single point."""
         if self.down:
             self.parts.append(Subpath(self.start, np.array(self.cubics).reshape(-1, 4, 2), closed, self.joined))
             self.cubics, self.joined = [], closed
 
 
 def directions(cubics: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Vectors along the start and along the end of each segment of a part, both (n, 2).
+    """Return the vectors along the start and along the end of each segment of a part, both (n, 2).
 
-    A segment without length starts as the one before it ends, and ends as the next one starts (SVG 2, 9.4).
+    A segment of zero length takes the end direction of the one before, and the start direction of the next (SVG 2,
+    9.4).
     """
     leaving = first_step(cubics[:, 1:] - cubics[:, :1])
     arriving = first_step(cubics[:, 3:] - cubics[:, 2::-1])
@@ -273,7 +274,7 @@ def directions(cubics: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArra
 
 
 def first_step(steps: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The first of three vectors (n, 3, 2) that has a length, or zero."""
+    """Return the first nonzero vector of three, (n, 3, 2), or zero."""
     first = np.argmax((steps != 0.0).any(axis=2), axis=1)
     step: NDArray[np.float64] = steps[np.arange(len(steps)), first]
     return step

@@ -1,6 +1,6 @@
-"""Clips and masks of an element (CSS Masking 1): what they show is painted in groups that mask the element's.
+"""Clips and masks of an element (CSS Masking 1), painted as groups that mask the element's.
 
-A clip by one rectangle cuts outlines instead, so that silhouettes and layers have it, too.
+A clip by a single rectangle cuts outlines instead, so that silhouettes and layers show it, too.
 """
 
 from collections.abc import Iterable
@@ -24,10 +24,10 @@ from vexture.svg.transform import Identity, Transform
 from vexture.svg.viewport import Rectangle, view_box
 
 MASKING: Final = {"clip-path": "clipPath", "mask": "mask"}
-"""The properties that mask an element, and the elements to which they refer."""
+"""Properties that mask an element, with the elements to which they refer."""
 
 REGION: Final = {"x": "-10%", "y": "-10%", "width": "120%", "height": "120%"}
-"""What of a mask is used, if its attributes do not say otherwise."""
+"""Default region of a mask."""
 
 NOTHING: Final = Identity.scale(0.0)
 
@@ -40,22 +40,22 @@ class MeasuredScene(Protocol):
     servers: PaintServers
 
     def transform(self, element: etree._Element, style: ElementStyle, place: ElementPlace) -> Transform:
-        """Transform of an element, about its origin."""
+        """Return the transform of an element, about its origin."""
 
     def extent(self, element: etree._Element, place: ElementPlace) -> Rectangle | None:
-        """As `around`, without strokes; None if the box has no area."""
+        """Return the box as `around` does, without strokes; None if it has no area."""
 
     def around(self, element: etree._Element, place: ElementPlace, stroked: bool) -> Rectangle | None:
-        """Bounding box of what an element shows, in the units of the place inside it; None if that is nothing."""
+        """Return the bounding box of an element's visible content, in the units of the place; None if there is none."""
 
 
 def add_masks(
     scene: MeasuredScene, element: etree._Element, place: ElementPlace, names: Iterable[str] = MASKING
 ) -> tuple[ElementPlace, list[PlacedElement]]:
-    """The place inside an element, cut by its clips, and what is to be shown to mask it.
+    """Return the place inside an element, cut by its clips, and the elements to paint as its masks.
 
-    The element has a veil of its own if it has a clip or a mask. `names` are the properties that have an effect: in a
-    clip, of which only outlines count, a mask has none.
+    The element gets its own veil if it has a clip or a mask. `names` are the properties that have an effect: a clip
+    counts only outlines, so a mask in it has none.
     """
     shown: list[PlacedElement] = []
     for name in names:
@@ -71,7 +71,7 @@ def add_masks(
 def note_outer_units(
     scene: MeasuredScene, root: etree._Element, style: ElementStyle, size: tuple[float, float] | None
 ) -> None:
-    """Note clips and masks of the outermost element, of a size, whose units browsers take for pixels."""
+    """Note clips and masks of the outermost element in units that browsers treat as pixels."""
     box = view_box(root.get("viewBox", ""))
     if size is None or box is None or box[2:] == size:
         return
@@ -81,10 +81,10 @@ def note_outer_units(
 
 
 def shape_of(scene: MeasuredScene, element: etree._Element, place: ElementPlace) -> etree._Element | None:
-    """The clip that an element has by a basic shape, as an element; None if it has none.
+    """Return the clip by a basic shape of an element as an SVG element; None if there is none.
 
-    Two kinds are left out: those of an outermost element, which are in the units around it, and those of clips and
-    masks themselves, whose reference box is another element's.
+    Two kinds are left out: clips of the outermost element, which are in the units around it, and those of clips and
+    masks themselves, whose reference box belongs to another element.
     """
     value = place.style["clip-path"]
     if value.lower() == "none" or element.getparent() is None or local_name(element) in MASKING.values():
@@ -101,7 +101,7 @@ def shape_of(scene: MeasuredScene, element: etree._Element, place: ElementPlace)
 def add_mask(
     scene: MeasuredScene, element: etree._Element, target: etree._Element, place: ElementPlace
 ) -> tuple[ElementPlace, list[PlacedElement]]:
-    """As `add_masks`, of one `clipPath` or `mask`."""
+    """Add one `clipPath` or `mask` as `add_masks` does."""
     masks = place.deeper()
     is_clip, style = local_name(target) == "clipPath", scene.servers.style_of(target)
     matrix = scene.transform(target, style, place) if is_clip else Identity
@@ -117,7 +117,7 @@ def add_mask(
             scene.report.simplification("mask in linear light (color-interpolation) read as one in sRGB", element)
         space = region(scene, element, target, place, matrix)
     assert place.veil is not None
-    mode = place.style["mask-mode"].lower().partition(",")[0].strip()  # of one layer
+    mode = place.style["mask-mode"].lower().partition(",")[0].strip()  # mode of the only layer
     kind = style["mask-type"].lower() if mode == "match-source" else mode
     by_opacity = is_clip or kind == "alpha"
     veil = Veil(place.veil, 1.0, mask=Mask.OPACITY if by_opacity else Mask.LUMINANCE)
@@ -140,7 +140,7 @@ def add_mask(
 
 
 def box_matrix(scene: MeasuredScene, element: etree._Element, place: ElementPlace) -> Transform:
-    """From the unit square to the bounding box of what an element shows; to a point if that has no area."""
+    """Return the map from the unit square to the bounding box of an element; to a point if the box has no area."""
     box = scene.extent(element, place)
     return NOTHING if box is None else Transform(box[2], 0.0, 0.0, box[3], box[0], box[1])
 
@@ -148,7 +148,7 @@ def box_matrix(scene: MeasuredScene, element: etree._Element, place: ElementPlac
 def region(
     scene: MeasuredScene, element: etree._Element, target: etree._Element, place: ElementPlace, matrix: Transform
 ) -> Space:
-    """The space inside a mask's region; `matrix` leads from its content to the units of the element."""
+    """Return the space inside a mask's region; `matrix` maps its content to the units of the element."""
     by_box = target.get("maskUnits") != "userSpaceOnUse"
     whole = (1.0, 1.0) if by_box else (place.viewport.width, place.viewport.height)
     units = box_matrix(scene, element, place) if by_box else Identity
@@ -170,7 +170,7 @@ def region(
 def only_rectangle(
     scene: MeasuredScene, clip: etree._Element, style: ElementStyle, place: ElementPlace
 ) -> Rectangle | None:
-    """The rectangle, in the units of a clip's content, if that is all that it shows, and upright there."""
+    """Return the rectangle, in the units of a clip's content, if the clip shows only an upright rectangle."""
     children = [child for child in clip if local_name(child) not in (None, "title", "desc", "metadata")]
     if len(children) != 1 or local_name(children[0]) != "rect":
         return None

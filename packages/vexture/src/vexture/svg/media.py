@@ -1,4 +1,4 @@
-"""Media queries: whether a style sheet holds for a picture in a page on a screen (Media Queries 4)."""
+"""Media queries, evaluated for a picture in a page on a screen (Media Queries 4)."""
 
 import operator
 import re
@@ -33,18 +33,18 @@ WORDS: Final = {
     "scripting": "none",
     "update": "fast",
 }
-"""Features that words describe, as browsers answer for an image on a screen: nothing points at it, no script runs."""
+"""Features with keywords, as browsers report them for an image on a screen: no pointer, no scripts."""
 
 NUMBERS: Final = {"color": 8.0, "color-index": 0.0, "grid": 0.0, "monochrome": 0.0}
-"""Features that whole numbers describe."""
+"""Features with whole numbers."""
 
 NOTHING: Final = ("none", "no-preference")
-"""Words for which a feature without a value does not hold."""
+"""Keywords with which a feature without a value does not hold."""
 
 ALIASES: Final = {"-webkit-device-pixel-ratio": "resolution", "device-width": "width", "device-height": "height"}
 
 PER_PIXEL: Final = {"": 1.0, "x": 1.0, "dppx": 1.0, "dpi": 1 / 96, "dpcm": 2.54 / 96}
-"""Dots for each pixel of each unit of a resolution."""
+"""Dots per pixel of each unit of a resolution."""
 
 COMPARED: Final[dict[str, Callable[[float, float], bool]]] = {
     "<": operator.lt,
@@ -58,16 +58,16 @@ RESOLUTION = re.compile(r"(.*?\d)\s*([a-z]*)")
 PREFIX = re.compile(r"(-webkit-)?(min-|max-)?(.*)")
 
 DIGITS: Final = 9
-"""Digits after the point of ratios that are compared."""
+"""Decimals to which ratios are compared."""
 
 Answer = bool | None
-"""Whether a condition holds; None if it is not known, which counts as false, and so does its opposite."""
+"""Value of a condition; None is unknown, which counts as false and stays unknown if negated."""
 
 
 def condition(tokens: list[Any], atom: Callable[[Any], Answer], alternatives: bool = True) -> Answer:
-    """Answer of conditions joined by "not", "and" or "or"; None if they are not valid.
+    """Evaluate conditions joined by "not", "and" or "or"; None if they are not valid.
 
-    `atom` answers for one of them, which is a bracket or a function. Without `alternatives` there is no "or".
+    `atom` evaluates a single condition, a bracket or a function. Without `alternatives`, "or" is not allowed.
     """
     if tokens and word(tokens[0]) == "not":
         answer = atom(tokens[1]) if len(tokens) == 2 else None
@@ -83,12 +83,12 @@ def condition(tokens: list[Any], atom: Callable[[Any], Answer], alternatives: bo
 
 
 def word(token: Any) -> str | None:
-    """Keyword that a token is."""
+    """Return the keyword that a token is, if any."""
     return token.lower_value if token.type == "ident" else None
 
 
 def significant_tokens(tokens: list[Any]) -> list[Any]:
-    """Tokens without spaces and comments."""
+    """Return the tokens without spaces and comments."""
     return [token for token in tokens if token.type not in ("whitespace", "comment")]
 
 
@@ -107,7 +107,7 @@ class Medium:
     height: float
 
     def holds(self, queries: list[Any]) -> Answer:
-        """Whether one of some media queries holds; an empty list does. A number that is too large is not known."""
+        """Return whether one of some media queries holds, or the list is empty; None if it holds too large a number."""
         if not significant_tokens(queries):
             return True
         try:
@@ -117,7 +117,7 @@ class Medium:
         return True if True in answers else None if None in answers else False
 
     def query(self, tokens: list[Any]) -> Answer:
-        """Answer of one media query."""
+        """Evaluate one media query."""
         first = next((at for at, token in enumerate(tokens) if word(token) not in ("not", "only")), len(tokens))
         name = word(tokens[first]) if first < len(tokens) else None
         if name is None:
@@ -133,7 +133,7 @@ class Medium:
         return not answer
 
     def atom(self, token: Any) -> Answer:
-        """Answer of a condition in brackets."""
+        """Evaluate a condition in brackets."""
         if token.type != "() block":
             return None
         inside = significant_tokens(token.content)
@@ -142,7 +142,7 @@ class Medium:
         return self.feature(tinycss2.serialize(token.content).strip().lower())
 
     def feature(self, text: str) -> Answer:
-        """Answer of a feature, as in ``min-width: 20em``, ``width >= 20em`` or ``color``."""
+        """Evaluate a feature, such as ``min-width: 20em``, ``width >= 20em`` or ``color``."""
         name, colon, value = (part.strip() for part in text.partition(":"))
         if colon:
             return self.plain(name, value)
@@ -164,7 +164,7 @@ class Medium:
         return None if own is None else own > 0.0
 
     def plain(self, name: str, value: str) -> Answer:
-        """Answer of a feature and its value."""
+        """Evaluate a feature with its value."""
         if name == "orientation":
             upright = {"portrait": True, "landscape": False}.get(value)
             return None if upright is None else upright == (self.height >= self.width)
@@ -179,20 +179,20 @@ class Medium:
         return COMPARED[{"min-": ">=", "max-": "<=", None: "="}[limit]](own, other)
 
     def feature_value(self, name: str) -> float | None:
-        """Value of a media feature that is a number."""
+        """Return the value of a numeric media feature."""
         sizes = {"width": self.width, "height": self.height, "resolution": 1.0}
         if name in ("aspect-ratio", "device-aspect-ratio"):
             return round(self.width / self.height, DIGITS) if self.height else None
         return sizes.get(name, NUMBERS.get(name))
 
     def value(self, text: str, name: str) -> float | None:
-        """Value of one side of a comparison, a feature or a number; `name` is the other side."""
+        """Return the value of one side of a comparison, a feature or a number; `name` is the other side."""
         text, name = ALIASES.get(text, text), ALIASES.get(name, name)
         if (own := self.feature_value(text)) is not None:
             return own
         if name in ("width", "height"):
             length = Viewport(self.width, self.height).length(text, self.width, INITIAL_SIZE)
-            return None if length and number(text) is not None else length  # no unit: only zero has none
+            return None if length and number(text) is not None else length  # only zero may lack a unit
         if name == "resolution":
             match = RESOLUTION.fullmatch(text)
             amount = number(match[1]) if match else None

@@ -6,13 +6,13 @@ from vexture.base.errors import SourceError
 from vexture.svg.document import local_name
 
 TITLE = "title"
-"""The element whose text names the one around it (SVG 2, 5.7)."""
+"""Element whose text names the element around it (SVG 2, 5.7)."""
 
 
 class ElementNames:
-    """Names of elements, by an attribute, of which a prefix is the document's, or `TITLE`.
+    """Names of elements, from an attribute, with a prefix of the document, or from `TITLE`.
 
-    Raises a `SourceError` if no element has it.
+    Raise a `SourceError` if no element has it.
 
     Examples
     --------
@@ -30,7 +30,7 @@ class ElementNames:
             raise SourceError(f"no element has the name {by!r} of `names`; give {TITLE}, id or another attribute")
 
     def of(self, element: etree._Element) -> str:
-        """Name of an element, or an empty text."""
+        """Return the name of an element, or an empty text."""
         if self.by != TITLE:
             return next((str(value) for name, value in element.items() if name in self.attributes and value), "")
         titles = (child for child in element if local_name(child) == TITLE)

@@ -1,4 +1,4 @@
-"""The elements that the notes of an SVG are about: their names, and their boxes in the drawing."""
+"""The elements that notes of an SVG refer to: their names, and their boxes in the drawing."""
 
 from collections.abc import Collection, Iterable
 
@@ -13,16 +13,16 @@ from vexture.svg.report import describe_element
 from vexture.svg.space import ElementPlace
 
 LONGEST_NAME = 80
-"""Letters of a name that are kept."""
+"""Longest name that is kept, in letters."""
 
 Boxes = dict[etree._Element, NDArray[np.float64]]
-"""Least and greatest coordinates of what elements paint, (2, 2) each, in the coordinates of the paths."""
+"""Bounding boxes of what elements paint, (2, 2) each, in the coordinates of the paths."""
 
 
 def boxes_of(elements: Collection[etree._Element], paths: Iterable[Path], places: Iterable[ElementPlace]) -> Boxes:
-    """Boxes of what some elements paint, from the paths of the drawing with the place of each.
+    """Return the boxes of what elements paint; `paths` are the drawing's, and `places` those of each path.
 
-    What they show as a clip, marker, mask or pattern of others is not theirs.
+    Content that an element shows as a clip, marker, mask or pattern of another one does not count.
     """
     boxes: Boxes = {}
     if not elements:
@@ -41,7 +41,7 @@ def boxes_of(elements: Collection[etree._Element], paths: Iterable[Path], places
 def subject_of(
     element: etree._Element, names: ElementNames, boxes: Boxes, to_source: NDArray[np.float64] | None
 ) -> Subject:
-    """An element as a note names it; `to_source` maps the unit square to the coordinates of its box, without a turn."""
+    """Describe an element for a note; `to_source` maps the unit square to its box's coordinates, unrotated."""
     name = (names.of(element) or describe_element(element))[:LONGEST_NAME]
     if element not in boxes or to_source is None:
         return Subject(name, None)

@@ -8,26 +8,26 @@ from numpy.typing import NDArray
 from vexture.bezier.convert import line_cubics
 
 SAME = 1e-12
-"""Relative to the outline's coordinates. An end this near to the start differs from it by rounding only."""
+"""Distance of an end from the start that is mere rounding, relative to the outline's coordinates."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ShapeOutline:
     """Consecutive cubics, open or closed."""
 
-    cubics: NDArray[np.float64]  # (n, 4, 2), n >= 1: each starts, bit for bit, where the one before it ends
-    closed: bool  # whether a stroke joins the last to the first
+    cubics: NDArray[np.float64]  # (n, 4, 2), n >= 1; each starts, bit for bit, at the end of the one before
+    closed: bool  # True if a stroke joins the last to the first
 
     @classmethod
     def polygon(cls, points: NDArray[np.float64], closed: bool) -> "ShapeOutline":
-        """Straight sides through the points, (n, 2)."""
+        """Return straight sides through points (n, 2)."""
         if closed or len(points) == 1:
             points = np.concatenate([points, points[:1]])
         return cls(line_cubics(points[:-1], points[1:]), closed)
 
     @classmethod
     def rectangle(cls, x: float, y: float, width: float, height: float) -> "ShapeOutline":
-        """Sides of an upright rectangle."""
+        """Return the sides of an upright rectangle."""
         right, bottom = x + width, y + height
         return cls.polygon(np.array([(x, y), (right, y), (right, bottom), (x, bottom)]), closed=True)
 

@@ -1,4 +1,4 @@
-"""Colours that the page around a drawing gives it: `currentColor`, custom properties and context paints."""
+"""Colours that a page passes to the drawing in it: `currentColor`, custom properties and context paints."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -14,24 +14,24 @@ from vexture.svg.document import local_name
 
 NAMED: Final = "currentColor, context-fill, context-stroke or a custom property, such as --primary"
 CURRENT_IS_BLACK: Final = "currentColor has no value in it, and is black as in browsers (`page_colors` gives it one)"
-"""What a note says of a drawing that has other colours, too."""
+"""Message of a note on a drawing that also has other colours."""
 
 LONGEST: Final = 40
-"""Letters of a name in a note."""
+"""Longest name in a note, in letters."""
 
 MOST_NAMED: Final = 5
-"""Names in a list of a note."""
+"""Most names in a list of a note."""
 
 REFERENCE: Final = re.compile(r"var\(\s*(--[^\s,()]+)|(?<![\w-])(currentcolor|context-(?:fill|stroke))", re.IGNORECASE)
-"""A name to which a value refers."""
+"""Name to which a value refers."""
 
 DECLARATION: Final = re.compile(r"(?<![\w-])(--[^\s:;,(){}]+)\s*:")
-"""A custom property that a style sheet or an attribute `style` declares."""
+"""Custom property that a style sheet or a `style` attribute declares."""
 
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """The surroundings of a drawing, and the colours that they give it.
+    """The page around a drawing, with the colours that it passes on.
 
     Examples
     --------
@@ -39,12 +39,12 @@ class Page:
     {'color': '#c00', '--primary': 'teal'}
     """
 
-    colors: Mapping[str, str] = field(default_factory=dict)  # by names, of which `currentcolor` is in small letters
-    is_open: bool = True  # whether a user can give colours: nobody can to a drawing in an image
+    colors: Mapping[str, str] = field(default_factory=dict)  # by name; `currentcolor` is in lower case
+    is_open: bool = True  # True if a user can set colours, which is impossible for a drawing in an image
 
     @classmethod
     def from_colors(cls, colors: object) -> "Page":
-        """The page that gives some colours, by `page_colors`; raises a `ParameterError` if they are none."""
+        """Make a page from `page_colors`; raise a `ParameterError` if they are not valid."""
         if colors is None:
             return cls()
         if not isinstance(colors, Mapping):
@@ -54,26 +54,26 @@ class Page:
     @property
     def inherited(self) -> dict[str, str]:
         """Properties that the outermost element of a drawing inherits."""
-        given = ((name, color) for name, color in self.colors.items() if name not in CONTEXT)
-        return {"color" if name == CURRENT else name: color for name, color in given}
+        own = ((name, color) for name, color in self.colors.items() if name not in CONTEXT)
+        return {"color" if name == CURRENT else name: color for name, color in own}
 
     def context(self, name: str) -> Color | None:
-        """The colour of a context paint outside of markers and uses; None if it has none there."""
+        """Return the colour of a context paint outside markers and uses; None if it has none there."""
         color = parse_color(self.colors.get(name, ""))
         return color if isinstance(color, Color) else None
 
     def describe_missing(self, text: str, *, helps: bool) -> str:
-        """Describe a reference without a value for a note; `helps` is whether a colour would be valid there."""
+        """Describe a reference without a value for a note; `helps` tells whether a colour would be valid there."""
         remedy = " (`page_colors` gives it one)" if helps and self.is_open else ""
         return f"{shorten_text(text, LONGEST)}, which has no value{remedy}"
 
 
 ENCLOSED: Final = Page(is_open=False)
-"""What surrounds a drawing in an image: it gives none."""
+"""Page of a drawing in an image, which passes on no colours."""
 
 
 def checked_name(name: object) -> str:
-    """A name to which a page can give a colour; raises a `ParameterError` if it is another."""
+    """Return a name to which a page can give a colour; raise a `ParameterError` for any other name."""
     if isinstance(name, str):
         if name.startswith("--") and len(name) > len("--"):
             return name
@@ -83,14 +83,14 @@ def checked_name(name: object) -> str:
 
 
 def checked_color(name: object, color: object) -> str:
-    """A colour that a page gives; raises a `ParameterError` if it is none."""
+    """Return a colour of a page; raise a `ParameterError` if it is not one."""
     if not isinstance(color, str) or not isinstance(parse_color(color), Color):
         raise ParameterError(f"`page_colors` gives {name} {color!r:.80}; give a CSS colour, such as teal or #c00")
     return color.strip()
 
 
 def unused_colors(page: Page, root: etree._Element) -> tuple[Note, ...]:
-    """The note about colours of a page to whose names nothing in a document refers, if there are any.
+    """Return the note on colours of a page that nothing in a document refers to, if there are any.
 
     Examples
     --------
@@ -113,7 +113,7 @@ def unused_colors(page: Page, root: etree._Element) -> tuple[Note, ...]:
 
 
 def texts_of(root: etree._Element) -> Iterator[str]:
-    """Texts of a document in which values are: attributes and style sheets."""
+    """Yield the texts of a document that contain values: attributes and style sheets."""
     for element in root.iter("*"):
         yield from map(str, element.attrib.values())
         if local_name(element) == "style":
@@ -121,6 +121,6 @@ def texts_of(root: etree._Element) -> Iterator[str]:
 
 
 def list_colors(names: list[str]) -> str:
-    """The first of some names of colours, as a note lists them."""
-    shown = ["currentColor" if name == CURRENT else shorten_text(name, LONGEST) for name in names[:MOST_NAMED]]
-    return ", ".join((*shown, "...") if len(names) > MOST_NAMED else shown)
+    """List names of colours for a note, shortened if there are many."""
+    labels = ["currentColor" if name == CURRENT else shorten_text(name, LONGEST) for name in names[:MOST_NAMED]]
+    return ", ".join((*labels, "...") if len(names) > MOST_NAMED else labels)

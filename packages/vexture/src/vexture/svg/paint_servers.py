@@ -1,4 +1,4 @@
-"""Paints by reference: gradients and patterns."""
+"""Paint servers: gradients and patterns."""
 
 import re
 from collections.abc import Callable, Hashable
@@ -18,18 +18,18 @@ from vexture.svg.space import ElementPlace
 from vexture.svg.style import Cascade, ElementStyle
 
 UNKNOWN = {"meshgradient": "gradient mesh", "meshGradient": "gradient mesh", "hatch": "hatch"}
-"""Paint servers that are not drawn, and what notes call them."""
+"""Unsupported paint servers, with their names in notes."""
 
 GREY = Color((0.5, 0.5, 0.5), 1.0)
 PATTERNS = frozenset({"pattern"})
 MOST_STOPS = 128
-"""Of a gradient: half of what a pixel can run through for one paint (FORMAT.md, D.6)."""
+"""Most stops of a gradient: half of the number that one paint of a pixel may go through (FORMAT.md, D.6)."""
 
 LINK = re.compile(r"\s*url\(\s*(['\"]?)(.*?)\1\s*\)\s*", re.DOTALL)
 
 
 class PaintServers(Links):
-    """Finds elements by their `id`, and the paints that shapes refer to."""
+    """Index of elements by `id`, and of the paints that shapes refer to."""
 
     def __init__(self, root: etree._Element, cascade: Cascade, report: Report) -> None:
         super().__init__(root)
@@ -40,10 +40,10 @@ class PaintServers(Links):
         self.styles: dict[etree._Element, ElementStyle] = {}
         self.budget: Budget = Budget(report)
         self.tiles: dict[tuple[Hashable, ...], FirstTile] = {}  # of patterns, as painted so far
-        self.lacks_color = False  # whether anything is painted in `currentcolor`, which nothing says
+        self.lacks_color = False  # True if something is painted in `currentcolor` without a value
 
     def referenced_element(self, name: str, kind: str, place: ElementPlace) -> etree._Element | None:
-        """Element of a kind to which a property at a place refers; None, with a note, if it is none or around it."""
+        """Return the element of a kind that a property refers to; None, with a note, if missing or an ancestor."""
         value = place.style[name]
         if value.lower() == "none":
             return None
@@ -58,7 +58,7 @@ class PaintServers(Links):
         return None
 
     def paint(self, name: str, place: ElementPlace, outlines: list[ShapeOutline]) -> Paint | Tiling | None:
-        """Paint of `name`, "fill" or "stroke", for outlines at a place with their style; None if nothing is painted."""
+        """Return the paint of `name`, "fill" or "stroke", for outlines at a place; None if nothing is painted."""
         paint = self.found(name, place, lambda: outlines)
         paint = paint and paint.fade(place.style.opacity(f"{name}-opacity"))
         return paint if paint is not None and paint.opacity > 0.0 else None
@@ -66,7 +66,7 @@ class PaintServers(Links):
     def found(
         self, name: str, place: ElementPlace, outlines: Callable[[], list[ShapeOutline]]
     ) -> Paint | Tiling | None:
-        """As `paint`, but for the opacity of the property."""
+        """Return the paint as `paint` does, without the opacity of the property."""
         text = parse_paint(place.style[name])
         if text is None:
             return None
@@ -82,7 +82,7 @@ class PaintServers(Links):
         return self.flat(color, place.style)
 
     def flat(self, color: Color | str | None, style: ElementStyle) -> Paint | None:
-        """Paint of one colour."""
+        """Return the paint of a flat colour."""
         if isinstance(color, str):
             self.lacks_color |= not style.has_color
             color = style.solid(color)
@@ -93,7 +93,7 @@ class PaintServers(Links):
     def paint_of_reference(
         self, text: PaintText, place: ElementPlace, outlines: list[ShapeOutline]
     ) -> Paint | Tiling | None:
-        """Paint of a reference to a paint server, or its fallback where there is none or it has no area."""
+        """Return the paint of a reference to a paint server; its fallback if that is missing or has no area."""
         link = text.reference or ""
         server = self.target(link)
         name = local_name(server) if server is not None else None
@@ -113,7 +113,7 @@ class PaintServers(Links):
     def tiling(
         self, server: etree._Element, fallback: Color | str | None, place: ElementPlace, outlines: list[ShapeOutline]
     ) -> Tiling | None:
-        """A pattern on outlines; None if it shows nothing."""
+        """Return the tiling of a pattern on outlines; None if it shows nothing."""
         pattern = self.pattern(server)
         if pattern is None:
             return None
@@ -131,7 +131,7 @@ class PaintServers(Links):
         return self.patterns[element]
 
     def chain(self, first: etree._Element, kinds: frozenset[str]) -> list[etree._Element]:
-        """An element, the one that it refers to, the one to which that refers, and so on, as long as they are alike."""
+        """Return an element, the one it refers to, and so on, as long as they are of the given kinds."""
         chain: list[etree._Element] = []
         element: etree._Element | None = first
         while element is not None and element not in chain and local_name(element) in kinds:
@@ -153,7 +153,7 @@ class PaintServers(Links):
         return self.ramps[gradient]
 
     def stops(self, gradient: etree._Element) -> tuple[Stop, ...]:
-        """Stops that a gradient has itself."""
+        """Return the stops that a gradient itself contains."""
         elements = [child for child in gradient if local_name(child) == "stop"]
         offsets = stop_offsets(elements, self.report)
         stops = tuple(self.stop(element, offset) for element, offset in zip(elements, offsets, strict=True))
@@ -163,14 +163,14 @@ class PaintServers(Links):
         return tuple(stops[(len(stops) - 1) * k // (MOST_STOPS - 1)] for k in range(MOST_STOPS))
 
     def stop(self, element: etree._Element, offset: float) -> Stop:
-        """A stop at an offset."""
+        """Return a stop at an offset."""
         style = self.style_of(element)
         self.lacks_color |= not style.has_color and CURRENT in style["stop-color"].lower()
         color = style.solid(style["stop-color"]) or style.color
         return Stop(offset, color.rgb, color.alpha * style.opacity("stop-opacity"))
 
     def style_of(self, element: etree._Element) -> ElementStyle:
-        """Style of an element where it stands in the document."""
+        """Return the style of an element at its own position in the document."""
         style = self.cascade.initial
         for around in reversed([element, *element.iterancestors()]):
             if around not in self.styles:

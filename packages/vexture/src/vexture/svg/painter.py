@@ -1,4 +1,4 @@
-"""Painting one shape: its fill and its stroke become paths in the drawing's coordinates."""
+"""Painting of one shape: its fill and stroke become paths in the drawing's coordinates."""
 
 from collections.abc import Callable, Iterable
 from copy import copy
@@ -32,16 +32,16 @@ if TYPE_CHECKING:  # imported at run time for drawings with texts only
     from vexture.fonts.layers import GlyphLayers
 
 MOST_SEGMENTS = 5_000_000
-"""Cubics in one drawing."""
+"""Most cubics in one drawing."""
 
 STROKE = "/stroke"
-"""What the name of an element's stroke has after that of its fill; no id of XML has a slash."""
+"""Suffix of the name of an element's stroke; no XML id contains a slash."""
 
 
 class Painter:
-    """Collects the paths of what is painted, in order, with the innermost veil around each, and its place.
+    """Collects the painted paths in order, with the innermost veil and the place of each.
 
-    `walk` paints what markers and patterns show.
+    `walk` paints the content of markers and patterns.
     """
 
     def __init__(
@@ -61,7 +61,7 @@ class Painter:
         self.segments: int = 0
 
     def paint(self, element: etree._Element, place: ElementPlace, markers: Iterable[list[PlacedElement]] = ()) -> None:
-        """Paint a shape, and what its markers show; `place` has the shape's own style and transform."""
+        """Paint a shape and its markers; `place` has the shape's own style and transform."""
         style = place.style
         if style["visibility"].lower() != "visible" or place.space.flat:
             return
@@ -102,7 +102,7 @@ class Painter:
         size: float,
         markers: Iterable[list[PlacedElement]] = (),
     ) -> None:
-        """Paint outlines and markers; `boxed` are what the bounding box is around, `size` as in `stroke`."""
+        """Paint outlines and markers; `boxed` outlines determine the bounding box, `size` is as in `stroke`."""
         fill = BLACK if place.is_clip else self.servers.paint("fill", place, boxed)
         line = None if place.is_clip else self.servers.paint("stroke", place, boxed)
         style = shape.style
@@ -116,7 +116,7 @@ class Painter:
                     self.walk(marker, self)
 
     def paint_layers(self, layers: "GlyphLayers", matrix: Transform, place: ElementPlace) -> None:
-        """Paint a glyph in colour; `matrix` leads from its units to those of a place."""
+        """Paint a colour glyph; `matrix` maps its units to those of the place."""
         space = place.space.with_transform(matrix)
         a, b, c, d, e, f = space.whole.inverse()
         opacity = place.style.opacity("fill-opacity")
@@ -180,27 +180,27 @@ class Painter:
         self.segments += sum(map(len, contours))
         if self.segments > MOST_SEGMENTS:
             raise SourceError(f"here the drawing exceeds the limit of {MOST_SEGMENTS:,} segments; simplify it")
-        shown = [place.space.to_drawing(contour) for contour in contours]
-        shown = [contour for contour in shown if len(contour)]
-        if not shown:
+        clipped = [place.space.to_drawing(contour) for contour in contours]
+        clipped = [contour for contour in clipped if len(contour)]
+        if not clipped:
             return
         if isinstance(paint, Tiling):
-            if self.tile(shown, place, rule, paint, element):
+            if self.tile(clipped, place, rule, paint, element):
                 return
             paint = paint.solid
-        self.paths.append(Path(tuple(shown), rule, paint, element=element))
+        self.paths.append(Path(tuple(clipped), rule, paint, element=element))
         self.veils.append(place.veil)
         self.places.append(place)
         if place.veil is not None:
-            ends = np.concatenate([contour.reshape(-1, 2) for contour in shown])
+            ends = np.concatenate([contour.reshape(-1, 2) for contour in clipped])
             place.veil.add((*ends.min(axis=0), *ends.max(axis=0)))
 
     def tile(
         self, shape: list[NDArray[np.float64]], place: ElementPlace, rule: FillRule, tiling: Tiling, element: str
     ) -> bool:
-        """Paint the tiles of a pattern over a shape on the canvas; False if they are too many, or the frame is unknown.
+        """Paint the tiles of a pattern over a shape; return False if there are too many, or the frame is unknown.
 
-        The shape is their mask, unless it is an upright rectangle, to which they are cut.
+        The shape masks them, or cuts them if it is an upright rectangle.
         """
         if self.canvas.frame is None:
             return False
@@ -223,14 +223,14 @@ class Painter:
             self.veils.append(first.veil.mask_pattern(tiling.opacity))
             self.places.append(place)
         for path, veil in first.painted:
-            repeated = [replace(made, element=element) for made in tiles.repeat_path(path)]
+            repeated = [replace(path_copy, element=element) for path_copy in tiles.repeat_path(path)]
             self.paths += repeated
             self.veils += [veil] * len(repeated)
             self.places += [place] * len(repeated)
         return True
 
     def first_tile(self, place: ElementPlace, tiling: Tiling) -> FirstTile | None:
-        """The first tile of a pattern, painted once for all shapes in one coordinate system; None if it is too much."""
+        """Return the first tile, painted once for all shapes in one coordinate system; None if it is too complex."""
         tiles, key = self.servers.tiles, tiling.key
         if key not in tiles:
             elements = sum(1 for _ in tiling.pattern.holder.iter("*"))
@@ -244,7 +244,7 @@ class Painter:
 
 
 class Ruler(Painter):
-    """Collects the outlines of shapes, and of strokes if asked to, whatever their paints, to measure them."""
+    """Collects the outlines of shapes, and of strokes if requested, to measure them; paints do not matter."""
 
     def __init__(
         self,
@@ -279,7 +279,7 @@ class Ruler(Painter):
 
 
 def stroke_of(shape: ShapeElement, outlines: list[ShapeOutline]) -> Stroke | None:
-    """Stroke of a shape; None if it has no width."""
+    """Return the stroke of a shape; None if it has no width."""
     style = shape.style
     width = shape.length("stroke-width") or 0.0
     if width <= 0.0:
@@ -299,7 +299,7 @@ def stroke_of(shape: ShapeElement, outlines: list[ShapeOutline]) -> Stroke | Non
 
 
 def dashes_of(shape: ShapeElement) -> tuple[float, ...]:
-    """Lengths of dashes and gaps, an even number; empty for a solid line."""
+    """Return the lengths of dashes and gaps, an even number; empty for a solid line."""
     text = shape.style["stroke-dasharray"]
     if text.lower() == "none":
         return ()

@@ -9,7 +9,7 @@ import numpy as np
 from vexture.bezier.convert import arc_cubics
 from vexture.svg.outline import ShapeOutline
 
-# atomic groups: backtracking never splits a number in two
+# atomic groups, so that backtracking never splits a number
 NUMBER = r"(?>[+-]?(?:[0-9]*\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]+)?)"
 SPACE = r"[ \t\n\r\f]*+"
 GAP = rf"(?>{SPACE},?{SPACE})"
@@ -29,11 +29,11 @@ ARGUMENTS: Final[dict[str, list[str]]] = {
     "A": [NUMBER, NUMBER, NUMBER, FLAG, FLAG, NUMBER, NUMBER],
     "Z": [],
 }
-"""Arguments after the letter of each command, once or more."""
+"""Arguments after the letter of each command, which may be repeated."""
 
 
 def repeated_arguments(arguments: list[str]) -> re.Pattern[str]:
-    """Pattern of all arguments after the letter of a command, and of the blanks after them."""
+    """Compile a pattern for all arguments after the letter of a command, and trailing white space."""
     one = GAP.join(arguments)
     more = rf"{SPACE}({one}(?:{GAP}{one})*+)" if arguments else "()"
     return re.compile(more + SPACE)
@@ -44,13 +44,13 @@ NUMBERS: Final = re.compile(NUMBER)
 ARC: Final = re.compile(GAP.join(f"({argument})" for argument in ARGUMENTS["A"]))
 
 HUGE = 1e100
-"""Larger numbers, and radii below the inverse, overflow in the arithmetic of an arc, which becomes a line."""
+"""Limit beyond which numbers, and inverse radii, overflow in the arithmetic of an arc, which becomes a line."""
 
 Point = tuple[float, float]
 
 
 def path_outlines(data: str, tolerance: float) -> tuple[list[ShapeOutline], int]:
-    """Outlines of path data (the attribute `d`) up to the first error, and the number of valid characters.
+    """Return the outlines of path data (the attribute `d`) up to the first error, and the number of valid characters.
 
     `tolerance` is the largest distance of a cubic from its arc, in the units of the path.
 
@@ -66,7 +66,7 @@ def path_outlines(data: str, tolerance: float) -> tuple[list[ShapeOutline], int]
 
 
 class PathPen:
-    """Draws commands as cubics."""
+    """Pen that draws commands as cubics."""
 
     def __init__(self, tolerance: float) -> None:
         self.tolerance = tolerance
@@ -75,11 +75,11 @@ class PathPen:
         self.at: tuple[float, float] = (0.0, 0.0)
         self.start: tuple[float, float] = (0.0, 0.0)
         self.control: tuple[float, float] = (0.0, 0.0)
-        self.bend: str = ""  # kind of the last segment: S and T mirror its control point
+        self.bend: str = ""  # kind of the last segment, as S and T mirror its control point
         self.down: bool = False
 
     def follow(self, data: str) -> int:
-        """Draw path data up to the first error, and return the number of valid characters."""
+        """Draw path data up to the first error; return the number of valid characters."""
         at = len(data) - len(data.lstrip(" \t\n\r\f"))
         possible = "Mm"
         while at < len(data) and data[at] in possible:
@@ -138,7 +138,7 @@ class PathPen:
         self.at, self.bend = end, ""
 
     def mirrored_control(self, bend: str) -> Point:
-        """First control point of a smooth curve: the last control point mirrored, if the last segment was a `bend`."""
+        """Return the first control point of a smooth curve: the last one, mirrored, if that was of a `bend`."""
         (x, y), (u, v) = self.at, self.control
         return (x + x - u, y + y - v) if self.bend == bend else self.at
 
@@ -157,7 +157,7 @@ class PathPen:
     def arc_to(self, rx: float, ry: float, rotation: float, large: bool, sweep: bool, end: Point) -> None:
         """Draw an arc of an ellipse."""
         larger = max(abs(rx), abs(ry))
-        if 0.0 < larger < 1.0 / HUGE:  # too small to join the points: only their quotient counts
+        if 0.0 < larger < 1.0 / HUGE:  # too small to join the points: only their ratio counts
             small = abs(complex(*end) - complex(*self.at)) / 8.0
             rx, ry = rx / larger * small, ry / larger * small
         largest = max(map(abs, (rx, ry, rotation, *self.at, *end)))
@@ -170,7 +170,7 @@ class PathPen:
         self.at, self.bend = end, ""
 
     def close(self) -> None:
-        """Close the outline, unless nothing has been drawn since the last time."""
+        """Close the outline, unless nothing has been drawn since the last close."""
         if not self.down:
             return
         if not isclose(complex(*self.at), complex(*self.start), rel_tol=1e-15, abs_tol=1e-15):
@@ -179,7 +179,7 @@ class PathPen:
         self.at, self.bend, self.down = self.start, "", False
 
     def finish(self, closed: bool) -> None:
-        """Store the outline; a closed point, which only a round or square cap shows, is a cubic without length."""
+        """Store the outline; a closed point, which only a round or square cap shows, is a cubic of zero length."""
         if closed and not self.cubics:
             self.cubics.append(self.at * 4)
         if self.cubics:

@@ -1,7 +1,7 @@
-"""Repeating what one tile of a pattern paints.
+"""Repetition of the first tile of a pattern.
 
-Neighbours share their border bit for bit, so that no seam is between them. What reaches from one border of its tile to
-the other is not repeated but stretched: a hatching is one strip for each of its lines.
+Neighbours share their border bit for bit, so that there is no seam. Contours that span a tile from border to border are
+not repeated but stretched: a hatching is one strip for each of its lines.
 """
 
 from collections import Counter
@@ -27,13 +27,13 @@ from vexture.svg.transform import Identity, Transform, map_points, scale_of
 from vexture.svg.viewport import Rectangle
 
 MOST: Final = {"elements": 20_000, "segments": 400_000, "gradients": 2_000}
-"""Of all patterns of a drawing: elements in first tiles, and what tiles are made of; each has gradients of its own."""
+"""Limits for all patterns of a drawing: elements in first tiles, parts of all tiles, gradients (one set per tile)."""
 
 TOUCHED: Final = 1e-6
-"""Part of a tile. Tiles that a shape does not reach farther into are not made."""
+"""Fraction of a tile; tiles that a shape reaches less far into are left out."""
 
 LOOSE: Final = 1e-3
-"""Part of a tile. Points that are nearer to its border than this, and than a reader's accuracy, are on it."""
+"""Fraction of a tile; points closer to its border than this, and than a reader's accuracy, are moved onto it."""
 
 Window = tuple[NDArray[np.float64], NDArray[np.float64]]
 """Least and greatest coordinates."""
@@ -43,13 +43,13 @@ Window = tuple[NDArray[np.float64], NDArray[np.float64]]
 class Canvas:
     """A surface to paint on: the drawing, or a pattern's first tile in the pattern's space."""
 
-    frame: Rectangle | None  # the visible part, None while it is unknown
-    size: float  # larger side of the drawing, which bounds the error of approximations; infinite while it is unknown
-    whole: Transform = Identity  # to the drawing
+    frame: Rectangle | None  # the visible part; None while unknown
+    size: float  # larger side of the drawing, which sets the accuracy; infinite while unknown
+    whole: Transform = Identity  # map to the drawing
 
     @property
     def window(self) -> Window:
-        """Corners of the frame, as `Space.window` clips to it."""
+        """Corners of the frame, in the form that `Space.window` clips to."""
         assert self.frame is not None
         x, y, width, height = self.frame
         return np.array([x, y]), np.array([x + width, y + height])
@@ -62,11 +62,11 @@ class Canvas:
 
     @property
     def near(self) -> float:
-        """Distance within which points are on the border of a tile."""
+        """Distance from the border of a tile within which points are moved onto it."""
         return min(ROUND * self.size / scale_of(self.whole), LOOSE * float(self.sides.min()))
 
     def fit_contour(self, contour: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A contour whose points near the border are on it; empty if it has no area then."""
+        """Move the points of a contour near the border onto it; return an empty contour if it then has no area."""
         lines, near = straight(contour), self.near
         for border in self.window:
             contour = np.where(np.abs(contour - border) <= near, border, contour)
@@ -75,7 +75,7 @@ class Canvas:
         return contour if len(contour) and np.ptp(contour, axis=(0, 1)).all() else contour[:0]
 
     def spans(self, contour: NDArray[np.float64]) -> tuple[bool, bool]:
-        """Whether a contour is an upright rectangle from one side to the other, across and down."""
+        """Return whether a contour is an upright rectangle that spans the tile across, and down."""
         ends = contour[:, 0]
         upright = (np.abs(contour[:, 3] - ends) <= self.near).any(axis=1)
         if len(contour) != 4 or not upright.all() or not straight(contour).all():
@@ -87,11 +87,11 @@ class Canvas:
 
 @dataclass(frozen=True, slots=True)
 class FirstTile:
-    """Paths that a pattern paints in one tile, in the pattern's space but for gradients, which are in the drawing's."""
+    """Paths in one tile of a pattern, in the pattern's space; their gradients are in the drawing's."""
 
     canvas: Canvas
-    veil: Veil  # around all of it
-    painted: tuple[tuple[Path, Veil | None], ...]  # each with the innermost veil around it
+    veil: Veil  # veil around everything
+    painted: tuple[tuple[Path, Veil | None], ...]  # each with its innermost veil
 
     @classmethod
     def from_paths(cls, canvas: Canvas, veil: Veil, paths: list[Path], veils: list[Veil | None]) -> "FirstTile":
@@ -104,19 +104,19 @@ class FirstTile:
         return cls(canvas, veil, tuple(painted))
 
     def copy_veils(self) -> "FirstTile":
-        """The same with veils of its own."""
+        """Return a copy with veils of its own."""
         return deepcopy(self, {id(path): path for path, _ in self.painted})
 
 
 class Budget:
-    """The numbers of tiles and curves that the patterns of a drawing may still have."""
+    """Numbers of tiles and curves that the patterns of a drawing may still use."""
 
     def __init__(self, report: Report) -> None:
         self.report = report
         self.spent: Counter[str] = Counter()
 
     def affords(self, pattern: etree._Element, **counts: int) -> bool:
-        """Whether a pattern may have so many of the things that `MOST` limits; if not, a note says so."""
+        """Return whether a pattern may use these numbers of parts, which `MOST` limits; if not, add a note."""
         for what, count in counts.items():
             if self.spent[what] + count > MOST[what]:
                 self.report.simplification(
@@ -133,15 +133,15 @@ class Budget:
 class PatternTiles:
     """The tiles over a part of the drawing."""
 
-    tile: Canvas  # the first one
-    matrix: Transform  # from the pattern's space to the canvas that is painted on
+    tile: Canvas  # the first tile
+    matrix: Transform  # from the pattern's space to the canvas
     first: tuple[int, int]  # column and row
-    last: tuple[int, int]  # behind the last
+    last: tuple[int, int]  # column and row after the last
     window: Window  # on the canvas
 
     @classmethod
     def over(cls, tile: Canvas, shape: list[NDArray[np.float64]], window: Window, canvas: Canvas) -> "PatternTiles":
-        """The tiles over a shape within a window of a canvas."""
+        """Return the tiles over a shape within a window of a canvas."""
         (x, y), (width, height) = tile.window[0], tile.sides
         matrix = tile.whole if canvas.whole == Identity else canvas.whole.inverse().transform(tile.whole)
         left, top, right, bottom = bounds(map_points(np.concatenate(shape), matrix.inverse()))
@@ -155,7 +155,7 @@ class PatternTiles:
         return (self.last[0] - self.first[0]) * (self.last[1] - self.first[1])
 
     def cost(self, path: Path) -> tuple[int, int]:
-        """Number of cubics and of gradients that `repeated` makes of a path."""
+        """Return the number of cubics and of gradients that `repeat_path` makes of a path."""
         if path.paint.gradient is not None:
             return self.count * sum(map(len, path.contours)), self.count
         columns, rows = self.last[0] - self.first[0], self.last[1] - self.first[1]
@@ -168,7 +168,7 @@ class PatternTiles:
     def repeat_path(self, path: Path) -> list[Path]:
         """Repeat a path of the first tile in all tiles."""
         if path.paint.gradient is not None:
-            return [made for at in self._places(False, False) for made in self._gradient_tile(path, at)]
+            return [copy for at in self._places(False, False) for copy in self._gradient_tile(path, at)]
         contours: list[NDArray[np.float64]] = []
         for contour in path.contours:
             check_time()
@@ -180,13 +180,13 @@ class PatternTiles:
         return [replace(path, contours=tuple(contours))] if contours else []
 
     def _places(self, across: bool, down: bool) -> NDArray[np.float64]:
-        """Columns and rows of tiles, (m, 2): of all, or along an axis of the first ones only."""
+        """Return the columns and rows of tiles, (m, 2); along a given axis only the first ones."""
         ends = zip(self.first, self.last, (across, down), strict=True)
         columns, rows = (np.arange(first, first + 1 if one else last, dtype=np.float64) for first, last, one in ends)
         return np.stack(np.meshgrid(columns, rows), axis=-1).reshape(-1, 2)
 
     def _gradient_tile(self, path: Path, at: NDArray[np.float64]) -> Iterator[Path]:
-        """A path with a gradient, in one tile."""
+        """Yield a path with a gradient, in one tile."""
         check_time()
         contours = [part for contour in path.contours for part in self._move_contour(contour, at[None], at[None] + 1.0)]
         if contours:
@@ -198,9 +198,9 @@ class PatternTiles:
     def _move_contour(
         self, contour: NDArray[np.float64], start: NDArray[np.float64], end: NDArray[np.float64]
     ) -> list[NDArray[np.float64]]:
-        """A contour of the first tile in others, on the canvas, as far as it is in the window.
+        """Copy a contour of the first tile into other tiles on the canvas, clipped to the window.
 
-        Its points on the greater borders move to the columns and rows `end`, (m, 2), and all others to `start`.
+        Points on the greater borders move to the columns and rows `end`, (m, 2), and all others to `start`.
         """
         low, high = self.tile.window
         on_end = contour == high
@@ -223,7 +223,7 @@ class PatternTiles:
 
 
 def visible(shape: list[NDArray[np.float64]], frame: Rectangle) -> tuple[list[NDArray[np.float64]], Window]:
-    """The part of a shape inside a frame, and its bounding box."""
+    """Return the part of a shape inside a frame, and its bounding box."""
     x, y, width, height = frame
     cut = (clip_contour(contour, (x, y), (x + width, y + height)) for contour in shape)
     inside = [contour for contour in cut if len(contour)]
@@ -232,7 +232,7 @@ def visible(shape: list[NDArray[np.float64]], frame: Rectangle) -> tuple[list[ND
 
 
 def is_window(shape: list[NDArray[np.float64]], window: Window) -> bool:
-    """Whether a shape is an upright rectangle, bit for bit, and so its bounding box."""
+    """Return whether a shape is an upright rectangle, bit for bit, and so equal to its bounding box."""
     if len(shape) != 1 or len(shape[0]) != 4:
         return False
     (left, top), (right, bottom) = (corner.tolist() for corner in window)

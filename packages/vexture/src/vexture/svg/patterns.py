@@ -1,4 +1,4 @@
-"""Patterns of an SVG: what their elements say, and where their tiles lie on what they paint (SVG 2, 14.3)."""
+"""SVG patterns: their elements, and the position of their tiles on the painted shapes (SVG 2, 14.3)."""
 
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
@@ -27,22 +27,22 @@ Value = TypeVar("Value")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pattern:
-    """A pattern as its element and those that it refers to say, with no place yet."""
+    """A pattern as defined by its element and those it refers to, without a position yet."""
 
     element: etree._Element
-    holder: etree._Element  # whose children are shown
-    style: ElementStyle  # that they inherit
-    lengths: tuple[str, ...]  # as `LENGTHS`
-    font_size: float  # of the element
-    boxed: bool  # whether the lengths are parts of the bounding box
-    box_is_unit: bool  # whether the content is in parts of the bounding box
+    holder: etree._Element  # its children are painted
+    style: ElementStyle  # style that the children inherit
+    lengths: tuple[str, ...]  # one for each of `LENGTHS`
+    font_size: float  # font size of the element
+    boxed: bool  # True if the lengths are parts of the bounding box
+    box_is_unit: bool  # True if the content is in parts of the bounding box
     moved: Transform  # `patternTransform`
-    origin: str  # about which it is
+    origin: str  # origin of the transform
     view: Rectangle | None
     fit: ViewBoxFit
 
     def tiling(self, place: ElementPlace, outlines: list[ShapeOutline], solid: Paint) -> "Tiling | None":
-        """The tiles on outlines at a place; None if they have no area there."""
+        """Return the tiles on outlines at a place; None if they have no area there."""
         left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
         width, height = right - left, bottom - top
         view = WHOLE if self.boxed else place.viewport
@@ -64,7 +64,7 @@ class Pattern:
         return Tiling(self, tile, Space(whole=whole), content, viewport, solid)
 
     def in_view(self, view: Viewport) -> Rectangle:
-        """The first tile, of which percentages refer to a viewport."""
+        """Return the first tile; percentages refer to a viewport."""
         wholes = (view.width, view.height) * 2
         pairs = zip(self.lengths, wholes, strict=True)
         x, y, width, height = (view.length(text, whole, self.font_size) or 0.0 for text, whole in pairs)
@@ -73,27 +73,27 @@ class Pattern:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tiling:
-    """A pattern on what it paints."""
+    """A pattern with its position on a painted shape."""
 
     pattern: Pattern
-    tile: Rectangle  # the first one, in the units of `space`
-    space: Space  # in which the tiles are upright
+    tile: Rectangle  # the first tile, in the units of `space`
+    space: Space  # coordinate system in which the tiles are upright
     content: Transform  # from the units of the pattern's content to those of `space`
-    viewport: Viewport  # to which percentages in the content refer
-    solid: Paint  # where tiles cannot be
+    viewport: Viewport  # reference of percentages in the content
+    solid: Paint  # fallback where tiles are not possible
     opacity: float = 1.0
 
     @property
     def key(self) -> tuple[Hashable, ...]:
-        """Everything that its first tile depends on."""
+        """Everything that the first tile depends on."""
         return self.pattern, self.tile, self.space.whole, self.content, self.viewport
 
     def fade(self, opacity: float) -> "Tiling":
-        """The tiling with its opacity multiplied."""
+        """Return the tiling with its opacity multiplied."""
         return replace(self, solid=self.solid.fade(opacity), opacity=opacity * self.opacity)
 
     def first_tile_content(self, place: ElementPlace, veil: Veil) -> list[PlacedElement]:
-        """The elements to paint as the first tile, for a shape at a place."""
+        """Return the elements to paint as the first tile, for a shape at a place."""
         pattern = self.pattern
         inner = ElementPlace(
             self.viewport,
@@ -111,7 +111,7 @@ class Tiling:
 
 
 def read_pattern(chain: list[etree._Element], styles: list[ElementStyle], report: Report) -> Pattern | None:
-    """The first of some pattern elements, each of which refers to the next; None if they have no content."""
+    """Read the first of some pattern elements, each of which refers to the next; None if they have no content."""
 
     def read_attribute(name: str, parse: Callable[[str], Value | None], default: Value) -> Value:
         element = next((element for element in chain if element.get(name) is not None), None)
@@ -145,10 +145,10 @@ def read_pattern(chain: list[etree._Element], styles: list[ElementStyle], report
 
 
 def length_text(text: str) -> str | None:
-    """A length as it is; None if it is none."""
+    """Return a length unchanged; None if it is not valid."""
     return None if WHOLE.length(text, 1.0, 1.0) is None else text
 
 
 def size_text(text: str) -> str | None:
-    """A length as it is; None if it is none, or below 0."""
+    """Return a length unchanged; None if it is not valid or negative."""
     return text if (WHOLE.length(text, 1.0, 1.0) or 0.0) >= 0.0 and length_text(text) else None

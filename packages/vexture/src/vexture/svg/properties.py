@@ -1,6 +1,6 @@
-"""The CSS properties that affect what an SVG paints: initial value, inheritance, and valid values.
+"""The CSS properties that affect an SVG's picture: initial value, inheritance, and valid values.
 
-To add a property, add it to `PROPERTIES` and use ``style["name"]`` where it takes effect. In SVG 2 geometry (`x`, `r`,
+To add a property, add it to `PROPERTIES` and use ``style["name"]`` where it takes effect. In SVG 2, geometry (`x`, `r`,
 `d` ...) is set by properties, too.
 """
 
@@ -16,30 +16,30 @@ from vexture.svg.spatial import css_transform
 from vexture.svg.values import Viewport
 
 BLENDS = {blend.name.lower().replace("_", "-"): blend for blend in Blend}
-"""Blend modes by their names in CSS."""
+"""Blend modes by their CSS names."""
 
 
 UNSET = ("unset", "revert", "revert-layer")
 """Keywords for the inherited value, or else the initial one."""
 
 KEYWORDS = ("inherit", "initial", *UNSET)
-"""Values of every property."""
+"""Keywords that are valid for every property."""
 
 
 class Property(NamedTuple):
-    """A CSS property, as the cascade needs it."""
+    """A CSS property as seen by the cascade."""
 
     initial: str
     inherited: bool
     accepts: Callable[[str], object]
 
     def allows(self, value: str) -> bool:
-        """Whether a value is valid, calculations by what they give."""
+        """Return whether a value is valid; calculations count as their result."""
         return bool(self.accepts(value) or ("(" in value and self.accepts(sample_calculations(value))))
 
 
 def anything(value: str) -> bool:
-    """Accept every value; its user validates it."""
+    """Accept every value; the code that uses it validates it."""
     return True
 
 
@@ -55,16 +55,16 @@ def matching(pattern: str) -> Callable[[str], object]:
 
 
 def is_transform(value: str) -> bool:
-    """Accept functions with arguments that have units."""
+    """Accept functions whose arguments have units."""
     return css_transform(value, Viewport(1.0, 1.0).along(1.0)) is not None
 
 
 PARTS: Final = ("fill", "stroke", "markers")
-"""What is painted of a shape, one after another, if `paint-order` does not say otherwise."""
+"""Parts of a shape in the default order of painting."""
 
 
 def is_order(value: str) -> bool:
-    """Accept parts of a shape, each once, or "normal" (SVG 2, 13.8)."""
+    """Accept distinct parts of a shape, or "normal" (SVG 2, 13.8)."""
     words = value.lower().split()
     return words == ["normal"] or (set(words) <= {*PARTS} and len({*words}) == len(words) > 0)
 
@@ -73,7 +73,7 @@ WEIGHTS: Final = frozenset({"normal", "bold", "bolder", "lighter"})
 
 
 def is_weight(value: str) -> bool:
-    """Accept words and 1 to 1000 (CSS Fonts 4, 2.2)."""
+    """Accept keywords and 1 to 1000 (CSS Fonts 4, 2.2)."""
     word = value.strip().lower()
     return word in WEIGHTS or (re.fullmatch(NUMBER, word) is not None and 1.0 <= float(word) <= 1000.0)
 
@@ -241,4 +241,4 @@ CSS_ONLY = frozenset(
         *("text-shadow", "text-underline-offset", "translate"),
     }
 )
-"""Properties that are no presentation attributes (SVG 2, 6.6); some names have another meaning as attributes."""
+"""Properties that are not presentation attributes (SVG 2, 6.6); as attributes, some names have another meaning."""

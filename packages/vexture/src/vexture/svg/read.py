@@ -42,53 +42,53 @@ def read_svg(
 ) -> Drawing:
     """Read an SVG file, plain or gzipped.
 
-    Shapes, paths, texts, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as
-    browsers draw them. Opacity, blend modes, clips and masks that need several paths together become
-    `Drawing.groups`. Gradients are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers as
-    the paths of their content. Drawings that are images are read, too, embedded or as files beside the drawing and in
-    folders below; `vexture.read` also traces pictures, if asked to. What is not supported is left out and named.
-    Paths are named (`Path.element`) by the ``id`` of their element or of the nearest one around it, and all that a
-    `use`, a marker or a pattern shows by that of the `use` or the shape; a stroke is ``id/stroke``.
+    Shapes, paths, texts, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as in
+    browsers. Opacity, blend modes, clips and masks that affect several paths together become `Drawing.groups`.
+    Gradients are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers as the paths of their
+    content. Images that are drawings are read, too, whether embedded or in files in the folder of the drawing and
+    below; `vexture.read` can also trace pictures. Notes list everything unsupported, which is left out. A path is named
+    (`Path.element`) by the ``id`` of its element or of the nearest element around it; the content of a `use`, a marker
+    or a pattern by that of the `use` or the shape; a stroke is ``id/stroke``.
 
-    The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
-    is missing or a percentage. A side that none of them says is 300 or 150 pixels long, as in browsers, with a note.
+    The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` if one of them is
+    missing or a percentage. A side that neither gives is 300 or 150 pixels long, as in browsers, with a note.
 
     Parameters
     ----------
     path : str or path-like
         The file.
     select : str, optional
-        A CSS selector. Only elements that match are painted, with all their content, including what `use` shows. The
-        box of the whole drawing stays, so that parts of one drawing lie on one another.
+        A CSS selector. Only matching elements are painted, with all their content, including that of `use`. The box
+        stays that of the whole drawing, so that separately read parts of a drawing fit together.
     names : str, optional
-        What names elements instead of ``id``: an attribute, such as ``inkscape:label`` or ``data-name``, or ``title``,
-        the element that holds an element's title. Paths without it have the name of what is around them.
+        Source of names instead of ``id``: an attribute, such as ``inkscape:label`` or ``data-name``, or ``title``, the
+        element with an element's title. Paths without such a name get that of the elements around them.
     fonts : sequence of path
-        Font files, and folders of them, for texts. They come before the fonts in the drawing and those of the system.
+        Font files, and folders of font files, for texts. They precede the fonts in the drawing and those of the system.
     page_colors : mapping of str to str, optional
-        CSS colours that the page around the drawing would give it: of ``currentColor``, of ``context-fill`` and
-        ``context-stroke``, and of custom properties, such as ``--primary``. What the drawing says itself wins.
+        CSS colours that a page would pass to the drawing: for ``currentColor``, for ``context-fill`` and
+        ``context-stroke``, and for custom properties such as ``--primary``. The drawing's own values take precedence.
 
     Returns
     -------
     Drawing
-        In the unit square, y up; `to_source` maps it to the user units of the outermost `<svg>`, before its `transform`
-        if it has one. It has no paths if nothing is painted. Its `notes` say this, and what was left out, simplified or
-        invalid.
+        In the unit square, y up. `to_source` maps it to the user units of the outermost `<svg>`, before its
+        `transform`, if any. Without painted content it has no paths. Its `notes` list this, and everything that was
+        left out, simplified or invalid.
 
     Raises
     ------
     SourceError
         If the file cannot be read, is not SVG or exceeds a limit.
     ParameterError
-        If `select` is no selector, `page_colors` holds another name or no colour, or a parameter is of the wrong type.
+        If `select` is not a selector, `page_colors` has an invalid name or colour, or a parameter has the wrong type.
     LimitError
         If `select` matches nothing that is painted.
 
     Warns
     -----
     SourceWarning
-        Once for a file, with all notes.
+        Once for each file, with all notes.
 
     Examples
     --------
@@ -124,8 +124,8 @@ def svg_drawing(
 ) -> Drawing:
     """Read the content of an SVG file, plain or gzipped, as `read_svg` does, but without a warning.
 
-    `source` is the name of the file: it names the drawing and stands in messages, and is not opened. Of its images only
-    embedded drawings are shown, unless `images` says more.
+    `source` is the name of the file, for the drawing and for messages; it is not opened. Without `images`, only
+    embedded drawings are shown.
 
     Examples
     --------
@@ -144,7 +144,7 @@ def framed_drawing(
     images: Images | None = None,
     page_colors: Mapping[str, str] | None = None,
 ) -> tuple[Drawing, Frame | None]:
-    """Read as `svg_drawing` does, and return the frame of the whole drawing too."""
+    """Read as `svg_drawing` does, and also return the frame of the whole drawing."""
     named, page = "id" if names is None else names, Page.from_colors(page_colors)
     with about(source):
         for name, value in (("select", select), ("names", names)):
@@ -161,11 +161,11 @@ def framed_drawing(
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """A document to read, and how to read it."""
+    """A document to read, with parameters."""
 
-    root: etree._Element  # which reading changes
+    root: etree._Element  # reading changes it
     name: str
-    part: Callable[[etree._Element], SelectedPart] | None  # finds what is chosen
+    part: Callable[[etree._Element], SelectedPart] | None  # finds the selected part
     names: str
     fonts: Sequence[str | os.PathLike[str]]
     images: Images
@@ -177,11 +177,11 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class ReadResult:
-    """The drawing read from a document."""
+    """The result of reading a document."""
 
     drawing: Drawing
     frame: Frame | None
-    chosen: int  # elements that were chosen
+    chosen: int  # number of selected elements
 
 
 def select_part(root: etree._Element, select: str) -> SelectedPart:
@@ -202,7 +202,7 @@ def read_document(request: Request) -> ReadResult:
         raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
     if scene.servers.cascade.reveals:
         report.remark(REVEALED)
-    if scene.servers.lacks_color and has_colors(drawing):  # of one colour, it is a shape for any
+    if scene.servers.lacks_color and has_colors(drawing):  # a drawing of one colour can be used in any colour
         report.remark(CURRENT_IS_BLACK)
     notes = report.about(lambda element: subject_of(element, scene.names, scene.boxes, to_pixels))
     if not drawing.paths:
@@ -211,15 +211,15 @@ def read_document(request: Request) -> ReadResult:
 
 
 def without_animation(notes: tuple[Note, ...]) -> tuple[Note, ...]:
-    """Notes of a drawing that is empty with its animations, too, and so loses nothing by them."""
-    kept = tuple(note for note in notes if note.message != ANIMATION)
-    return kept if len(kept) == len(notes) else (*kept, Note("remark", EMPTY_TOO))
+    """Return the notes of a drawing that is empty even with its animations, and so loses nothing without them."""
+    others = tuple(note for note in notes if note.message != ANIMATION)
+    return others if len(others) == len(notes) else (*others, Note("remark", EMPTY_TOO))
 
 
 def drawing_of(scene: SvgScene, framed: Frame, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:
     """Paint a scene into the frame that its outermost element sets.
 
-    Return the map from the unit square to pixels, too, if there is one.
+    Also return the map from the unit square to pixels, if there is one.
     """
     if framed is EMPTY:
         return Drawing((), name=name), None
@@ -233,7 +233,7 @@ def drawing_of(scene: SvgScene, framed: Frame, name: str) -> tuple[Drawing, NDAr
 
 
 def after(first: NDArray[np.float64], second: Transform) -> NDArray[np.float64]:
-    """Affine map (2, 3) that applies `first` and then `second`."""
+    """Return the affine map (2, 3) that applies `first` and then `second`."""
     a, b, c, d, e, f = second
     linear = np.einsum("ij,jk->ik", [[a, c], [b, d]], first)
     product: NDArray[np.float64] = linear + np.array([[0.0, 0.0, e], [0.0, 0.0, f]])

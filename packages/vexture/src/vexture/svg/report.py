@@ -1,4 +1,4 @@
-"""Notes about an SVG: what was left out, simplified or invalid, and at which element."""
+"""Notes on an SVG: everything left out, simplified or invalid, with the elements concerned."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -11,14 +11,14 @@ from vexture.base.errors import SourceError, printable, shorten_text
 from vexture.base.notes import MOST_SUBJECTS, Kind, Note, Notes, Subject
 
 Step: TypeAlias = Callable[[etree._Element], etree._Element | None]
-"""From an element to another one."""
+"""Function from an element to another one."""
 
 
 BOXED: Final = ""
-"""For what the note of characters that no font has stands."""
+"""Key of the note on characters that no font has."""
 
 NEAR: Final = 100
-"""Elements before and after one among which those of its kind are counted."""
+"""Most elements before and after an element among which it is numbered."""
 
 
 class LocatedError(SourceError):
@@ -26,7 +26,7 @@ class LocatedError(SourceError):
 
 
 def describe_element(element: etree._Element) -> str:
-    """Element as a message names it: by its `id`, or else by its line, and its number of those alike in that.
+    """Describe an element for a message: by `id`, or by its line and, in the line, its number among similar elements.
 
     Examples
     --------
@@ -42,7 +42,7 @@ def describe_element(element: etree._Element) -> str:
 
 
 def placed_in_line(element: etree._Element) -> str:
-    """Position of an element among those of its kind in its line; empty if it is the only one, or they are many."""
+    """Return the position of an element among its kind in a line; empty if it is alone, or there are many."""
     before = list(islice(beside(element, previous), NEAR))
     after = any(other.tag == element.tag for other in islice(beside(element, following), NEAR))
     count = 1 + sum(other.tag == element.tag for other in before)
@@ -61,7 +61,7 @@ def beside(element: etree._Element, step: Step) -> Iterator[etree._Element]:
 
 
 def previous(element: etree._Element) -> etree._Element | None:
-    """The element that begins before another one."""
+    """Return the element that starts before another one."""
     before = element.getprevious()
     if before is None:
         return element.getparent()
@@ -71,7 +71,7 @@ def previous(element: etree._Element) -> etree._Element | None:
 
 
 def following(element: etree._Element) -> etree._Element | None:
-    """The element that begins after another one."""
+    """Return the element that starts after another one."""
     if len(element):
         return element[0]
     around: etree._Element | None = element
@@ -84,7 +84,7 @@ def following(element: etree._Element) -> etree._Element | None:
 
 
 class Report(Notes):
-    """Notes about one document.
+    """Notes on one document.
 
     Examples
     --------
@@ -100,11 +100,11 @@ class Report(Notes):
         self._once = set[tuple[Kind, str, etree._Element]]()
 
     def left_out(self, message: str, element: etree._Element | None = None) -> None:
-        """Note something that is not supported, and so paints nothing or has no effect."""
+        """Note an unsupported feature, which paints nothing or has no effect."""
         self.count("left out", message, element)
 
     def simplification(self, message: str, element: etree._Element | None = None) -> None:
-        """Note something that is in the result, but not as it should be."""
+        """Note a part of the result that differs from the standard."""
         self.count("simplified", message, element)
 
     def invalid(self, name: str, value: str, element: etree._Element) -> None:
@@ -119,18 +119,18 @@ class Report(Notes):
         self.add_about("simplified", BOXED, element)
 
     def count(self, kind: Kind, message: str, element: etree._Element | None = None) -> None:
-        """Note something once more, of an element if it is about one."""
+        """Count a note once more, with the element concerned, if any."""
         super().count(kind, message)
         self.add_about(kind, printable(message), element)
 
     def once(self, kind: Kind, message: str, element: etree._Element) -> None:
-        """Note something about an element, but for the first time only, however often it is shown."""
+        """Add a note on an element only once, even if the element is shown several times."""
         if (kind, message, element) not in self._once:
             self._once.add((kind, message, element))
             self.count(kind, message, element)
 
     def add_about(self, kind: Kind, message: str, element: etree._Element | None) -> None:
-        """Keep that a note is about an element, too."""
+        """Add an element to those that a note concerns."""
         if element is not None:
             about = self._about.setdefault((kind, message), {})
             if len(about) < MOST_SUBJECTS:
@@ -138,11 +138,11 @@ class Report(Notes):
 
     @property
     def elements(self) -> set[etree._Element]:
-        """Elements that any note is about."""
+        """Elements that any note concerns."""
         return {element for about in self._about.values() for element in about}
 
     def about(self, subject: Callable[[etree._Element], Subject]) -> tuple[Note, ...]:
-        """All notes, as `listed`, with what their elements are."""
+        """Return all notes, as `in_order`, with descriptions of their elements."""
         boxes = {note.message: BOXED for note in self.of_boxes}
         keys = ((note, boxes.get(note.message, note.message)) for note in self.in_order)
         found = ((note, self._about.get((note.kind, key), {})) for note, key in keys)

@@ -1,6 +1,7 @@
-"""Walking an SVG document in painting order.
+"""Walk through an SVG document in painting order.
 
-The walk has its own stack, so that deep nesting cannot exhaust Python's. `use` is expanded on the way, within limits.
+The walk has its own stack, so that deep nesting cannot exhaust Python's. `use` is expanded during the walk, within
+limits.
 """
 
 from collections.abc import Sequence
@@ -48,10 +49,10 @@ from vexture.svg.values import TooLargeError, Viewport
 from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, parse_fit, view_box, view_transform
 
 MOST_USED = 50_000
-"""Elements that `use`, clips, markers, masks and first tiles show; each time counts, nested ones as often as deep."""
+"""Most elements that `use`, clips, markers, masks and first tiles show; repeated and nested ones count each time."""
 
 DEEPEST = 1_000
-"""Elements around an element, including those that `use` adds."""
+"""Deepest nesting of elements, including those that `use` adds."""
 
 CONTAINERS = frozenset({"a", "g", "svg", "switch", "symbol"})
 UNPAINTED = frozenset(
@@ -62,17 +63,17 @@ UNPAINTED = frozenset(
         *("solidcolor", "style", "title", "view"),
     }
 )
-"""Elements that paint nothing themselves."""
+"""Elements that paint nothing by themselves."""
 
 DRAWN = frozenset({*SHAPES, *CONTAINERS, "image", "text", "use"})
-"""Elements that are drawn; a `switch` chooses them before those that are not known."""
+"""Elements that are drawn; a `switch` prefers them to unknown ones."""
 
 BOXED = {"foreignObject": paint_angular, "image": paint_image}
-"""Elements that have sides and paint something between them."""
+"""Elements with sides that paint something between them."""
 
 
 class SvgScene:
-    """A document that can be painted: all of it, or the elements in `chosen` with all their content."""
+    """A document to paint: all of it, or the elements in `chosen` with all their content."""
 
     def __init__(
         self,
@@ -94,7 +95,7 @@ class SvgScene:
         self.style: ElementStyle = self.cascade.style(root, self.cascade.initial)
         self.used: int = 0
         self.typesetter: Typesetter = Typesetter(fonts, self.cascade.sheets.font_faces, report)
-        self.boxes: Boxes = {}  # of what the notes are about, once it is painted
+        self.boxes: Boxes = {}  # boxes of the elements in notes, after painting
 
     def paint(
         self,
@@ -103,11 +104,11 @@ class SvgScene:
         frame: Rectangle | None,
         size: tuple[float, float] | None = None,
     ) -> tuple[list[Path], tuple[Group, ...]]:
-        """Paint everything, and find the groups.
+        """Paint everything, and determine the groups.
 
-        Percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing. `frame` is what of the
-        drawing is visible, None while it is unknown, and `size` that of the outermost viewport, if it has one. Raises a
-        `SourceError` if a limit is exceeded.
+        Percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing. `frame` is the visible
+        part of the drawing, or None while it is unknown; `size` is that of the outermost viewport, if it has one. Raise
+        a `SourceError` if a limit is exceeded.
         """
         canvas = Canvas(frame, inf if frame is None else max(frame[2:]))
         painter = Painter(self.servers, self.report, canvas, self.walk)
@@ -126,9 +127,10 @@ class SvgScene:
         frame: Rectangle | None,
         size: tuple[float, float] | None,
     ) -> list[PlacedElement]:
-        """Content of the outermost element at a place, in whose space its background fills `frame`.
+        """Return the content of the outermost element at a place whose background fills `frame`.
 
-        `content` maps the user units inside it to those of the place, and `size` is that of its viewport there.
+        `content` maps the user units inside the element to those of the place; `size` is the size of its viewport
+        there.
         """
         note_unsupported(self.root, self.style, self.servers, self.report, self.chosen)
         opacity = self.style.opacity("opacity")
@@ -137,7 +139,7 @@ class SvgScene:
         around = place.space
         place = replace(place, space=self.space_inside(around, content, size, is_cut=frame is not None))
         if opacity < 1.0 or place.outer is not None or not MASKING.keys().isdisjoint(self.style.own):
-            place = replace(place, veil=Veil(place.veil, opacity))  # a blend mode has nothing to mix with here
+            place = replace(place, veil=Veil(place.veil, opacity))  # there is nothing to blend with
         note_outer_units(self, self.root, self.style, size)
         place, stack = add_masks(self, self.root, place)
         if place.chosen and frame is not None:
@@ -149,10 +151,10 @@ class SvgScene:
     def space_inside(
         self, around: Space, content: Transform, size: tuple[float, float] | None, *, is_cut: bool
     ) -> Space:
-        """The space inside the outermost element, as in `inside_root`.
+        """Return the space inside the outermost element, with the parameters of `inside_root`.
 
-        It is a box of CSS, which its transform moves as a whole, about its middle if nothing else is said (CSS
-        Transforms 1, 5).
+        The element is a CSS box, which its transform moves as a whole, by default about its centre (CSS Transforms 1,
+        5).
         """
         if size is not None and not self.style.own.keys().isdisjoint(TRANSFORMS):
             own = {"transform-origin": "center", **self.style.own, "transform-box": "view-box"}
@@ -166,7 +168,7 @@ class SvgScene:
         return around.with_transform(content)
 
     def paint_embedded(self, root: etree._Element, place: ElementPlace, painter: Painter) -> None:
-        """Paint another document at a place inside its viewport; nothing of this one applies in it."""
+        """Paint another document at a place inside its viewport; nothing of this document applies to it."""
         scene = SvgScene(root, self.report, self.images.inside, fonts=self.typesetter.files)
         scene.used = self.used
         size, content = (place.viewport.width, place.viewport.height), Identity
@@ -184,7 +186,7 @@ class SvgScene:
         painter.segments, self.used = own.segments, scene.used
 
     def walk(self, stack: list[PlacedElement], painter: Painter) -> None:
-        """Paint all elements of a stack, the last one first, with what they show."""
+        """Paint all elements of a stack, the last first, with their content."""
         while stack:
             check_time()
             element, place = stack.pop()
@@ -201,7 +203,7 @@ class SvgScene:
                 raise LocatedError(f"{describe_element(element)}: {error}") from None
 
     def check_used(self, more: int, masks: int) -> None:
-        """Raise a `SourceError` if so many more elements are too many; `masks` as in `ElementPlace`."""
+        """Raise a `SourceError` if `more` further elements are too many; `masks` as in `ElementPlace`."""
         if self.used + more > MOST_USED:
             what = "<use>, clips, markers, masks and patterns show" if masks else "<use> shows"
             raise SourceError(f"{what} more than {MOST_USED:,} elements (a use bomb?); draw fewer copies")
@@ -215,10 +217,10 @@ class SvgScene:
             return []
         chosen = place.chosen or (self.chosen is not None and element in self.chosen)
         style = self.cascade.style(element, place.style)
-        is_measured = isinstance(painter, Ruler)  # whatever is seen of it (SVG 2, 8.10)
+        is_measured = isinstance(painter, Ruler)  # visible or not (SVG 2, 8.10)
         is_seen = place.is_clip or is_measured or style.opacity("opacity") > 0.0
         if style["display"].lower() == "none" or not is_seen or (place.is_clip and name in CONTAINERS):
-            return []  # a clip shows shapes, and uses of them
+            return []  # a clip contains only shapes, and uses of shapes
         if name not in DRAWN and not (name == "foreignObject" and angular_fill(element)):
             if chosen:
                 self.report.left_out(f"<{name[:40]}>", element)
@@ -236,7 +238,7 @@ class SvgScene:
         called, is_instance = place.named(self.names.of(element), name == "use")
         inner = replace(inner, use=None, chosen=chosen, veil=veil, name=called, is_instance=is_instance)
         shown = list[PlacedElement]()
-        if name == "use":  # its clips and masks move along
+        if name == "use":  # its clips and masks move with it
             inner = replace(inner, space=space.with_transform(Identity.translate(*inner.position)))
         if name in ("svg", "symbol"):  # as in browsers, its clips and masks are in the units of its content
             window = self.window(element, style, self.sides(inner, place.use))
@@ -248,7 +250,7 @@ class SvgScene:
         return [*shown, *self.content(element, inner, painter)]
 
     def content(self, element: etree._Element, inner: ElementPlace, painter: Painter) -> list[PlacedElement]:
-        """Paint a shape, or return the elements that another one shows; `inner` is the place inside."""
+        """Paint a shape, or return the elements that another element shows; `inner` is the place inside."""
         name = local_name(element) or ""
         if name in SHAPES:
             marked = not inner.is_clip and has_markers(name, inner.style)
@@ -268,12 +270,12 @@ class SvgScene:
         return [(child, inner) for child in (switch_children(element) if name == "switch" else element)]
 
     def extent(self, element: etree._Element, place: ElementPlace) -> Rectangle | None:
-        """As `around`, without strokes; None if the box has no area."""
+        """Return the box as `around` does, without strokes; None if it has no area."""
         box = self.around(element, place)
         return box if box is not None and min(box[2:]) > 0.0 else None
 
     def around(self, element: etree._Element, place: ElementPlace, stroked: bool = False) -> Rectangle | None:
-        """Bounding box of what an element shows, without masks, in the units of the place inside it; None if empty."""
+        """Return the bounding box of an element's content, without masks, in the units of the place; None if empty."""
         silent = copy(self)
         silent.report = Report()
         silent.cascade = copy(self.cascade)
@@ -287,7 +289,7 @@ class SvgScene:
         return left, top, right - left, bottom - top
 
     def box(self, place: ElementPlace) -> ShapeOutline:
-        """Outline of the bounding box of what the element at a place shows; a point if it has no area."""
+        """Return the outline of the bounding box of the element at a place; a point if the box has no area."""
         assert place.element is not None
         return ShapeOutline.rectangle(*(self.extent(place.element, place) or (0.0, 0.0, 0.0, 0.0)))
 
@@ -305,7 +307,7 @@ class SvgScene:
         return [(target, replace(place, used=True, use=place.style, context=context))]
 
     def sides(self, place: ElementPlace, use: ElementStyle | None) -> Rectangle:
-        """Viewport of a nested `<svg>` or a shown `<symbol>`, of which a `use` may give the size."""
+        """Return the viewport of a nested `<svg>` or a `<symbol>`; a `use` may override its size."""
         style = place.style
         sides = []
         for name, whole in (("width", place.viewport.width), ("height", place.viewport.height)):
@@ -315,7 +317,7 @@ class SvgScene:
         return *place.position, sides[0], sides[1]
 
     def window(self, element: etree._Element, style: ElementStyle, sides: Rectangle) -> ContentWindow | None:
-        """Viewport of an element with sides; None if it shows nothing."""
+        """Return the viewport of an element with sides; None if it shows nothing."""
         x, y, width, height = sides
         if width <= 0.0 or height <= 0.0:
             return None
@@ -326,7 +328,7 @@ class SvgScene:
         return ContentWindow(None if style["overflow"].lower() in ("visible", "auto") else sides, content, box[2:])
 
     def view(self, element: etree._Element) -> Rectangle | None:
-        """The `viewBox` of an element; None without a valid one."""
+        """Return the `viewBox` of an element; None without a valid one."""
         text = element.get("viewBox")
         box = None if text is None else view_box(text)
         if text is not None and box is None:
@@ -334,7 +336,7 @@ class SvgScene:
         return box
 
     def fit(self, element: etree._Element, box: Rectangle, width: float, height: float) -> Transform:
-        """Map from a view box to a viewport, by the element's `preserveAspectRatio`."""
+        """Return the map from a view box to a viewport, according to the element's `preserveAspectRatio`."""
         fit = CENTRED
         text = element.get("preserveAspectRatio")
         if text is not None:
@@ -345,7 +347,7 @@ class SvgScene:
         return view_transform(box, fit, width, height)
 
     def transform(self, element: etree._Element, style: ElementStyle, place: ElementPlace) -> Transform:
-        """Transform of an element by its properties, about its origin."""
+        """Return the transform of an element by its properties, about its origin."""
         if style.own.keys().isdisjoint(TRANSFORMS):
             return Identity
         left, top, width, height = 0.0, 0.0, place.viewport.width, place.viewport.height
@@ -376,7 +378,7 @@ class SvgScene:
         return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
 
     def note_effects(self, element: etree._Element, style: ElementStyle) -> bool:
-        """Note a filter or a motion, which are not supported; return whether anything is seen with the filter."""
+        """Note an unsupported filter or motion; return whether anything is visible with the filter."""
         if style["offset-path"].lower() != "none":
             self.report.left_out("offset-path", element)
         value = style["filter"]
@@ -391,6 +393,6 @@ class SvgScene:
 
 
 def switch_children(switch: etree._Element) -> list[etree._Element]:
-    """The child that a `switch` shows: the first that applies and is drawn; without one, all, for their notes."""
+    """Return the child that a `switch` shows, the first suitable one; without one, all of them, for their notes."""
     children = [child for child in switch if local_name(child) is not None and applies(child)]
     return [child for child in children if local_name(child) in DRAWN][:1] or children

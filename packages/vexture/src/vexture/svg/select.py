@@ -1,4 +1,4 @@
-"""CSS selectors: the relatives of an element, and choosing a part of a document."""
+"""CSS selectors: relatives of an element, and selection of a part of a document."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -16,41 +16,41 @@ from vexture.svg.values import INITIAL_SIZE, Viewport, is_relative
 from vexture.svg.viewport import Rectangle, view_box
 
 LONGEST_NAMED = 80
-"""Most characters of a selector in a message."""
+"""Longest selector in a message, in characters."""
 
 MOST_NAMED = 3
-"""Symbols of a sprite that a message names."""
+"""Most symbols of a sprite that a message names."""
 
 LINKS = ("href", "{http://www.w3.org/1999/xlink}href")
 
 UNPAINTED = "nothing in it is painted"
-"""Remark about a document."""
+"""Remark on a document without painted content."""
 
 SHOWN = ("display:inline", "visibility:visible", "opacity:1")
-"""Undoes what hides a sprite in a page."""
+"""Declarations that undo the hiding of a sprite in a page."""
 
 FRAME = ("viewBox", "width", "height", "preserveAspectRatio")
-"""What sets the frame of a document, or of a symbol."""
+"""Attributes that set the frame of a document or of a symbol."""
 
 
 @dataclass(frozen=True, slots=True)
 class SelectedPart:
-    """Elements of a document that are to be painted."""
+    """Elements of a document to paint."""
 
     elements: set[etree._Element]
-    is_unframed: bool = False  # whether it is a symbol without a frame: its frame is what it paints
+    is_unframed: bool = False  # True if it is a symbol without a frame, whose frame follows from its content
 
 
 class Node(cssselect2.ElementWrapper):  # type: ignore[misc]
-    """An element for selectors. It finds relatives one after another, and looks at the clock.
+    """An element for selectors that finds its relatives one by one, and checks the time limit.
 
-    Its base keeps a tuple of them for each element, by recursion: too much memory, and too deep, where many siblings
-    stand side by side.
+    The base class stores a tuple of relatives for each element, by recursion, which takes too much memory and depth for
+    many siblings.
     """
 
     @property
     def ancestors(self) -> Iterator["Node"]:
-        """Elements around this one, from the inner ones to the root."""
+        """Elements around this one, from the inside to the root."""
         return self._line("parent")
 
     @property
@@ -60,7 +60,7 @@ class Node(cssselect2.ElementWrapper):  # type: ignore[misc]
 
     @cached_property
     def lang(self) -> str:
-        """Language in lower case, for `:lang()`; its base knows only `xml:lang`."""
+        """Language in lower case, for `:lang()`; the base class knows only `xml:lang`."""
         return (language(self.etree_element) or "").lower()
 
     def _line(self, step: str) -> Iterator["Node"]:
@@ -71,7 +71,7 @@ class Node(cssselect2.ElementWrapper):  # type: ignore[misc]
             node = getattr(node, step)
 
     def iter_children(self) -> Iterator["Node"]:
-        """The elements in this one, made once."""
+        """Return the children of this element, which are created once."""
         check_time()
         return iter(self._children)
 
@@ -80,16 +80,15 @@ class Node(cssselect2.ElementWrapper):  # type: ignore[misc]
         return list(super().iter_children())
 
     def iter_next_siblings(self) -> Iterator["Node"]:
-        """Siblings after this one, in order."""
+        """Return the siblings after this one, in order."""
         return islice(self.iter_siblings(), self.index + 1, None)
 
 
 def chosen(root: etree._Element, select: str) -> set[etree._Element]:
-    """Elements that a CSS selector list matches; a `ParameterError` if it is no selector.
+    """Return the elements that a CSS selector list matches.
 
-    Raises a `LimitError` if it matches nothing.
-
-    Namespace prefixes are those that the root element declares, as in ``[inkscape|label="Roads"]``.
+    Raise a `ParameterError` if it is not valid, and a `LimitError` if it matches nothing. Namespace prefixes are those
+    that the root element declares, as in ``[inkscape|label="Roads"]``.
 
     Examples
     --------
@@ -103,7 +102,7 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
         wrappers = Node.from_xml_root(root).iter_subtree()
         found = {wrapper.etree_element for wrapper in wrappers if wrapper.matches(*selectors)}
     except (cssselect2.SelectorError, SyntaxError, AttributeError) as error:
-        cut = isinstance(error, AttributeError)  # what cssselect2 raises for :nth-child(2n+)
+        cut = isinstance(error, AttributeError)  # raised by cssselect2 for :nth-child(2n+)
         reason = "it breaks off" if cut else shorten_text(str(error.args[-1] if error.args else error), LONGEST_NAMED)
         raise ParameterError(
             f"`select` {format_selector(select)} is no CSS selector ({reason}); "
@@ -119,9 +118,9 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
 
 
 def with_symbols_used(root: etree._Element, found: set[etree._Element]) -> SelectedPart:
-    """Chosen elements, with an element `use` in place of each `symbol` that the document does not use.
+    """Return selected elements, with an element `use` in place of each `symbol` that the document does not use.
 
-    A single one fills the drawing: its viewBox becomes that of the document, which is changed.
+    A single symbol fills the drawing: its viewBox becomes the document's, which is changed.
 
     Examples
     --------
@@ -140,10 +139,10 @@ def with_symbols_used(root: etree._Element, found: set[etree._Element]) -> Selec
 
 
 def symbol_alone(root: etree._Element, symbol: etree._Element) -> SelectedPart:
-    """An element `use` of a symbol, which fills the drawing, as an `<svg>` with the symbol's viewBox alone does.
+    """Return an element `use` of a symbol that fills the drawing, as an `<svg>` with the symbol's viewBox would.
 
-    A symbol without a viewBox has a frame of its width and height. What hides a sprite in a page, or gives it no size
-    there, is undone: a page shows the symbols elsewhere.
+    A symbol without a viewBox gets a frame of its width and height. Styles that hide a sprite in a page, or remove its
+    size, are undone, because a page shows the symbols elsewhere.
     """
     box = view_box(symbol.get("viewBox", ""))
     sides = own_sides(symbol) if box is None else None
@@ -164,7 +163,7 @@ def symbol_alone(root: etree._Element, symbol: etree._Element) -> SelectedPart:
 
 
 def own_sides(symbol: etree._Element) -> tuple[float, float] | None:
-    """Width and height of a symbol by its attributes; None if one of them refers to where it is used."""
+    """Return the width and height of a symbol by its attributes; None if one is relative to its use."""
     texts = [symbol.get(name, "auto") for name in ("width", "height")]
     width, height = (
         None if is_relative(text) else Viewport(0.0, 0.0).length(text, 0.0, INITIAL_SIZE) for text in texts
@@ -173,14 +172,14 @@ def own_sides(symbol: etree._Element) -> tuple[float, float] | None:
 
 
 def add_style(element: etree._Element, *declarations: str) -> None:
-    """Add declarations to the style of an element, which no style sheet overrides."""
+    """Add declarations to the style of an element; no style sheet overrides them."""
     element.set("style", ";".join((element.get("style", ""), *(f"{each}!important" for each in declarations))))
 
 
 def use_of(root: etree._Element, symbol: etree._Element, number: int) -> etree._Element:
-    """A new element `use` of a symbol, at the end of the document.
+    """Append a new element `use` of a symbol to the document.
 
-    A symbol without a name, or with that of an element before it, gets one with a number.
+    A symbol without a name, or with the name of an earlier element, gets a name with a number.
     """
     name = symbol.get("id")
     if not name or next(one for one in root.iter("*") if one.get("id") == name) is not symbol:
@@ -192,18 +191,18 @@ def use_of(root: etree._Element, symbol: etree._Element, number: int) -> etree._
 
 
 def unpainted_note(root: etree._Element) -> Note:
-    """Note about a document that paints nothing: of a sprite, one about its symbols, which are left out."""
+    """Return the note on a document without painted content; for a sprite it lists the symbols, which are left out."""
     names = [f"#{name}" for name in symbols_of(root)]
     if not names:
         return Note("remark", UNPAINTED)
-    shown = ", ".join(repr(shorten_text(printable(name), LONGEST_NAMED)) for name in names[:MOST_NAMED])
+    labels = ", ".join(repr(shorten_text(printable(name), LONGEST_NAMED)) for name in names[:MOST_NAMED])
     more = ", ..." if len(names) > MOST_NAMED else ""
     remedy = "choose one by `select`, or make an atlas of all, as `vexture convert --atlas` does"
-    return Note("left out", f"{format_count(len(names), 'symbol')}: {shown}{more} ({remedy})", has_remedy=True)
+    return Note("left out", f"{format_count(len(names), 'symbol')}: {labels}{more} ({remedy})", has_remedy=True)
 
 
 def symbols_of(root: etree._Element) -> dict[str, etree._Element]:
-    """The symbols of a document by their names; of several with one name only the first can be used."""
+    """Return the symbols of a document by name; of several with the same name, only the first can be used."""
     found: dict[str, etree._Element] = {}
     for element in root.iter("{*}symbol", "symbol"):
         name = element.get("id")
@@ -213,7 +212,7 @@ def symbols_of(root: etree._Element) -> dict[str, etree._Element]:
 
 
 def nothing_painted(select: str, count: int) -> LimitError:
-    """Error for a selector whose elements paint nothing."""
+    """Return the error for a selector whose elements paint nothing."""
     elements = "1 element that paints" if count == 1 else f"{count} elements that paint"
     return LimitError(
         f"`select` {format_selector(select)} matches {elements} nothing; choose some that are filled or stroked"
@@ -221,6 +220,6 @@ def nothing_painted(select: str, count: int) -> LimitError:
 
 
 def format_selector(select: str) -> str:
-    """Selector as a message names it."""
+    """Format a selector for a message."""
     text = " ".join(select.split())
     return repr(shorten_text(text, LONGEST_NAMED))

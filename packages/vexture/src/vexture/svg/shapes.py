@@ -1,4 +1,4 @@
-"""The basic shapes and paths of SVG as outlines (SVG 2, 9 and 10)."""
+"""Outlines of the basic shapes and paths of SVG (SVG 2, 9 and 10)."""
 
 import re
 from collections.abc import Callable
@@ -23,20 +23,20 @@ VERTICAL = frozenset({"y", "cy", "ry", "height", "y1", "y2"})
 
 @dataclass(frozen=True, slots=True)
 class ShapeElement:
-    """A shape element and what its geometry depends on."""
+    """A shape element, with the context of its geometry."""
 
     element: etree._Element
     style: ElementStyle
-    viewport: Viewport  # percentages refer to it
+    viewport: Viewport  # reference of percentages
     tolerance: float  # largest distance of a cubic from its arc, in user units
     report: Report
 
     def length(self, name: str) -> float | None:
-        """Length that a property gives; None for "auto"."""
+        """Return the length that a property sets; None for "auto"."""
         return self.read_length(name, self.style[name])
 
     def attribute(self, name: str) -> float:
-        """Length that an attribute gives; 0 without it."""
+        """Return the length in an attribute; 0 without the attribute."""
         text = self.element.get(name)
         length = self.read_length(name, text) if text is not None else 0.0
         if length is None:
@@ -45,7 +45,7 @@ class ShapeElement:
         return length
 
     def read_length(self, name: str, text: str) -> float | None:
-        """Length in user units of a text; `name` decides what percentages refer to."""
+        """Convert a text to a length in user units; `name` determines the reference of percentages."""
         whole = self.viewport.diagonal
         if name in HORIZONTAL:
             whole = self.viewport.width
@@ -55,7 +55,7 @@ class ShapeElement:
 
 
 def shape_outlines(shape: ShapeElement) -> list[ShapeOutline]:
-    """Outlines of a shape in its own user units; a `TooLargeError` if a coordinate exceeds `LARGEST`."""
+    """Return the outlines of a shape in its user units; raise a `TooLargeError` if a coordinate exceeds `LARGEST`."""
     outlines = SHAPES[etree.QName(shape.element).localname](shape)
     for outline in outlines:
         check(outline.cubics)
@@ -63,14 +63,14 @@ def shape_outlines(shape: ShapeElement) -> list[ShapeOutline]:
 
 
 def check(coordinates: NDArray[np.float64]) -> None:
-    """Reject coordinates that are too large to compute with."""
+    """Raise a `TooLargeError` for coordinates that are too large to compute with."""
     largest = np.abs(coordinates).max(initial=0.0)
     if not largest <= LARGEST:
         raise TooLargeError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
 
 
 def path_data(shape: ShapeElement) -> str:
-    """Path data of `<path>`, empty without."""
+    """Return the path data of `<path>`; empty without any."""
     data = shape.style["d"]
     if css := CSS_PATH.fullmatch(data):
         return css[2]
@@ -78,7 +78,7 @@ def path_data(shape: ShapeElement) -> str:
 
 
 def path(shape: ShapeElement) -> list[ShapeOutline]:
-    """Outlines of `<path>`, up to the first error in its data."""
+    """Return the outlines of `<path>`, up to the first error in its data."""
     data = path_data(shape)
     outlines, valid = path_outlines(data, shape.tolerance)
     if valid < len(data):
@@ -87,7 +87,7 @@ def path(shape: ShapeElement) -> list[ShapeOutline]:
 
 
 def rect(shape: ShapeElement) -> list[ShapeOutline]:
-    """Outline of `<rect>`, clockwise on the screen, from the right end of its top left corner."""
+    """Return the outline of `<rect>`, clockwise on the screen, from the right end of its top left corner."""
     x, y = shape.length("x") or 0.0, shape.length("y") or 0.0
     width, height = shape.length("width") or 0.0, shape.length("height") or 0.0
     if width <= 0.0 or height <= 0.0:
@@ -113,24 +113,24 @@ def rect(shape: ShapeElement) -> list[ShapeOutline]:
 
 
 def corner_radii(shape: ShapeElement) -> tuple[float, float]:
-    """`rx` and `ry`, where "auto" takes the other's value."""
+    """Return `rx` and `ry`; "auto" takes the value of the other."""
     rx, ry = shape.length("rx"), shape.length("ry")
     return (rx if rx is not None else ry) or 0.0, (ry if ry is not None else rx) or 0.0
 
 
 def circle(shape: ShapeElement) -> list[ShapeOutline]:
-    """Outline of `<circle>`."""
+    """Return the outline of `<circle>`."""
     radius = shape.length("r") or 0.0
     return round_outline(shape, radius, radius)
 
 
 def ellipse(shape: ShapeElement) -> list[ShapeOutline]:
-    """Outline of `<ellipse>`."""
+    """Return the outline of `<ellipse>`."""
     return round_outline(shape, *corner_radii(shape))
 
 
 def round_outline(shape: ShapeElement, rx: float, ry: float) -> list[ShapeOutline]:
-    """Whole ellipse around `cx` and `cy`."""
+    """Return a whole ellipse around `cx` and `cy`."""
     if rx <= 0.0 or ry <= 0.0:
         return []
     center = shape.length("cx") or 0.0, shape.length("cy") or 0.0
@@ -138,13 +138,13 @@ def round_outline(shape: ShapeElement, rx: float, ry: float) -> list[ShapeOutlin
 
 
 def line(shape: ShapeElement) -> list[ShapeOutline]:
-    """Outline of `<line>`."""
+    """Return the outline of `<line>`."""
     ends = [(shape.attribute(f"x{n}"), shape.attribute(f"y{n}")) for n in (1, 2)]
     return [ShapeOutline.polygon(np.array(ends), closed=False)]
 
 
 def corners(shape: ShapeElement, closed: bool) -> list[ShapeOutline]:
-    """Straight sides through `points`, up to the first error in them."""
+    """Return straight sides through `points`, up to the first error in them."""
     text = shape.element.get("points", "")
     match = POINTS.match(text)
     valid = match.end() if match else 0

@@ -1,4 +1,4 @@
-"""Transforms by CSS properties, in space, as they are seen straight from above (CSS Transforms 1 and 2)."""
+"""Spatial transforms by CSS properties, projected vertically onto the plane (CSS Transforms 1 and 2)."""
 
 from collections.abc import Mapping
 from math import cos, isfinite, sin, sqrt
@@ -13,25 +13,25 @@ from vexture.svg.transform import Identity, Length, Transform, angle, parse_tran
 from vexture.svg.values import number, words
 
 TRANSFORMS: Final = ("translate", "rotate", "scale", "transform")
-"""Properties that move an element, in the order in which they do (CSS Transforms 2, 6)."""
+"""Properties that move an element, in the order of their effect (CSS Transforms 2, 6)."""
 
 AXES: Final = {"": (0.0, 0.0, 1.0), "x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-"""Axes by their names; without one, things turn in the plane."""
+"""Axes by name; without a name, rotation is in the plane."""
 
 Spatial = NDArray[np.float64]
-"""A map of space, (4, 4), of homogeneous coordinates."""
+"""A map of space in homogeneous coordinates, (4, 4)."""
 
 
 class Attribute(str):
-    """Text of an attribute: its lengths and angles have no units, and its functions are those of SVG 1.1."""
+    """Text of an attribute, with lengths and angles without units and the functions of SVG 1.1."""
 
     __slots__ = ()
 
 
 def element_transform(values: Mapping[str, str], length: Length) -> tuple[Transform, list[str], bool]:
-    """Transform by the properties that an element sets, those that are not valid, and whether there is a perspective.
+    """Return the transform by an element's properties, the invalid properties, and whether there is a perspective.
 
-    A perspective is left out: browsers do so, too, for the elements of a drawing.
+    A perspective is left out, as in browsers for the elements of a drawing.
     """
     names = [name for name in TRANSFORMS if name in values]
     invalid, product = list[str](), None
@@ -53,7 +53,7 @@ def element_transform(values: Mapping[str, str], length: Length) -> tuple[Transf
 
 
 def about_depth(matrix: Spatial, values: Mapping[str, str], length: Length) -> Spatial:
-    """A map about the third part of `transform-origin`; the other two move what is seen as they move the plane."""
+    """Apply the third part of `transform-origin` to a map; the other two can be applied in the plane."""
     parts = words(values.get("transform-origin", ""))
     depth = length(parts[2], 0) if len(parts) == 3 else None
     return (
@@ -64,9 +64,9 @@ def about_depth(matrix: Spatial, values: Mapping[str, str], length: Length) -> S
 
 
 def property_transform(name: str, text: str, length: Length) -> Spatial | None:
-    """Transform by the property `translate`, `rotate` or `scale` (CSS Transforms 2, 5), or `transform`.
+    """Return the transform by the property `translate`, `rotate` or `scale` (CSS Transforms 2, 5), or `transform`.
 
-    None if the value is not valid.
+    Return None if the value is not valid.
 
     Examples
     --------
@@ -86,7 +86,7 @@ def property_transform(name: str, text: str, length: Length) -> Spatial | None:
 
 
 def css_transform(text: str, length: Length) -> Spatial | None:
-    """Product of the functions in a value of `transform`; None if it is not valid.
+    """Multiply the functions in a value of `transform`; None if it is not valid.
 
     Examples
     --------
@@ -114,12 +114,12 @@ def css_transform(text: str, length: Length) -> Spatial | None:
 
 
 def text_of(token: object) -> str:
-    """Text of an argument, with a semicolon for the comma between two."""
+    """Return the text of an argument; a comma becomes a semicolon."""
     return ";" if token == "," else str(tinycss2.serialize([token]))
 
 
 def function(name: str, arguments: list[str], length: Length) -> Spatial | None:
-    """One function of a list; None if it is unknown or has wrong arguments."""
+    """Return the map of one function in a list; None if it is unknown or has wrong arguments."""
     bare = [number(text) for text in arguments]
     values: list[float | None] = [factor(text) for text in arguments]
     if name.startswith("translate"):
@@ -131,13 +131,13 @@ def function(name: str, arguments: list[str], length: Length) -> Spatial | None:
         values = [0.0 if text.lower() == "none" else length(text, 0) for text in arguments]
     else:
         bare = []
-    if None in values or any(bare):  # lengths and angles have units but for zero
+    if None in values or any(bare):  # nonzero lengths and angles need units
         return None
     return of_values(name, [value for value in values if value is not None])
 
 
 def of_values(name: str, values: list[float]) -> Spatial | None:
-    """One function of a list with its arguments, lengths in user units and angles in radians."""
+    """Return the map of one function, with lengths in user units and angles in radians."""
     match name, values:
         case "translate3d", [x, y, z]:
             return translation(x, y, z)
@@ -157,7 +157,7 @@ def of_values(name: str, values: list[float]) -> Spatial | None:
             matrix = np.eye(4)
             matrix[3, 2] = -1.0 / max(depth, 1.0) if depth else 0.0
             return matrix
-        case "rotate", [_, _, *_]:  # of SVG 1.1
+        case "rotate", [_, _, *_]:  # form of SVG 1.1
             return None
     texts = [f"{value!r}rad" if name.startswith(("rotate", "skew")) else repr(value) for value in values]
     flat = single_transform(name, texts, lambda text, axis: number(text))
@@ -165,32 +165,32 @@ def of_values(name: str, values: list[float]) -> Spatial | None:
 
 
 def factor(text: str) -> float | None:
-    """Number or percentage; None if the text is neither."""
+    """Parse a number or percentage; None if the text is neither."""
     value = number(text.removesuffix("%"))
     return value / 100.0 if value is not None and text.endswith("%") else value
 
 
 def translation(x: float, y: float, z: float) -> Spatial:
-    """A map that moves."""
+    """Return the map of a translation."""
     matrix = np.eye(4)
     matrix[:3, 3] = x, y, z
     return matrix
 
 
 def to_space(flat: Transform) -> Spatial:
-    """A map of the plane as one of space."""
+    """Extend a map of the plane to space."""
     a, b, c, d, e, f = flat
     return np.array([[a, c, 0.0, e], [b, d, 0.0, f], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
 
 
 def to_plane(matrix: Spatial) -> tuple[Transform, bool]:
-    """The effect of a map of space on the plane, seen straight from above, and whether it has a perspective beside."""
+    """Project a map of space onto the plane; also return whether it has a perspective."""
     (a, c, _, e), (b, d, _, f), _, last = matrix.tolist()
     return Transform(a, b, c, d, e, f), (last[0], last[1], last[3]) != (0.0, 0.0, 1.0)
 
 
 def parse_rotation(parts: list[str]) -> Spatial | None:
-    """Turn by an angle, which may be before or after its axis."""
+    """Parse a rotation whose angle is before or after its axis."""
     if not parts:
         return None
     is_first = len(parts) > 1 and parts[0] not in AXES and number(parts[0]) is None
@@ -204,7 +204,7 @@ def parse_rotation(parts: list[str]) -> Spatial | None:
 
 
 def rotation(x: float, y: float, z: float, turn: float) -> Spatial:
-    """Turn about an axis through the origin, by the formula of Rodrigues; none about one without a length."""
+    """Return a rotation about an axis through the origin by Rodrigues' formula; the identity for a zero axis."""
     matrix = np.eye(4)
     length = sqrt(x * x + y * y + z * z)
     if length == 0.0 or not isfinite(length):

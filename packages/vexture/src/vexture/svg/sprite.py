@@ -1,4 +1,4 @@
-"""Sprites: documents of symbols that paint nothing, read as a drawing for each symbol."""
+"""Sprites: documents of symbols without painted content, read as one drawing per symbol."""
 
 import os
 import re
@@ -23,7 +23,7 @@ from vexture.svg.read import Request, read_document
 from vexture.svg.select import SelectedPart, symbol_alone, symbols_of
 
 LINK: Final = re.compile(r"#([^\s\"')]+)")
-"""What may be a link to an element, in an attribute or a style sheet."""
+"""Possible link to an element, in an attribute or a style sheet."""
 
 
 def symbol_drawings(
@@ -34,9 +34,9 @@ def symbol_drawings(
     images: Images | None = None,
     page_colors: Mapping[str, str] | None = None,
 ) -> Iterator[Drawing]:
-    """Read the content of an SVG file as a drawing for each symbol that has an id, which is its name.
+    """Read the content of an SVG file as one drawing for each symbol with an id, which becomes its name.
 
-    Each is what `select` makes of the symbol. Parameters and errors are those of `svg_drawing`.
+    Each drawing is as if `select` chose the symbol. Parameters and errors are those of `svg_drawing`.
 
     Examples
     --------
@@ -48,7 +48,7 @@ def symbol_drawings(
     named, page = "id" if names is None else names, Page.from_colors(page_colors)
     with about(source):
         root = parse_svg(decompress(content))
-    of_file = (*unread_symbols(root), *unused_colors(page, root))  # the first drawing has them
+    of_file = (*unread_symbols(root), *unused_colors(page, root))  # they belong to the first drawing
     sprite = Sprite(root)
     for name in sprite.symbols:
         check_time(source)
@@ -61,7 +61,7 @@ def symbol_drawings(
 
 
 def unread_symbols(root: etree._Element) -> tuple[Note, ...]:
-    """Notes about symbols of a sprite that no name leads to."""
+    """Return notes on symbols of a sprite that cannot be reached by a name."""
     notes, named = Notes(), set(symbols_of(root).values())
     for symbol in root.iter("{*}symbol", "symbol"):
         if local_name(symbol) == "symbol" and symbol not in named:
@@ -73,14 +73,14 @@ def unread_symbols(root: etree._Element) -> tuple[Note, ...]:
 
 
 def symbol_part(root: etree._Element, name: str) -> SelectedPart:
-    """The part to paint of a document that holds one symbol."""
+    """Return the part to paint of a document with one symbol."""
     return symbol_alone(root, symbols_of(root)[name])
 
 
 class Sprite:
-    """A document of which each symbol is read by itself, without the thousands of others that it does not need.
+    """A document whose symbols are read one by one, without the thousands of others that each one does not need.
 
-    A style sheet may count siblings. Where there is one, an empty symbol stands for each that is left out.
+    A style sheet may count siblings. If there is one, an empty symbol replaces each symbol that is left out.
     """
 
     def __init__(self, root: etree._Element) -> None:
@@ -100,7 +100,7 @@ class Sprite:
         self.places = {one: self.left_out(one) for one in self.outermost}
 
     def left_out(self, symbol: etree._Element) -> etree._Element:
-        """Leave a symbol out, and return what stands for it, or else what was around it."""
+        """Remove a symbol; return its replacement, or else its parent."""
         around = symbol.getparent()
         assert around is not None
         if not self.is_styled:
@@ -111,7 +111,7 @@ class Sprite:
         return empty
 
     def document(self, name: str) -> etree._Element:
-        """A document for a symbol."""
+        """Return a document for one symbol."""
         needed, waiting = set[etree._Element](), [*self.needs[None], self.owner[name]]
         while waiting:
             one = waiting.pop()
@@ -133,7 +133,7 @@ class Sprite:
 
 
 def links_of(element: etree._Element) -> Iterator[str]:
-    """Texts that may be links to other elements, in the attributes of an element or the text of a style sheet."""
+    """Yield texts that may be links, from the attributes of an element or the text of a style sheet."""
     link = reference(element)
     if link is not None:
         yield link

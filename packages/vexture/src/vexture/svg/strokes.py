@@ -1,8 +1,8 @@
-"""Strokes as outlines to fill, by Skia.
+"""Strokes as outlines to fill, computed by Skia.
 
 Skia works in float32 and stops refining at a quarter of a unit. Its coordinates are therefore centred on the origin and
-scaled so that a unit is `ROUND` of the drawing: a quarter for Skia, with its rounding, and the rest for the cubics that
-replace its many pieces.
+scaled so that a unit is `ROUND` of the drawing: a quarter of the error for Skia, with its rounding, and the rest for
+the cubics that replace its many pieces.
 """
 
 from collections.abc import Sequence
@@ -22,23 +22,23 @@ from vexture.bezier.reduce import reduce_contour
 from vexture.svg.outline import ShapeOutline
 
 RESOLUTION: Final = 1 / ROUND
-"""Skia units across the drawing."""
+"""Width of the drawing in Skia units."""
 
 REFINED: Final = 0.25
-"""Skia units within which Skia follows the stroke, and we Skia's arcs."""
+"""Accuracy, in Skia units, of Skia's strokes, and of our cubics for Skia's arcs."""
 
 SHORTEST: Final = 1 / 64
-"""Skia units. What is shorter has no direction in float32, so its joins would be arbitrary: such a step is skipped, and
-such an arm of a control point set to zero, which gives the direction to the other control point."""
+"""Shortest step in Skia units. Shorter ones have no direction in float32, so their joins would be arbitrary: such a
+step is skipped, and such an arm of a control point is set to zero, so that the other one sets the direction."""
 
 SLOWING: Final = 1 - 1 / 32
 """Parameter of a cubic with P2 = P3 from which a quadratic is within a millionth of its size."""
 
 MOST_DASHES: Final = 100_000
-"""Dashes in one path; Skia itself silently gives up at ten times as many."""
+"""Most dashes in one path; Skia itself silently gives up at ten times as many."""
 
 KEPT, KEPT_CUBICS = 64, 64
-"""Strokes that are kept for the next shape of the same outlines, and the most cubics of such outlines."""
+"""Cached strokes for further shapes with the same outlines, and most cubics of such outlines."""
 
 CAPS = {"butt": pathops.LineCap.BUTT_CAP, "round": pathops.LineCap.ROUND_CAP, "square": pathops.LineCap.SQUARE_CAP}
 JOINS = {
@@ -58,12 +58,12 @@ class Stroke:
     cap: str = "butt"  # "butt", "round" or "square"
     join: str = "miter"  # "miter", "round" or "bevel"
     miter_limit: float = 4.0  # longest miter, in stroke widths
-    dashes: tuple[float, ...] = ()  # lengths of dashes and gaps in turn, an even number; empty for a solid line
-    dash_offset: float = 0.0  # where in the pattern the line starts
+    dashes: tuple[float, ...] = ()  # alternating lengths of dashes and gaps, an even number; empty for a solid line
+    dash_offset: float = 0.0  # position in the pattern at which the line starts
 
 
 def arc_length(cubics: NDArray[np.float64]) -> float:
-    """Length of cubics (n, 4, 2), by Gauss-Legendre quadrature."""
+    """Return the length of cubics (n, 4, 2), by Gauss-Legendre quadrature."""
     t = (NODES + 1.0) / 2.0
     s = 1.0 - t
     blend = 3.0 * np.stack([s * s, 2.0 * s * t, t * t], axis=1)
@@ -73,9 +73,9 @@ def arc_length(cubics: NDArray[np.float64]) -> float:
 
 
 def stroke_contours(outlines: list[ShapeOutline], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
-    """Contours of the stroke of the outlines, to fill by the non-zero rule.
+    """Return the contours of the stroke of outlines, to fill by the nonzero rule.
 
-    `size` is the drawing's size in the units of the outlines; it sets the accuracy. Raises a `SourceError` if there are
+    `size` is the drawing's size in the units of the outlines, and sets the accuracy. Raise a `SourceError` if there are
     too many dashes.
 
     Examples
@@ -93,13 +93,13 @@ def stroke_contours(outlines: list[ShapeOutline], stroke: Stroke, size: float) -
 
 @lru_cache(KEPT)
 def cached_contours(outlines: tuple[tuple[bytes, bool], ...], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
-    """As `stroke_contours`: what `use` and markers show, they often show at thousands of places."""
+    """Return cached results of `stroke_contours`: `use` and markers often show an outline thousands of times."""
     read = [ShapeOutline(np.frombuffer(cubics).reshape(-1, 4, 2), closed) for cubics, closed in outlines]
     return compute_contours(read, stroke, size)
 
 
 def compute_contours(outlines: Sequence[ShapeOutline], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
-    """As `stroke_contours`, made anew."""
+    """Return the result of `stroke_contours`, without the cache."""
     together = np.concatenate([outline.cubics for outline in outlines])
     if stroke.dashes:
         dashes = arc_length(together) / sum(stroke.dashes) * len(stroke.dashes) / 2
@@ -125,7 +125,7 @@ def compute_contours(outlines: Sequence[ShapeOutline], stroke: Stroke, size: flo
 
 
 def feed(path: pathops.Path, cubics: NDArray[np.float64], closed: bool) -> None:
-    """Add an outline to Skia's path, without steps and arms that are too short to have a direction."""
+    """Add an outline to Skia's path, without steps and arms that are too short for a direction."""
     ends = cubics[:, [0, 0, 3, 3]]
     cubics = np.where(np.abs(cubics - ends).max(axis=2, keepdims=True) < SHORTEST, ends, cubics)
     x0, y0 = cubics[0, 0].tolist()
@@ -146,13 +146,13 @@ def feed(path: pathops.Path, cubics: NDArray[np.float64], closed: bool) -> None:
         x0, y0 = x3, y3
         drawn = True
     if not drawn:
-        path.lineTo(*start)  # a point: Skia gives it its cap
+        path.lineTo(*start)  # a point, which gets its cap from Skia
     elif closed:
         path.close()
 
 
 def feed_slowing(path: pathops.Path, p0: complex, p1: complex, p3: complex) -> None:
-    """Add a cubic whose P2 is P3: near such an end float32 loses its direction, so the last part is a quadratic."""
+    """Add a cubic with P2 = P3: float32 loses the direction near its end, so the last part is a quadratic."""
     b = p1 + (p3 - p1) * SLOWING
     d = p0 + (p1 - p0) * SLOWING
     d += (b - d) * SLOWING
@@ -163,7 +163,7 @@ def feed_slowing(path: pathops.Path, p0: complex, p1: complex, p3: complex) -> N
 
 
 def read(path: pathops.Path) -> list[NDArray[np.float64]]:
-    """Contours of Skia's path, closed bit for bit; Skia leaves the contours of some dashes open."""
+    """Return the contours of Skia's path, closed bit for bit; Skia leaves the contours of some dashes open."""
     contours: list[list[complex]] = []
     for verb, arguments in path:
         if verb == pathops.PathVerb.MOVE:
@@ -177,7 +177,7 @@ def read(path: pathops.Path) -> list[NDArray[np.float64]]:
 
 
 def raise_degree(points: list[complex]) -> list[complex]:
-    """P1, P2 and P3 of the cubic that equals a line, quadratic or cubic."""
+    """Return P1, P2 and P3 of the cubic that equals a line, quadratic or cubic."""
     start, end = points[0], points[-1]
     if len(points) == 2:
         return [start + (end - start) / 3.0, start + (end - start) * (2.0 / 3.0), end]
@@ -187,7 +187,7 @@ def raise_degree(points: list[complex]) -> list[complex]:
 
 
 def closed_contour(points: list[complex]) -> NDArray[np.float64]:
-    """Contour from its first point and P1, P2, P3 of each cubic, closed by a line if necessary."""
+    """Return a contour from its first point and P1, P2, P3 of each cubic, closed by a line if necessary."""
     if abs(points[-1] - points[0]) < SHORTEST:
         points[-1] = points[0]
     else:

@@ -27,15 +27,15 @@ NOT_SUPPORTED = re.compile(
     r"(?<![\w-])(?:alpha|attr|calc-size|contrast-color|device-cmyk|env|if|progress|random|sibling-(?:count|index))\(",
     re.IGNORECASE,
 )
-"""Functions of CSS that are not read."""
+"""Unsupported functions of CSS."""
 
 BACK = "revert-layer"
 
 SPACE_MODES = {"default": "normal", "preserve": "pre"}
-"""What `xml:space` says, as the value of `white-space` that browsers give it."""
+"""Values of `white-space` to which browsers map `xml:space`."""
 
 STRIPPED = frozenset({"g", "svg", "tspan", "use"})
-"""Elements that show their content as if they were not there, by `display: contents`, which hides others."""
+"""Elements that `display: contents` replaces by their content; it hides other elements."""
 
 BOXES, CIRCLES = frozenset({"foreignObject", "image", "rect", "svg", "symbol", "use"}), frozenset({"circle", "ellipse"})
 GEOMETRY = {
@@ -44,17 +44,17 @@ GEOMETRY = {
     "r": frozenset({"circle"}),
     **dict.fromkeys(("rx", "ry"), frozenset({"ellipse", "rect"})),
 }
-"""Elements of which an attribute is a property; of others, such as gradients, it is no CSS (SVG 2, 8.1)."""
+"""Elements whose attribute of the name is a property; for others, such as gradients, it is not CSS (SVG 2, 8.1)."""
 
 CLIPPED = frozenset({"foreignObject", "image", "marker", "pattern", "svg", "symbol"})
-"""Elements of which browsers hide what reaches beyond their viewports, if nothing else is said; not the outermost."""
+"""Elements that by default clip their content to their viewport, as in browsers, except the outermost element."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ElementStyle:
     """Values of all properties at one element, as text."""
 
-    inherited: dict[str, str]  # inherited properties that differ from their initial values, and custom ones
+    inherited: dict[str, str]  # inherited properties that differ from their initial values, and custom properties
     own: dict[str, str]  # other properties that the element sets
     font_size: float  # in user units
 
@@ -63,52 +63,52 @@ class ElementStyle:
         return PROPERTIES[name].initial if value is None else value
 
     def opacity(self, name: str) -> float:
-        """Opacity that a property gives, 0..1."""
+        """Return the opacity that a property sets, 0..1."""
         value = fraction(self[name])
         return 1.0 if value is None else value
 
     def inherited_value(self, name: str) -> str:
-        """Value of a property as it is inherited."""
+        """Return the inherited value of a property."""
         return f"{self.font_size!r}px" if name == "font-size" else self[name]
 
     @property
     def color(self) -> Color:
-        """The meaning of `currentcolor` here."""
+        """Value of `currentcolor`."""
         color = parse_color(self["color"])
         return color if isinstance(color, Color) else BLACK
 
     @property
     def has_color(self) -> bool:
-        """Whether anything says what `currentcolor` is here; else it is black."""
+        """True if `currentcolor` has a value; otherwise it is black."""
         return "color" in self.inherited
 
     def solid(self, text: str) -> Color | None:
-        """A colour that may depend on `color`; None if the text is no colour."""
+        """Return a colour that may depend on `color`; None if the text is not a colour."""
         color = parse_color(text, self.color)
         return color if isinstance(color, Color) else None
 
 
 INITIAL = ElementStyle({}, {}, INITIAL_SIZE)
-"""Style that the outermost element inherits where nothing is around it."""
+"""Style that the outermost element inherits without a page."""
 
 
 class Cascade:
-    """Computes the style of an element from its parent's, with the document's `<style>` elements."""
+    """Computes the style of an element from its parent's style and the document's `<style>` elements."""
 
     def __init__(self, root: etree._Element, report: Report, page: Page) -> None:
         self.root = root
         self.report = report
         self.page = page
-        self.initial: ElementStyle = replace(INITIAL, inherited=page.inherited)  # that the root inherits
-        self.broken = dict[str, str]()  # custom properties without a value, as they are written
+        self.initial: ElementStyle = replace(INITIAL, inherited=page.inherited)  # style that the root inherits
+        self.broken = dict[str, str]()  # custom properties without a value, unparsed
         size = own_size(root)
-        self.view = Viewport(*size)  # to which fonts refer
+        self.view = Viewport(*size)  # reference of font sizes
         self.sheets = StyleSheets(root, report, Medium(*size))
         self.animated = values_by_element(root)
-        self.reveals = False  # whether anything is drawn as only an animation shows it
+        self.reveals = False  # True if anything is drawn in the state that only an animation shows
 
     def style(self, element: etree._Element, parent: ElementStyle) -> ElementStyle:
-        """Style of an element; `parent` is the style of its parent, or of the `use` that shows it."""
+        """Return the style of an element; `parent` is the style of its parent, or of the `use` that shows it."""
         declared = self.declarations_of(element)
         variables = {one.name: one.value for one in declared if one.name.startswith("--")}
         inherited = compute_variables(variables, parent.inherited) if variables else parent.inherited
@@ -133,7 +133,7 @@ class Cascade:
                 if inherited is parent.inherited:
                     inherited = dict(inherited)
                 inherited[name] = value
-        if own.get("display", "").lower() == "contents" and element is not self.root:  # (CSS Display 3, B)
+        if own.get("display", "").lower() == "contents" and element is not self.root:  # CSS Display 3, B
             own = {} if local_name(element) in STRIPPED else {"display": "none"}
         font_size = parent.font_size
         if inherited is not parent.inherited and "font-size" in inherited:
@@ -149,7 +149,7 @@ class Cascade:
     def winning_values(
         self, element: etree._Element, declared: list[Declaration], variables: Mapping[str, str], parent: ElementStyle
     ) -> dict[str, str]:
-        """Winning declaration of each property; that of an animation where the own one hides the element."""
+        """Return the winning declaration of each property, or an animation's value if the own one hides the element."""
         found = self.said(element, declared, variables)
         animations = [self.animated.get(element, {})]
         animations += [self.sheets.keyframes[name] for name in self.animation_names(found)]
@@ -159,14 +159,14 @@ class Cascade:
                 base = self.value_without(name, found, parent)
                 dashes = self.value_without("stroke-dasharray", found, parent)
                 texts = [substitute(text, variables.get) or "" for text in values[name]]
-                shown = visible_value(name, base, filter(PROPERTIES[name].allows, texts), dashes)
-                if shown is not None:
-                    found[name] = shown
+                visible = visible_value(name, base, filter(PROPERTIES[name].allows, texts), dashes)
+                if visible is not None:
+                    found[name] = visible
                     self.reveals = True
         return found
 
     def value_without(self, name: str, found: Mapping[str, str], parent: ElementStyle) -> str:
-        """Value that a property has without animations, where its declarations are `found`."""
+        """Return the value of a property without animations, given its declarations."""
         text = found.get(name, "unset").lower()
         if text == "inherit" or (text in UNSET and PROPERTIES[name].inherited):
             return parent.inherited_value(name)
@@ -175,7 +175,7 @@ class Cascade:
     def said(
         self, element: etree._Element, declared: list[Declaration], variables: Mapping[str, str]
     ) -> dict[str, str]:
-        """Values that an element sets by attributes, and over them those that are declared, in rising precedence."""
+        """Return the values that an element sets: attributes, overridden by declarations in rising precedence."""
         found: dict[str, str] = {}
         kind = local_name(element) or ""
         if kind in CLIPPED and element is not self.root:
@@ -198,7 +198,7 @@ class Cascade:
         return found
 
     def animation_names(self, found: Mapping[str, str]) -> list[str]:
-        """Names of the animations of style sheets that an element with such declarations has."""
+        """Return the names of the keyframe animations that declarations refer to."""
         return names_in(found["animation-name"], self.sheets.keyframes) if "animation-name" in found else []
 
     def declare(
@@ -206,8 +206,8 @@ class Cascade:
     ) -> None:
         """Override earlier declarations, unless this one is invalid.
 
-        Whether one with references is valid is known too late: an invalid one leaves its properties unset, and earlier
-        ones are lost (CSS Variables 1, 3.1).
+        The validity of a value with references is known too late: an invalid one leaves its properties unset, and
+        earlier declarations are lost (CSS Variables 1, 3.1).
         """
         value = value.strip()
         pairs = [(name, value)] if name in PROPERTIES else []
@@ -228,7 +228,7 @@ class Cascade:
     def note_unknown(self, name: str, value: str, element: etree._Element, variables: Mapping[str, str]) -> bool:
         """Note each custom property without a value that a value refers to; return whether there is any.
 
-        Of one that is declared, those are noted that its own value lacks. One that refers to itself lacks none.
+        For a declared property, note those that its own value lacks. One that refers to itself lacks none.
         """
         sample = substitute(value, lambda each: variables.get(each, "black")) or ""
         helps = any(
@@ -249,7 +249,7 @@ class Cascade:
         return bool(ends)
 
     def refuse(self, name: str, value: str, element: etree._Element) -> None:
-        """Note a value that has no effect: one that is not valid, or has a function that is not supported."""
+        """Note a value without effect, because it is invalid or has an unsupported function."""
         match = NOT_SUPPORTED.search(value)
         if name == "font" and value.lower() in SYSTEM_FONTS:
             self.report.left_out(f"font {value.lower()} of the system", element)
@@ -259,7 +259,7 @@ class Cascade:
             self.report.left_out(f"{match[0].lower()}) in {name}", element)
 
     def declarations_of(self, element: etree._Element) -> list[Declaration]:
-        """Declarations of the style sheets and the `style` attribute, in rising precedence (CSS Cascade 5, 6.1)."""
+        """Return declarations of style sheets and the `style` attribute, in rising precedence (CSS Cascade 5, 6.1)."""
         text = element.get("style", "")
         own = [*read_style(text)] if text else []
         ruled = [*self.sheets.declarations_of(element)]
@@ -268,11 +268,11 @@ class Cascade:
             return sorted(found, key=attrgetter("important")) if any(one.important for one in found) else found
         ranked = [((one.important, -rank if one.important else rank), one) for rank, one in ruled]
         ranked += [((one.important, inf), one) for one in own]
-        return rolled_back(sorted(ranked, key=itemgetter(0)))  # stable
+        return rolled_back(sorted(ranked, key=itemgetter(0)))  # the sort is stable
 
 
 def rolled_back(ranked: list[tuple[tuple[bool, float], Declaration]]) -> list[Declaration]:
-    """Declarations without those that are rolled back to what layers before theirs say (CSS Cascade 5, 7.3.5)."""
+    """Remove declarations that are rolled back to earlier layers (CSS Cascade 5, 7.3.5)."""
     found = list[tuple[tuple[bool, float], Declaration]]()
     for key, one in ranked:
         if one.value.lower() == BACK:
@@ -283,6 +283,6 @@ def rolled_back(ranked: list[tuple[tuple[bool, float], Declaration]]) -> list[De
 
 
 def absolute(color: str, parent: ElementStyle) -> str:
-    """Text of a value of `color` that depends on the parent's."""
+    """Return a value of `color` that depends on the parent's as an absolute colour."""
     (red, green, blue), alpha = parent.solid(color) or BLACK
     return f"color(srgb {red!r} {green!r} {blue!r} / {alpha!r})"

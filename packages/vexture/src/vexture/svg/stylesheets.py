@@ -1,4 +1,4 @@
-"""Style sheets of a drawing: their rules with media, layers and nesting, and what they say of an element."""
+"""Style sheets of a drawing, with media queries, layers and nesting, and their declarations for an element."""
 
 from collections.abc import Iterator
 from math import inf
@@ -26,27 +26,27 @@ from vexture.svg.report import Report
 from vexture.svg.select import Node
 
 UNREADABLE = (cssselect2.SelectorError, SyntaxError, AttributeError, NotImplementedError, RecursionError, MemoryError)
-"""What cssselect2 raises for selectors that it cannot read."""
+"""Errors that cssselect2 raises for selectors that it cannot read."""
 
 LONGEST: Final = 20_000
-"""Characters of a selector with those of the rules around it, which multiply where `&` is nested."""
+"""Longest selector, including those of the rules around it, whose lengths multiply with nested `&`."""
 
 LONGEST_NAMED: Final = 60
-"""Characters of what a note names."""
+"""Longest name in a note, in characters."""
 
 PARENT: Final = "&"
 
 FORGIVING: Final = frozenset({"is", "where", "matches", "-webkit-any"})
 NOTHING: Final = tinycss2.parse_component_value_list(":not(*)")
-"""A selector that nothing matches."""
+"""Selector that matches nothing."""
 
 COMBINATORS: Final = (">", "+", "~")
 
 SILENT: Final = frozenset({"charset"})
-"""At-rules that change nothing."""
+"""At-rules without any effect."""
 
 Layer = tuple[str, ...]
-"""Names of the layers around a rule, from the outer one."""
+"""Names of the layers around a rule, starting with the outermost."""
 
 OTHER_NAMES: Final = """
     accent-color align-content align-items align-self animation-composition animation-delay animation-direction
@@ -80,9 +80,9 @@ OTHER_NAMES: Final = """
 """
 
 OTHER_PROPERTIES: Final = frozenset(OTHER_NAMES.split())
-"""Properties that browsers know and no drawing here shows, so that `@supports` answers as theirs does.
+"""Properties that browsers support but that no drawing here shows, so that `@supports` answers as in browsers.
 
-They are those of Chromium 150, without the ones that it calls otherwise than CSS does.
+They are those of Chromium 150, without names of its own that are not CSS.
 """
 
 PREFIXED: Final = (
@@ -90,25 +90,25 @@ PREFIXED: Final = (
     *("line-clamp", "mask-", "order", "perspective", "print-color-adjust", "transform-style", "transition"),
     *("text-emphasis", "text-size-adjust", "user-select"),
 )
-"""How those begin that are known with the prefix ``-webkit-``, too."""
+"""Prefixes of those properties that are also known with ``-webkit-``."""
 
 
 class FontFace(NamedTuple):
     """A rule `@font-face`."""
 
-    descriptors: dict[str, str]  # by their names
+    descriptors: dict[str, str]  # by name
     element: etree._Element  # the style sheet
 
 
 class Around(NamedTuple):
-    """A style rule around others."""
+    """A style rule that contains others."""
 
     selectors: list[Any]
     text: str
 
 
 class StyleSheets:
-    """The `<style>` elements of a document; `medium` is what it is shown in."""
+    """The `<style>` elements of a document; `medium` is the medium that shows it."""
 
     def __init__(self, root: etree._Element, report: Report, medium: Medium) -> None:
         self.report = report
@@ -118,7 +118,7 @@ class StyleSheets:
         self.keyframes: dict[str, Values] = {}
         self.wrappers: dict[etree._Element, Any] = {}
         self.layers: dict[Layer, int] = {(): 0}  # in order of appearance
-        self.prefixes = dict[str, str]()  # of namespaces
+        self.prefixes = dict[str, str]()  # prefixes of namespaces
         sheets = [element for element in root.iter("{*}style") if element.text]
         if not sheets:
             return
@@ -135,16 +135,16 @@ class StyleSheets:
 
     @property
     def has_layers(self) -> bool:
-        """Whether there are layers."""
+        """True if there are layers."""
         return len(self.layers) > 1
 
     def layer_order(self, layer: Layer) -> tuple[float, ...]:
-        """Sort key of a layer: rules in none come after all that are in one (CSS Cascade 5, 6.4.3)."""
+        """Return the sort key of a layer: rules outside layers follow all rules in layers (CSS Cascade 5, 6.4.3)."""
         return *(self.layers[layer[:depth]] for depth in range(1, len(layer) + 1)), inf
 
     def declarations_of(self, element: etree._Element) -> Iterator[tuple[float, Declaration]]:
-        """Yield what the rules say of an element, in rising specificity, each with the rank of its layer."""
-        if self.matcher is not None and element in self.wrappers:  # not one that stands for a shape of CSS
+        """Yield the declarations for an element, in rising specificity, each with the rank of its layer."""
+        if self.matcher is not None and element in self.wrappers:  # false for replaced CSS shapes
             for _, _, pseudo, (declarations, layer) in self.matcher.match(self.wrappers[element]):
                 if pseudo is None:
                     rank = self.ranks[layer]
@@ -176,7 +176,7 @@ class StyleSheets:
         self.add_block(rule.content, layer, Around(selectors, text))
 
     def compile_selectors(self, text: str) -> list[Any]:
-        """Selectors of a list; unknown ones in `:is()` and `:where()` match nothing (Selectors 4, 4.2)."""
+        """Compile a list of selectors; unknown ones in `:is()` and `:where()` match nothing (Selectors 4, 4.2)."""
         try:
             return list(cssselect2.compile_selector_list(text, self.prefixes))
         except cssselect2.SelectorError:
@@ -184,7 +184,7 @@ class StyleSheets:
             return list(cssselect2.compile_selector_list(forgiven, self.prefixes))
 
     def add_block(self, content: Any, layer: Layer, around: Around) -> None:
-        """Add what a block says of the elements of a style rule, and the rules in it."""
+        """Add the declarations and rules in the block of a style rule."""
         declarations = list[Declaration]()
         for item in tinycss2.parse_blocks_contents(content, skip_comments=True, skip_whitespace=True):
             if item.type == "declaration":
@@ -205,7 +205,7 @@ class StyleSheets:
                 self.matcher.add_selector(selector, (declarations, layer))
 
     def add_at_rule(self, rule: Any, layer: Layer, around: Around | None = None) -> None:
-        """Add the rules inside an at-rule, if it is a condition that holds or a layer."""
+        """Add the rules inside an at-rule, if it is a condition that holds, or a layer."""
         name = rule.lower_at_keyword
         if name == "font-face":
             descriptors = {each.name.lower(): each.value for each in read_descriptors(rule.content or [])}
@@ -230,32 +230,32 @@ class StyleSheets:
             self.report.left_out(f"@{name[:40]}", self.element)
 
     def add_namespace(self, rule: Any) -> None:
-        """Remember the prefix of a namespace; one without a prefix is that of the drawing, or else of nothing in it."""
+        """Store the prefix of a namespace. A default namespace is ignored: it is the drawing's, or matches nothing."""
         prefix, *values = significant_tokens(rule.prelude) or [None]
         if values and prefix.type == "ident":
             value = values[0]
             self.prefixes[prefix.value] = value.arguments[0].value if value.type == "function" else value.value
 
     def holds(self, queries: list[Any], message: str) -> bool:
-        """Whether media queries hold; those that are not known are named."""
+        """Return whether media queries hold; add a note on unknown ones."""
         answer = self.medium.holds(queries)
         if answer is None:
             self.report.left_out(message.format(format_tokens(queries)), self.element)
         return answer is True
 
     def add_content(self, content: list[Any], layer: Layer, around: Around | None) -> None:
-        """Add what is inside an at-rule."""
+        """Add the content of an at-rule."""
         if around is None:
             self.add_rules(tinycss2.parse_rule_list(content, skip_comments=True, skip_whitespace=True), layer)
         else:
             self.add_block(content, layer, around)
 
     def add_layers(self, rule: Any, layer: Layer, around: Around | None) -> None:
-        """Add the layers that a rule names, in their order, and the rules inside it."""
+        """Add the layers that a rule names, in order, and the rules inside it."""
         names = [tinycss2.serialize(part).strip() for part in split_arguments(rule.prelude)]
         for name in names:
             inner = layer
-            for part in name.split(".") if name else [f" {len(self.layers)}"]:  # one without a name is like no other
+            for part in name.split(".") if name else [f" {len(self.layers)}"]:  # a layer without a name is unique
                 inner = (*inner, part.strip())
                 self.layers.setdefault(inner, len(self.layers))
             if rule.content is not None and len(names) == 1:
@@ -263,13 +263,13 @@ class StyleSheets:
 
 
 def declarations(content: Any) -> Iterator[Declaration]:
-    """Yield the declarations of a block without rules in it."""
+    """Yield the declarations of a block that contains no rules."""
     for name, value, important in read_descriptors(content):
         yield from read_declaration(name, value, important)
 
 
 def format_tokens(tokens: list[Any]) -> str:
-    """The begin of some tokens, for a note."""
+    """Format the beginning of some tokens for a note."""
     try:
         text = str(tinycss2.serialize(tokens))
     except RecursionError:
@@ -278,7 +278,7 @@ def format_tokens(tokens: list[Any]) -> str:
 
 
 def nested_selector(prelude: list[Any], around: str, is_relative: bool) -> str:
-    """Selector of a rule inside another one, whose selector is `around` (CSS Nesting 1)."""
+    """Return the selector of a rule nested in another one with the selector `around` (CSS Nesting 1)."""
     found = list[str]()
     for part in split_arguments(prelude):
         text = with_parent(part, around).strip()
@@ -288,7 +288,7 @@ def nested_selector(prelude: list[Any], around: str, is_relative: bool) -> str:
 
 
 def forgiving(tokens: list[Any], prefixes: dict[str, str]) -> list[Any]:
-    """Tokens of a selector without what is unknown in its functions `:is()` and `:where()`."""
+    """Remove unknown selectors from the functions `:is()` and `:where()` of a selector."""
     found = list[Any]()
     for token in tokens:
         if token.type == "function" and token.lower_name in FORGIVING:
@@ -302,7 +302,7 @@ def forgiving(tokens: list[Any], prefixes: dict[str, str]) -> list[Any]:
 
 
 def with_parent(prelude: list[Any], around: str) -> str:
-    """Text of a selector with another one in place of each `&`."""
+    """Replace each `&` in a selector by another selector."""
     found = list[str]()
     for token in prelude:
         if token == PARENT:
@@ -315,7 +315,7 @@ def with_parent(prelude: list[Any], around: str) -> str:
 
 
 def is_supported(token: Any) -> Answer:
-    """Whether a condition of `@supports` holds: a declaration or a selector, as browsers know them."""
+    """Return whether a condition of `@supports` holds, for a declaration or a selector, as in browsers."""
     if token.type == "function":
         return is_selector(token.arguments) if token.lower_name == "selector" else None
     if token.type != "() block":
@@ -330,13 +330,13 @@ def is_supported(token: Any) -> Answer:
         return True
     known = canonical(name)
     if not longhands(known):
-        return is_other_property(name.lower())  # its value is taken for one of those that it may have
+        return is_other_property(name.lower())  # its value is assumed to be valid
     pairs = [*expand_declaration(known, value)]
     return bool(pairs) and all(PROPERTIES[longhand].allows(part) for longhand, part in pairs)
 
 
 def is_selector(arguments: list[Any], prefixes: dict[str, str] | None = None) -> bool:
-    """Whether tokens are a selector that is known here."""
+    """Return whether tokens are a supported selector."""
     try:
         return len(cssselect2.compile_selector_list(arguments, prefixes)) == 1
     except UNREADABLE:
@@ -344,7 +344,7 @@ def is_selector(arguments: list[Any], prefixes: dict[str, str] | None = None) ->
 
 
 def is_other_property(name: str) -> bool:
-    """Whether browsers know a property that no drawing here shows.
+    """Return whether browsers support a property that no drawing here shows.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Affine maps, and transforms by the grammar of attributes (CSS Transforms 1, 8)."""
+"""Affine maps, and transforms in the syntax of attributes (CSS Transforms 1, 8)."""
 
 import re
 from collections.abc import Callable
@@ -25,19 +25,19 @@ if TYPE_CHECKING:
         dy: float = 0.0
 
         def transform(self, other: "Transform") -> "Transform":
-            """Apply the other map first."""
+            """Return the map that applies the other map first."""
 
         def inverse(self) -> "Transform":
-            """Inverse map."""
+            """Return the inverse map."""
 
         def translate(self, x: float = 0.0, y: float = 0.0) -> "Transform":
-            """Translate first."""
+            """Return the map that translates first."""
 
         def scale(self, x: float = 1.0, y: float | None = None) -> "Transform":
-            """Scale first."""
+            """Return the map that scales first."""
 
         def rotate(self, angle: float) -> "Transform":
-            """Rotate first, by radians."""
+            """Return the map that rotates first, by radians."""
 
     Identity: Transform
 else:
@@ -50,15 +50,15 @@ KEYWORDS: Final = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", 
 
 ARGUMENT = re.compile(NUMBER)
 FUNCTION = re.compile(rf"{GAP}([a-zA-Z]++){SPACE}\({SPACE}({NUMBER}(?:{GAP}{NUMBER})*+){SPACE}\){SPACE}")
-"""In attributes, arguments have no units."""
+"""Pattern of a function in an attribute, where arguments have no units."""
 WRITTEN_ANGLE = re.compile(rf"({NUMBER})([a-zA-Z]*)")
 
 Length = Callable[[str, int], float | None]
-"""Converts the text of a length along x (0) or y (1) into user units; None if it is no length."""
+"""Function that converts a length along x (0) or y (1) to user units; it returns None if the text is not a length."""
 
 
 def angle(text: str) -> float | None:
-    """Angle in radians; None if the text is no angle."""
+    """Parse an angle into radians; None if the text is not an angle."""
     match = WRITTEN_ANGLE.fullmatch(text)
     found = calculate(text, lambda value, unit: None) if match is None else None
     if found is not None:
@@ -69,7 +69,7 @@ def angle(text: str) -> float | None:
 
 
 def parse_transform(text: str, length: Length) -> Transform | None:
-    """Product of a list of transforms, the value of an attribute; None if the list is not valid.
+    """Multiply a list of transforms, the value of an attribute; None if the list is not valid.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def parse_transform(text: str, length: Length) -> Transform | None:
 
 
 def single_transform(name: str, arguments: list[str], length: Length) -> Transform | None:
-    """One function of a transform list; None if it is unknown or has wrong arguments."""
+    """Return the map of one function in a transform list; None if it is unknown or has wrong arguments."""
     values: list[float | None]
     if name.startswith("translate"):
         values = [length(text, 1 if name == "translatey" else min(axis, 1)) for axis, text in enumerate(arguments)]
@@ -132,7 +132,7 @@ def single_transform(name: str, arguments: list[str], length: Length) -> Transfo
 
 
 def parse_origin(text: str, length: Length) -> tuple[float, float] | None:
-    """Point that `transform-origin` gives (CSS Transforms 1, 5); None if it is not valid.
+    """Parse `transform-origin` into a point (CSS Transforms 1, 5); None if it is not valid.
 
     Examples
     --------
@@ -151,7 +151,7 @@ def parse_origin(text: str, length: Length) -> tuple[float, float] | None:
 
 
 def about_origin(matrix: Transform, text: str, length: Length) -> Transform:
-    """A transform about the point that `transform-origin` gives; as it is if that is not valid.
+    """Apply a transform about the point in `transform-origin`; ignore a value that is not valid.
 
     Examples
     --------
@@ -165,7 +165,7 @@ def about_origin(matrix: Transform, text: str, length: Length) -> Transform:
 def map_points(cubics: NDArray[np.float64], matrix: Transform) -> NDArray[np.float64]:
     """Apply an affine map to points (..., 2).
 
-    A matrix product may round the same point differently at two places of an array, hence the explicit sums.
+    A matrix product may round equal points at different positions of an array differently, hence the explicit sums.
     """
     x, y = cubics[..., 0], cubics[..., 1]
     a, b, c, d, e, f = matrix
@@ -173,7 +173,7 @@ def map_points(cubics: NDArray[np.float64], matrix: Transform) -> NDArray[np.flo
 
 
 def scale_of(matrix: Transform) -> float:
-    """Largest factor by which a map stretches a length (its larger singular value).
+    """Return the largest factor by which a map stretches a length (its larger singular value).
 
     Examples
     --------

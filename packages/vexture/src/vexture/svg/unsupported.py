@@ -1,4 +1,4 @@
-"""Parts of an SVG that are not shapes, wherever they are: animation, scripts, views and cursors, each named once."""
+"""Unsupported parts of an SVG other than shapes: animations, scripts, views and cursors; notes list each one once."""
 
 import re
 from collections.abc import Callable
@@ -17,13 +17,13 @@ from vexture.svg.report import Report
 from vexture.svg.style import ElementStyle
 
 ANIMATION: Final = "animation"
-"""What a note calls it."""
+"""Name of animations in notes."""
 
 REMARKS: Final = {
     "cursor": "its cursors are left out, which no picture shows",
     "view": "its views are not followed; all of it is shown",
 }
-"""Sentences about elements that change no picture."""
+"""Notes on elements that do not change the picture."""
 
 
 LINED: Final = re.compile(r"\b(?:solid|dashed|dotted|double|groove|ridge|inset|outset)\b", re.IGNORECASE)
@@ -38,18 +38,18 @@ BOXED: Final = {
     "outline": LINED,
     "padding": SIZED,
 }
-"""What the outermost element has as a box of CSS, and what values show."""
+"""Properties of the outermost element as a CSS box, with the values that are visible."""
 
 STYLESHEET: Final = re.compile(r"""<\?xml-stylesheet\s[^>]*?\bhref\s*=\s*(['"])(.*?)\1""", re.DOTALL)
-"""The link of a processing instruction (xml-stylesheet 1.0)."""
+"""Pattern of the link in a processing instruction (xml-stylesheet 1.0)."""
 
 
 def note_unsupported(
     root: etree._Element, style: ElementStyle, servers: PaintServers, report: Report, chosen: set[etree._Element] | None
 ) -> None:
-    """Note what is not seen of a document, or of the elements in `chosen` with all their content.
+    """Note invisible parts of a document, or of the elements in `chosen` with all their content.
 
-    `style` is that of its outermost element.
+    `style` is the style of the outermost element.
     """
     if chosen is None or root in chosen:
         for boxed, shows in BOXED.items():
@@ -79,7 +79,7 @@ def note_unsupported(
 
 
 def animation_test(servers: PaintServers) -> Callable[[etree._Element], bool]:
-    """Return the function that tells whether an element is animated by a style sheet, and notes nothing."""
+    """Return a predicate for elements that a style sheet animates; it adds no notes."""
     cascade = copy(servers.cascade)
     cascade.report = Report()
     if not cascade.sheets.keyframes:

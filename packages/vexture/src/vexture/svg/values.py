@@ -11,11 +11,11 @@ from vexture.drawing.calculation import LENGTH, NUMBER, PERCENT, Quantity, calcu
 from vexture.svg.path_data import NUMBER as DIGITS
 
 LARGEST: Final = 1e12
-"""User units. An element with larger numbers is lost: the product of two of them and a matrix must stay finite."""
+"""Largest number in user units. Elements beyond are dropped: products of two numbers and a matrix must stay finite."""
 
 
 class TooLargeError(SourceError):
-    """A number of an element exceeds `LARGEST`; inside the drawing, only that element is lost."""
+    """A number of an element exceeds `LARGEST`; inside the drawing, only that element is dropped."""
 
 
 INITIAL_SIZE: Final = 16.0
@@ -34,10 +34,10 @@ PIXELS: Final = {
 """CSS pixels of each absolute unit (CSS Values 4, 6.2)."""
 
 FONT_UNITS: Final = {"em": 1.0, "ex": 0.5, "ch": 0.5}
-"""Font sizes of each unit that depends on the font; ex and ch as for fonts without such data."""
+"""Font sizes per unit that depends on the font; ex and ch as for fonts without such data."""
 
 VIEW_UNITS: Final = {"w": (1.0, 0.0), "h": (0.0, 1.0), "i": (1.0, 0.0), "b": (0.0, 1.0)}
-"""Parts of the width and height of the outermost viewport that units refer to, by their last letter."""
+"""Fractions of width and height of the outermost viewport for its units, by their last letter."""
 
 RELATIVE = re.compile(r"%|\d\.?[sld]?v[whibm]", re.IGNORECASE)
 VIEW_UNIT = re.compile(r"[sld]?v(?:([whib])|(min|max))")
@@ -47,7 +47,7 @@ IN_BRACKETS = re.compile(r"[()]|[^()]+")
 
 
 def number(text: str) -> float | None:
-    """Finite number; None if the text is anything else; a `TooLargeError` if it is larger than `LARGEST`.
+    """Parse a finite number; None if the text is not one; raise a `TooLargeError` if it exceeds `LARGEST`.
 
     Examples
     --------
@@ -62,13 +62,13 @@ def number(text: str) -> float | None:
 
 
 def numbers(text: str) -> list[float] | None:
-    """Numbers between commas or spaces; None if there is anything else."""
+    """Parse numbers between commas or spaces; None if there is anything else."""
     found = [number(part) for part in SEPARATOR.split(text.strip())]
     return None if None in found else [value for value in found if value is not None]
 
 
 def words(text: str, between: re.Pattern[str] = SEPARATOR) -> list[str]:
-    """Parts of a value between commas or spaces, or what else is said, that stand in no brackets.
+    """Split a value at commas or spaces, or at `between`, but not inside brackets.
 
     Examples
     --------
@@ -88,14 +88,14 @@ def words(text: str, between: re.Pattern[str] = SEPARATOR) -> list[str]:
 
 
 def is_relative(text: str) -> bool:
-    """Whether a length refers to what is around the outermost viewport, if it is that of one of its sides."""
+    """Return whether a length, as a side of the outermost viewport, is relative to the surroundings."""
     return RELATIVE.search(text) is not None
 
 
 def bounded_number(number: str | float) -> float:
-    """Value of a number; a `TooLargeError` if it is one."""
+    """Return the value of a number; raise a `TooLargeError` if it is too large."""
     value = float(number)
-    if isnan(value):  # of a calculation
+    if isnan(value):  # a result of a calculation
         return 0.0
     if not abs(value) <= LARGEST:
         raise TooLargeError(f"the number {str(number)[:40]} is too large; the limit is {LARGEST:g}")
@@ -103,7 +103,7 @@ def bounded_number(number: str | float) -> float:
 
 
 def fraction(text: str) -> float | None:
-    """Number or percentage, clipped to 0..1; None if the text is neither.
+    """Parse a number or percentage, clamped to 0..1; None if the text is neither.
 
     Examples
     --------
@@ -127,10 +127,10 @@ def fraction(text: str) -> float | None:
 class Viewport:
     """Reference sizes of relative lengths, in user units."""
 
-    width: float  # of the nearest viewport
+    width: float  # width of the nearest viewport
     height: float
     root_font_size: float = INITIAL_SIZE  # font size of the outermost element
-    outermost: tuple[float, float] | None = None  # width and height of that viewport, if this is another
+    outermost: tuple[float, float] | None = None  # width and height of the outermost viewport, if that is another
 
     @property
     def diagonal(self) -> float:
@@ -138,11 +138,11 @@ class Viewport:
         return hypot(self.width, self.height) / 2**0.5
 
     def along(self, font_size: float) -> Callable[[str, int], float | None]:
-        """Return the function of a text and an axis, 0 across and 1 down, that is `length` along it."""
+        """Return a function of a text and an axis, 0 across and 1 down, that applies `length` along the axis."""
         return lambda text, axis: self.length(text, (self.width, self.height)[axis], font_size)
 
     def length(self, text: str, whole: float, font_size: float) -> float | None:
-        """Length in user units; None if the text is no length. `whole` is 100%, `font_size` is 1em.
+        """Convert a length to user units; None if the text is not a length. `whole` is 100%, `font_size` is 1em.
 
         Examples
         --------
@@ -157,12 +157,12 @@ class Viewport:
         return None if factor is None else bounded_number(match[1]) * factor
 
     def quantity(self, value: float, unit: str, whole: float, font_size: float) -> Quantity | None:
-        """Length of a number and a unit, for a calculation."""
+        """Convert a number with a unit to a length, for a calculation."""
         factor = self.factor(unit, whole, font_size)
         return None if factor is None else Quantity(value * factor, LENGTH)
 
     def factor(self, unit: str, whole: float, font_size: float) -> float | None:
-        """User units of a unit; None if there is no such unit."""
+        """Return the number of user units of a unit; None if the unit is unknown."""
         if unit in PIXELS:
             return PIXELS[unit]
         if unit == "%":

@@ -9,15 +9,15 @@ import tinycss2
 from vexture.base.deadline import check_time
 
 LONGEST: Final = 100_000
-"""Characters of a value. One that becomes longer is not valid, so that references cannot multiply (a bomb)."""
+"""Longest value in characters. Longer results are not valid, so that references cannot multiply (a bomb)."""
 
 APART = ("whitespace", "literal")
-"""Tokens beside which text stays a token of its own."""
+"""Tokens that separate the text next to them."""
 
 BRACKETS: Final = {"() block": ("(", ")"), "[] block": ("[", "]"), "{} block": ("{", "}")}
 
 Get = Callable[[str], str | None]
-"""The value of a custom property; None if it has none."""
+"""Function that returns the value of a custom property, or None."""
 
 
 class UnknownError(Exception):
@@ -25,12 +25,12 @@ class UnknownError(Exception):
 
 
 def refers(value: str) -> bool:
-    """Whether a value may refer to a custom property."""
+    """Return whether a value may refer to a custom property."""
     return "(" in value and "var(" in value.lower()
 
 
 def substitute(value: str, get: Get) -> str | None:
-    """A value with what its references refer to, or their fallbacks; None if one of them has neither.
+    """Replace the references in a value by their values or fallbacks; None if one has neither.
 
     Examples
     --------
@@ -44,7 +44,7 @@ def substitute(value: str, get: Get) -> str | None:
 
 
 def unknown(value: str, get: Get) -> list[str]:
-    """Names of the custom properties without a value, and without a fallback, for which a value is not valid.
+    """Return the names of custom properties without value and fallback that make a value invalid.
 
     Examples
     --------
@@ -58,7 +58,7 @@ def unknown(value: str, get: Get) -> list[str]:
 
 
 def unknown_in(tokens: list[Any], get: Get) -> Iterator[str]:
-    """Yield the names of `unknown`."""
+    """Yield the names that `unknown` returns."""
     for token in tokens:
         if token.type == "function" and token.lower_name == "var":
             name, fallback = reference(token)
@@ -69,7 +69,7 @@ def unknown_in(tokens: list[Any], get: Get) -> Iterator[str]:
 
 
 def parse_tokens(value: str) -> list[Any]:
-    """Tokens of a value."""
+    """Parse a value into tokens."""
     try:
         return list(tinycss2.parse_component_value_list(value, skip_comments=True))
     except ValueError:  # an integer of more than 4,300 digits
@@ -77,7 +77,7 @@ def parse_tokens(value: str) -> list[Any]:
 
 
 def fill_references(tokens: list[Any], get: Get) -> str:
-    """Text of tokens with what their references refer to."""
+    """Return the text of tokens, with all references replaced."""
     found, length = list[str](), 0
     before = None
     for token in tokens:
@@ -94,7 +94,7 @@ def fill_references(tokens: list[Any], get: Get) -> str:
 
 
 def inside(token: Any, get: Get) -> str:
-    """Text of a token that is no reference itself."""
+    """Return the text of a token that is not a reference itself."""
     if token.type == "function":
         return f"{tinycss2.serialize([token]).partition('(')[0]}({fill_references(token.arguments, get)})"
     if token.type in BRACKETS:
@@ -104,7 +104,7 @@ def inside(token: Any, get: Get) -> str:
 
 
 def replacement(token: Any, get: Get) -> str:
-    """Text that a reference stands for."""
+    """Return the text that replaces a reference."""
     name, fallback = reference(token)
     value = get(name)
     if value is not None:
@@ -115,7 +115,7 @@ def replacement(token: Any, get: Get) -> str:
 
 
 def reference(token: Any) -> tuple[str, list[Any] | None]:
-    """Name and fallback of a reference."""
+    """Return the name and the fallback of a reference."""
     arguments = list(token.arguments)
     words = [part for part in arguments if part.type != "whitespace"]
     comma = next((at for at, part in enumerate(arguments) if part == ","), None)
@@ -126,7 +126,7 @@ def reference(token: Any) -> tuple[str, list[Any] | None]:
 
 
 def names_in(tokens: list[Any]) -> Iterator[str]:
-    """Yield the names that tokens refer to, those in fallbacks, too."""
+    """Yield the names that tokens refer to, including those in fallbacks."""
     for token in tokens:
         if token.type == "function" and token.lower_name == "var":
             yield reference(token)[0]
@@ -134,9 +134,9 @@ def names_in(tokens: list[Any]) -> Iterator[str]:
 
 
 def compute_variables(values: Mapping[str, str], inherited: Mapping[str, str]) -> dict[str, str]:
-    """Custom properties of an element: those that it declares, as written, over those that it inherits.
+    """Return the custom properties of an element: its own, unparsed, and those that it inherits.
 
-    One that refers to itself, also by way of others, has no value, nor has one whose reference has none.
+    A property has no value if it refers to itself, even through others, or to a property without a value.
 
     Examples
     --------
@@ -161,7 +161,7 @@ def compute_variables(values: Mapping[str, str], inherited: Mapping[str, str]) -
 
 
 def edges_of(value: str) -> set[str] | None:
-    """Names that a value refers to; None if it is not valid."""
+    """Return the names that a value refers to; None if it is not valid."""
     try:
         return set(names_in(parse_tokens(value))) if refers(value) else set()
     except UnknownError:
@@ -169,14 +169,14 @@ def edges_of(value: str) -> set[str] | None:
 
 
 def dependency_order(edges: dict[str, set[str]]) -> Iterator[str]:
-    """Names after those that they refer to, without those that refer to themselves."""
+    """Yield names after those that they refer to, without those that refer to themselves."""
     lost = set[str]()
     while True:
         check_time()
         try:
             order = list(TopologicalSorter(edges).static_order())
         except CycleError as error:
-            cycle = error.args[1]  # of which each is before the next, and the last one is the first one
+            cycle = error.args[1]  # each name is before the next; the last equals the first
             lost.update(cycle)
             edges[cycle[1]].discard(cycle[0])
             continue

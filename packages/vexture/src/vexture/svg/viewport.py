@@ -13,18 +13,18 @@ Rectangle = tuple[float, float, float, float]
 
 
 class ViewBoxFit(NamedTuple):
-    """Alignment of a view box in a viewport of another shape."""
+    """Alignment of a view box in a viewport of another aspect ratio."""
 
-    across: float  # part of the spare room on the left, 0..1
-    down: float  # part of the spare room above, 0..1
+    across: float  # fraction of the free space on the left, 0..1
+    down: float  # fraction of the free space above, 0..1
     rule: str  # "meet" shows the whole box, "slice" fills the viewport, "none" stretches
 
 
 THINNEST: Final = 1e-9
-"""User units. A drawing that is less wide or high than this has no size."""
+"""Least width and height of a drawing in user units; a thinner drawing has no size."""
 
 ANONYMOUS: Final = (300.0, 150.0)
-"""Pixels: the size of a drawing without one as an image (CSS 2.1, 10.3.2)."""
+"""Size in pixels of an image without a size (CSS 2.1, 10.3.2)."""
 
 CENTRED = ViewBoxFit(0.5, 0.5, "meet")
 """Default of the standard."""
@@ -66,7 +66,7 @@ def parse_fit(text: str) -> ViewBoxFit | None:
 
 
 def view_transform(box: Rectangle, fit: ViewBoxFit, width: float, height: float) -> Transform:
-    """Map of a view box into a viewport of a size whose least corner is the origin.
+    """Return the map of a view box into a viewport whose least corner is the origin.
 
     Examples
     --------
@@ -82,7 +82,7 @@ def view_transform(box: Rectangle, fit: ViewBoxFit, width: float, height: float)
 
 
 def own_size(root: etree._Element) -> tuple[float, float]:
-    """Width and height of a drawing by the attributes of its outermost element, as an image has them.
+    """Return the width and height of a drawing as an image, by the attributes of its outermost element.
 
     Examples
     --------

@@ -1,1 +1,1 @@
-"""Raster images, traced into drawings."""
+"""Tracing of raster images into drawings."""

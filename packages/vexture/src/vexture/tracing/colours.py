@@ -1,7 +1,7 @@
 """The flat colours of a picture.
 
-Pixels are premultiplied by their opacity, (h, w, 4) in 0..255: a pixel on an edge then lies on the straight line
-between the two colours beside it, also if one of them is transparent.
+Pixels are premultiplied by their opacity, (h, w, 4) in 0..255. A pixel on an edge then lies on the straight line
+between the two adjacent colours, even if one of them is transparent.
 """
 
 from itertools import combinations
@@ -14,37 +14,37 @@ MOST_COLOURS: Final = 24
 """Most colours besides the background."""
 
 LEVEL: Final = 16
-"""Levels of 255 by which a border or an area of one colour may vary: noise of JPEG and of scanners."""
+"""Largest variation, in levels of 255, of a border or an area of one colour: noise of JPEG and of scanners."""
 
 APART: Final = 36.0
-"""Levels. Colours that are nearer to one another count as one."""
+"""Least distance, in levels, between colours; closer ones count as one."""
 
 OFF_THE_LINE: Final = 48.0
-"""Levels. A pixel that is farther from all mixtures of two colours has a colour of its own."""
+"""Distance, in levels, from all mixtures of two colours above which a pixel has a colour of its own."""
 
 UNIFORM: Final = 0.75
-"""Share of the border that must have one colour for it to be the background."""
+"""Fraction of the border that must have one colour if that is the background."""
 
 FEWEST: Final = 4
 LEAST: Final = 2e-4
-"""Fewest pixels of a colour, and smallest share of the picture for a colour that no area has."""
+"""Fewest pixels of a colour, and least fraction of the picture for a colour that has no area."""
 
 MOST_BINS: Final = 4096
 
 MOSTLY: Final = 0.5
 MOST_UNEXPLAINED: Final = 0.1
-"""A picture is a photograph if less than `MOSTLY` of its pixels are shaded or have a flat colour, or if no mixture of
-these describes more than `MOST_UNEXPLAINED` of them."""
+"""Limits for photographs. A picture is one if less than `MOSTLY` of its pixels are shaded or have a flat colour, or if
+more than `MOST_UNEXPLAINED` of them are not mixtures of these."""
 
 NOISE_ROWS: Final = 64
-"""Rows above and below the middle of an area from which its noise is taken."""
+"""Rows above and below the middle of an area in which its noise is measured."""
 
 Image = NDArray[np.float32]
 Colours = NDArray[np.float32]
 
 
 def background_of(image: Image) -> Colours | None:
-    """Colour of the background: transparent if any pixel is, else the colour of the border if that is uniform."""
+    """Return the background colour: transparent if any pixel is, else the colour of the border if that is uniform."""
     if (image[..., 3] < 128.0).any():
         return np.zeros(4, np.float32)
     border = np.concatenate([image[0], image[-1], image[:, 0], image[:, -1]])
@@ -58,10 +58,10 @@ def background_of(image: Image) -> Colours | None:
 def flat_colours(
     image: Image, background: Colours | None, is_shaded: NDArray[np.bool_], shades: Colours
 ) -> Colours | None:
-    """Colours whose mixtures make up the picture, the background first; None of a photograph, which has too many.
+    """Return the colours whose mixtures make up the picture, the background first; None for a photograph.
 
-    The colours of areas come first, by frequency, then those that only thin lines have, by distance from the others.
-    Pixels that are shaded have none of them, and those beside may be mixtures with a colour of `shades`.
+    The colours of areas come first, by frequency, then those of thin lines only, by distance from the others. Shaded
+    pixels have none of these colours, and their neighbours may be mixtures with a colour of `shades`.
     """
     colours = [] if background is None else [background]
     most = MOST_COLOURS + len(colours)
@@ -93,7 +93,7 @@ def _stack(colours: list[Colours]) -> Colours:
 
 
 def _share_near(means: NDArray[np.float32], counts: NDArray[np.intp], colours: Colours) -> float:
-    """Share of pixels that have nearly one of the colours."""
+    """Return the fraction of pixels that are close to one of the colours."""
     if not len(colours):
         return 0.0
     near = np.linalg.norm(means[:, None] - colours[None], axis=2).min(axis=1) <= APART
@@ -101,7 +101,7 @@ def _share_near(means: NDArray[np.float32], counts: NDArray[np.intp], colours: C
 
 
 def is_flat(image: Image) -> NDArray[np.bool_]:
-    """Pixels that differ little from all their neighbours."""
+    """Return a mask of the pixels that differ little from all their neighbours."""
     padded = np.pad(image, ((1, 1), (1, 1), (0, 0)), mode="edge")
     high = np.maximum(np.maximum(padded[:-2], padded[1:-1]), padded[2:])
     low = np.minimum(np.minimum(padded[:-2], padded[1:-1]), padded[2:])
@@ -111,7 +111,7 @@ def is_flat(image: Image) -> NDArray[np.bool_]:
 
 
 def bin_colours(pixels: NDArray[np.float32], least: float = 0.0) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
-    """Means of similar colours and the number of pixels of each, by frequency."""
+    """Return the means of similar colours and the number of pixels of each, by frequency."""
     if not len(pixels):
         return np.empty((0, 4), np.float32), np.empty(0, np.intp)
     step = np.minimum(pixels / 8.0, 31.0).astype(np.int64)
@@ -124,7 +124,7 @@ def bin_colours(pixels: NDArray[np.float32], least: float = 0.0) -> tuple[NDArra
 
 
 def _off_the_lines(pixels: NDArray[np.float32], colours: Colours) -> NDArray[np.float32]:
-    """Distance of each pixel from the nearest mixture of two colours."""
+    """Return the distance of each pixel from the nearest mixture of two colours."""
     if not len(colours):
         return np.full(len(pixels), np.inf, np.float32)
     off: NDArray[Any] = np.linalg.norm(pixels[:, None] - colours[None], axis=2).min(axis=1)
@@ -134,9 +134,9 @@ def _off_the_lines(pixels: NDArray[np.float32], colours: Colours) -> NDArray[np.
 
 
 def along(pixels: NDArray[np.float32], a: Colours, b: Colours) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Share of `a` in the mixture with `b` that is nearest to each pixel, and the distance to it.
+    """Return the fraction of `a` in the mixture with `b` that is nearest to each pixel, and the distance to it.
 
-    Either is one colour, or one for each pixel.
+    Each of the two is one colour, or one for each pixel.
     """
     way = a - b
     away = pixels - b
@@ -148,7 +148,7 @@ def along(pixels: NDArray[np.float32], a: Colours, b: Colours) -> tuple[NDArray[
 
 
 def smooth(image: Image, area: NDArray[np.bool_]) -> Image:
-    """Means of the pixels of an area that are no farther than one from each."""
+    """Return the means of an area's pixels over each pixel and its neighbours in the area."""
     weight = area.astype(np.float32)[..., None]
     values = np.concatenate([image * weight, weight], axis=2)
     for axis in (0, 1):
@@ -159,7 +159,7 @@ def smooth(image: Image, area: NDArray[np.bool_]) -> Image:
 
 
 def noise(image: Image, area: NDArray[np.bool_]) -> float:
-    """Mean difference of an area's pixels from the means of their neighbours, in some rows around its middle."""
+    """Return the mean difference of an area's pixels from the means of their neighbours, in rows around its middle."""
     rows = np.flatnonzero(area.any(axis=1))
     middle = int(rows[len(rows) // 2])
     box = slice(max(middle - NOISE_ROWS, 0), middle + NOISE_ROWS + 1)
@@ -168,7 +168,7 @@ def noise(image: Image, area: NDArray[np.bool_]) -> float:
 
 
 def dilate(mask: NDArray[np.bool_], by: int = 1) -> NDArray[np.bool_]:
-    """Mask dilated by a number of pixels, also diagonally."""
+    """Dilate a mask by a number of pixels, including diagonals."""
     for _ in range(by):
         rows = np.copy(mask)
         rows[1:] |= mask[:-1]

@@ -1,4 +1,4 @@
-"""The SVG of tones and their shares: their outlines by vtracer, in which order they are painted, and over what."""
+"""The SVG of tones and their shares: outlines by vtracer, painting order, and overlaps."""
 
 import re
 from collections.abc import Sequence
@@ -19,27 +19,27 @@ MOST_CURVES: Final = 60_000
 """Most curves of a drawing; a page of dense text has 40,000."""
 
 SMALL: Final = 256
-"""Pixels on the longer side. A picture up to this size is traced four times enlarged, a larger one twice."""
+"""Longer side, in pixels, up to which a picture is traced four times enlarged; a larger one is enlarged twice."""
 
 TOP: Final = 1_000
-"""Depth of what is opaque, above everything translucent."""
+"""Depth of opaque tones, above all translucent ones."""
 
 MEETING: Final = 0.2
-"""Share from which a tone extends under others where tones pass into one another: of several, none may have a half."""
+"""Least share of a tone in pixels where tones blend, for it to extend under others; none may reach one half."""
 
 LEAST_OPACITY: Final = 2.0
 BEYOND: Final = 3.0
-"""Levels. A colour is painted over another one if what makes one of the other has at least this opacity, and would need
-channels out of their range by no more than this."""
+"""Tolerance in levels for painting one colour over another: the colour that does so must have at least this opacity,
+and channels that are out of range by at most this."""
 
 
 MOSTLY: Final = 0.6
-"""Share of the borders with less opaque colours that is with the one that a colour is painted over. Where colours meet
-in all directions, outlines that almost coincide would cross one another."""
+"""Fraction of a colour's borders with less opaque colours that it must share with the colour below it. Where colours
+meet in all directions, outlines that almost coincide would cross one another."""
 
 OUTWARD: Final = 0.4
-"""Pixels of the enlarged mask. vtracer's outlines lie this far outside the middle of the steps, as measured on
-drawings whose outline is known."""
+"""Offset of vtracer's outlines outside the middle of the steps, in pixels of the enlarged mask, as measured on
+drawings with known outlines."""
 
 SETTINGS: Final[dict[str, Any]] = {
     "colormode": "binary",
@@ -51,8 +51,8 @@ SETTINGS: Final[dict[str, Any]] = {
     "path_precision": 3,
 }
 """Settings of vtracer, from measurements on 24 circles of 128 to 800 pixels. A splice threshold of 15 degrees instead
-of 45 reduces the largest error from 1.05 to 0.63 pixels for a fifth more curves. A length threshold of 10 pixels of the
-mask instead of 4 saves a third of the curves."""
+of 45 reduces the largest error from 1.05 to 0.63 pixels, with a fifth more curves. A length threshold of 10 pixels of
+the mask instead of 4 saves a third of the curves."""
 
 MOST_PIECES: Final = 2**16 - 2
 """Most pieces of one mask: vtracer numbers them with 16 bits."""
@@ -63,7 +63,7 @@ TRACED_PATH: Final = re.compile(r'<path d="([^"]*)" fill="[^"]*" transform="tran
 
 @dataclass(frozen=True, slots=True)
 class PaintedTone:
-    """A tone as it is painted: over `depth` others, and below those in `above`, under which it extends."""
+    """A tone in painting order: over `depth` others, and below those in `above`, under which it extends."""
 
     number: int
     tone: Tone
@@ -72,9 +72,9 @@ class PaintedTone:
 
 
 def document_of(tones: Sequence[Tone], parts: Mixture, first: int, speckle: int) -> tuple[bytes, tuple[int, int]]:
-    """SVG of all tones but the background, and its size in pixels of the enlarged picture.
+    """Return the SVG of all tones but the background, and its size in pixels of the enlarged picture.
 
-    Those that are translucent are painted first, and extend under the others; of those that are alike, large areas are.
+    Translucent tones are painted first, and extend under the others; among equals, large areas come first.
     """
     height, width = parts.first.shape
     factor = 4 if max(height, width) <= SMALL else 2
@@ -88,7 +88,7 @@ def document_of(tones: Sequence[Tone], parts: Mixture, first: int, speckle: int)
         own = parts.of(one.number)
         mask = parts.of(one.number, *one.above) + above * dilate(own >= np.where(parts.soft, MEETING, 0.5))
         if tones[one.number].is_opaque:
-            above += own  # nothing extends under a translucent colour, which would show it
+            above += own  # nothing extends under a translucent colour, through which it would show
         paths = outline(mask, factor, factor * speckle)
         curves += paths.count("C")
         if curves > MOST_CURVES:
@@ -98,7 +98,7 @@ def document_of(tones: Sequence[Tone], parts: Mixture, first: int, speckle: int)
 
 
 def _group(tone: Tone, number: int, factor: int) -> str:
-    """Begin of a group with the paint of a tone."""
+    """Return the start tag of a group with the paint of a tone."""
     if tone.fade is not None:
         return f'{tone.fade.svg(f"fade{number}", factor)}<g fill="url(#fade{number})">'
     opacity = 1.0 if tone.is_opaque else float(tone.colour[3]) / 255.0
@@ -108,11 +108,11 @@ def _group(tone: Tone, number: int, factor: int) -> str:
 
 
 def over_one_another(tones: Sequence[Tone], parts: Mixture, first: int) -> list[PaintedTone]:
-    """Tones with what they are painted over.
+    """Return the tones with those below them.
 
-    Translucent colours beside one another leave a light or dark line between them, since no two outlines are quite the
-    same. Where one is more opaque, such as towards the middle of a shadow, the other extends under all of it, and is
-    painted over by what makes one of the other.
+    Adjacent translucent colours leave a light or dark line between them, because no two outlines coincide exactly. If
+    one is more opaque, such as the middle of a shadow, the other extends under all of it, and an additional colour over
+    it gives the result.
     """
     kinds = range(first, len(tones))
     soft = sorted((n for n in kinds if _is_soft(tones[n])), key=lambda n: float(tones[n].colour[3]))
@@ -137,12 +137,12 @@ def over_one_another(tones: Sequence[Tone], parts: Mixture, first: int) -> list[
 
 
 def _is_soft(tone: Tone) -> bool:
-    """Whether a tone is a translucent colour."""
+    """Return whether a tone is a translucent colour."""
     return tone.fade is None and not tone.is_opaque
 
 
 def _over(colour: NDArray[np.float32], below: NDArray[np.float32]) -> NDArray[np.float32] | None:
-    """Premultiplied colour that, painted over one colour, makes another one of it; None if there is none."""
+    """Return the premultiplied colour that turns the colour `below` into `colour`; None if there is none."""
     opacity = float(colour[3] - below[3]) / max(1.0 - float(below[3]) / 255.0, 1e-9)
     if opacity < LEAST_OPACITY:
         return None
@@ -153,7 +153,7 @@ def _over(colour: NDArray[np.float32], below: NDArray[np.float32]) -> NDArray[np
 
 
 def _contacts(number: NDArray[np.int16], count: int) -> NDArray[np.intp]:
-    """Number of places where a pixel of one number is beside one of another, (count, count)."""
+    """Return the number of places where pixels of two numbers are adjacent, (count, count)."""
     found = np.zeros(count * count, np.intp)
     for a, b in ((number[1:], number[:-1]), (number[:, 1:], number[:, :-1])):
         found += np.bincount((a.astype(np.intp) * count + b).ravel(), minlength=count * count)
@@ -162,9 +162,9 @@ def _contacts(number: NDArray[np.int16], count: int) -> NDArray[np.intp]:
 
 
 def outline(share: NDArray[np.float32], factor: int, speckle: int) -> str:
-    """Paths of SVG around the area where a share is at least one half, in pixels of the picture enlarged by a factor.
+    """Return SVG paths around the area where a share is at least one half, in pixels of the enlarged picture.
 
-    Areas of fewer pixels than the square of `speckle`, enlarged, are left out.
+    Areas with fewer pixels than the square of `speckle`, after enlargement, are left out.
     """
     inside = np.argwhere(share > 0.0)
     if not len(inside):
@@ -180,13 +180,13 @@ def outline(share: NDArray[np.float32], factor: int, speckle: int) -> str:
 
 
 def _move(data: str, x: float, y: float) -> str:
-    """Path data of absolute points, moved. A `transform` would move gradients, too."""
+    """Move path data of absolute points. A `transform` would move gradients, too."""
     by = cycle((x, y))
     return NUMBER.sub(lambda found: str(float(found[0]) + next(by)), data)
 
 
 def _enlarge(share: NDArray[np.float32], factor: int) -> NDArray[np.bool_]:
-    """Enlarged mask of where a share is at least one half, `OUTWARD` smaller on all sides."""
+    """Return the enlarged mask of a share of at least one half, reduced by `OUTWARD` on all sides."""
     from PIL import Image
 
     size = (factor * share.shape[1], factor * share.shape[0])
@@ -194,15 +194,15 @@ def _enlarge(share: NDArray[np.float32], factor: int) -> NDArray[np.bool_]:
     padded = np.pad(smooth, 1, mode="edge")
     right = padded[1:-1, 2:] - padded[1:-1, :-2]
     down = padded[2:, 1:-1] - padded[:-2, 1:-1]
-    slope = 0.5 * np.sqrt(right * right + down * down)  # small at a blurred edge, whose middle stays the edge
+    slope = 0.5 * np.sqrt(right * right + down * down)  # small at a blurred edge, whose middle remains the edge
     return np.asarray(smooth - 0.5 >= OUTWARD * slope, np.bool_)
 
 
 def _trace_mask(mask: NDArray[np.bool_], speckle: int) -> str:
-    """SVG of a mask by vtracer.
+    """Trace a mask with vtracer, as SVG.
 
-    vtracer scans the mask by rows, begins a piece at each pixel without one to the left or above, and panics at more
-    than 65,535 pieces.
+    vtracer scans the mask by rows, starts a piece at each pixel without a neighbour to the left or above, and panics at
+    more than 65,535 pieces.
     """
     try:
         import vtracer
@@ -223,7 +223,7 @@ def _trace_mask(mask: NDArray[np.bool_], speckle: int) -> str:
         text: str = vtracer.convert_raw_image_to_svg(
             file.getvalue(), img_format="bmp", filter_speckle=speckle, **SETTINGS
         )
-    except BaseException as error:  # a panic of Rust is no Exception
+    except BaseException as error:  # a Rust panic is not an Exception
         if type(error).__name__ != "PanicException":
             raise
         raise SourceError(f"vtracer cannot trace it ({str(error)[:100]}); smooth it") from None

@@ -1,7 +1,7 @@
-"""Gradients found in pixels: a colour that depends on the place along a line, or on the distance from a point.
+"""Detection of gradients in pixels: colours that depend on the position along a line or the distance from a point.
 
-Across the lines of equal colour, the colour's slope points along the gradient; on circles and ellipses, it is normal to
-them. Both are linear equations in what is sought, which least squares over all pixels solve.
+Across lines of equal colour, the slope of the colour points along the gradient; for circles and ellipses it is normal
+to them. Both conditions are linear equations in the unknowns, solved by least squares over all pixels.
 """
 
 from dataclasses import dataclass, replace
@@ -13,40 +13,40 @@ from numpy.typing import NDArray
 from vexture.tracing.colours import noise
 
 BINS: Final = 64
-"""Places along a gradient at which its colour is averaged."""
+"""Positions along a gradient at which its colour is averaged."""
 
 OFF: Final = 1.0
 NOISES: Final = 3.0
 MOST_NOISE: Final = 2.5
-"""Levels of 255 by which the pixels of a gradient may differ from it on average: as many, and so many times the noise,
-which is by how much they differ from the means of their neighbours, and of which no more than the last counts."""
+"""Limits for the mean difference of pixels from a gradient: `OFF` levels of 255 plus `NOISES` times the noise, of which
+at most `MOST_NOISE` counts. Noise is the difference of pixels from the means of their neighbours."""
 
 FAR: Final = 3.0
 FAR_SHARE: Final = 0.98
-"""Times that by which this share of the pixels may differ at most."""
+"""Factor of that limit within which this fraction of the pixels must be."""
 
 STRAIGHT: Final = 1.25
-"""Levels by which a stop may be off that is left out."""
+"""Error, in levels, up to which a stop is left out."""
 
 SEEN: Final = 16.0
-"""Levels of opacity; the colour of what is less opaque is too uncertain, so that the next one's is taken."""
+"""Least opacity, in levels, at which a stop's colour is certain enough; below, that of the next stop is taken."""
 
 FEWEST: Final = 32
-"""Fewest slopes that tell a gradient's direction."""
+"""Fewest slopes that determine a gradient's direction."""
 
 REACH: Final = 2
 PART: Final = 1 / 30
-"""Pixels before and behind between which a slope is taken, and the same as a share of the area's size: over few pixels
-the rounding to 8 bits is more than the slope."""
+"""Distance between the pixels from which a slope is computed, in pixels and as a fraction of the area's size; over
+few pixels, the rounding to 8 bits exceeds the slope."""
 
 MOST: Final = 40_000
-"""Most pixels by which a gradient is fitted; of more, each so many-th is taken."""
+"""Most pixels for fitting a gradient; larger areas are sampled at regular intervals."""
 
 BEYOND: Final = 2.0
-"""Pixels by which a gradient is continued at both ends, for the pixels on the edge of its area."""
+"""Extension of a gradient at both ends, in pixels, for the pixels on the edge of its area."""
 
 LONGEST: Final = 20.0
-"""Most that an ellipse may be longer than wide."""
+"""Largest aspect ratio of an ellipse."""
 
 Floats = NDArray[np.floating[Any]]
 Levels = NDArray[np.float32]
@@ -54,32 +54,32 @@ Levels = NDArray[np.float32]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fade:
-    """A gradient in pixels, y down, in which the middle of the first one is (0.5, 0.5)."""
+    """A gradient in pixel coordinates, y down; the centre of the first pixel is (0.5, 0.5)."""
 
-    to_ramp: Floats  # (2, 3): to coordinates in which the place on the ramp is x, or the distance from the origin
+    to_ramp: Floats  # (2, 3): to coordinates whose x, or distance from the origin, is the position on the ramp
     radial: bool
     offsets: Floats  # (stops,), 0..1
     colours: Floats  # (stops, 4), not premultiplied, 0..255
-    off: float = 0.0  # levels by which its pixels may differ from it
+    off: float = 0.0  # largest difference of its pixels, in levels
 
     def at(self, x: Floats, y: Floats) -> Levels:
-        """Premultiplied levels at some points, (points, 4)."""
+        """Return the premultiplied levels at points, (points, 4)."""
         return np.asarray(self.along(self.place(x, y)), np.float32)
 
     def place(self, x: Floats, y: Floats) -> Floats:
-        """Place of points on the ramp."""
+        """Return the positions of points on the ramp."""
         (a, b, c), (d, e, f) = self.to_ramp
         along = a * x + b * y + c
         return np.asarray(np.hypot(along, d * x + e * y + f) if self.radial else along, np.float64)
 
     def along(self, place: Floats) -> Floats:
-        """Premultiplied levels at places on the ramp, (places, 4)."""
+        """Return the premultiplied levels at positions on the ramp, (positions, 4)."""
         plain = np.stack([np.interp(place, self.offsets, self.colours[:, channel]) for channel in range(4)], axis=1)
         plain[:, :3] *= plain[:, 3:] / 255.0
         return plain
 
     def svg(self, name: str, factor: int) -> str:
-        """Its element, for a picture enlarged by a factor."""
+        """Return its SVG element, for a picture enlarged by a factor."""
         whole = np.linalg.inv(np.vstack([self.to_ramp, (0.0, 0.0, 1.0)]))[:2] * factor
         matrix = " ".join(str(float(value)) for value in whole.T.ravel())
         kind, shape = ("radial", 'cx="0" cy="0" r="1"') if self.radial else ("linear", 'x1="0" y1="0" x2="1" y2="0"')
@@ -94,9 +94,9 @@ class Fade:
 
 
 def fade_of(image: Levels, area: NDArray[np.bool_]) -> Fade | None:
-    """Gradient of the pixels of an area of a premultiplied picture; None if they are none.
+    """Return the gradient of an area of a premultiplied picture; None if the area has none.
 
-    Straight ones are tried first, then circles, then ellipses.
+    Linear gradients are tried first, then circles, then ellipses.
     """
     rows, columns = np.nonzero(area)
     every = -(-len(rows) // MOST)
@@ -122,7 +122,7 @@ def fade_of(image: Levels, area: NDArray[np.bool_]) -> Fade | None:
 def _slopes(
     image: Levels, area: NDArray[np.bool_], rows: NDArray[np.intp], columns: NDArray[np.intp], reach: int
 ) -> tuple[Floats, Floats]:
-    """Points of an area around which it reaches far enough, and the slopes there, of each channel: (n, 2) both."""
+    """Return the points of an area whose surroundings lie in it, and the slopes of each channel there, both (n, 2)."""
     height, width = area.shape
     reach = max(reach, REACH)
     inside = (rows >= reach) & (rows < height - reach) & (columns >= reach) & (columns < width - reach)
@@ -136,13 +136,13 @@ def _slopes(
 
 
 def _line(points: Floats, slopes: Floats) -> tuple[Floats, Floats] | None:
-    """Map to the ramp of a linear gradient: along the direction of all slopes."""
+    """Return the map to the ramp of a linear gradient, along the direction of all slopes."""
     across, along = np.linalg.eigh(np.einsum("ni,nj->ij", slopes, slopes))[1].T
     return np.array([along, across]), np.zeros(2)
 
 
 def _circle(points: Floats, slopes: Floats) -> tuple[Floats, Floats] | None:
-    """Map to the ramp of circles: every slope points to or from their centre (d, e) / a."""
+    """Return the map to the ramp of circles: every slope points to or from their centre (d, e) / a."""
     (x, y), (right, down) = points.T, slopes.T
     a, d, e = _least(np.stack([right * y - down * x, down, -right], axis=1))
     if abs(a) < 1e-6:
@@ -151,7 +151,7 @@ def _circle(points: Floats, slopes: Floats) -> tuple[Floats, Floats] | None:
 
 
 def _ellipse(points: Floats, slopes: Floats) -> tuple[Floats, Floats] | None:
-    """Map to the ramp of ellipses p'Qp = 2 p'(d, e) + const: every slope is a multiple of Qp - (d, e)."""
+    """Return the map to the ramp of ellipses p'Qp = 2 p'(d, e) + const: every slope is a multiple of Qp - (d, e)."""
     (x, y), (right, down) = points.T, slopes.T
     terms = [-down * x, right * x - down * y, right * y, down, -right]
     a, h, b, d, e = _least(np.stack(terms, axis=1))
@@ -165,16 +165,16 @@ def _ellipse(points: Floats, slopes: Floats) -> tuple[Floats, Floats] | None:
 
 
 def _least(terms: Floats) -> Floats:
-    """Vector of length 1 whose products with the terms are least."""
+    """Return the unit vector whose products with the terms are least."""
     return np.asarray(np.linalg.eigh(np.einsum("ni,nj->ij", terms, terms))[1][:, 0], np.float64)
 
 
 def _with_stops(to_ramp: Floats, radial: bool, x: Floats, y: Floats, colours: Floats) -> Fade:
-    """Gradient whose stops follow the mean colours of the pixels; the map need not lead to 0..1."""
+    """Return a gradient whose stops follow the mean colours of the pixels; the map need not lead to 0..1."""
     place = Fade(to_ramp, radial, np.zeros(1), np.zeros((1, 4))).place(x, y)
     beyond = BEYOND * float(np.linalg.norm(to_ramp[: 1 + radial, :2], 2))
     low, high = float(place.min()) - beyond, float(place.max()) + beyond
-    start = 0.0 if radial else low  # which 0 on the ramp is
+    start = 0.0 if radial else low  # position that becomes 0 on the ramp
     scale = 1.0 / max(high - start, 1e-9)
     to_ramp = scale * (to_ramp - np.array([[0.0, 0.0, start], [0.0, 0.0, 0.0]]))
     place, first = scale * (place - start), scale * (max(low, start) - start)
@@ -187,7 +187,7 @@ def _with_stops(to_ramp: Floats, radial: bool, x: Floats, y: Floats, colours: Fl
 
 
 def _extend(offsets: Floats, levels: Floats, low: float) -> tuple[Floats, Floats]:
-    """A profile that is continued to both ends of the ramp, and the colours kept in their range."""
+    """Extrapolate a profile to both ends of the ramp, with colours clamped to their range."""
     if len(offsets) < 2:
         return offsets, levels
     ends = []
@@ -200,13 +200,13 @@ def _extend(offsets: Floats, levels: Floats, low: float) -> tuple[Floats, Floats
 
 
 def _stops(offsets: Floats, levels: Floats) -> tuple[Floats, Floats]:
-    """Fewest stops between which all others lie on straight lines, and their colours, not premultiplied."""
+    """Return the fewest stops between which all others lie on straight lines; their colours are not premultiplied."""
     plain = levels.copy()
     plain[:, :3] *= 255.0 / np.maximum(levels[:, 3:], 1e-9)
     seen = np.flatnonzero(levels[:, 3] >= min(SEEN, levels[:, 3].max()))
     nearest = seen[np.abs(np.arange(len(levels))[:, None] - seen[None]).argmin(axis=1)]
     plain[:, :3] = np.clip(plain[nearest, :3], 0.0, 255.0)
-    kept, open_parts = {0, len(offsets) - 1}, [(0, len(offsets) - 1)]
+    chosen, open_parts = {0, len(offsets) - 1}, [(0, len(offsets) - 1)]
     while open_parts:
         first, last = open_parts.pop()
         between = slice(first + 1, last)
@@ -218,7 +218,7 @@ def _stops(offsets: Floats, levels: Floats) -> tuple[Floats, Floats]:
         off = np.abs(line - levels[between]).max(axis=1)
         if off.max() > STRAIGHT:
             middle = first + 1 + int(off.argmax())
-            kept.add(middle)
+            chosen.add(middle)
             open_parts += [(first, middle), (middle, last)]
-    places = sorted(kept)
+    places = sorted(chosen)
     return offsets[places], plain[places]

@@ -1,4 +1,4 @@
-"""The tones that each pixel is a mixture of, and their shares.
+"""The two tones that mix in each pixel, and their shares.
 
 Pixels are premultiplied by their opacity, (h, w, 4) in 0..255, as in `colours`.
 """
@@ -14,32 +14,32 @@ from vexture.tracing.colours import APART, OFF_THE_LINE, Colours, Image, along, 
 from vexture.tracing.shading import NONE_HERE, Shading, Tone
 
 REACH: Final = 3
-"""Pixels from an edge within which the colours beside it are searched."""
+"""Distance from an edge, in pixels, within which its colours are searched."""
 
 BETTER: Final = 1.0
-"""Levels. Of two mixtures that describe a pixel equally well within this, the one of the nearer colours is taken."""
+"""Difference in levels within which two mixtures describe a pixel equally well; the nearer colours are then taken."""
 
 KERNEL: Final = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)
-"""Weights of the pixels in a row whose mean is taken where tones pass into one another."""
+"""Weights of the pixels in a row for the average where tones blend."""
 
 MOST_WORK: Final = 40_000_000
-"""Most mixtures to try, all pairs of colours for each pixel on an edge: some seconds."""
+"""Most mixtures to try, for all pairs of colours and all pixels on edges: some seconds."""
 
 
 class Mixture(NamedTuple):
     """Two tones of each pixel, by number, and the share of the first; arrays of (h, w).
 
-    Where tones pass into one another, each pixel has only one. An outline along such pixels would have steps, and
-    therefore the means of a few are taken.
+    Where tones blend, each pixel has only one. An outline along such pixels would have steps, so shares are averaged
+    over a few pixels.
     """
 
     first: NDArray[np.int16]
     second: NDArray[np.int16]
     share: NDArray[np.float32]
-    soft: NDArray[np.bool_]  # where tones pass into one another, without an edge
+    soft: NDArray[np.bool_]  # where tones blend, without an edge
 
     def of(self, *tones: int) -> NDArray[np.float32]:
-        """Share of some tones in each pixel."""
+        """Return the share of some tones in each pixel."""
         chosen = np.zeros(1 + max(int(self.first.max()), int(self.second.max()), *tones), np.float32)
         chosen[list(tones)] = 1.0
         share = np.asarray(chosen[self.first] * self.share + chosen[self.second] * (1.0 - self.share), np.float32)
@@ -53,7 +53,7 @@ class Mixture(NamedTuple):
 
 
 def _blur(share: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Means of the pixels around each, by `KERNEL`."""
+    """Average the pixels around each one, with the weights `KERNEL`."""
     for axis in (0, 1):
         size, reach = share.shape[axis], len(KERNEL) // 2
         padded = np.pad(share, [(reach, reach) if axis == other else (0, 0) for other in (0, 1)], mode="edge")
@@ -62,11 +62,11 @@ def _blur(share: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def mixture(image: Image, flat: Colours, shading: Shading) -> Mixture:
-    """Tones that each pixel is a mixture of: the flat colours, then those of the shaded areas.
+    """Return the tones that mix in each pixel, from the flat colours and then those of the shaded areas.
 
-    A pixel on an edge is a mixture of the tones of two areas beside it: a gray between black and white is no area of
-    gray, even if the picture has such a gray elsewhere. If no such mixture describes it, areas a little farther away
-    are tried, and then any tone, for lines too thin to show theirs anywhere.
+    A pixel on an edge is a mixture of the tones of two adjacent areas: a grey between black and white is not a grey
+    area, even if the picture has such a grey elsewhere. If no such mixture describes it, areas a little farther away
+    are tried, and then any tone, for lines too thin to show their own colour anywhere.
     """
     first, distance = _nearest(image, flat)
     is_shaded = shading.number != NONE_HERE
@@ -106,7 +106,7 @@ def mixture(image: Image, flat: Colours, shading: Shading) -> Mixture:
 
 
 def _pairs(tones: tuple[Tone, ...]) -> list[tuple[int, int]]:
-    """All pairs of tones, the nearest ones first."""
+    """Return all pairs of tones, the nearest first."""
 
     def apart(pair: tuple[int, int]) -> float:
         return float(np.linalg.norm(tones[pair[0]].colour - tones[pair[1]].colour))
@@ -115,12 +115,12 @@ def _pairs(tones: tuple[Tone, ...]) -> list[tuple[int, int]]:
 
 
 def _at(colour: Colours, chosen: NDArray[np.intp]) -> Colours:
-    """A colour, or those of some pixels."""
+    """Return a colour, or those of some pixels."""
     return colour if colour.ndim == 1 else colour[chosen]
 
 
 def _is_border(area: NDArray[np.int16]) -> NDArray[np.bool_]:
-    """Pixels around which there are two areas or more."""
+    """Return a mask of the pixels near two or more areas."""
     low = np.where(area == NONE_HERE, np.iinfo(np.int16).max, area)
     high = area
     for axis in (0, 1):
@@ -134,8 +134,8 @@ def _is_border(area: NDArray[np.int16]) -> NDArray[np.bool_]:
 def _around(
     area: NDArray[np.int16], rows: NDArray[np.intp], columns: NDArray[np.intp], count: int, reach: int
 ) -> NDArray[np.bool_]:
-    """Whether each area has a pixel no farther than `reach` from each of some pixels, also diagonally."""
-    found = np.zeros((count + 1, len(rows)), np.bool_)  # the last row for where none is known
+    """Return for each area whether it has a pixel within `reach` of given pixels, including diagonals."""
+    found = np.zeros((count + 1, len(rows)), np.bool_)  # the last row is for unknown areas
     padded = np.pad(area, reach, constant_values=NONE_HERE)
     each = np.arange(len(rows))
     for down in range(2 * reach + 1):
@@ -145,7 +145,7 @@ def _around(
 
 
 def _nearest(image: Image, colours: Colours) -> tuple[NDArray[np.int16], NDArray[np.float32]]:
-    """Number of the nearest colour of each pixel, and the distance."""
+    """Return the number of the nearest colour of each pixel, and the distance."""
     number = np.zeros(image.shape[:2], np.int16)
     least = np.full(image.shape[:2], np.inf, np.float32)
     for place, colour in enumerate(colours):
@@ -157,12 +157,12 @@ def _nearest(image: Image, colours: Colours) -> tuple[NDArray[np.int16], NDArray
 
 
 def _solid(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Morphological opening of a mask by a square of 3 x 3 pixels."""
+    """Return the morphological opening of a mask by a square of 3 x 3 pixels."""
     return dilate(~dilate(~np.pad(mask, 1, mode="edge")))[1:-1, 1:-1]
 
 
 def _passed_on_the_way(colours: Colours, first: NDArray[np.int16], pure: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Pixels of thin areas whose colour is only a mixture of two others beside them."""
+    """Return a mask of thin areas whose colour is only a mixture of two adjacent colours."""
     passed = np.zeros_like(pure)
     between: dict[int, list[tuple[int, int]]] = {}
     for number, colour in enumerate(colours):

@@ -1,6 +1,6 @@
-"""Areas of a picture whose colour changes smoothly: as gradients where they are some, else in steps of colour.
+"""Areas of a picture whose colour changes smoothly: gradients if possible, otherwise steps of colour.
 
-Where neighbours hardly differ is no edge, and a flat colour stays what it is over such an area. An area over which the
+There is no edge where neighbours hardly differ, and a flat colour stays constant over such an area. An area whose
 colour does not is shaded.
 """
 
@@ -16,45 +16,45 @@ from vexture.tracing.fades import Fade, fade_of
 SHADED: Final = 16.0
 NOISES: Final = 12.0
 USUAL: Final = (0.04, 0.96)
-"""Levels of 255 by which the colours of a shaded area differ at least, between these two quantiles: as many, and so
-many times the noise, which at the edges of a JPEG is large."""
+"""Least range of colours in a shaded area, between these two quantiles, in levels of 255: a constant plus a multiple of
+the noise, which is large at the edges of a JPEG."""
 
 STEEP: Final = 64.0
 BENT: Final = 5.0
-"""Levels by which the neighbours of a pixel of a shaded area may differ, and by which it may differ from their mean,
-twice. At an edge, also a blurred one, either is exceeded."""
+"""Limits in levels for a pixel of a shaded area: for the difference of its neighbours, and for twice its own difference
+from their mean. An edge, even a blurred one, exceeds one of them."""
 
 LEAST_AREA: Final = 64
 LEAST_PART: Final = 0.004
-"""Fewest pixels of a shaded area, and smallest share of the picture: smaller ones are noise of a JPEG, or unseen."""
+"""Fewest pixels of a shaded area, and its least fraction of the picture; smaller ones are JPEG noise, or invisible."""
 
 MOST_AREAS: Final = 64
-"""Most gradients of a picture, of its largest shaded areas; the others are drawn in steps."""
+"""Most gradients of a picture, for its largest shaded areas; the others are drawn in steps."""
 
 GROWTH: Final = 12
 ALIKE: Final = 8.0
-"""Pixels around a shaded area to which it may extend, such as over the noise of a JPEG at edges, and the levels within
-which they must have a colour of its steps."""
+"""Pixels by which a shaded area may grow, such as over JPEG noise at edges, and the largest difference, in levels, of
+these pixels from its steps."""
 
 LIKE_BACKGROUND: Final = 1.0
 NEAR_BACKGROUND: Final = 2.5
-"""Levels by which a pixel, and a tone there, may differ from the background to be a part of it. Where a gradient ends
-in the background, pixels do so along a ragged line; the gradient that was found ends along a smooth one, within it."""
+"""Largest differences, in levels, of a pixel and of its tone from the background if it belongs to that. A gradient that
+ends in the background has a ragged end in pixels; the detected gradient has a smooth end inside it."""
 
 STEP: Final = 2.5
 MOST_STEPS: Final = 64
 MOST_SOFT_STEPS: Final = 24
-"""Levels by which colours drawn in steps may be off (root mean square), and most steps for it; fewer where they are
-translucent, since each is seen through all that are painted over it."""
+"""Limits for colours drawn in steps: root mean square error in levels, and number of steps, which is lower for
+translucent colours, since each one shows through all those painted over it."""
 
 ROUNDS: Final = 4
-"""Of moving each colour to the mean of what is nearest to it."""
+"""Rounds in which each colour moves to the mean of its nearest pixels."""
 
 TRANSLUCENT: Final = 250.0
-"""Levels. Colours of at least this opacity count as opaque."""
+"""Least opacity, in levels, of colours that count as opaque."""
 
 NONE_HERE: Final = -1
-"""Number of the tone where none is known."""
+"""Number of an unknown tone."""
 
 
 class Tone(NamedTuple):
@@ -65,17 +65,17 @@ class Tone(NamedTuple):
 
     @property
     def is_opaque(self) -> bool:
-        """Whether nothing shows through it."""
+        """True if nothing shows through it."""
         opacities = self.colour[3] if self.fade is None else self.fade.colours[:, 3]
         return bool(np.min(opacities) >= TRANSLUCENT)
 
     def at(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> Colours:
-        """Premultiplied colour of pixels, (4,) or (pixels, 4)."""
+        """Return the premultiplied colour of pixels, (4,) or (pixels, 4)."""
         return self.colour if self.fade is None else self.fade.at(columns + 0.5, rows + 0.5)
 
 
 class Shading(NamedTuple):
-    """Tones of the shaded areas; of each pixel, (h, w), its tone's number, and whether there is no edge around it."""
+    """Tones of the shaded areas; for each pixel, (h, w), its tone's number, and whether there is no edge around it."""
 
     tones: tuple[Tone, ...]
     number: NDArray[np.int16]
@@ -83,13 +83,13 @@ class Shading(NamedTuple):
 
     @property
     def samples(self) -> Colours:
-        """Colours that are in it: those of the stops of gradients."""
+        """Colours of the shading, for gradients those of their stops."""
         found = [tone.colour[None] if tone.fade is None else tone.fade.along(tone.fade.offsets) for tone in self.tones]
         return np.concatenate([np.empty((0, 4)), *found]).astype(np.float32)
 
 
 def shading_of(image: Image, background: Colours | None) -> Shading:
-    """Shaded areas of a premultiplied picture: gradients where colours change evenly, then what changes slowly."""
+    """Find the shaded areas of a premultiplied picture: first even changes (gradients), then slow changes."""
     flat = is_flat(image)
     even = flat | _is_even(image)
     own = even if background is None else even & _differs(image, background, LIKE_BACKGROUND)
@@ -127,7 +127,7 @@ def _number_steps(
     free: NDArray[np.bool_],
     steps: Colours,
 ) -> None:
-    """Number the pixels of an area that is drawn in steps, and around it those of nearly the same colours."""
+    """Number the pixels of an area drawn in steps, and pixels around it with nearly the same colours."""
     around = area | (dilate(area, GROWTH) & free)
     values = image[around]
     which = nearest(values, steps)
@@ -142,7 +142,7 @@ def _number_steps(
 def _number(
     number: NDArray[np.int16], tone: int, image: Image, area: NDArray[np.bool_], fade: Fade, background: Colours | None
 ) -> None:
-    """Number the pixels of a gradient: those of its area, and around it all that have its colours, too."""
+    """Number the pixels of a gradient: those of its area, and those around it with its colours."""
     box = tuple(
         slice(max(int(found[0]) - GROWTH, 0), int(found[-1]) + 1 + GROWTH)
         for found in (np.flatnonzero(area.any(axis=1)), np.flatnonzero(area.any(axis=0)))
@@ -159,13 +159,13 @@ def _number(
 
 
 def _differs(colours: Colours, others: Colours, by: float) -> NDArray[np.bool_]:
-    """Colours, in the last axis, that differ from others in any channel."""
+    """Return whether colours, in the last axis, differ from others in any channel."""
     return np.asarray((np.abs(colours - others) > by).any(axis=-1), np.bool_)
 
 
 def _is_even(image: Image) -> NDArray[np.bool_]:
-    """Pixels around which the colour changes, but everywhere alike."""
-    padded = np.pad(image, ((1, 1), (1, 1), (0, 0)), mode="reflect", reflect_type="odd")  # what lies beyond goes on
+    """Return a mask of the pixels around which the colour changes evenly."""
+    padded = np.pad(image, ((1, 1), (1, 1), (0, 0)), mode="reflect", reflect_type="odd")  # the border is extrapolated
     height, width = image.shape[:2]
     even = np.ones((height, width), np.bool_)
     for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
@@ -177,9 +177,9 @@ def _is_even(image: Image) -> NDArray[np.bool_]:
 
 
 def pieces(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Number from 1 of the connected piece of each pixel, by sides, and 0 outside; numbers have gaps.
+    """Number the connected pieces of a mask, by sides; 0 is outside, and numbers from 1 may have gaps.
 
-    Runs of rows are joined with those that they touch below, until no two of a piece have different numbers.
+    Runs in rows are joined with those that they touch below, until all runs of a piece have one number.
     """
     padded = np.pad(mask, ((0, 0), (1, 0)))
     begins = padded[:, 1:] & ~padded[:, :-1]
@@ -201,7 +201,7 @@ def pieces(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
 
 
 def _shaded_areas(image: Image, piece: NDArray[np.intp]) -> Iterator[NDArray[np.bool_]]:
-    """Areas whose colours differ, the largest first."""
+    """Yield the areas with varying colours, the largest first."""
     count = np.bincount(piece.ravel())
     count[0] = 0
     order = np.argsort(piece, axis=None, kind="stable")
@@ -220,7 +220,7 @@ def _shaded_areas(image: Image, piece: NDArray[np.intp]) -> Iterator[NDArray[np.
 
 
 def steps_of(pixels: Colours, most: int) -> Colours:
-    """Few colours for many: the worst group of them is split, until what is left is small or there are enough."""
+    """Reduce many colours to few: split the worst group until the error is small or there are `most` colours."""
     means, counts = bin_colours(pixels)
     group = np.zeros(len(means), np.intp)
     spread = [_spread(means, counts)]
@@ -245,13 +245,13 @@ def steps_of(pixels: Colours, most: int) -> Colours:
 
 
 def _spread(means: Colours, counts: NDArray[np.intp]) -> float:
-    """Sum of the squared distances of colours from their mean."""
+    """Return the sum of the squared distances of colours from their mean."""
     away = means - np.average(means, axis=0, weights=counts)
     return float((counts * np.einsum("ni,ni->n", away, away)).sum())
 
 
 def nearest(pixels: Colours, colours: Colours) -> NDArray[np.intp]:
-    """Number of the colour nearest to each pixel."""
+    """Return the number of the nearest colour of each pixel."""
     best, least = np.zeros(len(pixels), np.intp), np.full(len(pixels), np.inf, np.float32)
     for number, colour in enumerate(colours):
         away = pixels - colour

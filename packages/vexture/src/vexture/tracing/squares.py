@@ -1,4 +1,4 @@
-"""Pixel art: pictures that are meant as squares, of which each colour becomes the exact outline of its pixels."""
+"""Pixel art: pictures made of squares; each colour becomes the exact outline of its squares."""
 
 from math import gcd
 from typing import Final
@@ -9,33 +9,34 @@ from numpy.typing import NDArray
 from vexture.tracing.colours import LEVEL
 
 MOST_CELLS: Final = 64
-"""Squares on the longer side; of a picture that shows each as several pixels, four times as many."""
+"""Most squares on the longer side, and four times as many if each one is several pixels wide."""
 
 MOST_INKS: Final = 64
 """Most colours of pixel art."""
 
 STEP: Final = 48.0
-"""Levels. An edge is where neighbours differ by more; a pixel between two that do may be a mixture of both."""
+"""Difference of neighbours, in levels, above which there is an edge; a pixel between two edges may be a mixture."""
 
 NEAR_THE_LINE: Final = 12.0
-"""Levels. Such a pixel is a mixture if it is no farther from the straight line between the two colours."""
+"""Largest distance, in levels, of a mixture from the straight line between its two colours."""
 
 MOST_MIXED: Final = 0.12
 MOST_MIXED_INKS: Final = 1 / 6
 MOST_OPACITIES: Final = 4
-"""Most pixels of such mixtures, as a share of those on edges; most colours, if there are several, that are hardly
-anything else, as a share of all; and most opacities of translucent colours. Smooth edges have more, as measured on
-drawings of 12 to 64 pixels."""
+"""Limits for pixel art: mixtures as a fraction of the pixels on edges; colours that occur mainly as mixtures, if any,
+as a fraction of all; and opacities of translucent colours. Smooth edges exceed them, as measured on drawings of 12
+to 64 pixels."""
 
 Pixels = NDArray[np.uint8]
 
 
 def cells_of(pixels: Pixels) -> Pixels | None:
-    """Squares of pixel art, (rows, columns, 4) of sRGB and opacity; None of any other picture.
+    """Return the squares of pixel art, (rows, columns, 4) of sRGB and opacity; None for any other picture.
 
-    Its colours are few. Either it is small and has no smooth edges, or each of its squares is several pixels wide.
+    Pixel art has few colours. Either it is small and has no smooth edges, or each of its squares is several pixels
+    wide.
     """
-    pixels = np.where(pixels[..., 3:] > 0, pixels, np.uint8(0))  # what is not seen has no colour
+    pixels = np.where(pixels[..., 3:] > 0, pixels, np.uint8(0))  # invisible pixels have no colour
     times = _times(pixels)
     cells = pixels[::times, ::times]
     if _is_gradual(cells):
@@ -48,7 +49,7 @@ def cells_of(pixels: Pixels) -> Pixels | None:
 
 
 def _is_gradual(cells: Pixels) -> bool:
-    """Whether most squares that differ from a neighbour hardly do so."""
+    """Return whether most of the squares that differ from a neighbour differ only slightly."""
     levels = cells.astype(np.int16)
     steps = [np.abs(levels[1:] - levels[:-1]), np.abs(levels[:, 1:] - levels[:, :-1])]
     largest = np.concatenate([step.max(axis=2).ravel() for step in steps])
@@ -56,7 +57,7 @@ def _is_gradual(cells: Pixels) -> bool:
 
 
 def _times(pixels: Pixels) -> int:
-    """Largest side of squares of one colour that the picture consists of."""
+    """Return the largest side of squares of one colour that make up the picture."""
     across = (pixels[:, 1:] != pixels[:, :-1]).any(axis=(0, 2))
     down = (pixels[1:] != pixels[:-1]).any(axis=(1, 2))
     places = (int(place) + 1 for change in (across, down) for place in np.flatnonzero(change))
@@ -64,7 +65,7 @@ def _times(pixels: Pixels) -> int:
 
 
 def _has_smooth_edges(cells: Pixels) -> bool:
-    """Whether edges run through pixels, which have colours of their own for that."""
+    """Return whether edges run through pixels, which then have mixed colours."""
     values = cells.astype(np.float32)
     values[..., :3] *= values[..., 3:] / 255.0
     mixed, edge = (np.zeros(cells.shape[:2], np.bool_) for _ in range(2))
@@ -85,7 +86,7 @@ def _has_smooth_edges(cells: Pixels) -> bool:
 
 
 def _is_between(colour: NDArray[np.float32], a: NDArray[np.float32], b: NDArray[np.float32]) -> NDArray[np.bool_]:
-    """True where a colour is a mixture of two that differ from it and from one another."""
+    """Return whether a colour is a mixture of two others that differ from it and from each other."""
     way, away = b - a, colour - a
     length = np.linalg.norm(way, axis=2)
     share = (away * way).sum(axis=2) / np.maximum(length * length, 1e-9)
@@ -94,10 +95,10 @@ def _is_between(colour: NDArray[np.float32], a: NDArray[np.float32], b: NDArray[
 
 
 def squares_document(cells: Pixels, background: NDArray[np.float32] | None, whole: bool) -> tuple[bytes, bool]:
-    """SVG of all colours, large areas first, and whether the picture has a background.
+    """Return the SVG of all colours, large areas first, and whether the picture has a background.
 
-    The background is premultiplied, 0..255; without one, it is the lighter of two colours. It is left out, unless the
-    `whole` is asked for: then only what is transparent.
+    `background` is premultiplied, 0..255; if it is None, the lighter of two colours is the background. The background
+    is left out. With `whole`, only transparent pixels are left out.
     """
     inks, number, count = np.unique(cells.reshape(-1, 4), axis=0, return_inverse=True, return_counts=True)
     number = number.reshape(cells.shape[:2])
@@ -120,10 +121,10 @@ def squares_document(cells: Pixels, background: NDArray[np.float32] | None, whol
 
 
 def squares(mask: NDArray[np.bool_]) -> str:
-    """Outline of cells as SVG path data, each side once, in cells; inside is where it winds clockwise.
+    """Return the outline of cells as SVG path data, with each side once; the inside is where it winds clockwise.
 
-    Sides are directed with the cells to their right. Where two cells touch at a corner only, the outline turns right
-    and leaves each its own.
+    Sides have the cells to their right. If two cells touch only at a corner, the outline turns right and separates
+    them.
 
     Examples
     --------
@@ -133,7 +134,7 @@ def squares(mask: NDArray[np.bool_]) -> str:
     ahead = _sides(mask)
     parts = []
     while ahead:
-        first = (point, heading) = next(iter(ahead))  # of those to the right, the leftmost of its line: at a corner
+        first = (point, heading) = next(iter(ahead))  # at a corner, the leftmost of those to the right
         data = f"M{point[0]} {point[1]}"
         while (point, heading) in ahead:
             point_at = ahead.pop((point, heading))
@@ -147,7 +148,7 @@ def squares(mask: NDArray[np.bool_]) -> str:
 
 
 def _sides(mask: NDArray[np.bool_]) -> dict[tuple[tuple[int, int], int], tuple[int, int]]:
-    """Ends of all sides between a cell and what is no cell, by their starts and headings: right, down, left, up."""
+    """Return the ends of all sides between cells and non-cells, by start and heading: right, down, left, up."""
     cells = np.pad(mask, 1)
     inside = cells[1:-1, 1:-1]
     outside = (~cells[:-2, 1:-1], ~cells[1:-1, 2:], ~cells[2:, 1:-1], ~cells[1:-1, :-2])

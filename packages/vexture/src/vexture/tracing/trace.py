@@ -1,4 +1,4 @@
-"""Raster images as drawings (thesis 4.2): one flat colour or gradient after another."""
+"""Raster images as drawings (thesis 4.2), traced as one flat colour or gradient after another."""
 
 import os
 import warnings
@@ -25,20 +25,20 @@ if TYPE_CHECKING:  # imported at run time for pictures only
     from PIL import Image
 
 LONGEST: Final = 2048
-"""Most pixels on the longer side; a larger picture is reduced first."""
+"""Longest side in pixels; a larger picture is reduced first."""
 
 PHOTO_LONGEST: Final = 512
 PHOTO_COLOURS: Final = 16
 PHOTO_BLUR: Final = 1.5
 PHOTO_SPECKLE: Final = 4
-"""A photograph is reduced to this many pixels on its longer side, blurred by this many and reduced to this many
-colours. Areas of fewer pixels than the square of the last number are left out."""
+"""Treatment of a photograph: longer side in pixels after reduction, radius of blur, number of colours, and side of the
+smallest areas: those with fewer pixels than its square are left out."""
 
 MOST_PIXELS: Final = 50_000_000
-"""Most pixels of a picture: a file of a few kilobytes can declare a huge size."""
+"""Most pixels of a picture; a file of a few kilobytes can declare a huge size."""
 
 TEXTS: Final = "vexture."
-"""Prefix of the PNG keywords in images of the encoding thesis (FORMAT.md)."""
+"""Prefix of PNG keywords in images of the thesis encoding (FORMAT.md)."""
 
 TEXTURE: Final = (
     "is an image of a texture of the encoding thesis, not a picture; convert the drawing that it was made from"
@@ -46,16 +46,16 @@ TEXTURE: Final = (
 
 
 def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = None) -> Drawing:
-    """Read a raster image: PNG, JPEG, WebP, GIF (its first image) or BMP, by its content.
+    """Read a raster image, recognized by its content: PNG, JPEG, WebP, GIF (first image) or BMP.
 
-    `vexture.trace` describes how it is traced; its EXIF orientation is applied.
+    `vexture.trace` describes the tracing. The EXIF orientation is applied.
 
     Parameters
     ----------
     source : path or bytes
         The file, or its content.
     file_name : str, optional
-        Name of the file, if `source` is its content: names the drawing, also in messages.
+        Name of the file if `source` is its content, for the drawing and for messages.
 
     Returns
     -------
@@ -65,16 +65,16 @@ def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = N
     Raises
     ------
     SourceError
-        If it cannot be read, is no picture, or is an image of a texture.
+        If it cannot be read, is not a picture, or is an image of a texture.
     LimitError
-        If it has too many pixels, or becomes too many curves.
+        If it has too many pixels, or its drawing would have too many curves.
     DeviceError
         If the package vtracer is missing.
 
     Warns
     -----
     SourceWarning
-        If it has no background, or no flat colours.
+        If it has no background or no flat colours.
 
     Examples
     --------
@@ -87,41 +87,40 @@ def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = N
     >>> bool(np.abs(read_image(file.getvalue(), "box.png").paths[0].box - [(0.25, 0.5), (0.75, 0.75)]).max() < 0.01)
     True
     """
-    given = file_name or (None if isinstance(source, bytes) else os.fspath(source))
-    shown = given or "the picture"
-    with about(shown):
-        drawing = image_drawing(source, FilePath(given).stem if given else "drawing")
-    warn_of(shown, drawing.notes)
+    name = file_name or (None if isinstance(source, bytes) else os.fspath(source))
+    label = name or "the picture"
+    with about(label):
+        drawing = image_drawing(source, FilePath(name).stem if name else "drawing")
+    warn_of(label, drawing.notes)
     return drawing
 
 
 def image_drawing(source: str | os.PathLike[str] | bytes, name: str) -> Drawing:
-    """Drawing of `read_image`, without a warning: the notes are in the drawing."""
+    """Read a picture as `read_image` does, without a warning: the drawing contains the notes."""
     return _trace_pixels(pixels_of(source), name)
 
 
 def embedded_image(content: bytes) -> Drawing:
-    """Drawing of a picture in another drawing: as `image_drawing`, with its background, unless that is transparent."""
+    """Read a picture inside another drawing as `image_drawing` does, but keep an opaque background."""
     return _trace_pixels(pixels_of(content), "image", whole=True)
 
 
 def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
     """Trace a raster image.
 
-    The outline lies where a pixel is half covered, to about a sixth of a pixel. The first of these that fits the
-    picture decides what is painted:
+    The outline is where a pixel is half covered, to about a sixth of a pixel. The first case that fits decides which
+    pixels are painted:
 
     - a picture with transparent pixels: all others;
-    - a border of one colour: all pixels but those of that colour;
+    - a border of one colour: all pixels except those of that colour;
     - two colours: the darker one;
     - any other picture: all of it.
 
-    Flat colours become paths of that paint, each of which extends slightly under those painted after it. Linear and
-    radial gradients, also elliptic ones, become paths of such a gradient. Other areas whose colour changes smoothly are
-    drawn in up to 64 steps, translucent ones in up to 24, each over the less opaque one beside it. A picture of many
-    colours, such as a photograph, is traced coarsely. Pixel art, which has up to 64 colours, none of them on
-    smooth edges, and up to 64 pixels on its longer side, becomes the exact outlines of its pixels, also if it is
-    enlarged.
+    Flat colours become paths with that paint, each of which extends slightly under those painted after it. Linear and
+    radial gradients, including elliptic ones, become paths with such a gradient. Other smoothly shaded areas are drawn
+    in up to 64 steps, or translucent ones in up to 24, each painted over the less opaque one next to it. A picture of
+    many colours, such as a photograph, is traced coarsely. Pixel art becomes the exact outlines of its pixels, even if
+    it is enlarged. It has up to 64 colours, no smooth edges, and up to 64 pixels on its longer side.
 
     Parameters
     ----------
@@ -129,12 +128,12 @@ def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
         ``(height, width)`` gray, or ``(height, width, 3 or 4)`` sRGB and opacity, not premultiplied; uint8, or float
         in 0..1; top row first.
     name : str
-        Names the drawing.
+        Name of the drawing.
 
     Returns
     -------
     Drawing
-        As of `vexture.read_image`, as are errors and warnings.
+        As from `vexture.read_image`; errors and warnings are also the same.
 
     Examples
     --------
@@ -151,7 +150,7 @@ def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
 
 
 def _as_pixels(image: NDArray[Any]) -> NDArray[np.uint8]:
-    """Array as 8-bit sRGB and opacity."""
+    """Convert an array to 8-bit sRGB and opacity."""
     if image.ndim == 2:
         image = image[..., None].repeat(3, axis=2)
     if image.ndim != 3 or image.shape[2] not in (3, 4) or not image.size:
@@ -167,7 +166,7 @@ def _as_pixels(image: NDArray[Any]) -> NDArray[np.uint8]:
 
 
 def _trace_pixels(pixels: NDArray[np.uint8], name: str, *, whole: bool = False) -> Drawing:
-    """Trace 8-bit sRGB and opacity, (height, width, 4); `whole` with an opaque background."""
+    """Trace 8-bit sRGB and opacity, (height, width, 4); with `whole`, keep an opaque background."""
     notes = Notes()
     cells = cells_of(pixels)
     if cells is None:
@@ -185,13 +184,13 @@ def _trace_pixels(pixels: NDArray[np.uint8], name: str, *, whole: bool = False) 
 
 
 def _smooth_document(pixels: NDArray[np.uint8], whole: bool, notes: Notes) -> tuple[bytes, tuple[int, int], bool]:
-    """SVG of a picture with smooth edges, its size, and whether it has a background."""
+    """Return the SVG of a picture with smooth edges, its size, and whether it has a background."""
     image = _reduce(pixels, LONGEST)
     background = background_of(image)
     shading = shading_of(image, background)
     flat = flat_colours(image, background, shading.number != NONE_HERE, shading.samples)
     if background is None and flat is not None and len(flat) == 2 and not shading.tones:
-        background = flat[int(flat.sum(axis=1).argmax())]  # the lighter one, for ink that reaches the border
+        background = flat[int(flat.sum(axis=1).argmax())]  # the lighter one, since ink may reach the border
         flat = np.concatenate([background[None], flat[(flat != background).any(axis=1)]])
     first = 0 if background is None or (whole and background[3] > 0.0) else 1
     try:
@@ -207,7 +206,7 @@ def _smooth_document(pixels: NDArray[np.uint8], whole: bool, notes: Notes) -> tu
 
 
 def _reduce(pixels: NDArray[np.uint8], longest: int) -> NDArray[np.float32]:
-    """Premultiplied levels of a picture, reduced to a longest side."""
+    """Reduce a picture to a longest side; return premultiplied levels."""
     from PIL import Image
 
     height, width = pixels.shape[:2]
@@ -220,7 +219,7 @@ def _reduce(pixels: NDArray[np.uint8], longest: int) -> NDArray[np.float32]:
 
 
 def _posterise(image: NDArray[np.float32], background: NDArray[np.float32] | None) -> tuple[list[Tone], Mixture]:
-    """A few colours for a photograph, the background first, and which of them each pixel has when it is smoothed."""
+    """Return a few colours for a photograph, the background first, and the colour of each pixel after smoothing."""
     from PIL import Image, ImageFilter
 
     smooth = Image.fromarray(np.rint(image).astype(np.uint8)).filter(ImageFilter.GaussianBlur(PHOTO_BLUR))
@@ -234,7 +233,7 @@ def _posterise(image: NDArray[np.float32], background: NDArray[np.float32] | Non
 
 
 def pixels_of(source: str | os.PathLike[str] | bytes) -> NDArray[np.uint8]:
-    """Pixels of a picture, or of the first one of an animation, as (height, width, 4) of sRGB and opacity.
+    """Return the pixels of a picture, or of the first image of an animation, (height, width, 4) of sRGB and opacity.
 
     The EXIF orientation is applied. An image of a texture is refused.
     """
@@ -245,7 +244,7 @@ def pixels_of(source: str | os.PathLike[str] | bytes) -> NDArray[np.uint8]:
 
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about sizes, which are checked here, and about damaged metadata
+            warnings.simplefilter("ignore")  # on sizes, which are checked here, and on damaged metadata
             with Image.open(BytesIO(content), formats=PICTURE_FORMATS) as picture:
                 if any(isinstance(key, str) and key.startswith(TEXTS) for key in picture.info):
                     raise SourceError(TEXTURE)
@@ -267,7 +266,7 @@ def _upright(picture: "Image.Image") -> NDArray[np.uint8]:
     from PIL import Image, ImageOps
 
     picture.load()
-    if picture.mode.startswith("I"):  # gray of 16 bits, which Pillow would clip
+    if picture.mode.startswith("I"):  # 16-bit gray, which Pillow would clip
         gray = np.asarray(picture, np.int64)
         gray = np.clip(gray >> 8 if gray.max() > 255 else gray, 0, 255)
         picture = Image.fromarray(gray.astype(np.uint8))

@@ -1,1 +1,1 @@
-"""Text of SVG (SVG 2, 11): from an element and the elements in it to outlines in their places."""
+"""SVG text (SVG 2, 11): from a text element to positioned outlines."""

@@ -1,4 +1,4 @@
-"""Lines under, over and through the characters of a text (CSS Text Decoration 4; SVG 2, 11.10)."""
+"""Underlines, overlines and line-throughs of a text (CSS Text Decoration 4; SVG 2, 11.10)."""
 
 import re
 from collections.abc import Sequence
@@ -24,45 +24,45 @@ STYLES: Final = ("solid", "dashed", "dotted", "double", "wavy")
 DECORATION: Final = ("text-decoration", "text-decoration-line", "text-decoration-style")
 LOOK: Final = ("text-decoration-color", "text-decoration-thickness")
 USUAL: Final = frozenset({*WORDS, *STYLES, "none", "blink", "auto", "from-font", "currentcolor"})
-"""Words that name a line, its style, or what is drawn anyhow: in the text's paint, a line as the font says."""
+"""Words that need no note: lines, styles, and defaults such as the text's paint or the font's thickness."""
 
 WORD = re.compile(r"[^\s(]+(?:\([^)]*\))?")
 
 LONGEST: Final = 200
-"""Characters of a property that are read."""
+"""Longest value of a property that is read, in characters."""
 
 DASHES: Final = {"dashed": (3.0, 2.0), "dotted": (0.0, 2.0)}
-"""Lengths of dashes and gaps in thicknesses of the line; those of no length have round caps."""
+"""Lengths of dashes and gaps in line thicknesses; dashes of zero length have round caps."""
 
 APART: Final = 2.0
-"""Distance between the middles of a double line, in thicknesses."""
+"""Distance between the centres of a double line, in line thicknesses."""
 
 TINY: Final = 1e-3
-"""Length of a dot before its caps, in thicknesses: a dash of no length has no direction."""
+"""Length of a dot without its caps, in line thicknesses; a dash of zero length would have no direction."""
 
 WAVE, HEIGHT = 6.0, 1.5
-"""Length of a wave and its height above the middle, in thicknesses."""
+"""Length of a wave, and its height above the middle, in line thicknesses."""
 
 MOST_PERIODS: Final = 2_000
-"""Dashes or waves along a line; one of more is plain, as no eye tells them apart."""
+"""Most dashes or waves along a line; with more they are invisible, and the line is plain."""
 
 Member = tuple[GlyphCluster, Transform, bool]
-"""A cluster that is shown, its matrix, and whether a line begins at it."""
+"""A visible cluster, its matrix, and True if a line starts at it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Decoration:
     """Style of the lines of a span."""
 
-    place: ElementPlace  # with the style that paints them
+    place: ElementPlace  # its style paints the lines
     style: str  # one of `STYLES`
-    thickness: float | None  # user units; None for what the font says
+    thickness: float | None  # user units; None for the font's own
 
 
 def decoration(span: Span, word: str, report: Report) -> Decoration | None:
-    """Style of a line of a span: as the nearest element that declares it; None without one.
+    """Return the style of a line of a span, from the nearest element that declares it; None without one.
 
-    A line that is declared outside the text is painted as the text is.
+    A line declared outside the text is painted like the text.
     """
     place: ElementPlace | None = span.place
     text = next(each for each in span.around if each.outer is None).place
@@ -77,14 +77,14 @@ def decoration(span: Span, word: str, report: Report) -> Decoration | None:
 
 
 def words_of(place: ElementPlace, properties: Sequence[str]) -> list[str]:
-    """Words of some properties at a place; a function with its arguments is one."""
+    """Return the words of some properties at a place; a function with its arguments is one word."""
     return WORD.findall(" ".join(place.style[name][:LONGEST] for name in properties).lower())
 
 
 def read_decoration(target: ElementPlace, place: ElementPlace, report: Report) -> Decoration:
-    """A decoration that is painted at its own place, with the look that another one declares.
+    """Return a decoration that is painted in one place, with the style that another place declares.
 
-    A colour is that of all of the line, which then has no stroke.
+    A colour applies to the whole line, which then has no stroke.
     """
     style, thickness = STYLES[0], None
     unknown = []
@@ -108,7 +108,7 @@ def read_decoration(target: ElementPlace, place: ElementPlace, report: Report) -
 
 
 def line_outlines(members: Sequence[Member], word: str, decor: Decoration, vertical: bool) -> tuple[ShapeOutline, ...]:
-    """The lines of a kind along the clusters of a span."""
+    """Return the outlines of a kind of line along the clusters of a span."""
     outlines: list[ShapeOutline] = []
     begin: tuple[GlyphCluster, Transform] | None = None
     width = 0.0
@@ -126,7 +126,7 @@ def line_outlines(members: Sequence[Member], word: str, decor: Decoration, verti
 def line(
     cluster: GlyphCluster, matrix: Transform, width: float, word: str, decor: Decoration, vertical: bool
 ) -> list[ShapeOutline]:
-    """A line of a width that begins at a cluster."""
+    """Return the outlines of a line of a given width that starts at a cluster."""
     over, under = extent(cluster)
     position, usual = (part * cluster.scale for part in cluster.face.underline)
     thickness = usual if decor.thickness is None else decor.thickness
@@ -134,9 +134,9 @@ def line(
         position = over
     elif word == "line-through":
         position = cluster.face.strikeout[0] * cluster.scale
-    elif vertical:  # beside the characters, as in browsers, where none of them crosses it
+    elif vertical:  # next to the characters, as in browsers, where no line crosses them
         position = -under
-    if cluster.upright:  # the line stays in the direction of the text, of which the middle is its origin
+    if cluster.upright:  # the line stays in the direction of the text, whose origin is in the middle
         matrix, position = matrix.rotate(np.pi / 2.0), position - (over - under) / 2.0
     right = width / cluster.stretch
     contours = looks(decor, -position, right, thickness, word)
@@ -144,7 +144,7 @@ def line(
 
 
 def looks(decor: Decoration, y: float, right: float, thickness: float, word: str) -> list[NDArray[np.float64]]:
-    """Contours of a line from 0 to the right at a height; those of more than one stay away from the characters."""
+    """Return the contours of a line from 0 to the right; the second line of a double one is away from the text."""
     if right <= 0.0 or thickness <= 0.0:
         return []
     if decor.style == "double":
@@ -167,16 +167,16 @@ def looks(decor: Decoration, y: float, right: float, thickness: float, word: str
 
 
 def bar(right: float, y: float, thickness: float) -> NDArray[np.float64]:
-    """Contour of a line that is thick to both sides of a height."""
+    """Return the contour of a straight line, with half of its thickness on each side of a height."""
     return ShapeOutline.rectangle(0.0, y - thickness / 2.0, right, thickness).cubics
 
 
 def wave(right: float, y: float, thickness: float) -> ShapeOutline:
-    """Half waves about a height, as many as fit, the first one downwards."""
+    """Return as many half waves about a height as fit, the first one downwards."""
     count = max(1, round(right / (WAVE * thickness / 2.0)))
     ends = np.linspace(0.0, right, count + 1)
     signs = np.where(np.arange(count) % 2, -1.0, 1.0)
-    arms = y + signs * HEIGHT * thickness * 4.0 / 3.0  # a cubic is 3/4 as high in its middle as both arms
+    arms = y + signs * HEIGHT * thickness * 4.0 / 3.0  # the middle of a cubic reaches 3/4 of the height of its arms
     middles = (ends[:-1] + ends[1:]) / 2.0
     flat = np.full(count, y)
     points = [(ends[:-1], flat), (middles, arms), (middles, arms), (ends[1:], flat)]

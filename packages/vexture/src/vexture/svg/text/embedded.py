@@ -1,4 +1,4 @@
-"""Fonts of a drawing: `@font-face` rules with data in them, or names of other fonts (CSS Fonts 4, 11)."""
+"""Fonts of a drawing: `@font-face` rules with embedded data, or with names of other fonts (CSS Fonts 4, 11)."""
 
 import re
 from base64 import b64decode
@@ -15,21 +15,21 @@ from vexture.svg.stylesheets import FontFace
 from vexture.svg.text.font_query import families, stretch
 
 SOURCE = re.compile(r"(url|local)\(\s*(['\"]?)(.*?)\2\s*\)", re.DOTALL | re.IGNORECASE)
-IN_FILE = re.compile(r"url\(\s*['\"]?#", re.IGNORECASE)  # the element <font> of SVG 1.1
+IN_FILE = re.compile(r"url\(\s*['\"]?#", re.IGNORECASE)  # the SVG 1.1 element <font>
 DATA = re.compile(r"data:([^,]*),(.*)", re.DOTALL)
 RANGE = re.compile(r"U\+([0-9A-F]{0,6})(\?{0,6})(?:-([0-9A-F]{1,6}))?", re.IGNORECASE)
 
 MOST_FONTS: Final = 100
 
 MOST_RANGES: Final = 1_000
-"""Of a font; the fonts of a script have some hundreds."""
+"""Most ranges of a font; the fonts of a script have some hundreds."""
 
 LAST: Final = 0x10FFFF
-"""Of all characters."""
+"""Last character code."""
 
 
 def embedded_fonts(rules: Sequence[FontFace], fonts: Fonts, report: Report) -> Iterator[EmbeddedFont]:
-    """Fonts of rules; a note tells what is neither in the drawing nor in `fonts`."""
+    """Yield the fonts of rules; note those that are neither in the drawing nor in `fonts`."""
     for rule, sheet in rules[:MOST_FONTS]:
         names = families(rule.get("font-family", ""))
         found = (content_of(kind.lower(), text, fonts) for kind, _, text in SOURCE.findall(rule.get("src", "")))
@@ -59,7 +59,7 @@ def embedded_fonts(rules: Sequence[FontFace], fonts: Fonts, report: Report) -> I
 
 
 def ranges_of(text: str) -> tuple[tuple[int, int], ...] | None:
-    """First and last characters of each range of a list; None if it is not valid.
+    """Parse a list of ranges into their first and last characters; None if it is not valid.
 
     Examples
     --------
@@ -80,12 +80,12 @@ def ranges_of(text: str) -> tuple[tuple[int, int], ...] | None:
 
 
 def span(values: list[float]) -> tuple[float, float]:
-    """Least and greatest of one or two values."""
+    """Return the least and greatest of one or two values."""
     return min(values), max(values)
 
 
 def content_of(kind: str, text: str, fonts: Fonts) -> bytes | Face | None:
-    """Bytes of a URL that holds them itself, or the font of a name, or None; nothing is fetched."""
+    """Return the bytes in a data URL, or the font of a name, or None; nothing is fetched."""
     if kind == "local":
         return fonts.local(" ".join(text.split()))
     match = DATA.fullmatch(text.strip())

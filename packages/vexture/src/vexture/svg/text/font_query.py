@@ -1,4 +1,4 @@
-"""The font query of a span, by its style (CSS Fonts 4)."""
+"""The font query of a span, derived from its style (CSS Fonts 4)."""
 
 import re
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ GENERIC: Final = frozenset(
         *("ui-serif", "ui-sans-serif", "ui-monospace", "ui-rounded"),
     }
 )
-"""Families that are no fonts."""
+"""Family names that are not fonts."""
 
 STRETCHES: Final = {
     "ultra-condensed": 50.0,
@@ -55,7 +55,7 @@ VARIANTS: Final = {
     "no-contextual": ("-calt",),
     "none": ("-liga", "-clig", "-calt"),
 }
-"""Features of OpenType for each word of `font-variant` (CSS Fonts 4, 6)."""
+"""OpenType features of each keyword of `font-variant` (CSS Fonts 4, 6)."""
 
 SMALL: Final = "smcp"
 
@@ -63,19 +63,19 @@ SETTING = re.compile(r"\s*(['\"])([ -~]{4})\1\s*(on|off|[-+]?\d{0,6}(?:\.\d{1,6}
 FAMILY = re.compile(r"\s*(?:\"([^\"]*)\"|'([^']*)'|([^,\"']+))\s*(?:,|$)")
 
 LONGEST: Final = 2_000
-"""Characters of a list that are read."""
+"""Longest list that is read, in characters."""
 
 
 @dataclass(frozen=True, slots=True)
 class FontQuery:
-    """The font that characters ask for; those with equal queries are shaped together."""
+    """The font that characters request; characters with equal queries are shaped together."""
 
     families: tuple[str, ...]
     weight: float
     style: str  # "normal", "italic" or "oblique"
     stretch: float  # percent
     size: float  # user units
-    adjust: float | None  # x-height as a part of the font size
+    adjust: float | None  # x-height as a fraction of the font size
     features: tuple[str, ...]
     variations: tuple[tuple[str, float], ...]
     language: str | None
@@ -83,7 +83,7 @@ class FontQuery:
 
 
 def query_of(style: ElementStyle, element: etree._Element) -> FontQuery:
-    """Font query of the characters of an element with a style."""
+    """Return the font query of the characters of an element with a style."""
     return FontQuery(
         families(style["font-family"]),
         font_weight(style["font-weight"]),
@@ -99,7 +99,7 @@ def query_of(style: ElementStyle, element: etree._Element) -> FontQuery:
 
 
 def families(text: str) -> tuple[str, ...]:
-    """Names of families in a list; generic ones are in lower case.
+    """Return the family names in a list, with generic ones in lower case.
 
     Examples
     --------
@@ -115,12 +115,12 @@ def families(text: str) -> tuple[str, ...]:
 
 
 def stretch(text: str) -> float:
-    """Width in percent."""
+    """Return the width in percent."""
     return STRETCHES.get(text) or number(text.rstrip("%")) or STRETCHES["normal"]
 
 
 def features(style: ElementStyle) -> tuple[str, ...]:
-    """OpenType features that a style turns on, or off: these begin with a minus."""
+    """Return the OpenType features that a style turns on, or, with a leading minus, off."""
     found: list[str] = []
     for name in ("", "-caps", "-ligatures", "-numeric", "-position"):
         for word in style[f"font-variant{name}"].lower().split():
@@ -137,6 +137,6 @@ def features(style: ElementStyle) -> tuple[str, ...]:
 
 
 def variations(text: str) -> tuple[tuple[str, float], ...]:
-    """Places on the axes of a variable font."""
+    """Return the values on the axes of a variable font."""
     found = {tag: number(value) for _, tag, value in SETTING.findall(text[:LONGEST])}
     return tuple(sorted((tag, value) for tag, value in found.items() if value is not None))

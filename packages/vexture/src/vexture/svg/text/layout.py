@@ -1,4 +1,4 @@
-"""Positions of the clusters of a text (SVG 2, 11.5): spaces, `textLength`, chunks with their anchors, and paths."""
+"""Positions of the clusters of a text (SVG 2, 11.5): spacing, `textLength`, anchored chunks, and paths."""
 
 from bisect import bisect_left
 from collections.abc import Sequence
@@ -18,22 +18,22 @@ from vexture.svg.text.tree import Characters, Span
 from vexture.svg.transform import Identity, Transform
 
 SEPARATORS: Final = frozenset(" \u00a0\u1361\U00010100\U00010101\U0001039f\U0001091f")
-"""Characters between words (CSS Text 3, 7.1)."""
+"""Word separators (CSS Text 3, 7.1)."""
 
 VERTICAL: Final = frozenset({"vertical-rl", "vertical-lr", "sideways-rl", "sideways-lr", "tb", "tb-rl", "tb-lr"})
 
 FLATTEST: Final = 1e-3
-"""Width of squeezed glyphs as a part of their own; a smaller `textLength` is ignored."""
+"""Least width of squeezed glyphs, as a fraction of their own; a smaller `textLength` is ignored."""
 
 ANCHORS: Final = {"start": 0.0, "middle": 0.5, "end": 1.0}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TextChunk:
-    """Clusters that follow one another from a position of their own, in visual order, and the place of each.
+    """Consecutive clusters that start at a position of their own, in visual order, with their positions.
 
-    A cluster's matrix leads from its own coordinates, with its origin at (0, 0), its advance along x and y down, to
-    those of the text. `moved` says whether it does not simply follow the cluster before it.
+    A cluster's matrix maps its own coordinates, with its origin at (0, 0), its advance along x and y down, to those of
+    the text. `moved` is True for clusters that do not directly follow the one before.
     """
 
     clusters: tuple[GlyphCluster, ...]
@@ -42,12 +42,12 @@ class TextChunk:
 
 
 def is_vertical(style: ElementStyle) -> bool:
-    """Whether a text runs from top to bottom."""
+    """Return whether a text runs from top to bottom."""
     return style["writing-mode"].lower() in VERTICAL
 
 
 def lay_out(found: Characters, clusters: list[GlyphCluster], vertical: bool, report: Report) -> list[TextChunk]:
-    """Chunks of a text with all clusters in their places; `clusters` are they in logical order."""
+    """Return the chunks of a text with all clusters positioned; `clusters` are in logical order."""
     edges = {at for at in range(len(found.text)) if found.starts_chunk(at)}
     groups: list[list[GlyphCluster]] = []
     for cluster in clusters:
@@ -66,7 +66,7 @@ def lay_out(found: Characters, clusters: list[GlyphCluster], vertical: bool, rep
 
 
 def space(found: Characters, group: Sequence[GlyphCluster]) -> None:
-    """Add the spaces of `letter-spacing` and `word-spacing` to the clusters of a chunk, in logical order."""
+    """Add `letter-spacing` and `word-spacing` to the clusters of a chunk, in logical order."""
     for cluster in group:
         style = cluster.span.place.style
         letter, word = (pixels(style[name]) for name in ("letter-spacing", "word-spacing"))
@@ -78,12 +78,12 @@ def space(found: Characters, group: Sequence[GlyphCluster]) -> None:
 
 
 def pixels(spacing: str) -> float:
-    """Length of a space; the cascade made it one in user units."""
+    """Return the length of a spacing, which the cascade has converted to user units."""
     return 0.0 if spacing == "normal" else float(spacing)
 
 
 def fit(found: Characters, clusters: Sequence[GlyphCluster], vertical: bool, report: Report) -> None:
-    """Fit the clusters of each element with a `textLength` into that, the innermost elements first (SVG 2, 11.5)."""
+    """Fit the clusters of each element with a `textLength` into it, the innermost elements first (SVG 2, 11.5)."""
     starts = [cluster.start for cluster in clusters]
     for span in reversed(found.spans):
         text = span.element.get("textLength")
@@ -100,14 +100,14 @@ def fit(found: Characters, clusters: Sequence[GlyphCluster], vertical: bool, rep
 
 
 def fit_span(span: Span, inside: Sequence[GlyphCluster], length: float, shifts: dict[int, float]) -> None:
-    """Fit clusters into a length; those that are fitted into that of an element inside already move together.
+    """Fit clusters into a length; those already fitted for an inner element move together.
 
-    The last one has a gap behind it too, as in browsers; an anchor does not see it. `shifts` are those along the text
-    by characters, which count for the length, but for that of the first cluster.
+    As in browsers, there is also a gap after the last cluster, which an anchor ignores. `shifts` along the text, by
+    character, count for the length, except that of the first cluster.
     """
     later = [at for at in range(inside[0].start + 1, inside[-1].start + 1) if at in shifts]
     width = sum(cluster.advance for cluster in inside) + sum(shifts[at] for at in later)
-    if length == 0.0:  # which browsers take for none
+    if length == 0.0:  # browsers ignore it
         return
     if span.element.get("lengthAdjust", "").strip() == "spacingAndGlyphs":
         factor = length / width if length > FLATTEST * width > 0.0 else 1.0
@@ -131,7 +131,7 @@ def fit_span(span: Span, inside: Sequence[GlyphCluster], length: float, shifts: 
 def chunk_of(
     found: Characters, first: int, visual: Sequence[GlyphCluster], vertical: bool, at: tuple[float, float]
 ) -> tuple[TextChunk, tuple[float, float]]:
-    """Chunk of clusters in visual order that begins at a character, and where what follows it goes on from `at`."""
+    """Return the chunk of clusters in visual order that starts at a character, and the position after it, from `at`."""
     style, track = found.holders[first].place.style, found.holders[first].track
     steps = shifts(found, visual, vertical)
     length = sum(cluster.advance for cluster in visual) - visual[-1].gap + sum(step[vertical] for step in steps[1:-1])
@@ -161,9 +161,9 @@ def chunk_of(
 def on_track(
     found: Characters, visual: Sequence[GlyphCluster], vertical: bool, track: Track, along: float
 ) -> tuple[TextChunk, tuple[float, float]]:
-    """Chunk along a path from a distance, each cluster turned about the middle of its advance; see `chunk_of`.
+    """Return the chunk along a path, with each cluster turned about the middle of its advance; see `chunk_of`.
 
-    What follows a path goes on from its end (SVG 2, 11.5, "Position on path").
+    The text after a path continues at the path's end (SVG 2, 11.5, "Position on path").
     """
     matrices, across = [], 0.0
     for cluster, (dx, dy) in zip(visual, shifts(found, visual, vertical), strict=False):
@@ -183,19 +183,20 @@ def on_track(
 
 
 def cluster_transform(cluster: GlyphCluster) -> Transform:
-    """Transform that stretches a cluster, and turns it where it stands upright in vertical text."""
+    """Return the transform that stretches a cluster, and turns it if it is upright in vertical text."""
     matrix = Identity.scale(cluster.stretch, 1.0)
     return matrix.rotate(-pi / 2.0) if cluster.upright else matrix
 
 
 def shifts(found: Characters, visual: Sequence[GlyphCluster], vertical: bool) -> list[tuple[float, float]]:
-    """Shifts that `dx` and `dy` add before each cluster of a chunk, and behind the last one.
+    """Return the shifts by `dx` and `dy` before each cluster of a chunk, and after the last one.
 
-    Each character is shifted by the sum of those up to it in logical order, whatever its direction, and a cluster as
-    its first one (SVG 2, 11.5, "Adjust positions: dx, dy"). The chunk starts where its first character is shifted to.
+    Each character is shifted by the sum of shifts up to it in logical order, regardless of direction, and a cluster by
+    that of its first character (SVG 2, 11.5, "Adjust positions: dx, dy"). The chunk starts at its first character's
+    position.
     """
     start, end = min(cluster.start for cluster in visual), max(cluster.end for cluster in visual)
-    end = max(end, start + 1)  # a font may have no glyph for the first of what a character became
+    end = max(end, start + 1)  # a font may have no glyph for the first of several characters
     sums = [list(accumulate(places.get(at, 0.0) for at in range(start, end))) for places in (found.dx, found.dy)]
     both = []
     for along, total in zip((not vertical, vertical), sums, strict=True):

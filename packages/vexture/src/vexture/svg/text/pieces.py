@@ -1,4 +1,4 @@
-"""The painted parts of a text: outlines and glyphs in colour, each with the style that paints it."""
+"""The painted parts of a text: outlines and colour glyphs, each with the style that paints it."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -22,21 +22,21 @@ from vexture.svg.text.tree import Span
 from vexture.svg.transform import Identity, Transform, map_points
 
 EMBOLDENING: Final = ((9.0, 1 / 24), (36.0, 1 / 32))
-"""Font sizes, and of each the width by which a face is made bolder as a part of it: what Skia does."""
+"""Font sizes, each with the width by which Skia emboldens a face, as a fraction of the size."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TextPiece:
-    """Outlines, or a glyph in colour, that are painted with the style of a place."""
+    """Outlines, or a colour glyph, painted with the style of a place."""
 
     place: ElementPlace
     outlines: tuple[ShapeOutline, ...] = ()
     layers: GlyphLayers | None = None
-    matrix: Transform = Identity  # of the layers, to the units of the place
+    matrix: Transform = Identity  # from the layers to the units of the place
 
 
 def pieces(chunks: Sequence[TextChunk], vertical: bool, report: Report) -> Iterator[TextPiece]:
-    """The painted parts of a text, in painting order (CSS Text Decoration 3, 2.4)."""
+    """Yield the painted parts of a text, in painting order (CSS Text Decoration 3, 2.4)."""
     for chunk in chunks:
         for span, held in members(chunk):
             check_time()
@@ -50,7 +50,7 @@ def pieces(chunks: Sequence[TextChunk], vertical: bool, report: Report) -> Itera
 
 
 def is_hidden(span: Span) -> bool:
-    """Whether a span paints nothing; a clip has outlines only, whatever their opacity."""
+    """Return whether a span paints nothing; in a clip, outlines count whatever their opacity."""
     place = span.place
     if place.style["visibility"].lower() != "visible" or not place.chosen:
         return True
@@ -58,14 +58,14 @@ def is_hidden(span: Span) -> bool:
 
 
 def line_pieces(members: Sequence[Member], word: str, decor: Decoration | None, vertical: bool) -> Iterator[TextPiece]:
-    """The lines of a kind along the clusters of a span."""
+    """Yield the lines of a kind along the clusters of a span."""
     outlines = line_outlines(members, word, decor, vertical) if decor is not None else ()
     if decor is not None and outlines:
         yield TextPiece(decor.place, outlines)
 
 
 def members(chunk: TextChunk) -> list[tuple[Span, list[Member]]]:
-    """Stretches of one element in a chunk, in logical order, and the clusters of each in visual order."""
+    """Return the runs of one element in a chunk, in logical order, with the clusters of each in visual order."""
     stretches: list[tuple[Span, list[Member]]] = []
     homes: dict[GlyphCluster, list[Member]] = {}
     for cluster in sorted(chunk.clusters, key=lambda one: one.start):
@@ -81,11 +81,11 @@ def members(chunk: TextChunk) -> list[tuple[Span, list[Member]]]:
 
 
 def glyph_pieces(span: Span, members: Sequence[Member], report: Report) -> Iterator[TextPiece]:
-    """The glyphs of a span: outlines together, and each in colour by itself."""
+    """Yield the glyphs of a span: all outlines together, and each colour glyph by itself."""
     together: list[ShapeOutline] = []
     for cluster, matrix, _ in members:
         style = span.place.style
-        color = (style.solid(style["fill"]) or style.color).rgb  # a colour font's own colour, as in browsers
+        color = (style.solid(style["fill"]) or style.color).rgb  # own colour in a colour font, as in browsers
         x = y = 0.0
         for glyph in cluster.glyphs:
             right, down = (x + glyph.offset[0]) * cluster.scale, -(y + glyph.offset[1]) * cluster.scale
@@ -111,7 +111,7 @@ def glyph_pieces(span: Span, members: Sequence[Member], report: Report) -> Itera
 
 
 def bold_strokes(contours: list[NDArray[np.float64]], cluster: GlyphCluster) -> list[NDArray[np.float64]]:
-    """Strokes that make contours bolder, in font units; they wind as the contours do."""
+    """Return the strokes that embolden contours, in font units; they wind as the contours do."""
     em = cluster.face.units_per_em
     sizes, parts = zip(*EMBOLDENING, strict=True)
     width = em * float(np.interp(em * cluster.scale, sizes, parts))
@@ -122,13 +122,13 @@ def bold_strokes(contours: list[NDArray[np.float64]], cluster: GlyphCluster) -> 
 
 
 def turning(contour: NDArray[np.float64]) -> float:
-    """Area of the polygon of a contour's control points; its sign tells how the contour winds."""
+    """Return the area of a contour's control polygon; its sign is the direction of winding."""
     (x0, y0), (x1, y1) = contour[:, :3].reshape(-1, 2).T, contour[:, 1:].reshape(-1, 2).T
     return float((x0 * y1 - x1 * y0).sum())
 
 
 def cells(chunks: Sequence[TextChunk]) -> ShapeOutline | None:
-    """Outline of the box around the cells of all glyphs (SVG 2, 11.10.3); None if there is none."""
+    """Return the outline of the box around the cells of all glyphs (SVG 2, 11.10.3); None if there are none."""
     corners = []
     for chunk in chunks:
         for cluster, matrix in zip(chunk.clusters, chunk.matrices, strict=True):

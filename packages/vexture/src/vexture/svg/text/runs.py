@@ -1,4 +1,4 @@
-"""From characters to clusters: faces, runs of one kind, and shaping."""
+"""From characters to clusters: choice of faces, division into runs, and shaping."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -19,13 +19,13 @@ from vexture.svg.text.font_query import GENERIC, SMALL, FontQuery, query_of
 from vexture.svg.text.tree import Characters, Span
 
 SMALLER: Final = 0.7
-"""Size of a capital that stands for a small one of a font without (as browsers do)."""
+"""Size of capitals that replace missing small capitals, as in browsers."""
 
 SLANT: Final = tan(radians(14.0))
-"""Of an oblique face that is made of an upright one (CSS Fonts 4, 2.4)."""
+"""Slant of an oblique face that is made from an upright one (CSS Fonts 4, 2.4)."""
 
 BOLD: Final = 600.0
-"""Weight from which a face that is lighter is made bolder (CSS Fonts 4, 8.1)."""
+"""Weight from which a lighter face is emboldened (CSS Fonts 4, 8.1)."""
 
 EMBEDS: Final = {"embed": "\u202a\u202b", "isolate": "\u202a\u202b", "plaintext": "\u202a\u202b"}
 OVERRIDES: Final = {"bidi-override": "\u202d\u202e", "isolate-override": "\u202d\u202e"}
@@ -34,37 +34,37 @@ POP: Final = "\u202c"
 
 @dataclass(slots=True, eq=False)
 class GlyphCluster:
-    """Glyphs that belong together, and where they go; lengths are in user units."""
+    """Glyphs that belong together, with their position; lengths are in user units."""
 
     span: Span
     start: int  # first character
-    end: int  # behind the last
+    end: int  # after the last character
     face: Face
     glyphs: tuple[Glyph, ...]
-    scale: float  # user units of a font unit
+    scale: float  # user units per font unit
     advance: float  # to the next cluster
-    width: float  # its own, without spaces that styles add
+    width: float  # without spacing by styles
     level: int
     script: str
-    upright: bool  # whether it stands upright in vertical text
+    upright: bool  # True if it is upright in vertical text
     slant: float = 0.0
     bolder: bool = False
     stretch: float = 1.0  # by `textLength`
-    fitted: Span | None = None  # outermost element into whose `textLength` it is fitted
+    fitted: Span | None = None  # outermost element with a `textLength` that it is fitted into
     gap: float = 0.0  # part of the advance that `textLength` adds
     hidden: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class RunKind:
-    """The properties that all characters of one run share."""
+    """The properties that all characters of a run share."""
 
     wanted: FontQuery
     face: Face
     level: int
     script: str
     upright: bool
-    small: bool  # whether its capitals are small ones
+    small: bool  # True if its capitals replace small capitals
 
 
 class TextFaces:
@@ -75,12 +75,12 @@ class TextFaces:
         self.report = report
         self.known: dict[tuple[object, ...], tuple[list[Face], Iterator[Face]]] = {}
         self.found: dict[tuple[object, ...], Face | None] = {}
-        self.counts: dict[tuple[object, ...], int] = {}  # of faces that are of the families that are asked for
+        self.counts: dict[tuple[object, ...], int] = {}  # number of faces that belong to the requested families
         self.small: dict[Face, bool] = {}
-        self.noted: set[tuple[str, etree._Element]] = set()  # for the text that is set now
+        self.noted: set[tuple[str, etree._Element]] = set()  # for the current text
 
     def of(self, want: FontQuery) -> Iterator[Face]:
-        """Faces in the order in which a text tries them."""
+        """Yield faces in the order in which a text tries them."""
         key = (want.families, want.weight, want.style, want.stretch, want.variations)
         if key not in self.known:
             faces = self.fonts.faces(*library_query(want))
@@ -97,7 +97,7 @@ class TextFaces:
             at += 1
 
     def choose(self, want: FontQuery, character: str) -> Face | None:
-        """The first face that has a character; None if none has."""
+        """Return the first face that has a character; None if there is none."""
         key = (want.families, want.weight, want.style, want.stretch, want.variations, character)
         if key not in self.found:
             check_time()
@@ -106,18 +106,18 @@ class TextFaces:
         return self.found[key]
 
     def first(self, want: FontQuery) -> Face | None:
-        """The first face of all."""
+        """Return the first face."""
         return next(self.of(want), None)
 
     def has_small(self, face: Face) -> bool:
-        """Whether a face has small capitals of its own."""
+        """Return whether a face has its own small capitals."""
         if face not in self.small:
             plain, small = ([glyph.glyph for glyph in shape(face, "a", features=more)] for more in ((), (SMALL,)))
             self.small[face] = plain != small
         return self.small[face]
 
     def note(self, want: FontQuery, face: Face, character: str, element: etree._Element) -> None:
-        """Note once for an element a family that is not there, or lacks a character."""
+        """Note, once for each element, a family that is missing or lacks a character."""
         families = [family for family in want.families if family not in GENERIC]
         if library_query(want) not in self.counts:
             self.counts[library_query(want)] = self.fonts.count_named(*library_query(want))
@@ -130,47 +130,47 @@ class TextFaces:
             )
         else:
             what = f"font {families[0][:40]!r}"
-            if (what, element) in self.noted:  # of which other characters are in another font
+            if (what, element) in self.noted:  # other characters of the element use another font
                 return
             self.noted.add((what, element))
         self.note_once(self.report.simplification, f"{what} drawn in {face.family}", element)
 
     def note_once(self, report: Callable[[str, etree._Element], None], message: str, element: etree._Element) -> None:
-        """Note something once for an element of a text."""
+        """Add a note only once for an element of a text."""
         if (message, element) not in self.noted:
             self.noted.add((message, element))
             report(message, element)
 
 
 def library_query(want: FontQuery) -> tuple[tuple[str, ...], int, str, float]:
-    """Arguments of `Fonts.faces` for a font query."""
+    """Return the arguments of `Fonts.faces` for a font query."""
     return want.families, round(want.weight), want.style, want.stretch
 
 
 def with_variations(face: Face, variations: tuple[tuple[str, float], ...]) -> Face:
-    """A face with places on its axes, those outside moved to their ends."""
+    """Return a face with values on its axes, clamped to the ranges of the axes."""
     axes = face.axes
     places = {tag: min(max(value, axes[tag][0]), axes[tag][1]) for tag, value in variations if tag in axes}
     return replace(face, variations=tuple(sorted((dict(face.variations) | places).items()))) if places else face
 
 
 def clusters(found: Characters, faces: TextFaces, vertical: bool) -> list[GlyphCluster]:
-    """Clusters of all characters, in logical order."""
+    """Return the clusters of all characters, in logical order."""
     if not found.text:
         return []
     wants = queries_of(found.spans)
     kinds = kinds_of(found, [wants[span] for span in found.holders], faces, vertical)
     edges = [at for at in range(1, len(kinds)) if kinds[at] != kinds[at - 1] or found.starts_chunk(at)]
-    made: list[GlyphCluster] = []
+    result: list[GlyphCluster] = []
     for start, end in pairwise([0, *edges, len(kinds)]):
         kind = kinds[start]
         if kind is not None:
-            made += shape_run(found, kind, start, end, faces, vertical)
-    return sorted(made, key=lambda cluster: cluster.start)
+            result += shape_run(found, kind, start, end, faces, vertical)
+    return sorted(result, key=lambda cluster: cluster.start)
 
 
 def queries_of(spans: Sequence[Span]) -> dict[Span, FontQuery]:
-    """Font query of each span; equal ones are one object."""
+    """Return the font query of each span; equal queries are one object."""
     same: dict[FontQuery, FontQuery] = {}
     found = {}
     for span in spans:
@@ -180,8 +180,8 @@ def queries_of(spans: Sequence[Span]) -> dict[Span, FontQuery]:
 
 
 def kinds_of(found: Characters, wants: list[FontQuery], faces: TextFaces, vertical: bool) -> list[RunKind | None]:
-    """Kind of each character; None of those that show nothing: of no size, or without any font."""
-    heads = [characters[0] for characters in found.text]  # one of each, after which all that it becomes goes
+    """Return the kind of each character; None for characters that show nothing: zero size, or no font."""
+    heads = [characters[0] for characters in found.text]  # the first of the characters that each one becomes decides
     embedding = levels(heads, base_level(found.spans[0]), controls(found.spans))
     kinds: list[RunKind | None] = []
     last: Face | None = None
@@ -205,7 +205,7 @@ def kinds_of(found: Characters, wants: list[FontQuery], faces: TextFaces, vertic
 
 
 def stands(character: str, style: object) -> bool:
-    """Whether a character stands upright in vertical text with a style."""
+    """Return whether a character is upright in vertical text with a style."""
     if style["writing-mode"].lower().startswith("sideways"):  # type: ignore[index]
         return False
     orientation = style["text-orientation"].lower()  # type: ignore[index]
@@ -220,7 +220,7 @@ def stands(character: str, style: object) -> bool:
 def face_of(
     want: FontQuery, character: str, faces: TextFaces, last: Face | None, element: etree._Element
 ) -> Face | None:
-    """Face of a character in an element; `last` is that of the one before it, if both want the same."""
+    """Return the face of a character; `last` is that of the one before, if both have the same query."""
     if last is not None and belongs(character, last):
         return last
     face = faces.choose(want, character)
@@ -235,12 +235,12 @@ def face_of(
 
 
 def base_level(span: Span) -> int:
-    """Level of a text as a whole."""
+    """Return the embedding level of a whole text."""
     return int(span.place.style["direction"].lower() == "rtl")
 
 
 def controls(spans: Sequence[Span]) -> list[tuple[int, str]]:
-    """Formatting characters that stand for `direction` and `unicode-bidi` of spans (CSS Writing Modes 3, 2.4.2)."""
+    """Return formatting characters for `direction` and `unicode-bidi` of spans (CSS Writing Modes 3, 2.4.2)."""
     opened: list[tuple[int, int, str]] = []
     for depth, span in enumerate(spans):
         style = span.place.style
@@ -253,10 +253,10 @@ def controls(spans: Sequence[Span]) -> list[tuple[int, str]]:
 
 
 def ends_of(starts: Sequence[int], places: Sequence[int], end: int) -> dict[int, int]:
-    """Behind which character of the text each cluster ends, by where it starts in what is shaped.
+    """Return the end of each cluster in the text, by the start of the cluster in the shaped characters.
 
-    `places` are the characters of the text that each one which is shaped stands for. Where one became several, the
-    first cluster has it, and the others end where they start.
+    `places` holds the text character of each shaped character. If one became several, the first cluster contains it,
+    and the others end where they start.
     """
     ends: dict[int, int] = {}
     for at in reversed(starts):
@@ -270,7 +270,7 @@ def ends_of(starts: Sequence[int], places: Sequence[int], end: int) -> dict[int,
 def shape_run(
     found: Characters, kind: RunKind, start: int, end: int, faces: TextFaces, vertical: bool
 ) -> Iterator[GlyphCluster]:
-    """Clusters of characters of one kind, in logical order."""
+    """Yield the clusters of characters of one kind, in logical order."""
     check_time()
     want, face = kind.wanted, kind.face
     text, places = "", list[int]()

@@ -23,18 +23,18 @@ from vexture.svg.transform import map_points
 from vexture.svg.values import number
 
 STEPS: Final = 64
-"""Chords for each cubic: they are shorter than their arc by less than 1 / (24 STEPS^2) of it times its turn squared."""
+"""Chords per cubic: each is shorter than its arc by less than 1 / (24 STEPS^2) times the arc and its turn squared."""
 
 PLACES: Final = np.linspace(0.0, 1.0, STEPS + 1)
 VELOCITIES: Final = np.stack([(1.0 - PLACES) ** 2, 2.0 * PLACES * (1.0 - PLACES), PLACES**2])
-"""Parameters of the ends of chords, and weights of the steps between control points in a third of the velocity."""
+"""Parameters at the ends of chords, and weights of the steps between control points in a third of the velocity."""
 
 MOST_CUBICS: Final = 5_000
-"""Of a path that a text follows."""
+"""Most cubics of a path that a text follows."""
 
 
 class TrackPoint(NamedTuple):
-    """A place on a path, and its direction in radians."""
+    """A position on a path, and its direction in radians."""
 
     x: float
     y: float
@@ -43,31 +43,31 @@ class TrackPoint(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Track:
-    """A path as a text follows it: the chords of its cubics."""
+    """A path that a text follows, as the chords of its cubics."""
 
     chords: NDArray[np.float64]  # (n, 2, 2), start and end of each
-    turns: NDArray[np.float64]  # (n, 2), direction of the cubic at both, radians, less than half a turn apart
-    distances: NDArray[np.float64]  # (n,), of each end along the path; a jump to the next part has no length
-    start: float = 0.0  # where the text starts along it
+    turns: NDArray[np.float64]  # (n, 2), direction of the cubic at both ends, radians, less than half a turn apart
+    distances: NDArray[np.float64]  # (n,), of each end along the path; a jump to the next part has zero length
+    start: float = 0.0  # distance at which the text starts
 
     @property
     def length(self) -> float:
-        """Length of all its parts."""
+        """Length of all parts."""
         return float(self.distances[-1])
 
     @property
     def end(self) -> tuple[float, float]:
-        """Its last point."""
+        """Last point."""
         x, y = self.chords[-1, 1].tolist()
         return x, y
 
     def reversed(self) -> "Track":
-        """The same path the other way."""
+        """Return the path in the opposite direction."""
         before = np.concatenate([[0.0], self.distances[:-1]])
         return Track(self.chords[::-1, ::-1], self.turns[::-1, ::-1] + pi, (self.length - before)[::-1])
 
     def at(self, distance: float) -> TrackPoint | None:
-        """The place at a distance; None beyond its ends."""
+        """Return the position at a distance; None beyond the ends."""
         if not 0.0 <= distance <= self.length:
             return None
         k = min(int(np.searchsorted(self.distances, distance)), len(self.distances) - 1)
@@ -78,7 +78,7 @@ class Track:
 
 
 def read_track(scene: MeasuredScene, element: etree._Element, place: ElementPlace) -> Track | None:
-    """The path of a `textPath`; None, with a note, if it has none."""
+    """Return the path of a `textPath`; None, with a note, if it has none."""
     check_time()
     outlines, whole = outlines_of(scene, element, place)
     if not outlines:
@@ -105,7 +105,7 @@ def read_track(scene: MeasuredScene, element: etree._Element, place: ElementPlac
 def outlines_of(
     scene: MeasuredScene, element: etree._Element, place: ElementPlace
 ) -> tuple[list[ShapeOutline], float | None]:
-    """Outlines that a `textPath` follows, in the units of its text, and the `pathLength` of their element."""
+    """Return the outlines that a `textPath` follows, in the text's units, and the `pathLength` of their element."""
     data = element.get("path")
     if data is not None:
         outlines, valid = path_outlines(data, ROUND * place.viewport.diagonal)
@@ -125,7 +125,7 @@ def outlines_of(
 
 
 def track_of(outlines: list[ShapeOutline]) -> Track | None:
-    """A path as a text follows it; None without length."""
+    """Return outlines as a path that a text can follow; None if it has zero length."""
     cubics = np.concatenate([outline.loop if outline.closed else outline.cubics for outline in outlines])
     points = points_along(cubics, PLACES)
     chords = np.stack([points[:, :-1], points[:, 1:]], axis=2).reshape(-1, 2, 2)
@@ -145,7 +145,7 @@ def track_of(outlines: list[ShapeOutline]) -> Track | None:
 def offset(
     scene: MeasuredScene, element: etree._Element, place: ElementPlace, length: float, whole: float | None
 ) -> float:
-    """Distance at which a text starts along a path of a length, by `startOffset`; `whole` is its `pathLength`."""
+    """Return the distance at which a text starts on a path, by `startOffset`; `whole` is its `pathLength`."""
     text = element.get("startOffset")
     if text is None:
         return 0.0

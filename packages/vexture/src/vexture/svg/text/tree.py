@@ -1,4 +1,4 @@
-"""The characters of a text element, the elements that they stand in, and what their attributes say (SVG 2, 11.4)."""
+"""The characters of a text element, their elements, and the positions in attributes (SVG 2, 11.4)."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -24,38 +24,38 @@ from vexture.svg.text.track import Track, read_track
 from vexture.svg.values import SEPARATOR, number
 
 DOTTED: Final = ("az", "tr")
-"""Languages in which an i keeps its dot, or its lack of one, as a capital."""
+"""Languages in which an i keeps its dot, or the lack of one, as a capital."""
 
 PARTS: Final = frozenset({"a", "textPath", "tref", "tspan"})
-"""Elements in a text that have characters of it."""
+"""Elements that contain characters of a text."""
 
 SILENT: Final = ANIMATIONS | {"desc", "metadata", "script", "style", "title"}
-"""Elements in a text that show nothing; what moves or runs is named for the whole document."""
+"""Elements in a text that show nothing; animations and scripts have a note for the whole document."""
 
 MOST_CHARACTERS: Final = 200_000
-"""Characters and elements of texts that are set; each time counts that `use`, a clip or the measuring of a box shows
-them."""
+"""Most characters and elements of all texts; each display by `use` or a clip, and each measuring of a box, counts
+again."""
 
 APOSTROPHES: Final = "'\u2019"
-"""Do not end a word."""
+"""Characters that do not end a word."""
 
 SIGMA, FINAL_SIGMA = "\u03a3", "\u03c2"
-"""The only letter that is another one at the end of a word (Unicode, SpecialCasing)."""
+"""The only letter with another form at the end of a word (Unicode, SpecialCasing)."""
 
 JOINING: Final = frozenset({"Mn", "Mc", "Me", "Pc"})
-"""Categories of characters beside letters and digits of which a word is made (Unicode Annex 29): marks, and _."""
+"""Categories of characters in words besides letters and digits (Unicode Annex 29): marks, and _."""
 
 PRESERVED: Final = frozenset({"pre", "pre-wrap", "break-spaces"})
 """Values of `white-space` that keep spaces."""
 
 FLOWED: Final = ("inline-size", "shape-inside")
-"""Properties that break a text into lines (SVG 2, 11.4), as no browser does."""
+"""Properties that break a text into lines (SVG 2, 11.4), which no browser supports."""
 
 WHOLE: Final = ("clip-path", "filter", "mask")
-"""Properties of whole texts, which some browsers draw for parts of them, too."""
+"""Properties of whole texts, which some browsers also apply to parts of them."""
 
 POSITIONED: Final = frozenset({"text", "tref", "tspan"})
-"""Elements that place single characters."""
+"""Elements that position single characters."""
 
 
 class TextScene(MeasuredScene, Protocol):
@@ -67,18 +67,18 @@ class TextScene(MeasuredScene, Protocol):
 
 @dataclass(slots=True, eq=False)
 class Span:
-    """An element of a text, and which characters are in it."""
+    """An element of a text, with the range of its characters."""
 
     place: ElementPlace  # inside it, with its style and name
     outer: "Span | None"
     start: int
     end: int = 0
-    track: Track | None = None  # that its characters follow
-    afresh: bool = False  # whether it begins or ends a path, so that its neighbours do not continue it
+    track: Track | None = None  # path that its characters follow
+    afresh: bool = False  # True if it starts or ends a path, so that its neighbours do not continue it
 
     @property
     def element(self) -> etree._Element:
-        """The element."""
+        """Element of the span."""
         assert self.place.element is not None
         return self.place.element
 
@@ -93,21 +93,21 @@ class Span:
 
 @dataclass(slots=True, eq=False)
 class Characters:
-    """The characters of a text that attributes can address; the spans are in the order of the document."""
+    """The characters of a text that attributes can address; spans are in document order."""
 
-    text: list[str] = field(default_factory=list)  # each as `text-transform` makes it: one character or more
-    holders: list[Span] = field(default_factory=list)  # the innermost span of each
+    text: list[str] = field(default_factory=list)  # each after `text-transform`: one character or more
+    holders: list[Span] = field(default_factory=list)  # innermost span of each
     spans: list[Span] = field(default_factory=list)
     x: dict[int, float] = field(default_factory=dict)
     y: dict[int, float] = field(default_factory=dict)
     dx: dict[int, float] = field(default_factory=dict)
     dy: dict[int, float] = field(default_factory=dict)
     rotate: dict[int, float] = field(default_factory=dict)  # degrees
-    count: int = 0  # of characters and elements in all texts so far
-    after_space: bool = True  # whether white space that comes next collapses
+    count: int = 0  # characters and elements in all texts so far
+    after_space: bool = True  # True if following white space collapses
 
     def add(self, text: str, span: Span) -> None:
-        """Add the text of a span; white space that collapses is left out (CSS Text 3, 4.1)."""
+        """Add the text of a span, without collapsed white space (CSS Text 3, 4.1)."""
         style = span.place.style
         preserved = style["white-space"].lower() in PRESERVED
         transform = style["text-transform"].lower()
@@ -127,35 +127,35 @@ class Characters:
             self.add_one()
 
     def in_word(self) -> bool:
-        """Whether a letter that comes next goes on with a word; an apostrophe and marks in a word are of it."""
+        """Return whether a following letter continues a word; apostrophes and marks in a word belong to it."""
         before = [characters[-1] for characters in self.text[-2:]]
         if before and before[-1] in APOSTROPHES:
             before.pop()
         return bool(before) and (before[-1].isalnum() or category(before[-1]) in JOINING)
 
     def add_one(self) -> None:
-        """Count a character or an element; a `SourceError` if they are too many."""
+        """Count a character or an element; raise a `SourceError` if there are too many."""
         self.count += 1
         if self.count > MOST_CHARACTERS:
             raise SourceError(f"texts have more than {MOST_CHARACTERS:,} characters; draw less text, or as outlines")
 
     def finish(self) -> None:
-        """Remove white space at the end, and place the characters."""
+        """Remove white space at the end, and adjust the spans."""
         if self.text and self.after_space:
             del self.text[-1], self.holders[-1]
         for span in self.spans:
             span.start, span.end = min(span.start, len(self.text)), min(span.end, len(self.text))
 
     def starts_chunk(self, at: int) -> bool:
-        """Whether a character has a position of its own, so that an anchored chunk begins with it."""
+        """Return whether a character has its own position, so that it starts an anchored chunk."""
         return at == 0 or at in self.x or at in self.y or (self.holders[at].track is not self.holders[at - 1].track)
 
 
 def transform_character(character: str, mode: str, in_word: bool, goes_on: bool, dotted: bool = False) -> str:
     """Apply `text-transform` to a character, such as SS of ß.
 
-    `in_word` tells whether a word goes on with it, `goes_on` whether a letter comes next, and `dotted` whether the text
-    is of a language of `DOTTED`.
+    `in_word` is True if a word continues with it, `goes_on` if a letter follows, and `dotted` for a language of
+    `DOTTED`.
 
     Examples
     --------
@@ -176,7 +176,7 @@ def transform_character(character: str, mode: str, in_word: bool, goes_on: bool,
 
 
 def characters(scene: TextScene, element: etree._Element, place: ElementPlace, count: int) -> Characters:
-    """Characters of a text element at a place with its style; `count` are those before."""
+    """Return the characters of a text element at a place with its style; `count` is the number before."""
     found = Characters(count=count)
     read(scene, found, Span(replace(place, element=element), None, 0))
     found.finish()
@@ -208,7 +208,7 @@ def read(scene: TextScene, found: Characters, span: Span) -> None:
 
 
 def referenced_text(scene: TextScene, element: etree._Element) -> str:
-    """All characters of the element that a `tref` refers to (SVG 1.1, 10.6)."""
+    """Return all characters of the element that a `tref` refers to (SVG 1.1, 10.6)."""
     link = reference(element) or ""
     target = scene.servers.target(link)
     if target is None:
@@ -218,7 +218,7 @@ def referenced_text(scene: TextScene, element: etree._Element) -> str:
 
 
 def note_ignored(scene: TextScene, span: Span) -> None:
-    """Note what an element asks of its characters that they do not get."""
+    """Note properties of an element that have no effect on its characters."""
     style, outer = span.place.style, None if span.outer is None else span.outer.place.style
     kerning = style["kerning"]
     if kerning.lower() != "auto" and (outer is None or outer["kerning"] != kerning):
@@ -239,7 +239,7 @@ def note_ignored(scene: TextScene, span: Span) -> None:
 
 
 def part(scene: TextScene, element: etree._Element, outer: Span, start: int) -> Span | None:
-    """The span of an element in a text; None if it shows nothing."""
+    """Return the span of an element in a text; None if it shows nothing."""
     style = scene.cascade.style(element, outer.place.style)
     if style["display"].lower() == "none":
         return None
@@ -268,7 +268,7 @@ def part(scene: TextScene, element: etree._Element, outer: Span, start: int) -> 
 
 
 def part_veil(style: ElementStyle, around: ElementPlace) -> Veil | None:
-    """The veil of a part of a text: browsers composite one as they do any element, but for clips, masks and filters."""
+    """Return the veil of a part of a text, composited as in browsers: without clips, masks and filters."""
     opacity, blend = style.opacity("opacity"), BLENDS[style["mix-blend-mode"].lower()]
     if around.is_clip or (opacity == 1.0 and blend is Blend.NORMAL):
         return around.veil
@@ -276,7 +276,7 @@ def part_veil(style: ElementStyle, around: ElementPlace) -> Veil | None:
 
 
 def position(scene: TextScene, found: Characters, span: Span) -> None:
-    """Read the positions that an element gives its characters; inner elements come later, and override them."""
+    """Read the positions that an element gives to its characters; inner elements override them later."""
     view, font_size = span.place.viewport, span.place.style.font_size
     for name, places, whole in (
         ("x", found.x, view.width),
@@ -291,13 +291,13 @@ def position(scene: TextScene, found: Characters, span: Span) -> None:
     text = span.element.get("rotate", "").strip()
     if text:
         turns = [number(part) for part in SEPARATOR.split(text, span.end - span.start)][: span.end - span.start]
-        if None not in turns and turns:  # the last one is that of all others (SVG 2, 11.4)
+        if None not in turns and turns:  # the last value applies to all further characters (SVG 2, 11.4)
             turns += turns[-1:] * (span.end - span.start - len(turns))
         read_list(scene, span, "rotate", turns, found.rotate)
 
 
 def read_list(scene: TextScene, span: Span, name: str, values: list[float | None], places: dict[int, float]) -> None:
-    """Give the characters of a span the values of a list."""
+    """Assign the values of a list to the characters of a span."""
     values = values[: span.end - span.start]
     if None in values:
         scene.report.invalid(name, span.element.get(name, ""), span.element)

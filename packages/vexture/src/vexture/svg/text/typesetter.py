@@ -1,4 +1,4 @@
-"""Setting texts: the fonts of a drawing, and what each of its texts paints."""
+"""Typesetting: the fonts of a drawing, and the painted parts of its texts."""
 
 import os
 from collections.abc import Sequence
@@ -29,17 +29,17 @@ class Text:
 
 
 class Typesetter:
-    """Sets the texts of a drawing in fonts: of files, of its own, and of the system."""
+    """Typesets the texts of a drawing, with fonts from files, from the drawing and from the system."""
 
     def __init__(self, files: Sequence[str | os.PathLike[str]], font_faces: Sequence[FontFace], report: Report) -> None:
         self.files = (files,) if isinstance(files, str | os.PathLike) else files
         self.font_faces = font_faces
         self.report = report
-        self.count: int = 0  # of characters set so far
+        self.count: int = 0  # number of characters so far
 
     @cached_property
     def faces(self) -> "TextFaces":
-        """The faces of the drawing; raises a `DeviceError` without HarfBuzz."""
+        """Faces of the drawing; raises a `DeviceError` without HarfBuzz."""
         from vexture.fonts.library import Fonts
         from vexture.svg.text.embedded import embedded_fonts
         from vexture.svg.text.runs import TextFaces
@@ -48,7 +48,7 @@ class Typesetter:
         return TextFaces(Fonts(self.files, embedded), self.report)
 
     def text(self, scene: "TextScene", element: etree._Element, place: ElementPlace) -> Text:
-        """Set a text element at a place with its style."""
+        """Typeset a text element at a place with its style."""
         from vexture.svg.text.layout import is_vertical, lay_out
         from vexture.svg.text.pieces import cells, pieces
         from vexture.svg.text.runs import clusters
@@ -60,9 +60,9 @@ class Typesetter:
         try:
             faces = self.faces
             faces.report, faces.noted = scene.report, set()
-            made = clusters(found, faces, vertical)
+            glyphs = clusters(found, faces, vertical)
         except DeviceError as error:
             scene.report.left_out(f"<text>: {error}", element)
             return Text()
-        chunks = lay_out(found, made, vertical, scene.report)
+        chunks = lay_out(found, glyphs, vertical, scene.report)
         return Text(tuple(pieces(chunks, vertical, scene.report)), cells(chunks))
