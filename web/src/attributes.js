@@ -5,14 +5,14 @@ import { VextureError, line, unfit } from './errors.js';
 /** Name of the attribute that holds each instance's root. */
 export const ROOT_ATTRIBUTE = 'vextureRoot';
 
-/** Names that three.js gives the sets of texture coordinates, in geometries and in what a ray meets. */
+/** Names that three.js uses for sets of texture coordinates, in geometries and in intersections of rays. */
 export const UV_ATTRIBUTES = Object.freeze(/** @type {const} */ (['uv', 'uv1']));
 
 /**
  * Attribute `vextureRoot` for the geometry of an `InstancedMesh`: the shape of each instance.
  *
  * @param {import('./vector-texture.js').AnyVectorTexture} texture
- * @param {readonly (string | number)[]} roots names or places in `texture.roots`, one for each instance
+ * @param {readonly (string | number)[]} roots names, or indices in `texture.roots`, one for each instance
  * @returns {InstancedBufferAttribute}
  */
 export function rootAttribute(texture, roots) {
@@ -28,11 +28,11 @@ export function rootAttribute(texture, roots) {
   return attribute;
 }
 
-/** What has been said of each geometry. @type {WeakMap<import('three').BufferGeometry, Set<string>>} */
+/** Warnings already given for each geometry. @type {WeakMap<import('three').BufferGeometry, Set<string>>} */
 const SAID = new WeakMap();
 
 /**
- * Warn once of a geometry that lacks what a mask reads: three.js would draw nothing, in silence.
+ * Warn once about a geometry without the attributes that a mask reads, because three.js would silently draw nothing.
  *
  * @param {import('three').Object3D & { count?: number }} object
  * @param {import('three').BufferGeometry} geometry

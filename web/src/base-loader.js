@@ -4,18 +4,18 @@ import { fetchBytes, progressEvent } from './fetching.js';
 
 /**
  * @typedef {ArrayBuffer | Uint8Array} Bytes contents of a file
- * @typedef {(event: ProgressEvent) => void} OnProgress called while files are loaded, with the bytes so far and in all
+ * @typedef {(event: ProgressEvent) => void} OnProgress called during loading, with the bytes loaded so far and in total
  * @typedef {{ signal: AbortSignal, onProgress?: OnProgress }} Request
  */
 
 /** Addresses that carry their content and therefore have no file name. */
 const NAMELESS = /^(data|blob):/;
 
-/** Addresses that the loader's path is not put in front of. */
+/** Absolute addresses, which do not get the loader's path as a prefix. */
 const ABSOLUTE = /^([a-z][a-z\d+.-]+:|\/\/)/i;
 
 /**
- * An address without its query and fragment, and these.
+ * Split an address into a part without query and fragment, and these.
  *
  * @param {string} url
  */
@@ -25,7 +25,7 @@ export function divided(url) {
 }
 
 /**
- * Name of a texture from its address: the file name without its suffix.
+ * Name a texture by its address: the file name without its suffix.
  *
  * @param {string} url
  * @param {string[]} suffixes
@@ -46,7 +46,7 @@ export function nameOf(url, suffixes) {
 const sum = (numbers) => numbers.reduce((one, other) => one + other, 0);
 
 /**
- * Common to the loaders of all encodings: requests with progress, limits and `abort`.
+ * Base of the loaders of all encodings: requests with progress, limits and `abort`.
  *
  * @template Texture
  * @template Url
@@ -56,12 +56,12 @@ export class BaseLoader extends Loader {
   #controller = new AbortController();
 
   /**
-   * Load a file, and hand on what it holds.
+   * Load a file, and pass on its content.
    *
    * @param {Url} url
    * @param {(texture: Texture) => void} onLoad
    * @param {OnProgress} [onProgress]
-   * @param {(error: unknown) => void} [onError] by default the console's
+   * @param {(error: unknown) => void} [onError] called with an error; by default it is logged to the console
    */
   load(url, onLoad, onProgress, onError = console.error) {
     this.loadAsync(url, onProgress).then(onLoad, onError);
@@ -75,10 +75,10 @@ export class BaseLoader extends Loader {
   }
 
   /**
-   * Absolute address of a file, by the loader's path and its manager's rules.
+   * Resolve the address of a file by the loader's path and its manager's rules.
    *
    * @param {string} url
-   * @throws {VextureError} if it is none
+   * @throws {VextureError} if it is not an address
    */
   addressOf(url) {
     if (typeof url !== 'string' || !url.trim()) { // '' would be the page itself
@@ -98,7 +98,7 @@ export class BaseLoader extends Loader {
   }
 
   /**
-   * A request that ends by the caller's signal, by the loader's `abort` or by its manager's.
+   * Start a request that the caller's signal, the loader's `abort` or its manager's `abort` ends.
    *
    * @protected
    * @param {OnProgress} [onProgress]

@@ -1,5 +1,5 @@
-// Blend modes of the W3C's Compositing and Blending Level 1, by their numbers: those of programs (FORMAT.md, D.6) and
-// styles (D.10).
+// Blend modes of W3C's Compositing and Blending Level 1, by the numbers that programs (FORMAT.md, D.6) and styles (D.10)
+// use.
 import { LUMINANCE_BLUE, LUMINANCE_GREEN, LUMINANCE_RED } from '../generated/layout.js';
 
 /** @typedef {import('./planar-map.js').Color} Color */
@@ -7,14 +7,14 @@ import { LUMINANCE_BLUE, LUMINANCE_GREEN, LUMINANCE_RED } from '../generated/lay
 const NORMAL = 0;
 const PLUS_LIGHTER = 16;
 
-/** As in Python: a component this near to 0 or 1 is that, but for rounding. Dodge and burn jump there. */
+/** As in Python: a component this close to 0 or 1 counts as 0 or 1, because dodge and burn are discontinuous there. */
 const ROUNDING = 1e-9;
 
 const hardLight = (/** @type {number} */ b, /** @type {number} */ s) =>
   s <= 0.5 ? 2 * b * s : 1 - 2 * (1 - b) * (1 - s);
 
 /**
- * B(cb, cs) of one component, b of what is below and s of what is laid over it, by the number of the mode.
+ * B(cb, cs) of one component, by the number of the mode; b is the backdrop and s the source.
  *
  * @type {Readonly<Record<number, (b: number, s: number) => number>>}
  */
@@ -73,7 +73,7 @@ const NAMES = ['normal', 'multiply', 'screen', 'overlay', 'darken', 'lighten', '
   'soft-light', 'difference', 'exclusion', 'hue', 'saturation', 'color', 'luminosity', 'plus-lighter'];
 
 /**
- * Number of a mode by its name in CSS; null if it is none.
+ * Return the number of a mode by its name in CSS, or null if there is no such mode.
  *
  * @param {unknown} name
  */
@@ -83,7 +83,7 @@ export function modeNamed(name) {
 }
 
 /**
- * Whether a mode has this number.
+ * Return whether there is a mode of this number.
  *
  * @param {number} mode
  */
@@ -92,7 +92,7 @@ export function isBlend(mode) {
 }
 
 /**
- * What a mask of a premultiplied colour leaves: its opacity or its luminance.
+ * Return what a mask keeps, by its premultiplied colour: the opacity or the luminance.
  *
  * @param {Color} color
  * @param {boolean} byOpacity
@@ -102,7 +102,7 @@ export function masking([red, green, blue, opacity], byOpacity) {
 }
 
 /**
- * One premultiplied colour over another, 0..1.
+ * Composite one premultiplied colour over another, 0..1.
  *
  * @param {Color} below
  * @param {Color} above

@@ -1,4 +1,4 @@
-// Validates a planar map (FORMAT.md, D.1 to D.6): its parts lie within the texels and apart, and paints are of its table.
+// Validates a planar map (FORMAT.md, D.1 to D.6): its parts lie within the texels, do not overlap, and use existing paints.
 import {
   CELL_BITS,
   COORDINATE_BITS,
@@ -20,12 +20,12 @@ import { checkPrograms, programOf } from './programs.js';
 /** @typedef {import('./planar-map.js').Head} Head */
 
 /**
- * @typedef {object} Found What a tree consists of.
- * @property {number} quads their number
- * @property {number} lastQuad largest index
- * @property {number} curves their number
- * @property {number} curveTexels number of their texels
- * @property {number} firstCurve smallest index of those; Infinity without any
+ * @typedef {object} Found Counts of a tree.
+ * @property {number} quads number of quads
+ * @property {number} lastQuad largest index of a quad
+ * @property {number} curves number of curves
+ * @property {number} curveTexels number of the curves' texels
+ * @property {number} firstCurve smallest index of those; Infinity if there are none
  * @property {number} lastCurve
  */
 
@@ -95,7 +95,7 @@ function isLeaf(cell) {
 }
 
 /**
- * Mark the texels of two curves.
+ * Mark the texels that hold two curves.
  *
  * @param {Uint32Array} texels
  * @param {Uint8Array} met
@@ -124,7 +124,7 @@ function refuse(quad, what) {
 }
 
 /**
- * Check the numbers of the quads' first curves, and that curves go up.
+ * Check the numbers of the quads' first curves, and that curves are ordered.
  *
  * @param {Uint32Array} texels
  * @param {Uint8Array} met
@@ -151,7 +151,7 @@ function checkWords(texels, met, root, { quads, curveTexels, firstCurve }) {
 }
 
 /**
- * Mark the texels of the parts beside quads and curves.
+ * Mark the texels of the parts other than quads and curves.
  *
  * @param {Uint8Array} met
  * @param {Head} head
@@ -176,7 +176,7 @@ function takeParts(met, { quad, used, cells, sides, paints, ...head }, { quads, 
 }
 
 /**
- * Check the numbers of paints, and that no colour is above its opacity.
+ * Check the numbers of paints, and that no premultiplied colour exceeds its opacity.
  *
  * @param {Uint32Array} texels
  * @param {Head} head whose parts lie within the texels
@@ -205,7 +205,7 @@ function checkPaints(texels, head, { quads, curves }) {
 }
 
 /**
- * Note whether a checked map holds gradients, and check that its style is of its paints.
+ * Note whether a checked map holds gradients, and check that its style fits its paints.
  *
  * @param {import('./data.js').Root} root
  * @param {Uint32Array} texels

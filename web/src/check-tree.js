@@ -15,14 +15,14 @@ export const PART = 3;
 export const PAIR = 4;
 
 /**
- * @typedef {object} Rules What planar maps have other than silhouettes.
+ * @typedef {object} Rules Differences between planar maps and silhouettes.
  * @property {(cell: number) => boolean} isLeaf whether a cell's byte is that of a leaf
  * @property {(quad: number, curve: number, curveTexels: number) => void} see called for each quad, with the first of the
  *   texels of its curves and their number
  */
 
 /**
- * Walk down from some roots, and mark in `met` what is visited.
+ * Walk down from some roots, and mark visited texels in `met`.
  *
  * Untrusted input is validated: the walk stays within the texels, visits each once and therefore ends.
  *

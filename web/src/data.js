@@ -14,16 +14,16 @@
  * @property {RootPaint | null} paint its colour, if it is a layer of a drawing; null for a silhouette or a map
  * @property {boolean} isMap whether it is a planar map: a whole drawing in its colours
  * @property {boolean} hasGradients whether a paint of the map holds gradients
- * @property {import('./style.js').Style | null} style what of the map can get other colours; null of others
+ * @property {import('./style.js').Style | null} style elements of a map that can be recoloured; otherwise null
  *
  * @typedef {object} TextureData Common to all encodings.
- * @property {string} encoding which encoding it is
- * @property {string} name of the texture, that of its file
+ * @property {string} encoding name of the encoding
+ * @property {string} name of the texture, from its file
  * @property {Root[]} roots the shapes, the layers of a drawing in painting order
  *
  * @typedef {object} PackedData FORMAT.md, parts B and D.
- * @property {'packed'} encoding which encoding it is
- * @property {string} name of the texture, that of its file
+ * @property {'packed'} encoding name of the encoding
+ * @property {string} name of the texture, from its file
  * @property {number} width texels in a row, a power of two
  * @property {number} height rows
  * @property {Uint32Array} texels four words each, row by row

@@ -1,15 +1,15 @@
-// Which element of a drawing is seen at a point. Plain data, without three.js.
+// Finds the topmost element of a drawing at a point. Plain data, without three.js.
 import { mapParts } from './maps.js';
 
 /**
  * @typedef {object} FoundElement An element of a drawing at a point.
  * @property {string} name of the element; it may be empty
- * @property {number} element its place in the `style` of its root
- * @property {number} root place of the root
+ * @property {number} element its index in the `style` of its root
+ * @property {number} root index of the root
  */
 
 /**
- * The topmost element of some layers and maps at a point of the unit square; null where nothing is, or nothing with elements.
+ * Find the topmost element of layers and maps at a point of the unit square; null if there is none.
  *
  * @param {import('./data.js').PackedData} data
  * @param {number} first root

@@ -1,7 +1,7 @@
 /**
  * An error that the user can act on: a damaged file, a missing shape, a refused request.
  *
- * The message is one line: what is wrong, what is allowed, what to do.
+ * The message is one line: what is wrong, what is allowed, and how to fix it.
  */
 export class VextureError extends Error {
   /**
@@ -18,7 +18,7 @@ export class VextureError extends Error {
   }
 
   /**
-   * The same error with the name of the file or address in front of its message.
+   * Prefix the error's message with the name of the file or address.
    *
    * @param {string} where
    * @returns {VextureError}
@@ -34,7 +34,7 @@ export const REMEDY = 'convert the drawing again';
 const LONGEST = 60;
 
 /**
- * Text as part of a one-line message: white space and control characters collapsed, cut to 60 characters.
+ * Prepare a text for a one-line message: collapse white space and control characters, and cut it to 60 characters.
  *
  * @param {string} text
  */
@@ -44,7 +44,7 @@ export function shortened(text) {
 }
 
 /**
- * An untrusted value as part of a one-line message: an error's own message, anything else as JSON if it has any.
+ * Format an untrusted value for a one-line message: an error's own message, or anything else as JSON if possible.
  *
  * @param {unknown} value
  * @returns {string}
@@ -54,7 +54,7 @@ export function line(value) {
 }
 
 /**
- * The error about a value of a wrong kind, such as undefined where a texture is needed.
+ * Make the error for a value of a wrong kind, such as undefined in place of a texture.
  *
  * @param {string} name of the parameter
  * @param {unknown} value
@@ -66,13 +66,13 @@ export function unfit(name, value, remedy) {
 }
 
 /**
- * Options that were given, or none; null stands for none, too.
+ * Return options, or an empty object for null and undefined.
  *
  * @template {object} T
  * @param {T | null | undefined} options
  * @param {string} [name]
  * @returns {T}
- * @throws {VextureError} if they are no object
+ * @throws {VextureError} if they are not an object
  */
 export function givenOptions(options, name = 'options') {
   const given = options ?? /** @type {T} */ ({});
@@ -84,7 +84,7 @@ export function givenOptions(options, name = 'options') {
 function json(value) {
   try {
     return JSON.stringify(value) ?? String(value);
-  } catch { // it is a bigint, or holds itself
+  } catch { // a bigint, or a circular object
     return String(value);
   }
 }

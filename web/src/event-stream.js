@@ -76,7 +76,7 @@ class Stream {
 export const hasStreams = () => typeof EventSource === 'function';
 
 /**
- * Listen to a server's events.
+ * Listen to the events of a server.
  *
  * @param {URL} url
  * @param {boolean} withCredentials

@@ -92,7 +92,7 @@ export async function fetchBytes(url, options, most, onBytes) {
 }
 
 /**
- * Whether an error means that a file could not be fetched, as opposed to invalid contents.
+ * Return whether an error means that a file could not be fetched, as opposed to invalid content.
  *
  * @param {unknown} error
  */
@@ -114,7 +114,7 @@ function failure(url, signal, error) {
 }
 
 /**
- * An address in a message; data addresses are cut, since they carry the whole content.
+ * Format an address for a message; data addresses are cut, because they contain the whole file.
  *
  * @param {string} url
  */

@@ -40,8 +40,8 @@ const BEGIN_MASK = 2 ** FOLD_KIND_SHIFT - 1;
  */
 
 /**
- * Moves the positions at which a mask looks up its shape: the option `fold` of `applyVectorMask`. The mask holds the
- * time, so several masks may share a fold. Made by `FoldTexture.parse`.
+ * Moves the positions at which a mask looks up its shape; the option `fold` of `applyVectorMask`. The mask holds the
+ * time, so several masks can share a fold. Made by `FoldTexture.parse`.
  */
 export class FoldTexture {
   #facts;
@@ -92,7 +92,7 @@ export class FoldTexture {
     }
   }
 
-  /** True: it is a fold. */
+  /** Always true: identifies a fold. */
   get isFoldTexture() {
     return true;
   }
@@ -128,7 +128,7 @@ export class FoldTexture {
   }
 
   /**
-   * Position at which the texture is looked up, for a point and a time; mirror of the shader's function.
+   * Position at which the texture is looked up at a point and a time, as computed by the shader's function.
    *
    * @param {number} u
    * @param {number} v
@@ -181,7 +181,7 @@ export class FoldTexture {
 }
 
 /**
- * The three texels of a row or a column that a position depends on, and their weights.
+ * Find the three texels of a row or a column that affect a position, and their weights.
  *
  * @param {number} place
  * @param {number} count

@@ -2,20 +2,20 @@ import { Matrix3 } from 'three';
 import { VextureError, line, givenOptions } from './errors.js';
 
 /**
- * @typedef {object} GLTFTransform As in KHR_texture_transform.
+ * @typedef {object} GLTFTransform Parameters of KHR_texture_transform.
  * @property {readonly [number, number]} [offset] by default 0, 0
  * @property {number} [rotation] in radians, by default 0
  * @property {readonly [number, number]} [scale] by default 1, 1
  */
 
 /**
- * The `transform` of a mask on a model of glTF, whose texture coordinates go down where the unit square goes up.
+ * Make the `transform` of a mask on a glTF model, whose texture coordinates point down where the unit square points up.
  *
  * The coordinates are scaled, turned, moved and then turned over (FORMAT.md, E.4).
  *
  * @param {GLTFTransform} [transform]
  * @returns {Matrix3} from the mesh's uv to the unit square
- * @throws {VextureError} if its parts are no numbers
+ * @throws {VextureError} if a part is not numeric
  */
 export function gltfTransform(transform) {
   const { offset = [0, 0], rotation = 0, scale = [1, 1] } = givenOptions(transform, 'parts of the transform');

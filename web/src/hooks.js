@@ -99,10 +99,10 @@ export function check(material, texts) {
 }
 
 /**
- * Run a function when a material is compiled, after its own `onBeforeCompile`, also after one that is set later.
+ * Run a function when a material is compiled, after its own `onBeforeCompile`, even if that is set later.
  *
  * @param {Material} material
- * @param {() => string} key names what is done to the program: programs of one key are shared
+ * @param {() => string} key identifies the change: programs with the same key are shared
  * @param {(program: Program) => void} compile
  * @returns {() => void} takes it back
  */

@@ -1,6 +1,6 @@
 /**
- * Vector textures for three.js's `WebGLRenderer`: loading them, masking materials with them, giving their elements other
- * colours, asking what is at a point, following a server.
+ * Vector textures for three.js's `WebGLRenderer`: load them, mask materials with them, recolour their elements, query
+ * points, and follow a server.
  *
  * @module
  */

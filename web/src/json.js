@@ -1,5 +1,5 @@
 /**
- * The value of untrusted JSON text.
+ * Parse untrusted JSON text.
  *
  * @param {string} text
  * @returns {any} undefined if it is not JSON

@@ -47,7 +47,7 @@ const FIXED = /** @type {const} */ ([
  */
 
 /**
- * Whether bytes begin with the file identifier of KTX 2.0.
+ * Return whether bytes begin with the file identifier of KTX 2.0.
  *
  * @param {ArrayBuffer | Uint8Array} file
  */
@@ -57,7 +57,7 @@ export function isKtx2(file) {
 }
 
 /**
- * Texels and texts of a file. The header bounds the memory used, and the format's limits bound the header.
+ * Read the texels and texts of a file. The header bounds the memory used, and the format's limits bound the header.
  *
  * @param {ArrayBuffer | Uint8Array} file
  * @param {import('./mistaken.js').Expected} [expected] what it should be

@@ -7,12 +7,12 @@ import { withTimeLimit } from './patience.js';
 /**
  * @typedef {object} Manifest A server's description of a shape; its addresses are relative to its own.
  * @property {string} name of the shape
- * @property {string} version another one for other data
+ * @property {string} version changes with the data
  * @property {string} texture address of its packed texture
  * @property {string} [events] address of the stream of events
- * @property {string | null} [note] why the last update was refused
+ * @property {string | null} [note] reason why the last update was refused
  * @property {Record<string, unknown>} [facts] about the drawing and its texture
- * @property {Record<string, string | string[]>} [views] addresses of what else the server makes of the shape
+ * @property {Record<string, string | string[]>} [views] addresses of other files about the shape on the server
  */
 
 const NOT_MODIFIED = 304;

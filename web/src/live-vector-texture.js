@@ -7,7 +7,7 @@ import { VectorTexture } from './vector-texture.js';
 
 /**
  * @typedef {object} LiveOptions How a texture follows a server.
- * @property {VectorTextureLoader} [loader] a loader of one's own, for headers and credentials
+ * @property {VectorTextureLoader} [loader] a custom loader, for headers and credentials
  * @property {boolean} [events] whether to use the server's event stream, by default `true`; without it the server is polled
  * @property {number} [interval] milliseconds between two polls, by default 2000
  */
@@ -17,10 +17,10 @@ const INTERVAL = 2000;
 const OPENING = 10000;
 
 /**
- * A texture that follows a server. An update replaces all data at once. After an error the last valid data stay.
+ * A texture that follows a server. An update replaces all data at once. After an error the last valid data remain.
  *
- * Events: `change` (new data are in place, or another manifest of the same data), `note` (why an update is not shown),
- * `offline`, `online`.
+ * Events: `change` (new data, or a new manifest of the same data), `note` (reason why an update is not shown), `offline`,
+ * `online`.
  */
 export class LiveVectorTexture extends VectorTexture {
   #source;
@@ -67,12 +67,12 @@ export class LiveVectorTexture extends VectorTexture {
     this.#note = source.manifest.note ?? null;
   }
 
-  /** The manifest of the data in place: facts, views and more. */
+  /** Manifest of the current data: facts, views and more. */
   get manifest() {
     return this.#manifest;
   }
 
-  /** Why the last update is not shown; null if it is. */
+  /** Reason why the last update is not shown; null if it is shown. */
   get note() {
     return this.#note;
   }
@@ -82,12 +82,12 @@ export class LiveVectorTexture extends VectorTexture {
     return this.#online;
   }
 
-  /** Whether it was closed. */
+  /** Whether it has been closed. */
   get closed() {
     return this.#closing.signal.aborted;
   }
 
-  /** Stop following the server; the last data stay in place. */
+  /** Stop following the server; the last data remain. */
   close() {
     this.#closing.abort();
   }

@@ -1,4 +1,4 @@
-// The means of a planar map's cells, computed again where a paint has changed. Plain data, without three.js.
+// Recomputes the means of a planar map's cells where a paint has changed. Plain data, without three.js.
 import { CELL_BITS, COORDINATE_BITS, COVERAGE_ONE, IS_MEAN, LATTICE, PAINT_ONE, QUAD_FLAG } from '../generated/layout.js';
 import { curvesOf, leafOf } from './leaf.js';
 import { basePaint, headOf, meanBytes, meansAt, paintSteps, sidesOf } from './planar-map.js';
@@ -67,7 +67,7 @@ export class MapMeans {
   }
 
   /**
-   * Give a paint another colour; the means follow in `renew`.
+   * Recolour a paint; `renew` then updates the means.
    *
    * @param {number} paint
    * @param {import('./planar-map.js').Color} color premultiplied sRGB and opacity, 0..1
@@ -96,7 +96,7 @@ export class MapMeans {
     return wasSeen !== opacity > 0;
   }
 
-  /** Write the means that changed paints reach, from the leaves up; of a leaf of which only the mean is known it stays. */
+  /** Recompute the means that depend on changed paints, from the leaves up; a leaf of which only the mean is known keeps it. */
   renew() {
     const { bases, below, above } = this.#cells;
     const isStale = this.#isStale;

@@ -27,11 +27,11 @@ function missing() {
 }
 
 /**
- * Load what planar maps need. `readPacked` and all loaders do so for a file with maps; it is needed before a `VectorTexture`
- * is made of data that another thread has read.
+ * Load the code for planar maps. `readPacked` and all loaders do so for a file with maps; call it before making a
+ * `VectorTexture` of data that another thread has read.
  *
  * @returns {Promise<void>}
- * @throws {VextureError} if it cannot be fetched
+ * @throws {VextureError} if the code cannot be fetched
  */
 export async function loadMaps() {
   try {

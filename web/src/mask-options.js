@@ -4,8 +4,8 @@ import { WRAPS } from '../generated/wraps.js';
 import { VextureError, line, unfit } from './errors.js';
 
 /**
- * @typedef {object} MaskOptions How a mask shows its shape. Of a `VectorMaterial` `mode` is never `mix`, and `background` is
- *   `none` by default.
+ * @typedef {object} MaskOptions How a mask shows its shape. In a `VectorMaterial`, `mode` is never `mix`, and `background`
+ *   is `none` by default.
  * @property {string | number | null} [root] name or place of the shape; in mode `paint` `NAME` also selects the layers
  *   `NAME/...`. Needed if the texture holds several shapes, in mode `paint` if it holds several drawings, unless
  *   `instanced` is set.
@@ -15,11 +15,11 @@ import { VextureError, line, unfit } from './errors.js';
  * @property {'alpha' | 'mix' | 'cut' | 'paint' | null} [mode] `alpha`: opacity is 0 outside the shape. `mix`: another colour or map
  *   inside the shape. `cut`: nothing is drawn outside the shape, not even depth. `paint`: the drawing's own colours. null:
  *   `paint` of what has colours, else `alpha`. `alpha` by default
- * @property {'none' | 'clamp' | 'repeat'} [wrap] beyond the unit square: nothing, by default, the value at its border, or
- *   the shape again
- * @property {boolean} [flat] for views straight at a plane, as of an orthographic camera, in which pixels are upright in
- *   the drawing and all alike: they cost less. In any other view the picture is wrong. Without effect on a fold.
- *   `false` by default
+ * @property {'none' | 'clamp' | 'repeat'} [wrap] beyond the unit square: nothing (the default), the value at its border,
+ *   or the shape again
+ * @property {boolean} [flat] a cheaper method for views straight at a plane, as of an orthographic camera, in which all
+ *   pixels are upright in the drawing and of equal size. In any other view the picture is wrong. It has no effect on a
+ *   fold. `false` by default
  * @property {boolean} [invert] exchange inside and outside, by default `false`; not in mode `paint`
  * @property {import('three').ColorRepresentation} [color] mode `mix`: colour inside, by default white; a `Color` may be
  *   changed at any time
@@ -28,7 +28,7 @@ import { VextureError, line, unfit } from './errors.js';
  * @property {number} [threshold] mode `cut`: pixels with at least this coverage are drawn, by default 0.5
  * @property {boolean} [linear] mode `paint`, of a planar map: average the colours of a pixel in linear light, as light
  *   mixes, or in sRGB, as browsers do. By default `true` on lit materials; without effect on a drawing of several layers
- * @property {'own' | 'none'} [background] mode `paint`: around the drawing, the material's own colour, by default, or
+ * @property {'own' | 'none'} [background] mode `paint`: around the drawing, the material's own colour (the default), or
  *   nothing
  * @property {boolean} [instanced] each instance shows the root in its attribute `vextureRoot` (see `rootAttribute`), in
  *   mode `paint` one layer. `false` by default

@@ -67,10 +67,10 @@ export class SceneMask {
   }
 
   /**
-   * Change options of all masks, as `VectorMask.set` does. After an error nothing is changed.
+   * Change options of all masks, like `VectorMask.set`. After an error nothing is changed.
    *
    * @param {MaskOptions & { texture?: VectorTexture }} changes
-   * @throws {VextureError} as `VectorMask.set`
+   * @throws {VextureError} for the reasons of `VectorMask.set`
    */
   set(changes) {
     const before = this.#masks.map((mask) => ({ ...mask.options, texture: mask.texture }));
@@ -83,22 +83,22 @@ export class SceneMask {
     }
   }
 
-  /** Restore all materials and meshes. The texture, which others may use, is not disposed of. */
+  /** Restore all materials and meshes. The texture is not disposed of, because others may use it. */
   remove() {
     for (const mask of [...this.#masks].reverse()) mask.remove();
   }
 }
 
 /**
- * Mask the materials of a model, or of any part of a scene, each once however many meshes have it, and attach the meshes.
+ * Mask the materials of a model, or of any part of a scene, each once for all its meshes, and attach the meshes.
  *
- * A mesh of several materials keeps its whole shadow, which they share.
+ * A mesh of several materials keeps its whole shadow, because its materials share one.
  *
  * @param {Object3D} scene such as the `scene` of a model of glTF, for which `transform: gltfTransform()` is right
  * @param {VectorTexture} texture
  * @param {SceneMaskOptions} [given] those of `applyVectorMask`, which all masks share, and `materials`
  * @returns {SceneMask}
- * @throws {VextureError} if no material has a name, none is chosen, or one cannot be masked; then nothing is changed
+ * @throws {VextureError} if no material has a name or is chosen, or one cannot be masked; then nothing is changed
  */
 export function applyVectorMaskToScene(scene, texture, given) {
   if (!scene?.isObject3D) throw unfit('scene', scene, 'give a scene, a group or a mesh, such as gltf.scene');

@@ -1,4 +1,4 @@
-// What a file is that is not what was asked for: many servers answer a wrong address with a page, and some with nothing.
+// Identifies files of a wrong kind: many servers answer a wrong address with a page, and some with nothing.
 import { REMEDY, VextureError, line } from './errors.js';
 
 /**

@@ -13,7 +13,7 @@ import { nearest } from './map-means.js';
  *
  * @typedef {object} Paints
  * @property {string[]} names of elements
- * @property {Float64Array} parts red, green, blue, opacity for each name: sRGB, not premultiplied, 0..1; NaN: its own
+ * @property {Float64Array} parts red, green, blue, opacity for each name: sRGB, not premultiplied, 0..1; NaN restores
  */
 
 /** Colours and opacities of elements are whole numbers of these parts, as in files. */

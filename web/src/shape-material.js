@@ -10,7 +10,7 @@ import { NAMES, checkOptions, complete, withOptions } from './mask-options.js';
  * @typedef {object} ShapeParameters What an unlit material shows.
  * @property {VectorTexture | null} [texture] null or omitted: none yet
  * @property {'alpha' | 'paint' | 'cut' | null} [mode] the shape in `color`, the drawing in its own colours, or the shape in
- *   `color` without blending. By default null, the drawing's colours if it has any, or `alpha` if `color` is given
+ *   `color` without blending. By default null: the drawing's colours if it has any, or `alpha` if `color` is given
  *
  * @typedef {import('three').MeshBasicMaterialParameters & Omit<import('./mask-options.js').MaskOptions,
  *   'mode' | 'color' | 'map'> & ShapeParameters} VectorMaterialParameters
@@ -21,11 +21,11 @@ import { NAMES, checkOptions, complete, withOptions } from './mask-options.js';
 
 /**
  * @template Mask
- * @typedef {object} Shaped What such a material has beside what its base class has.
+ * @typedef {object} Shaped Members of such a material beyond those of its base class.
  * @property {Mask | null} mask null without a texture; `mask.attach(mesh)` applies it to shadows and raycasting
  * @property {AllOptions} options as the constructor takes them
  * @property {VectorTexture | null} texture with null the material is a plain one
- * @property {true} isVectorMaterial true: it is a material with a shape
+ * @property {true} isVectorMaterial always true: identifies a material with a shape
  * @property {(values?: VectorMaterialParameters) => void} setValues changes several values at once, such as a texture and its
  *   root, as the constructor takes them; undefined is the default. After an error the options are as they were
  */

@@ -6,20 +6,20 @@ import { paintAt } from './walk-map.js';
 /**
  * @typedef {import('./planar-map.js').Color} Color
  *
- * @typedef {object} StyleElement Part of a drawing that gets a new colour as a whole.
- * @property {string} name may be empty, and need not be the only one of its kind
+ * @typedef {object} StyleElement Part of a drawing that is recoloured as a whole.
+ * @property {string} name may be empty, and several elements may share it
  * @property {[number, number, number]} color sRGB components, 0..1
  * @property {number} opacity 0..1
  * @property {number} group the innermost group around it, as a place in `groups`; -1 if there is none
- * @property {boolean} hides whether something below it is not in the map, so that it must stay opaque
+ * @property {boolean} hides whether the map lacks something below it, so that it must stay opaque
  *
- * @typedef {object} StyleGroup Elements that are composited by themselves.
+ * @typedef {object} StyleGroup Elements that are composited together before the rest.
  * @property {number} outer the group around it, or -1
  * @property {number} opacity 0..1
  * @property {number} blend number of the blend mode
  * @property {'none' | 'opacity' | 'luminance'} mask whether it masks the group around it
  *
- * @typedef {object} Style What of a planar map can get other colours.
+ * @typedef {object} Style Elements of a planar map that can be recoloured.
  * @property {StyleElement[]} elements in painting order
  * @property {StyleGroup[]} groups each after the group around it
  * @property {number[][]} stacks of each paint, the elements seen in it, from below

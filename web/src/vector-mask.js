@@ -32,8 +32,8 @@ function refuseWebGPU() {
 }
 
 /**
- * A shape as the mask of a material, made by `applyVectorMask`. Each option is a property, too; changes take effect in the
- * next frame.
+ * A shape as the mask of a material, made by `applyVectorMask`. Each option is also a property; changes take effect in
+ * the next frame.
  */
 export class VectorMask extends WithOptions {
   #material;
@@ -172,13 +172,13 @@ export class VectorMask extends WithOptions {
     this.#uniforms.vextureTime.value = this.#shown.options.fold?.clock(time) ?? 0;
   }
 
-  /** The options, as `applyVectorMask` takes them. */
+  /** Options, as `applyVectorMask` takes them. */
   get options() {
     return { ...this.#shown.given };
   }
 
   /**
-   * Give a copy of the material what the material was before, without the mask.
+   * Restore in a copy of the material what the material was before, without the mask.
    *
    * @param {import('three').Material} copy
    */
@@ -186,12 +186,12 @@ export class VectorMask extends WithOptions {
     copy.transparent = this.#transparent;
   }
 
-  /** The material that it masks. */
+  /** The masked material. */
   get material() {
     return this.#material;
   }
 
-  /** The texture with its shape; setting it shows another one. */
+  /** The texture with the shape; it can be replaced by another one. */
   get texture() {
     return this.#shown.texture;
   }
@@ -201,11 +201,11 @@ export class VectorMask extends WithOptions {
   }
 
   /**
-   * Whether the masked surface covers a point of a mesh; false in a hole.
+   * Return whether the masked surface covers a point of a mesh; false in a hole.
    *
    * @param {number} u
    * @param {number} v the mesh's uv
-   * @param {number} [root] place of another shape than the mask's
+   * @param {number} [root] index of a shape other than the mask's
    * @returns {boolean}
    */
   hits(u, v, root) {
@@ -213,11 +213,11 @@ export class VectorMask extends WithOptions {
   }
 
   /**
-   * The topmost element at a point of a mesh; null where nothing is, or nothing with elements (`vexture convert --restyle`).
+   * Find the topmost element at a point of a mesh; null if there is none (see `vexture convert --restyle`).
    *
    * @param {number} u
    * @param {number} v the mesh's uv
-   * @param {number} [root] place of another shape than the mask's
+   * @param {number} [root] index of a shape other than the mask's
    * @returns {import('./element-at.js').FoundElement | null}
    */
   elementAt(u, v, root) {
@@ -225,8 +225,8 @@ export class VectorMask extends WithOptions {
   }
 
   /**
-   * Let rays and light pass through a mesh outside the shape, and rays find the elements of the drawing. Clones of the
-   * mesh are attached, too, as long as they have this material.
+   * Let rays and light pass through a mesh outside the shape, and let rays find the elements of the drawing. Clones of the
+   * mesh with this material are attached, too.
    *
    * @param {import('./ray-mesh.js').Masked} mesh that has this material
    * @param {{ shadow?: boolean }} [options] by default with `shadow: true`; without `shadow` light does not pass: several materials share one shadow
@@ -262,7 +262,7 @@ export class VectorMask extends WithOptions {
     this.#meshes.release(mesh);
   }
 
-  /** Restore the material and all meshes. The texture, which others may use, is not disposed of. */
+  /** Restore the material and all meshes. The texture is not disposed of, because others may use it. */
   remove() {
     this.#meshes.releaseAll();
     for (const takeBack of this.#takeBack) takeBack();
@@ -273,7 +273,7 @@ export class VectorMask extends WithOptions {
     if (MASKS.get(this.#material) === this) MASKS.delete(this.#material);
   }
 
-  /** The same as `remove`, which frees the mask's own GPU memory. */
+  /** Same as `remove`, which frees the mask's own GPU memory. */
   dispose() {
     this.remove();
   }
@@ -283,11 +283,11 @@ export class VectorMask extends WithOptions {
  * Mask a built-in mesh material or sprite material with a shape. `material.clone()` has a mask of its own with the same
  * options; `vectorMaskOf` finds it, to attach it to a mesh or change it.
  *
- * @param {import('three').Material} material its own `onBeforeCompile` runs first, also one that is set later
+ * @param {import('three').Material} material its own `onBeforeCompile` runs first, even if it is set later
  * @param {VectorTexture} texture
  * @param {MaskOptions} [options]
  * @returns {VectorMask}
- * @throws {VextureError} if the material has a mask already or cannot be masked, or the root is unknown or
+ * @throws {VextureError} if the material already has a mask or cannot be masked, or the root is unknown or
  *   ambiguous
  */
 export function applyVectorMask(material, texture, options) {
@@ -295,7 +295,7 @@ export function applyVectorMask(material, texture, options) {
 }
 
 /**
- * The mask of a material or of a clone of a masked one; undefined if it has none.
+ * Return the mask of a material or of a clone of a masked one; undefined if it has none.
  *
  * @param {import('three').Material} material
  * @returns {VectorMask | undefined}

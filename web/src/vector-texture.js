@@ -39,7 +39,7 @@ import { checkData, colorAt, contains } from './walk.js';
 const COLORS = { Color, LinearSRGBColorSpace, SRGBColorSpace };
 
 /**
- * Shapes with random access for shaders. `VectorTextureLoader` makes it from validated data.
+ * Shapes with random access for shaders. `VectorTextureLoader` makes them from validated data.
  *
  * @template {TextureData} [Data=PackedData]
  * @extends {EventDispatcher<VectorTextureEvents>}
@@ -60,27 +60,27 @@ export class VectorTexture extends EventDispatcher {
     this.#data = data;
   }
 
-  /** True: it is a vector texture. */
+  /** Always true: identifies a vector texture. */
   get isVectorTexture() {
     return true;
   }
 
-  /** The file's contents. */
+  /** Contents of the file. */
   get data() {
     return this.#data;
   }
 
-  /** The textures on the GPU; a `change` replaces them. */
+  /** Textures on the GPU; a `change` replaces them. */
   get textures() {
     return this.#textures;
   }
 
-  /** Which encoding it has: `packed`, or `thesis`. @returns {Data['encoding']} */
+  /** Name of the encoding: `packed` or `thesis`. @returns {Data['encoding']} */
   get encoding() {
     return this.#data.encoding;
   }
 
-  /** Its name, that of its file. */
+  /** Name of the texture, from its file. */
   get name() {
     return this.#data.name;
   }
@@ -97,9 +97,9 @@ export class VectorTexture extends EventDispatcher {
   }
 
   /**
-   * Place of a shape in `roots`.
+   * Find the index of a shape in `roots`.
    *
-   * @param {RootChoice} [root] name or place of the shape; not needed if there is only one
+   * @param {RootChoice} [root] name or index of the shape; not needed if there is only one
    * @returns {number}
    * @throws {VextureError} if there is no such shape (the message lists near names), or several and no choice
    */
@@ -108,11 +108,11 @@ export class VectorTexture extends EventDispatcher {
   }
 
   /**
-   * Whether a point of the unit square is inside a shape, computed from the stored outlines.
+   * Return whether a point of the unit square is inside a shape, by the stored outlines.
    *
    * @param {number} u
    * @param {number} v upwards
-   * @param {RootChoice} [root] name or place of the shape; not needed if there is only one
+   * @param {RootChoice} [root] name or index of the shape; not needed if there is only one
    * @returns {boolean}
    * @throws {VextureError} if there is no such shape, or several and no choice
    */
@@ -122,12 +122,12 @@ export class VectorTexture extends EventDispatcher {
   }
 
   /**
-   * Colour of a drawing at a point of the unit square, as mode `paint` shows it.
+   * Compute the colour of a drawing at a point of the unit square, as mode `paint` shows it.
    *
    * @param {number} u
    * @param {number} v upwards
    * @param {RootChoice} [root] as in `layersOf`
-   * @returns {import('./data.js').RootPaint} opacity 0 where nothing is
+   * @returns {import('./data.js').RootPaint} with opacity 0 if there is nothing
    * @throws {VextureError} if there is no such drawing, or several and no choice
    */
   colorAt(u, v, root) {
@@ -136,13 +136,13 @@ export class VectorTexture extends EventDispatcher {
   }
 
   /**
-   * Give elements of a drawing other colours, which the next frame shows: no tree is built, and no program.
+   * Recolour elements of a drawing from the next frame on, without rebuilding trees or programs.
    *
-   * @param {import('./paints.js').PaintList} paints by element: a colour as `THREE.Color`
-   *   reads it, or sRGB components and opacity, 0..1, or `own`: what it had at first. Of thousands, a `Map` is read faster
-   *   than an object
+   * @param {import('./paints.js').PaintList} paints by element: a colour as `THREE.Color` reads it, or sRGB components and
+   *   opacity, 0..1, or `own` to restore the original colour. For thousands of elements, a `Map` is read faster than an
+   *   object
    * @param {RootChoice} [root] as in `layersOf`
-   * @throws {VextureError} if the texture knows no elements (it was converted without `--restyle`), none has a name, or
+   * @throws {VextureError} if the texture has no elements (it was converted without `--restyle`), none has a name, or
    *   one that hides others would not stay opaque
    */
   setPaints(paints, root) {
@@ -152,13 +152,13 @@ export class VectorTexture extends EventDispatcher {
   }
 
   /**
-   * The topmost element of a drawing at a point of the unit square.
+   * Find the topmost element of a drawing at a point of the unit square.
    *
    * @param {number} u
    * @param {number} v upwards
    * @param {RootChoice} [root] as in `layersOf`
-   * @returns {import('./element-at.js').FoundElement | null} null where nothing is
-   * @throws {VextureError} if the texture knows no elements
+   * @returns {import('./element-at.js').FoundElement | null} null if there is none
+   * @throws {VextureError} if the texture has no elements
    */
   elementAt(u, v, root) {
     const { first, count } = this.#restylable(root);
@@ -177,7 +177,7 @@ export class VectorTexture extends EventDispatcher {
   }
 
   /**
-   * Rows of `textures.layers` that hold a drawing.
+   * Find the rows of `textures.layers` that hold a drawing.
    *
    * @param {RootChoice} [root] name or place; `NAME` selects the layers `NAME/...` of an atlas. Not needed if there is
    *   only one drawing.
@@ -189,7 +189,7 @@ export class VectorTexture extends EventDispatcher {
   }
 
   /**
-   * Replace the data; the next frame shows the new ones.
+   * Replace the data from the next frame on.
    *
    * @param {Data} data
    */
@@ -205,7 +205,7 @@ export class VectorTexture extends EventDispatcher {
   }
 
   /**
-   * A texture of its own with the same data, which can have other colours than this one. It does not follow a server.
+   * Make an independent texture with the same data, which can be recoloured separately. It does not follow a server.
    *
    * @returns {VectorTexture}
    */

@@ -33,7 +33,7 @@ def source(tmp_path_factory):
 
 
 def made(source, output, look, **options):
-    return make_tiles(source, output, TileOptions(max_zoom=6, id="parcel", look=look, **options))
+    return make_tiles(source, output, TileOptions(max_zoom=6, id="parcel", style=look, **options))
 
 
 def colours_in(path):
@@ -90,7 +90,7 @@ def test_what_is_finished_is_named_and_has_its_colours_and_its_table(source, tmp
         if what == "parts":
             raise stops
 
-    options = TileOptions(max_zoom=6, id="parcel", look=LOOK, name="whole")
+    options = TileOptions(max_zoom=6, id="parcel", style=LOOK, name="whole")
     says = (
         None if isinstance(stops, KeyboardInterrupt) else r"what is finished is in .*parcels\.pmtiles\.parts, and the"
     )
@@ -172,7 +172,7 @@ def test_columns_that_cannot_be_colours_are_named_and_nothing_stays(source, tmp_
 )
 def test_looks_are_refused_before_anything_is_read(look, says):
     with pytest.raises(ParameterError) as error:
-        TileOptions(look=look)
+        TileOptions(style=look)
     assert says in str(error.value)
 
 

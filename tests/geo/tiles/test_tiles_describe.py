@@ -54,7 +54,7 @@ def source(tmp_path_factory):
 def archive(source, tmp_path_factory):
     output = tmp_path_factory.mktemp("made") / "parcels.pmtiles"
     look = TileStyle(Scale("parcel", "categories"), table="parquet")
-    options = TileOptions(max_zoom=ZOOM, id="parcel", name="Parcels", attribution="a survey", look=look)
+    options = TileOptions(max_zoom=ZOOM, id="parcel", name="Parcels", attribution="a survey", style=look)
     make_tiles(source, output, options)
     return output
 
@@ -62,7 +62,7 @@ def archive(source, tmp_path_factory):
 @pytest.fixture(scope="module")
 def folder(source, tmp_path_factory):
     output = tmp_path_factory.mktemp("made") / "parcels"
-    make_tiles(source, output, TileOptions(max_zoom=ZOOM, id="parcel", look=TileStyle(table="arrow")))
+    make_tiles(source, output, TileOptions(max_zoom=ZOOM, id="parcel", style=TileStyle(table="arrow")))
     return output
 
 

@@ -26,7 +26,7 @@ def source(tmp_path_factory):
 
 
 def made(source, output, look, **options):
-    return make_tiles(source, output, TileOptions(max_zoom=6, id="parcel", look=look, **options))
+    return make_tiles(source, output, TileOptions(max_zoom=6, id="parcel", style=look, **options))
 
 
 @pytest.mark.parametrize("option", ["--source-crs", "--crs"])

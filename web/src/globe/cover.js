@@ -1,4 +1,4 @@
-// Which parts of a sphere a camera sees, and at which zoom. Plain numbers in float64, without three.js.
+// Finds the parts of a sphere that a camera sees, and the zoom of each. Plain numbers in float64, without three.js.
 import { LEAD, TILE_SIZE, lngLat } from '../tiles/grid.js';
 
 /**
@@ -7,21 +7,21 @@ import { LEAD, TILE_SIZE, lngLat } from '../tiles/grid.js';
  * @typedef {object} Eye A camera, in the sphere's own coordinates.
  * @property {Vec3} position
  * @property {number[][]} planes of its frustum, inwards: nx ny nz d
- * @property {number} pixels CSS pixels that a length of 1 at a distance of 1 covers
+ * @property {number} pixels CSS pixels covered by a length of 1 at a distance of 1
  *
- * @typedef {object} Ball Around a part of the sphere.
+ * @typedef {object} Ball A ball around a part of the sphere.
  * @property {Vec3} centre
  * @property {number} radius
  */
 
-/** Parts of a quad's sides where it is sampled. */
+/** Fractions of a quad's sides at which it is sampled. */
 const SAMPLES = [0, 0.25, 0.5, 0.75, 1];
 
-/** No zoom is needed above this one, where a pixel is a millimetre. */
+/** Largest zoom, at which a pixel is a millimetre. */
 const MOST_ZOOM = 27;
 
 /**
- * The place on the sphere of radius 1: y towards the north pole, z towards 0 degrees.
+ * Convert a place to the sphere of radius 1: y towards the north pole, z towards 0 degrees.
  *
  * @param {number} lng degrees
  * @param {number} lat degrees
@@ -33,7 +33,7 @@ export function onSphere(lng, lat) {
 }
 
 /**
- * A ball around a quad; the rows of the poles reach them.
+ * Make a ball around a quad; the first and last rows include the poles.
  *
  * @param {import('../tiles/grid.js').TileId} quad
  * @returns {Ball}
@@ -52,7 +52,7 @@ export function ballOf({ z, x, y }) {
 const between = (one, other) => Math.hypot(one[0] - other[0], one[1] - other[1], one[2] - other[2]);
 
 /**
- * Whether some of a ball is in the frustum, and before the horizon.
+ * Return whether part of a ball is in the frustum, and in front of the horizon.
  *
  * @param {Ball} ball
  * @param {Eye} eye
@@ -65,7 +65,7 @@ function isSeen({ centre, radius }, { position, planes }) {
 }
 
 /**
- * The quads that cover what a camera sees, each as large on the screen as a tile at its own zoom.
+ * Find the quads that cover what a camera sees, each about as large on the screen as a tile at its own zoom.
  *
  * @param {Eye} eye
  * @returns {import('../tiles/choose.js').Quad[]}

@@ -1,20 +1,20 @@
-// The mesh of a part of a sphere: its vertices lie around its own middle, so that float32 serves at every zoom.
+// The mesh of a part of a sphere: vertices are relative to its own middle, so that float32 suffices at every zoom.
 import { BufferAttribute, BufferGeometry } from 'three';
 import { cellsAt, lngLat } from '../tiles/grid.js';
 import { onSphere } from './cover.js';
 
-/** How far a skirt reaches beyond its quad, as a part of the quad's side: about two pixels. */
+/** Distance that a skirt extends beyond its quad, as a fraction of the quad's side: about two pixels. */
 const SKIRT = 1 / 256;
 
-/** Where the skirts of a quad begin, and which way they go: south, north, east, west. */
+/** Start and direction of the skirts of a quad: south, north, east, west. */
 const SKIRTS = /** @type {const} */ ([[0, SKIRT], [0, -SKIRT], [SKIRT, 0], [-SKIRT, 0]]);
 
-/** What patches of one kind share. @type {Map<string, { inner: Uint32Array, around: Uint32Array }>} */
+/** Indices shared by patches of one kind. @type {Map<string, { inner: Uint32Array, around: Uint32Array }>} */
 const INDICES = new Map();
 
 /**
- * Vertices have a place and, as `tilePlace`, that within the quad: 0..1 from its north-west corner. The skirt goes on
- * beyond the sides, a little lower: it is seen only through the cracks between quads, whose vertices do not meet.
+ * Vertices have a position and, as `tilePlace`, a position within the quad: 0..1 from its north-west corner. The skirt
+ * continues beyond the sides, a little lower, and is only visible through cracks between quads whose vertices differ.
  *
  * @param {import('../tiles/grid.js').TileId} quad
  * @param {number} radius
@@ -77,7 +77,7 @@ export function patch({ z, x, y }, radius) {
 
 /**
  * @param {number} cells along a side
- * @param {number} rows of vertices, those of the poles with them
+ * @param {number} rows of vertices, including those of the poles
  * @param {number} start the row at which the quad itself begins
  */
 function indicesOf(cells, rows, start) {

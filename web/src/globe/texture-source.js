@@ -3,12 +3,12 @@ import { VextureError, line } from '../errors.js';
 import { isGrid } from '../tiles/source.js';
 
 /**
- * A source of one texture that shows the whole world in Web Mercator.
+ * Make a source of one texture that shows the whole world in Web Mercator.
  *
  * @param {ArrayBuffer | Uint8Array} file its contents
- * @param {{ margin?: number, name?: string }} [options] margin: by which it is wider than the world, as a part of the world
+ * @param {{ margin?: number, name?: string }} [options] margin: on each side beyond the world, as a fraction of the world
  * @returns {import('../tiles/source.js').TileSource}
- * @throws {VextureError} if they cannot be
+ * @throws {VextureError} if the options are invalid
  */
 export function textureSource(file, options) {
   const { margin = 0, name = 'globe' } = options ?? {};

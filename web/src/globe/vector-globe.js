@@ -12,15 +12,15 @@ import { patch } from './patch.js';
  * @typedef {import('../tiles/client.js').LoadedTile} LoadedTile
  * @typedef {import('../tiles/pyramid.js').Feature} Feature
  *
- * @typedef {object} VectorGlobeOptions What a globe shows, and how much it may keep and ask for.
+ * @typedef {object} VectorGlobeOptions Data of a globe, and limits of its memory and requests.
  * @property {string | URL | import('../tiles/source.js').TileArchive | import('../tiles/source.js').TileSource} source address of a
  *   `.pmtiles` or a TileJSON, the bytes of a `.pmtiles`, `textureSource` of one texture, or a source of your own
  * @property {number} [radius] 1 by default
- * @property {() => void} [onChange] something has been loaded: draw another frame
- * @property {(error: unknown) => void} [onError] something cannot be had; by default the console's
- * @property {number} [budget] bytes of tiles that are kept
- * @property {number} [most] requests at once
- * @property {number} [retries] of a request that has failed
+ * @property {() => void} [onChange] called when something has been loaded and another frame should be drawn
+ * @property {(error: unknown) => void} [onError] called when something cannot be loaded; by default the error is logged
+ * @property {number} [budget] bytes of tiles in memory
+ * @property {number} [most] number of simultaneous requests
+ * @property {number} [retries] number of retries of a failed request
  * @property {number} [pause] milliseconds before the first retry
  */
 
@@ -36,7 +36,7 @@ void main() {
     #include <logdepthbuf_vertex>
 }`;
 
-/** Above all screens, in CSS pixels: a much greater one would ask for all tiles. */
+/** Limit in CSS pixels, above the height of any screen, because a much greater height would request all tiles. */
 const MOST_HEIGHT = 16384;
 
 /** A tile's colour, which is of sRGB, as three.js's own materials give theirs to the screen or a target. @param {boolean} gradients */
@@ -63,7 +63,7 @@ export class VectorGlobe extends Group {
 
   /**
    * @param {VectorGlobeOptions} options
-   * @throws {VextureError} if one of them cannot be
+   * @throws {VextureError} if an option is invalid
    */
   constructor(options) {
     super();
@@ -77,17 +77,17 @@ export class VectorGlobe extends Group {
     });
   }
 
-  /** When the pyramid's metadata are there. @returns {Promise<void>} */
+  /** Wait for the pyramid's metadata. @returns {Promise<void>} */
   async ready() {
     await this.#pyramid.ready;
   }
 
-  /** Where the data are from, once `ready()`: to be told beside the globe. */
+  /** Attribution of the data, available after `ready()`, to be shown beside the globe. */
   get attribution() {
     return this.#pyramid.client?.source.attribution ?? '';
   }
 
-  /** What it holds and shows. */
+  /** Statistics of what it holds and shows. */
   get stats() {
     const { client, shown } = this.#pyramid;
     const quads = shown.map(({ quad, loaded }) => ({ quad, tile: loaded.tile }));
@@ -95,7 +95,7 @@ export class VectorGlobe extends Group {
   }
 
   /**
-   * Show what a camera sees; what it lacks is asked for.
+   * Show what a camera sees, and request missing tiles.
    *
    * @param {import('three').PerspectiveCamera} camera
    * @param {number} height of the picture in CSS pixels
@@ -121,30 +121,30 @@ export class VectorGlobe extends Group {
   }
 
   /**
-   * Colours by the features' ids: a table, whose paints join those before and come before the colours of `setTimes`; or a
-   * function, which is asked where neither has one; null: as in the tiles.
+   * Set colours by the features' ids. A table is merged with earlier tables, and overrides the colours of `setTimes`; a
+   * function is called for features that neither colours; null restores the colours of the tiles.
    *
    * @param {import('../tiles/feature-colors.js').FeaturePaints | import('../tiles/feature-colors.js').PaintFunction | null} paints
-   * @throws {VextureError} if one is no colour
+   * @throws {VextureError} if a colour is invalid
    */
   setPaint(paints) {
     this.#pyramid.colors.setPaint(paints);
   }
 
   /**
-   * Show some features only; others are neither seen nor picked.
+   * Show only some features; others are neither visible nor picked.
    *
-   * @param {Iterable<import('../tiles/feature-colors.js').FeatureId> | ((id: string) => boolean) | null} shown ids, or whether one is shown; null: all
+   * @param {Iterable<import('../tiles/feature-colors.js').FeatureId> | ((id: string) => boolean) | null} shown ids, or a predicate; null shows all
    */
   setFilter(shown) {
     this.#pyramid.colors.setFilter(shown);
   }
 
   /**
-   * The colours of features at each step of time; null: no more. A table of `setPaint` comes before them, a function after.
+   * Set the colours of features at each step of time; null removes them. A table of `setPaint` has priority over them, a function has not.
    *
    * @param {import('../tiles/feature-colors.js').TimeTable | null} table
-   * @throws {VextureError} if a step has another number of colours than there are ids, or one is no colour
+   * @throws {VextureError} if the number of colours of a step differs from that of the ids, or a colour is invalid
    */
   setTimes(table) {
     this.#pyramid.colors.setTimes(table);
@@ -153,25 +153,25 @@ export class VectorGlobe extends Group {
   /**
    * Show the colours of `setTimes` at a time.
    *
-   * @param {number} time in steps; between two of them colours are mixed
+   * @param {number} time in steps; between two steps colours are mixed
    */
   setTime(time) {
     this.#pyramid.colors.setTime(time);
   }
 
   /**
-   * The feature at a place; null where nothing is.
+   * Find the feature at a place; null if there is none.
    *
    * @param {{ lng: number, lat: number } | [number, number]} place longitude and latitude in degrees
    * @returns {Feature | null}
-   * @throws {VextureError} if it is no place
+   * @throws {VextureError} if the place is invalid
    */
   featureAt(place) {
     return this.#pyramid.featureAt(place);
   }
 
   /**
-   * Longitude and latitude of a point of the sphere, such as that of an intersection of a raycaster.
+   * Convert a point of the sphere, such as an intersection of a raycaster, to longitude and latitude.
    *
    * @param {Vector3} point in the world
    * @returns {[number, number]} degrees
@@ -183,7 +183,7 @@ export class VectorGlobe extends Group {
   }
 
   /**
-   * The place under a pointer; null beside the globe.
+   * Find the place under a pointer; null outside the globe.
    *
    * @param {{ x: number, y: number }} pointer -1..1 across the picture, upwards, as for a raycaster
    * @param {import('three').PerspectiveCamera} camera
@@ -205,7 +205,7 @@ export class VectorGlobe extends Group {
   }
 
   /**
-   * The feature under a pointer; null where nothing is.
+   * Find the feature under a pointer; null if there is none.
    *
    * @param {{ x: number, y: number }} pointer -1..1 across the picture, upwards, as for a raycaster
    * @param {import('three').PerspectiveCamera} camera
@@ -216,13 +216,13 @@ export class VectorGlobe extends Group {
     return place && this.featureAt(place);
   }
 
-  /** Ask again for what could not be had: tiles, or the metadata. */
+  /** Retry loading tiles or metadata that could not be loaded. */
   retry() {
     this.#pyramid.retry();
   }
 
   /**
-   * A globe loads tiles for its own camera.
+   * Not supported, because a globe loads tiles for its own camera.
    *
    * @returns {never}
    * @throws {VextureError} always
@@ -231,7 +231,7 @@ export class VectorGlobe extends Group {
     throw new VextureError('a VectorGlobe cannot be cloned; make another one of the same source', 'clone');
   }
 
-  /** Abort what is being loaded, and free the GPU memory. */
+  /** Abort loading, and free the GPU memory. */
   dispose() {
     for (const key of [...this.#patches.keys()]) this.#remove(key);
     this.#pyramid.dispose();
@@ -319,7 +319,7 @@ function checkCamera(camera) {
 }
 
 /**
- * Planes of a frustum, inwards and of length 1, without those near and far.
+ * Compute the planes of a frustum, pointing inwards with length 1, except near and far.
  *
  * @param {Matrix4} matrix to clip space
  */

@@ -1,4 +1,4 @@
-// The extension of glTF as JSON: validated, as everything in a model is untrusted (FORMAT.md, E).
+// The glTF extension as JSON, validated because everything in a model is untrusted (FORMAT.md, E).
 import { PACKED_FILE_LIMIT } from '../../generated/layout.js';
 import { WRAPS } from '../../generated/wraps.js';
 import { VextureError, line } from '../errors.js';
@@ -18,16 +18,16 @@ const BASE64_RATIO = 4 / 3;
 const LONGEST_URI = 2048;
 
 /**
- * @typedef {object} TextureSource Where the file of a texture is: one of three.
+ * @typedef {object} TextureSource Location of a texture's file, in one of three forms.
  * @property {string} where its place in the model, for messages
  * @property {string} [uri] relative to the model
  * @property {string} [base64] the file itself
  * @property {number} [bufferView]
  * @property {string} [name]
  *
- * @typedef {object} MaterialMask What a material shows.
+ * @typedef {object} MaterialMask Mask of a material.
  * @property {string} where its place in the model, for messages
- * @property {number} texture place in the list of textures
+ * @property {number} texture index in the list of textures
  * @property {string | number} [root]
  * @property {'alpha' | 'mix' | 'cut' | 'paint'} mode
  * @property {'none' | 'clamp' | 'repeat'} wrap
@@ -108,7 +108,7 @@ function textOf(value, where) {
 }
 
 /**
- * Check that an address stays in the folder of the model, on its server.
+ * Check that an address stays in the folder of the model, on the same server.
  *
  * @param {string} uri
  * @param {string} where
@@ -170,7 +170,7 @@ function readSource(value, where, json) {
 }
 
 /**
- * The textures of a model.
+ * Read the textures of a model.
  *
  * @param {any} json
  * @returns {TextureSource[]}
@@ -198,7 +198,7 @@ function readTransform(value, where) {
 }
 
 /**
- * What a material shows; null without the extension.
+ * Read the mask of a material; null without the extension.
  *
  * @param {any} definition of the material
  * @param {number} place of the material

@@ -20,9 +20,9 @@ import { EXTENSION, readMaterial, readSources } from './extension.js';
  *
  *     const loader = new GLTFLoader().register((parser) => new VectorTexturePlugin(parser));
  *
- * `vectorMaskOf(material)` is the mask of a loaded material, and `gltf.userData.vectorTextures` is the list of the
- * textures that the model shows; `dispose()` of each frees its GPU memory when nothing shows it any more. An invalid
- * extension is an error of the loader: there is no model then.
+ * `vectorMaskOf(material)` is the mask of a loaded material, and `gltf.userData.vectorTextures` lists the textures that
+ * the model shows; call `dispose()` of each to free its GPU memory when nothing shows it any more. An invalid extension
+ * makes the loader fail with an error, without a model.
  */
 export class VectorTexturePlugin {
   #parser;
@@ -34,20 +34,20 @@ export class VectorTexturePlugin {
   #textures = new Map();
 
   /**
-   * @param {GLTFParser} parser as `GLTFLoader.register` hands it on
-   * @throws {VextureError} if it is none
+   * @param {GLTFParser} parser passed by `GLTFLoader.register`
+   * @throws {VextureError} if it is not a parser
    */
   constructor(parser) {
     if (!parser?.json) throw unfit('parser', parser, 'hand it on: register((parser) => new VectorTexturePlugin(parser))');
     this.#parser = parser;
   }
 
-  /** The extension's name, `VEXTURE_vector_texture`. */
+  /** Name of the extension, `VEXTURE_vector_texture`. */
   get name() {
     return EXTENSION;
   }
 
-  /** Check everything before anything is loaded; GLTFLoader calls it. */
+  /** Validate everything before loading anything; called by GLTFLoader. */
   async beforeRoot() {
     const { json } = this.#parser;
     this.#sources = readSources(json);
@@ -57,10 +57,10 @@ export class VectorTexturePlugin {
   }
 
   /**
-   * GLTFLoader calls it for each material, once.
+   * Load a material; GLTFLoader calls it once for each.
    *
    * @param {number} place
-   * @returns {Promise<import('three').Material> | null} null if the extension says nothing of it
+   * @returns {Promise<import('three').Material> | null} null if the material does not use the extension
    */
   loadMaterial(place) {
     const shown = this.#materials[place];
@@ -68,7 +68,7 @@ export class VectorTexturePlugin {
   }
 
   /**
-   * Attach the meshes, which are complete now; GLTFLoader calls it.
+   * Attach the meshes, which are complete at this point; called by GLTFLoader.
    *
    * @param {GLTF} gltf
    */

@@ -1,4 +1,4 @@
-// Draws tiles by WebGL 2 itself: programs, meshes, and textures of texels.
+// Draws tiles directly with WebGL 2: programs, meshes, and textures of texels.
 import { VextureError, line } from '../errors.js';
 import { lookup, paintOf, tileShader } from '../tiles/tile-shader.js';
 import { EXTENT, meshOf, quadMesh } from './quad-mesh.js';
@@ -124,7 +124,7 @@ export class TilePainter {
     this.#textures.delete(loaded);
   }
 
-  /** Free all that the GPU has. */
+  /** Free everything on the GPU. */
   dispose() {
     const gl = this.#gl;
     for (const { program } of this.#programs.values()) gl.deleteProgram(program);

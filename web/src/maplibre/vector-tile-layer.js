@@ -13,18 +13,18 @@ import { TilePainter } from './painter.js';
  * @typedef {import('../tiles/feature-colors.js').TimeTable} TimeTable
  * @typedef {import('../tiles/pyramid.js').Feature} Feature
  *
- * @typedef {object} VectorTileLayerOptions What a layer shows, and how much it may keep and ask for.
+ * @typedef {object} VectorTileLayerOptions Data of a layer, and limits of its memory and requests.
  * @property {string} id of the layer
  * @property {string | URL | import('../tiles/source.js').TileArchive | import('../tiles/source.js').TileSource} source address of a
  *   `.pmtiles` or a TileJSON, the bytes of a `.pmtiles`, or a source of your own
- * @property {number} [opacity] of all of it, 0..1
- * @property {number} [budget] bytes of tiles that are kept
- * @property {number} [most] requests at once
- * @property {number} [retries] of a request that has failed
+ * @property {number} [opacity] of the whole layer, 0..1
+ * @property {number} [budget] bytes of tiles in memory
+ * @property {number} [most] number of simultaneous requests
+ * @property {number} [retries] number of retries of a failed request
  * @property {number} [pause] milliseconds before the first retry
  *
- * @typedef {object} FeatureEvent What listeners get.
- * @property {Feature | null} feature the one at the pointer
+ * @typedef {object} FeatureEvent Argument of listeners.
+ * @property {Feature | null} feature under the pointer
  * @property {{ lng: number, lat: number }} lngLat the place, in degrees
  * @property {{ x: number, y: number }} point in CSS pixels
  *
@@ -32,10 +32,10 @@ import { TilePainter } from './painter.js';
  *   What listeners of each event get.
  */
 
-/** What a layer tells of. */
+/** Events of a layer. */
 const EVENTS = ['hover', 'click', 'error'];
 
-/** The first version of MapLibre that says which tiles cover a view. */
+/** Oldest version of MapLibre that provides the tiles that cover a view. */
 const OLDEST = '5.7';
 
 /** CSS pixels from the pointer to the nearest place of the map, above which nothing is under the pointer. */
@@ -68,7 +68,7 @@ export class VectorTileLayer {
 
   /**
    * @param {VectorTileLayerOptions} options
-   * @throws {VextureError} if one of them cannot be
+   * @throws {VextureError} if an option is invalid
    */
   constructor(options) {
     const { id, opacity = 1 } = options ?? {};
@@ -90,17 +90,17 @@ export class VectorTileLayer {
     }, colors);
   }
 
-  /** When the pyramid's metadata are there. @returns {Promise<void>} */
+  /** Wait for the pyramid's metadata. @returns {Promise<void>} */
   async ready() {
     await this.#pyramid.ready;
   }
 
-  /** Where the data are from, once `ready()`: to be told beside the map. */
+  /** Attribution of the data, available after `ready()`, to be shown beside the map. */
   get attribution() {
     return this.#pyramid.client?.source.attribution ?? '';
   }
 
-  /** What the layer holds and shows. */
+  /** Statistics of what the layer holds and shows. */
   get stats() {
     const { client, shown } = this.#pyramid;
     const tiles = [...(client?.tiles ?? [])];
@@ -115,11 +115,11 @@ export class VectorTileLayer {
   }
 
   /**
-   * Colours by the features' ids: a table, whose paints join those before and come before the colours of `setTimes`; or a
-   * function, which is asked where neither has one; null: as in the tiles.
+   * Set colours by the features' ids. A table is merged with earlier tables, and overrides the colours of `setTimes`; a
+   * function is called for features that neither colours; null restores the colours of the tiles.
    *
    * @param {FeaturePaints | PaintFunction | null} paints
-   * @throws {VextureError} if one is no colour
+   * @throws {VextureError} if a colour is invalid
    */
   setPaint(paints) {
     this.#pyramid.colors.setPaint(paints);
@@ -127,9 +127,9 @@ export class VectorTileLayer {
   }
 
   /**
-   * Show some features only; others are neither seen nor picked.
+   * Show only some features; others are neither visible nor picked.
    *
-   * @param {Iterable<FeatureId> | ((id: string) => boolean) | null} shown their ids, or whether one is shown; null: all
+   * @param {Iterable<FeatureId> | ((id: string) => boolean) | null} shown ids, or a predicate; null shows all
    */
   setFilter(shown) {
     this.#pyramid.colors.setFilter(shown);
@@ -137,10 +137,10 @@ export class VectorTileLayer {
   }
 
   /**
-   * The colours of features at each step of time; null: no more. A table of `setPaint` comes before them, a function after.
+   * Set the colours of features at each step of time; null removes them. A table of `setPaint` has priority over them, a function has not.
    *
    * @param {TimeTable | null} table
-   * @throws {VextureError} if a step has another number of colours than there are ids, or one is no colour
+   * @throws {VextureError} if the number of colours of a step differs from that of the ids, or a colour is invalid
    */
   setTimes(table) {
     this.#pyramid.colors.setTimes(table);
@@ -150,7 +150,7 @@ export class VectorTileLayer {
   /**
    * Show the colours of `setTimes` at a time.
    *
-   * @param {number} time in steps; between two of them colours are mixed
+   * @param {number} time in steps; between two steps colours are mixed
    */
   setTime(time) {
     this.#pyramid.colors.setTime(time);
@@ -158,7 +158,7 @@ export class VectorTileLayer {
   }
 
   /**
-   * Let the map below shine through.
+   * Set the opacity, with which the map below shows through.
    *
    * @param {number} opacity of all of it, 0..1
    */
@@ -169,11 +169,11 @@ export class VectorTileLayer {
   }
 
   /**
-   * The feature at a place; null where nothing is, or the layer is hidden.
+   * Find the feature at a place; null if there is none, or the layer is hidden.
    *
    * @param {{ lng: number, lat: number } | [number, number]} place
    * @returns {Feature | null}
-   * @throws {VextureError} if it is no place
+   * @throws {VextureError} if the place is invalid
    */
   featureAt(place) {
     const map = this.#map;
@@ -182,7 +182,7 @@ export class VectorTileLayer {
     return isHidden ? null : feature;
   }
 
-  /** Ask again for what could not be had: tiles, or the metadata. */
+  /** Retry loading tiles or metadata that could not be loaded. */
   retry() {
     this.#pyramid.retry();
   }
@@ -191,10 +191,10 @@ export class VectorTileLayer {
    * Listen to an event.
    *
    * @template {keyof LayerEvents} Type
-   * @param {Type} type `hover`: another feature is pointed at, or none; `click`; `error`: something cannot be had, or a function
-   *   of yours throws
+   * @param {Type} type `hover`: the pointer has moved to another feature, or to none; `click`; `error`: something cannot be
+   *   loaded, or one of your functions has thrown an error
    * @param {(event: LayerEvents[Type]) => void} listener
-   * @throws {VextureError} if there is no such event, or the listener is no function
+   * @throws {VextureError} if there is no such event, or the listener is not a function
    */
   on(type, listener) {
     if (!EVENTS.includes(type)) throw new VextureError(`the event is ${line(type)}; give one of ${EVENTS.join(', ')}`, 'event');
@@ -205,7 +205,7 @@ export class VectorTileLayer {
   }
 
   /**
-   * Listen no longer.
+   * Stop listening.
    *
    * @param {keyof LayerEvents} type
    * @param {(event: any) => void} listener

@@ -19,25 +19,25 @@ import { meshOf, useChanges, useColors, useMesh, useTime } from './hooks.js';
 /** @import { AnyVectorTexture, VectorTexture } from '../vector-texture.js' */
 
 /**
- * @typedef {object} SourceProps What both components take besides their options.
+ * @typedef {object} SourceProps Props of both components besides their options.
  * @property {string} [src] address of a texture, which is loaded while the nearest `Suspense` shows its fallback
  * @property {import('../paints.js').PaintList | null} [colors] other colours of elements (`vexture convert --restyle`), on
  *   a copy of the texture: what else shows the texture keeps its colours. An element that is not named has its own
  *
- * @typedef {object} MaterialElementProps What React takes of a material.
- * @property {import('react').Key | null} [key] as React takes it
- * @property {import('react').ReactNode} [children] what is in the material
- * @property {string | ((parent: any, material: Material) => () => void)} [attach] where in its parent it goes, by default
- *   `material`
+ * @typedef {object} MaterialElementProps Props that React handles for a material.
+ * @property {import('react').Key | null} [key] React's key
+ * @property {import('react').ReactNode} [children] children of the material
+ * @property {string | ((parent: any, material: Material) => () => void)} [attach] property of the parent that holds it, by
+ *   default `material`
  * @property {null} [dispose] null: the material is kept when it is unmounted
  * @property {import('react').Ref<Material>} [ref] the material
  *
  * @typedef {import('../vector-material.js').VectorMaterialParameters & SourceProps & MaterialElementProps}
  *   VectorMaterialProps the options of the class of that name, and the props of the component; `toneMapped` is false by default, so that colours are the drawing's
  *
- * @typedef {object} MaskElementProps What a mask in React's tree takes besides its options.
+ * @typedef {object} MaskElementProps Props of a mask besides its options.
  * @property {AnyVectorTexture | null} [texture] the texture with the shape; null: no mask
- * @property {import('react').Key | null} [key] as React takes it
+ * @property {import('react').Key | null} [key] React's key
  * @property {import('react').Ref<Mask>} [ref] the mask
  *
  * @typedef {import('../mask-options.js').MaskOptions & SourceProps & MaskElementProps} VectorMaskProps the options of
@@ -47,7 +47,7 @@ import { meshOf, useChanges, useColors, useMesh, useTime } from './hooks.js';
 extend({ VextureMaterial: Material });
 
 /**
- * A texture, or several, loaded while the nearest `Suspense` shows its fallback. All components that ask for an address
+ * Load one or several textures while the nearest `Suspense` shows its fallback. All components that request an address
  * share its texture.
  *
  * @template {string | readonly string[]} T
@@ -59,13 +59,13 @@ export function useVectorTexture(url, prepare) {
   return /** @type {any} */ (useLoader(VectorTextureLoader, /** @type {any} */ (url), prepare));
 }
 
-/** Load before a component asks. @param {string | string[]} url */
+/** Load before a component requests it. @param {string | string[]} url */
 useVectorTexture.preload = (url) => useLoader.preload(VectorTextureLoader, url);
-/** Forget, so that the next component loads again. @param {string | string[]} url */
+/** Forget, so that the next request loads again. @param {string | string[]} url */
 useVectorTexture.clear = (url) => useLoader.clear(VectorTextureLoader, url);
 
 /**
- * A fold, loaded while the nearest `Suspense` shows its fallback.
+ * Load a fold while the nearest `Suspense` shows its fallback.
  *
  * @param {string} url
  * @returns {import('../fold-texture.js').FoldTexture}
@@ -108,8 +108,8 @@ function divided(props, isOption) {
 const isMaterialOption = (name) => NAMES.includes(name) && name !== 'color' && name !== 'map';
 
 /**
- * An unlit material that shows a drawing in its own colours, or a shape in `color`. Rays and light pass its mesh outside
- * the shape. All props can change at any time.
+ * An unlit material that shows a drawing in its own colours, or a shape in `color`. Rays and light pass through its mesh
+ * outside the shape. All props can change at any time.
  *
  * @type {(props: VectorMaterialProps) => import('react').ReactNode}
  */
@@ -146,8 +146,8 @@ function keep(parent, place) {
 }
 
 /**
- * Masks the material that it is in, or that of the mesh that it is in, with a shape. Rays and light pass the mesh outside
- * the shape. All props can change at any time.
+ * Masks its parent material, or the material of its parent mesh, with a shape. Rays and light pass through the mesh
+ * outside the shape. All props can change at any time.
  *
  * @type {(props: VectorMaskProps) => import('react').ReactNode}
  */

@@ -32,7 +32,7 @@ export function listTexture(pixels, width, most) {
 }
 
 /**
- * The one shape of a thesis texture; a mask takes it without wrap, instances and fold.
+ * The only shape of a thesis texture; a mask shows it without wrap, instances and fold.
  *
  * @extends {VectorTexture<ThesisData>}
  */

@@ -9,16 +9,16 @@ import { parts } from './css-color.js';
  * @typedef {string | number} FeatureId a number stands for its text
  *
  * @typedef {string | number | readonly number[] | null} FeaturePaint a colour of CSS, 0xrrggbb, or sRGB components and
- *   opacity, 0..1; null hides
+ *   opacity, 0..1; null hides the feature
  *
  * @typedef {Readonly<Record<FeatureId, FeaturePaint | undefined>> | ReadonlyMap<FeatureId, FeaturePaint | undefined>} FeaturePaints
- *   by the features' ids; undefined: as before they were given one
+ *   by the features' ids; undefined removes an earlier paint
  *
- * @typedef {(id: string) => FeaturePaint | undefined} PaintFunction undefined: as it is in the tile
+ * @typedef {(id: string) => FeaturePaint | undefined} PaintFunction undefined keeps the colour of the tile
  *
  * @typedef {object} TimeTable The colours of features at each step of time.
- * @property {readonly FeatureId[]} ids of the features, each once
- * @property {readonly (readonly FeaturePaint[])[]} colors of each step, those of all features
+ * @property {readonly FeatureId[]} ids of the features, without repeats
+ * @property {readonly (readonly FeaturePaint[])[]} colors for each step, the colours of all features
  */
 
 /** @type {Parts} */

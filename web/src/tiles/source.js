@@ -9,14 +9,14 @@ import { START_BYTES, kindOf, mistakenFor } from '../mistaken.js';
  * @typedef {object} TileSource A pyramid of tiles.
  * @property {string} [name] for messages
  * @property {string} [attribution] to be shown beside the map
- * @property {readonly number[]} zooms that it has, rising
- * @property {number} margin by which a tile's texture is wider than the tile, as a part of the tile's side
- * @property {(tile: import('./grid.js').TileId, signal: AbortSignal) => Promise<Uint8Array | null>} load the file of a tile;
- *   null: nothing is there
+ * @property {readonly number[]} zooms that have tiles, rising
+ * @property {number} margin of a tile's texture around the tile, as a fraction of the tile's side
+ * @property {(tile: import('./grid.js').TileId, signal: AbortSignal) => Promise<Uint8Array | null>} load loads the file of
+ *   a tile; null for an empty tile
  */
 
 /**
- * @typedef {ArrayBuffer | Uint8Array | Blob} TileArchive The contents of a `.pmtiles`, or a `File` of a user.
+ * @typedef {ArrayBuffer | Uint8Array | Blob} TileArchive The content of a `.pmtiles`, or a `File` that a user chose.
  */
 
 /** A tile in which nothing is may have no file. */
@@ -40,12 +40,12 @@ const PYRAMID = { what: 'pyramid of tiles', make: `give ${GIVEN}` };
 export const isArchive = (given) => given instanceof ArrayBuffer || given instanceof Uint8Array || given instanceof Blob;
 
 /**
- * A pyramid by its address, `map.pmtiles` or a TileJSON, or by the contents of a `.pmtiles`, which a page may hold.
+ * Open a pyramid by its address, `map.pmtiles` or a TileJSON, or by the content of a `.pmtiles`.
  *
  * @param {string | URL | TileArchive} given
  * @param {AbortSignal} [signal]
  * @returns {Promise<TileSource>}
- * @throws {VextureError} if it cannot be fetched, or is no pyramid of vexture
+ * @throws {VextureError} if it cannot be fetched, or is not a pyramid by vexture
  */
 export async function openTiles(given, signal = new AbortController().signal) {
   if (typeof given !== 'string' && !(given instanceof URL)) {

@@ -15,10 +15,10 @@ import { optionsOf, parametersOf } from './options.js';
  * @typedef {import('./options.js').ConvertOptions} ConvertOptions
  *
  * @typedef {object} ConverterOption Where the converter is.
- * @property {string | readonly string[]} [converter] the program, and what comes before its parameters, if it is not to be
- *   looked for, such as `['uvx', 'vexture']`
+ * @property {string | readonly string[]} [converter] the program with its leading arguments, such as `['uvx', 'vexture']`;
+ *   by default it is searched
  *
- * @typedef {ConvertOptions & ConverterOption} VextureOptions the options of a conversion, for all drawings, and the converter
+ * @typedef {ConvertOptions & ConverterOption} VextureOptions options of the conversion of all drawings, and the converter
  */
 
 /** @import { Converter } from './converter.js' */
@@ -41,8 +41,8 @@ const linesOf = (text) => text.split('\n').filter(Boolean);
 const slashed = (file) => file.replaceAll('\\', '/');
 
 /**
- * Vite's plugin that converts drawings when they are imported with the query `?vexture`. It runs the converter of this
- * machine, and keeps what it makes until the drawing, an option or the converter is another.
+ * Vite plugin that converts drawings when they are imported with the query `?vexture`. It runs the converter of this
+ * machine, and reuses its output until the drawing, an option or the converter changes.
  *
  * @param {VextureOptions} [options]
  * @returns {import('vite').Plugin}

@@ -1,22 +1,22 @@
 // Options of a conversion, of the plugin or in the query of one import.
 
 /**
- * @typedef {object} ConvertOptions The options of `vexture convert` by the same names, with the same defaults.
- * @property {'auto' | 'faces' | 'paint'} [split] `faces`: one planar map. `paint`: each colour a shape of its own. `auto`, the
- *   default: faces, or of a drawing of one colour the silhouette
+ * @typedef {object} ConvertOptions The options of `vexture convert`, with the same names and defaults.
+ * @property {'auto' | 'faces' | 'paint'} [split] `faces`: one planar map. `paint`: each colour as a separate shape. `auto`, the
+ *   default: `faces`, or the silhouette of a drawing of one colour
  * @property {boolean} [silhouette] the covered area of a drawing, without colours
  * @property {boolean} [restyle] a planar map whose elements can get other colours later
  * @property {string} [select] only the elements that this CSS selector matches
  * @property {string} [names] property of GeoJSON, or attribute of SVG, that names elements; by default `id`
- * @property {number} [snap] borders of a map's polygons become one where they differ by no more, in parts of the drawing's
- *   longer side
+ * @property {number} [snap] largest distance at which borders of a map's polygons become one, as a fraction of the
+ *   drawing's longer side
  * @property {boolean} [traceImages] trace the pictures in an SVG
  * @property {number} [tolerance] largest distance from the drawing's outline, in unit-square units
- * @property {number} [maxDepth] cells are divided no further than this depth
+ * @property {number} [maxDepth] largest depth at which cells are divided
  * @property {number} [capacity] pieces in a leaf, 1 to 15
  * @property {number} [precision] largest shift by rounding, in unit-square units
  * @property {number} [maxSeconds] most seconds for one drawing
- * @property {boolean} [strict] an error where anything of a drawing is left out, simplified or invalid
+ * @property {boolean} [strict] fail if anything of a drawing is left out, simplified or invalid
  */
 
 const SWITCHES = Object.freeze(['silhouette', 'restyle', 'traceImages', 'strict']);

@@ -76,7 +76,7 @@ export function watered(base) {
       this.shape.texture = texture;
     }
 
-    /** The texture given to `fadeTo`; also null without a fade. */
+    /** The texture passed to `fadeTo`; null without a fade. */
     get next() {
       return this.shape.next;
     }
@@ -135,7 +135,7 @@ export function watered(base) {
       this.ownFields.uniforms.vextureFields.value = fields;
     }
 
-    /** Colours and clearness of calm water, where fields say that it is calm. */
+    /** Colours and transparency of calm water, where fields mark it as calm. */
     get calm() {
       return this.ownFields.calm;
     }
@@ -210,7 +210,7 @@ export function watered(base) {
       };
     }
 
-    /** Free the water's own GPU memory; textures and geometry, which others may use, stay. */
+    /** Free the water's own GPU memory; textures and geometry stay, because others may use them. */
     dispose() {
       this.shape.dispose();
       this.ownNormals?.dispose();

@@ -1,4 +1,4 @@
-"""Functions that vexture calls here, by the entry point `vexture.readers`: see `vexture.conversion.extensions`."""
+"""Functions that vexture calls through the entry point `vexture.readers`: see `vexture.conversion.extensions`."""
 
 import os
 from pathlib import Path
@@ -14,7 +14,7 @@ Source: TypeAlias = str | os.PathLike[str] | bytes
 
 
 def unpack(source: Source, file_name: str) -> Source:
-    """Return the source or, of a zip, what it holds; refuse formats of flood models that are not read."""
+    """Return the source, or the content of a zip; refuse formats of flood models that are not supported."""
     from vexture_geo.base.foreign import refuse_foreign
     from vexture_geo.vector.archives import unzip
 
@@ -24,7 +24,7 @@ def unpack(source: Source, file_name: str) -> Source:
 
 
 def pack(path: Path) -> bytes | None:
-    """Pack a shapefile or FileGDB, which is several files, into one zip; return None for anything else."""
+    """Pack the files of a shapefile or FileGDB into one zip; return None for anything else."""
     from vexture_geo.vector.archives import pack_parts
 
     return pack_parts(path)
@@ -56,7 +56,7 @@ def describe_tiles(path: Path) -> tuple[dict[str, Any], list[str]] | None:
 def flood_widget(source: Any, options: dict[str, Any]) -> Any:
     """Make the widget of a flood from its page, an extent or a dataset; return None for anything else.
 
-    `options` are those of the page; of a page that is made already, only its height.
+    `options` are those of the page; a page that exists already takes only its height.
     """
     from vexture_geo.base.datasets import is_dataset
     from vexture_geo.base.extent import Extent

@@ -1,4 +1,4 @@
-"""Readers of geographic data: where there is water, of any supported kind, as `Extent` or as a drawing."""
+"""Readers of geographic data: wet places of any supported kind, as an `Extent` or as a drawing."""
 
 import os
 from collections.abc import Sequence
@@ -51,19 +51,20 @@ def read_extent(
     crs : str, optional
         Reference system of the data; it overrides the one in the file.
     time_dim : str, optional
-        Dimension of time, for depths; by default the one that looks like it. With any, bands of a GeoTIFF are steps.
+        Dimension of time, for depths; by default the one that looks like time. With any value, bands of a GeoTIFF are
+        steps.
     hmin : float
-        Depth in metres from which there is water, for depths; 0.05 by default.
+        Depth in metres from which a place is wet, for depths; 0.05 by default.
     variable : str, optional
-        Variable of the depths, where there are several.
+        Variable of the depths, if there are several.
     layer : str, optional
-        Layer of polygons, where there are several.
+        Layer of polygons, if there are several.
     snap : float, optional
-        Borders of two polygons that differ by no more than this become one, in parts of the frame's larger side; 3e-6
-        by default, 0 leaves all as it is.
+        Largest distance, as a fraction of the frame's larger side, at which borders of two polygons become one; 3e-6 by
+        default, and 0 leaves everything as it is.
     depths : sequence of float
-        Depths in metres above `hmin`: each step also holds the areas under at least so much water. Polygons and masks
-        have none. A file of classes of depth has those that begin where its own classes do.
+        Depths in metres above `hmin`: each step also holds the areas with at least this depth. Polygons and masks have
+        none. A file of classes of depth has only those at which its own classes begin.
 
     Returns
     -------
@@ -84,7 +85,7 @@ def read_extent(
     Warns
     -----
     SourceWarning
-        Once, of all notes.
+        One warning with all notes.
 
     Examples
     --------
@@ -128,7 +129,7 @@ def extent_of(
     depths: Sequence[float] = (),
     workers: "Workers | None" = None,
 ) -> "Extent":
-    """Read wet areas as `read_extent` does, but without a warning, and without the file's name in errors."""
+    """Read wet areas like `read_extent`, but without a warning, and without the file's name in errors."""
     from vexture_geo.base.datasets import is_dataset
 
     if not is_dataset(source):
@@ -149,7 +150,7 @@ def extent_of(
 
 
 def _refuse(options: dict[str, str | float | None], kind: str) -> None:
-    """Refuse parameters for data of another kind."""
+    """Raise a `ParameterError` for parameters of another kind of data."""
     for option, value in options.items():
         if value is not None:
             raise ParameterError(f"{option} {value!r} is for {kind}; leave it out")

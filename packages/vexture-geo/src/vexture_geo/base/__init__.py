@@ -1,1 +1,1 @@
-"""Parts that all geographic data share: reference systems, extents, rings, and how GDAL is called."""
+"""Shared parts of all geographic data: reference systems, extents, rings, and calls of GDAL."""

@@ -1,6 +1,6 @@
-"""Coordinates that are in another unit than their reference system: degrees taken for metres, and the reverse.
+"""Detect coordinates whose unit is not that of their reference system: degrees taken for metres, and the reverse.
 
-Files with another system than that of their coordinates are common, and so is a system that is given for others.
+Files often name a system other than that of their coordinates, and users also give wrong systems.
 """
 
 from functools import lru_cache
@@ -12,29 +12,29 @@ from vexture_geo.base.extent import Bounds
 from vexture_geo.base.lengths import NO_UNIT, metres_in
 
 RADIANS: Final = frozenset({"rad", "radian", "radians"})
-"""Units, in lower case, that no reference system here is in."""
+"""Units, in lower case, that no supported reference system uses."""
 
 DEGREES: Final = "EPSG:4326"
 """The system that messages name for degrees."""
 
 FAR: Final = 10.0
-"""Sizes of what there is, from it to where its system is used: none of metres lies there."""
+"""Distance from a system's area of use, in sizes of the data, beyond which no coordinates in metres lie."""
 
 ORIGIN: Final = 0.1
-"""Share of its size by which a plane of its own may begin beside the origin."""
+"""Distance from the origin, as a fraction of its size, at which a local plane may begin."""
 
 LEAST: Final = 1.0
-"""Units of a projected system. No flood or map of the world has so few, wherever it is."""
+"""Units of a projected system. Floods and maps of the world are larger than this everywhere."""
 
 LIKELY: Final = 25
-"""Percent. How sure it is that a system without an area is one that is known."""
+"""Percent. Confidence with which a system without an area of use is taken for a known one."""
 
 
 def refuse_other_units(chosen: str, found: str | None, unit: str, box: Bounds, *, is_given: bool) -> None:
-    """Refuse the system of coordinates that are degrees, if it is in metres; and the reverse.
+    """Raise an error if coordinates in degrees are given a system in metres, or the reverse.
 
-    `chosen` is the system that counts and, where that is one that the user gives, `found` the one that the file names.
-    `unit` is that of the coordinates as the file writes it, and `box` are their bounds.
+    `chosen` is the system that is used; if the user gives it, `found` is the one that the file names. `unit` is that
+    of the coordinates as the file writes it, and `box` holds their bounds.
     """
     shown = _format_box(box)
     if unit.lower() in RADIANS:
@@ -56,11 +56,11 @@ def refuse_other_units(chosen: str, found: str | None, unit: str, box: Bounds, *
 
 
 def refuse_degrees(chosen: str, box: Bounds, *, is_given: bool, near: float = 0.0) -> None:
-    """Refuse a projected system for coordinates that are as small as degrees.
+    """Raise an error if coordinates as small as degrees are given a projected system.
 
-    They must lie far from where the system is used, or be nearer to one another than those of any flood or map. Those
-    around the origin, or that begin at most `near` units from it, are a plane of its own, such as the flume of a
-    laboratory or a drawing.
+    They must lie far from where the system is used, or be closer together than those of any flood or map. Coordinates
+    around the origin, or at most `near` units from it, are accepted as a local plane, such as a laboratory flume or a
+    drawing.
     """
     west, south, east, north = box
     size = max(east - west, north - south)
@@ -84,13 +84,13 @@ def refuse_degrees(chosen: str, box: Bounds, *, is_given: bool, near: float = 0.
 
 
 def _begins_within(box: Bounds, gap: float) -> bool:
-    """Whether a box holds the origin, or begins so near to it."""
+    """Return whether a box contains the origin, or begins within a gap of it."""
     west, south, east, north = box
     return west <= gap and south <= gap and east >= -gap and north >= -gap
 
 
 def _is_beyond(box: Bounds, chosen: str, gap: float) -> bool:
-    """Whether a box lies farther than `gap` from where a projected system is used, as far as that is known."""
+    """Return whether a box is known to lie farther than `gap` from where a projected system is used."""
     area = _area(chosen)
     if area is None:
         return False
@@ -99,7 +99,7 @@ def _is_beyond(box: Bounds, chosen: str, gap: float) -> bool:
 
 @lru_cache(maxsize=64)
 def _area(crs: str) -> Bounds | None:
-    """Bounds, in its own units, within which a system is used; None if that is unknown."""
+    """Bounds of a system's area of use in its own units; None if unknown."""
     area = system(crs).area_of_use
     if area is None:
         code = system(crs).to_epsg(min_confidence=LIKELY)
@@ -108,10 +108,10 @@ def _area(crs: str) -> Bounds | None:
 
 
 def _degrees(found: str | None) -> str | None:
-    """The system that a file names, if it is in degrees."""
+    """Return the system that a file names, if it is in degrees."""
     try:
         is_geographic = found is not None and found != UNPLACED and system(found).is_geographic
-    except ParameterError:  # which is what the user's system is given for
+    except ParameterError:  # a wrong name is a reason to give another system
         return None
     return choose_crs(None, found) if is_geographic else None
 

@@ -27,7 +27,7 @@ UNPLACED: Final = (
 """Reference system of a plane without a known place in the world."""
 
 MANY: Final = 10_000
-"""Points from which it pays to look for equal ones."""
+"""Number of points from which duplicates are searched before a transform."""
 
 SAMPLES: Final = 21
 """Points on each side of a rectangle whose bounds are transformed."""
@@ -67,7 +67,7 @@ def gis_packages() -> Iterator[None]:
 
 
 def choose_crs(crs_option: str | None, found: str | None) -> str:
-    """Reference system of coordinates: the one that the user gives, else the one that the file names.
+    """Choose the reference system of coordinates: the user's, or else the file's.
 
     The result is ``EPSG:32610`` or the like if an authority knows the system, else WKT. An invalid text of the user
     raises `ParameterError`, one of the file `SourceError`.
@@ -83,7 +83,7 @@ def choose_crs(crs_option: str | None, found: str | None) -> str:
 
 
 def _text_of(value: Any) -> str:
-    """Text of a system, of which the number in the list of EPSG, or an object of pyproj, will do."""
+    """Text of a system, which may also be an EPSG number or an object of pyproj."""
     if isinstance(value, str):
         return value
     return f"EPSG:{value}" if isinstance(value, int) or not hasattr(value, "to_wkt") else str(value.to_wkt())
@@ -91,7 +91,7 @@ def _text_of(value: Any) -> str:
 
 @contextmanager
 def _of_the_file() -> Iterator[None]:
-    """Turn errors about a parameter into errors about the file, where the file gave the value."""
+    """Turn errors about a parameter into errors about the file that contains the value."""
     try:
         yield
     except ParameterError as error:
@@ -100,7 +100,7 @@ def _of_the_file() -> Iterator[None]:
 
 @lru_cache(maxsize=64)
 def system(text: str) -> "CRS":
-    """Reference system of a plane from an authority's code, WKT or a PROJ text; `ParameterError` if it is not one."""
+    """Parse a system of the plane from an authority's code, WKT or a PROJ text; `ParameterError` for other texts."""
     from pyproj import CRS
     from pyproj.exceptions import CRSError
 
@@ -140,18 +140,18 @@ def period(crs: str) -> float | None:
 
 
 def format_bounds(bounds: Bounds, crs: str) -> str:
-    """Bounds for a message: ``4,52,4.12346,53 (EPSG:4326)``."""
+    """Format bounds for a message: ``4,52,4.12346,53 (EPSG:4326)``."""
     numbers = ",".join(f"{value:.0f}" if 1e5 <= abs(value) < 1e12 else f"{value:.6g}" for value in bounds)
     return f"{numbers} ({format_system(crs)})"
 
 
 def format_system(crs: str) -> str:
-    """Name of a system for a message."""
+    """Format the name of a system for a message."""
     return crs if len(crs) <= 40 else system(crs).name
 
 
 def are_degrees(points: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
-    """Whether points, (n, 2), can be longitudes and latitudes, if those of the system are; others always can.
+    """Return which points, (n, 2), can be longitudes and latitudes; all of them if the system is projected.
 
     Examples
     --------
@@ -168,7 +168,7 @@ def are_degrees(points: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
 def refuse_metres(
     points: NDArray[np.float64], crs: str, subject: str, error: type[Exception] = SourceError, *, name: str = "crs"
 ) -> None:
-    """Refuse coordinates that cannot be degrees in a geographic system; `name` is the parameter for another one."""
+    """Raise `error` if coordinates of a geographic system cannot be degrees; `name` is the parameter of the system."""
     if not are_degrees(points, crs).all():
         raise error(
             f"{subject} cannot be longitudes and latitudes; name the system that they are in by `{name}` EPSG:..."
@@ -176,12 +176,12 @@ def refuse_metres(
 
 
 def like_degrees(bounds: Bounds) -> bool:
-    """Whether bounds can be longitudes and latitudes."""
+    """Return whether bounds can be longitudes and latitudes."""
     return max(abs(bounds[0]), abs(bounds[2])) <= 360.0 and max(abs(bounds[1]), abs(bounds[3])) <= 90.0
 
 
 def frame_of(bounds: Bounds | None, extent: Bounds, crs: str) -> Frame:
-    """Frame around the bounds that the user gives, else around the extent of the file."""
+    """Make a frame around the user's bounds, or else around the extent of the file."""
     if bounds is not None:
         return frame_around(bounds, crs)
     with _of_the_file():
@@ -189,7 +189,7 @@ def frame_of(bounds: Bounds | None, extent: Bounds, crs: str) -> Frame:
 
 
 def frame_around(bounds: Bounds, crs: str) -> Frame:
-    """Frame of a rectangle of the world.
+    """Make the frame of a rectangle of the world.
 
     In a geographic system, its size on the ground is measured in the middle of the rectangle, and west may exceed
     east: such a rectangle crosses the antimeridian, and the frame's east is a turn further. Bounds that are empty or
@@ -223,12 +223,12 @@ def frame_around(bounds: Bounds, crs: str) -> Frame:
 
 
 def _metres(x: float, y: float, crs: str) -> tuple[float, float]:
-    """Metres in a unit along x and along y, at a place."""
+    """Metres per unit along x and along y at a place."""
     found = system(crs)
     if not found.is_geographic:
         return found.axis_info[0].unit_conversion_factor, found.axis_info[1].unit_conversion_factor
     geod = found.get_geod()
-    assert geod is not None  # only a system without an ellipsoid has none
+    assert geod is not None  # only a system without an ellipsoid has no geod
     degree = found.axis_info[0].unit_conversion_factor * 180.0 / pi
     x, y, half = x * degree, y * degree, METRE_DEGREES / 2
     y = min(max(y, half - 90.0), 90.0 - half)
@@ -239,25 +239,25 @@ def _metres(x: float, y: float, crs: str) -> tuple[float, float]:
 
 @lru_cache(maxsize=64)
 def same_system(one: str, other: str) -> bool:
-    """Whether two systems give a place the same coordinates x, y."""
+    """Return whether two systems give each place the same coordinates x, y."""
     return one == other or system(one).equals(system(other), ignore_axis_order=True)
 
 
 def transform_points(points: NDArray[np.float64], start: str, end: str) -> NDArray[np.float64]:
-    """Points, (n, 2), of one system in another; infinite where they have no image."""
+    """Transform points, (n, 2), from one system to another; points without an image become infinite."""
     if not len(points) or same_system(start, end):
         return points
     transformer = _transformer(start, end)
     if len(points) < MANY:
         return np.stack(transformer.transform(points[:, 0], points[:, 1]), axis=1)
-    # corners that polygons share are transformed once, which costs more than to find them
+    # corners that polygons share are transformed only once, because transforming costs more than finding them
     places = np.ascontiguousarray(points + 0.0, np.float64).view(np.complex128).ravel()
     unique, place = np.unique(places, return_inverse=True)
     return np.stack(transformer.transform(unique.real, unique.imag), axis=1)[place]
 
 
 def transform_bounds(bounds: Bounds, start: str, end: str) -> Bounds | None:
-    """Bounds of a rectangle's image in another system; None where it has none.
+    """Transform the bounds of a rectangle to another system; None if they have no image.
 
     In a geographic system, east may be beyond half a turn.
     """

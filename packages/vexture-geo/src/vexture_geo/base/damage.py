@@ -1,4 +1,4 @@
-"""Damage that GDAL passes over in silence: of shapefiles and TopoJSON; and that netCDF has wrong words for."""
+"""Detect damage that GDAL ignores, in shapefiles and TopoJSON, and explain damage that netCDF reports badly."""
 
 import json
 from errno import E2BIG, EINVAL
@@ -8,15 +8,15 @@ from vexture.base.content import SHAPEFILE
 from vexture.base.errors import SourceError, reason_of
 
 HEADER: Final = 100
-"""Bytes at the start of a .shp and of a .shx, which say how long it is."""
+"""Bytes of the header of a .shp and of a .shx, which states the file's length."""
 
 LENGTH: Final = slice(24, 28)
 WORD: Final = 2
-"""Bytes in the words in which that length is counted."""
+"""Bytes per word, the unit of that length."""
 
 
 def refuse_cut(name: str, start: bytes, size: int) -> None:
-    """Raise a `SourceError` if a .shp or .shx has fewer bytes than it says at its start.
+    """Raise a `SourceError` if a .shp or .shx has fewer bytes than its header states.
 
     Examples
     --------
@@ -25,14 +25,14 @@ def refuse_cut(name: str, start: bytes, size: int) -> None:
     vexture.base.errors.SourceError: a.shp is damaged: it has 150 of the 200 bytes that it says; copy it again
     """
     if not start.startswith(SHAPEFILE):
-        return  # GDAL says what is wrong
+        return  # GDAL reports the error
     said = WORD * int.from_bytes(start[LENGTH], "big", signed=True)
     if size < said:
         raise SourceError(f"{name} is damaged: it has {size:,} of the {said:,} bytes that it says; copy it again")
 
 
 def missing_arcs(content: bytes) -> int:
-    """Geometries of a TopoJSON that refer to arcs that it does not have.
+    """Count geometries of a TopoJSON that refer to missing arcs.
 
     Examples
     --------
@@ -55,7 +55,7 @@ def missing_arcs(content: bytes) -> int:
 
 
 def _numbers(arcs: Any) -> list[int]:
-    """Numbers in lists of lists."""
+    """Collect the numbers in nested lists."""
     found, left = list[int](), [arcs]
     while left:
         one = left.pop()
@@ -67,9 +67,9 @@ def _numbers(arcs: Any) -> list[int]:
 
 
 def netcdf_error(error: Exception, place: str) -> SourceError:
-    """Error to raise where netCDF4, h5py or xarray cannot read a file.
+    """Make the error for a file that netCDF4, h5py or xarray cannot read.
 
-    The netCDF library uses errors of the system for sizes and types in a header that cannot be.
+    The netCDF library reports impossible sizes and types in a header as operating-system errors.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Data that a program holds open: datasets and arrays of xarray, read as a NetCDF file is."""
+"""Datasets and arrays of xarray that a program holds open, read like a NetCDF file."""
 
 from typing import Any, Final
 
@@ -9,13 +9,13 @@ SINCE: Final = "microseconds since 1970-01-01"
 
 
 def is_dataset(source: object) -> bool:
-    """Whether something is a dataset or an array of xarray, which need not be installed."""
+    """Return whether an object is a dataset or an array of xarray, which need not be installed."""
     kinds = {f"{kind.__module__.partition('.')[0]}.{kind.__name__}" for kind in type(source).__mro__}
     return not kinds.isdisjoint({"xarray.Dataset", "xarray.DataArray"})
 
 
 def dataset_of(source: Any) -> Any:
-    """Dataset of a dataset or array, with its times as numbers, as they are in a file; nothing else of it is read."""
+    """Convert a dataset or array to a dataset whose times are numbers, as in a file; no other values are read."""
     dataset = source if hasattr(source, "data_vars") else source.to_dataset(name=source.name or "depth")
     times = {
         name: coordinate.copy(data=numbers).drop_encoding().assign_attrs(units=SINCE, **calendar)
@@ -27,7 +27,7 @@ def dataset_of(source: Any) -> Any:
 
 
 def _numbers(coordinate: Any) -> list[tuple[Any, dict[str, str]]]:
-    """Times as numbers, and their calendar; nothing of a coordinate that holds no times."""
+    """Convert times to numbers, with their calendar; return nothing for a coordinate without times."""
     if coordinate.dtype.kind == "M":
         return [(coordinate.values.astype("datetime64[us]").astype(np.int64), {})]
     first = coordinate.values[0] if coordinate.dtype.kind == "O" and coordinate.size else None

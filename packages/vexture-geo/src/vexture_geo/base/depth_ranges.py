@@ -1,4 +1,4 @@
-"""Classes of depth in place of depths: their ranges, as the flags of a NetCDF variable say them."""
+"""Classes of depth in place of depths: read their ranges from the flags of a NetCDF variable."""
 
 import re
 from collections.abc import Sequence
@@ -15,11 +15,11 @@ BOUNDS: Final = ("flag_bounds", "class_bounds")
 """Attributes that name the variable of the bounds of the classes."""
 
 ENDLESS: Final = 1e30
-"""What is written as the upper bound of a class without one is larger: the fill value of the format."""
+"""Upper bounds above this mean no bound, such as the fill value of the format."""
 
 DRY: Final = frozenset({"dry", "dry land", "land", "no water", "not flooded", "none"})
 WET: Final = frozenset({"wet", "water", "flooded", "inundated"})
-"""Meanings of flags without a depth."""
+"""Meanings of flags for dry ground, and for water of unknown depth."""
 
 NUMBER: Final = r"(-?\d*\.?\d+(?:e[+-]?\d+)?)[ _]*((?!to[ _])[a-z]*)"
 BETWEEN: Final = re.compile(rf"{NUMBER}[ _]*(?:to|-|–|<|,|_)[ _]*{NUMBER}", re.IGNORECASE)
@@ -29,38 +29,38 @@ ABOVE: Final = re.compile(
 )
 
 TYPED: Final = re.compile(r"(?<=[\d.])(u?b|u?s|u?l{1,2}|[ufd])$", re.IGNORECASE)
-"""What CDL writes behind a number for its type."""
+"""Suffix of a number in CDL that gives its type."""
 
 HOW: Final = "write each as 0.5-1m, below_0.5m or above_2m, or their bounds in a variable that flag_bounds names"
 
 LONGEST: Final = 80
-"""Characters of a meaning that says a range, and of meanings in a message."""
+"""Longest meaning that is parsed as a range, and longest list of meanings in a message, in characters."""
 
 
 TOUCHING: Final = 1e-6
-"""Metres by which two ranges may overlap, by rounding."""
+"""Largest overlap of two ranges by rounding, in metres."""
 
 
 MOST_RANGES: Final = 254
-"""A grid of them has 8 bits."""
+"""Most ranges, because a grid of them has 8 bits."""
 
 
 class DepthRange(NamedTuple):
-    """Metres from which a class begins, and at which it ends: infinite if it has no end."""
+    """Limits of a class in metres; the upper one is infinite if the class has none."""
 
     low: float
     high: float
 
 
 def has_flags(variable: Any) -> bool:
-    """Whether the numbers of a variable are those of classes or states, by its attributes."""
+    """Return whether a variable holds classes or states, by its attributes."""
     return any(key in variable.attrs for key in ("flag_values", "flag_masks", "flag_meanings"))
 
 
 def ranges_of_flags(dataset: Any, name: str, metres: float) -> dict[float, DepthRange]:
-    """Range of depth that each value of a variable with flags stands for; `metres` are those in its unit.
+    """Return the range of depth for each value of a variable with flags; `metres` is its unit in metres.
 
-    A state without water is a range that ends at 0, and water of no known depth one from 0 without an end.
+    A state without water has a range that ends at 0. Water of unknown depth has a range from 0 without an end.
     Raises a `SourceError` if the flags are of anything else.
     """
     about = dataset[name].attrs
@@ -92,7 +92,7 @@ def ranges_of_flags(dataset: Any, name: str, metres: float) -> dict[float, Depth
 
 
 def _wrong(values: list[float], ranges: list[DepthRange | None], meanings: list[str]) -> str:
-    """Describe the fault of values of flags and their ranges; return an empty text if there is none."""
+    """Describe what is wrong with the values of flags and their ranges; an empty text if nothing is."""
     if not values:
         return "flag_values are missing, or no numbers"
     if len(ranges) != len(values):
@@ -111,7 +111,7 @@ def _wrong(values: list[float], ranges: list[DepthRange | None], meanings: list[
 
 
 def wet_ranges(ranges: Sequence[DepthRange], hmin: float) -> tuple[DepthRange, ...]:
-    """Those of water, the shallowest first: the others hold dry ground too, or end at the least depth of water.
+    """Select ranges of water, the shallowest first; others include dry ground, or end at the least depth of water.
 
     Examples
     --------
@@ -122,7 +122,7 @@ def wet_ranges(ranges: Sequence[DepthRange], hmin: float) -> tuple[DepthRange, .
 
 
 def format_range(one: DepthRange) -> str:
-    """A range in a message.
+    """Format a range for a message.
 
     Examples
     --------
@@ -135,7 +135,7 @@ def format_range(one: DepthRange) -> str:
 
 
 def _range_of(text: str, metres: float) -> DepthRange | None:
-    """Range that a meaning says; None if it says none."""
+    """Parse a range from a meaning; None if it contains none."""
     plain = text.strip().lower().replace("_", " ")
     if len(text) > LONGEST:
         return None
@@ -156,13 +156,13 @@ def _range_of(text: str, metres: float) -> DepthRange | None:
 
 
 def _metres(number: str, unit: str, metres: float) -> float | None:
-    """Metres of a number in its own unit or, without one, in that of the variable."""
+    """Convert a number to metres from its own unit, or else from that of the variable."""
     in_unit = metres_in(unit) if unit else metres
     return None if in_unit is None else round(float(number) * in_unit, 9)
 
 
 def _numbers(values: Any) -> list[float]:
-    """Values of flags: numbers or, where they were written as a text, the numbers in it."""
+    """Read values of flags: numbers, or the numbers in a text."""
     try:
         if isinstance(values, str):
             return [float(TYPED.sub("", part)) for part in values.replace(",", " ").split()]
@@ -172,5 +172,5 @@ def _numbers(values: Any) -> list[float]:
 
 
 def _texts(meanings: Any) -> list[str]:
-    """Meanings of flags: words of one text, or a list of texts."""
+    """Split meanings of flags: words of one text, or a list of texts."""
     return meanings.split() if isinstance(meanings, str) else [str(one) for one in np.atleast_1d(meanings)]

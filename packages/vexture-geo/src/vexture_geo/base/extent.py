@@ -1,4 +1,4 @@
-"""`Extent`, the result of all readers of geographic data: where water is, by time, in a `Frame` of the world."""
+"""`Extent`, the result of all readers of geographic data: wet places at each time, in a `Frame` of the world."""
 
 from dataclasses import dataclass
 from datetime import datetime
@@ -18,12 +18,12 @@ LARGEST: Final = 1e15
 """Largest coordinate, in the units of the file. Beyond it, float64 does not resolve a metre."""
 
 MARGIN: Final = 1 / 32
-"""Share of the unit square that is left free on each side, for what a fold moves in from beyond the frame."""
+"""Fraction of the unit square left free on each side, for what a fold moves in from beyond the frame."""
 
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """A rectangle of the world: all drawings that are read into one frame fit over one another.
+    """A rectangle of the world; drawings read into the same frame align.
 
     It lies in the middle of the unit square, at its aspect ratio on the ground, with `MARGIN` at the ends of its
     longer side. Drawings extend beyond it to the borders of the square.
@@ -59,7 +59,7 @@ class Frame:
 
     @property
     def to_source(self) -> NDArray[np.float64]:
-        """Affine map from the unit square to the units of the reference system, (2, 3)."""
+        """Return the affine matrix from the unit square to the units of the reference system, (2, 3)."""
         west, south, east, north = self.bounds
         x0, y0, x1, y1 = self.box
         across, up = (east - west) / (x1 - x0), (north - south) / (y1 - y0)
@@ -67,7 +67,7 @@ class Frame:
 
 
 def bounds_of_square(frame: Frame, margin: float = 0.0) -> Bounds:
-    """Bounds of the unit square of a frame, widened by a share of its sides, in the units of the reference system."""
+    """Bounds of a frame's unit square, widened by a fraction of its sides, in the units of the reference system."""
     (across, _, west), (_, up, south) = frame.to_source.tolist()
     far = 1.0 + margin
     return (west - margin * across, south - margin * up, west + far * across, south + far * up)
@@ -75,16 +75,16 @@ def bounds_of_square(frame: Frame, margin: float = 0.0) -> Bounds:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DepthClasses:
-    """Classes of depth at one time, of a file that holds them in place of depths.
+    """Classes of depth at one time, from a file that holds classes in place of depths.
 
     Parameters
     ----------
     ranges : tuple of DepthRange
-        Metres from which each class of water begins, and at which it ends, the shallowest first.
+        Lower and upper limit of each class of water in metres, the shallowest first.
     ranks : (rows, columns) uint8 array
-        Over the frame, the northernmost row first: 1 for the first of the ranges, 0 where it is dry or unknown.
+        Index of the class over the frame, the northernmost row first: 1 for the first range, 0 where dry or unknown.
     contours : tuple of float
-        Metres between two classes from which the areas `Step.deeper` begin.
+        Limits between classes, in metres, from which the areas `Step.deeper` begin.
     """
 
     ranges: tuple[DepthRange, ...]
@@ -102,16 +102,16 @@ class Step:
         The area under water, in the frame; without paths if all is dry. Its notes are those of the file.
     time : datetime or None
         As the file gives it (in UTC where it names no time zone).
-    depth : (rows, columns) float32 array or None
-        Depth in metres over the frame, the northernmost row first, NaN where nothing is known; None where the source
-        has none, or only classes of them.
+    Time in the file (in UTC if it names no time zone).
+        Depth in metres over the frame, the northernmost row first; NaN where unknown. None if the source has no depths,
+        or only classes of them.
     deeper : tuple of Drawing
-        For each of the depths that were asked for, the area under at least so much water; empty where the source has no
-        depths. Where it has classes of them, for each of their `contours`.
+        For each requested depth, the area with at least that depth; for classes of depth, one for each of their
+        `contours`; empty if the source has no depths.
     speed : (rows, columns) float32 array or None
-        Of the water, in metres a second, as `depth`; None where the source has none.
+        Speed of the water in metres a second, arranged like `depth`; None if the source has none.
     classes : DepthClasses or None
-        Classes of depth, where the source holds them in place of depths.
+        Classes of depth, if the source holds them in place of depths.
     """
 
     drawing: Drawing
@@ -130,12 +130,12 @@ class Extent:
     ----------
     frame : Frame
         Rectangle of the world that all steps are read into.
-    steps : tuple of Step
+    Rectangle of the world into which all steps are read.
         In order of time; one for a file without times.
     bed : (rows, columns) float32 array or None
-        Height of the bed in metres over the frame, the northernmost row first, if the source has it.
+        Height of the bed in metres over the frame, the northernmost row first; None if the source has none.
     notes : tuple of Note
-        What was left out, simplified or chosen while it was read.
+        What was left out, simplified or chosen while reading.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Files and addresses that the text of a reference system names: grids of shifts, lists of systems, definitions."""
+"""Detect files and addresses named in a reference system: grids of shifts, lists of systems, definitions."""
 
 import json
 import re
@@ -8,7 +8,7 @@ from typing import Any, Final, NoReturn
 from vexture.base.errors import SourceError, printable, shorten_text
 
 PLACE: Final = re.compile(r"[/\\~]|^\.")
-"""In the name of a file or an address, but not in that of a grid that PROJ itself has."""
+"""Characters in the name of a file or an address, but not in that of a grid that PROJ includes."""
 
 VALUES: Final = (
     re.compile(r"\b(?:init|file|model|\w*grids)\s*=(.*?)(?=\s\+|\"\s*[\])]|$)", re.IGNORECASE | re.DOTALL),
@@ -18,7 +18,7 @@ VALUES: Final = (
         r"^\s*(?!https?://(?:www\.)?opengis\.net/(?:def/crs|gml/srs)\b)((?:https?|ftp|file):.*)", re.I | re.DOTALL
     ),
 )
-"""What names files in a text for PROJ, in WKT 1 and 2, and as all of it, but for names that look like addresses."""
+"""Patterns of file names in a PROJ text, in WKT 1 and 2, and as a whole text, except names like addresses."""
 
 KEY: Final = re.compile(
     rb"""["'](?:c|\\u00[46]3)(?:r|\\u00[57]2)(?:s|\\u00[57]3)["']\s*:?\s*(?=[^\s:])""", re.IGNORECASE
@@ -26,20 +26,20 @@ KEY: Final = re.compile(
 """The key `crs` of JSON in any spelling, up to its value."""
 
 SCALAR: Final = re.compile(rb"""["\d.+-]|null|true|false|\[|[,\]}]""")
-"""Start of a value that names no system, or what follows a text that is no key."""
+"""Start of a value that names no system, or of what follows a text that is not a key."""
 
 LINK_TYPES: Final = ("link", "url")
-"""Types of a `crs` in GeoJSON that is described somewhere else, in lower case."""
+"""Types, in lower case, of a `crs` in GeoJSON that is described elsewhere."""
 
 MOST: Final = 65_536
-"""Bytes of the reference system in a GeoJSON."""
+"""Most bytes of the reference system in a GeoJSON."""
 
 SHOWN: Final = 80
 """Characters of a link in a message."""
 
 
 def refuse_files_of_system(text: str) -> None:
-    """Raise a `SourceError` if a reference system, as a source describes it, names a file or an address.
+    """Raise a `SourceError` if a source's reference system names a file or an address.
 
     Examples
     --------
@@ -50,7 +50,7 @@ def refuse_files_of_system(text: str) -> None:
         try:
             texts = [*_texts(json.loads(text))]
         except (ValueError, RecursionError):
-            return  # which is no reference system
+            return  # not a reference system
     else:
         texts = [found[1] for pattern in VALUES for found in pattern.finditer(text)]
     for named in texts:
@@ -62,7 +62,7 @@ def refuse_files_of_system(text: str) -> None:
 
 
 def _texts(value: Any) -> Iterator[str]:
-    """Texts in PROJJSON that may name files: values of parameters, and what names of methods say."""
+    """Collect texts in PROJJSON that may name files: values of parameters, and names of methods."""
     left = [value]
     while left:
         one = left.pop()
@@ -77,9 +77,9 @@ def _texts(value: Any) -> Iterator[str]:
 
 
 def refuse_files_of_json(content: bytes) -> None:
-    """Raise a `SourceError` if a reference system in GeoJSON is to be fetched or read from somewhere else.
+    """Raise a `SourceError` if a reference system in GeoJSON would be fetched or read from elsewhere.
 
-    It is looked for in the text, as a large file is not worth reading twice: wherever GDAL could find one.
+    The text is searched, wherever GDAL could find a system, because parsing a large file twice costs too much.
     """
     for found in KEY.finditer(content):
         start = found.end()
@@ -98,7 +98,7 @@ def refuse_files_of_json(content: bytes) -> None:
 
 
 def refuse_link(link: str) -> NoReturn:
-    """Raise a `SourceError` about GeoJSON whose reference system is somewhere else."""
+    """Raise a `SourceError` for GeoJSON whose reference system is described elsewhere."""
     raise SourceError(
         f"its crs is a link to {_format_text(link)!r}, and nothing is fetched; name the system: "
         '{"type": "name", "properties": {"name": "EPSG:..."}}'

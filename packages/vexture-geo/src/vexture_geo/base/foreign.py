@@ -1,6 +1,6 @@
-"""Formats of flood models that are not read: known by their first bytes or their structure, with a way to convert them.
+"""Detect unsupported formats of flood models by their first bytes or their structure, and say how to convert them.
 
-All but those of MIKE are mesh layers of QGIS, whose tool writes a GeoTIFF; those of MIKE are read by mikeio.
+All formats except those of MIKE are mesh layers of QGIS, whose tool writes a GeoTIFF; mikeio reads those of MIKE.
 """
 
 import os
@@ -19,15 +19,15 @@ MIKEIO: Final[dict[str, str]] = {
     ".dfsu": "bring it onto a grid by mikeio (interp_like, with its get_overset_grid), and write that by to_xarray()"
     ".to_netcdf()",
 }
-"""What to do with files of MIKE, by suffix; their first bytes are alike."""
+"""Remedies for files of MIKE by suffix, because their first bytes are alike."""
 
 DFS2: Final = "write it as NetCDF by mikeio: mikeio.read(IN).to_xarray().to_netcdf(OUT)"
 
 RECORD: Final = (80).to_bytes(4, "big"), (80).to_bytes(4, "little")
-"""First bytes of Selafin: the length of its title, as Fortran writes records."""
+"""First bytes of Selafin: the length of its title, as a Fortran record."""
 
 TITLE: Final = slice(76, 84)
-"""Where Selafin has its own name, at the end of the title."""
+"""Position of the name of Selafin, at the end of the title."""
 
 SMS: Final = (3000).to_bytes(4, "little"), (3000).to_bytes(4, "big")
 """First bytes of a binary .dat of SMS, which TUFLOW writes."""
@@ -36,7 +36,7 @@ SMS_TEXTS: Final = (b"MESH2D", b"DATASET", b"SCALAR\n", b"SCALAR\r", b"VECTOR\n"
 
 
 def refuse_foreign(start: bytes, file_name: str) -> None:
-    """Raise a `SourceError` that names the format of a flood model, by the first bytes of a file.
+    """Raise a `SourceError` that names the format of a flood model, by a file's first bytes.
 
     Examples
     --------
@@ -54,7 +54,7 @@ def refuse_foreign(start: bytes, file_name: str) -> None:
 
 
 def refuse_foreign_hdf5(place: str | os.PathLike[str]) -> None:
-    """Raise a `SourceError` that names the model, if a file of HDF5 is no NetCDF, but that of HEC-RAS or TUFLOW."""
+    """Raise a `SourceError` that names the model if an HDF5 file is one of HEC-RAS or TUFLOW rather than NetCDF."""
     import h5py
 
     try:
@@ -65,7 +65,7 @@ def refuse_foreign_hdf5(place: str | os.PathLike[str]) -> None:
             kind, named = _text(file.attrs.get("File Type")), file.get("File Type")
             if isinstance(named, h5py.Dataset) and named.size == 1:
                 kind = _text(named[()])
-    except Exception:  # h5py raises any type of exception for a damaged file; who reads it says so
+    except Exception:  # h5py raises any type of exception for a damaged file; its reader reports it
         return
     if kind.startswith("HEC-RAS"):
         raise _foreign(f"HDF of HEC-RAS ({kind})", RAS_MAPPER)
@@ -74,7 +74,7 @@ def refuse_foreign_hdf5(place: str | os.PathLike[str]) -> None:
 
 
 def refuse_foreign_dataset(dataset: Any) -> None:
-    """Raise a `SourceError` that names the model, if an open dataset has a mesh by no convention that is read."""
+    """Raise a `SourceError` that names the model if an open dataset has a mesh by an unsupported convention."""
     names = set(map(str, dataset.variables))
     if {"volumes", "elevation", "x", "y"} <= names and names & {"stage", "stage_c"}:
         raise _foreign("an .sww of ANUGA", QGIS)
@@ -87,6 +87,6 @@ def _foreign(description: str, remedy: str) -> SourceError:
 
 
 def _text(value: Any) -> str:
-    """Text of an attribute or of a value of HDF5; none of anything else."""
+    """Text of an attribute or value of HDF5; empty for other types."""
     one = value.flat[0] if hasattr(value, "flat") and getattr(value, "size", 0) == 1 else value
     return one.decode(errors="replace").strip("\0 ") if isinstance(one, bytes) else one if isinstance(one, str) else ""

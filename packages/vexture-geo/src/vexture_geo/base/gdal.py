@@ -1,6 +1,7 @@
-"""Settings of GDAL: formats by name, only the files and addresses requested, little memory, no messages.
+"""Settings of GDAL: named formats, only the requested files and addresses, little memory, no messages.
 
-What a raster says of other files is refused, and so is a file beside it that GDAL would open and that leads elsewhere.
+Rasters whose metadata name other files are refused, and so are rasters beside files that GDAL would open and that lead
+elsewhere.
 """
 
 import os
@@ -22,8 +23,8 @@ if TYPE_CHECKING:
     from rasterio import DatasetReader
 
 CACHE: Final = 128 * 2**20
-"""Bytes of blocks that GDAL keeps, which by default takes a twentieth of the memory. A row of blocks of a raster of
-50,000 columns has 100 MB."""
+"""Bytes of the cache of blocks, which by default takes a twentieth of the memory. A row of blocks of a raster of 50,000
+columns has 100 MB."""
 
 GEOTIFF: Final = "GTiff"
 GRIB_DRIVER: Final = "GRIB"
@@ -32,52 +33,52 @@ OTHERS: Final[Mapping[str, tuple[bytes, ...]]] = {
     "AAIGrid": ESRI_GRID,
     NETCDF_DRIVER: NETCDF,
 }
-"""Formats of rasters, none of which is a list of other files, and their first bytes in lower case."""
+"""Formats of rasters, none of which lists other files, and their first bytes in lower case."""
 
 FLOATS: Final = ("EHdr", ".flt")
-"""The format whose file has nothing but numbers, and its suffix; the .hdr beside it leads nowhere."""
+"""Format and suffix of a file of bare numbers; the .hdr beside it names no other files."""
 
 VECTORS: Final = (
     *("ESRI Shapefile", "FlatGeobuf", "GML", "GPKG", "GPX", "GeoJSON", "KML", "LIBKML", "OpenFileGDB", "SQLite"),
     "TopoJSON",
 )
-"""Formats of features, of which GDAL knows only those at once that a file may have. It knows 60 more by words anywhere
-at the start of a file: some are lists of other files, addresses or commands."""
+"""Formats of features; GDAL is given only those that a file may have. It knows 60 more by words anywhere at the start
+of a file: some are lists of other files, addresses or commands."""
 
 OFFLINE: Final[Mapping[str, str]] = {
     "CPL_LOG": os.devnull,
     "CPL_VSIL_CURL_ALLOWED_EXTENSIONS": ".none",
-    "GDAL_HTTP_PROXY": "127.0.0.1:9",  # where nothing answers
+    "GDAL_HTTP_PROXY": "127.0.0.1:9",  # no server answers here
     "GML_SKIP_RESOLVE_ELEMS": "ALL",
     "LIBKML_EXTERNAL_STYLE": "NO",
-    "OGR_ARC_STEPSIZE": "0.5",  # degrees; chords are nearer than 1e-5 of the radius to the arc
+    "OGR_ARC_STEPSIZE": "0.5",  # degrees: chords deviate from the arc by less than 1e-5 of the radius
     "OGR_SQLITE_ALLOW_EXTERNAL_ACCESS": "NO",
     "OGR_SQLITE_LOAD_EXTENSIONS": "NO",
     "OSR_SET_FROM_USER_INPUT_ALLOW_FILE_ACCESS": "NO",
     "OSR_SET_FROM_USER_INPUT_ALLOW_NETWORK_ACCESS": "NO",
 }
-"""Options by which GDAL says nothing of its own, fetches nothing, should a link ever reach it, and follows arcs."""
+"""Options that silence GDAL, keep it from fetching anything should a link ever reach it, and refine arcs."""
 
 DATASETS: Final = (".ovr", ".msk")
-"""Endings of files beside a raster that GDAL opens as rasters of any format."""
+"""Suffixes of files beside a raster that GDAL opens as rasters of any format."""
 
 IMAGINE: Final = b"EHFA_HEADER_TAG"
-"""First bytes of an .aux that GDAL opens, and the files that it names."""
+"""First bytes of an .aux that GDAL opens together with the files that it names."""
 
 LARGEST_NOTE: Final = 16 * 2**20
-"""Bytes of an .aux.xml or .prj; what GDAL writes there has some thousands."""
+"""Most bytes of an .aux.xml or .prj; GDAL writes some thousands."""
 
 LINKS: Final = ("OVERVIEW_FILE", "X_DATASET", "Y_DATASET")
-"""Metadata that name other files: of smaller copies, and of the places of the pixels."""
+"""Metadata that name other files: of overviews, and of the places of pixels."""
 
 IN_ADDRESSES: Final = "!;?#"
 """Characters at which pyogrio splits names of files."""
 
 SYSTEMS: Final = ("crs", "srs", "spatial_ref", "proj", "wkt", "pe_string")
-"""In the names of attributes of NetCDF that describe a reference system."""
+"""Words in the names of NetCDF attributes that describe a reference system."""
 
 CHANGING: Final = RLock()
-"""Held while GDAL knows fewer formats for features than it does otherwise."""
+"""Lock held while GDAL knows fewer formats of features than usual."""
 
 SHOWN: Final = 80
 """Characters of a link in a message."""
@@ -94,9 +95,9 @@ def gdal(**options: str) -> Iterator[None]:
 
 @contextmanager
 def open_raster(source: str | os.PathLike[str] | bytes, *, others: bool = False) -> Iterator["DatasetReader"]:
-    """Open a GeoTIFF or, with `others`, a grid of Esri (.asc, .flt) or of NetCDF, which leads to no other file.
+    """Open a GeoTIFF or, with `others`, a grid of Esri (.asc, .flt) or of NetCDF, which refers to no other file.
 
-    Raises a `SourceError` that names the link if it does, and what rasterio raises if it cannot be opened.
+    Raises a `SourceError` that names the link if it does, and rasterio's errors if it cannot be opened.
     """
     import rasterio
     from rasterio.io import MemoryFile
@@ -108,7 +109,7 @@ def open_raster(source: str | os.PathLike[str] | bytes, *, others: bool = False)
         named = "" if isinstance(source, bytes) else Path(source).suffix.lower()
         driver = FLOATS[0] if named == FLOATS[1] else driver
     if not isinstance(source, bytes):
-        path = Path(source).absolute()  # which is no address, whatever its name
+        path = Path(source).absolute()  # never an address, whatever its name
         refuse_links_beside(path)
         refuse_links_of_netcdf(path)
         if driver == NETCDF_DRIVER:
@@ -116,7 +117,7 @@ def open_raster(source: str | os.PathLike[str] | bytes, *, others: bool = False)
     with ExitStack() as stack:
         stack.enter_context(gdal())
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about a missing place or reference system: who reads it says so
+            warnings.simplefilter("ignore")  # about a missing place or reference system, which the reader reports
             if isinstance(source, bytes):
                 memory = stack.enter_context(MemoryFile(source))
                 file = stack.enter_context(memory.open(driver=driver))
@@ -128,9 +129,9 @@ def open_raster(source: str | os.PathLike[str] | bytes, *, others: bool = False)
 
 @contextmanager
 def open_grib(content: bytes) -> Iterator["DatasetReader"]:
-    """Open the content of a file of GRIB, with units as they are written, and without an index of its messages.
+    """Open the content of a GRIB file with units as written, and without an index of its messages.
 
-    Raises what rasterio raises if it cannot be opened.
+    Raises rasterio's errors if it cannot be opened.
     """
     from rasterio.io import MemoryFile
 
@@ -138,14 +139,14 @@ def open_grib(content: bytes) -> Iterator["DatasetReader"]:
         stack.enter_context(gdal(GRIB_NORMALIZE_UNITS="NO"))
         memory = stack.enter_context(MemoryFile(content))
         with quiet_output(), warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about a missing place, which who reads it tells
+            warnings.simplefilter("ignore")  # about a missing place, which the reader reports
             file = stack.enter_context(memory.open(driver=GRIB_DRIVER, USE_IDX="NO"))
         refuse_links_in(file)
         yield file
 
 
 def refuse_links_in(file: "DatasetReader") -> None:
-    """Refuse an open raster of which the metadata name another file; it has opened none yet."""
+    """Refuse an open raster whose metadata name another file, before that file is opened."""
     for domain in file.tag_namespaces():
         for name, value in file.tags(ns=domain).items():
             if name.upper() in LINKS:
@@ -155,7 +156,7 @@ def refuse_links_in(file: "DatasetReader") -> None:
 
 
 def refuse_links_beside(path: Path) -> None:
-    """Refuse a raster beside which is a file that GDAL would open with it, and that can lead elsewhere."""
+    """Refuse a raster with a file beside it that GDAL would open and that can lead elsewhere."""
     try:
         around = sorted(path.parent.iterdir()) if path.parent.is_dir() else []
     except OSError as error:
@@ -171,7 +172,7 @@ def refuse_links_beside(path: Path) -> None:
 
 
 def raster_errors() -> tuple[type[Exception], ...]:
-    """Errors that rasterio raises for a damaged file; where it reads a tag, GDAL's own."""
+    """Errors that rasterio raises for a damaged file; for a tag, it raises GDAL's own."""
     from rasterio._err import CPLE_BaseError
     from rasterio.errors import RasterioError
 
@@ -179,7 +180,7 @@ def raster_errors() -> tuple[type[Exception], ...]:
 
 
 def _why_not(path: Path) -> str:
-    """Reason why a file beside a raster is not read; empty if it leads nowhere."""
+    """Explain why a file beside a raster is refused; an empty text if it leads nowhere."""
     import rasterio
 
     start, end = start_of(path), path.suffix.lower()
@@ -228,7 +229,7 @@ def _refuse_metadata(content: bytes) -> None:
 
 
 def plain_place(source: str | os.PathLike[str] | bytes) -> str:
-    """Absolute path of a file of features, which pyogrio does not take for parts of an address."""
+    """Absolute path of a file of features, in a form that pyogrio does not split as an address."""
     place = os.path.abspath(os.fsdecode(source))
     found = next((character for character in IN_ADDRESSES if character in place), None)
     if found:
@@ -237,7 +238,7 @@ def plain_place(source: str | os.PathLike[str] | bytes) -> str:
 
 
 def _refuse_systems_of_netcdf(path: Path) -> None:
-    """Refuse NetCDF of which an attribute is a reference system that names a file: GDAL reads all of them."""
+    """Refuse NetCDF with a reference system in any attribute that names a file, because GDAL reads all of them."""
     import netCDF4
 
     try:
@@ -249,7 +250,7 @@ def _refuse_systems_of_netcdf(path: Path) -> None:
                 for name in one.ncattrs():
                     if any(word in name.lower() for word in SYSTEMS):
                         refuse_files_of_system(str(one.getncattr(name)))
-    except (OSError, RuntimeError, ValueError, AttributeError) as error:  # netCDF4 raises all of them
+    except (OSError, RuntimeError, ValueError, AttributeError) as error:  # netCDF4 raises each of them
         raise netcdf_error(error, str(path)) from None
 
 
@@ -260,12 +261,12 @@ def _link(name: str, value: str) -> str:
 
 @contextmanager
 def vector_formats(formats: Sequence[str]) -> Iterator[None]:
-    """Read features within this context, in which GDAL knows some of `VECTORS` only.
+    """Restrict GDAL to some of the `VECTORS` formats within this context.
 
-    The list is that of pyogrio's GDAL, and is as before afterwards: others who use pyogrio may need more.
+    The list belongs to pyogrio's GDAL and is restored afterwards, because other users of pyogrio may need more formats.
     """
     import pyogrio
-    from pyogrio._ogr import _register_drivers  # no other way to say which formats GDAL may take a file for
+    from pyogrio._ogr import _register_drivers  # no other way to restrict the formats that GDAL tries
 
     with CHANGING:
         before = {name: pyogrio.get_gdal_config_option(name) for name in ("GDAL_SKIP", *OFFLINE)}

@@ -1,7 +1,7 @@
-"""Links in HDF5 files, which NetCDF-4 files are: to other files, which libraries follow without a word.
+"""Detect links from HDF5 files, and so NetCDF-4 files, to other files, which libraries follow silently.
 
-A dataset can have its values elsewhere (external storage, virtual datasets), and a name in a group can be that of an
-object elsewhere (external links). NetCDF follows all of them, and writes none.
+A dataset can store its values elsewhere (external storage, virtual datasets), and a name in a group can refer to an
+object elsewhere (external links). The NetCDF library follows all of these, but writes none.
 """
 
 import os
@@ -30,13 +30,13 @@ SHOWN: Final = 80
 ROOT: Final = b"/"
 
 SAME: Final = "."
-"""Name of the file itself among those that a virtual dataset is made of."""
+"""Name by which a virtual dataset refers to its own file."""
 
 
 def refuse_links_of_netcdf(path: str | os.PathLike[str]) -> None:
-    """Raise a `SourceError` that names the link, if a file of HDF5 leads to another; NetCDF of other kinds cannot.
+    """Raise a `SourceError` that names the link if an HDF5 file refers to another; other kinds of NetCDF cannot.
 
-    All objects are looked at, also those that no reader asks for: NetCDF looks at them all when it opens a file.
+    All objects are checked, even unused ones, because the NetCDF library visits all of them when it opens a file.
     """
     if not start_of(path).startswith(HDF5):
         return
@@ -55,7 +55,7 @@ def refuse_links_of_netcdf(path: str | os.PathLike[str]) -> None:
 
 
 def _look_at_all(root: "GroupID") -> None:
-    """Look at a group and at all that is in it or referred to, each once."""
+    """Check a group and everything in it or referred to, each object once."""
     from h5py import h5d, h5g, h5o
 
     seen, left = set[int](), list[tuple[Any, str]]([(root, "")])
@@ -74,7 +74,7 @@ def _look_at_all(root: "GroupID") -> None:
 
 
 def _members(group: "GroupID", parent: str) -> list[tuple[Any, str]]:
-    """The objects of a group, of which none is opened through a link that leads out."""
+    """List the objects of a group without opening any external link."""
     from h5py import h5l, h5o
 
     names: list[bytes] = []
@@ -87,13 +87,13 @@ def _members(group: "GroupID", parent: str) -> list[tuple[Any, str]]:
             found.append((h5o.open(group, raw), name))
         elif kind == h5l.TYPE_EXTERNAL:
             _refuse(name, "is", group.links.get_val(raw)[0])
-        elif kind != h5l.TYPE_SOFT:  # which is another name in this file
+        elif kind != h5l.TYPE_SOFT:  # a soft link is another name in this file
             raise SourceError(f"{_format_text(name)!r} is a link of an unknown kind, {kind}; write the file without it")
     return found
 
 
 def _refuse_elsewhere(dataset: "DatasetID", name: str) -> None:
-    """Refuse a dataset that has its values in other files."""
+    """Refuse a dataset whose values are stored in other files."""
     from h5py import h5d
 
     how = dataset.get_create_plist()
@@ -107,7 +107,7 @@ def _refuse_elsewhere(dataset: "DatasetID", name: str) -> None:
 
 
 def _referenced_objects(one: Any, name: str) -> Iterator[Any]:
-    """Objects that the attributes of an object refer to, as those of a variable do to its dimensions."""
+    """Yield objects that an object's attributes refer to, such as the dimensions of a variable."""
     import h5py
     from h5py import h5a, h5r
 
@@ -123,12 +123,12 @@ def _referenced_objects(one: Any, name: str) -> Iterator[Any]:
         for value in [] if isinstance(found, h5py.Empty) else np.atleast_1d(np.asarray(found, object)).ravel():
             for reference in [value] if isinstance(value, h5py.Reference) else np.atleast_1d(value):
                 if reference:
-                    with suppress(ValueError, KeyError, RuntimeError):  # it is not there any more, for nobody
+                    with suppress(ValueError, KeyError, RuntimeError):  # the object no longer exists for anyone
                         yield h5r.dereference(reference, one)
 
 
 def _refuse_references(kind: "TypeID", name: str) -> None:
-    """Refuse references other than those into the file itself: newer ones can hold the name of another file."""
+    """Refuse references except those into the file itself: newer kinds can hold the name of another file."""
     from h5py import h5t
 
     inside = (h5t.STD_REF_OBJ, h5t.STD_REF_DSETREG)

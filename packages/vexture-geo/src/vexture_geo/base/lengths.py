@@ -1,4 +1,4 @@
-"""Units of lengths, as files write them: with a datum behind them, in full or short, in one case or another."""
+"""Units of length as files write them: with a datum, in full or abbreviated, in any case."""
 
 import re
 from typing import Final
@@ -17,7 +17,7 @@ LENGTHS: Final = {
     **dict.fromkeys(("yd", "yds", "yard", "yards"), 0.9144),
     **dict.fromkeys(("fathom", "fathoms", "ftm"), 1.8288),
 }
-"""Metres in units of length, by their names in lower case."""
+"""Metres in each unit of length, by name in lower case."""
 # fmt: on
 
 BY_LENGTH: Final = sorted(LENGTHS, key=len, reverse=True)
@@ -29,13 +29,13 @@ NO_DATUM: Final = re.compile(
 )
 LOGARITHM: Final = re.compile(r"\b(log|log10|ln|lg|db|decibels?)\b", re.IGNORECASE)
 DATUM: Final = re.compile(r"[\s(+,;:.\-]*[^\d\s].*|")
-"""What may stand behind a unit: the datum of heights, and nothing that makes a speed or an area of a length."""
+"""Text that may follow a unit: the datum of heights, but nothing that makes it a speed or an area."""
 
 NO_UNIT: Final = frozenset({"", "1", "-", "n/a", "na", "none", "unknown"})
-"""What files have where they say no unit, in lower case."""
+"""Texts, in lower case, of files that state no unit."""
 
 SCALED: Final = re.compile(r"(\d*\.?\d+(?:[eE][+-]?\d+)?) ?\*? ?([A-Za-z].*)")
-"""A number of units, as UDUNITS has it."""
+"""A number times a unit, in the notation of UDUNITS."""
 
 
 ENCLOSED: Final = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)")
@@ -44,17 +44,17 @@ ENCLOSED: Final = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)")
 FIRST_POWER: Final = re.compile(r"([A-Za-z]+) ?\^?1")
 
 TIMES_A_NUMBER: Final = re.compile(r"(?<![A-Za-z])[x×*] ?\.?\d")
-"""What says that the numbers are not of the unit itself."""
+"""Pattern of a factor, with which the numbers are not in the unit itself."""
 
 MEGA: Final = re.compile(r"Mm\b")
-"""A million metres, which no case may turn into a thousandth of one."""
+"""Megametre, which must not be read as millimetre in lower case."""
 
 RAISED: Final = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
-"""Exponents, and a minus sign, as they may be typeset."""
+"""Typeset exponents and minus signs."""
 
 
 def metres_in(unit: str) -> float | None:
-    """Metres in a unit of length, which may name a datum; 1 if there is no unit, and None if it is no length.
+    """Metres in a unit of length, which may name a datum; 1 if there is no unit, and None if it is not a length.
 
     Examples
     --------

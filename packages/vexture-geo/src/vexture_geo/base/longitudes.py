@@ -1,4 +1,4 @@
-"""Rings of longitudes, which begin again after a turn: unwrapped at the antimeridian, closed over the poles."""
+"""Rings in longitudes, which repeat after a turn: unwrap them at the antimeridian, and close them over the poles."""
 
 from dataclasses import dataclass, replace
 from functools import reduce
@@ -13,21 +13,21 @@ from vexture_geo.base.rings import Rings, rings_of
 from vexture_geo.base.validity import make_valid
 
 FULL_TURN: Final = 1.0 - 1e-9
-"""Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
+"""Turns. A side this long is meant to go around the world, along a pole or the edge of a map."""
 
 CLEAR_JUMP: Final = 5.0 / 6.0
-"""Turns. A shorter jump may as well be a long side: borders that cross the antimeridian are far from half a turn."""
+"""Turns. A shorter jump may also be a long side: borders that cross the antimeridian jump much farther."""
 
 LEAST_CORNERS: Final = 3
-"""Of a ring that encloses something."""
+"""Fewest corners of a ring that encloses an area."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Jumps:
-    """Jumps of longitudes in rings.
+    """Jumps of longitude in rings.
 
-    `turns`, (n,), are those in the side that leaves each point, and `net`, (r,), their sum in each ring: not 0 where
-    it goes around a pole. A side around the whole world, along a pole or the edge of a map, is no jump.
+    `turns`, (n,), are the turns jumped by the side from each point. `net`, (r,), is their sum in each ring, which is
+    not 0 if the ring goes around a pole. A side around the whole world, along a pole or the edge of a map, is no jump.
     """
 
     turns: NDArray[np.float64]
@@ -35,7 +35,7 @@ class _Jumps:
 
 
 def _jumps(rings: Rings, turn: float) -> _Jumps:
-    """Jumps of longitudes of period `turn`, of at least one ring: a longer side than half a turn is one."""
+    """Find jumps of longitudes of period `turn` in at least one ring: sides longer than half a turn."""
     step = rings.steps
     turns = np.where(np.abs(step) > turn / 2, np.rint(step / turn), 0.0)
     full = np.abs(step) >= turn * FULL_TURN
@@ -48,11 +48,11 @@ def _jumps(rings: Rings, turn: float) -> _Jumps:
 def _around(
     points: NDArray[np.float64], turns: NDArray[np.float64], full: NDArray[np.bool_], turn: float
 ) -> NDArray[np.bool_]:
-    """Sides of a ring that go around the whole world: of those as long as a turn, all others are jumps.
+    """Find sides of a ring that go around the whole world; other sides as long as a turn are jumps.
 
-    If the ring goes around a pole with jumps only, such a side lies on the pole or between two along the antimeridian:
-    else it closes a coast that has lost its cut. If it does not, sides to the east and to the west are both long, or
-    both jumps, and the ring of one of the two readings does not cross itself.
+    If the ring goes around a pole by jumps only, such a side lies on the pole or between two along the antimeridian;
+    otherwise it closes a coast whose cut was lost. If it goes around no pole, long sides to the east and to the west
+    are either all long or all jumps, and the right choice is the one whose ring does not cross itself.
     """
     import shapely
 
@@ -71,17 +71,17 @@ def _around(
 
 
 def _continuous(points: NDArray[np.float64], turns: NDArray[np.float64], turn: float) -> NDArray[np.float64]:
-    """Points of a ring without its jumps."""
-    before = np.cumsum(turns) - turns  # the jump is in the side that leaves the point
+    """Remove the jumps from the points of a ring."""
+    before = np.cumsum(turns) - turns  # a jump belongs to the side that leaves the point
     return points - np.stack([turn * before, np.zeros(len(points))], axis=1)
 
 
 def unwrap_rings(rings: Rings, turn: float) -> Rings:
-    """Rings of longitudes without jumps: they exceed half a turn where they cross the antimeridian.
+    """Remove jumps from rings of longitudes, which then exceed half a turn where they cross the antimeridian.
 
-    A side of more than half a turn is read as one that goes the other way around the world, but one of a whole turn
-    follows the edge of a map, or a pole, where it can. Holes stay in their polygon, and all polygons move to the side
-    of the antimeridian where they span less. A ring around a pole is refused, unless it follows the edge of a map.
+    A side of more than half a turn is taken to go the other way around the world; a side of a whole turn follows the
+    edge of a map, or a pole, where it can. Holes stay in their polygon, and all polygons move to the side of the
+    antimeridian where they span less. A ring around a pole is refused, unless it follows the edge of a map.
     """
     if not len(rings.ends):
         return rings
@@ -100,7 +100,7 @@ def unwrap_rings(rings: Rings, turn: float) -> Rings:
 
 
 def note_short_ways(steps: NDArray[np.float64], turn: float, notes: Notes) -> None:
-    """Note sides that are read as going the other way around the world, and might be meant to be as long as they are.
+    """Note sides that are taken to go the other way around the world, but might really be that long.
 
     Examples
     --------
@@ -120,7 +120,7 @@ def note_short_ways(steps: NDArray[np.float64], turn: float, notes: Notes) -> No
 
 
 def jumping(rings: Rings, turn: float) -> NDArray[np.bool_]:
-    """Polygons, (p,), that jump over the antimeridian and are whole once they are unwrapped: they go around no pole."""
+    """Polygons, (p,), that cross the antimeridian by jumps and go around no pole, so that they can be unwrapped."""
     jumps = _jumps(rings, turn)
     if not jumps.turns.any():
         return np.zeros(len(rings.outer), np.bool_)
@@ -130,7 +130,7 @@ def jumping(rings: Rings, turn: float) -> NDArray[np.bool_]:
 
 
 def narrower(longitudes: NDArray[np.float64], turn: float) -> NDArray[np.float64]:
-    """Longitudes from 0 to a turn, if they span less than half of it so, and more as they are; else as they are.
+    """Move longitudes to 0 to a turn if they then span less than half a turn, and span more now; else keep them.
 
     Examples
     --------
@@ -149,7 +149,7 @@ def _span(longitudes: NDArray[np.float64]) -> float:
 
 
 def _without_jumps(rings: Rings, jumps: _Jumps, turn: float) -> Rings:
-    """Rings without the jumps of their sides."""
+    """Remove the jumps from the sides of rings."""
     pole = jumps.net != 0.0
     if pole.any():
         where = rings.ring_name(int(rings.starts[int(pole.argmax())]))
@@ -167,11 +167,11 @@ def _without_jumps(rings: Rings, jumps: _Jumps, turn: float) -> Rings:
 
 
 def close_over_poles(rings: Rings, turn: float) -> tuple[Rings, int]:
-    """Rings of which none goes around a pole, and how many polygons had one; they come last.
+    """Close rings around a pole; return all rings and the number of polygons that had one, which come last.
 
-    The area within a ring around a pole, in longitudes of period `turn`, is all that lies between it and that pole. A
-    polygon is what an odd number of its rings hold: a coast and a circle near the pole are the land between them.
-    Rings along the edge of a map are as they were.
+    The area of a ring around a pole, in longitudes of period `turn`, is all that lies between it and that pole. A
+    polygon contains the places within an odd number of its rings: a coast and a circle near the pole enclose the land
+    between them. Rings along the edge of a map stay as they are.
 
     Examples
     --------
@@ -200,7 +200,7 @@ def close_over_poles(rings: Rings, turn: float) -> tuple[Rings, int]:
 
 
 def _close_polygon(rings: Rings, polygon: int, turns: NDArray[np.float64], turn: float) -> Any:
-    """A polygon with its rings closed."""
+    """Close the rings of a polygon."""
     import shapely
 
     areas = []
@@ -212,9 +212,9 @@ def _close_polygon(rings: Rings, polygon: int, turns: NDArray[np.float64], turn:
 
 
 def _over_pole(points: NDArray[np.float64], turns: NDArray[np.float64], turn: float) -> NDArray[np.float64]:
-    """Points of a ring without jumps; one around a pole goes on to the antimeridian, and over the pole back."""
+    """Remove the jumps of a ring; one around a pole continues to the antimeridian, and returns over the pole."""
     jumps = np.flatnonzero(turns)
-    if len(jumps):  # it begins after a jump
+    if len(jumps):  # start after a jump
         points, turns = np.roll(points, -1 - jumps[-1], axis=0), np.roll(turns, -1 - jumps[-1])
     points = _continuous(points, turns, turn)
     if turns.sum() == 0.0:

@@ -1,4 +1,4 @@
-"""Hide what a C library prints: GDAL's decoder of GRIB prints its doubts to the standard output."""
+"""Hide output of C libraries, because GDAL's decoder of GRIB prints warnings to the standard output."""
 
 import ctypes
 import os
@@ -8,19 +8,19 @@ from threading import Lock
 from typing import Final
 
 OUT: Final = 1
-"""The descriptor of the standard output."""
+"""Descriptor of the standard output."""
 
 TURN: Final = Lock()
-"""Held while the standard output leads nowhere."""
+"""Lock held while the standard output is redirected."""
 
 
 @contextmanager
 def quiet_output() -> Iterator[None]:
-    """Hide what is printed to the standard output within this context, which should be short."""
+    """Hide everything printed to the standard output within this context, which should be short."""
     with TURN:
         try:
             kept = os.dup(OUT)
-        except OSError:  # it is closed
+        except OSError:  # the standard output is closed
             yield
             return
         try:
@@ -30,6 +30,6 @@ def quiet_output() -> Iterator[None]:
             yield
         finally:
             with suppress(OSError, TypeError, AttributeError):  # where the C library cannot be called
-                ctypes.CDLL(None).fflush(None)  # what it holds back would be printed later
+                ctypes.CDLL(None).fflush(None)  # otherwise buffered output would be printed later
             os.dup2(kept, OUT)
             os.close(kept)

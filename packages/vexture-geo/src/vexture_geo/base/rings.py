@@ -20,23 +20,23 @@ MOST_HALVINGS: Final = 8
 """Largest number of times that a side which a transform bends is halved."""
 
 SHORT: Final = 1e-3
-"""Unit-square units. A shorter side stays straight, within `ROUND`, in any reference system."""
+"""Length in unit-square units below which a side stays straight, within `ROUND`, in any reference system."""
 
 MOST_CROSSINGS: Final = 250_000
-"""Crossings of the sides of one polygon that is repaired, which takes some 10 s."""
+"""Most crossings of the sides of a polygon to repair, which takes some 10 s."""
 
 SIDES: Final = 64
-"""Sides whose crossings are counted between two looks at the clock."""
+"""Number of sides whose crossings are counted between two checks of the time limit."""
 
 
 @dataclass(frozen=True, eq=False)
 class Rings:
-    """Polygons, each an outer ring and the holes in it.
+    """Polygons, each an outer ring and its holes.
 
-    `points`, (n, 2), are those of all rings, one after another, none with its first point repeated; `ends` are the
-    indices after the last point of each ring. `polygon` is the index of each ring's polygon, ascending; the first ring
-    of a polygon is its outer one. `place` names a polygon for messages; the name is empty if there is only one.
-    `feature`, (p,), is the feature of each polygon, which stays with it whatever is done to it; None if nobody asks.
+    `points`, (n, 2), are those of all rings in turn; no ring repeats its first point. `ends` are the indices after the
+    last point of each ring. `polygon` is the index of each ring's polygon, ascending; the first ring of a polygon is
+    its outer one. `place` names a polygon for messages; the name is empty if there is only one. `feature`, (p,), is the
+    feature of each polygon, which all operations preserve; None if it is not needed.
     """
 
     points: NDArray[np.float64]
@@ -64,7 +64,7 @@ class Rings:
 
     @property
     def steps(self) -> NDArray[np.float64]:
-        """Distance to the east that the side from each point covers."""
+        """Eastward distance of the side from each point."""
         across = self.points[:, 0]
         return np.asarray(across[self.following] - across)
 
@@ -91,7 +91,7 @@ class Rings:
         return f"{place}, {number}" if place else number
 
     def take(self, polygons: NDArray[np.intp]) -> "Rings":
-        """Some of the polygons, by their indices."""
+        """Select polygons by their indices."""
         counts = np.diff(np.append(self.outer, len(self.ends)))[polygons]
         rings = _runs(self.outer[polygons], counts)
         lengths = (self.ends - self.starts)[rings]
@@ -101,7 +101,7 @@ class Rings:
         return Rings(points, np.cumsum(lengths), owner, lambda index: self.place(int(polygons[index])), feature)
 
     def concatenate(self, other: "Rings") -> "Rings":
-        """These polygons and then the others."""
+        """Append other polygons to these."""
         own = len(self.outer)
         return Rings(
             np.concatenate([self.points, other.points]),
@@ -112,14 +112,14 @@ class Rings:
         )
 
     def shift_east(self, shift: NDArray[np.float64]) -> "Rings":
-        """Rings moved along x, each by its own distance, (r,)."""
+        """Move each ring along x by its own distance, (r,)."""
         points = self.points.copy()
         points[:, 0] += np.repeat(shift, self.ends - self.starts)
         return replace(self, points=points)
 
     @property
     def shapes(self) -> NDArray[Any]:
-        """The polygons as shapely's."""
+        """Polygons as shapely geometries."""
         import shapely
 
         owner = np.repeat(np.arange(len(self.ends)), self.ends - self.starts)
@@ -133,14 +133,14 @@ def _runs(starts: NDArray[np.intp], lengths: NDArray[np.intp]) -> NDArray[np.int
 
 
 def rings_of(polygons: NDArray[Any], place: Callable[[int], str], feature: NDArray[np.intp] | None = None) -> Rings:
-    """Rings of shapely's polygons, each of a feature; empty polygons have none."""
+    """Convert shapely polygons, each of a feature; empty polygons are dropped."""
     import shapely
 
     rings, owner = shapely.get_rings(polygons, return_index=True)
     points, ring = shapely.get_coordinates(rings, return_index=True)
     ends = np.searchsorted(ring, np.arange(len(rings)), side="right")
     keep = np.ones(len(points), np.bool_)
-    keep[ends - 1] = False  # the first point again
+    keep[ends - 1] = False  # shapely repeats the first point
     full, polygon = np.unique(owner, return_inverse=True)  # without the empty ones
     return Rings(
         points[keep],
@@ -152,7 +152,7 @@ def rings_of(polygons: NDArray[Any], place: Callable[[int], str], feature: NDArr
 
 
 def refuse_far(rings: Rings, remedy: str) -> None:
-    """Refuse coordinates that are not finite or too large, with the name of their ring."""
+    """Raise a `SourceError` that names the ring of a coordinate that is not finite or too large."""
     near = (np.abs(rings.points) <= LARGEST).all(axis=1)  # False for NaN
     if not near.all():
         point = int(near.argmin())
@@ -161,7 +161,7 @@ def refuse_far(rings: Rings, remedy: str) -> None:
 
 
 def repair_rings(rings: Rings, notes: Notes) -> Rings:
-    """Valid polygons: shapely repairs those whose rings cross or leave their outer ring. Heavy ones come in parts.
+    """Repair polygons whose rings cross or leave their outer ring, by shapely; split heavy ones into parts.
 
     Polygons that enclose no area are left out, with a note.
     """
@@ -191,7 +191,7 @@ def repair_rings(rings: Rings, notes: Notes) -> Rings:
 
 
 def _refuse_tangle(shape: Any, place: str) -> None:
-    """Refuse a polygon whose sides cross so often that its repair, in one call, would seem to have no end."""
+    """Refuse a polygon with so many crossings that its repair, in one call, would not end in reasonable time."""
     import shapely
 
     check_time()
@@ -210,7 +210,7 @@ def _refuse_tangle(shape: Any, place: str) -> None:
 
 
 def _polygons(shapes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
-    """Polygons among the parts of shapely's geometries, and the index of the geometry of each."""
+    """Polygons among the parts of shapely geometries, and the index of the geometry of each."""
     import shapely
 
     parts, owner = shapely.get_parts(shapes, return_index=True)
@@ -220,7 +220,7 @@ def _polygons(shapes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
 
 
 def within(rings: Rings, box: Bounds, turn: float | None) -> Rings:
-    """Polygons that reach into a box; in longitudes, of period `turn`, also those that do so a turn away."""
+    """Select polygons that reach into a box; in longitudes of period `turn`, also those a turn away."""
     found: Rings | None = None
     for shift in (0.0, -turn, turn) if turn else (0.0,):
         low, high = rings.boxes[:, 0] + (shift, 0.0), rings.boxes[:, 1] + (shift, 0.0)
@@ -236,7 +236,7 @@ def within(rings: Rings, box: Bounds, turn: float | None) -> Rings:
 
 
 def clip_polygons(shapes: NDArray[Any], box: Bounds) -> NDArray[Any]:
-    """Parts of polygons in a box; those that the fast way fails at, as it does at some corners, by the slow one."""
+    """Clip polygons to a box, by a slower method where the fast one fails, as it does at some corners."""
     import shapely
 
     try:
@@ -249,7 +249,7 @@ def clip_polygons(shapes: NDArray[Any], box: Bounds) -> NDArray[Any]:
 
 
 def cut(rings: Rings, box: Bounds) -> Rings:
-    """Polygons clipped to a box."""
+    """Clip polygons to a box."""
     beyond = (rings.boxes[:, 0] < box[:2]).any(axis=1) | (rings.boxes[:, 1] > box[2:]).any(axis=1)
     if not beyond.any():
         return rings
@@ -267,9 +267,9 @@ def map_rings(
     box: Bounds,
     size: NDArray[np.float64],
 ) -> Rings:
-    """Rings with their points mapped, and with more points where a mapped side is no longer straight.
+    """Map the points of rings, adding points where a mapped side is no longer straight.
 
-    Sides that pass through `box` become right within `ROUND` of `size`, the sides of the unit square; both are in units
+    Sides that pass through `box` are exact within `ROUND` of `size`, the sides of the unit square; both are in units
     after the mapping.
     """
     points, ends = rings.points, rings.ends
@@ -292,7 +292,7 @@ def map_rings(
 
 
 def orient_rings(rings: Rings) -> Rings:
-    """Rings with outer ones counter-clockwise and holes clockwise, so that winding numbers count the polygons."""
+    """Orient outer rings counter-clockwise and holes clockwise, so that winding numbers count the polygons."""
     if not len(rings.ends):
         return rings
     middle = rings.points[rings.starts].repeat(rings.ends - rings.starts, axis=0)
@@ -308,10 +308,10 @@ def orient_rings(rings: Rings) -> Rings:
 
 
 def snap_rings(rings: Rings, size: float, snap: float | None, notes: Notes, **options: Any) -> Rings:
-    """Polygons whose borders are identical where they differ by `snap`; see `snap_borders`."""
+    """Make borders that differ by at most `snap` identical; see `snap_borders`."""
     points, ends = snap_borders(rings.points, rings.ends, size, snap, notes, **options)
     full = np.diff(ends, prepend=0) > 0
-    whole = full[rings.outer][rings.polygon]  # a polygon without an outer ring has no holes either
+    whole = full[rings.outer][rings.polygon]  # holes go with their outer ring
     if whole.all() and full.all():
         return replace(rings, points=points, ends=ends.astype(np.intp))
     keep = full & whole

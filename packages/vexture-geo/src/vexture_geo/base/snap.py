@@ -1,7 +1,7 @@
-"""Snapping: borders that polygons were meant to share, but that differ by a little, become identical.
+"""Snap borders that polygons were meant to share, but that differ slightly, so that they become identical.
 
-Corners of different rings that lie near one another become one corner. A side near a corner of another ring gets that
-corner (a T-junction). What one ring has by itself stays as it is, however small.
+Corners of different rings that lie close together become one corner. A side near a corner of another ring gets that
+corner (a T-junction). Details of a single ring stay as they are, however small.
 """
 
 from collections.abc import Iterator
@@ -15,24 +15,24 @@ from vexture.base.errors import ParameterError, format_count
 from vexture.base.notes import Notes
 
 DEFAULT_SNAP: Final = 3e-6
-"""Parts of the drawing's larger side: corners that are each off by 1e-6 come together. `UNSEEN` is seven times this."""
+"""Fraction of the drawing's larger side: corners that are each off by 1e-6 meet. `UNSEEN` is seven times this."""
 
 MOST_SNAP: Final = 0.01
 
 NOISE: Final = 1e-9
-"""Parts of the drawing's larger side. Borders that differ by less cost nothing: a leaf's lattice takes them for one."""
+"""Fraction of the drawing's larger side. Smaller differences of borders cost nothing: a leaf's lattice merges them."""
 
 ROUNDS: Final = 5
-"""Most times that sides get corners: a side that has bent to one may then lie near another."""
+"""Most rounds of adding corners to sides: a side bent to a corner may then lie near another."""
 
 TESTS: Final = 1 << 23
-"""Pairs of a shape and a corner that are tested, at most, between two looks at the clock."""
+"""Most pairs of a shape and a corner that are tested between two checks of the time limit."""
 
 FEWEST: Final = 32
-"""Shapes in a call: it costs as much as the search for some."""
+"""Fewest shapes in a call, which has a fixed cost."""
 
 MOST_NEAR: Final = 50
-"""Corners near a corner or side, on average, above which snapping would destroy what it is for."""
+"""Average number of corners near a corner or side above which snapping would destroy the drawing."""
 
 Numbers = NDArray[np.int64]
 Points = NDArray[np.float64]
@@ -46,7 +46,7 @@ class _Corners(NamedTuple):
     ring: Numbers  # (n,): the ring of each place
 
     def owners(self, thing: Numbers, count: int) -> Numbers:
-        """The only ring of each of some things, (count,), where place k is at thing `of[k]`; -1 of several rings."""
+        """The only ring of each thing, (count,), where place k belongs to `thing[k]`; -1 if several rings share it."""
         least, most = np.full(count, len(self.ring)), np.full(count, -1)
         np.minimum.at(least, thing, self.ring)
         np.maximum.at(most, thing, self.ring)
@@ -61,7 +61,7 @@ class _Corners(NamedTuple):
 
 
 class _TooDenseError(Exception):
-    """More corners lie within the distance than snapping is meant for."""
+    """More corners lie within the distance than snapping can handle."""
 
 
 def snap_borders(
@@ -74,29 +74,29 @@ def snap_borders(
     unit: str = "",
     noticeable: float = NOISE,
 ) -> tuple[Points, Numbers]:
-    """Rings whose corners and sides within a distance of those of other rings are identical with them.
+    """Make corners and sides within a distance of those of other rings identical with them.
 
     Parameters
     ----------
     points : (n, 2) array
-        The corners of all rings, one after another, none with its first corner repeated.
+        Corners of all rings in turn; no ring repeats its first corner.
     ends : (r,) array
         Index after the last corner of each ring.
     size : float
-        The larger side of the drawing.
+        Larger side of the drawing.
     snap : float or None
-        The distance, in parts of that side: 0 does nothing, None is the default, 3e-6.
+        Distance as a fraction of that side; 0 does nothing, and None means 3e-6.
     notes : Notes
-        Gets a remark if something moves by more than `noticeable`, in parts of that side; by default,
+        Receives a remark if something moves by more than `noticeable`, as a fraction of that side; by default, by more
         than rounding does.
     unit : str
-        Of the points, for the remark.
+        Unit of the points, for the remark.
 
     Returns
     -------
     (n, 2) and (r,) arrays
-        The new rings, in the same order; those that enclose nothing any more are empty. Where a ring was narrower than
-        the distance, it may touch itself.
+        The new rings, in the same order; rings that no longer enclose an area are empty. A ring that was narrower than
+        the distance may touch itself.
 
     Raises
     ------
@@ -130,7 +130,7 @@ def snap_borders(
 
 
 def _snap_corners(points: Points, ends: Numbers, distance: float, noise: float) -> tuple[_Corners, int, float]:
-    """New corners; how many moved, or were added to sides, by more than `noise`; how far at most."""
+    """Return new corners; how many moved or were added to sides by more than `noise`; and the largest move."""
     places = np.ascontiguousarray(points + 0.0).view(np.complex128).ravel()  # no -0.0: equal corners have equal bits
     unique, ids = np.unique(places, return_inverse=True)
     ring = np.repeat(np.arange(len(ends)), np.diff(ends, prepend=0))
@@ -149,7 +149,7 @@ def _snap_corners(points: Points, ends: Numbers, distance: float, noise: float) 
 
 
 def _near(shapes: NDArray[Any], tree: Any, distance: float) -> Numbers:
-    """Pairs (2, k) of a shape and a corner of the tree within a distance."""
+    """Find pairs (2, k) of a shape and a corner of the tree within a distance."""
 
     def parts() -> Iterator[Numbers]:
         step, found = max(FEWEST, TESTS // max(len(tree), 1)), 0
@@ -166,7 +166,7 @@ def _near(shapes: NDArray[Any], tree: Any, distance: float) -> Numbers:
 
 
 def _targets(corners: _Corners, distance: float) -> Numbers:
-    """The corner that each becomes: the nearest of those before it that stay, if one of another ring is near."""
+    """Corner that each becomes: the nearest fixed one before it, if one of another ring is near."""
     import shapely
 
     shapes, count = shapely.points(corners.points), len(corners.points)
@@ -184,7 +184,7 @@ def _targets(corners: _Corners, distance: float) -> Numbers:
 
 
 def _with_junctions(corners: _Corners, distance: float, noise: float) -> tuple[_Corners, int, float]:
-    """Give each side the corners of other rings near it; also their number, and how far the sides move at most."""
+    """Give each side the corners of other rings near it; return their number and the sides' largest move, too."""
     import shapely
 
     after = corners.ids[corners.following()]
@@ -218,7 +218,7 @@ def _with_junctions(corners: _Corners, distance: float, noise: float) -> tuple[_
 
 
 def _tidy(corners: _Corners) -> _Corners:
-    """Without repeated corners, sides that go back and forth, and rings that then have fewer than three corners."""
+    """Remove repeated corners, sides that go back and forth, and rings that then have fewer than three corners."""
     while True:
         after = corners.following()
         before = np.empty_like(after)

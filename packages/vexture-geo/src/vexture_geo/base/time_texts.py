@@ -1,4 +1,4 @@
-"""Times that files write as texts."""
+"""Times that files write as text."""
 
 from collections.abc import Iterable
 from datetime import UTC, datetime
@@ -6,7 +6,7 @@ from itertools import pairwise
 
 
 def rising_moments(texts: Iterable[str]) -> tuple[datetime, ...] | None:
-    """Times in texts of ISO 8601, in UTC where they name no zone; None if one is no time, or not after the one before.
+    """Parse ISO 8601 times, in UTC if they name no zone; None if one is no time, or not later than the one before.
 
     Examples
     --------

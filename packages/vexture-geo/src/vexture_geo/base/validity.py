@@ -1,4 +1,4 @@
-"""Repair of polygons whose rings cross or touch, within bounds of time."""
+"""Repair polygons whose rings cross or touch, in limited time."""
 
 from typing import Any, Final
 
@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 MANY_HOLES: Final = 500
-"""Holes above which GEOS's own repair is not used: by their square, it takes minutes for the lakes of a continent."""
+"""Holes above which GEOS's repair is not used: quadratic in them, it takes minutes for a continent's lakes."""
 
 HEAVY: Final = 2e7
-"""Holes times corners of the outer ring above which a polygon is parted: GEOS looks for each hole at each corner, also
-to see whether a polygon is valid, and whether it fits to its neighbours."""
+"""Holes times corners of the outer ring above which a polygon is split: GEOS checks each hole against each corner, also
+to test whether a polygon is valid, and whether it fits its neighbours."""
 
 
 def is_heavy(shapes: NDArray[Any]) -> NDArray[np.bool_]:
@@ -24,7 +24,7 @@ def is_heavy(shapes: NDArray[Any]) -> NDArray[np.bool_]:
 
 
 def split_heavy(shape: Any) -> list[Any]:
-    """Split a valid geometry's polygons into parts, side by side, until none is heavy."""
+    """Split the polygons of a valid geometry into adjacent parts until none is heavy."""
     import shapely
 
     waiting, done = list(shapely.get_parts(shapely.get_parts(shape))), []
@@ -45,9 +45,9 @@ def split_heavy(shape: Any) -> list[Any]:
 
 
 def _clip_polygon(shape: Any, box: tuple[float, float, float, float]) -> NDArray[Any]:
-    """Polygons of a valid one in a box; holes within it are not cut, but given to the part in which they lie.
+    """Clip a valid polygon to a box; holes within the box are assigned to the part that contains them, not cut.
 
-    GEOS looks for that part at each corner of each, which takes ten times as long.
+    GEOS would compare each hole with each corner to find that part, which takes ten times as long.
     """
     import shapely
 
@@ -67,9 +67,9 @@ def _clip_polygon(shape: Any, box: tuple[float, float, float, float]) -> NDArray
 
 
 def make_valid(shapes: NDArray[Any]) -> NDArray[Any]:
-    """Valid geometries with the area of polygons: that of their outer rings without that of their holes.
+    """Make polygons valid, with the area of their outer rings minus that of their holes.
 
-    What is valid already comes back with the same area. Raises a `shapely.errors.GEOSException` for what cannot be
+    Valid polygons keep their area. Raises a `shapely.errors.GEOSException` for a polygon that cannot be repaired.
     repaired.
 
     Examples
@@ -91,7 +91,7 @@ def make_valid(shapes: NDArray[Any]) -> NDArray[Any]:
 
 
 def unite_polygons(shapes: NDArray[Any]) -> Any:
-    """Unite polygons, also of those that clipping has left with a corner on a side."""
+    """Unite polygons, including those that clipping has left with a corner on a side."""
     import shapely
 
     try:
@@ -101,7 +101,7 @@ def unite_polygons(shapes: NDArray[Any]) -> Any:
 
 
 def _by_rings(shape: Any) -> Any:
-    """The same, ring by ring, with the holes of each part of the plane united by themselves."""
+    """Repair a polygon ring by ring; holes of each part of the plane are united separately."""
     import shapely
 
     rings = shapely.polygons(shapely.get_rings(shape))
@@ -113,6 +113,6 @@ def _by_rings(shape: Any) -> Any:
     whole = shapely.difference(outer, shapely.disjoint_subset_union_all(rings[1:][reaches]))
     if reaches.all():
         return whole
-    # a hole outside is land: so GEOS's own repair has it
+    # a hole outside counts as land, as in GEOS's own repair
     parts = shapely.get_parts([whole, shapely.union_all(rings[1:][~reaches])])
     return shapely.multipolygons(parts[~shapely.is_empty(parts)])

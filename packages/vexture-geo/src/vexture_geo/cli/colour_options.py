@@ -1,4 +1,4 @@
-"""Options of colours by an attribute, which the commands `map` and `tiles` have."""
+"""Options for colours by an attribute, shared by the commands `map` and `tiles`."""
 
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Final
@@ -36,7 +36,7 @@ def colour_options(command: Callable[..., None]) -> Callable[..., None]:
 
 
 def scale_of(column: str | None, options: Mapping[str, Any]) -> "Scale | None":
-    """The colours by a column that `colour_options` describe; None without a column."""
+    """Make the scale that `colour_options` describe; None without a column."""
     from vexture_geo.maps.colours import Scale
 
     if column is None:
@@ -53,5 +53,5 @@ def refuse_idle_colours(options: Mapping[str, Any], causes: str = "`color`") -> 
 
 
 def columns_of(text: str | None) -> tuple[str, ...] | None:
-    """Names of columns, separated by commas; None are all."""
+    """Split names of columns at commas; None means all."""
     return None if text is None else tuple(part.strip() for part in text.split(","))

@@ -21,7 +21,7 @@ STAYS = {
     "follow": "shows one state of a run",
     "keep": "takes no water to keep",
 }
-"""Why options are of no use without a server."""
+"""Reasons why options need a server."""
 
 EXAMPLE = """\b
 Examples:
@@ -149,7 +149,7 @@ def _video(path: Path | None, size: str | None, **given: Any) -> VideoOptions | 
 
 
 def _track_frames(numbers: Sequence[int]) -> Iterator[int]:
-    """Go through the frames of a video; a terminal shows how far it is."""
+    """Iterate over the frames of a video, and show progress on a terminal."""
     from rich.console import Console
     from rich.progress import Progress
 

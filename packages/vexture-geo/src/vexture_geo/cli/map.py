@@ -103,7 +103,7 @@ def _make_files(
     table: str,
     options: dict[str, Any],
 ) -> tuple[dict[Path, bytes], dict[str, Any], tuple[Note, ...]]:
-    """The files of a map, facts about it, and what it leaves out."""
+    """Make the files of a map, with facts about it and notes on what it leaves out."""
     from vexture.base.content import renaming
     from vexture.base.deadline import within
     from vexture_geo.maps import convert_map
@@ -120,7 +120,7 @@ def _make_files(
 
 
 def _files(output: Path, done: "Map", table: str) -> dict[Path, bytes]:
-    """The texture, the table, and the colours of each step of time."""
+    """Encode the texture, the table, and the colours of each step of time."""
     from vexture_geo.vector.tables import table_bytes
 
     files = {output: done.conversion.texture.to_ktx2()}
@@ -136,7 +136,7 @@ def _files(output: Path, done: "Map", table: str) -> dict[Path, bytes]:
 def _layers(
     sources: tuple[Path, ...], contents: list[bytes | None], symbol: Path | None, options: dict[str, Any]
 ) -> "list[MapLayer]":
-    """The layers that options describe."""
+    """Make the layers that options describe."""
     from vexture.conversion.reading import read
     from vexture_geo.maps import MapLayer, Times
 
@@ -177,7 +177,7 @@ def _layers(
 
 
 def _each(values: Sequence[str], count: int, name: str) -> list[str | None]:
-    """The value of an option for each source."""
+    """Return the value of an option for each source."""
     if len(values) not in (0, 1, count):
         name = "id" if name == "ids" else name
         raise ParameterError(f"`{name}` is given {len(values)} times for {count} sources; give it once, or for each")

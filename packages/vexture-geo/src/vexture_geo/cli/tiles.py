@@ -36,7 +36,7 @@ Examples:
 @click.option("--where", metavar="CONDITION", help="Only features for which this holds, such as \"kind = 'forest'\".")
 @click.option("--id", metavar="COLUMN", help="Column with the ids of features.  [default: their numbers]")
 @click.option("--source-crs", "source_crs", metavar="EPSG:N", help="Reference system of a source that does not say it.")
-@click.option("--crs", "source_crs", metavar="EPSG:N", hidden=True)  # its name before
+@click.option("--crs", "source_crs", metavar="EPSG:N", hidden=True)  # former name
 @click.option("--columns", metavar="A,B,...", help="Attributes to keep in the table.  [default: all]")
 @click.option("--color", "--colour", metavar="COLUMN", help="Attribute that colours show.")
 @colour_options
@@ -73,7 +73,7 @@ def tiles(source: Path, output: Path, **options: Any) -> None:
 
 
 def _parse_options(options: dict[str, Any]) -> "TileOptions":
-    """Turn the options of the command into those of a pyramid."""
+    """Convert the options of the command to those of a pyramid."""
     from vexture_geo.tiles.attributes import TileStyle
     from vexture_geo.tiles.options import TileOptions
 
@@ -82,10 +82,10 @@ def _parse_options(options: dict[str, Any]) -> "TileOptions":
     if given["color"] is None:
         refuse_idle_colours(given)
     scale, columns = scale_of(given["color"], given), columns_of(given["columns"])
-    look = TileStyle(scale, given["fill"], columns, given["order"], given["table"])
+    style = TileStyle(scale, given["fill"], columns, given["order"], given["table"])
     processes = options.pop("processes")
     processes = os.cpu_count() or 1 if processes is None else processes
-    return TileOptions(look=look, processes=processes, **options)
+    return TileOptions(style=style, processes=processes, **options)
 
 
 def _progress(opened: ExitStack, quiet: bool) -> "Report":

@@ -1,4 +1,4 @@
-"""Depths of a file that a model is writing: the steps that are new in it, and those that have changed."""
+"""Depths in a file that a model is writing: find new steps and changed ones."""
 
 import hashlib
 import os
@@ -28,7 +28,7 @@ class KnownStep(NamedTuple):
 
 
 class StepChange(NamedTuple):
-    """A step that is new or has changed; `bed` is the bed at its time over the frame, if the file has it."""
+    """A new or changed step; `bed` is the bed at its time over the frame, if the file has it."""
 
     number: int  # from 0
     known: KnownStep
@@ -39,8 +39,8 @@ class StepChange(NamedTuple):
 class GrowingFile:
     """An open file that grows.
 
-    `known` are the steps that are there still: all that were known, or none if the run has started over, with fewer
-    steps or other times.
+    `known` are the known steps that still exist: all of them, or none if the run has started over, with fewer steps or
+    other times.
     """
 
     def __init__(self, placed: DepthsInFrame, known: Sequence[KnownStep], rewritten: bool) -> None:
@@ -53,9 +53,9 @@ class GrowingFile:
         self.times = placed.times
 
     def changes(self) -> Iterator[StepChange]:
-        """Steps that have changed and those that are new, in order.
+        """Yield changed steps and new ones, in order.
 
-        The last steps count only when they hold a number: a model first writes the time of a step, then its values.
+        New last steps are yielded only once they hold a number, because a model writes a step's time before its values.
         """
         for number in self._suspects():
             change = self._change(number)
@@ -73,9 +73,9 @@ class GrowingFile:
             yield self._make_change(number, reading)
 
     def _suspects(self) -> range:
-        """Known steps that may have changed.
+        """Select known steps that may have changed.
 
-        A file that has only grown has changed in its last step at most, which may have been half written.
+        In a file that has only grown, at most the last known step has changed, because it may have been incomplete.
         """
         old = len(self.known)
         has_grown = len(self.times) > old and not self._rewritten
@@ -84,12 +84,12 @@ class GrowingFile:
         return range(old)
 
     def _change(self, number: int) -> StepChange | None:
-        """A known step, if its values are others."""
+        """Return a known step if its values have changed."""
         reading = self._placed.values(number)
         if _digest(reading) == self.known[number].digest:
             return None
         if not np.isfinite(reading.depth).any():
-            raise SourceError(f"step {number + 1} holds no number any more")  # for the moment: it is written again
+            raise SourceError(f"step {number + 1} holds no number any more")  # temporarily: it is being rewritten
         return self._make_change(number, reading)
 
     def _make_change(self, number: int, reading: Reading) -> StepChange:
@@ -99,15 +99,15 @@ class GrowingFile:
 
 
 def share_files() -> None:
-    """Let NetCDF files be read while a model has them open: HDF5 locks them otherwise. Call it before any is read.
+    """Allow NetCDF files to be read while a model writes them, which HDF5 prevents by locks. Call it before reading.
 
-    What is read while it is written may be wrong, and is read again when the file changes.
+    Values read during a write may be wrong; they are read again when the file changes.
     """
     os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
 
 
 def files_of(path: Path) -> list[Path]:
-    """Files that a run is written to: its partitions, if it is one of them."""
+    """Files to which a run is written: all partitions, if it is one of them."""
     return partitions_beside(path) or [path]
 
 
@@ -115,9 +115,9 @@ def files_of(path: Path) -> list[Path]:
 def open_growing(
     path: Path, *, frame: Frame | None, known: Sequence[KnownStep] = (), rewritten: bool = False, **options: Any
 ) -> Iterator[GrowingFile]:
-    """Open a NetCDF file that grows; `options` and errors as those of `depths.depths_in_frame`.
+    """Open a growing NetCDF file; see `depths.depths_in_frame` for options and errors.
 
-    `rewritten` says that the file may be another one than that of the `known` steps.
+    `rewritten` says that the file may have been replaced since the `known` steps were read.
     """
     with _open_growing(path, frame, options) as placed:
         yield GrowingFile(placed, known, rewritten)
@@ -125,7 +125,7 @@ def open_growing(
 
 @gis_packages()
 def whole_run(path: Path, *, bounds: Bounds | None, **options: Any) -> tuple[Extent, tuple[KnownStep, ...]]:
-    """All steps that a file holds now, in a frame of its own, and a record of each.
+    """Read all steps that a file holds now, in a frame of its own, with a record of each.
 
     Raises
     ------
@@ -151,7 +151,7 @@ def _open_growing(path: Path, frame: Frame | None, options: dict[str, Any]) -> I
     if not start:
         raise SourceError("it is empty" if path.exists() else "there is no such file")
     if not start.startswith(NETCDF):
-        kind = known_kind(start)  # a `SourceError` if it is none: the first bytes may be written last
+        kind = known_kind(start)  # a `SourceError` for an unknown kind, as the first bytes may be written last
         raise ParameterError(
             f"holds {kind}, and only NetCDF is followed; show it with `extent`, and push what is newer"
         )

@@ -1,7 +1,7 @@
-"""Meshes whose faces meet in nodes that they share: nodes at one place become one, and so do sides at hanging nodes.
+"""Make the faces of a mesh share nodes: merge nodes at one place, and split sides at hanging nodes.
 
-Quadtrees of SFINCS, and what discontinuous Galerkin methods write, give each face nodes of its own. Beside smaller
-faces, a side of a quadtree ends in a node that hangs amid it. Both look like borders, where water ends.
+Quadtrees of SFINCS and discontinuous Galerkin methods give each face its own nodes. Beside smaller faces, a side of a
+quadtree has a hanging node in its middle. Both would look like borders, where water ends.
 """
 
 from typing import Final, NamedTuple
@@ -13,19 +13,19 @@ from vexture.base.deadline import check_time
 from vexture_geo.depth.mesh_topology import Faces, after_each, border_of
 
 MOST_CORNERS: Final = 64
-"""Nodes of a face, for memory: tables of nodes have as many columns as the largest face has nodes."""
+"""Most nodes of a face, to limit memory: tables of nodes have as many columns as the largest face has nodes."""
 
 SAME: Final = 1e-3
-"""Short sides. Nodes nearer than this are at one place: files round coordinates."""
+"""Fraction of a short side within which nodes are at one place, because files round coordinates."""
 
 SHORT: Final = 0.01
-"""Share of the sides that are shorter than a short one; the shortest of all may be an error."""
+"""Quantile of the lengths of sides that counts as short; the shortest side may be an error."""
 
 DEEPEST: Final = 4
-"""Times that a side is halved: quadtrees are balanced, so that once is usual."""
+"""Most times that a side is halved; once is usual, because quadtrees are balanced."""
 
 FINEST: Final = 2.0**-40
-"""Share of the extent within which places are one, however short the sides are: what 64 bits tell apart."""
+"""Fraction of the extent within which nodes are at one place, however short sides are: the resolution of 64 bits."""
 
 Places = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ Places = NDArray[np.float64]
 class Conforming(NamedTuple):
     """Nodes, (n, 2), faces as in `vexture_geo.depth.mesh.MeshSeries`, and the new number of each old node.
 
-    `numbers` is None if they are as they were, and -1 for a node that no face has.
+    `numbers` is None if nothing has changed, and -1 for a node that no face has.
     """
 
     nodes: Places
@@ -41,7 +41,7 @@ class Conforming(NamedTuple):
     numbers: NDArray[np.int64] | None
 
     def values(self, old: Places) -> Places:
-        """Values at nodes: the mean of the known ones at each place."""
+        """Average the known values of the nodes at each place."""
         if self.numbers is None:
             return old
         known = np.isfinite(old) & (self.numbers >= 0)
@@ -51,9 +51,9 @@ class Conforming(NamedTuple):
             return np.asarray(sums / np.bincount(self.numbers[known], minlength=count))
 
 
-@np.errstate(all="ignore")  # places so far apart that they are refused later
+@np.errstate(all="ignore")  # extremely distant places are refused later
 def conforming(nodes: Places, faces: Faces) -> Conforming:
-    """Mesh of the same faces, which share nodes at one place, and have those amid their sides as corners.
+    """Make faces share nodes at one place, and add nodes in the middle of their sides as corners.
 
     Examples
     --------
@@ -85,9 +85,9 @@ def conforming(nodes: Places, faces: Faces) -> Conforming:
 
 
 def _nearness(nodes: Places, side: float) -> float:
-    """Largest distance of nodes at one place, with short sides of a length.
+    """Return the largest distance between nodes at one place, by the length of short sides.
 
-    Models that calculate with 32 bits write such numbers as 64: half a metre apart, where y is 5,000 km.
+    Models that calculate in 32 bits but write 64 round coordinates to half a metre where y is 5,000 km.
     """
     with np.errstate(over="ignore"):
         is_single = bool((nodes.astype(np.float32) == nodes).all())
@@ -96,19 +96,19 @@ def _nearness(nodes: Places, side: float) -> float:
 
 
 def _border_sides(faces: Faces, count: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Nodes where the sides begin and end that one face has."""
+    """Return the start and end nodes of sides that only one face has."""
     border = border_of(faces, count)
     return faces[border], after_each(faces)[border]
 
 
 def _alike(points: Places, near: float) -> NDArray[np.intp]:
-    """The same one of the points at a place for each of them.
+    """Choose the same representative for all points at one place.
 
-    Points are put into square cells, twice as wide as points of one place are near. In one of four grids of them, half
-    a cell apart, such points are in one cell. Other points are much farther away.
+    Points are assigned to square cells twice as wide as the tolerance. In one of four such grids, half a cell apart,
+    points at one place share a cell. All other points are much farther away.
     """
     _, one, place = np.unique(points[:, 0] + 1j * points[:, 1], return_index=True, return_inverse=True)
-    kept, rank = np.sort(one), np.argsort(np.argsort(one))  # equal points first, which are the most
+    kept, rank = np.sort(one), np.argsort(np.argsort(one))  # merge equal points first, which are most common
     first = np.arange(len(kept))
     cells = (points[kept] - points.min(axis=0)) / (2.0 * near)
     for x in (0.0, 0.5):
@@ -121,7 +121,7 @@ def _alike(points: Places, near: float) -> NDArray[np.intp]:
 
 
 def _divide_faces(nodes: Places, faces: Faces, near: float) -> Faces:
-    """Faces with the nodes amid their sides, and amid the halves of these, as corners."""
+    """Add the nodes in the middle of sides, and of halves of these, as corners of faces."""
     for _ in range(DEEPEST):
         check_time()
         halved = _split_sides(nodes, faces, near)
@@ -132,9 +132,9 @@ def _divide_faces(nodes: Places, faces: Faces, near: float) -> Faces:
 
 
 def _split_sides(nodes: Places, faces: Faces, near: float) -> Faces:
-    """Faces with the nodes amid their sides as corners; the same if there are none, or too many for a face."""
+    """Add nodes in the middle of sides as corners; return the same faces if there are none, or too many for a face."""
     border = border_of(faces, len(nodes))
-    if not border.any():  # faces that lie on one another
+    if not border.any():  # faces cover one another
         return faces
     start, end = faces[border], after_each(faces)[border]
     ends = np.unique(start)
@@ -156,14 +156,14 @@ def _split_sides(nodes: Places, faces: Faces, near: float) -> Faces:
 
 
 def _without_repeats(faces: Faces) -> Faces:
-    """Faces without corners that are the same node as the next; the same if there are none."""
+    """Remove corners that equal the next corner; return the same faces if there are none."""
     again = (faces >= 0) & (faces == after_each(faces))
-    again[~((faces >= 0) & ~again).any(axis=1), 0] = False  # all of its corners are one node
+    again[~((faces >= 0) & ~again).any(axis=1), 0] = False  # keep one corner of a face whose corners are all equal
     return _pack_faces(np.where(again, -1, faces)) if again.any() else faces
 
 
 def _pack_faces(faces: Faces) -> Faces:
-    """Faces with their nodes at the start of each row, and as many columns as the largest has nodes."""
+    """Move nodes to the start of each row, and drop columns that no face uses."""
     order = np.argsort(faces < 0, axis=1, kind="stable")
     most = int((faces >= 0).sum(axis=1).max())
     return np.take_along_axis(faces, order, axis=1)[:, :most]

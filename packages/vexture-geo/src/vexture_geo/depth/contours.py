@@ -13,16 +13,16 @@ from vexture.bezier.points import points_along
 from vexture.drawing.drawing import Drawing, FillRule, Path
 
 TOLERANCE: Final = 0.55
-"""Cells. Largest distance of the fitted shoreline from the contour: the staircase of a raster is half a cell high."""
+"""Cells. Largest distance of the fitted shoreline from the contour; steps of a raster are half a cell high."""
 
 THIN: Final = 0.1
-"""Share of the least depth. Depths below it count as unknown: models leave thin films on dry ground."""
+"""Fraction of the least depth below which depths are unknown, because models leave thin films on dry ground."""
 
 RETRY: Final = (1.0, 0.3, 0.05)
-"""Shares of the tolerance, tried in turn until the fitted rings of a polygon do not intersect."""
+"""Fractions of the tolerance, tried in turn until the fitted rings of a polygon do not intersect."""
 
 REACH, STRIP = 2, 256
-"""Cells whose depths a value at the shore depends on, on each side; rows that are looked at together."""
+"""Cells on each side that affect a value at the shore; rows processed at once."""
 
 STRAIGHT: Final = ((0, 1), (0, -1), (1, 0), (-1, 0))
 DIAGONAL: Final = ((1, 1), (1, -1), (-1, 1), (-1, -1))
@@ -51,11 +51,11 @@ def shore_values(
     A raster of depths holds 0 or NaN on land. Interpolation between its samples would put the shore nearly at the
     middle of the first dry cell, too far inland. Each dry cell beside a wet one gets a negative depth instead:
 
-    - where the bed's height is known: the water level of its wet neighbours less its own bed;
-    - else the depth extrapolated from the two nearest wet cells;
-    - at a wall, where neither shows that the ground rises, the value that puts the shore halfway between the cells.
+    - where the bed's height is known: the water level of its wet neighbours minus its own bed;
+    - otherwise: the depth extrapolated from the two nearest wet cells;
+    - at a wall, where neither shows that the ground rises: the value that puts the shore halfway between the cells.
 
-    All are in metres. NaN is unknown, which counts as dry, as does ground under less water than `hmin`.
+    All values are in metres. NaN is unknown; it counts as dry, as do depths below `hmin`.
 
     Examples
     --------
@@ -71,7 +71,7 @@ def shore_values(
 
 
 def _strip_values(depth: NDArray[np.float64], hmin: float, bed: NDArray[np.float64] | None) -> NDArray[np.float64]:
-    """Values of `shore_values`, of which each depends on cells of at most `REACH` rows away."""
+    """Compute `shore_values`, each of which depends on cells at most `REACH` rows away."""
     known, above = above_dry(depth, hmin)
     wet = known & (above >= 0.0)
     rows, columns = depth.shape
@@ -82,7 +82,7 @@ def _strip_values(depth: NDArray[np.float64], hmin: float, bed: NDArray[np.float
         return grid[REACH + down : REACH + down + rows, REACH + across : REACH + across + columns]
 
     total, count = np.zeros(depth.shape), np.zeros(depth.shape)
-    for neighbours in (STRAIGHT, DIAGONAL):  # diagonal ones only where there are no others
+    for neighbours in (STRAIGHT, DIAGONAL):  # diagonal neighbours only if there are no others
         found, times = np.zeros(depth.shape), np.zeros(depth.shape)
         for down, across in neighbours:
             first = beside(above_padded, down, across)
@@ -102,14 +102,14 @@ def _strip_values(depth: NDArray[np.float64], hmin: float, bed: NDArray[np.float
 
 
 def above_dry(depth: NDArray[np.float64], hmin: float) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """Return which depths are known and more than a film, and the depths less `hmin`."""
+    """Return which depths are known and more than a film, and the depths minus `hmin`."""
     with np.errstate(invalid="ignore"):
         known = np.isfinite(depth) & ((depth > THIN * hmin) | (depth < 0.0))
     return known, np.where(known, depth, 0.0) - hmin
 
 
 def _sloping(first: NDArray[np.float64], behind: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Depth beyond the first cell, extrapolated from the cell behind it; all of them less the least depth.
+    """Extrapolate the depth beyond the first cell from the cell behind it; all depths are minus the least depth.
 
     Where a flat bottom would put the shore more than one cell away, it moves towards halfway, as at a wall.
     """
@@ -125,10 +125,10 @@ def wet_drawing(
     beyond: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0),
     tolerance: float = TOLERANCE,
 ) -> Drawing:
-    """Area where a grid of values, as `shore_values` gives it, is above 0, its outline fitted by cubics.
+    """Draw the area where a grid of `shore_values` is above 0, with its outline fitted by cubics.
 
-    `to_unit` maps positions in the grid, (n, 2) columns and rows, to the unit square. The border values extend by
-    `beyond` cells over the grid's left, first, right and last edge. The tolerance is in cells.
+    `to_unit` maps positions in the grid, (n, 2) columns and rows, to the unit square. The border values extend `beyond`
+    the grid's left, first, right and last edge by these numbers of cells. The tolerance is in cells.
     """
     left, first, right, last = beyond
     border = (-0.5 - left, -0.5 - first, above.shape[1] - 0.5 + right, above.shape[0] - 0.5 + last)
@@ -140,9 +140,9 @@ def wet_drawing(
 
 
 def fit_drawing(polygons: Iterable[list[Ring]], tolerance: float = TOLERANCE) -> Drawing:
-    """Polygons as a drawing, clipped to the unit square, their rings fitted by cubics within `tolerance` cells.
+    """Draw polygons, clipped to the unit square, with their rings fitted by cubics within `tolerance` cells.
 
-    The rings of a polygon do not intersect; its outer ring comes first, and the holes run the other way.
+    The rings of a polygon do not intersect; its outer ring comes first, and holes have the opposite orientation.
     """
     contours = [contour for polygon in polygons for contour in _fit_polygon(polygon, tolerance)]
     if not contours:
@@ -152,7 +152,7 @@ def fit_drawing(polygons: Iterable[list[Ring]], tolerance: float = TOLERANCE) ->
 
 
 def _polygons(above: NDArray[np.float64], border: tuple[float, float, float, float]) -> list[list[NDArray[np.float64]]]:
-    """Rings of each wet area in positions of the grid, the outer ring first, none with its first point repeated."""
+    """Rings of each wet area in positions of the grid, the outer ring first; no ring repeats its first point."""
     import contourpy
 
     left, first, right, last = border
@@ -166,7 +166,7 @@ def _polygons(above: NDArray[np.float64], border: tuple[float, float, float, flo
 
 
 def _fit_polygon(polygon: list[Ring], tolerance: float) -> list[NDArray[np.float64]]:
-    """Cubics of a polygon's rings, which intersect neither themselves nor one another."""
+    """Fit a polygon's rings by cubics that intersect neither themselves nor one another."""
     from vexture.bezier.fit_closed import fit_closed
 
     for share in RETRY:
@@ -178,7 +178,7 @@ def _fit_polygon(polygon: list[Ring], tolerance: float) -> list[NDArray[np.float
 
 
 def _ends(ring: NDArray[np.float64], border: tuple[float, float, float, float]) -> NDArray[np.bool_]:
-    """Points where a ring reaches the border of the grid, or a corner of it."""
+    """Find points where a ring reaches the border of the grid, or a corner of it."""
     sides = np.concatenate([ring == border[:2], ring == border[2:]], axis=1)
     passing = sides & np.roll(sides, 1, axis=0) & np.roll(sides, -1, axis=0)  # between points on the same side
     found: NDArray[np.bool_] = sides.any(axis=1) & ~(passing.any(axis=1) & (sides.sum(axis=1) == 1))
@@ -193,7 +193,7 @@ def _cell(ring: NDArray[np.float64], to_unit: Map) -> float:
 
 
 def _apart(contours: list[NDArray[np.float64]]) -> bool:
-    """Whether the first contour, less the others as holes, is a valid polygon."""
+    """Return whether the first contour, with the others as holes, is a valid polygon."""
     import shapely
 
     if not contours:

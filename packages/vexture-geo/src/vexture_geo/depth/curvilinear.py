@@ -1,7 +1,7 @@
-"""Depths on rows and columns whose samples have two coordinates each: turned and curvilinear grids of models.
+"""Depths on rows and columns whose samples have two coordinates each: rotated and curvilinear grids of models.
 
-SFINCS, Delft3D-FLOW and ROMS write such files. Rows and columns that are straight and even, turned or not, are a
-lattice, as those of a GeoTIFF are. All others become a mesh: each sample is a face, with corners amid its neighbours.
+SFINCS, Delft3D-FLOW and ROMS write such files. Straight and even rows and columns, rotated or not, are a lattice like
+that of a GeoTIFF. Other grids become a mesh: each sample is a face, with corners in the middle of its neighbours.
 """
 
 import re
@@ -25,20 +25,20 @@ from vexture_geo.depth.variables import depths_of, has_depths, load_values, read
 ENDING: Final = r"(_?(rho|r|t|c|z|centers?|centres?))?"
 EAST: Final = re.compile(rf"(x|lon|longitude|nav_lon|xlong|glamt|easting){ENDING}", re.IGNORECASE)
 NORTH: Final = re.compile(rf"(y|lat|latitude|nav_lat|xlat|gphit|northing){ENDING}", re.IGNORECASE)
-"""Names of coordinates without attributes that say what they are."""
+"""Names of coordinates, for files without attributes that describe them."""
 
 MASKS: Final = {"msk", "mask_rho", "wetdry_mask_rho", "kcs"}
-"""Variables, in lower case, that are 0 where a model has no cell, or no water: SFINCS, ROMS, Delft3D-FLOW."""
+"""Variables, in lower case, that are 0 where a model has no cell or no water, in SFINCS, ROMS and Delft3D-FLOW."""
 
 OFF_LATTICE: Final = 0.02
-"""Cells by which the places of a lattice may differ from even ones, besides the rounding of those of 32 bits."""
+"""Largest deviation of samples from an even lattice, in cells, besides the rounding of 32-bit coordinates."""
 
 TURN: Final = 360.0
 
 Places = NDArray[np.float64]
 
 FAR: float = 1e9
-"""No coordinate in metres or degrees exceeds it; files without a declared fill value contain 1e37."""
+"""Limit of coordinates in metres or degrees; files without a declared fill value contain 1e37."""
 
 
 class GridPlaces(NamedTuple):
@@ -51,9 +51,9 @@ class GridPlaces(NamedTuple):
 
 
 def places_of_grid(dataset: Any, time_dim: str | None) -> dict[str, GridPlaces]:
-    """Variables of an open dataset that may hold depths at places of two coordinates each, and these places.
+    """Find variables of an open dataset that may hold depths at places with two coordinates each, and these places.
 
-    None, if depths are on rows and columns with coordinates of their own.
+    Return none if depths are on rows and columns with coordinates of their own.
     """
     found, straight = {}, []
     for name in map(str, dataset.data_vars):
@@ -71,12 +71,12 @@ def places_of_grid(dataset: Any, time_dim: str | None) -> dict[str, GridPlaces]:
 def grid_series(
     dataset: Any, grids: dict[str, GridPlaces], time_dim: str | None, variable: str | None, notes: Notes
 ) -> Series | MeshSeries:
-    """Depths of an open dataset at the places that `places_of_grid` found; errors as of `netcdf.series_of`."""
+    """Read depths at the places that `places_of_grid` found; see `netcdf.series_of` for errors."""
     among = {one: places for one, places in grids.items() if one.lower() not in MASKS}
     name = depths_of(dataset, _with_depths(dataset, among) if variable is None else list(among), variable, notes).name
     places = grids[name]
     here = [one for one in among if among[one][:2] == places[:2]]
-    name, depth, bed, meaning = depths_of(dataset, here, name, notes)  # the bed must be where the depths are
+    name, depth, bed, meaning = depths_of(dataset, here, name, notes)  # the bed must have the places of the depths
     order = places[:2]
     time = time_axis(dataset, dataset[name].dims, time_dim)
     refuse_layers(dataset, name, (time, *order))
@@ -118,7 +118,7 @@ def grid_series(
 
 
 def _with_depths(dataset: Any, grids: dict[str, GridPlaces]) -> list[str]:
-    """Variables on the only rows and columns that hold depths by the names of their variables, else all."""
+    """Select the variables on the only rows and columns with depths, by name, or else all variables."""
     by_place: dict[tuple[str, ...], list[str]] = {}
     for name, places in grids.items():
         by_place.setdefault(places[:2], []).append(name)
@@ -127,7 +127,7 @@ def _with_depths(dataset: Any, grids: dict[str, GridPlaces]) -> list[str]:
 
 
 def _places(dataset: Any, name: str, time_dim: str | None) -> GridPlaces | None:
-    """Places of a variable: coordinates that it names, else those on its dimensions, longitude and latitude first."""
+    """Places of a variable: its stated coordinates, or else those on its dimensions, longitude and latitude first."""
     variable = dataset[name]
     time = time_axis(dataset, variable.dims, time_dim)
     dims = [str(dim) for dim in variable.dims if dim != time]
@@ -147,7 +147,7 @@ def _places(dataset: Any, name: str, time_dim: str | None) -> GridPlaces | None:
 
 
 def _has_units(dataset: Any, dim: str) -> bool:
-    """Whether a dimension has coordinates that are more than numbers of rows: those of a reference system."""
+    """Return whether a dimension has coordinates of a reference system rather than row numbers."""
     if dim not in dataset.variables:
         return False
     about = dataset[dim].attrs
@@ -155,13 +155,13 @@ def _has_units(dataset: Any, dim: str) -> bool:
 
 
 def _of_the_world(about: Any) -> bool:
-    """Whether attributes name a coordinate of a reference system."""
+    """Return whether attributes describe a coordinate of a reference system."""
     standard = str(about.get("standard_name", ""))
     return standard in ("longitude", "latitude") or standard.startswith(("projection_", "grid_l"))
 
 
 def _coordinates(dataset: Any, places: GridPlaces) -> tuple[Values, Values, int]:
-    """Coordinates east and north, NaN where there is no cell, of every sample or, of very many, of one in stride."""
+    """Coordinates east and north, NaN without a cell, of every sample or, in a huge grid, of one in `stride`."""
     rows, columns = (int(dataset.sizes[dim]) for dim in places[:2])
     stride = int(np.ceil(np.sqrt(rows * columns / MOST_FACES)))
     x, y = (
@@ -177,9 +177,9 @@ def _coordinates(dataset: Any, places: GridPlaces) -> tuple[Values, Values, int]
 def _lattice(
     x: Values, y: Values, known: NDArray[np.bool_], stride: int, shape: tuple[int, ...], rounding: float
 ) -> Lattice | None:
-    """Lattice of `shape` whose samples, one in `stride`, are at places; None if they are not straight or not even.
+    """Fit a lattice of `shape` to samples, one in `stride`; None if they are not straight and even.
 
-    `rounding` is the share of a coordinate by which it may be rounded.
+    `rounding` is the largest rounding error of coordinates, as a fraction of them.
     """
     if min(x.shape) < 2 or known.sum() < 3:
         return None
@@ -202,7 +202,7 @@ def _lattice(
 
 
 def _rectilinear(x: Values, y: Values) -> Lattice | None:
-    """Lattice of columns that each have one x and rows that each have one y, at any spacing; None if they have not."""
+    """Make a lattice of columns with one x and rows with one y each, at any spacing; None if they have not."""
     if not (np.isfinite(x).any(axis=0).all() and np.isfinite(y).any(axis=1).all()):
         return None
     across, up = np.nanmean(x, axis=0), np.nanmean(y, axis=1)
@@ -216,7 +216,7 @@ def _rectilinear(x: Values, y: Values) -> Lattice | None:
 def _mesh(
     dataset: Any, places: GridPlaces, centres: Values, known: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float64], Faces]:
-    """Nodes, (n, 2), and a face for each known cell, with its bounds in the file as corners, else those amid cells."""
+    """Nodes, (n, 2), and a face for each known cell; its corners are its bounds in the file, or else amid cells."""
     bounds = [str(dataset[key].attrs.get("bounds", "")) for key in (places.x, places.y)]
     if all(key in dataset.variables and dataset[key].shape == (*known.shape, 4) for key in bounds):
         corners = np.stack([load_values(dataset[key])[known] for key in bounds], axis=-1).astype(np.float64)
@@ -234,9 +234,9 @@ def _mesh(
 
 
 def without_fill(x: Places, y: Places) -> tuple[Places, Places]:
-    """Coordinates with NaN for cells that a model has not: those with fill values, which several cells share.
+    """Replace coordinates of cells that a model lacks by NaN: those with fill values, which several cells share.
 
-    Where both coordinates are the same number, such as 0 or -999, in more than one cell, that number is a fill value.
+    A number, such as 0 or -999, that is both coordinates of more than one cell is a fill value.
 
     Examples
     --------
@@ -254,8 +254,8 @@ def without_fill(x: Places, y: Places) -> tuple[Places, Places]:
 def corners_of(centres: Places, known: NDArray[np.bool_]) -> Places:
     """Corners of cells, (rows + 1, columns + 1, 2), from their middles, (rows, columns, 2); NaN where no cell is.
 
-    Amid four known cells a corner is the mean of their middles. Along a border it is half a cell beyond the middles, by
-    the distance between those on this side of it.
+    A corner amid four known cells is the mean of their middles. On a border it is half a cell beyond the middles, by
+    the distance between the middles on this side of it.
 
     Examples
     --------
@@ -282,7 +282,7 @@ def corners_of(centres: Places, known: NDArray[np.bool_]) -> Places:
 
 
 def _steps(middles: Places, axis: int) -> Places:
-    """Way from one cell to the next along an axis: the mean of the ways to its known neighbours; NaN without any."""
+    """Step from each cell to the next along an axis: the mean of the steps to known neighbours; NaN without any."""
     ways = np.diff(middles, axis=axis)
     none = np.full_like(np.take(middles, [0], axis), np.nan)
     both = np.stack([np.concatenate([none, ways], axis), np.concatenate([ways, none], axis)])
@@ -292,7 +292,7 @@ def _steps(middles: Places, axis: int) -> Places:
 
 
 def _with_other(down: Places, across: Places) -> tuple[Places, Places]:
-    """Ways down and across; where there is one of them only, as in a channel of one cell, the other is as long."""
+    """Complete steps down and across: if only one is known, as in a channel of one cell, the other is as long."""
     turned = down[..., 0] * across[..., 1] - down[..., 1] * across[..., 0]
     hand = -1.0 if np.nansum(np.sign(turned)) < 0.0 else 1.0
 

@@ -1,4 +1,4 @@
-"""Rasters and meshes of water depths as `Extent`."""
+"""Read rasters and meshes of water depths as an `Extent`."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -41,10 +41,10 @@ def read_depths(
     depths: Sequence[float] = (),
     workers: Workers | None = None,
 ) -> Extent:
-    """Read where water is from a GeoTIFF, GRIB, NetCDF or xarray: on rows and columns, straight or not, or on a mesh.
+    """Read water from a GeoTIFF, GRIB, NetCDF or xarray, on rows and columns, straight or not, or on a mesh.
 
-    A file named as a partition of D-Flow FM, ``run_0000_map.nc``, is read with all others of its run beside it.
-    Parameters and errors as in `vexture.read_extent`.
+    A file named like a partition of D-Flow FM, ``run_0000_map.nc``, is read with all other partitions of its run. See
+    `vexture.read_extent` for parameters and errors.
     """
     with depths_in_frame(
         source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
@@ -54,7 +54,7 @@ def read_depths(
 
 
 class DepthsInFrame:
-    """An open file of depths in a frame: the values at each of its times, and the steps that they make."""
+    """An open file of depths in a frame: the values at each time, and the steps made of them."""
 
     def __init__(
         self,
@@ -78,26 +78,26 @@ class DepthsInFrame:
 
     @property
     def notes(self) -> tuple[Note, ...]:
-        """Notes of what was left out, simplified or chosen until now."""
+        """Notes so far on what was left out, simplified or chosen."""
         return self._notes.in_order
 
     def values(self, number: int) -> Reading:
-        """Read the values of a time near the frame."""
+        """Read the values at a time near the frame."""
         return self._placed.read(number).plausible
 
     def step(self, number: int, reading: Reading) -> Step:
-        """The step of these values."""
+        """Make the step of some values."""
         depth, bed, speed = reading
         if self._told is not None:
             return self._ranks_step(number, depth, self._told)
         drawing, *deeper = self._place_in_frame(self._placed.drawings(depth, bed, self._hmin, self._depths))
         over = self.grid(np.where(depth < 0.0, 0.0, depth))
-        if bed is not None:  # the depth upon the heights that the page has, below the same level
+        if bed is not None:  # the same level above the page's heights gives another depth
             over = np.where(over > 0.0, np.maximum(over + self.grid(bed) - self.heights(bed), 0.0), over)
         return Step(drawing, self.times[number], over, tuple(deeper), None if speed is None else self.grid(speed))
 
     def _ranks_step(self, number: int, values: Values, water: WaterRanks) -> Step:
-        """Make a step from numbers that say where water is, and in which class, but no depth."""
+        """Make a step from numbers that give the class of water at each place, but no depth."""
         areas: list[Drawing] = []
         ranks = water.ranks(values)
         wet = [ranks >= least for least in water.leasts]
@@ -118,15 +118,15 @@ class DepthsInFrame:
         ]
 
     def grid(self, values: Values) -> NDArray[np.float32]:
-        """Values over the frame, the northernmost row first."""
+        """Resample values over the frame, the northernmost row first."""
         return self._placed.grid(values)
 
     def heights(self, bed: Values) -> NDArray[np.float32]:
-        """Heights over the frame, as `grid`, and smooth where cells are wide."""
+        """Resample heights like `grid`, but smoothly where cells are wide."""
         return self._placed.heights(bed)
 
     def without_numbers(self) -> SourceError:
-        """The error of a file that holds no number at any time."""
+        """Make the error for a file without a number at any time."""
         when = "" if len(self.times) == 1 else f" at any of {len(self.times)} steps"
         return SourceError(
             f"variable {self.variable!r} holds no number within the bounds{when}; write depths, 0 where it is dry"
@@ -201,7 +201,7 @@ def _open_series(
 
 
 def _is_esri_grid(start: bytes, source: Any) -> bool:
-    """Whether a file is a grid of Esri: text, or numbers that only its name tells from those of other files."""
+    """Return whether a file is a grid of Esri: text, or numbers that only its name identifies."""
     refuse_marked(start)
     if is_esri_text(start):
         return True
@@ -210,7 +210,7 @@ def _is_esri_grid(start: bytes, source: Any) -> bool:
 
 
 def _series_of(dataset: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Series | MeshSeries:
-    """Depths of an open dataset, on whatever it has them."""
+    """Read the depths of an open dataset on its kind of grid or mesh."""
     from vexture_geo.depth.curvilinear import grid_series, places_of_grid
     from vexture_geo.depth.netcdf import series_of
     from vexture_geo.depth.ugrid import holds_mesh, mesh_series
@@ -225,7 +225,7 @@ def _series_of(dataset: Any, time_dim: str | None, variable: str | None, notes: 
 
 
 def _extent(placed: DepthsInFrame, workers: Workers) -> Extent:
-    """All steps of a file, which is read here; workers make steps of the values."""
+    """Make all steps of a file: this process reads the values, and workers make steps of them."""
     bed, seen = None, False
 
     def values() -> Iterator[tuple[int, Reading]]:
@@ -248,8 +248,8 @@ def _step(placed: DepthsInFrame, values: tuple[int, Reading]) -> Step:
 
 
 def _whole(box: Bounds, system: str) -> Bounds:
-    """Box of a raster, with longitudes of up to half a turn if it does not cross the antimeridian."""
+    """Move a raster's box to longitudes up to half a turn if it does not cross the antimeridian."""
     turn = period(system)
-    if turn and turn / 2 <= box[0] <= turn:  # more are no degrees, which is told with the numbers of the file
+    if turn and turn / 2 <= box[0] <= turn:  # larger numbers are no degrees, and are reported as in the file
         return (box[0] - turn, box[1], box[2] - turn, box[3])
     return box

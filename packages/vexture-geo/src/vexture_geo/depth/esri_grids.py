@@ -1,6 +1,6 @@
-"""Grids of Esri, of text (.asc) and of numbers (.flt): whether they hold as many numbers as their headers say.
+"""Check that grids of Esri, of text (.asc) and of numbers (.flt), hold as many numbers as their headers state.
 
-GDAL passes over numbers that are too many, takes missing ones for 0, and numbers of a cut file for shorter ones.
+GDAL ignores surplus numbers, replaces missing ones by 0, and reads truncated numbers as shorter ones.
 """
 
 import os
@@ -16,33 +16,33 @@ if TYPE_CHECKING:
     from rasterio import DatasetReader
 
 KEYS: Final = (*ESRI_GRID, b"dx", b"dy", b"nodata_value")
-"""What the lines of a header begin with, in lower case."""
+"""Words, in lower case, with which the lines of a header begin."""
 
 BITS: Final = 32
-"""Bits of a number in a .flt of which the header does not say it."""
+"""Bits of a number in a .flt whose header does not state them."""
 
 LONGEST_HEADER: Final = 2**16
-"""Bytes of a header that are looked at."""
+"""Most bytes of a header that are read."""
 
 BLOCK: Final = 2**20
-"""Bytes of a text that are in memory at once."""
+"""Bytes of a text in memory at once."""
 
 GRID_OF_TEXT: Final = "AAIGrid"
 
 
 def is_esri_text(start: bytes) -> bool:
-    """Whether a file begins as Esri's grid of text does."""
+    """Return whether a file begins like Esri's text grid."""
     return start.lstrip().lower().startswith(ESRI_GRID)
 
 
 def refuse_marked(start: bytes) -> None:
-    """Refuse a grid of text behind a byte order mark, with which GDAL does not know it."""
+    """Raise an error for a text grid after a byte order mark, which GDAL does not recognise."""
     if start.startswith(BYTE_ORDER_MARK) and is_esri_text(start.removeprefix(BYTE_ORDER_MARK)):
         raise SourceError("it is a grid of Esri behind a byte order mark; save it as UTF-8 without one (no BOM)")
 
 
 def refuse_other_count(source: bytes | str | os.PathLike[str], file: "DatasetReader") -> None:
-    """Refuse an open grid of text that holds another count of numbers than its header says; other files pass."""
+    """Raise an error if an open text grid has another count of numbers than its header states; others pass."""
     if file.driver != GRID_OF_TEXT:
         return
     with BytesIO(source) if isinstance(source, bytes) else Path(source).open("rb") as text:
@@ -56,10 +56,10 @@ def refuse_other_count(source: bytes | str | os.PathLike[str], file: "DatasetRea
 
 
 def refuse_other_size(path: Path) -> None:
-    """Refuse a grid of floats that has another size than the header beside it says."""
+    """Raise an error if a grid of floats has another size than the header beside it states."""
     about = _header(path)
     if not {"nrows", "ncols"} <= set(about):
-        return  # GDAL says what is wrong
+        return  # GDAL reports the error
     rows, columns, bits = about["nrows"], about["ncols"], about.get("nbits", BITS)
     said = about.get("skipbytes", 0) + rows * columns * about.get("nbands", 1) * bits // 8
     size = path.stat().st_size
@@ -71,7 +71,7 @@ def refuse_other_size(path: Path) -> None:
 
 
 def _count(text: Any) -> int:
-    """Words of a text without its header."""
+    """Count the words of a text after its header."""
     found, before = 0, b" "
     line = text.readline(LONGEST_HEADER)
     while line and (not line.strip() or line.strip().lower().startswith(KEYS)):
@@ -86,7 +86,7 @@ def _count(text: Any) -> int:
 
 
 def _header(path: Path) -> dict[str, int]:
-    """Whole numbers of the header beside a grid of floats, by their names in lower case."""
+    """Read whole numbers from the header beside a grid of floats, by name in lower case."""
     beside = next((path.with_suffix(end) for end in (".hdr", ".HDR") if path.with_suffix(end).is_file()), None)
     if beside is None:
         return {}

@@ -1,4 +1,4 @@
-"""Depths in a GeoTIFF, or in a grid of Esri."""
+"""Read depths from a GeoTIFF, or from a grid of Esri."""
 
 import os
 from collections.abc import Iterator, Sequence
@@ -33,7 +33,7 @@ def open_geotiff(
 ) -> Iterator[Series]:
     """Open a GeoTIFF: its first band, or every band as a step if `time_dim` is given, whatever its value.
 
-    The times of steps are in the descriptions of their bands, if all of those are times.
+    The times of steps are read from the descriptions of their bands, if all of these are times.
 
     `variable` chooses a band by its number, counted from 1, or by its description; `ParameterError` if there is none.
     """
@@ -59,7 +59,7 @@ def open_geotiff(
 
 
 def _series(file: "DatasetReader", time_dim: str | None, variable: str | None, notes: Notes) -> Series:
-    """Series of an open file."""
+    """Make the series of an open file."""
     if file.transform.is_identity or file.transform.determinant == 0.0:
         raise SourceError("it does not say where it is (no geotransform); write it with one")
     bands = list(range(1, file.count + 1))
@@ -90,7 +90,7 @@ def _series(file: "DatasetReader", time_dim: str | None, variable: str | None, n
 
 
 def _times(file: "DatasetReader", bands: Sequence[int], notes: Notes) -> tuple[datetime | None, ...]:
-    """Times of bands, by their descriptions."""
+    """Read the times of bands from their descriptions."""
     texts = [file.descriptions[band - 1] or "" for band in bands]
     times = rising_moments(texts) if len(bands) > 1 else None
     if times is None and len(bands) > 1 and any(texts):
@@ -102,7 +102,7 @@ def _times(file: "DatasetReader", bands: Sequence[int], notes: Notes) -> tuple[d
 
 
 def _meaning(file: "DatasetReader", bands: Sequence[int]) -> Meaning:
-    """Meaning of the numbers of bands."""
+    """Determine the meaning of the numbers of bands."""
     from rasterio.enums import ColorInterp
 
     is_picture = {ColorInterp.red, ColorInterp.green, ColorInterp.blue} <= set(file.colorinterp)
@@ -114,7 +114,7 @@ def _meaning(file: "DatasetReader", bands: Sequence[int]) -> Meaning:
 
 
 def _metres(file: "DatasetReader", bands: Sequence[int]) -> float:
-    """Metres in the unit of bands, which are metres where the file does not say it."""
+    """Length of the unit of bands in metres; 1 if the file states none."""
     units = {(file.units[band - 1] or "").strip() for band in bands}
     found = {metres_in(unit) for unit in units}
     if len(found) > 1:
@@ -126,7 +126,7 @@ def _metres(file: "DatasetReader", bands: Sequence[int]) -> float:
 
 
 def _band(file: "DatasetReader", band: int, rows: slice, columns: slice, metres: float, notes: Notes) -> Values:
-    """Values of a band, in its unit of so many metres."""
+    """Read a band, whose unit has a length of `metres`, in metres."""
     from rasterio.windows import Window
 
     stride = rows.step
@@ -138,7 +138,7 @@ def _band(file: "DatasetReader", band: int, rows: slice, columns: slice, metres:
         scale, offset = file.scales[band - 1], file.offsets[band - 1]
     except raster_errors() as error:
         raise SourceError(f"band {band} cannot be read ({reason_of(error)}); write the file again") from None
-    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
+    with np.errstate(invalid="ignore", over="ignore"):  # values that are not finite are no depths
         values: Values = read.filled(0).astype(np.float64) * scale + offset
     values[np.ma.getmaskarray(read)] = np.nan
     codes = () if file.nodatavals[band - 1] is not None else codes_of_integers(file.dtypes[band - 1], scale, offset)

@@ -1,8 +1,8 @@
-"""Depths in GRIB of editions 1 and 2, as a dataset of xarray, which is read as that of NetCDF is.
+"""Read depths from GRIB of editions 1 and 2 as a dataset of xarray, which is then read like NetCDF.
 
 A variable is a parameter at a level, by the tables of GDAL; its fields are sorted by the times at which they are valid.
-How many fields of which grids the messages hold is known before GDAL decodes one of them: GDAL takes the grid of the
-first field for that of all, and allocates what a header says.
+The number of fields and their grids are checked before GDAL decodes any of them: GDAL takes the grid of the first field
+for that of all, and allocates what a header states.
 References: WMO Manual on Codes, I.2, FM 92 GRIB editions 1 and 2.
 """
 
@@ -39,26 +39,26 @@ BEDS: Final = {
     **dict.fromkeys(("model terrain height", "orography"), "surface_altitude"),
 }
 STANDARD_NAMES: Final = DEPTHS | LEVELS | BEDS
-"""Standard names of CF by what the tables of GRIB call a parameter, in lower case."""
+"""Standard names of CF by the parameter names in GRIB tables, in lower case."""
 
 SINCE: Final = "seconds since 1970-01-01"
-"""Units of the times that GDAL gives."""
+"""Units of GDAL's times."""
 
 MOST_FIELDS: Final = 10_000
-"""Fields of a file. A year of hours has fewer; GDAL lists all of them before one can be chosen."""
+"""Most fields of a file. A year of hours has fewer; GDAL lists all fields before one can be chosen."""
 
 MOST_POINTS: Final = 2**25
-"""Points of a grid, of which GDAL has some copies as doubles; those of weather radars have 25 million."""
+"""Most points of a grid, of which GDAL holds several copies as doubles; weather radars have 25 million."""
 
 END: Final = b"7777"
 REDUCED: Final = 0xFFFFFFFF, 0xFFFF
-"""What stands for the points of a row whose number is not that of all, in 4 and in 2 bytes."""
+"""Values, in 4 and in 2 bytes, that mark rows with different numbers of points."""
 
 GRID, DATA = 3, 7
 """Sections of edition 2: the definition of a grid, and the numbers of a field."""
 
 HAS_GRID: Final = 0x80
-"""Bit of the flags of edition 1: the message defines its grid, and names none that its centre knows."""
+"""Flag of edition 1 for a message that defines its grid, rather than naming one known to its centre."""
 
 PLANAR: Final = 100
 """Templates of grids below this number have rows and columns."""
@@ -67,7 +67,7 @@ ALONE: Final = "write the depths alone into a file: cdo selname,NAME IN OUT"
 
 
 class Field(NamedTuple):
-    """A band: what its parameter and level are, and the time at which it is valid, None if that is unknown."""
+    """A band: its parameter, its level, and the time at which it is valid, None if unknown."""
 
     band: int
     element: str
@@ -79,9 +79,9 @@ class Field(NamedTuple):
 
 @contextmanager
 def open_fields(source: bytes | str | os.PathLike[str], variable: str | None, notes: Notes) -> Iterator[Any]:
-    """Open the fields of depths, of water levels, of the bed and of what `variable` names as a dataset.
+    """Open the fields of depths, of water levels, of the bed, and of `variable` as a dataset.
 
-    A field is decoded when its values are asked for.
+    A field is decoded when its values are read.
     """
     content = _content(source)
     held = count_fields(content)
@@ -96,7 +96,7 @@ def open_fields(source: bytes | str | os.PathLike[str], variable: str | None, no
 
 
 def _content(source: bytes | str | os.PathLike[str]) -> bytes:
-    """Content of a file, which is read from memory, so that nothing beside it counts."""
+    """Read a file into memory, so that files beside it have no effect."""
     if not isinstance(source, bytes) and Path(source).stat().st_size > LARGEST_FILE:
         raise LimitError(
             f"it is larger than {LARGEST_FILE:,} bytes; write the depths alone (cdo selname,NAME IN OUT), or NetCDF, "
@@ -106,7 +106,7 @@ def _content(source: bytes | str | os.PathLike[str]) -> bytes:
 
 
 def _dataset(file: "DatasetReader", variable: str | None) -> Any:
-    """Dataset of the variables that can count."""
+    """Make a dataset of the usable variables."""
     import xarray
 
     if file.crs is None or file.transform.is_identity or file.transform.determinant == 0.0:
@@ -124,7 +124,7 @@ def _dataset(file: "DatasetReader", variable: str | None) -> Any:
         about = {"units": fields[0].unit, "standard_name": STANDARD_NAMES.get(fields[0].meaning, "")}
         time = dims.setdefault(times, f"time{len(dims) or ''}")
         values = xarray.Variable((time, "y", "x"), _values(file, [field.band for field in fields]), about)
-        if len(fields) == 1 and fields[0].meaning in BEDS:  # it is that of all times
+        if len(fields) == 1 and fields[0].meaning in BEDS:  # a single bed applies at all times
             values = values.isel({time: 0})
         elif None not in times:
             coordinates[time] = (time, list(times), {"units": SINCE})
@@ -133,7 +133,7 @@ def _dataset(file: "DatasetReader", variable: str | None) -> Any:
 
 
 def _coordinates(file: "DatasetReader") -> dict[str, Any]:
-    """Places of columns and rows, and their reference system."""
+    """Make the coordinates of columns and rows, and their reference system."""
     a, _, c, _, e, f = file.transform[:6]
     x, y = c + a * (np.arange(file.width) + 0.5), f + e * (np.arange(file.height) + 0.5)
     is_geographic = file.crs.is_geographic
@@ -145,7 +145,7 @@ def _coordinates(file: "DatasetReader") -> dict[str, Any]:
 
 
 def _fields(file: "DatasetReader") -> list[Field]:
-    """All fields of a file, in the order of their times."""
+    """List all fields of a file in the order of their times."""
     found = []
     for band in range(1, file.count + 1):
         check_time()
@@ -160,7 +160,7 @@ def _fields(file: "DatasetReader") -> list[Field]:
 
 
 def _group_by_name(fields: Sequence[Field]) -> dict[str, list[Field]]:
-    """Fields by the names of their parameters, with the level where a parameter has several."""
+    """Group fields by the names of their parameters, with the level if a parameter has several."""
     found: dict[tuple[str, str], list[Field]] = {}
     for field in fields:
         found.setdefault((field.element, field.level), []).append(field)
@@ -172,7 +172,7 @@ def _group_by_name(fields: Sequence[Field]) -> dict[str, list[Field]]:
 
 
 def _choose_fields(found: dict[str, list[Field]], variable: str | None) -> dict[str, list[Field]]:
-    """The variables that are known, and the one that the user names."""
+    """Select the known variables, and the one that the user names."""
     if variable is not None and variable not in found:
         raise ParameterError(f"there is no {variable!r}; `variable` may be {list_names(found)}")
     chosen = {name: fields for name, fields in found.items() if name == variable or fields[0].meaning in STANDARD_NAMES}
@@ -185,7 +185,7 @@ def _choose_fields(found: dict[str, list[Field]], variable: str | None) -> dict[
 
 
 def _values(file: "DatasetReader", bands: Sequence[int]) -> Any:
-    """Values of bands, (band, row, column), each read when it is asked for."""
+    """Make an array of bands, (band, row, column), which are read lazily."""
     from xarray.backends import BackendArray
     from xarray.core.indexing import IndexingSupport, LazilyIndexedArray, explicit_indexing_adapter
 
@@ -208,7 +208,7 @@ def _values(file: "DatasetReader", bands: Sequence[int]) -> Any:
 
 
 def count_fields(content: bytes) -> int:
-    """Fields of all messages; an error if these break off, are too many or too large, or on different grids."""
+    """Count the fields of all messages; an error if these are truncated, too many or too large, or differ in grid."""
     fields, first = 0, b""
     for message in _messages(content):
         check_time()
@@ -224,7 +224,7 @@ def count_fields(content: bytes) -> int:
 
 
 def _messages(content: bytes) -> Iterator[bytes]:
-    """Each message, from its GRIB to its 7777."""
+    """Yield each message, from its GRIB to its 7777."""
     at = content.find(GRIB)
     while at >= 0:
         edition = content[at + 7 : at + 8]
@@ -244,7 +244,7 @@ def _messages(content: bytes) -> Iterator[bytes]:
 
 
 def _grids(message: bytes) -> Iterator[tuple[bytes, int]]:
-    """Definition of the grid of each field of edition 2, and its points."""
+    """Yield the definition of the grid and the number of points of each field of edition 2."""
     at, grid, points = 16, b"", 0
     while message[at : at + len(END)] != END:
         size, number = int.from_bytes(message[at : at + 4]), message[at + 4]
@@ -261,7 +261,7 @@ def _grids(message: bytes) -> Iterator[tuple[bytes, int]]:
 
 
 def _grid_of_first(message: bytes) -> Iterator[tuple[bytes, int]]:
-    """Definition of the grid of the field of edition 1, and its points."""
+    """Yield the definition of the grid and the number of points of the field of edition 1."""
     if not message[15] & HAS_GRID:
         raise SourceError(
             "it names a grid by a number of its centre; write it as edition 2: grib_set -s edition=2 IN OUT"
@@ -272,7 +272,7 @@ def _grid_of_first(message: bytes) -> Iterator[tuple[bytes, int]]:
 
 
 def _points(columns: bytes, rows: bytes) -> int:
-    """Points of a grid of so many columns and rows."""
+    """Count the points of a grid by its columns and rows."""
     across, up = int.from_bytes(columns), int.from_bytes(rows)
     if across in REDUCED[len(columns) == 2 :] or up in REDUCED[len(rows) == 2 :]:
         raise SourceError("its rows have different numbers of points; write it on rows and columns: cdo -R copy IN OUT")

@@ -1,6 +1,6 @@
-"""Numbers that stand for no value without being declared so: largest integers of packed data, rows of nines, and -1.
+"""Detect undeclared fill values: the largest integers of packed data, rows of nines, and -1.
 
-Water can be 99 m deep. So a small number counts only if it is the depth of many cells, and far above all others.
+Water can be 99 m deep, so a small number counts only if many cells have it and it is far above all others.
 """
 
 from collections.abc import Sequence
@@ -12,34 +12,34 @@ from vexture.base.notes import Notes
 from vexture_geo.depth.series import FARTHEST, MISSING, Values
 
 NINES: Final = tuple(float(10**digits - 1) for digits in range(3, 8))
-"""Numbers that programs write where they have no value, also below 0."""
+"""Numbers that programs write for missing values, also with a minus sign."""
 
 FAR: Final = 2.0
-"""How much larger such a number is than any other; a sea can be 999 m deep at a place."""
+"""Least ratio of such a number to any other; a sea can be 999 m deep at a place."""
 
 SMALL_NINES: Final = (99.0, *(float(f"{nines}.{'9' * decimals}") for nines in (99, 999) for decimals in (1, 2, 3)))
-"""As `NINES`, in grids of depths alone: a bed of -99 m is as usual as one of -98 m."""
+"""Like `NINES`, but only in grids of depths: a bed of -99 m is as usual as one of -98 m."""
 
 CLEARLY_FAR: Final = 10.0
-"""How much larger one of `SMALL_NINES` is than any depth: 9 m of water beside 99 m, and nothing between, is none."""
+"""Least ratio of one of `SMALL_NINES` to any depth; 99 m is no depth if the next is 9 m."""
 
 LEAST_METRES: Final = 25.0
-"""Of `SMALL_NINES`: 99 ft is as much, and 99 cm of water is usual."""
+"""Least value of `SMALL_NINES` in metres: 99 ft is more, but 99 cm of water is usual."""
 
 LEAST_CELLS, LEAST_SHARE = 10, 0.01
-"""Cells, and their part of all known ones, that have such a number: a pit may have a few."""
+"""Fewest cells, and smallest fraction of all known cells, with such a number; a pit may have a few."""
 
 BELOW: Final = (-1.0, *(-nines for nines in SMALL_NINES))
-"""What grids of depths have where nothing is known, if it is their only number below 0."""
+"""Fill values of grids of depths, if they are the only negative number."""
 
 BYTES: Final = 2
-"""Integers of fewer bytes use all their numbers: 255 is as often a value that was too large."""
+"""Fewest bytes of integers with fill values: in 8 bits, 255 is as often a value that was too large."""
 
 ROUNDING: Final = 1e-6
 
 
 def codes_of(variable: Any) -> tuple[float, ...]:
-    """Values by which a packed variable may say that there is none: it declares no fill value."""
+    """Possible fill values of a packed variable that declares none."""
     about = {**variable.attrs, **variable.encoding}
     if any(key in about for key in ("_FillValue", "missing_value")):
         return ()
@@ -48,7 +48,7 @@ def codes_of(variable: Any) -> tuple[float, ...]:
 
 
 def codes_of_integers(dtype: Any, scale: float, offset: float) -> tuple[float, ...]:
-    """The outermost integers of a type, scaled; the lowest but one is the default fill value of NetCDF.
+    """Scale the extreme integers of a type; the second lowest is the default fill value of NetCDF.
 
     Examples
     --------
@@ -66,9 +66,9 @@ def codes_of_integers(dtype: Any, scale: float, offset: float) -> tuple[float, .
 def without_undeclared(
     values: Values, codes: Sequence[float], metres: float, name: str, notes: Notes | None, *, are_depths: bool = False
 ) -> Values:
-    """Values in a unit of so many `metres`, with NaN in place of those that stand for none, which a note names.
+    """Replace undeclared fill values by NaN, and name them in a note; values have a unit of `metres` metres.
 
-    Those of depths, rather than of levels or a bed, have more of them; a note names what may be one, too.
+    Depths have more fill values than levels or a bed; a note also names values that may be fill values.
     """
     for code in codes:
         values = _without(values, code, name, notes)
@@ -81,7 +81,7 @@ def without_undeclared(
 
 
 def _depths(values: Values, metres: float, name: str, notes: Notes | None) -> Values:
-    """Depths without small numbers that stand for none."""
+    """Remove small fill values from depths."""
     known = values[np.isfinite(values)]
     below = known[known < 0.0]
     if below.size and (below == below[0]).all() and (known > 0.0).any() and _is_among(float(below[0]), BELOW):
@@ -115,11 +115,11 @@ def _without(values: Values, code: float, name: str, notes: Notes | None) -> Val
 
 
 def _far(values: Values, metres: float) -> float | None:
-    """The number of nines among values from which all others are far, if there is one."""
+    """Find a number of nines among values that is far from all others."""
     with np.errstate(invalid="ignore"):
         known = values[np.abs(values) <= FARTHEST / abs(metres)]
     if metres == 1.0:
-        known = known[~np.isin(known, MISSING)]  # which are unknown in any case
+        known = known[~np.isin(known, MISSING)]  # these are unknown in any case
     if not known.size:
         return None
     number = float(known[np.argmax(np.abs(known))])

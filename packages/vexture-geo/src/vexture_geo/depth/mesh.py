@@ -1,8 +1,8 @@
 """Depths on the faces or on the nodes of a mesh: their contours and grids in a frame.
 
-A mesh is contoured directly, not resampled to a raster first. Each face is divided into triangles around its middle,
-and values are linear in each triangle. The middle has the value of the face, and a node the mean of the faces around.
-Only faces near a shore are looked at in each step: of a million, some ten thousand.
+A mesh is contoured directly, not resampled to a raster first. Each face is divided into triangles around its middle, in
+which values are linear. The middle has the value of the face, and a node the mean of the faces around it. Each step
+processes only faces near a shore: of a million, some ten thousand.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,24 +23,24 @@ from vexture_geo.depth.series import METRES, Meaning, Reading, Values, box_aroun
 from vexture_geo.depth.triangles import LevelOutline, grid_ranges, locate_samples, outlines_above
 
 NEAR: Final = 1.5
-"""Edges. Parts of the mesh's border that run along the frame's border, this near to it, move outside the square."""
+"""Edges. Parts of the mesh's border along the frame's border and this close to it move outside the square."""
 
 ALONG: Final = 0.05
-"""Slope. What leaves the frame's border faster does not run along it: it is where the model ends, and stays there."""
+"""Slope above which the mesh's border leaves the frame's border; there the model ends, and it stays in place."""
 
 ON: Final = 0.01
-"""Edges. A part of the mesh's border that is this near to the frame's border is on it."""
+"""Edges. A part of the mesh's border this close to the frame's border lies on it."""
 
 OUTSIDE: Final = 0.25
-"""Unit-square units. How far outside the square they move, so that no fitted cubic reaches back in."""
+"""Unit-square units by which these parts move outside, so that no fitted cubic reaches back in."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeshSeries:
-    """An open file of depths on a mesh; `crs`, `variable`, `times`, `read`, `meaning` and `unit` as in `Series`.
+    """An open file of depths on a mesh; see `Series` for `crs`, `variable`, `times`, `read`, `meaning` and `unit`.
 
-    `nodes` are places, (n, 2); `faces` are the numbers of the nodes of each face, (m, k), counter-clockwise, and -1
-    where a face has fewer. Depths are on faces or on nodes.
+    `nodes` are places, (n, 2); `faces` are the numbers of the nodes of each face, (m, k), counter-clockwise, padded
+    with -1. Depths are on faces or on nodes.
     """
 
     nodes: NDArray[np.float64]
@@ -60,10 +60,10 @@ class MeshSeries:
 
 
 class MeshSamples(NamedTuple):
-    """Samples of the frame's grid that lie in the mesh; the face of each, and its triangle in a patch of those faces.
+    """Samples of the frame's grid in the mesh; the face of each, and its triangle in a patch of those faces.
 
     `nodes` are the numbers of the patch's nodes, `corners` those of the triangle's corners in the patch, and `shares`
-    what each corner contributes to the sample.
+    the weights of the corners.
     """
 
     samples: NDArray[np.int64]
@@ -75,7 +75,7 @@ class MeshSamples(NamedTuple):
 
 
 class MeshInFrame:
-    """A series on a mesh that is placed in the unit square of a frame: its faces near it, and their contours."""
+    """A mesh series in the unit square of a frame: the faces near it, and their contours."""
 
     def __init__(self, series: MeshSeries, system: str, frame: Frame) -> None:
         self._frame, self._on_faces, self._series = frame, series.on_faces, series
@@ -96,11 +96,11 @@ class MeshInFrame:
         return {**self.__dict__, "_series": None}  # a copy in another process reads nothing
 
     def read(self, step: int) -> Reading:
-        """Read a step, of the faces or nodes near the square."""
+        """Read a step of the faces or nodes near the square."""
         return self._series.read(step).at(self._chosen)
 
     def drawings(self, depth: Values, bed: Values | None, hmin: float, depths: Sequence[float]) -> list[Drawing]:
-        """The area under water, and those under at least so much."""
+        """Draw the area under water, and the areas with at least each depth."""
         known, above = above_dry(depth, hmin)
         more = [least - hmin for least in (hmin, *depths)]
         crossed = [self._crossed_faces(known & (above > least)) for least in more]
@@ -125,7 +125,7 @@ class MeshInFrame:
         border: NDArray[np.bool_],
         crossed: NDArray[np.bool_],
     ) -> Drawing:
-        """The area where values at points are above 0, in those faces of a patch that its outline can cross."""
+        """Draw the area where values at points are above 0, within the faces of a patch that its outline can cross."""
         corners, face, column = fans
         inner = crossed[face]
         sides = np.zeros((int(inner.sum()), 3), np.bool_)
@@ -134,7 +134,7 @@ class MeshInFrame:
         return fit_drawing(_group_rings([self._ring(outline) for outline in found if len(outline.points) > 2]))
 
     def heights(self, values: Values) -> NDArray[np.float32]:
-        """As `grid`, which is linear in each triangle."""
+        """Resample heights like `grid`, which is linear in each triangle."""
         return self.grid(values)
 
     def _crossed_faces(self, wet: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -147,17 +147,17 @@ class MeshInFrame:
         return crossed | self._border.any(axis=1)
 
     def _around_faces(self, crossed: NDArray[np.bool_]) -> NDArray[np.intp]:
-        """Numbers of all faces that the values of some of them depend on."""
+        """Numbers of all faces on whose values the `crossed` faces depend."""
         faces, count = self._patch.faces, self._patch.count
         around = touching_faces(faces, touched_nodes(faces, crossed, count))
-        if self._on_faces:  # values at nodes are of the faces around, and those of dry faces of the faces around them
+        if self._on_faces:  # values at nodes need the faces around; those of dry faces need the faces around these
             around = touching_faces(faces, touched_nodes(faces, around, count))
         return np.flatnonzero(around)
 
     def _shore_values(self, part: Patch, depth: Values, bed: Values | None, hmin: float) -> Values:
-        """Depths less `hmin`, negative on dry faces or nodes beside wet ones; see `contours.shored`.
+        """Depths minus `hmin`, negative on dry faces or nodes beside wet ones; see `contours.shore_values`.
 
-        Where the bed is known, from the mean water level around; else, and at walls, the shore is halfway.
+        Where the bed is known, the mean water level around is used; elsewhere, and at walls, the shore is halfway.
         """
         known, above = above_dry(depth, hmin)
         wet = np.where(known & (above >= 0.0), above, np.nan)
@@ -169,17 +169,17 @@ class MeshInFrame:
         return np.where(known, above, estimate)
 
     def _around(self, part: Patch, values: Values) -> Values:
-        """Mean of the values of faces that share nodes with each face, or of nodes that share faces."""
+        """Average the values of faces that share nodes with each face, or of nodes that share faces."""
         return part.on_faces(part.on_nodes(values)) if self._on_faces else part.on_nodes(part.on_faces(values))
 
     def _everywhere(self, part: Patch, values: Values) -> Values:
-        """Values at all nodes and, after them, at the middles of all faces."""
+        """Compute values at all nodes, followed by those at the middles of all faces."""
         if self._on_faces:
             return np.concatenate([np.nan_to_num(part.on_nodes(values), nan=-1.0), values])
         return np.concatenate([values, part.on_faces(values)])
 
     def _ring(self, outline: LevelOutline) -> Ring:
-        """Ring of an outline; where the mesh's border is that of the frame, the ring extends outside the square."""
+        """Make the ring of an outline; where the mesh ends at the frame's border, it extends outside the square."""
         points = outline.points.copy()
         for axis in range(2):
             along = outline.points[:, 1 - axis]
@@ -195,7 +195,7 @@ class MeshInFrame:
         return Ring(points, outline.cell, ends | (outline.border & bent))
 
     def _locate_samples(self, low: NDArray[np.float64], high: NDArray[np.float64]) -> MeshSamples:
-        """Samples of the frame's grid in the mesh; the faces are in boxes from `low` to `high`."""
+        """Locate samples of the frame's grid in the mesh, whose faces have boxes from `low` to `high`."""
         places, (_, columns) = grid_places(self._frame)
         x, y = places[:columns, 0], places[::columns, 1]
         first, last = grid_ranges(low, high, x, y)
@@ -207,7 +207,7 @@ class MeshInFrame:
         return MeshSamples(samples, some[face[triangle]], part, numbers, corners[triangle], shares)
 
     def grid(self, values: Values) -> NDArray[np.float32]:
-        """Values over the frame, the northernmost row first: of the face, or linear between nodes; NaN beyond."""
+        """Resample values over the frame, the northernmost row first: per face, or linear between nodes; NaN beyond."""
         places, shape = grid_places(self._frame)
         out = np.full(len(places), np.nan, np.float32)
         found = self._sampled
@@ -220,7 +220,7 @@ class MeshInFrame:
 
 
 def _in_square(places: NDArray[np.float64], system: str, frame: Frame) -> NDArray[np.float64]:
-    """Places, (n, 2), of a reference system in the unit square of a frame."""
+    """Transform places, (n, 2), to the unit square of a frame."""
     nodes = transform_points(places, system, frame.crs)
     turn = period(frame.crs)
     if turn:
@@ -244,28 +244,28 @@ def _boxes(nodes: NDArray[np.float64], faces: Faces) -> tuple[NDArray[np.float64
 
 
 def _beside(across: NDArray[np.float64], along: NDArray[np.float64], border: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Mark points of a ring that are the mesh's border beside one side of the frame.
+    """Mark points of a ring where the mesh's border runs beside one side of the frame.
 
-    `across` is how far they are inside the frame, in edges, and `along` their place along that side.
+    `across` is their distance inside the frame, in edges, and `along` their place along that side.
     """
     on = border & (across <= ON)
     beside = on & (np.roll(on, 1) | np.roll(on, -1))
     near = border & (across <= NEAR)
     if near.all():
         return near
-    turned = np.roll(np.arange(len(near)), -int(np.argmin(near)))  # begins off the side, so that no run is cut in two
+    turned = np.roll(np.arange(len(near)), -int(np.argmin(near)))  # start off the side, so that no run is cut in two
     steps = np.diff(near[turned].astype(np.int8), append=np.int8(0))
     for first, last in zip(np.flatnonzero(steps == 1) + 1, np.flatnonzero(steps == -1) + 1, strict=True):
         run = turned[first:last]
         before, after = np.array_split(run, 2)
-        if len(after):  # medians of both halves: the ends of a run may be the corners of the mesh
+        if len(after):  # medians of both halves, as the ends of a run may be the corners of the mesh
             rise = np.median(across[after]) - np.median(across[before])
             beside[run] |= abs(rise) <= ALONG * abs(np.median(along[after]) - np.median(along[before]))
     return beside
 
 
 def _group_rings(rings: list[Ring]) -> list[list[Ring]]:
-    """Rings by polygon: each counter-clockwise ring, and the holes in it."""
+    """Group rings by polygon: each counter-clockwise ring, and the holes in it."""
     import shapely
 
     areas = [_area(ring.points) for ring in rings]

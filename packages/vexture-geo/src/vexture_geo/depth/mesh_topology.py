@@ -1,4 +1,4 @@
-"""Faces of a mesh: their sides and triangles, which of them are near others, and means over neighbours."""
+"""Faces of a mesh: their sides, triangles and neighbours, and means over neighbours."""
 
 import math
 from dataclasses import dataclass
@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 Faces = NDArray[np.int32]
-"""Numbers of the nodes of each face, (m, k), and -1 at the end of a row where the face has fewer than k."""
+"""Numbers of the nodes of each face, (m, k); a row of fewer nodes ends in -1."""
 
 
 def after_each(faces: Faces) -> Faces:
-    """Node after each node of a face; -1 where there is no node.
+    """Return the node after each node of a face; -1 where there is no node.
 
     Examples
     --------
@@ -25,7 +25,7 @@ def after_each(faces: Faces) -> Faces:
 
 
 def counter_clockwise(nodes: NDArray[np.float64], faces: Faces) -> Faces:
-    """Faces with their nodes in counter-clockwise order; `nodes` are places, (n, 2)."""
+    """Order the nodes of faces counter-clockwise; `nodes` are places, (n, 2)."""
     after, first = after_each(faces), nodes[faces[:, 0]]
     twice = np.zeros(len(faces))
     for here, there in zip(faces.T, after.T, strict=True):  # one column at a time, for little memory
@@ -43,7 +43,7 @@ def counter_clockwise(nodes: NDArray[np.float64], faces: Faces) -> Faces:
 
 
 def border_of(faces: Faces, count: int) -> NDArray[np.bool_]:
-    """Sides of faces, from each node to the one after it, that no other face has, (m, k); there are `count` nodes."""
+    """Mark sides, from each node to the next, that no other face has, (m, k); there are `count` nodes."""
     after, used = after_each(faces), faces >= 0
     keys = np.minimum(faces, after)[used].astype(np.int64) * count + np.maximum(faces, after)[used]
     order = np.argsort(keys)
@@ -56,7 +56,7 @@ def border_of(faces: Faces, count: int) -> NDArray[np.bool_]:
 
 
 def touched_nodes(faces: Faces, chosen: NDArray[Any] | slice, count: int) -> NDArray[np.bool_]:
-    """Mark those of `count` nodes that are nodes of the chosen faces, and False after them, for the number -1."""
+    """Mark which of `count` nodes the chosen faces have; a False follows for the number -1."""
     marks = np.zeros(count + 1, np.bool_)
     marks[faces[chosen]] = True
     marks[count] = False
@@ -64,7 +64,7 @@ def touched_nodes(faces: Faces, chosen: NDArray[Any] | slice, count: int) -> NDA
 
 
 def touching_faces(faces: Faces, marks: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Faces that have marked nodes; marks as `touched_nodes` gives them."""
+    """Mark faces that have marked nodes; `marks` are those of `touched_nodes`."""
     found = marks[faces[:, 0]]
     for column in faces.T[1:]:
         found |= marks[column]
@@ -73,14 +73,14 @@ def touching_faces(faces: Faces, marks: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True, eq=False)
 class Patch:
-    """Some faces of a mesh, with nodes numbered anew in their old order, of which there are `count`."""
+    """Some faces of a mesh, with `count` nodes, renumbered in their old order."""
 
     faces: Faces
     count: int
 
     @classmethod
     def select(cls, faces: Faces, count: int) -> tuple["Patch", NDArray[np.int64]]:
-        """Patch of faces that name some of `count` nodes, and the numbers that its nodes had."""
+        """Make a patch of faces of a mesh with `count` nodes; return it and the old numbers of its nodes."""
         marks = touched_nodes(faces, slice(None), count)
         old = np.flatnonzero(marks)
         numbers = np.full(count + 1, -1, np.int32)
@@ -94,12 +94,12 @@ class Patch:
         return face, self.faces[face, column]
 
     def on_nodes(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Mean, at each node, of the known values of the faces around it."""
+        """Average, at each node, the known values of the faces around it."""
         face, node = self.pairs
         return _mean(values, face, node, self.count)
 
     def on_faces(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Mean, on each face, of the known values at its nodes."""
+        """Average, on each face, the known values at its nodes."""
         face, node = self.pairs
         return _mean(values, node, face, len(self.faces))
 
@@ -107,7 +107,7 @@ class Patch:
         """Triangles from the middle of each face to each of its sides, the face of each, and its column.
 
         The middles are numbered after the nodes. A triangle's corners are the middle, the node of the column, and the
-        node after that.
+        next node.
         """
         face, column = np.nonzero(self.faces >= 0)
         after = after_each(self.faces)
@@ -118,7 +118,7 @@ class Patch:
 def _mean(
     values: NDArray[np.float64], source: NDArray[np.integer], target: NDArray[np.integer], count: int
 ) -> NDArray[np.float64]:
-    """Mean, at each of `count` targets, of the known values at the sources beside it; NaN of none."""
+    """Average, at each of `count` targets, the known values at its sources; NaN if there are none."""
     flat = values.reshape(len(values), math.prod(values.shape[1:]))
     known = np.isfinite(flat[source]).all(axis=1)
     source, target = source[known], target[known]

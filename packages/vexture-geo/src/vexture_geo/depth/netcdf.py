@@ -35,23 +35,23 @@ MOST_STEPS: Final = 1000
 
 OURS: Final = frozenset({"standard", "gregorian", "proleptic_gregorian"})
 JULIAN: Final = "julian"
-"""Calendars, in lower case: names of ours, and the one whose dates are all ours, but mean other days."""
+"""Calendars, in lower case: names of the Gregorian one, and one with valid dates that mean other days."""
 
 SINCE: Final = "write 'hours since 2026-01-01' or the like"
 
 UNSAID: Final = re.compile(r"-|(EPSG:)?(nan|none|0)?", re.IGNORECASE)
-"""What models write for a reference system that they have not been told."""
+"""Texts that models write for an unknown reference system."""
 
 UNNAMED: Final = re.compile(r"\W+")
-"""Characters that no grid mapping has in its name, and texts for pyproj have."""
+"""Characters that names of grid mappings never contain, unlike texts for pyproj."""
 
 LEAST_CODE: Final = 1024
-"""No code of EPSG is smaller: a variable of a reference system is its code, or only there for its attributes."""
+"""Least code of EPSG. A smaller number in a variable of a reference system only carries its attributes."""
 
 
 @contextmanager
 def open_dataset(source: Any, time_dim: str | None) -> Iterator[Any]:
-    """Dataset of a file or of its content, by xarray, with times not decoded; one that is open stays so."""
+    """Open a file or its content with xarray, without decoding times; a dataset that is already open stays open."""
     with ExitStack() as stack:
         dataset = dataset_of(source) if is_dataset(source) else stack.enter_context(_file(source, stack))
         if time_dim is not None and time_dim not in dataset.dims:
@@ -62,7 +62,7 @@ def open_dataset(source: Any, time_dim: str | None) -> Iterator[Any]:
 
 
 def _file(source: bytes | str | os.PathLike[str], stack: ExitStack) -> Any:
-    """Dataset of a file, or of content that is a file for as long as the stack is open."""
+    """Open a file, or content that is written to a temporary file for as long as the stack is open."""
     import xarray
 
     place = os.path.abspath(source) if not isinstance(source, bytes) else ""
@@ -86,7 +86,7 @@ def _file(source: bytes | str | os.PathLike[str], stack: ExitStack) -> Any:
 
 
 def _counts(place: str) -> list[str]:
-    """Numbers with the name of a dimension, as ADCIRC writes: xarray has coordinates alone under such a name."""
+    """List scalars named like a dimension, as ADCIRC writes, because xarray allows only coordinates there."""
     import netCDF4
 
     with netCDF4.Dataset(place) as file:
@@ -94,7 +94,7 @@ def _counts(place: str) -> list[str]:
 
 
 def series_of(dataset: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Series:
-    """Depths of an open dataset on rows and columns; `ParameterError` if `variable` holds none."""
+    """Read depths of an open dataset on rows and columns; `ParameterError` if `variable` holds none."""
     grids = {str(name): axes for name in dataset.data_vars if (axes := axes_of(dataset, name, time_dim))}
     name, depth, bed, meaning = depths_of(dataset, list(grids), variable, notes)
     time, north, east = grids[name]
@@ -116,16 +116,16 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None, notes: N
 
 
 def _in_system(along: Any, crs: str | None) -> float:
-    """Units of a reference system in the unit that a coordinate names; 1 if it names no length.
+    """Units of a reference system per unit of a coordinate; 1 if the coordinate names no length.
 
-    Where the file's system is not known, that of the user counts, and is taken to be in metres.
+    If the file's system is not known, the user's applies, which is assumed to be in metres.
     """
     own = None if unit_of(along).lower() in NO_UNIT else metres_in(unit_of(along))
     if own is None:
         return 1.0
     try:
         found = None if crs is None else system(crs)
-    except ParameterError:  # which is raised again where the system is chosen
+    except ParameterError:  # raised again where the system is chosen
         found = None
     if found is None:
         return own
@@ -149,23 +149,23 @@ def axes_of(dataset: Any, name: Any, time_dim: str | None) -> tuple[str | None, 
 
 
 def points_east(coordinate: Any) -> bool:
-    """Whether a coordinate runs along the axis x."""
+    """Return whether a coordinate lies along the x axis."""
     return _says(coordinate.attrs, "x", LONGITUDES)
 
 
 def points_north(coordinate: Any) -> bool:
-    """Whether a coordinate runs along the axis y."""
+    """Return whether a coordinate lies along the y axis."""
     return _says(coordinate.attrs, "y", LATITUDES)
 
 
 def _points(dataset: Any, dim: str, names: set[str], axis: str, units: set[str]) -> bool:
-    """Whether a dimension runs along the axis "x", east, or "y", north."""
+    """Return whether a dimension lies along the axis "x", east, or "y", north."""
     along = _along(dataset, dim)
     return dim.lower() in names or _says({} if along is None else along.attrs, axis, units)
 
 
 def _says(about: Any, axis: str, units: set[str]) -> bool:
-    """Whether the attributes of a coordinate say that it runs along an axis."""
+    """Return whether a coordinate lies along an axis by its attributes."""
     standard = f"projection_{axis}_coordinate", f"grid_{'longitude' if axis == 'x' else 'latitude'}"
     return (
         str(about.get("axis", "")).lower() == axis
@@ -175,7 +175,7 @@ def _says(about: Any, axis: str, units: set[str]) -> bool:
 
 
 def _along(dataset: Any, dim: str) -> Any:
-    """Coordinate of a dimension: the one with its name, else the only one along it."""
+    """Return the coordinate of a dimension: the one with its name, or else the only one along it."""
     if dim in dataset.variables:
         return dataset[dim]
     found = [
@@ -185,7 +185,7 @@ def _along(dataset: Any, dim: str) -> Any:
 
 
 def _axis(dataset: Any, dim: str) -> Values:
-    """Places of the samples along a dimension, rising or falling."""
+    """Read the places of samples along a dimension, rising or falling."""
     along = _along(dataset, dim)
     if along is None or along.ndim != 1:
         raise SourceError(
@@ -197,7 +197,7 @@ def _axis(dataset: Any, dim: str) -> Values:
             f"coordinate {along.name!r} is not finite at position {int(np.argmin(np.isfinite(places))) + 1}"
         )
     if str(along.attrs.get("units", "")).lower() in LONGITUDES and (np.abs(np.diff(places)) > 180.0).sum() == 1:
-        places = np.unwrap(places, period=360.0)  # it crosses the antimeridian
+        places = np.unwrap(places, period=360.0)  # across the antimeridian
     sign = np.sign(np.diff(places))
     if len(places) == 0 or (sign == 0).any() or (sign != sign[:1]).any():
         wrong = int(np.argmax(sign != (sign[0] or 1))) + 2 if len(sign) else 1
@@ -209,9 +209,9 @@ def _axis(dataset: Any, dim: str) -> Values:
 
 
 def times_of(dataset: Any, dim: str | None, notes: Notes) -> tuple[datetime | None, ...]:
-    """Times of the steps along a dimension, None where the file has no dates; one step without a dimension.
+    """Read the times of steps along a dimension, None if the file has no dates; one step without a dimension.
 
-    A note says what it has instead.
+    A note describes what the file has in place of dates.
     """
     import xarray
 
@@ -248,7 +248,7 @@ def times_of(dataset: Any, dim: str | None, notes: Notes) -> tuple[datetime | No
             warnings.simplefilter("ignore")
             decoded = xarray.decode_cf(xarray.Dataset(coords={dim: dataset[dim].variable}))[dim].values
         found = tuple(_moment(time) for time in decoded)
-    except Exception:  # a calendar without such a date, or text that is none
+    except Exception:  # a calendar without such a date, or text that is no date
         if calendar.lower() in OURS:
             return _number_steps(count, f"{dim!r} has dates that are none of ours ({unit!r})", notes)
         why = f"{dim!r} has dates that are none of ours, by its calendar {calendar!r}"
@@ -263,7 +263,7 @@ def times_of(dataset: Any, dim: str | None, notes: Notes) -> tuple[datetime | No
 
 
 def _written_times(dataset: Any, dim: str, count: int, notes: Notes) -> tuple[datetime | None, ...]:
-    """Times that a file has as texts along a dimension."""
+    """Read times that a file stores as texts along a dimension."""
     if dim not in dataset.variables or dataset[dim].ndim != 1 or dataset[dim].dtype.kind not in "SUO":
         return (None,) * count
     texts = [one.decode(errors="replace") if isinstance(one, bytes) else str(one) for one in load_values(dataset[dim])]
@@ -273,21 +273,21 @@ def _written_times(dataset: Any, dim: str, count: int, notes: Notes) -> tuple[da
 
 
 def _number_steps(count: int, reason: str, notes: Notes, remedy: str = SINCE) -> tuple[None, ...]:
-    """Steps without dates; a note says why, if there are several and the file says anything of their times."""
+    """Number steps without dates; if there are several and the file describes their times, a note gives the reason."""
     if count > 1 and reason:
         notes.remark(f"its steps are numbered: {reason}; {remedy}")
     return (None,) * count
 
 
 def _moment(time: Any) -> datetime:
-    """A time of numpy or of cftime as datetime, in UTC."""
+    """Convert a time of numpy or of cftime to datetime, in UTC."""
     if isinstance(time, np.datetime64):
         return datetime.fromtimestamp(float(time.astype("datetime64[us]").astype(np.int64)) / 1e6, UTC)
     return datetime(time.year, time.month, time.day, time.hour, time.minute, time.second, time.microsecond, UTC)
 
 
 def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
-    """Reference system that a file names, as text for pyproj: one that it does not know, if the file's is unknown."""
+    """Reference system that a file names, as text for pyproj; an unknown system gives a text that pyproj rejects."""
     from pyproj import CRS
 
     mappings = [dataset[name].attrs.get("grid_mapping"), dataset[name].encoding.get("grid_mapping")]
@@ -301,7 +301,7 @@ def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
                 return f"EPSG:{text}" if text.isdigit() else text
         if about.get("grid_mapping_name"):
             for key, text in about.items():
-                if str(key).endswith("_name"):  # pyproj reads names of datums and ellipsoids as systems, too
+                if str(key).endswith("_name"):  # pyproj also takes names of datums and ellipsoids for systems
                     refuse_files_of_system(str(text))
             try:
                 return str(CRS.from_cf(dict(about)).to_wkt())

@@ -1,4 +1,4 @@
-"""Runs of D-Flow FM that are written in partitions: their map files, merged into one mesh with each face once."""
+"""Merge the map files of a partitioned D-Flow FM run into one mesh with each face once."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -18,14 +18,14 @@ from vexture_geo.depth.ugrid import mesh_series
 from vexture_geo.depth.variables import load_values
 
 NAME: Final = re.compile(r"(.+_)(\d{4})(_map\.nc)")
-"""How D-Flow FM names the map file of a partition."""
+"""Name of the map file of a partition."""
 
 DOMAIN: Final = "flowelem_domain"
-"""Ending of the variable that says to which partition each face belongs: files hold some faces of others, too."""
+"""Suffix of the variable with the partition of each face, because files also hold some faces of others."""
 
 
 def partitions_beside(path: Path) -> list[Path]:
-    """All map files of the run of a partition, itself among them, in their order; none if it is no such file.
+    """List all map files of a partition's run, itself included, in order; empty if it is not a partition.
 
     Examples
     --------
@@ -81,19 +81,19 @@ def open_partitions(
 
 
 def _concatenate(values: Sequence[Values | None]) -> Values | None:
-    """Values of all parts; None if one of them has none."""
+    """Concatenate the values of all parts; None if any part has none."""
     known = [one for one in values if one is not None]
     return np.concatenate(known) if len(known) == len(values) else None
 
 
 def _number(path: Path) -> int:
-    """Number of a partition, by its name."""
+    """Read the number of a partition from its name."""
     name = NAME.fullmatch(path.name)
     return -1 if name is None else int(name[2])
 
 
 def _domain(dataset: Any, faces: int) -> NDArray[np.int64] | None:
-    """Partition of each face; None if the file does not say it."""
+    """Read the partition of each face; None if the file does not store it."""
     for name in dataset.variables:
         if str(name).endswith(DOMAIN) and dataset[name].shape == (faces,):
             return np.asarray(load_values(dataset[name]), np.int64)
@@ -101,7 +101,7 @@ def _domain(dataset: Any, faces: int) -> NDArray[np.int64] | None:
 
 
 def _merge_meshes(parts: Sequence[MeshSeries], owned: Sequence[NDArray[np.bool_]]) -> MeshSeries:
-    """One mesh of the faces that the parts own; nodes at one place, bit for bit, are one."""
+    """Merge the faces that the parts own into one mesh; nodes at byte-identical places become one."""
     places, numbers = np.unique(np.concatenate([part.nodes for part in parts]), axis=0, return_inverse=True)
     starts = np.cumsum([0, *(len(part.nodes) for part in parts)])
     corners = max(part.faces.shape[1] for part in parts)

@@ -1,4 +1,4 @@
-"""A raster of depths in a frame: reads the part that the frame needs, contours it and resamples it."""
+"""A raster of depths in a frame: read the part that the frame needs, contour it and resample it."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -16,17 +16,17 @@ from vexture_geo.depth.contours import shore_values, wet_drawing
 from vexture_geo.depth.series import Lattice, Reading, Series, Values
 
 MOST_CELLS: Final = 4_194_304
-"""Cells of a raster that are contoured at once. Of a larger raster, every second or third cell and so on is read."""
+"""Most cells that are contoured at once. Of a larger raster, every second or third cell, and so on, is read."""
 
 MOST_SAMPLES: Final = 256
-"""Samples of a grid of depths on its longer side."""
+"""Samples on the longer side of a grid of depths."""
 
 NEAR: Final = 1.5
-"""Cells. Where the frame ends within this distance of the raster's border, the border values extend beyond it."""
+"""Cells. If the frame ends this close to the raster's border, the border values extend beyond it."""
 
 
 class RasterInFrame:
-    """A series of rasters that is placed in the unit square of a frame."""
+    """A series of rasters in the unit square of a frame."""
 
     def __init__(self, series: Series, system: str, frame: Frame, notes: Notes) -> None:
         self._series, self._system, self._frame = series, system, frame
@@ -44,12 +44,12 @@ class RasterInFrame:
         return self._series.read(step, self._rows, self._columns)
 
     def drawings(self, depth: Values, bed: Values | None, hmin: float, depths: Sequence[float]) -> list[Drawing]:
-        """The area under water, and those under at least so much."""
+        """Draw the area under water, and the areas with at least each depth."""
         above = shore_values(depth, hmin, bed)
         return [wet_drawing(above + hmin - least, self._to_unit, self._beyond) for least in (hmin, *depths)]
 
     def grid(self, values: Values) -> NDArray[np.float32]:
-        """Nearest values over the frame, the northernmost row first; NaN beyond the raster."""
+        """Resample the nearest values over the frame, the northernmost row first; NaN beyond the raster."""
         places, shape = grid_places(self._frame)
         found = self._positions(places)
         last = np.array(values.shape[::-1]) - 1
@@ -59,7 +59,7 @@ class RasterInFrame:
         return np.where(inside, taken, np.nan).reshape(shape).astype(np.float32)
 
     def heights(self, values: Values) -> NDArray[np.float32]:
-        """As `grid`, but linear between four cells that are known: of cells wider than samples no steps are left."""
+        """Resample like `grid`, but linearly between four known cells, so that wide cells leave no steps."""
         places, shape = grid_places(self._frame)
         last = np.array(values.shape[::-1]) - 1
         found = np.clip(self._positions(places), 0.0, last)
@@ -73,7 +73,7 @@ class RasterInFrame:
         return np.where(np.isfinite(between) & np.isfinite(nearest), between, nearest)
 
     def _to_unit(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Positions of the lattice, (n, 2), in the unit square."""
+        """Transform positions of the lattice, (n, 2), to the unit square."""
         points = transform_points(self._lattice.place(positions), self._system, self._frame.crs)
         return (points - self._offset) / self._scale
 
@@ -83,9 +83,9 @@ class RasterInFrame:
         return self._lattice.find(points)
 
     def _cells_beyond(self) -> tuple[float, float, float, float]:
-        """Cells by which the border values extend to the left, first, right and last, to fill the unit square.
+        """Count the cells by which border values extend to the left, first, right and last, to fill the unit square.
 
-        0 on a side on which the raster ends well inside the frame.
+        0 for a side where the raster ends well inside the frame.
         """
         rows, columns = self._lattice.shape
         frame = self._positions(Lattice.outline(*self._frame.box))
@@ -100,7 +100,7 @@ class RasterInFrame:
 
 
 def grid_places(frame: Frame) -> tuple[NDArray[np.float64], tuple[int, int]]:
-    """Places in the unit square of a frame's grid samples, (n, 2), and the grid's rows and columns."""
+    """Places of a frame's grid samples in the unit square, (n, 2), and the grid's rows and columns."""
     width, height = frame.metres
     columns, rows = (max(1, round(MOST_SAMPLES * side / max(width, height))) for side in (width, height))
     x0, y0, x1, y1 = frame.box
@@ -110,7 +110,7 @@ def grid_places(frame: Frame) -> tuple[NDArray[np.float64], tuple[int, int]]:
 
 
 def outside(frame: Frame, box: Bounds, system: str) -> SourceError:
-    """Error of a file that covers nothing of the frame."""
+    """Make the error for a file that covers nothing of the frame."""
     return SourceError(
         f"nothing of it is within the bounds {format_bounds(frame.bounds, frame.crs)}: "
         f"it covers {format_bounds(box, system)}; give other `bounds`"
@@ -118,7 +118,7 @@ def outside(frame: Frame, box: Bounds, system: str) -> SourceError:
 
 
 def _turn_lattice(lattice: Lattice, system: str, frame: Frame) -> Lattice:
-    """Lattice, moved by a full turn of longitude if it then overlaps the frame."""
+    """Move a lattice by a full turn of longitude if it then overlaps the frame."""
     turn = period(system)
     square = transform_bounds(frame.bounds, frame.crs, system)
     if not turn or square is None:
@@ -129,7 +129,7 @@ def _turn_lattice(lattice: Lattice, system: str, frame: Frame) -> Lattice:
 
 
 def _window(lattice: Lattice, system: str, frame: Frame, notes: Notes) -> tuple[slice, slice]:
-    """Rows and columns that the unit square needs, with a stride if there are too many."""
+    """Select the rows and columns that the unit square needs, with a stride if there are too many."""
     square = transform_bounds(bounds_of_square(frame), frame.crs, system)
     if square is None:
         raise outside(frame, lattice.box, system)
@@ -145,7 +145,7 @@ def _window(lattice: Lattice, system: str, frame: Frame, notes: Notes) -> tuple[
             f"{r1 - r0:,} x {c1 - c0:,} cells are too many: one in {stride} x {stride} was read; "
             "give smaller `bounds` to read all of them"
         )
-    # the middle cell of each block, as GDAL takes it
+    # the middle cell of each block, which GDAL also chooses
     rows, columns = (
         slice(int(a) + stride // 2, int(a + (b - a) // stride * stride), stride) for a, b in ((r0, r1), (c0, c1))
     )

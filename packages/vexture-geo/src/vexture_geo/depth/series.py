@@ -1,4 +1,4 @@
-"""An open raster of depths: where its samples are, and how the values of a step are read."""
+"""An open raster of depths: the places of its samples, and a function that reads the values of a step."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from vexture_geo.base.extent import Bounds
 Values = NDArray[np.float64]
 
 FARTHEST: Final = 12_000.0
-"""Metres. No depth or height exceeds it; files without a declared fill value contain 1e37."""
+"""Metres. Limit of depths and heights; files without a declared fill value contain 1e37."""
 
 MISSING: Final = (-999.0, -9999.0)
 """Fill values that files use without declaring them."""
@@ -24,7 +24,7 @@ MISSING: Final = (-999.0, -9999.0)
 class Reading(NamedTuple):
     """Values of one step, in metres and seconds: NaN where unknown, None where the file has none.
 
-    `bed` is the height of the bed, `speed` that of the water.
+    `bed` is the height of the bed, `speed` the speed of the water.
     """
 
     depth: Values
@@ -32,16 +32,16 @@ class Reading(NamedTuple):
     speed: Values | None = None
 
     def each(self, change: Callable[[Values], Values]) -> "Reading":
-        """The values that something makes of all that there are."""
+        """Apply a function to all values that exist."""
         return Reading(*(None if values is None else change(values) for values in self))  # type: ignore[arg-type]
 
     def at(self, places: Any) -> "Reading":
-        """The values at some of the places."""
+        """Select the values at some of the places."""
         return self.each(lambda values: values[places])
 
     @property
     def plausible(self) -> "Reading":
-        """With NaN in place of values that cannot be."""
+        """Replace impossible values by NaN."""
         return self.each(plausible)
 
 
@@ -49,9 +49,9 @@ class Reading(NamedTuple):
 class Meaning:
     """Meaning of the numbers of a file.
 
-    They are metres or, with `ranges`, ranks of classes of depth: 1 for the first of them, in their order. `has_unit`
-    says that the file names a unit, `are_whole` that they were written as whole numbers, and `are_colors` that they
-    are those of a picture, or of a table of colours.
+    They are metres or, with `ranges`, ranks of classes of depth: 1 for the first class. `has_unit` means that the file
+    names a unit, `are_whole` that they were written as whole numbers, and `are_colors` that they belong to a picture or
+    a table of colours.
     """
 
     ranges: tuple[DepthRange, ...] = ()
@@ -61,11 +61,11 @@ class Meaning:
 
 
 METRES: Final = Meaning()
-"""Depths that the file says to be metres."""
+"""Meaning of depths that the file states to be in metres."""
 
 
 def plausible(values: Values) -> Values:
-    """Values with NaN in place of those that cannot be depths or heights in metres.
+    """Replace values that cannot be depths or heights in metres by NaN.
 
     Examples
     --------
@@ -114,7 +114,7 @@ class Lattice:
 
     @property
     def box(self) -> Bounds:
-        """West, south, east and north of the area that the samples stand for."""
+        """West, south, east and north of the area that the samples represent."""
         return box_around(self.place(self.outline(-0.5, -0.5, self.shape[1] - 0.5, self.shape[0] - 0.5, 2)))
 
     @staticmethod
@@ -126,13 +126,13 @@ class Lattice:
         return np.concatenate(sides)
 
     def place(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Positions, (n, 2), in the units of the reference system; extrapolated beyond the outermost samples."""
+        """Convert positions, (n, 2), to units of the reference system; they may lie beyond the outermost samples."""
         along = np.column_stack([_at(axis, positions[:, k]) for k, axis in enumerate((self.x, self.y))])
         placed: NDArray[np.float64] = np.einsum("nk,ik->ni", along, self.affine[:, :2]) + self.affine[:, 2]
         return placed
 
     def find(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Positions of points of the reference system, (n, 2): the inverse of `place`."""
+        """Convert points of the reference system, (n, 2), to positions: the inverse of `place`."""
         along = (points - self.affine[:, 2]) @ np.linalg.inv(self.affine[:, :2]).T
         return np.column_stack([_index(axis, along[:, k]) for k, axis in enumerate((self.x, self.y))])
 
@@ -162,9 +162,8 @@ def _index(axis: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.
 class Series:
     """An open file of depths on a lattice, at one time or at several.
 
-    `read` gives what the file says of a step, for a slice of rows and one of columns. `crs` is the reference system
-    that the file names, if it names one. `meaning` is that of the numbers that stand for depths, and `unit` is what the
-    file says of the unit of coordinates.
+    `read` returns the values of a step for a slice of rows and one of columns. `crs` is the reference system that the
+    file names, if any. `meaning` is that of the numbers of depths, and `unit` is the file's unit of coordinates.
     """
 
     lattice: Lattice

@@ -1,4 +1,4 @@
-"""Speed of the water in a NetCDF file, beside its depths: as such, or as its two parts, east and north."""
+"""Speed of the water in a NetCDF file with depths: read it directly, or from its components east and north."""
 
 import re
 from collections.abc import Callable
@@ -16,7 +16,7 @@ SPEEDS: Final = (
     {"ucmag", "speed", "velocity", "velocitymagnitude", "flowvelocity", "flowspeed", "currentspeed", "uvmag", "vmag"},
     {"sea_water_speed", "water_speed", "river_water_speed", "magnitude_of_sea_water_velocity"},
 )
-"""Names of speeds, and their standard names; as `vexture_geo.depth.variables.DEPTHS`."""
+"""Names of speeds, and their standard names, in the form of `vexture_geo.depth.variables.DEPTHS`."""
 
 EASTWARD: Final = (
     {"ucx", "u", "u1", "vx", "velx", "xvelocity", "velocityx", "uvelocity", "eastwardvelocity"},
@@ -28,11 +28,11 @@ NORTHWARD: Final = (
     {"sea_water_y_velocity", "northward_sea_water_velocity", "barotropic_northward_sea_water_velocity",
      "barotropic_sea_water_y_velocity"},
 )
-"""Those of its parts along the two axes, which are at right angles."""
+"""Names of its components along two axes at right angles."""
 # fmt: on
 
 EACH_SECOND: Final = re.compile(r"(\w+?)\s*(/\s*s(ec(ond)?)?|[\s.]s(\*\*|\^)?-1)", re.IGNORECASE)
-"""A unit of speed, which begins with a unit of length."""
+"""Pattern of a unit of speed, which begins with a unit of length."""
 
 
 OTHER: Final = {
@@ -43,10 +43,10 @@ OTHER: Final = {
 
 
 def speed_of(dataset: Any, depths: str, order: tuple[str, ...], time: str | None) -> Callable[..., Values] | None:
-    """Function that reads the speed where and when a variable of an open dataset holds depths; None if there is none.
+    """Make a function that reads the speed where and when a variable holds depths; None if there is no speed.
 
-    `order` are the dimensions of places of the depths. Speeds at other places, at other times or in layers are left
-    out, as are classes of speed and what is in no unit of speed.
+    `order` are the dimensions of the depths' places. Speeds at other places or times, in layers, in classes or in no
+    unit of speed are ignored.
     """
     allowed = {*order, time}
     here = [
@@ -71,12 +71,12 @@ def speed_of(dataset: Any, depths: str, order: tuple[str, ...], time: str | None
 
 
 def _reader(variable: Any) -> Callable[..., Values]:
-    """Function that reads a speed in metres a second."""
+    """Make a function that reads a speed in metres a second."""
     return reader_of(variable, unit=_metres_a_second(unit_of(variable)) or 1.0)
 
 
 def _metres_a_second(text: str) -> float | None:
-    """Metres a second in a unit; 1 if there is no unit, and None if it is no speed."""
+    """Metres a second in a unit; 1 if there is no unit, and None if it is not a unit of speed."""
     if text.lower() in NO_UNIT:
         return 1.0
     unit = EACH_SECOND.fullmatch(text)

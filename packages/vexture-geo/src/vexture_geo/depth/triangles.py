@@ -1,4 +1,4 @@
-"""Triangles: outlines of the area where values are above 0, and which triangle holds each sample of a grid."""
+"""Triangles: outlines of the area where values are above 0, and the triangle around each sample of a grid."""
 
 from typing import Final, NamedTuple
 
@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 from vexture.base.deadline import check_time
 
 AT_ONCE: Final = 2**20
-"""Pairs of triangles and samples that are looked at together: they need 100 bytes each."""
+"""Pairs of triangles and samples that are processed at once, at 100 bytes each."""
 
 ON_SIDE: Final = 1e-9
-"""Share of a triangle by which a sample on its side may be outside, by rounding."""
+"""Fraction of a triangle by which rounding may put a sample on its side outside."""
 
 
 class LevelOutline(NamedTuple):
-    """A closed ring, with the area above 0 to its left; the first of its points, (n, 2), is not repeated at the end.
+    """A closed ring with the area above 0 to its left; its points, (n, 2), do not repeat the first.
 
     `border` marks points on the border of the mesh; `cell` is the length of the shorter edges crossed.
     """
@@ -33,9 +33,9 @@ def outlines_above(
 ) -> list[LevelOutline]:
     """Outlines of the area where values at points are above 0, linear between the corners of triangles.
 
-    The corners of a triangle, (m, 3) numbers of points, are in counter-clockwise order. `border`, (m, 3), are the sides
-    from each corner to the next that are the border of the mesh; by default those that one triangle has. With it, the
-    triangles may be a part of the mesh, if no outline passes the others.
+    The corners of a triangle, (m, 3) numbers of points, are counter-clockwise. `border`, (m, 3), marks sides from each
+    corner to the next that are the border of the mesh; by default those that only one triangle has. With it, the
+    triangles may be a part of the mesh, if no outline crosses the others.
 
     Examples
     --------
@@ -78,10 +78,10 @@ def outlines_above(
 def locate_samples(
     corners: NDArray[np.float64], x: NDArray[np.float64], y: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
-    """Samples of a grid that lie in triangles, the triangle of each, and the shares of its corners, (n, 3).
+    """Find samples of a grid in triangles; return the sample, its triangle, and the weights of its corners, (n, 3).
 
-    `corners` are places, (m, 3, 2), counter-clockwise; `x` of the columns rise evenly, and `y` of the rows fall evenly.
-    A sample in several triangles is in the first.
+    `corners` are places, (m, 3, 2), counter-clockwise; `x` of columns rises evenly, and `y` of rows falls evenly.
+    A sample in several triangles belongs to the first.
 
     Examples
     --------
@@ -107,9 +107,7 @@ def locate_samples(
         row = first[triangle, 1] + within // size[triangle, 0]
         share = _shares(corners[triangle], np.stack([x[column], y[row]], axis=1))
         sample = row * len(x) + column
-        inside = (share >= -ON_SIDE).all(axis=1) & free[
-            sample
-        ]  # triangles may lie over one another, any number of them
+        inside = (share >= -ON_SIDE).all(axis=1) & free[sample]  # any number of triangles may overlap
         free[sample[inside]] = False
         samples.append(sample[inside])
         triangles.append(triangle[inside])
@@ -124,7 +122,7 @@ def locate_samples(
 def grid_ranges(
     low: NDArray[np.float64], high: NDArray[np.float64], x: NDArray[np.float64], y: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """First and last column and row of a grid, as `locate_samples` takes it, in boxes from `low` to `high`, (m, 2)."""
+    """First and last column and row of a grid of `locate_samples` in boxes from `low` to `high`, (m, 2)."""
     firsts, lasts = [], []
     for axis, places in enumerate((x, y)):
         step = places[1] - places[0] if len(places) > 1 else 1.0
@@ -164,7 +162,7 @@ def _rings(froms: NDArray[np.int64], tos: NDArray[np.int64]) -> list[NDArray[np.
 
 
 def _cell(lengths: NDArray[np.float64], points: NDArray[np.float64]) -> float:
-    """Length of the shorter edges that a ring crosses, or of its own sides where it crosses none."""
+    """Length of the shorter edges that a ring crosses, or of its own sides if it crosses none."""
     found = lengths[np.isfinite(lengths)]
     if not len(found):
         found = np.hypot(*(points - np.roll(points, 1, axis=0)).T)

@@ -1,4 +1,4 @@
-"""Depths on a mesh of a NetCDF file by the UGRID conventions: of D-Flow FM, ADCIRC, SCHISM, quadtrees of SFINCS."""
+"""Read depths on a UGRID mesh of a NetCDF file: from D-Flow FM, ADCIRC, SCHISM, or quadtrees of SFINCS."""
 
 from typing import Any, Final
 
@@ -26,22 +26,22 @@ from vexture_geo.depth.variables import (
 )
 
 MOST_FACES: Final = 10_000_000
-"""For a mesh of a million faces, reading needs about 0.3 GB."""
+"""Most faces; reading needs about 0.3 GB for a million."""
 
 DRY: Final = {"dryflagnode", "dryflagelement", "wetdry_node", "wetdry_elem"}
-"""Variables of SCHISM, in lower case, that are 1 where it has no water, whatever its level there."""
+"""Variables of SCHISM, in lower case, that are 1 where there is no water, whatever its level."""
 
 TURN: Final = 360.0
 
 FAMILIAR: Final = 90.0
-"""Degrees. Places that do not say that they are degrees must span less than this to be moved by a turn."""
+"""Degrees. Places not stated to be in degrees must span less than this to be moved by a turn."""
 
 MIXING: Final = np.uint64(0x9E3779B97F4A7C15)
-"""Factor by which numbers of nodes differ in all of their bits."""
+"""Factor that makes numbers of nodes differ in all bits, for a hash."""
 
 
 def holds_mesh(dataset: Any) -> bool:
-    """Whether an open dataset has a mesh by the UGRID conventions."""
+    """Return whether an open dataset has a UGRID mesh."""
     return any(_is_mesh(dataset[name]) for name in dataset.variables)
 
 
@@ -50,7 +50,7 @@ def _is_mesh(variable: Any) -> bool:
 
 
 def name_of_mesh(dataset: Any) -> str:
-    """Name of the only mesh of faces."""
+    """Return the name of the only mesh of faces."""
     names = [
         str(name)
         for name in dataset.variables
@@ -62,7 +62,7 @@ def name_of_mesh(dataset: Any) -> str:
 
 
 def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes: Notes) -> MeshSeries:
-    """Depths on the mesh of an open dataset; errors as of `netcdf.series_of`."""
+    """Read depths on the mesh of an open dataset; see `netcdf.series_of` for errors."""
     mesh = name_of_mesh(dataset)
     try:
         axes, connections, places = _parts(dataset, mesh)
@@ -86,7 +86,7 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes:
         and not str(name).endswith(("_x", "_y", "_nodes", "_faces", "_links", "_domain", "_globalnr"))
         and "start_index" not in dataset[name].attrs
     ]
-    # the bed must be where the depths are
+    # the bed must have the places of the depths
     here = {place: [name for name in candidates if place in dataset[name].dims] for place in places}
     on = [place for place in places if has_depths(dataset, here[place])]
     name = depths_of(dataset, here[on[0]] if len(on) == 1 and variable is None else candidates, variable, notes).name
@@ -116,12 +116,12 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None, notes:
 
 
 def _select_faces(some: NDArray[np.intp] | None, among: NDArray[np.intp] | None) -> NDArray[np.intp] | None:
-    """Numbers of some of the faces that were kept; None where all of them are."""
+    """Numbers of some of the faces that were kept; None for all of them."""
     return some if among is None else (among if some is None else some[among])
 
 
 def _parts(dataset: Any, mesh: str) -> tuple[list[Any], Any, tuple[str, str]]:
-    """Coordinates of the nodes, east and north; the table of nodes of faces; the dimensions of faces and of nodes."""
+    """Coordinates of nodes, east and north; the table of nodes of faces; the dimensions of faces and of nodes."""
     about = dataset[mesh].attrs
     axes = [dataset[key] for key in str(about["node_coordinates"]).split()][:2]
     if points_east(axes[1]) and not points_east(axes[0]):
@@ -139,12 +139,12 @@ def _parts(dataset: Any, mesh: str) -> tuple[list[Any], Any, tuple[str, str]]:
 
 
 def _faces(connections: Any, count: int) -> Faces:
-    """Numbers of the nodes of faces, from 0, and -1 where a face has fewer."""
+    """Read the numbers of the nodes of faces, from 0, padded with -1."""
     numbers: NDArray[Any] = load_values(connections)
     with np.errstate(invalid="ignore"):
         known = np.isfinite(numbers) & (numbers >= 0)
     used = numbers[known]
-    # without `start_index` numbers are from 0; those of a file that names the number of nodes, but not 0, are from 1
+    # without `start_index` numbers start at 0, or at 1 if they include the number of nodes, but not 0
     start = connections.attrs.get("start_index", int(used.size > 0 and used.min() == 1 and used.max() == count))
     faces = np.where(known, numbers, start - 1).astype(np.int64) - int(start)
     if (faces[:, :-1] < 0).any() and ((faces[:, :-1] < 0) & (faces[:, 1:] >= 0)).any():
@@ -153,12 +153,12 @@ def _faces(connections: Any, count: int) -> Faces:
 
 
 def faces_once(faces: Faces, notes: Notes) -> NDArray[np.intp] | None:
-    """Numbers of faces without those that have the nodes of an earlier one; None if there are none of them.
+    """Numbers of faces without duplicates, which have the nodes of an earlier face; None if there are no duplicates.
 
-    Sides of a face that a file has twice would have faces on both sides, also where the water ends.
+    The sides of a duplicated face would have faces on both sides, even where the water ends.
     """
     mixed = np.zeros(len(faces), np.uint64)
-    for column in faces.T:  # sums do not depend on the node with which a face begins
+    for column in faces.T:  # a sum does not depend on the node with which a face begins
         number = (column.astype(np.int64) + 2).astype(np.uint64) * MIXING
         mixed += (number ^ (number >> np.uint64(29))) * MIXING
     order = np.argsort(mixed, kind="stable")
@@ -178,10 +178,10 @@ def faces_once(faces: Faces, notes: Notes) -> NDArray[np.intp] | None:
 def faces_unwrapped(
     nodes: NDArray[np.float64], faces: Faces, *, are_degrees: bool, notes: Notes
 ) -> tuple[NDArray[np.float64], NDArray[np.intp] | None]:
-    """Nodes with longitudes that do not jump, and the numbers of faces that are whole with them; None if all are.
+    """Unwrap longitudes of nodes; return these and the numbers of faces that are whole then, None if all are.
 
-    A mesh across the antimeridian is moved to one side of it. Of one around the world, faces that cross it are left
-    out, which a note says. Places may be degrees without saying so.
+    A mesh across the antimeridian is moved to one side of it. In a mesh around the world, faces that cross it are left
+    out with a note. Places may be in degrees without saying so.
     """
     if not _jump(nodes, faces).any() or np.abs(nodes).max() > TURN:
         return nodes, None

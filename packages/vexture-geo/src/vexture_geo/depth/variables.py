@@ -1,4 +1,4 @@
-"""Variables of a NetCDF file: which of them holds depths, and how they are read."""
+"""Variables of a NetCDF file: choose the one with depths, and read it."""
 
 import re
 import warnings
@@ -29,41 +29,41 @@ LEVELS: Final = (
      "sea_surface_height_above_reference_ellipsoid", "water_surface_height_above_reference_datum",
      "water_surface_reference_datum_altitude"},
 )
-"""Those of water levels."""
+"""Names of water levels, likewise."""
 
 BEDS: Final = (
     {"bed", "bedlevel", "zb", "bl", "altitude", "elevation", "dem", "topography", "topo", "ground", "groundlevel",
      "flowelembl", "nodez"},
     {"altitude", "surface_altitude", "ground_level_altitude", "height_above_mean_sea_level", "bed_level"},
 )
-"""Those of heights of the bed."""
+"""Names of heights of the bed, likewise."""
 
 SOUNDINGS: Final = (
     {"dps", "dps0", "bathymetry", "bathy"},
     {"sea_floor_depth", "sea_floor_depth_below_geoid", "sea_floor_depth_below_mean_sea_level",
      "sea_floor_depth_below_reference_ellipsoid", "depth_below_geoid"},
 )
-"""Those of depths of the bed below the zero of the heights, which count downwards."""
+"""Names of depths of the bed below the zero of heights, which are positive downwards, likewise."""
 # fmt: on
 
 RISING: Final = {"elevation", "elev"}
-"""Names of a bed which SCHISM has for its water level: where they have times, beside depths that have none."""
+"""Names that SCHISM uses for its water level: they count as levels if they have times and depths have none."""
 
 SOUNDED: Final = re.compile(r"bathymetr|below (the )?(geoid|datum|mean sea level)", re.IGNORECASE)
-"""What descriptions say of such depths whose names are those of water depths, as ``h`` of ROMS."""
+"""Words in descriptions of soundings with a name of water depths, such as ``h`` of ROMS."""
 
 TIMES: Final = {"time", "t", "times", "datetime"}
 
 MESH: Final = re.compile(r"^mesh(2d?)?_", re.IGNORECASE)
-"""What models put in front of the names of variables on a mesh."""
+"""Prefix that models add to the names of variables on a mesh."""
 
 
 Reader = Callable[[dict[Any, Any], tuple[str, ...]], Values]
-"""Reads a variable at places along its dimensions, with the dimensions in an order."""
+"""Reads a variable at places along its dimensions, with the dimensions in a given order."""
 
 
 class Depths(NamedTuple):
-    """The variable of depths: its name, what reads it, what reads the bed's height, and what its numbers are."""
+    """Variable of depths: its name, its reader, the reader of the bed's height, and the meaning of its numbers."""
 
     name: str
     read: Reader
@@ -72,9 +72,9 @@ class Depths(NamedTuple):
 
 
 def depths_of(dataset: Any, candidates: list[str], variable: str | None, notes: Notes) -> Depths:
-    """The variable of depths among some. Where it holds water levels, the bed's height is subtracted from them.
+    """Choose the variable of depths. From water levels, the bed's height is subtracted.
 
-    Classes of depth are read as ranks. Other variables with flags are passed over, unless `variable` names one.
+    Classes of depth are read as ranks. Other variables with flags are ignored, unless `variable` names one.
     """
     candidates = _without_flags(dataset, candidates, variable)
     bed = _bed(dataset, candidates)
@@ -104,7 +104,7 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None, notes: 
 
 
 def _without_flags(dataset: Any, candidates: list[str], variable: str | None) -> list[str]:
-    """Variables that hold numbers of metres, or classes of depth."""
+    """Select variables that hold metres, or classes of depth."""
     found, error = [], None
     for name in candidates:
         try:
@@ -125,7 +125,7 @@ def _ranges(dataset: Any, name: str) -> dict[float, DepthRange]:
 
 
 def _classes(dataset: Any, name: str, is_level: bool, bed: Reader | None) -> Depths:
-    """Ranks of classes of depth."""
+    """Make a reader of ranks of classes of depth."""
     if is_level:
         raise SourceError(
             f"{name!r} holds classes of water levels, from which no depths follow; `variable` names one of depths"
@@ -145,7 +145,7 @@ def _classes(dataset: Any, name: str, is_level: bool, bed: Reader | None) -> Dep
 
 
 def _meaning(variable: Any) -> Meaning:
-    """Meaning of the numbers of a variable without flags."""
+    """Determine the meaning of the numbers of a variable without flags."""
     written = variable.encoding.get("dtype", variable.dtype)
     is_packed = any(key in variable.encoding for key in ("scale_factor", "add_offset"))
     are_whole = np.dtype(written).kind in "iu" and not is_packed
@@ -153,16 +153,16 @@ def _meaning(variable: Any) -> Meaning:
 
 
 def has_depths(dataset: Any, candidates: list[str]) -> bool:
-    """Whether variables hold depths by their names, or a water level and the bed."""
+    """Return whether variables hold depths by name, or both a water level and the bed."""
     bed = _bed(dataset, candidates)
     both = bed is not None and _level(dataset, candidates) is not None
     return both or any(_is(dataset, name, DEPTHS) for name in candidates if name != bed)
 
 
 def _choose_variable(dataset: Any, candidates: list[str], bed: str | None, level: str | None) -> str:
-    """Variable that holds depths, or the water level above a known bed.
+    """Choose the variable that holds depths, or the water level above a known bed.
 
-    The one with the most times: models write the largest depth of a run beside the levels of all its times.
+    The one with most times wins, because models write the largest depth of a run beside the levels at all times.
     """
     depths = [name for name in candidates if _is(dataset, name, DEPTHS) and name != bed]
     levels = [level] if level is not None and bed is not None else []
@@ -182,7 +182,7 @@ def _choose_variable(dataset: Any, candidates: list[str], bed: str | None, level
 
 
 def _longest(dataset: Any, names: list[str]) -> list[str]:
-    """Those of the variables with the most times; largest values of a run only if there is nothing else."""
+    """Select the variables with most times; largest values of a run only if there is nothing else."""
 
     def steps(name: str) -> int:
         time = time_axis(dataset, dataset[name].dims, None)
@@ -201,10 +201,10 @@ def reader_of(
     *,
     are_depths: bool = False,
 ) -> Reader:
-    """Function that reads a variable in metres, times a sign, and keeps what it read last: a bed without times stays.
+    """Make a function that reads a variable in metres, times a sign, and caches the last values, for a constant bed.
 
-    `unit` is what the numbers are multiplied by in place of the metres in their unit; `notes` take what is unknown
-    without being declared so.
+    `unit` replaces the metres in the variable's unit as the factor of its numbers; `notes` receive undeclared fill
+    values.
     """
     metres = metres_in(unit_of(variable)) or 1.0 if unit is None else unit
     last: list[tuple[Any, Values]] = []
@@ -219,7 +219,7 @@ def reader_of(
 
 
 def _bed(dataset: Any, candidates: list[str]) -> str | None:
-    """Variable of the heights of the bed, or of its depths below their zero."""
+    """Find the variable of the bed's heights, or of its depths below their zero."""
     if (above := _bed_and_level(dataset, candidates)) is not None:
         return above[0]
     described = [name for name in candidates if _is(dataset, name, DEPTHS) and _is_sounded(dataset, name)]
@@ -229,13 +229,13 @@ def _bed(dataset: Any, candidates: list[str]) -> str | None:
 
 
 def _level(dataset: Any, candidates: list[str]) -> str | None:
-    """Variable of water levels."""
+    """Find the variable of water levels."""
     above = _bed_and_level(dataset, candidates)
     return known_as(dataset, candidates, LEVELS) if above is None else above[1]
 
 
 def _bed_and_level(dataset: Any, candidates: list[str]) -> tuple[str, str] | None:
-    """A bed called a depth, and a level called an elevation, as SCHISM has them: the level has times, the bed none."""
+    """Find a bed named as a depth, and a level named as an elevation, as in SCHISM: only the level has times."""
     moving = {name: time_axis(dataset, dataset[name].dims, None) is not None for name in candidates}
     beds = [name for name in candidates if _has_name(name, DEPTHS) and not moving[name]]
     levels = [name for name in candidates if _has_name(name, (RISING, set())) and moving[name]]
@@ -243,7 +243,7 @@ def _bed_and_level(dataset: Any, candidates: list[str]) -> tuple[str, str] | Non
 
 
 def _sign(dataset: Any, bed: str) -> float:
-    """Factor that turns the values of a bed into heights: -1 where they count downwards, as depths do."""
+    """Return the factor that turns values of a bed into heights: -1 if they are positive downwards, as depths are."""
     is_height = _standard(dataset, bed) in BEDS[1]
     sounded = _is(dataset, bed, SOUNDINGS) or (_is(dataset, bed, DEPTHS) and not is_height)
     return -1.0 if str(dataset[bed].attrs.get("positive", "down" if sounded else "up")).lower() == "down" else 1.0
@@ -262,15 +262,15 @@ def _has_name(name: str, known: tuple[set[str], set[str]]) -> bool:
 
 
 def _standard(dataset: Any, name: str) -> str:
-    """Standard name, also that of what SFINCS and ADCIRC call the maximum of it."""
+    """Return the standard name, without the word for a maximum that SFINCS and ADCIRC add."""
     text = str(dataset[name].attrs.get("standard_name", "")).lower().replace(" ", "_")
     return text.removeprefix("maximum_").removeprefix("of_")
 
 
 def known_as(dataset: Any, candidates: list[str], known: tuple[set[str], set[str]]) -> str | None:
-    """The variable with a usual name and the most times, or else with a standard name; None if several have.
+    """Find the variable with a usual name and most times, or else with a standard name; None if several have it.
 
-    That of the level at the step before has the same standard name.
+    Names come first, because the level at the previous step has the same standard name.
     """
     found = _longest(dataset, [name for name in candidates if _has_name(name, known)])
     found = found or _longest(dataset, [name for name in candidates if _standard(dataset, name) in known[1]])
@@ -278,7 +278,7 @@ def known_as(dataset: Any, candidates: list[str], known: tuple[set[str], set[str
 
 
 def time_axis(dataset: Any, dims: Any, time_dim: str | None) -> str | None:
-    """Dimension of time among some: the one that the user names, else one with the name or the units of a time."""
+    """Find the dimension of time: the one that the user names, or else one with the name or the units of a time."""
     if time_dim is not None:
         return time_dim if time_dim in dims else None
     for dim in map(str, dims):
@@ -290,7 +290,7 @@ def time_axis(dataset: Any, dims: Any, time_dim: str | None) -> str | None:
 
 
 def refuse_layers(dataset: Any, name: str, known: tuple[str | None, ...]) -> None:
-    """Refuse a variable with a further dimension, such as layers of water."""
+    """Raise an error for a variable with a further dimension, such as layers of water."""
     extra = [dim for dim in dataset[name].dims if dim not in known and dataset.sizes[dim] > 1]
     if extra:
         raise SourceError(
@@ -300,7 +300,7 @@ def refuse_layers(dataset: Any, name: str, known: tuple[str | None, ...]) -> Non
 
 
 def load_values(variable: Any) -> Any:
-    """Values of a variable."""
+    """Read the values of a variable."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -318,7 +318,7 @@ def _read(
     notes: Notes | None,
     are_depths: bool,
 ) -> Values:
-    """Values of a variable in its unit, at the given places along its dimensions, with the dimensions in an order."""
+    """Read a variable in its unit, at given places along its dimensions, with the dimensions in a given order."""
     taken = variable.isel({dim: place for dim, place in places.items() if dim in variable.dims})
     extra = [dim for dim in taken.dims if dim not in order]
     if any(taken.sizes[dim] > 1 for dim in extra):
@@ -327,7 +327,7 @@ def _read(
             "write one that has none but theirs"
         )
     taken = taken.squeeze(extra)
-    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
+    with np.errstate(invalid="ignore", over="ignore"):  # values that are not finite are no depths
         values: Values = load_values(taken.transpose(*order)).astype(np.float64)
     if has_flags(variable):
         return values
@@ -341,6 +341,6 @@ def unit_of(variable: Any) -> str:
 
 
 def list_names(names: Any) -> str:
-    """The first eight names, for a message."""
+    """Format the first eight names for a message."""
     shown = [repr(str(name)) for name in names]
     return ", ".join(shown[:8]) + (f" and {len(shown) - 8} more" if len(shown) > 8 else "") or "none"

@@ -1,4 +1,4 @@
-"""Numbers that say where water is, but not how deep: classes of depth, and masks."""
+"""Numbers that mark water without its depth: classes of depth, and masks."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -13,21 +13,21 @@ from vexture_geo.base.depth_ranges import DepthRange, format_range, wet_ranges
 from vexture_geo.depth.series import Meaning, Values
 
 MARKS: Final = (0.0, 1.0, 255.0)
-"""Numbers of masks: 0 is dry, 1 is wet; 255 is wet where there is no 1, and else unknown."""
+"""Numbers of masks: 0 is dry and 1 is wet; 255 is wet if there is no 1, and otherwise unknown."""
 
 MOST_CLASSES: Final = 8
-"""Classes that a map shows as they are; of more of them some are joined."""
+"""Most classes that a map shows unchanged; some of more classes are joined."""
 
 SAME: Final = 1e-6
-"""Metres by which two limits of classes may differ."""
+"""Metres by which equal limits of classes may differ."""
 
 
 @dataclass(frozen=True, slots=True)
 class WaterRanks:
     """Ranks of numbers: 0 where it is dry or unknown, 1 for the first of the `ranges`, or for a mask's water.
 
-    `wet` is the first number of water, and `mark` the only one of a mask. `leasts` are the ranks from which areas
-    begin: that of all water, and those of the `contours`.
+    `wet` is the first number of water, and `mark` the only number of water in a mask. `leasts` are the ranks at which
+    areas begin: that of all water, and those of the `contours`.
     """
 
     wet: float
@@ -37,7 +37,7 @@ class WaterRanks:
     leasts: tuple[int, ...] = (1,)
 
     def ranks(self, values: Values) -> Values:
-        """Ranks of the numbers of a step."""
+        """Convert the numbers of a step to ranks."""
         if self.mark is not None:
             return np.where(values == self.mark, 1.0, 0.0)
         return np.where(np.isfinite(values), np.maximum(values - self.wet + 1.0, 0.0), 0.0)
@@ -46,10 +46,10 @@ class WaterRanks:
 def water_ranks(
     meaning: Meaning, steps: Iterable[Values], hmin: float, depths: Sequence[float], notes: Notes
 ) -> WaterRanks | None:
-    """Interpret numbers that are no depths; return None if they are depths.
+    """Interpret numbers that are not depths; return None if they are depths.
 
-    `steps` are those of all times, read as far as they are looked at. Notes take what was chosen. Raises a
-    `SourceError` if they say nothing of water.
+    `steps` are the values of all times, read only as far as needed. Notes receive what was chosen. Raises a
+    `SourceError` if the numbers do not describe water.
     """
     if meaning.ranges:
         return _of_classes(meaning.ranges, hmin, depths, notes)
@@ -77,7 +77,7 @@ def water_ranks(
 
 
 def _marks(steps: Iterable[Values]) -> set[float]:
-    """Numbers other than 0 of a mask; none if it is no mask."""
+    """Numbers of a mask except 0; empty if it is not a mask."""
     found: set[float] = set()
     for values in steps:
         known = values[np.isfinite(values)]
@@ -88,7 +88,7 @@ def _marks(steps: Iterable[Values]) -> set[float]:
 
 
 def _of_classes(ranges: tuple[DepthRange, ...], hmin: float, depths: Sequence[float], notes: Notes) -> WaterRanks:
-    """Ranks of classes of water."""
+    """Make ranks of classes of water."""
     wet = wet_ranges(ranges, hmin)
     if not wet:
         told = ", ".join(map(format_range, ranges))
@@ -118,6 +118,6 @@ def _of_classes(ranges: tuple[DepthRange, ...], hmin: float, depths: Sequence[fl
 
 
 def _list_numbers(numbers: Sequence[float]) -> str:
-    """Numbers in a sentence."""
+    """Format numbers for a sentence."""
     told = [f"{number:g}" for number in numbers]
     return told[0] if len(told) == 1 else f"{', '.join(told[:-1])} and {told[-1]}"

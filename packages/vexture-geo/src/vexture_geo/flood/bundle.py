@@ -1,4 +1,4 @@
-"""The files of a flood's page, which `make viewer` builds."""
+"""Files of a flood's page, which `make viewer` builds."""
 
 from typing import Final
 

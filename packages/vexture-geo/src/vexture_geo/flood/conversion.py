@@ -1,6 +1,6 @@
-"""Conversion of flood data, of any kind, into shapes of water in the frame of a page, and pictures of their depths.
+"""Convert flood data of any kind into shapes of water in the frame of a page, and pictures of their depths.
 
-The page reads the depth at the pointer from these pictures: depths, or classes of them.
+The page reads the depth at the pointer from these pictures, which hold depths or classes of depth.
 """
 
 import json
@@ -25,16 +25,16 @@ from vexture_geo.flood.scene import PREFIX, labels
 from vexture_geo.flood.surface import WaterSurface
 
 WATER_PARAMETERS: Final = Parameters(split=None, precision=2e-6)
-"""Seen from the beach, a pixel is about 1e-5 of the frame: the outline shifts by a fifth of one."""
+"""Seen from the beach, a pixel is about 1e-5 of the frame, so outlines shift by a fifth of a pixel."""
 
 CLASS_PARAMETERS: Final = Parameters(split="faces")
-"""The map of depths is looked at from above, where the default precision does."""
+"""The map of depths is seen from above, where the default precision suffices."""
 
 SAME_PLACE: Final = 1e-6
-"""Share of the frame by which a texture's place may differ from it, by rounding when it was written."""
+"""Largest difference of a texture's place from the frame, as a fraction of it, by rounding when it was written."""
 
 AREA_CELLS: Final = 64
-"""Cells on the longer side over which the area under water is summed; each is exact."""
+"""Cells on the longer side of the grid over which the area under water is summed; each cell is exact."""
 
 OPTIONS: Final[dict[FileKind, tuple[str, ...]]] = {
     FileKind.DEPTHS: ("time_dim", "variable", "depths"),
@@ -46,19 +46,19 @@ OPTIONS: Final[dict[FileKind, tuple[str, ...]]] = {
 KINDS: Final = f"GeoJSON, {VECTOR_FILES} (a shapefile or FileGDB zipped), GeoTIFF, NetCDF, GRIB or a packed texture"
 
 PIXELS: Final = 256
-"""Most pixels on the longer side: the picture serves to read a depth at the pointer, not to draw."""
+"""Most pixels on the longer side: the picture is read at the pointer, not drawn."""
 
 SCALE: Final = 50.0
-"""Metres. Steps between two depths are even in much shallower water, and a share of the depth in much deeper water."""
+"""Metres. Steps of depth are even in much shallower water, and a fraction of the depth in much deeper water."""
 
 STEP: Final = 1e-4
-"""Of the numbers in a picture: 5 mm where it is shallow, a ten-thousandth of the depth where it is deep.
+"""Step of the numbers in a picture: 5 mm in shallow water, a ten-thousandth of the depth in deep water.
 
-A sea of 12 km ends at 61,738, so that all depths have 16 bits.
+A depth of 12 km is 61,738, so that all depths fit 16 bits.
 """
 
 CODE: Final = {"scale": SCALE, "step": STEP}
-"""The facts to read a picture of depths: a depth is `scale` times the hyperbolic sine of its number times `step`."""
+"""How to read a picture of depths: a depth is `scale` times the hyperbolic sine of its number times `step`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +73,7 @@ class FloodConversion:
     bed: NDArray[np.float32] | None = None  # over the frame, if the data have it
 
     def step(self, step: Step, surface: WaterSurface, name: str, label: str) -> PublishedShape:
-        """Shape of one step that is in this frame, with its surface; `label` is its time as people read it."""
+        """Make the shape of a step in this frame, with its surface; `label` is its time for people."""
         from vexture_geo.flood.depth_classes import class_drawing
         from vexture_geo.flood.hazard import UNIT, hazard_png
 
@@ -95,7 +95,7 @@ class FloodConversion:
         views["level"] = PublishedFile(level, "image/png", ".png")
         facts = {
             **shape.facts,
-            "milliseconds": None,  # else two pages of one flood would differ
+            "milliseconds": None,  # a duration would make two pages of one flood differ
             "level": level_facts,
             "hazard": None if hazard is None else {"unit": UNIT},
             "depth": None if step.depth is None else CODE,
@@ -109,11 +109,11 @@ class FloodConversion:
         return replace(shape, facts=facts, views=views)
 
     def convert_one(self, arguments: tuple[Step, WaterSurface, str, str]) -> PublishedShape:
-        """Shape of one step, as `step` makes it."""
+        """Make the shape of one step; see `step`."""
         return self.step(*arguments)
 
     def shape_of(self, data: bytes, name: str) -> PublishedShape:
-        """Shape of an upload: a step in any format, or a texture that was made in this frame."""
+        """Make the shape of an upload: a step in any format, or a texture that was made in this frame."""
         if name != PREFIX and not name.startswith(f"{PREFIX}/"):
             raise LimitError(f"{name}: this server shows {PREFIX} and {PREFIX}/NAME only; publish under such a name")
         if not data.strip():
@@ -130,7 +130,7 @@ class FloodConversion:
         return self.later(step, extent.bed, name, labels([step.time])[0])
 
     def later(self, step: Step, bed: NDArray[np.float32] | None, name: str, label: str) -> PublishedShape:
-        """Shape of a step that came later, in this frame; `bed` is its own bed over the frame, if it has one."""
+        """Make the shape of a later step in this frame; `bed` is its own bed over the frame, if it has one."""
         from vexture_geo.flood.surface import surface_of
 
         surface = surface_of(step, self.frame, self.relief, self.bed if bed is None else bed, self.hmin)
@@ -149,7 +149,7 @@ class FloodConversion:
             ) from None
         except (SourceError, LimitError) as error:
             raise type(error)(f"{name}: {_for_senders(str(error).removeprefix(f'{name}: '))}") from None
-        except ParameterError as error:  # the server's options do not fit the file that was sent
+        except ParameterError as error:  # the server's options do not fit the uploaded file
             raise SourceError(f"{name}: {_for_senders(str(error))}") from None
 
     def warm(self) -> None:
@@ -165,7 +165,7 @@ class FloodConversion:
         import h5py, xarray  # noqa: E401, F401, I001  # the rest of what NetCDF needs
 
     def _texture(self, data: bytes, name: str) -> PublishedShape:
-        """Shape of a texture that was made in this frame."""
+        """Make the shape of a texture that was made in this frame."""
         from vexture.texture.load import texture_from
 
         roots = texture_from(data, name).roots
@@ -193,14 +193,14 @@ class FloodConversion:
         return round(float(covered.mean(dtype=np.float64)) * self.frame.metres[0] * self.frame.metres[1], 1)
 
     def _is_dry(self, step: Step) -> bool:
-        """Whether no water of a step is in the frame."""
+        """Return whether a step has no water in the frame."""
         x0, y0, x1, y1 = self.frame.box
         boxes = (path.box.ravel() for path in step.drawing.paths)
         return not any(left < x1 and right > x0 and low < y1 and high > y0 for left, low, right, high in boxes)
 
 
 def _for_senders(line: str) -> str:
-    """Return an error whose remedy fits the sender of a file, who sets no parameters.
+    """Adapt the remedy of an error to the sender of a file, who sets no parameters.
 
     Examples
     --------
@@ -212,7 +212,7 @@ def _for_senders(line: str) -> str:
 
 
 def _small_tiff(frame: Frame) -> bytes:
-    """A raster of depths over a frame, half of it wet."""
+    """Make a raster of depths over a frame, half of it wet."""
     from rasterio.io import MemoryFile
 
     from vexture_geo.flood.grids import pixels_to
@@ -233,24 +233,24 @@ def deepest(depth: NDArray[np.float32]) -> float:
 
 
 def depth_png(depth: NDArray[np.float32]) -> bytes:
-    """Depths in metres as a 16-bit gray PNG, which `CODE` reads: 0 is dry or unknown, and wet pixels are at least 1."""
+    """Encode depths in metres as a 16-bit gray PNG for `CODE`: 0 is dry or unknown, and wet pixels are at least 1."""
     metres = _thin_grid(np.where(np.isfinite(depth), np.maximum(depth, 0.0), 0.0).astype(np.float64))
     numbers = np.rint(np.arcsinh(metres / SCALE) / STEP)
     return _png(np.where(metres > 0.0, np.clip(numbers, 1.0, 65535.0), 0.0).astype(np.uint16))
 
 
 def ranks_png(classes: DepthClasses) -> bytes:
-    """Ranks of classes of depth as an 8-bit gray PNG: 0 is dry or unknown."""
+    """Encode ranks of classes of depth as an 8-bit gray PNG; 0 is dry or unknown."""
     return _png(_thin_grid(classes.ranks))
 
 
 def ranges_as_json(classes: DepthClasses) -> list[list[float | None]]:
-    """Metres from which each class begins and at which it ends, which is null if it has no end."""
+    """Lower and upper limits of classes in metres; the upper limit of an unbounded class is null."""
     return [[low, high if np.isfinite(high) else None] for low, high in classes.ranges]
 
 
 def _thin_grid(grid: NDArray[Any]) -> NDArray[Any]:
-    """Every second, third or further sample of a grid that is too large."""
+    """Thin a grid that is too large to every second, third or further sample."""
     stride = -(-max(grid.shape) // PIXELS)
     return np.ascontiguousarray(grid[stride // 2 :: stride, stride // 2 :: stride])
 

@@ -11,7 +11,7 @@ from vexture_geo.base.gdal import open_raster
 from vexture_geo.base.hdf5 import refuse_links_of_netcdf
 
 MOST_LETTERS: Final = 600
-"""Letters of one of them that are kept: attributes can hold the history of a run."""
+"""Longest credit that is kept: attributes can hold the history of a run."""
 
 NAMES: Final = {
     "title": ("title", "TIFFTAG_DOCUMENTNAME"),
@@ -21,7 +21,7 @@ NAMES: Final = {
     "licence": ("license", "licence", "rights", "TIFFTAG_COPYRIGHT"),
     "comment": ("comment", "TIFFTAG_IMAGEDESCRIPTION"),
 }
-"""Names of the attributes: those of the CF conventions and of ACDD, and the tags of TIFF."""
+"""Names of attributes in the CF conventions and ACDD, and of tags of TIFF."""
 
 SYNTHETIC: Final = re.compile(r"\b(synthetic|invented|fictitious|fictional|made[- ]up)\b", re.IGNORECASE)
 
@@ -45,11 +45,11 @@ class Credits:
 
     @property
     def is_synthetic(self) -> bool:
-        """Whether one of them says that the data are of no real event."""
+        """True if a credit says that the data are of no real event."""
         return any(SYNTHETIC.search(text) for text in asdict(self).values())
 
     def with_given(self, **given: str | None) -> "Credits":
-        """These, but for those that are given."""
+        """Replace credits by those that are given."""
         return replace(self, **{name: text for name, text in given.items() if text is not None})
 
     def as_json(self) -> dict[str, Any]:
@@ -58,7 +58,7 @@ class Credits:
 
 
 def credits_of(path: Path) -> Credits:
-    """Credits in the global attributes of a NetCDF file or the tags of a GeoTIFF; of other files none are known."""
+    """Read credits in the global attributes of a NetCDF file or the tags of a GeoTIFF; other files have none."""
     with path.open("rb") as file:
         start = file.read(8)
     if start.startswith(NETCDF):
@@ -83,7 +83,7 @@ def _tags(path: Path) -> Mapping[str, Any]:
 
 
 def credits_among(attributes: Mapping[Any, Any]) -> Credits:
-    """Those of attributes that are known, whatever the case of their names."""
+    """Select credits among attributes, ignoring the case of their names."""
     texts = {str(name).lower(): _text(value) for name, value in attributes.items() if isinstance(value, str)}
     return Credits(
         **{
@@ -94,6 +94,6 @@ def credits_among(attributes: Mapping[Any, Any]) -> Credits:
 
 
 def _text(value: str) -> str:
-    """In one line, and not too long."""
+    """Put a text in one line, and shorten it."""
     line = " ".join(value.split())
     return line if len(line) <= MOST_LETTERS else line[: MOST_LETTERS - 1] + "…"

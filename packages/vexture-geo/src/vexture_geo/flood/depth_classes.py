@@ -9,14 +9,14 @@ from vexture_geo.base.extent import Step
 from vexture_geo.flood.options import contours_of
 
 SEQUENCE: Final = ("#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58")
-"""ColorBrewer's YlGnBu (C. Brewer, 2002): in order for those who are blind to some colours, too, and in gray.
+"""ColorBrewer's YlGnBu (C. Brewer, 2002), whose order is also visible to colour-blind people and in gray.
 
-Its palest colour is left out, since it would not be seen on sand.
+Its palest colour is omitted, because it would not be visible on sand.
 """
 
 
 def colors_of(count: int) -> list[str]:
-    """So many colours from pale to dark, as hexadecimal sRGB.
+    """Return `count` colours from pale to dark, as hexadecimal sRGB.
 
     Examples
     --------
@@ -38,28 +38,28 @@ def _paint_of(color: str) -> Paint:
 
 
 def _between(one: str, other: str | None = None, *, share: float) -> str:
-    """A colour between two."""
+    """Mix two colours."""
     parts = zip(_parts(one), _parts(other or one), strict=True)
     return "#" + "".join(f"{round(a + (b - a) * share):02x}" for a, b in parts)
 
 
 def classes_shown(step: Step, depths: tuple[float, ...]) -> tuple[float, ...]:
-    """Metres from which the classes begin that a map of a step shows: `depths`, or those of a file of classes."""
+    """Lower limits, in metres, of the classes shown for a step: `depths`, or those of a file of classes."""
     return depths if step.classes is None else (step.classes.ranges[0].low, *step.classes.contours)
 
 
 def _is_of(step: Step, depths: tuple[float, ...], hmin: float) -> bool:
-    """Whether the areas of a step are those of the classes that begin at `depths`."""
+    """Return whether the areas of a step are those of the classes that begin at `depths`."""
     if step.classes is not None:
         return classes_shown(step, depths) == depths
     return len(step.deeper) == len(contours_of(depths, hmin)) and step.depth is not None
 
 
 def class_drawing(step: Step, depths: tuple[float, ...], hmin: float, name: str) -> Drawing | None:
-    """Areas of the classes of a step, each over the shallower ones, in their colours.
+    """Draw the areas of a step's classes, each above the shallower ones, in their colours.
 
-    None if all is dry, or the contours between the classes are unknown: of polygons, and of an extent that was read
-    with others, or holds other classes.
+    None if all is dry, or the contours between the classes are unknown: for polygons, for an extent that was read with
+    other contours, and for one with other classes.
     """
     if not step.drawing.paths or not _is_of(step, depths, hmin):
         return None

@@ -1,4 +1,4 @@
-"""A drawn picture of the ground for a user who has none: sand at the shore, land above it, lit from the north-west."""
+"""Draw a picture of the ground for a user who has none: sand at the shore, land above, lit from the north-west."""
 
 from typing import TYPE_CHECKING, Final
 
@@ -26,20 +26,20 @@ WET_SAND, SAND, GRASS, WOOD, ROCK = (
 SEA_SHALLOW, SEA_DEEP = np.array([141, 141, 116], float), np.array([48, 66, 76], float)
 
 BEACH: Final = 0.008
-"""Width of the sand, as a share of the frame's longer side."""
+"""Width of the sand, as a fraction of the frame's longer side."""
 
 FLOOR: Final = 9.0
 """Beach widths over which the sea floor changes from its shallow colour to its deep one."""
 
 LIGHT: Final = np.array([-0.5, 0.5, 0.7]) / np.sqrt(0.99)
-"""Towards the sun: east, north, up."""
+"""Direction of the sun: east, north, up."""
 
 STEEPEST: Final = 3.0
 """Largest exaggeration of slopes. Flat land is lit as if it rose to a twentieth of the longer side."""
 
 
 def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
-    """Picture of the frame, `DRAWN` pixels on the longer side."""
+    """Draw the frame, `DRAWN` pixels on the longer side."""
     from PIL import Image
 
     frame = extent.frame
@@ -51,7 +51,7 @@ def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
     if first is None or most is None:
         distance, wet = np.full(size[::-1], 0.05 * longest), np.zeros(size[::-1])
     else:
-        beyond = beyond_of(extent, relief)  # as its bottom looks, without a beach
+        beyond = beyond_of(extent, relief)  # drawn like its bottom, without a beach
         wet = np.maximum(coverage_over(first.drawing, frame.box, size), cells_of(beyond, size))
         coarse = size_for(frame, FAR)
         cell = (frame.metres[0] / coarse[0], frame.metres[1] / coarse[1])
@@ -80,7 +80,7 @@ def _enlarge(grid: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.flo
 def _blend(
     below: NDArray[np.float64], above: NDArray[np.float64], value: NDArray[np.float64], start: float, end: float
 ) -> NDArray[np.float64]:
-    """Smooth step from one colour to another while a value goes from start to end."""
+    """Blend smoothly from one colour to another as a value goes from start to end."""
     share = np.clip((value - start) / (end - start), 0.0, 1.0)
     share = share * share * (3.0 - 2.0 * share)
     return np.asarray(below + (above - below) * share[..., None])

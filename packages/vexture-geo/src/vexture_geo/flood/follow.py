@@ -1,4 +1,4 @@
-"""A run that is followed: steps that its model writes become steps of the page."""
+"""Follow a run: publish steps that its model writes as steps of the page."""
 
 import asyncio
 import time
@@ -23,25 +23,25 @@ from vexture_geo.flood.credits import Credits, credits_of
 from vexture_geo.flood.scene import labels, step_names
 
 NAMES: Final = step_names(MOST_STEPS)
-"""Of the steps of a followed run: its first ones have names that fit all that may come."""
+"""Names of the steps of a followed run: the first ones already allow for all that may come."""
 
 CONTENT: Final = "content"
-"""Fact of a followed step: a digest of the values that it was made from."""
+"""Key of a followed step's facts: a digest of the values that it was made from."""
 
 LOOK_SECONDS: Final = 0.25
-"""Between two looks at the file; a file that has not changed in this time is read."""
+"""Interval between checks of the file; a file that has not changed in this time is read."""
 
 SETTLING_LOOKS: Final = 8
-"""A file that changes in so many looks one after another is read nevertheless."""
+"""Number of consecutive checks after which a file is read even if it keeps changing."""
 
 RETRY_SECONDS, LONGEST_RETRY = 1.0, 30.0
-"""Pause after a file that could not be read, and twice as long after each further time, up to the longest."""
+"""Pause after a failure to read a file, and the longest pause: each further failure doubles it."""
 
 BATCH_SECONDS: Final = 0.5
-"""Steps that are converted within this time are published together; a slow one is published alone."""
+"""Steps converted within this time are published together; a slow step is published alone."""
 
 _Stamp: TypeAlias = tuple[tuple[str, int, int, int], ...]
-"""Name, inode, size and time of each file of a run; they differ when its content does."""
+"""Name, inode, size and time of each file of a run, which change with its content."""
 
 Say: TypeAlias = Callable[[str], None]
 
@@ -64,7 +64,7 @@ class FollowedRun:
 
     @property
     def stamp(self) -> _Stamp:
-        """State of its files now; empty if there are none."""
+        """Current state of the run's files; empty if there are none."""
         found = []
         for path in files_of(self.path):
             try:
@@ -76,7 +76,7 @@ class FollowedRun:
 
 
 class _Found(NamedTuple):
-    """Steps that were converted together; `is_whole` if there are no more."""
+    """Steps that were converted together; `is_whole` if none remain."""
 
     started_over: bool
     steps: list[tuple[int, KnownStep, PublishedShape]]
@@ -93,11 +93,11 @@ def first_steps(run: FollowedRun, bounds: Bounds | None, report: Say) -> Start:
                 return Start(*whole_run(run.path, bounds=bounds, **run.options), credits_of(run.path), stamp)
             except MissingReferenceError:
                 raise
-            except (SourceError, OSError, RuntimeError) as error:  # netCDF4 raises all of them
+            except (SourceError, OSError, RuntimeError) as error:  # netCDF4 raises each of them
                 if not told:
                     report(f"{run.path}: waiting for its first step ({_reason(error)}); Ctrl-C ends it")
                     told = True
-            again = time.monotonic() + RETRY_SECONDS  # a lock is given up without a change of the file
+            again = time.monotonic() + RETRY_SECONDS  # a lock is released without a change of the file
             while run.stamp == stamp and time.monotonic() < again:
                 time.sleep(LOOK_SECONDS)
 
@@ -110,9 +110,9 @@ async def follow(
     shelf: LimitedShapes,
     report: Say,
 ) -> None:
-    """Publish each new step of a run, and each that has changed; ends only when it is cancelled.
+    """Publish each new or changed step of a run, until it is cancelled.
 
-    `fresh` are those of the first steps that are on the shelf, but not kept yet.
+    `fresh` are the first steps that are on the shelf, but not stored yet.
     """
     worker = Worker()
     follower = _Follower(run, start, conversion, shelf, report, worker)
@@ -138,7 +138,7 @@ class _Follower:
         self._report, self._said = report, set[str]()
 
     async def keep(self, fresh: Sequence[PublishedShape]) -> None:
-        """Keep the first steps, and none of an earlier run that had more."""
+        """Store the first steps, and remove later steps of an earlier run."""
         try:
             for shape in fresh:
                 await self._shelf.publish(shape)
@@ -147,7 +147,7 @@ class _Follower:
             self._report_once(str(error))
 
     async def run(self) -> None:
-        """Look at the file again and again; the first time it is read in any case, and the process is warm then."""
+        """Check the file repeatedly; the first check always reads it, which also warms up the worker process."""
         pause = RETRY_SECONDS
         is_first, has_failed = True, False
         while True:
@@ -161,7 +161,7 @@ class _Follower:
             except (*EXPECTED, BrokenProcessPool, MemoryError) as error:
                 if isinstance(error, BrokenProcessPool):
                     self._worker.kill()
-                if has_failed:  # once is no trouble: the model may have been writing
+                if has_failed:  # one failure is normal: the model may have been writing
                     self._report_once(f"{self._run.path}: no newer step was read ({_reason(error)}); it is tried again")
                 has_failed = True
                 await asyncio.sleep(pause)
@@ -170,13 +170,13 @@ class _Follower:
                 self._stamp, pause, has_failed = stamp, RETRY_SECONDS, False
 
     def _report_once(self, line: str) -> None:
-        """Report a line once."""
+        """Report a line unless it was reported before."""
         if line not in self._said:
             self._said.add(line)
             self._report(line)
 
     async def _wait_until_settled(self) -> _Stamp:
-        """Wait until the file stops changing, so that no half step is shown; return its state."""
+        """Wait until the file stops changing, so that no incomplete step is shown; return its state."""
         stamp = self._run.stamp
         for _ in range(SETTLING_LOOKS):
             await asyncio.sleep(LOOK_SECONDS)
@@ -186,7 +186,7 @@ class _Follower:
         return stamp
 
     async def _take(self, rewritten: bool) -> None:
-        """Publish all that is new in the file."""
+        """Publish everything new in the file."""
         is_whole = False
         while not is_whole:
             found = await self._worker.run(_newer, self._run, self._conversion, tuple(self._known), rewritten)
@@ -198,7 +198,7 @@ class _Follower:
             for place, (number, known, shape) in enumerate(found.steps):
                 await self._shelf.publish(shape)
                 self._known[number : number + 1] = [known]
-                if found.started_over and place == 0:  # not before: the page would lose the step that it shows
+                if found.started_over and place == 0:  # not earlier: the page would lose the step that it shows
                     await self._withdraw_from(1)
             is_whole = found.is_whole
 
@@ -212,7 +212,7 @@ class _Follower:
 
 
 def _newer(run: FollowedRun, conversion: FloodConversion, known: Sequence[KnownStep], rewritten: bool) -> _Found:
-    """Convert what is new in a file, in the process; after some time the rest is left to another call."""
+    """Convert what is new in a file, in the worker process; after some time, leave the rest to another call."""
     load_kernels()
     begun = time.monotonic()
     steps: list[tuple[int, KnownStep, PublishedShape]] = []
@@ -230,12 +230,12 @@ def _shape(change: StepChange, run: GrowingFile, conversion: FloodConversion) ->
 
 
 def with_digest(shape: PublishedShape, known: KnownStep) -> PublishedShape:
-    """Add the digest of its values to a shape."""
+    """Add the digest of its values to a shape's facts."""
     return replace(shape, facts={**shape.facts, CONTENT: known.digest})
 
 
 def is_made_of(shape: PublishedShape, known: KnownStep) -> bool:
-    """Whether a shape says that it was made of these values, at this time."""
+    """Return whether a shape was made of these values at this time, by its facts."""
     time = None if known.time is None else known.time.isoformat()
     return (shape.facts.get(CONTENT), shape.facts.get("time")) == (known.digest, time)
 
@@ -245,7 +245,7 @@ def _inodes(stamp: _Stamp) -> list[tuple[str, int]]:
 
 
 def _reason(error: Exception) -> str:
-    """Message of an error, without a remedy: the model that writes the file will fix it."""
+    """Format an error without its remedy: the model that writes the file will fix it."""
     if isinstance(error, BrokenProcessPool):
         return "its reader crashed"
     return "out of memory" if isinstance(error, MemoryError) else reason_of(error).partition("; ")[0]

@@ -25,7 +25,7 @@ def size_for(frame: Frame, longest: int, least: int = 2) -> tuple[int, int]:
 
 
 def pixels_to(bounds: Bounds, size: tuple[int, int]) -> Any:
-    """Affine map of rasterio from columns and rows of a grid of `size` to bounds."""
+    """Affine transform of rasterio from columns and rows of a grid of `size` to bounds."""
     from rasterio import Affine
 
     west, south, east, north = bounds
@@ -33,7 +33,7 @@ def pixels_to(bounds: Bounds, size: tuple[int, int]) -> Any:
 
 
 def coverage_over(drawing: Drawing, box: Bounds, size: tuple[int, int]) -> NDArray[np.float32]:
-    """Share of each cell that a drawing covers, for a grid of columns and rows over a box of the unit square.
+    """Fraction of each cell that a drawing covers, for a grid of columns and rows over a box of the unit square.
 
     The northernmost row comes first.
 
@@ -52,7 +52,7 @@ def coverage_over(drawing: Drawing, box: Bounds, size: tuple[int, int]) -> NDArr
 
 
 def shore_distance(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.float64]:
-    """Distance of each cell's middle to the nearest cell of the other kind, positive on land, negative in the water.
+    """Distance of each cell's middle to the nearest cell of the other kind: positive on land, negative in water.
 
     `cell` is the width and height of a cell. Where all cells are of one kind, the distance is the grid's diagonal.
 
@@ -68,9 +68,9 @@ def shore_distance(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray
 
 
 def distance_to(marked: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.float64]:
-    """Distance of each cell's middle to the nearest marked cell, infinite without any.
+    """Distance of each cell's middle to the nearest marked cell; infinite if there is none.
 
-    The minimum of squares along the columns, then along the rows.
+    Squares of distances are minimised along the columns, then along the rows.
     """
     squares = np.where(marked, 0.0, np.inf)
     for step in cell[::-1]:
@@ -83,7 +83,7 @@ def distance_to(marked: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray
 def sample_grid(grid: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float64]:
     """Values at `size` columns and rows of points from corner to corner, interpolated between the middles of cells.
 
-    NaN is unknown. A point between known and unknown cells has the value of the known ones.
+    NaN means unknown. A point between known and unknown cells has the value of the known ones.
 
     Examples
     --------
@@ -109,7 +109,7 @@ def sample_grid(grid: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np
 
 
 def coarser(grid: NDArray[np.floating[Any]], size: tuple[int, int]) -> NDArray[np.float64]:
-    """Means of blocks of cells, ignoring NaN, so that no water between samples is missed."""
+    """Average blocks of cells, ignoring NaN, so that no water between samples is missed."""
     down, across = (max(1, cells // samples) for cells, samples in zip(grid.shape, size[::-1], strict=True))
     if down == across == 1:
         return grid.astype(np.float64)
@@ -121,14 +121,14 @@ def coarser(grid: NDArray[np.floating[Any]], size: tuple[int, int]) -> NDArray[n
 
 
 def mean_of(values: NDArray[np.float64], axis: int | tuple[int, ...]) -> NDArray[np.float64]:
-    """Mean without NaN; NaN of nothing."""
+    """Average without NaN; NaN if no value is known."""
     known = np.isfinite(values)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.asarray(np.where(known, values, 0.0).sum(axis) / known.sum(axis))
 
 
 def fill_unknown(grid: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Grid with its unknown values, NaN, filled in from the nearest known ones and slightly smoothed."""
+    """Fill unknown values, NaN, from the nearest known ones, slightly smoothed."""
     from rasterio.fill import fillnodata
 
     known = np.isfinite(grid)
@@ -140,7 +140,7 @@ def fill_unknown(grid: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def noise(size: tuple[int, int], octaves: int = 6) -> NDArray[np.float64]:
-    """Fractal noise from -1 to 1, the same at each call."""
+    """Make fractal noise from -1 to 1, the same at each call."""
     from PIL import Image
 
     random = np.random.default_rng(SEED)

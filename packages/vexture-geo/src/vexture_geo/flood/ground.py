@@ -1,4 +1,4 @@
-"""The picture of the ground under the water: the user's, fitted to the frame, over the drawn one."""
+"""The picture of the ground under the water: the user's picture, fitted to the frame, over the drawn one."""
 
 import warnings
 from io import BytesIO
@@ -32,17 +32,17 @@ MOST_PIXELS: Final = 170_000_000
 """Most pixels of a PNG, JPEG or WebP: a file of a few kilobytes can declare a huge size."""
 
 SHOWN_PERCENTILES: Final = (2.0, 98.0)
-"""Percentiles of bands of more than 8 bits that become black and white."""
+"""Percentiles of bands of more than 8 bits that are mapped to black and white."""
 
 
 def ground_of(
     path: Path, frame: Frame, drawn: "Image.Image", *, bounds_given: bool
 ) -> tuple["Image.Image", list[PageNote]]:
-    """A user's picture of the ground, fitted to the frame, and notes about it.
+    """Fit a user's picture of the ground to the frame; return it with notes.
 
-    A GeoTIFF with a reference system is warped to the frame; a PNG, JPEG or WebP must show exactly the frame, and
-    `bounds_given`: the user has chosen its bounds. `drawn` shows where the picture is transparent or does
-    not reach.
+    A GeoTIFF with a reference system is warped to the frame. A PNG, JPEG or WebP must show exactly the frame;
+    `bounds_given` says whether the user has chosen its bounds. `drawn` is visible where the picture is transparent or
+    does not reach.
     """
     try:
         with path.open("rb") as file:
@@ -63,7 +63,7 @@ def ground_of(
 
 
 def encode_webp(picture: "Image.Image") -> bytes:
-    """WebP of a picture within `LARGEST_GROUND` bytes."""
+    """Encode a picture as WebP within `LARGEST_GROUND` bytes."""
     while True:
         for quality in QUALITIES:
             out = BytesIO()
@@ -74,7 +74,7 @@ def encode_webp(picture: "Image.Image") -> bytes:
 
 
 def _open_picture(path: Path) -> "Image.Image":
-    """A picture in RGBA; one that is too large is refused before it is decoded."""
+    """Open a picture in RGBA; one that is too large is refused before it is decoded."""
     from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
@@ -96,7 +96,7 @@ def _open_picture(path: Path) -> "Image.Image":
 
 
 def _warp_to_frame(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[PageNote]]:
-    """A GeoTIFF warped to the frame, over the drawn ground."""
+    """Warp a GeoTIFF to the frame, over the drawn ground."""
     from PIL import Image
     from rasterio.errors import CRSError, RasterioError, RasterioIOError
 
@@ -127,7 +127,7 @@ def _warp_to_frame(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Ima
 
 
 def _bands_over(raster: Any, frame: Frame) -> tuple[Any, Any]:
-    """Bands of a raster warped to the frame, and their opacity, 0 to 255."""
+    """Warp the bands of a raster to the frame; return them with their opacity, 0 to 255."""
     from rasterio.enums import ColorInterp, Resampling
     from rasterio.vrt import WarpedVRT
     from rasterio.warp import transform_bounds
@@ -169,7 +169,7 @@ def _stretch_brightness(bands: Any, known: Any) -> Any:
 
 
 def _over(drawn: "Image.Image", picture: "Image.Image") -> "Image.Image":
-    """A picture in RGBA over the drawn ground, in RGB."""
+    """Paste a picture in RGBA over the drawn ground, in RGB."""
     from PIL import Image
 
     below = drawn.resize(picture.size, Image.Resampling.BICUBIC).convert("RGBA")

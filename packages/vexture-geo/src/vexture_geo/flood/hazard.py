@@ -1,8 +1,8 @@
-"""Hazard to people, where the speed of the water is known beside its depth.
+"""Hazard to people, where the speed of the water is known as well as its depth.
 
 The rating is depth times (speed + 0.5), with the thresholds of Defra and the Environment Agency, *Flood Risks to
-People*, FD2320 and FD2321 (2005, 2006). Their term for debris depends on what lies on the ground, which no file says:
-it is left out.
+People*, FD2320 and FD2321 (2005, 2006). Their debris term is omitted, because it depends on what lies on the ground,
+which no file states.
 """
 
 from io import BytesIO
@@ -16,7 +16,7 @@ from vexture_geo.flood.grids import coarser, sample_grid
 
 
 class HazardClass(NamedTuple):
-    """A class of the rating, from its lowest value, with its colour and what it says."""
+    """Class of the rating: its lowest value, its colour and its description."""
 
     least: float
     color: str
@@ -32,10 +32,10 @@ HAZARDS: Final = (
 """Classes of the rating in ColorBrewer's YlOrRd (C. Brewer, 2002), darker from class to class."""
 
 OFFSET: Final = 0.5
-"""Metres a second: deep water is a danger where it stands, too."""
+"""Metres a second, added to the speed because still deep water is dangerous, too."""
 
 UNIT: Final = 0.01
-"""Of the ratings in a picture, which ends at 2.54: all that is more is of the last class."""
+"""Step of the ratings in a picture, which ends at 2.54: higher ratings are all in the last class."""
 
 
 def rating(depth: NDArray[Any], speed: NDArray[Any]) -> NDArray[np.float64]:
@@ -50,9 +50,9 @@ def rating(depth: NDArray[Any], speed: NDArray[Any]) -> NDArray[np.float64]:
 
 
 def hazard_png(step: Step, size: tuple[int, int], hmin: float) -> bytes | None:
-    """Ratings of a step at columns and rows of samples, as an 8-bit gray PNG; None if its speeds are not known.
+    """Encode the ratings of a step at columns and rows of samples as an 8-bit gray PNG; None if speeds are unknown.
 
-    1 is a rating of 0, each further number `UNIT` more; 0 is dry or unknown.
+    1 is a rating of 0, and each further number adds `UNIT`; 0 is dry or unknown.
     """
     from PIL import Image
 

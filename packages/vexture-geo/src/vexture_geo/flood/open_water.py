@@ -1,4 +1,4 @@
-"""Shores of open water, where waves arrive: not in rivers, harbours and flooded streets, nor in acute corners."""
+"""Shores of open water, where waves arrive: not rivers, harbours, flooded streets or acute corners."""
 
 import base64
 from io import BytesIO
@@ -15,23 +15,23 @@ SAMPLES: Final = 256
 """Most samples on the longer side."""
 
 RADIUS: Final = 250.0
-"""Metres. Water is open as far as a disc of this radius fits into it: twice that is the fetch of the smallest surf."""
+"""Metres. Water is open where a disc of this radius fits into it: twice that is the fetch of the smallest surf."""
 
 WIDE: Final = 1000.0
-"""Metres. And only of water into which a disc of this radius fits somewhere: neither of a pond nor of a wide river."""
+"""Metres. Only water into which a disc of this radius fits somewhere is open: no pond and no wide river."""
 
 LEAST_CELLS: Final = 2.0
-"""Least of these radii in cells, where these are larger."""
+"""Least size of these radii in cells, for coarse grids."""
 
 MOST_CELLS: Final = 32.0
-"""Most of these radii in cells, whatever is finer."""
+"""Largest size of these radii in cells, which limits the resolution."""
 
 FADE: Final = (0.004, 0.02)
-"""Distance from open water at which waves begin to fade, and at which they have ended; shares of the longer side."""
+"""Distances from open water at which waves begin to fade and have ended, as fractions of the longer side."""
 
 
 CALM: Final = (0.016, 0.03)
-"""Distance from where the source ends in the sea at which waves have ended, and at which they begin to; the same."""
+"""Distances from the end of the source in the sea at which waves have ended and begin to fade, likewise."""
 
 
 def open_water(
@@ -39,9 +39,9 @@ def open_water(
 ) -> NDArray[np.float64]:
     """Openness of the water at rest, 1 in open water and 0 far from it, on a grid over the frame.
 
-    The northernmost row comes first. Water is open where a disc fits into it (a morphological opening), if it is wide
-    somewhere; it goes on beyond the frame as at its border. With `most`, the water when there is most of it, waves do
-    not get over land that stays dry: behind a dike the water is calm. The sea goes on where it is `beyond` the source
+    The northernmost row comes first. Water is open where a disc fits into it (a morphological opening), if a larger one
+    fits somewhere; beyond the frame it continues as at its border. With `most`, the water at its largest extent, waves
+    do not cross land that stays dry, so that water behind a dike is calm. The sea continues `beyond` the source
     (`vexture_geo.flood.relief.beyond_of`).
     """
     longest = max(frame.metres)
@@ -67,9 +67,9 @@ def _middles(wet: NDArray[np.bool_], cell: tuple[float, float], radius: float) -
 
 
 def _within(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.bool_]:
-    """Water without what is narrow within the frame: a street along its border goes on beyond it as no sea.
+    """Remove water that is narrow within the frame: a street along its border does not continue as a sea.
 
-    Half of the wide water may be beyond the border.
+    Half of the wide water may lie beyond the border.
     """
     radius = max(RADIUS / 2.0, LEAST_CELLS / 2.0 * max(cell))
     middles = distance_to(~np.pad(wet, 1), cell) >= radius
@@ -86,7 +86,7 @@ def _wide(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.bool_
 
 
 def calm_waves(openness: NDArray[np.float64], frame: Frame, beyond: NDArray[np.bool_] | None) -> NDArray[np.float64]:
-    """Openness without waves where the source ends in the sea: its end is no shore."""
+    """Fade waves where the source ends in the sea, because its end is no shore."""
     if beyond is None:
         return openness
     rows, columns = openness.shape
@@ -97,7 +97,7 @@ def calm_waves(openness: NDArray[np.float64], frame: Frame, beyond: NDArray[np.b
 
 
 def cells_of(samples: NDArray[np.bool_] | None, size: tuple[int, int]) -> NDArray[np.bool_]:
-    """Samples from corner to corner as cells: each has the value of the sample that is nearest to its middle."""
+    """Convert samples from corner to corner to cells, each with the value of the sample nearest to its middle."""
     if samples is None:
         return np.zeros(size[::-1], bool)
     at = (
@@ -107,9 +107,9 @@ def cells_of(samples: NDArray[np.bool_] | None, size: tuple[int, int]) -> NDArra
 
 
 def _before_land(away: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Find where waves arrive from open water, and the first cell of the land behind: the shore runs between.
+    """Find water that waves reach from open water, and the first cell of the land behind, between which the shore runs.
 
-    They get no farther on their way around land than where they fade without it.
+    On their way around land, waves get no farther than the distance at which they fade without it.
     """
     reached = (away <= 0.0) & wet
     for _ in range(int(np.ceil(FADE[1] * max(wet.shape)))):
@@ -118,14 +118,14 @@ def _before_land(away: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[n
 
 
 def _around(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Cells, and all that touch one."""
+    """Mark cells and their eight neighbours."""
     rows, columns = cells.shape
     padded = np.pad(cells, 1)
     return np.asarray(np.any([padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)], axis=0))
 
 
 def _grow_seeds(seeds: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Cells that seeds reach without leaving `inside` (morphological reconstruction, Vincent 1993)."""
+    """Mark cells that seeds reach without leaving `inside` (morphological reconstruction, Vincent 1993)."""
     while True:
         grown = seeds.copy()
         for way in (grown, grown[::-1], grown.T, grown.T[::-1]):
@@ -137,7 +137,7 @@ def _grow_seeds(seeds: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[
 
 
 def openness_at(openness: NDArray[np.float64], frame: Frame, places: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Openness at places of the unit square, (..., 2); beyond the frame as at its border."""
+    """Openness at places of the unit square, (..., 2); beyond the frame it is that at its border."""
     x0, y0, x1, y1 = frame.box
     rows, columns = openness.shape
     column = np.clip((places[..., 0] - x0) / (x1 - x0) * columns, 0, columns - 1).astype(int)
@@ -146,7 +146,7 @@ def openness_at(openness: NDArray[np.float64], frame: Frame, places: NDArray[np.
 
 
 def openness_png(openness: NDArray[np.float64]) -> str:
-    """Data URL of an 8-bit gray PNG."""
+    """Encode openness as the data URL of an 8-bit gray PNG."""
     from PIL import Image
 
     out = BytesIO()

@@ -17,16 +17,16 @@ PERIOD: Final = 8.0
 """Default seconds between two waves on a beach."""
 
 DEPTHS: Final = (0.0, 0.2, 0.5, 1.0, 2.0, 5.0)
-"""Metres from which the classes of the map of depths begin."""
+"""Default depths, in metres, at which the classes of the map of depths begin."""
 
 MOST_CLASSES: Final = 8
 
 SHORTEST_PERIOD, LONGEST_PERIOD = 0.1, 600.0
 MOST_AMPLITUDE: Final = 0.05
-"""Largest amplitude, as a share of the frame's longer side."""
+"""Largest amplitude, as a fraction of the frame's longer side."""
 
 SHARE: Final = 0.002
-"""Default amplitude, as a share of the longer side."""
+"""Default amplitude, as a fraction of the longer side."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,7 @@ class FloodOptions:
             raise ParameterError(f"`workers` {self.workers}: it is a number of processes, 1 or more")
 
     def executor(self) -> "Workers":
-        """Executor of the conversion: the workers of a scheduler, several processes, or this one."""
+        """Executor of the conversion: the workers of a scheduler, several processes, or this process."""
         from vexture.base.workers import Cluster, InProcess, Processes
 
         if self.scheduler is not None:
@@ -88,11 +88,11 @@ class FloodOptions:
 
     @property
     def contours(self) -> tuple[float, ...]:
-        """Metres at which one class of the map of depths ends and the next one begins."""
+        """Depths, in metres, between consecutive classes of the map of depths."""
         return contours_of(self.depths, self.hmin)
 
     def amplitude_in(self, longest: float) -> float:
-        """Amplitude of the shoreline in metres, in a frame whose longer side has this many metres."""
+        """Amplitude of the shoreline in metres, in a frame whose longer side has `longest` metres."""
         if self.amplitude is None:
             return SHARE * longest
         if self.amplitude > MOST_AMPLITUDE * longest:
@@ -104,7 +104,7 @@ class FloodOptions:
 
 
 def contours_of(depths: tuple[float, ...], hmin: float) -> tuple[float, ...]:
-    """Metres at which one class ends and the next one begins, of classes that begin at `depths`.
+    """Depths, in metres, between consecutive classes that begin at `depths`.
 
     Examples
     --------
@@ -115,7 +115,7 @@ def contours_of(depths: tuple[float, ...], hmin: float) -> tuple[float, ...]:
 
 
 def depths_of(text: str) -> tuple[float, ...]:
-    """Depths that a user has written as 0.2,0.5,1; the first class begins at 0.
+    """Parse depths that a user has written as 0.2,0.5,1; the first class begins at 0.
 
     Examples
     --------
@@ -133,7 +133,7 @@ def depths_of(text: str) -> tuple[float, ...]:
 
 
 def classes_of(depths: Sequence[float]) -> tuple[float, ...]:
-    """Depths at which classes begin; the first class begins at 0.
+    """Add the class that begins at 0 to depths at which classes begin, unless it is there.
 
     Examples
     --------
@@ -144,7 +144,7 @@ def classes_of(depths: Sequence[float]) -> tuple[float, ...]:
 
 
 def bounds_of(text: str) -> tuple[float, float, float, float]:
-    """Bounds that a user has written as W,S,E,N.
+    """Parse bounds that a user has written as W,S,E,N.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The page of a flood in a notebook or a program: `flood_page` makes what `vexture flood -o` writes."""
+"""Page of a flood for a notebook or a program: `flood_page` makes what `vexture flood -o` writes."""
 
 import html
 import os
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from vexture_geo.flood.credits import Credits
 
 HEIGHT: Final = 600
-"""Pixels of the page in a notebook."""
+"""Height of the page in a notebook, in pixels."""
 
 UNNAMED: Final = "flood"
 """Title of a flood that no file and no option names."""
 
 READING: Final = ("bounds", "time_dim", "variable", "layer")
-"""Parameters of the reader: an extent has been read."""
+"""Parameters of the reader, which an extent that has been read cannot use."""
 
 KNOWN: Final = frozenset(one.name for one in fields(FloodOptions)) - {"extent"}
 """Parameters of a flood."""
@@ -37,18 +37,18 @@ FRAME: Final = (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FloodPage:
-    """A page that shows a flood and contains all that it needs; a notebook shows it as the value of a cell.
+    """A self-contained page that shows a flood; a notebook shows it as the value of a cell.
 
     Parameters
     ----------
     html : str
-        The page.
+        HTML of the page.
     title : str
-        Its title.
+        Title of the page.
     described : str
-        What it holds, in one line.
+        Summary in one line.
     height : int
-        Its height in a notebook, in pixels.
+        Height in a notebook, in pixels.
     """
 
     html: str = field(repr=False)
@@ -73,7 +73,7 @@ class FloodPage:
         write_together({Path(path): self.html.encode()})
 
     def _repr_html_(self) -> str:
-        """The page within another: notebooks ask for it by this name."""
+        """Frame the page within a notebook's page; notebooks call this method."""
         page, title = (html.escape(text, quote=True) for text in (self.html, self.title))
         return FRAME.format(page=page, title=title, height=self.height)
 
@@ -95,8 +95,8 @@ def flood_page(
     Parameters
     ----------
     source : path, Dataset, DataArray or Extent
-        Where water is: a file as of `vexture.read_extent`; depths as xarray holds them, of which one step at a time is
-        read; or an extent that has been read.
+        Wet places: a file that `vexture.read_extent` reads; depths in xarray, which are read one step at a time; or an
+        extent that has been read.
     height : int
         Height in a notebook, in pixels.
     ground : path, optional
@@ -106,9 +106,9 @@ def flood_page(
     depths : sequence of float
         Depths in metres at which the classes of the map begin.
     **options
-        As of the command: `bounds`, `crs`, `time_dim`, `hmin`, `variable` and `layer` of `vexture.read_extent`; the
-        waves' `amplitude` in metres and `period` in seconds; `title`, `source` and `licence`, texts that go before what
-        the data say of themselves.
+        Options of the command: `bounds`, `crs`, `time_dim`, `hmin`, `variable` and `layer` of `vexture.read_extent`;
+        the waves' `amplitude` in metres and `period` in seconds; `title`, `source` and `licence`, texts that replace
+        those in the data.
 
     Returns
     -------
@@ -131,7 +131,7 @@ def flood_page(
     Warns
     -----
     SourceWarning
-        Once, of what was left out or chosen while the data were read.
+        One warning with all that was left out or chosen while reading.
 
     Examples
     --------
@@ -169,7 +169,7 @@ def flood_page(
 
 
 def _read(source: Any, options: FloodOptions) -> "tuple[Extent, Credits]":
-    """A source as an extent, and what it says of itself."""
+    """Read a source as an extent, with its credits."""
     from vexture_geo.flood.credits import credits_among, credits_of
     from vexture_geo.readers import read_extent
 

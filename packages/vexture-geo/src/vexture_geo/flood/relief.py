@@ -1,9 +1,9 @@
-"""Heights of the ground over the frame: of the user's file, of the source's bed, or invented.
+"""Heights of the ground over the frame: from the user's file, from the source's bed, or invented.
 
 Heights are metres above the *still water*: the level of the first step's water, which is the median height of the
-ground along its shore. So the shore is at 0 whatever the datum of the heights, for a beach and for the bank of a river
-ten metres above the sea. Where the water follows sloping ground, wet places can be above 0; the page then puts the
-water onto the ground. The page also decides how much it exaggerates heights.
+ground along its shore. The shore is therefore at 0 whatever the datum of the heights, both for a beach and for the bank
+of a river ten metres above the sea. Where the water follows sloping ground, wet places can be above 0, and the page
+drapes the water over the ground. The page also decides how much it exaggerates heights.
 """
 
 import base64
@@ -29,23 +29,23 @@ FINEST_UNIT: Final = 1e-3
 """Metres. The smallest unit of heights on the page; high ground needs a larger one."""
 
 HIGHEST: Final = 32_000
-"""Units of the highest place, within signed 16 bits."""
+"""Number of the highest place in units, within signed 16 bits."""
 
 LAND_RISE, LAND_REACH = 0.03, 0.2
 SEA_FALL, SEA_REACH = 0.02, 0.25
-"""Invented ground: how far it rises and falls, and over which distance from the shore; shares of the longer side."""
+"""Invented ground: its rise or fall, and the distance from the shore this takes; fractions of the longer side."""
 
 BEACH: Final = 0.03
-"""Invented ground: the share of the longer side within which it is nearly level at the shore."""
+"""Invented ground: distance from the shore within which it is nearly level, as a fraction of the longer side."""
 
 PLAIN_RISE: Final = 0.001
-"""Invented ground that later steps flood: how far it rises, as a share of the longer side."""
+"""Rise of invented ground that later steps flood, as a fraction of the longer side."""
 
 ENDS: Final = 2
-"""Samples around what is beyond the source in which its water ends."""
+"""Samples beyond the source's end within which its water ends."""
 
 ROUGHNESS: Final = 0.5
-"""Invented ground: amplitude of the noise, as a share of its height."""
+"""Invented ground: amplitude of the noise, as a fraction of its height."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,8 +53,8 @@ class Relief:
     """Heights of the ground.
 
     `heights` are metres above the still water, the northernmost row first, on a regular grid from corner to corner of
-    the frame. `known` is the share of them that is measured or under water, unless all are invented. `still` is the
-    still water in metres above the zero of their source.
+    the frame. `known` is the fraction of them that is measured or under water, unless all are invented. `still` is the
+    level of the still water in metres above the zero of the heights' source.
     """
 
     heights: NDArray[np.float64]
@@ -63,7 +63,7 @@ class Relief:
     still: float = 0.0
 
     def as_json(self) -> dict[str, Any]:
-        """Heights for the page: 16-bit numbers and their unit in metres, in a data URL."""
+        """Encode heights for the page: 16-bit numbers in a data URL, with their unit in metres."""
         unit = max(FINEST_UNIT, float(np.abs(self.heights).max()) / HIGHEST)
         numbers = np.rint(self.heights / unit).astype("<i2")
         address = f"data:application/octet-stream;base64,{base64.b64encode(numbers.tobytes()).decode()}"
@@ -86,7 +86,7 @@ def widest(extent: Extent) -> Step | None:
 
 
 def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) -> Relief:
-    """Heights of a raster file, else of the bed, else invented from the distance to the shore.
+    """Heights from a raster file, or else from the bed, or else invented from the distance to the shore.
 
     `crs` is the reference system of the file, if it names none.
     """
@@ -115,9 +115,9 @@ def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) 
 
 
 def beyond_of(extent: Extent, relief: Relief) -> NDArray[np.bool_] | None:
-    """Samples beyond the source's bed where the ground goes on below the still water; None if there are none.
+    """Samples beyond the source's bed where the ground continues below the still water; None if there are none.
 
-    A model of the sea ends in it: there is no shore there, and no land behind.
+    A model of the sea ends within it, with neither a shore nor land behind.
     """
     if extent.bed is None:
         return None
@@ -138,7 +138,7 @@ def wet_samples(step: Step, frame: Frame, size: tuple[int, int]) -> NDArray[np.b
 
 
 def _dig_rivers(heights: NDArray[np.float64], still: float, extent: Extent, step: Step | None) -> NDArray[np.float64]:
-    """Heights with the beds of narrow rivers, which their banks would hide: where it is wet, of wet cells alone."""
+    """Lower heights at wet cells to the beds of narrow rivers, which their banks would hide."""
     if step is None or step.depth is None or extent.bed is None:
         return heights
     size = (heights.shape[1], heights.shape[0])
@@ -147,7 +147,7 @@ def _dig_rivers(heights: NDArray[np.float64], still: float, extent: Extent, step
 
 
 def _shore_level(heights: NDArray[np.float64], wet: NDArray[np.bool_], known: NDArray[np.bool_]) -> float:
-    """Median height halfway between wet samples and their dry neighbours; else that of the highest wet sample."""
+    """Median height halfway between wet samples and dry neighbours, or else the height of the highest wet sample."""
     middles = []
     for grid, water, sure in ((heights, wet, known), (heights.T, wet.T, known.T)):
         crossed = (water[:-1] != water[1:]) & sure[:-1] & sure[1:]
@@ -159,7 +159,7 @@ def _shore_level(heights: NDArray[np.float64], wet: NDArray[np.bool_], known: ND
 
 
 def _invent_heights(extent: Extent, size: tuple[int, int]) -> NDArray[np.float64]:
-    """Land that rises and a sea floor that falls with the distance to the shore; real depths where they are known."""
+    """Invent land that rises and a sea floor that falls with distance from the shore; known depths are kept."""
     frame = extent.frame
     longest = max(frame.metres)
     cell = (frame.metres[0] / (size[0] - 1), frame.metres[1] / (size[1] - 1))
@@ -184,7 +184,7 @@ def _invent_heights(extent: Extent, size: tuple[int, int]) -> NDArray[np.float64
 
 
 def _beach_profile(distance: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-    """Profile from 0 to 1 with the distance, level at the shore, as a beach is."""
+    """Profile from 0 to 1 with the distance, level at the shore like a beach."""
     return np.asarray((1.0 - np.exp(-distance / reach)) * distance / (distance + BEACH))
 
 

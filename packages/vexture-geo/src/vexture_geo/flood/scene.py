@@ -1,4 +1,4 @@
-"""The data of a flood's page: all of it but the water, and the names and times of the steps of the water."""
+"""Data of a flood's page: everything except the water, and the names and times of its steps."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -19,20 +19,20 @@ from vexture_geo.flood.relief import Relief
 from vexture_geo.flood.views import FloodView
 
 PREFIX: Final = "flood"
-"""Name of a flood's shape on a server, or with a slash the start of it."""
+"""Name of a flood's shape on a server; followed by a slash, the prefix of names of several."""
 
 GEODETIC: Final = 9
-"""Places along each side at which longitude and latitude are computed: between them they are interpolated."""
+"""Places along each side with a longitude and latitude, between which the page interpolates."""
 
 ARRIVALS: Final = 6
-"""Classes of times of arrival; the first to come is the darkest."""
+"""Number of classes of arrival times; the earliest is the darkest."""
 
 MONTHS: Final = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
-"""In English, whatever the locale."""
+"""English names of months, whatever the locale."""
 
 
 class PageNote(NamedTuple):
-    """A remark on the page, and what the author of the page can do about it."""
+    """A remark on the page, and a remedy for the author of the page."""
 
     text: str
     remedy: str
@@ -40,12 +40,11 @@ class PageNote(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Flood:
-    """All of a page but its water.
+    """Everything on a page except its water.
 
-    `credits` is what the data say of themselves, and `depths` the metres from which the classes of the map of depths
-    begin; the last one ends at `end`, which may be infinite. `ground` is an encoded picture of the frame; `fold` is a
-    file that moves the shoreline; `openness` says where waves are (`vexture_geo.flood.open_water`); `views` are what to
-    look at beside the whole box.
+    `credits` are those of the data. The classes of the map of depths begin at `depths`, in metres; the last one ends at
+    `end`, which may be infinite. `ground` is an encoded picture of the frame; `fold` is a file that moves the shore;
+    `openness` says where waves are (`vexture_geo.flood.open_water`); `views` are views of parts of the box.
     """
 
     title: str
@@ -95,7 +94,7 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
 
 
 def _colour_classes(depths: tuple[float, ...], end: float) -> list[dict[str, Any]]:
-    """Classes of depth, in metres from which they begin, with their colours, and the end of the last if it has one."""
+    """Classes of depth with the metres at which they begin and their colours; the last also with its end, if any."""
     found: list[dict[str, Any]] = [
         {"from": depth, "color": color} for depth, color in zip(depths, colors_of(len(depths)), strict=True)
     ]
@@ -107,7 +106,7 @@ def _colour_classes(depths: tuple[float, ...], end: float) -> list[dict[str, Any
 def _geodetic(frame: Frame) -> dict[str, Any] | None:
     """Longitude and latitude (WGS 84) on a grid over the frame from its north-west, from corner to corner.
 
-    None if the frame is in degrees itself, or in no known place.
+    None if the frame itself is in degrees, or in no known place.
     """
     if frame.crs == UNPLACED or system(frame.crs).is_geographic:
         return None
@@ -132,7 +131,7 @@ def step_names(count: int) -> list[str]:
 
 
 def labels(times: Sequence[datetime | None]) -> list[str]:
-    """Times for people, with seconds if any time has them; empty for a step without a time.
+    """Format times for people, with seconds if any time has them; empty for a step without a time.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""`vexture flood`: the user's files as one page, or on a server that accepts newer ones."""
+"""`vexture flood`: show the user's files as one page, or on a server that accepts newer ones."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, closing, suppress
@@ -27,7 +27,7 @@ from vexture_geo.flood.credits import Credits
 from vexture_geo.flood.options import FloodOptions
 from vexture_geo.flood.scene import PREFIX, Flood, PageNote, labels, scene, step_names
 
-if TYPE_CHECKING:  # at run time only what a flood needs is imported
+if TYPE_CHECKING:  # at run time, only what a flood needs is imported
     from socket import socket
 
     from vexture_geo.flood.follow import Start
@@ -45,13 +45,13 @@ DRY: Final = PageNote("Nothing is under water.", "")
 SHELTERED: Final = PageNote("No shore is open to waves, so none run up it.", "")
 
 LESS: Final = 0.95
-"""Share of the given amplitude: users are told if waves reach less."""
+"""Fraction of the requested amplitude below which a note says that waves reach less far."""
 
 WHOLE: Final = 0.995
-"""Share of the ground whose height is known: users are told if it is less."""
+"""Fraction of the ground with known heights below which a note says so."""
 
 Say = Callable[[str], None]
-"""Takes a line for the user."""
+"""Reports a line to the user."""
 
 
 class ReadyFlood(NamedTuple):
@@ -63,7 +63,7 @@ class ReadyFlood(NamedTuple):
 
     @property
     def texture_bytes(self) -> int:
-        """Bytes of all textures, as they are sent."""
+        """Size of all textures as they are sent, in bytes."""
         return sum(len(shape.texture.data) for shape in self.shapes)
 
     @property
@@ -89,10 +89,10 @@ def make_flood(
     store: "FloodStore | None" = None,
     source: tuple[Extent, Credits] | None = None,
 ) -> ReadyFlood:
-    """Read all files of a flood and convert them; `report` gets warnings and notes for the user.
+    """Read all files of a flood and convert them; `report` receives warnings and notes for the user.
 
-    `start` holds the first steps of a followed run; those that the `store` has already are not converted again. With
-    `source`, an extent and its credits, no extent is read.
+    `start` holds the first steps of a followed run; steps that are already in the `store` are not converted again. With
+    `source`, an extent and its credits, no file of an extent is read.
     """
     from vexture_geo.flood.credits import credits_of
     from vexture_geo.flood.depth_classes import classes_shown
@@ -149,7 +149,7 @@ def make_flood(
 
 
 def _on_page(name: str, notes: Sequence[Note]) -> Iterator[PageNote]:
-    """Notes of a file for those who look at its page: without remedies for its author."""
+    """Rewrite the notes of a file for readers of its page, without remedies for its author."""
     for note in notes:
         text, _, remedy = str(note).partition("; ")
         heading = HEADINGS[note.kind]
@@ -164,7 +164,7 @@ def _shapes(
     store: "FloodStore | None",
     workers: Workers,
 ) -> list[PublishedShape]:
-    """Shapes of the steps; of a followed run, only those that are new or have changed are converted."""
+    """Convert the steps; of a followed run, only those that are new or have changed."""
     from vexture_geo.flood.follow import NAMES, is_made_of, with_digest
 
     steps, told = extent.steps, labels([step.time for step in extent.steps])
@@ -183,7 +183,7 @@ def _shapes(
 def _shore(
     options: FloodOptions, extent: Extent, amplitude: float, beyond: NDArray[np.bool_] | None
 ) -> tuple[bytes | None, NDArray[np.float64] | None, list[PageNote]]:
-    """File that moves the shore, where there are waves, and remarks about both."""
+    """Make the file that moves the shore, the openness of the water, and remarks about both."""
     from vexture_geo.flood.open_water import calm_waves, open_water
     from vexture_geo.flood.relief import first_wet, widest
 
@@ -225,7 +225,7 @@ def _read(options: FloodOptions) -> Extent:
 def _fold(
     drawing: Drawing, openness: NDArray[np.float64], amplitude: float, period: float, frame: Frame
 ) -> tuple[bytes, float]:
-    """File that moves the shore of open water up and down the beach, and its largest shift in metres."""
+    """Make the file that moves the shore of open water along the beach; return it and its largest shift in metres."""
     from vexture.fold.shore import fold_of_shore
     from vexture_geo.base.extent import MARGIN
     from vexture_geo.flood.open_water import openness_at
@@ -242,9 +242,9 @@ def _fold(
 def export(
     options: FloodOptions, output: Path | None, video: "VideoOptions | None", report: Say, track: "Track"
 ) -> WrittenFlood:
-    """Write one page that needs nothing else, a video of it, or both.
+    """Write one self-contained page, a video of it, or both.
 
-    `track` goes through the frames of the video, and may show how far it is.
+    `track` iterates over the frames of the video, and may show progress.
     """
     from vexture.texture.files import writable, write_together
 
@@ -265,7 +265,7 @@ def export(
 
 
 def page_of(ready: ReadyFlood) -> bytes:
-    """One page that needs nothing else."""
+    """Make one self-contained page."""
     from vexture_geo.flood.ground import GROUND_TYPE
 
     flood = ready.flood
@@ -282,8 +282,8 @@ def page_of(ready: ReadyFlood) -> bytes:
 class ServerOptions:
     """Options of a flood's server.
 
-    Without a token nothing can be pushed, and only requests to the server's own address are answered. With `follows`
-    the extent is a file that a model writes. In the folder `keep` are pushed and followed steps, for the next start.
+    Without a token nothing can be pushed, and only requests to the server's own address are answered. With `follows`,
+    the extent is a file that a model writes. The folder `keep` stores pushed and followed steps for the next start.
     """
 
     host: str
@@ -304,7 +304,7 @@ def serve(
 ) -> None:
     """Serve a flood until Ctrl-C or SIGTERM.
 
-    `report` takes warnings and notes for the user, `show` the address and what is shown there.
+    `report` receives warnings and notes for the user; `show` receives the address and the flood.
     """
     from vexture.server.listen import bind
     from vexture.server.tokens import read_token
@@ -323,7 +323,7 @@ def serve(
 
 
 def _publish_shapes(shapes: Sequence[PublishedShape], shelf: LimitedShapes, *, over: bool) -> list[PublishedShape]:
-    """Publish shapes that are new, `over` older ones or not (a pushed shape is newer), and return them."""
+    """Publish new shapes, replacing older ones only if `over` (a pushed shape is newer), and return the new ones."""
     fresh = [shape for shape in shapes if shelf.shape(shape.name) is not shape]
     for shape in fresh:
         if over or shelf.shape(shape.name) is None:

@@ -1,4 +1,4 @@
-"""The water of a flood's server that is kept on disk, with the ground that it stands on."""
+"""Stored water of a flood's server, with the ground on which it stands."""
 
 import hashlib
 import json
@@ -27,7 +27,7 @@ NAMED: Final = {
     "depths": "classes of depth",
     "ground": "ground",
 }
-"""What kept water belongs to, as people call it."""
+"""Facts that identify the flood of stored water, as people name them."""
 
 MOST_SHOWN: Final = 60
 
@@ -35,10 +35,10 @@ REMEDY: Final = "choose another folder"
 
 
 class FloodStore(Folder):
-    """The pushed and followed steps of one flood.
+    """Pushed and followed steps of one flood.
 
-    Beside them is what they belong to: the frame, and the relief on which their levels stand. An invented relief
-    depends on the steps that there were at the first start of the server, so later starts take the one that is kept.
+    The folder also stores what the steps depend on: the frame, and the relief on which their levels stand. An invented
+    relief depends on the steps at the first start of the server, so later starts use the stored one.
     """
 
     def __init__(self, path: Path, limits: Limits, report: Callable[[str], None]) -> None:
@@ -55,7 +55,7 @@ class FloodStore(Folder):
         DeviceError
             If it cannot be read or written.
         """
-        facts = json.loads(json.dumps(_facts(options, extent)))  # numbers as they come back
+        facts = json.loads(json.dumps(_facts(options, extent)))  # numbers as JSON returns them
         try:
             before = json.loads((self._place / RECORD).read_bytes())
             if not isinstance(before, dict):
@@ -78,7 +78,7 @@ class FloodStore(Folder):
             with np.load(self._place / GROUND, allow_pickle=False) as kept:
                 invented, known, still = kept["numbers"].tolist()
                 return Relief(kept["heights"], bool(invented), known, still)
-        except Exception as error:  # of a damaged file NumPy and zipfile raise any type of exception
+        except Exception as error:  # NumPy and zipfile raise any type of exception for a damaged file
             raise self._damage_error(GROUND, error) from None
 
     def _write_relief(self, facts: dict[str, Any], relief: Relief) -> Relief:
@@ -96,7 +96,7 @@ class FloodStore(Folder):
 
 
 def _facts(options: FloodOptions, extent: Extent) -> dict[str, Any]:
-    """Facts that tell the flood of a server from others."""
+    """Facts that distinguish the flood of a server from others."""
     frame = extent.frame
     if options.relief is not None:
         digest = hashlib.sha256(options.relief.read_bytes()).hexdigest()
@@ -110,5 +110,5 @@ def _facts(options: FloodOptions, extent: Extent) -> dict[str, Any]:
 
 
 def _format_fact(value: Any) -> str:
-    """A fact in a message."""
+    """Format a fact for a message."""
     return ",".join(f"{one:.10g}" for one in value) if isinstance(value, list) else str(value)

@@ -1,4 +1,4 @@
-"""The water's surface at one time: its own level at every place, on sloping rivers and in ponds at several heights."""
+"""Surface of the water at one time, with a level at each place, for sloping rivers and ponds at several heights."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,34 +13,34 @@ from vexture_geo.flood.grids import coarser, mean_of, sample_grid
 from vexture_geo.flood.relief import Relief, wet_samples
 
 FINEST_UNIT: Final = 0.005
-"""Metres. The smallest unit of levels on the page: finer ones would not be seen, and would not compress."""
+"""Metres. Smallest unit of levels on the page: finer ones would be invisible and would compress badly."""
 
 BESIDE: Final = 1 << 15
-"""In a picture of levels, what is added where there is no water, but beside it; 0 says that there is none near."""
+"""Offset in a picture of levels for places beside water; 0 means that no water is near."""
 
 BEYOND: Final = 3
-"""Samples around the water that have its level too: there the surface runs into the ground, and is cut at the shore."""
+"""Samples around the water that share its level, so that the surface runs into the ground and ends at the shore."""
 
 SMOOTH: Final = 4
-"""Passes that smooth levels which are ground and depth of different sources, and so rough."""
+"""Passes that smooth levels whose ground and depth come from different sources, which makes them rough."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WaterSurface:
-    """Levels of the water in metres above the still water, NaN where there is none near.
+    """Levels of the water in metres above the still water; NaN where no water is near.
 
-    The northernmost row comes first, on the grid of the heights of the ground. `wet` says where there is water: the
-    levels go on a little beside it.
+    The northernmost row comes first, on the grid of the heights of the ground. `wet` marks water, because the levels
+    continue a little beside it.
     """
 
     levels: NDArray[np.float64]
     wet: NDArray[np.bool_]
 
     def encode_png(self) -> tuple[bytes, dict[str, float]]:
-        """16-bit gray PNG, and the facts to read it.
+        """Encode the levels as a 16-bit gray PNG; return it and the facts to read it.
 
-        1 is `lowest`, each further step is `unit`. Beside the water the same numbers are raised by `BESIDE`; 0 is no
-        water near.
+        1 is `lowest`, and each further step adds `unit`. Beside the water the same numbers are raised by `BESIDE`; 0
+        means that no water is near.
         """
         from PIL import Image
 
@@ -55,10 +55,10 @@ class WaterSurface:
 
 
 def surface_of(step: Step, frame: Frame, relief: Relief, bed: NDArray[np.float32] | None, hmin: float) -> WaterSurface:
-    """Surface of the water of a step.
+    """Make the surface of the water of a step.
 
-    It is the bed and the depth upon it where the source has both, else the heights and the depth. Where depths are not
-    known, the water is as high as the ground along its shore, and in between as the shores around.
+    It is the sum of bed and depth where the source has both, or else of heights and depth. Where depths are not known,
+    the water is as high as the ground along its shore, and interpolated in between.
     """
     rows, columns = relief.heights.shape
     size = columns, rows
@@ -77,13 +77,13 @@ def surface_of(step: Step, frame: Frame, relief: Relief, bed: NDArray[np.float32
 
 
 def _about(classes: DepthClasses) -> NDArray[np.float32]:
-    """Depths amid classes, to draw a surface of which no number is shown; NaN where it is dry."""
+    """Depths in the middle of classes, to draw a surface without showing numbers; NaN where it is dry."""
     amid = [low if np.isinf(high) else (low + high) / 2.0 for low, high in classes.ranges]
     return np.array([np.nan, *amid], np.float32)[classes.ranks]
 
 
 def highest_of(surfaces: Sequence[WaterSurface]) -> NDArray[np.float64] | None:
-    """Highest level of all at each sample, NaN where there is never water; None if there is none at all."""
+    """Highest level at each sample, NaN where it is always dry; None if there is no water at all."""
     if not any(np.isfinite(surface.levels).any() for surface in surfaces):
         return None
     highest = surfaces[0].levels
@@ -113,12 +113,12 @@ def _smooth(levels: NDArray[np.float64], passes: int) -> NDArray[np.float64]:
 
 
 def _fill_wet(levels: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Levels, and where it is wet without one, those around it."""
+    """Fill wet samples without a level from levels around them."""
     return _fill_gaps(levels) if (wet & ~np.isfinite(levels)).any() else levels
 
 
 def _fill_gaps(levels: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Levels, and where there are none, means of those around, over larger and larger blocks (a push-pull pyramid)."""
+    """Fill gaps in levels with means of levels around them, over larger and larger blocks (a push-pull pyramid)."""
     rows, columns = levels.shape
     if np.isfinite(levels).all() or rows * columns == 1:
         return levels

@@ -1,4 +1,4 @@
-"""Videos and animated pictures of all steps of a flood: a browser without a window draws its frames."""
+"""Make videos and animated pictures of all steps of a flood: a headless browser draws the frames."""
 
 import base64
 import shutil
@@ -21,19 +21,19 @@ if TYPE_CHECKING:
     from PIL.Image import Image as Picture
 
 Track = Callable[[Sequence[int]], Iterator[int]]
-"""Goes through numbers and shows how far it is."""
+"""Iterates over numbers and shows progress."""
 
 CODECS: Final = {
     ".webm": ("webm", "libvpx-vp9", {"crf": "22", "b": "0", "deadline": "good", "cpu-used": "4", "row-mt": "1"}),
     ".mp4": ("mp4", "libx264", {"crf": "18"}),
 }
-"""Container, encoder and its options by suffix: an error of a few steps of 255, which nobody sees."""
+"""Container, encoder and encoder options by suffix; errors of a few steps of 255 are invisible."""
 
 REC_709: Final = 1
-"""Number of the colours of high definition (ITU-T H.273), as which players show frames."""
+"""Code of the colours of high definition (ITU-T H.273), with which players show frames."""
 
 SAMPLES: Final = 5
-"""Frames from which the colours of a GIF are chosen, for all of it."""
+"""Frames from which the palette of a GIF is chosen."""
 
 COLOURS: Final = 256
 
@@ -47,15 +47,15 @@ PROGRAMS: Final = (
 
 FLAGS: Final = ("--ignore-gpu-blocklist", "--hide-scrollbars")
 SOFTWARE: Final = ("--enable-unsafe-swiftshader",)
-"""Draws without a graphics card; the page is our own."""
+"""Flag to draw without a graphics card, which is safe for our own page."""
 
 BY_EGL: Final = ("--use-gl=angle", "--use-angle=gl-egl")
-"""Without a display, browsers on Linux draw in software of their own unless they are told to use the driver."""
+"""Flags to use the graphics driver: without a display, browsers on Linux otherwise draw in software."""
 
 DRIVERS: Final = (BY_EGL, SOFTWARE) if sys.platform == "linux" else (SOFTWARE,)
 
 READY_SECONDS: Final = 600.0
-"""For the first picture: in software shaders take long to compile."""
+"""Limit for the first picture, because software takes long to compile shaders."""
 
 DRAW: Final = "([step, seconds, plain]) => vexture.flood.frame(step, seconds, plain)"
 
@@ -89,14 +89,14 @@ class Film:
     plain: bool
 
     def frame(self, step: int, seconds: float) -> bytes:
-        """PNG of a step at a time of its waves."""
+        """Draw a step at a time of its waves as a PNG."""
         address: str = self.page.evaluate(DRAW, [step, seconds, self.plain])
         return base64.b64decode(address.partition(",")[2])
 
 
 @contextmanager
 def open_film(page: bytes, options: VideoOptions) -> Iterator[Film]:
-    """Open a page of a flood, all of it in one file, in a browser.
+    """Open the self-contained page of a flood in a browser.
 
     Raises
     ------
@@ -140,7 +140,7 @@ def _browser(kind: Any, flags: Sequence[str]) -> Any:
 
 
 def _open_page(browser: Any, address: str, size: tuple[int, int]) -> tuple[Any, str]:
-    """Open the page; why it draws nothing, if so."""
+    """Open the page; return it and the reason why it draws nothing, if any."""
     width, height = size
     page = browser.new_page(viewport={"width": width, "height": height})
     page.goto(address, timeout=1000 * READY_SECONDS)
@@ -168,7 +168,7 @@ def _prepare_film(page: Any, options: VideoOptions) -> Film:
 
 
 def make_video(page: bytes, options: VideoOptions, title: str, track: Track) -> bytes:
-    """Return a video of all steps of a page that is whole in one file.
+    """Make a video of all steps of a self-contained page.
 
     Raises
     ------
@@ -179,7 +179,7 @@ def make_video(page: bytes, options: VideoOptions, title: str, track: Track) -> 
     """
     with video_packages():
         if not options.is_gif:
-            import av  # noqa: F401  # before a browser is started
+            import av  # noqa: F401  # fails before a browser is started
         with open_film(page, options) as shown:
             return _gif(shown, options, track) if options.is_gif else _video(shown, options, title, track)
 

@@ -11,7 +11,7 @@ from vexture.base.errors import ParameterError
 SIZE: Final = (1280, 720)
 STEP_SECONDS: Final = 0.5
 FPS: Final = 10.0
-"""Default pixels, seconds that a step is shown, and frames a second."""
+"""Default size in pixels, seconds for each step, and frames a second."""
 
 GIF: Final = ".gif"
 SUFFIXES: Final = (".webm", ".mp4", GIF)
@@ -20,17 +20,17 @@ LEAST_SIDE, MOST_SIDE = 64, 4096
 MOST_SECONDS: Final = 60.0
 MOST_FPS: Final = 60.0
 MOST_GIF_FPS: Final = 50.0
-"""A GIF counts time in hundredths of a second, and browsers slow frames of one hundredth down."""
+"""Most frames a second of a GIF, which counts hundredths of a second; browsers slow down frames of one hundredth."""
 
 MOST_FRAMES: Final = 20_000
 
 
 @dataclass(frozen=True, slots=True)
 class VideoOptions:
-    """A video to write; see `vexture flood --help`. Values out of range raise `ParameterError`.
+    """Options of a video; see `vexture flood --help`. Values out of range raise `ParameterError`.
 
-    `view` is a view of the page by its name, and `colours` are what it colours the water by; with `plain` nothing is
-    written on the picture.
+    `view` is the name of a view of the page, and `colours` are what the water is coloured by; `plain` omits all text on
+    the picture.
     """
 
     path: Path
@@ -61,7 +61,7 @@ class VideoOptions:
 
     @property
     def is_gif(self) -> bool:
-        """Whether it is a GIF."""
+        """True if the video is a GIF."""
         return self.path.suffix.lower() == GIF
 
     @property
@@ -74,11 +74,11 @@ class VideoOptions:
 
     @property
     def frames_per_step(self) -> Fraction:
-        """Frames of a step, on average."""
+        """Average number of frames per step."""
         return self.rate * Fraction(self.step_seconds).limit_denominator(1000)
 
     def frames(self, steps: int) -> list[int]:
-        """Number of the step that each frame shows.
+        """Return the number of the step that each frame shows.
 
         Examples
         --------
@@ -94,7 +94,7 @@ class VideoOptions:
 
 
 def size_of(text: str) -> tuple[int, int]:
-    """Size that a user has written as WxH.
+    """Parse a size that a user has written as WxH.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Views of the page, chosen by the scene: a coast, a river, a flooded town; from the air, and from dry ground."""
+"""Views of the page, chosen by the scene (a coast, a river or a flooded town), from the air and from dry ground."""
 
 from typing import Any, Final, NamedTuple
 
@@ -15,10 +15,10 @@ CELLS: Final = 96
 """Cells of the search grid on the frame's longer side."""
 
 REACH: Final = 10
-"""Cells around a place in which water in front and land behind are rated."""
+"""Cells around a place within which water in front and land behind are rated."""
 
 BEHIND: Final = 4
-"""Cells behind the shore in which a dry place is looked for."""
+"""Cells behind the shore in which a dry place is searched."""
 
 EDGE: Final = 4
 """Cells along the frame's borders that are excluded, unless there is no other shore."""
@@ -28,30 +28,30 @@ WINDOW: Final = 32
 """Zoom levels, and pixels of each, by which a place is refined to 1e-6 of the frame."""
 
 FAR_REACH, NEAR_REACH = 0.2, 0.065
-"""Half the size of what is seen of a coast and of a shore, as shares of the longer side."""
+"""Half the width of a view of a coast and of a shore, as fractions of the longer side."""
 
 FLOODED_REACH: Final = (0.04, 0.25)
-"""Least and largest half of the size of what is seen of flooded land."""
+"""Smallest and largest half width of a view of flooded land."""
 
 LEAST_FLOODED: Final = 0.002
-"""Share of the frame that must be flooded to be looked at."""
+"""Least fraction of the frame that must be flooded for a view of it."""
 
 TOWN_ISLANDS: Final = 12
-"""Outlines of a flood from which it stands between buildings."""
+"""Number of outlines from which a flood counts as standing between buildings."""
 
 NEAR: Final = 4
-"""Samples around a place in which the highest water counts."""
+"""Samples around a place whose highest water level counts."""
 
 LOCAL: Final = 1 / 300
-"""Radius in which the direction of the shore is measured, as a share of the frame."""
+"""Radius within which the direction of the shore is measured, as a fraction of the frame."""
 
 
 class FloodView(NamedTuple):
     """A view of the page.
 
-    `place` is where one stands, or what one looks at, and `toward` the unit vector from there to the water, in
-    unit-square units, y up. `reach` is half the size of what is looked at, in metres, and `above` the highest water
-    there, in metres above the still water.
+    `place` is where the viewer stands, or what is looked at, and `toward` the unit vector from there to the water, in
+    unit-square units, y up. `reach` is half the width of the view, in metres, and `above` the highest water there, in
+    metres above the still water.
     """
 
     name: str
@@ -79,12 +79,11 @@ def views_of(
     highest: NDArray[np.float64] | None,
     beyond: NDArray[np.bool_] | None = None,
 ) -> tuple[FloodView, ...]:
-    """Views beyond those of the whole box, by what is there, the farthest first.
+    """Choose views besides those of the whole box, the farthest first.
 
-    `openness` says where waves are (`vexture_geo.flood.open_water`), `highest` the highest level of all steps, NaN
-    where it
-    is always dry, on the grid of the relief; None without any water. `beyond` says where the sea goes on beyond the
-    source (`vexture_geo.flood.relief.beyond_of`).
+    `openness` says where waves are (`vexture_geo.flood.open_water`). `highest` is the highest level of all steps on the
+    grid of the relief, NaN where it is always dry; None without any water. `beyond` says where the sea continues beyond
+    the source (`vexture_geo.flood.relief.beyond_of`).
     """
     frame, first, most = extent.frame, first_wet(extent), widest(extent)
     if first is None or most is None or openness is None or highest is None:
@@ -122,10 +121,10 @@ def viewpoint(
     openness: NDArray[np.float64] | None = None,
     beyond: NDArray[np.bool_] | None = None,
 ) -> Shore | None:
-    """A place on the shore near the middle of the frame, with open water in front and dry land behind.
+    """Find a place on the shore near the middle of the frame, with open water in front and dry land behind.
 
-    With `dry`, a drawing of more water, it is a place behind the shore that stays dry. With `openness`, only water that
-    is open to waves counts. Where the sea goes on `beyond` the source is water. None if all is dry or all is wet.
+    With `dry`, a drawing of more water, it is a place behind the shore that stays dry. With `openness`, only water open
+    to waves counts. The sea continues where it is `beyond` the source. None if all is dry or all is wet.
     """
     x0, y0, x1, y1 = frame.box
     size = size_for(frame, CELLS)
@@ -160,9 +159,9 @@ def _level_near(levels: NDArray[np.float64], frame: Frame, place: tuple[float, f
 
 
 def _flooded_land(first: Drawing, most: Drawing, frame: Frame) -> tuple[tuple[float, float], float, bool] | None:
-    """Middle of the flooded land, half its size as a share of the longer side, and whether it stands between buildings.
+    """Middle of the flooded land, half its size as a fraction of the longer side, and whether buildings stand in it.
 
-    The middle is the flooded place with the most flooded land around it. Water that stands around many islands stands
+    The middle is the flooded place with the most flooded land around it. Water around many islands is taken to stand
     between buildings. None if hardly any land is flooded.
     """
     x0, y0, x1, y1 = frame.box
@@ -180,7 +179,7 @@ def _flooded_land(first: Drawing, most: Drawing, frame: Frame) -> tuple[tuple[fl
 
 
 def _blur(grid: NDArray[np.float64], reach: int) -> NDArray[np.float64]:
-    """Means over boxes of cells, one axis after the other; beyond the grid there is nothing."""
+    """Average boxes of cells, along one axis and then the other; beyond the grid values are 0."""
     width = 2 * reach + 1
     for axis in (0, 1):
         padded = np.pad(grid, [(reach + 1, reach) if axis == k else (0, 0) for k in (0, 1)])
@@ -191,16 +190,16 @@ def _blur(grid: NDArray[np.float64], reach: int) -> NDArray[np.float64]:
 
 
 def _name_of_bank(drawing: Drawing, frame: Frame) -> str:
-    """Riverside where the water crosses the border of the frame more than once, else Waterside."""
+    """Return Riverside where the water crosses the border of the frame more than once, or else Waterside."""
     wet = coverage_over(drawing, frame.box, size_for(frame, CELLS)) >= 0.5
     border = np.concatenate([wet[0], wet[:, -1], wet[-1, ::-1], wet[::-1, 0]])
     return "Riverside" if int((border & ~np.roll(border, 1)).sum()) >= 2 else "Waterside"
 
 
 def _best(wet: NDArray[np.float32], dry: NDArray[np.float32] | None) -> tuple[int, int, float, float] | None:
-    """Row, column and direction of the best place: dry, beside water, open ahead, near the middle.
+    """Row, column and direction of the best place: dry, beside water, open ahead, and near the middle.
 
-    With `dry`, a place that this does not cover either, beside the water or a few cells from it.
+    With `dry`, the place must also be outside of that water, at the shore or a few cells from it.
     """
     padded = np.pad(wet, 1, mode="edge")
     around = np.stack([padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]])
@@ -237,7 +236,7 @@ def _best(wet: NDArray[np.float32], dry: NDArray[np.float32] | None) -> tuple[in
 def _on_the_line(
     drawing: Drawing, place: NDArray[np.float64], seaward: NDArray[np.float64], reach: float
 ) -> NDArray[np.float64]:
-    """Place moved along a direction onto the shoreline, if that is within reach."""
+    """Move a place along a direction onto the shoreline, if that is within reach."""
     for _ in range(ZOOMS):
         wet = coverage_over(drawing, _around(place, reach), (WINDOW, WINDOW))
         along = np.linspace(-reach, reach, 2 * WINDOW + 1)
@@ -255,7 +254,7 @@ def _on_the_line(
 
 
 def _seaward(drawing: Drawing, place: NDArray[np.float64], reach: float) -> NDArray[np.float64] | None:
-    """Direction from the land to the water around a place; None if there is no difference."""
+    """Direction from the land to the water around a place; None if water and land are balanced."""
     wet = coverage_over(drawing, _around(place, reach), (WINDOW, WINDOW)) - 0.5
     middles = (np.arange(WINDOW) + 0.5) / WINDOW * 2.0 - 1.0
     pull = np.array([(wet * middles).mean(), (wet * -middles[:, None]).mean()])

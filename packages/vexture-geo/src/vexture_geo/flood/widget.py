@@ -1,4 +1,4 @@
-"""The widget of a flood: its page in a frame, whose step is a trait."""
+"""Widget of a flood: its page in a frame, with the step as a trait."""
 
 import os
 from typing import Any, Final
@@ -19,10 +19,10 @@ class FloodWidget(anywidget.AnyWidget):
     Attributes
     ----------
     step : int
-        Number of the step that is shown, from 0; one beyond the last becomes the last. The page's time bar changes it,
-        and so may Python.
+        Number of the shown step, from 0; larger numbers become the last step. The page's time bar and Python both may
+        change it.
     height : int
-        CSS pixels.
+        Height in CSS pixels.
     """
 
     _esm = traitlets.Unicode().tag(sync=True)
@@ -37,12 +37,12 @@ class FloodWidget(anywidget.AnyWidget):
         super().__init__(_page=page.html.encode(), _name=page.title, **traits)
 
     def __repr__(self) -> str:
-        """Title and step."""
+        """Show title and step."""
         return f"<FloodWidget {self.page.title!r}: step {self.step}>"
 
     @property
     def page(self) -> FloodPage:
-        """The page in the frame."""
+        """Page in the frame."""
         return self._flood
 
     def save(self, path: str | os.PathLike[str]) -> None:

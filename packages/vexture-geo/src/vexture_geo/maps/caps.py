@@ -1,4 +1,4 @@
-"""The part of the globe that a map shows which looks at it from one side: a cap around a place."""
+"""Caps of the globe around a place, which perspective maps show."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,26 +13,26 @@ from vexture_geo.maps.lines import change_lines
 from vexture_geo.vector.features import Lines
 
 PERSPECTIVES: Final = ("orthographic", "gnomonic", "vertical perspective", "geostationary", "proj nsper", "proj tpers")
-"""How the names of projections begin that have no image of the far side."""
+"""Prefixes of the names of projections that show only one side of the globe."""
 
 WORLD: Final = "EPSG:4326"
 
 BESIDE: Final = 0.1
-"""Degrees that a map ends before its rim: 1e-6 of a globe seen from afar."""
+"""Degrees by which a map ends before its rim: 1e-6 of a globe seen from afar."""
 
 MOST: Final = {"gnomonic": 65.0}
-"""Degrees of a cap whose rim would be too far away on the map."""
+"""Largest radius of a cap, in degrees, where the rim would be too far away on the map."""
 
 SAMPLES: Final = 3600
-"""Corners of the rim: its sides are off by 4e-7 of it."""
+"""Corners of the rim as a polygon: its sides deviate by 4e-7 of the radius."""
 
 TURNS: Final = 3
-"""To the west and to the east that features may go on around a pole."""
+"""Turns to the west and to the east that features around a pole may reach."""
 
 
 @dataclass(frozen=True)
 class Cap:
-    """Places within a distance of one: longitude, latitude and radius in degrees.
+    """Places within a distance of a middle: its longitude and latitude, and the radius, in degrees.
 
     Examples
     --------
@@ -47,11 +47,11 @@ class Cap:
 
     @property
     def pole(self) -> float:
-        """Latitude of the pole that lies in it; 0 if none does."""
+        """Latitude of the pole in the cap, or 0 if it contains none."""
         return float(np.copysign(90.0, self.latitude)) if abs(self.latitude) + self.radius > 90.0 else 0.0
 
     def distance(self, degrees: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Degrees on the globe from the middle to places in longitude and latitude."""
+        """Distance on the globe, in degrees, from the middle to places in longitude and latitude."""
         east, north = np.radians(degrees - (self.longitude, 0.0)).T
         own = np.radians(self.latitude)
         cosine = np.sin(own) * np.sin(north) + np.cos(own) * np.cos(north) * np.cos(east)
@@ -70,7 +70,7 @@ class Cap:
 
     @cached_property
     def area(self) -> Any:
-        """Polygon in longitude and latitude; one around a pole goes on over several turns, as longitudes may."""
+        """Polygon in longitude and latitude; around a pole it spans several turns, as longitudes of features may."""
         import shapely
 
         rim = self.rim(SAMPLES)
@@ -115,7 +115,7 @@ class Cap:
 
 
 def _polygons(shapes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
-    """Polygons among what is left of some, and which each is of."""
+    """Polygons among the parts of shapes, and the index of the shape of each."""
     import shapely
 
     parts, owner = shapely.get_parts(shapes, return_index=True)

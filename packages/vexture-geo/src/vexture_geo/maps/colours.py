@@ -23,24 +23,24 @@ MOST_CLASSES: Final = 64
 NO_DATA: Final = "#d9d9d9"
 SEQUENTIAL: Final = "viridis"
 QUALITATIVE: Final = "okabeito:okabeito"
-"""Palettes that are told apart with any kind of colour blindness."""
+"""Default palettes, whose colours can be told apart with any kind of colour blindness."""
 
 FURTHER: Final = (
     *("#552200", "#0000aa", "#884444", "#9966ff", "#aabb99"),
     *("#7700ee", "#332255", "#bb1188", "#aaffaa"),
 )
-"""What follows the seven colours of that palette where there are more categories: with any kind of colour blindness, no
-two of all these are nearer to each other than two of the seven."""
+"""Colours after the seven of that palette, for more categories. With any kind of colour blindness, no two of all these
+are closer to each other than two of the seven."""
 
 OTHER: Final = "other"
 GREYS: Final = ("#777777", "#a8a8a8", "#404040")
-"""Colours of the categories that have none of their own: the first that is like none of the palette."""
+"""Greys for categories without a colour of their own: the first that differs from the whole palette is used."""
 
 STOPS: Final = 9
 """Colours in the legend of a continuous scale."""
 
 RANGE: Final = " \N{EN DASH} "
-"""Between the ends of a class."""
+"""Separator between the ends of a class."""
 
 NAMED: Final = ("quantiles", "equal", "continuous")
 """Scales of numbers and of times."""
@@ -48,7 +48,7 @@ NAMED: Final = ("quantiles", "equal", "continuous")
 KINDS: Final = f"give {', '.join(NAMED)}, categories or {BREAKS}"
 
 TRIED: Final = (0.0, 1.0, None)
-"""Values that any scale of numbers can have."""
+"""Values that suit any scale of numbers."""
 
 Rgba = NDArray[np.float64]
 
@@ -62,9 +62,9 @@ class Scale:
     column : str
     kind : str
         ``quantiles`` or ``equal`` (classes), ``continuous``, ``categories``, or the inner breaks of classes, such as
-        ``10,20,50``, ``2001-01-01,2011-01-01`` or a list; ``auto`` is ``categories`` of text, truth values and as few
-        dates or times as there are classes, ``quantiles`` of numbers and of more dates. The order of categories is that
-        of a column that has its own, such as a `pandas.Categorical`, or else they rise.
+        ``10,20,50``, ``2001-01-01,2011-01-01`` or a list. ``auto`` means ``categories`` for text, truth values, and
+        dates or times with no more distinct values than classes; it means ``quantiles`` for numbers and for more dates.
+        Categories have the order of the column, such as a `pandas.Categorical`, or else they rise.
     palette : str, optional
         Name of a palette of cmap; colour-blind-safe by default.
     classes : int
@@ -130,7 +130,7 @@ def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba
 
 
 def check_scale(scale: Scale) -> None:
-    """Raise a `ParameterError` if no column could have a scale: it may be known before any column is."""
+    """Raise a `ParameterError` if no column could have this scale; the column need not be known yet."""
     import pyarrow as pa
 
     if scale.kind not in ("auto", "categories", *NAMED) and len(breaks_of(scale.kind)):
@@ -143,7 +143,7 @@ def _known(measure: Measure) -> NDArray[np.float64]:
 
 
 def rgba_of(text: str, parameter: str) -> Rgba:
-    """A CSS colour."""
+    """Parse a CSS colour."""
     from vexture.drawing.colors import parse_color
 
     found = parse_color(text) if isinstance(text, str) else None
@@ -153,7 +153,7 @@ def rgba_of(text: str, parameter: str) -> Rgba:
 
 
 def hex_of(rgba: Rgba) -> str:
-    """A colour as CSS writes it."""
+    """Format a colour as CSS."""
     from vexture.drawing.paint import Paint
 
     red, green, blue, opacity = (float(part) for part in rgba)
@@ -174,7 +174,7 @@ def _palette(name: str | None, default: str) -> Any:
 
 
 def _full(name: Any, catalog: Any) -> Any:
-    """The full name of a palette; of a short one that several have, cmap warns."""
+    """Full name of a palette, because cmap warns about a short name that several palettes have."""
     stem = str(name).removesuffix("_r")
     try:
         return catalog.resolve(stem) + str(name)[len(stem) :]
@@ -189,7 +189,7 @@ def _sample_palette(palette: Any, at: NDArray[np.float64]) -> Rgba:
 def _classes(
     measure: Measure, kind: str, breaks: NDArray[np.float64] | None, scale: Scale
 ) -> tuple[Rgba, list[dict[str, Any]]]:
-    """Colours of classes, each from a break up to, but without, the next."""
+    """Colour classes, each of which includes its lower break and excludes its upper one."""
     values, known = measure.values, _known(measure)
     are_whole = breaks is None and measure.are_whole
     breaks = distinct(_found_breaks(measure, kind, scale.classes) if breaks is None else breaks)
@@ -210,7 +210,7 @@ def _classes(
 
 
 def _found_breaks(measure: Measure, kind: str, classes: int) -> NDArray[np.float64]:
-    """Inner breaks of quantiles, none of which holds nothing, or of equal steps; whole ones of whole numbers."""
+    """Inner breaks of quantiles without empty classes, or of equal steps; whole numbers get whole breaks."""
     parts, known = np.linspace(0.0, 1.0, classes + 1)[1:-1], _known(measure)
     low, high = known.min(), known.max()
     breaks = np.quantile(known, parts) if kind == "quantiles" else low + (high - low) * parts
@@ -226,7 +226,7 @@ def _found_breaks(measure: Measure, kind: str, classes: int) -> NDArray[np.float
 
 
 def _of_whole(measure: Measure, edges: list[float]) -> list[str]:
-    """Labels of classes of whole numbers, of which only the last has its upper end."""
+    """Labels of classes of whole numbers: only the last one includes its upper break."""
     lows, highs = edges[:-1], [*(above - 1 for above in edges[1:-1]), edges[-1]]
     ends = measure.texts([*lows, *highs])
     pairs = zip(lows, highs, ends[: len(lows)], ends[len(lows) :], strict=True)
@@ -234,7 +234,7 @@ def _of_whole(measure: Measure, edges: list[float]) -> list[str]:
 
 
 def _ranges(measure: Measure, edges: list[float], counts: NDArray[np.int64]) -> list[str]:
-    """Labels of classes; beyond the data, the first and the last have one end."""
+    """Labels of classes; a first or last class without data names only one end."""
     pairs = list(pairwise(measure.texts(edges)))
     labels = [low if low == high else f"{low}{RANGE}{high}" for low, high in pairs]
     for place, sign in ((0, "<"), (-1, ">=")):
@@ -262,7 +262,7 @@ def _continuous(measure: Measure, scale: Scale) -> tuple[Rgba, list[dict[str, An
 
 
 def _order(column: "pyarrow.ChunkedArray", values: dict[str | None, Any]) -> list[str]:
-    """Names of categories as a dictionary has them, or else as numbers, days and texts rise."""
+    """Names of categories in the order of a dictionary, or else rising as numbers, days or texts."""
     import pyarrow as pa
 
     if pa.types.is_dictionary(column.type):
@@ -278,7 +278,7 @@ def _order(column: "pyarrow.ChunkedArray", values: dict[str | None, Any]) -> lis
 def _categories(
     values: list[str | None], order: list[str], scale: Scale, notes: Notes
 ) -> tuple[Rgba, list[dict[str, Any]]]:
-    """Colours of categories in their order; where there are too many, the less common ones share a grey."""
+    """Colour categories in their order; if there are too many, the less common ones share a grey."""
     palette = _palette(scale.palette, QUALITATIVE)
     stops = np.array([tuple(color.rgba) for color in palette.iter_colors()], np.float64)
     if scale.palette is None:
@@ -308,6 +308,6 @@ def _categories(
 
 
 def _grey(stops: Rgba) -> Rgba:
-    """A grey that is like none of some colours."""
+    """Choose a grey that differs from all of some colours."""
     greys = [rgba_of(grey, "palette") for grey in GREYS]
     return max(greys, key=lambda grey: min(float(np.linalg.norm((stops - grey)[:, :3], axis=1).min()), 0.2))

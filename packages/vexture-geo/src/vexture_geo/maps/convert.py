@@ -32,14 +32,14 @@ class Map:
     Parameters
     ----------
     conversion : Conversion
-        With the texture.
+        Conversion that holds the texture.
     table : pyarrow.Table
-        The attributes.
+        Attributes of all features.
     legends : tuple of dict
-        Of each coloured layer.
+        Legend of each coloured layer.
     times : dict, optional
-        Of a map that changes with time, ready for JSON: ``times``, the names of the steps; ``ids`` of the features;
-        ``colors`` of each step, those of all these; ``legend``.
+        Only for a map that changes with time, ready for JSON: ``times``, the names of the steps; ``ids`` of features;
+        ``colors``, at each step those of all these features; ``legend``.
     """
 
     conversion: Conversion[Any]
@@ -67,20 +67,21 @@ def convert_map(
     crs : str
         Reference system of the map; Web Mercator by default.
     snap : float, optional
-        Borders and gaps no wider than this become one border, in parts of the map's larger side; 3e-6 by default.
+        Largest width of gaps that are closed and distance of borders that become one, as a fraction of the map's larger
+        side; 3e-6 by default.
     size : int
         Pixels of the larger side of the map, for widths in pixels.
     restyle : bool
-        Colours can be changed and features picked by their ids.
+        Keep the ids of features, so that they can be recoloured and picked.
     tolerance, max_seconds
         As in `vexture.convert`.
     name : str, optional
-        Names the map; by default after the first layer.
+        Name of the map; by default that of the first layer.
 
     Raises
     ------
     SourceError, ParameterError, LimitError
-        Each in a line that says what to do.
+        Each message is one line that says what to do.
     """
     ready = prepare_layers(layers, crs=crs, size=size, name=name, max_seconds=max_seconds)
     return convert_prepared(ready, snap=snap, restyle=restyle, tolerance=tolerance, max_seconds=max_seconds)
@@ -95,7 +96,7 @@ def convert_prepared(
     max_seconds: float = DEFAULT_SECONDS,
     capacity: int | None = None,
 ) -> Map:
-    """Convert layers that are read; parameters and errors are those of `convert_map` and `vexture.convert`."""
+    """Convert prepared layers; see `convert_map` and `vexture.convert` for parameters and errors."""
     if ready.steps is not None and not restyle:
         raise ParameterError("colours change with `times` only where features can be recoloured; leave `restyle` on")
     with in_memory():
@@ -110,7 +111,7 @@ def convert_prepared(
 
 
 def _times(ready: Prepared, roots: Sequence[Any]) -> dict[str, Any] | None:
-    """The colours of features at each step; without those that lie wholly below others."""
+    """Colours of features at each step, without features that lie wholly below others."""
     if ready.steps is None:
         return None
     one, steps = ready.steps
@@ -121,7 +122,7 @@ def _times(ready: Prepared, roots: Sequence[Any]) -> dict[str, Any] | None:
 
 
 def _drawing(ready: Prepared, snap: float | None) -> Drawing:
-    """All layers in the unit square."""
+    """Draw all layers in the unit square."""
     fit, paths = ready.fit, list[Path]()
     for one in ready.layers:
         with about(one.layer.name):
@@ -140,7 +141,7 @@ def _drawing(ready: Prepared, snap: float | None) -> Drawing:
 
 
 def _check_count(drawing: Drawing, restyle: bool) -> None:
-    """Refuse more features than a map that is restyled has colours for."""
+    """Raise a `LimitError` if a map to be restyled has more features than it can store colours for."""
     count = len({path.element for path in drawing.paths})
     if restyle and count >= MOST_PAINTS:
         raise LimitError(

@@ -1,4 +1,4 @@
-"""Polygons that should cover an area each place once: borders snapped, gaps closed, overlaps in an order."""
+"""Clean coverages of polygons: snap borders, close gaps, and resolve overlaps by rank."""
 
 from typing import Any, Final
 
@@ -13,7 +13,7 @@ from vexture_geo.base.validity import make_valid
 from vexture_geo.vector.features import Features
 
 NOISE: Final = 1e-9
-"""Parts of the map's larger side: overlaps of less area than this times that side squared are not counted."""
+"""Overlaps with less area than this times the square of the map's larger side are ignored."""
 
 
 def clean_coverage(
@@ -27,26 +27,26 @@ def clean_coverage(
     unit: str,
     is_ordered: bool = False,
 ) -> Rings:
-    """Polygons with shared borders; gaps no wider than `snap` are closed, overlaps go to the feature of higher rank.
+    """Make polygons share borders: close gaps up to `snap` wide, and give overlaps to the feature of higher rank.
 
     Parameters
     ----------
     rings : Rings
-        Of features.
+        Polygons of features.
     rank : (f,) array
-        The order of the features; where they overlap, the higher one is seen.
+        Order of the features; where they overlap, the higher one is visible.
     size : float
-        The larger side of the map; `snap` is in parts of it.
+        Larger side of the map.
     snap : float or None
-        0 leaves all as it is.
+        As a fraction of `size`; 0 leaves everything as it is.
     notes : Notes
-        Gets what was snapped and closed, and which polygons overlap. What the default of `snap` moves is not noted.
+        Receives what was snapped and closed, and which polygons overlap. Moves by the default `snap` are not noted.
     names : (f,) array
-        The names of the features.
+        Names of the features.
     unit : str
-        Of the coordinates, for the notes.
+        Unit of the coordinates, for the notes.
     is_ordered : bool
-        Whether the order was asked for: then it is no news that polygons lie below others.
+        Whether the user chose the order; then it is not noted that polygons lie below others.
     """
     width = (DEFAULT_SNAP if snap is None else snap) * size
     if rings.feature is None or len(np.unique(rings.feature)) < 2:
@@ -60,9 +60,9 @@ def clean_coverage(
 
 
 def _is_clean(rings: Rings, width: float) -> bool:
-    """Whether borders are equal already, bit for bit and corner for corner, without overlaps and narrow gaps.
+    """Return whether shared borders are already byte-identical, without overlaps and narrow gaps.
 
-    Then there is nothing to snap, and to know it costs much less than to try.
+    This check costs much less than snapping.
     """
     import shapely
 
@@ -81,7 +81,7 @@ def _close_gaps(
     names: NDArray[Any],
     is_ordered: bool,
 ) -> Rings:
-    """Polygons without gaps, and without overlaps."""
+    """Remove gaps and overlaps of polygons."""
     import shapely
 
     assert rings.feature is not None
@@ -93,7 +93,7 @@ def _close_gaps(
         amiss = ~shapely.is_empty(found)
         if not amiss.any():
             return rings
-        order = np.argsort(-rank[rings.feature], kind="stable")  # the first of an overlap keeps it
+        order = np.argsort(-rank[rings.feature], kind="stable")  # the first polygon of an overlap keeps it
         clean = np.empty(len(shapes), object)
         clean[order] = shapely.coverage_clean(shapes[order], gap_width=width, merge_strategy="min_index")
     except (shapely.errors.GEOSException, ValueError):
@@ -108,7 +108,7 @@ def _close_gaps(
 
 
 def _note_changes(change: NDArray[np.float64], names: NDArray[Any], notes: Notes, is_ordered: bool) -> None:
-    """Note which polygons lost or won an area, in parts of the square around the map."""
+    """Note which polygons lost or gained area, as fractions of the square around the map."""
     if not is_ordered:
         below = "a polygon lies below others that overlap it: `order` says which is above"
         notes.features("remark", below, names[change < -NOISE])
@@ -116,7 +116,7 @@ def _note_changes(change: NDArray[np.float64], names: NDArray[Any], notes: Notes
 
 
 def ranks(features: Features, order: str | None) -> NDArray[np.int64]:
-    """Order in which features are painted: by a column, else the smaller above the larger, and then as in the source.
+    """Rank features for painting: by a column, or else smaller above larger; ties keep the order of the source.
 
     Raises
     ------
@@ -140,12 +140,12 @@ def ranks(features: Features, order: str | None) -> NDArray[np.int64]:
         raise ParameterError(f"`order` {order!r} cannot be sorted; name a column of numbers or text") from None
     sequence = np.asarray(found, np.int64)
     nulls = np.asarray(features.table.column(order).is_null(nan_is_null=True))[sequence]
-    sequence = np.append(sequence[nulls], sequence[~nulls])  # what has no value is below
+    sequence = np.append(sequence[nulls], sequence[~nulls])  # rows without a value are lowest
     return _places(sequence)
 
 
 def ranks_by_area(area: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Order in which features of these areas are painted: the smaller above the larger, and then as in the source.
+    """Rank features of some areas for painting: smaller above larger; ties keep the order of the source.
 
     Examples
     --------
@@ -156,7 +156,7 @@ def ranks_by_area(area: NDArray[np.float64]) -> NDArray[np.int64]:
 
 
 def _places(sequence: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The place of each feature in a sequence of all."""
+    """Place of each feature in a sequence of all."""
     rank = np.empty(len(sequence), np.int64)
     rank[sequence] = np.arange(len(sequence))
     return rank

@@ -1,4 +1,4 @@
-"""The part of the world that a map can show as a whole: up to its tear, or the side around a pole or a place."""
+"""The part of the world that a map can show as a whole: up to its tear, or around a pole or a place."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,46 +18,46 @@ TURN: Final = 360.0
 POLE: Final = 90.0
 
 EVER: Final = 4.0 * TURN
-"""Degrees to the west or the east that no longitude reaches."""
+"""Longitude that no feature reaches, to the west or the east, in degrees."""
 
 BESIDE: Final = 1e-5
-"""Degrees that a map ends before the meridian where it is torn: datums differ by that."""
+"""Degrees by which a map ends before the meridian where it is torn, because datums differ by that much."""
 
 NEAR: Final = 1e-3
-"""Parts of a map: the distance of two places beside the meridian opposite to its own, if it is not torn there."""
+"""Distance of places on both sides of a meridian, as a fraction of the map, below which it is not torn there."""
 
 TORN: Final = 1e-6
-"""Parts of a map: places beside a meridian that are farther apart, once it is torn there at all."""
+"""Distance of places beside a meridian, as a fraction of the map, above which a known tear separates them."""
 
 JUMP: Final = 0.02
-"""Parts of a map: a side that goes so far between two places that are one but for `HALVINGS` is across a tear."""
+"""A side whose image remains longer than this fraction of the map after `HALVINGS` halvings crosses a tear."""
 
 HALVINGS: Final = 20
 
 WIDE: Final = 0.9
-"""Parts of a turn. What a system covers if it is one of the world."""
+"""Fraction of a turn that the area of use of a system covers if its maps show the world."""
 
 MOST_STRAIN: Final = 100.0
-"""Times by which areas may be larger than on the ground, before only the area of use of a system is shown."""
+"""Ratio of areas on the map to areas on the ground above which only a system's area of use is shown."""
 
 LEAST_SIDE: Final = 2.0
-"""Degrees. As far as its own sides from an area of use, and from a small one so far, is not far outside of it."""
+"""Degrees. Places closer to an area of use than its own sides, or than this, are not far outside it."""
 
 MOST_SAMPLES: Final = 10_000
 
 
 @dataclass(frozen=True)
 class Domain:
-    """Longitudes and latitudes in degrees.
+    """Part of the world, in degrees of longitude and latitude.
 
     Parameters
     ----------
     box : tuple of float
-        West, south, east, north; of a hemisphere, whose meridians meet, all longitudes.
+        West, south, east and north; all longitudes for a hemisphere, whose meridians meet.
     pole : float
-        Latitude of the pole in a hemisphere or a cap; 0 of another map.
+        Latitude of the pole in a hemisphere or a cap; 0 for other maps.
     cap : Cap, optional
-        What a map shows that looks at the globe from one side.
+        Cap that a perspective map shows.
     slits : tuple of tuple of float
         Narrow boxes where an interrupted map is torn, each from a pole towards the equator.
     """
@@ -69,7 +69,7 @@ class Domain:
 
     @property
     def turn(self) -> float | None:
-        """Period of the longitudes, where the same place may lie on the other side of the map."""
+        """Period of the longitudes, if a place may also lie on the other side of the map."""
         return None if self.pole else TURN
 
 
@@ -101,7 +101,7 @@ def domain_of(crs: str) -> Domain | None:
     half = TURN / 2 - BESIDE
     sides = np.array([(middle + side * half, latitude) for latitude in (-40.0, 0.0, 40.0) for side in (-1.0, 1.0)])
     places = transform_points(sides, WORLD, crs)
-    with np.errstate(invalid="ignore"):  # not a number where there is no image
+    with np.errstate(invalid="ignore"):  # NaN where there is no image
         gaps = np.hypot(*(places[1::2] - places[::2]).T)
     if gaps.max() < NEAR * np.abs(places).max():
         return None
@@ -109,7 +109,7 @@ def domain_of(crs: str) -> Domain | None:
 
 
 def _slits(crs: str, middle: float) -> tuple[Bounds, ...]:
-    """Slits where a map is interrupted: at whole degrees from its own meridian, from a pole to where its lobes meet."""
+    """Slits of an interrupted map: at whole degrees from its own meridian, from a pole to where its lobes meet."""
     meridians = middle + np.arange(1.0 - TURN / 2, TURN / 2)
     found = list[Bounds]()
     for pole in (POLE, -POLE):
@@ -125,7 +125,7 @@ def _slits(crs: str, middle: float) -> tuple[Bounds, ...]:
 
 
 def _gaps(crs: str, meridians: NDArray[np.float64], latitudes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Distance between places on both sides of meridians on a map, in parts of its size; 0 where one has no image."""
+    """Distances on a map between the two sides of meridians, as fractions of its size; 0 without an image."""
     both = [np.stack([meridians + side, latitudes], axis=1) for side in (-BESIDE, BESIDE)]
     ends = np.array([(meridians[0], 0.0), (meridians[-1], 0.0)])
     west, east, corners = np.split(transform_points(np.concatenate([*both, ends]), WORLD, crs), [len(meridians), -2])
@@ -135,19 +135,19 @@ def _gaps(crs: str, meridians: NDArray[np.float64], latitudes: NDArray[np.float6
 
 
 def is_wide(crs: str) -> bool:
-    """Whether maps in a system are of the world or of a hemisphere."""
+    """Return whether maps in a system are of the world or of a hemisphere."""
     area = system(crs).area_of_use
     return area is None or area.east - area.west > WIDE * TURN
 
 
 def within_turn(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Places with their longitudes above -180 and up to 180."""
+    """Normalise longitudes to above -180 and up to 180."""
     turns = np.ceil(degrees[:, 0] / TURN - 0.5)
     return degrees - np.stack([TURN * turns, np.zeros(len(turns))], axis=1)
 
 
 def is_far(degrees: NDArray[np.float64], crs: str) -> bool:
-    """Whether some of the places, in longitude and latitude, are far outside of a system's area of use.
+    """Return whether some of the places, in longitude and latitude, are far outside of a system's area of use.
 
     Examples
     --------
@@ -175,7 +175,7 @@ def _middle(crs: str) -> float:
 
 
 def in_box(rings: Rings, box: Bounds, turn: float | None) -> Rings:
-    """Polygons within a box, also those that are in it a turn away."""
+    """Clip polygons to a box, including parts that lie in it a turn away."""
     if not len(rings.ends):
         return rings
     west, south, east, north = rings.box
@@ -185,7 +185,7 @@ def in_box(rings: Rings, box: Bounds, turn: float | None) -> Rings:
 
 
 def cut_open(rings: Rings, slits: tuple[Bounds, ...]) -> Rings:
-    """Polygons without what lies in slits."""
+    """Cut slits out of polygons."""
     import shapely
 
     low, high = rings.boxes[:, None, 0], rings.boxes[:, None, 1]
@@ -210,7 +210,7 @@ def without(slits: tuple[Bounds, ...]) -> Callable[[NDArray[Any]], NDArray[Any]]
 
 
 def torn_sides(rings: Rings, crs: str) -> NDArray[np.bool_]:
-    """Whether a map is torn across the side after each point, in longitude and latitude."""
+    """Return whether a map is torn across the side after each point, in longitude and latitude."""
     first, last = rings.points.copy(), rings.points[rings.following]
     places = transform_points(rings.points, WORLD, crs)
     known = places[np.isfinite(places).all(axis=1)]
@@ -230,13 +230,13 @@ def torn_sides(rings: Rings, crs: str) -> NDArray[np.bool_]:
 
 
 def is_strained(degrees: NDArray[np.float64], crs: str) -> bool:
-    """Whether some of the places, in longitude and latitude, are shown much larger than others, or not at all."""
+    """Return whether some places in longitude and latitude are shown much larger than others, or not at all."""
     from pyproj import Proj
     from pyproj.exceptions import ProjError
 
     found = system(crs)
     domain = domain_of(crs)
-    if not found.is_projected or not len(degrees) or (domain and domain.slits):  # beside a tear all seems large
+    if not found.is_projected or not len(degrees) or (domain and domain.slits):  # all seems large beside a tear
         return False
     longitude, latitude = degrees[:: 1 + len(degrees) // MOST_SAMPLES].T
     try:

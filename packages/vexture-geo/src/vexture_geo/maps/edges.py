@@ -1,4 +1,4 @@
-"""The edge of the world on a map: features on one side of it, and borders that are none, as a map is cut there."""
+"""The edge of the world on a map: move features to one side of it, and find borders that only follow it."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -15,17 +15,17 @@ from vexture_geo.maps.place import MERCATOR, RADIUS
 from vexture_geo.vector.features import Features, Lines, Points
 
 NEAR: Final = 1e-4
-"""Degrees: what is nearer to the edge lies on it. Maps end a little before the meridian where they are torn."""
+"""Degrees from the edge within which a place lies on it; maps end slightly before the meridian of a tear."""
 
 AT_RIM: Final = 0.02
-"""Degrees: what is nearer to the rim of one side of the globe lies on it."""
+"""Degrees from the rim of one side of the globe within which a place lies on it."""
 
 ROUNDED: Final = 1e-9
-"""Parts of the world by which rounding moves its edge."""
+"""Fraction of the world by which rounding moves its edge."""
 
 
 def move_together(layers: list[Features], crs: str) -> list[Features]:
-    """Move features to one side of the antimeridian, if they all lie near it: that with most corners."""
+    """Move features that all lie near the antimeridian to one side of it: the side with most corners."""
     turn = _turn(crs)
     if turn is None:
         return layers
@@ -39,12 +39,12 @@ def move_together(layers: list[Features], crs: str) -> list[Features]:
 
 
 def _turn(crs: str) -> float | None:
-    """Width of the world on a map whose longitudes begin again there."""
+    """Width of the world on a map whose longitudes repeat; None for other maps."""
     return 2.0 * pi * RADIUS if same_system(crs, MERCATOR) else period(crs)
 
 
 def _shift(reach: NDArray[np.float64], turn: float) -> NDArray[np.float64]:
-    """Distances to the east by which parts move that have their middle in the west."""
+    """Eastward shifts of parts: a turn for those whose middle lies in the west."""
     return np.where(reach.mean(axis=1) < 0.0, turn, 0.0)
 
 
@@ -63,7 +63,7 @@ def _of_lines(lines: Lines) -> NDArray[np.float64]:
 
 
 def _shift_features(features: Features, shift: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Features:
-    """Features moved along x, each part by `shift` of its west and east."""
+    """Move features along x, each part by `shift` of its west and east."""
     rings, lines, points = features.rings, features.lines, features.points
     if len(rings.ends):
         rings = rings.shift_east(shift(rings.boxes[:, :, 0])[rings.polygon])
@@ -76,18 +76,18 @@ def _shift_features(features: Features, shift: Callable[[NDArray[np.float64]], N
 
 
 def along_edge(sides: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
-    """Sides, (n, 2, 2), that follow the edge of a map of the world, a pole, or the equator around a hemisphere."""
+    """Find sides, (n, 2, 2), that follow the edge of a world map, a pole, or the equator around a hemisphere."""
     turn, points = _turn(crs), sides.reshape(-1, 2)
     if turn is not None:
         high, widest, places = turn / 2 if same_system(crs, MERCATOR) else turn / 4, turn / 2, points
         on = np.abs(np.abs(points) - (turn / 2, high)) <= ROUNDED * turn
     elif is_wide(crs) and (domain := domain_of(crs)) is not None:
         middle, degrees = (domain.box[0] + domain.box[2]) / 2, transform_points(points, crs, WORLD)
-        # what the map shows, and no place has by rounding, is at its edge
+        # a point on the map that rounding leaves without a place lies at the edge
         degrees[~np.isfinite(degrees).all(axis=1)] = (middle + TURN / 2, 0.0)
         longitude = within_turn(degrees - (middle, 0.0))[:, 0]
         latitude, places = np.abs(degrees[:, 1]), degrees
-        high, widest = POLE, np.inf  # at the edge either side may have been found
+        high, widest = POLE, np.inf  # a place at the edge may have been found on either side
         torn = np.abs(longitude) >= (TURN / 2 - NEAR if domain.pole == 0.0 else np.inf)
         cut_at = POLE if domain.pole == 0.0 else 0.0
         for west, south, east, north in domain.slits:
@@ -100,5 +100,5 @@ def along_edge(sides: NDArray[np.float64], crs: str) -> NDArray[np.bool_]:
         return np.zeros(len(sides), np.bool_)
     both: NDArray[np.bool_] = np.all(on.reshape(-1, 2, 2), axis=1)
     step = np.abs(np.diff(places.reshape(-1, 2, 2), axis=1))[:, 0]
-    both &= step < np.array([widest, high])  # from one edge to the other is across the map
+    both &= step < np.array([widest, high])  # a side from one edge to the other crosses the map
     return both[:, 0] | both[:, 1]

@@ -1,4 +1,4 @@
-"""Lines on their way into a map: without jumps of longitude, cut to a box, and curved where the map bends them."""
+"""Lines for a map: remove jumps of longitude, clip to a box, and add points where the map bends them."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -14,10 +14,10 @@ from vexture_geo.vector.features import Lines
 
 
 def unwrap_lines(lines: Lines, turn: float) -> Lines:
-    """Remove jumps of longitude, so that no side is longer than half a turn: they go on beyond the antimeridian.
+    """Remove jumps of longitude, so that no side is longer than half a turn; lines continue beyond the antimeridian.
 
-    A side of a whole turn goes around the world, as a parallel does, unless the line comes from or goes on to places
-    within it: then it only changes the side of the antimeridian.
+    A side of a whole turn goes around the world, as a parallel does. If the line comes from or continues to places
+    within the turn, the side only changes the side of the antimeridian.
 
     Examples
     --------
@@ -45,7 +45,7 @@ def unwrap_lines(lines: Lines, turn: float) -> Lines:
 
 
 def lines_in_box(lines: Lines, box: Bounds, turn: float | None) -> Lines:
-    """Lines within a box, also where they are in it a turn away."""
+    """Clip lines to a box, including parts that lie in it a turn away."""
     import shapely
 
     low, high = np.array(box[:2]), np.array(box[2:])
@@ -65,7 +65,7 @@ def lines_in_box(lines: Lines, box: Bounds, turn: float | None) -> Lines:
 
 
 def change_lines(lines: Lines, change: Callable[[NDArray[Any]], NDArray[Any]]) -> Lines:
-    """Apply a change to shapely's lines, and keep the lines that are left of each."""
+    """Apply a change to shapely lines, and keep the lines among the results."""
     import shapely
 
     owner = np.repeat(np.arange(len(lines.ends)), np.diff(lines.ends, prepend=0))
@@ -77,7 +77,7 @@ def change_lines(lines: Lines, change: Callable[[NDArray[Any]], NDArray[Any]]) -
 
 
 def densify(rings: Rings, longest: float) -> Rings:
-    """Rings with middles in their sides until none is longer: equal sides of neighbours stay equal, bit for bit."""
+    """Add midpoints to sides until none is longer than `longest`; sides that neighbours share stay byte-identical."""
     points, ends = rings.points, rings.ends
     while len(points):
         after = replace(rings, points=points, ends=ends).following
@@ -93,7 +93,7 @@ def densify(rings: Rings, longest: float) -> Rings:
 
 
 def rings_along(lines: Lines) -> Rings:
-    """Rings that follow lines to their ends and back again: what bends rings bends lines, too."""
+    """Make rings that follow lines to their ends and back, because what bends rings then also bends lines."""
     lengths = np.diff(lines.ends, prepend=0)
     starts = lines.ends - lengths
     sizes = 2 * lengths - 2
@@ -105,7 +105,7 @@ def rings_along(lines: Lines) -> Rings:
 
 
 def lines_along(rings: Rings) -> Lines:
-    """The lines of `rings_along`."""
+    """Recover the lines of `rings_along`."""
     assert rings.feature is not None
     sizes = rings.ends - rings.starts
     lengths = sizes // 2 + 1

@@ -16,10 +16,10 @@ from vexture_geo.vector.features import Lines
 TEXT: Final = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*(px|km|m)\s*")
 
 STEP: Final = 0.02
-"""Part by which the width of a stroke may change along a run of its line, which has one width."""
+"""Fraction by which the width of a stroke may change along a run, which is drawn with one width."""
 
 ARC: Final = 8
-"""Sides in a quarter of a stroke's round end."""
+"""Number of sides in a quarter of a stroke's round end."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Width:
 
 
 def width_of(text: str, parameter: str) -> Width:
-    """Width of a text such as ``500m``, ``2km`` or ``1.5px``.
+    """Parse a width such as ``500m``, ``2km`` or ``1.5px``.
 
     Examples
     --------
@@ -45,7 +45,7 @@ def width_of(text: str, parameter: str) -> Width:
 
 
 def widths_at(points: NDArray[np.float64], width: Width, crs: str, pixel: float) -> NDArray[np.float64]:
-    """Units of the map that a width is at each point; `pixel` is a pixel in units of the map."""
+    """Width at each point in units of the map; `pixel` is the size of a pixel in these units."""
     if width.is_pixels:
         return np.full(len(points), width.value * pixel)
     return width.value * units_per_metre(points, crs)
@@ -54,7 +54,7 @@ def widths_at(points: NDArray[np.float64], width: Width, crs: str, pixel: float)
 def strokes(lines: Lines, width: Width, crs: str, pixel: float) -> Rings:
     """Areas of lines with round joins and ends, as polygons of the lines' features.
 
-    A line is cut into runs in which its width changes by 2% at most, so that it is right on Web Mercator, too.
+    A line is cut into runs in which its width changes by at most 2%, so that widths are right on Web Mercator, too.
     """
     import shapely
 
@@ -78,7 +78,7 @@ def strokes(lines: Lines, width: Width, crs: str, pixel: float) -> Rings:
 def outlines(rings: Rings, width: Width, crs: str, pixel: float) -> Rings:
     """Area of the borders of polygons, each drawn once, as polygons of one feature.
 
-    A border between two parts of the same feature, as along the antimeridian, is none, nor is the edge of the world.
+    Borders between two parts of one feature, as along the antimeridian, and the edge of the world are not drawn.
     """
     import shapely
 
@@ -87,7 +87,7 @@ def outlines(rings: Rings, width: Width, crs: str, pixel: float) -> Rings:
     assert rings.feature is not None
     of = np.repeat(rings.feature[rings.polygon], length)
     one, other = points.view(np.complex128).ravel(), points[after].view(np.complex128).ravel()
-    sides = np.stack([np.minimum(one, other), np.maximum(one, other)], axis=1)  # of complex numbers, by x and then y
+    sides = np.stack([np.minimum(one, other), np.maximum(one, other)], axis=1)  # complex numbers sort by x, then y
     different = one != other
     sides, of = sides[different], of[different]
     unique, side = np.unique(sides, axis=0, return_inverse=True)
@@ -105,7 +105,7 @@ def outlines(rings: Rings, width: Width, crs: str, pixel: float) -> Rings:
 
 
 def _runs(lines: Lines, width: Width, crs: str, pixel: float) -> tuple[NDArray[Any], NDArray[np.intp]]:
-    """Lines of nearly one width each, and their features."""
+    """Cut lines into runs of nearly one width; return these and their features."""
     import shapely
 
     owner = np.repeat(np.arange(len(lines.ends)), np.diff(lines.ends, prepend=0))

@@ -1,4 +1,4 @@
-"""Measures in columns: values as numbers, and numbers as the texts of a legend. Dates are numbers of days."""
+"""Columns as numbers, and numbers as the texts of a legend; dates are numbers of days."""
 
 import re
 from contextlib import suppress
@@ -14,16 +14,16 @@ if TYPE_CHECKING:
     import pyarrow
 
 DIGITS: Final = range(6, 13)
-"""Significant digits of numbers in a legend: as few as tell them apart; what more would tell apart is noise."""
+"""Significant digits of numbers in a legend: as few as tell them apart. Differences beyond the last are noise."""
 
 MOST_WHOLE: Final = 1e15
-"""Numbers below this are written without an exponent, and whole ones are known to the last digit."""
+"""Numbers below this are written without an exponent, and whole ones are exact to the last digit."""
 
 GROUPED: Final = 1e4
-"""From this on thousands are marked, in all numbers of the legend. Below it are years, which have no marks."""
+"""If any number of a legend reaches this, all get thousands separators. Years are below it and get none."""
 
 UNITS: Final = {"D": 86_400, "m": 60, "s": 1}
-"""Seconds in units of times: days, minutes and seconds."""
+"""Seconds in each unit of time: days, minutes and seconds."""
 
 PLAIN: Final = re.compile(r"(-?)(\d+)(\.\d+)?")
 
@@ -32,9 +32,9 @@ BREAKS: Final = "rising breaks such as 10,20,50 or 2001-01-01,2011-01-01"
 
 @dataclass(frozen=True, eq=False)
 class Measure:
-    """Values of a column as numbers, (f,), not a number where there is none.
+    """Values of a column as numbers, (f,); NaN where there is none.
 
-    `unit` is that of times since 1970, the longest in which all are whole: ``D``, ``m`` or ``s``; empty of numbers.
+    `unit` is that of times since 1970: ``D``, ``m`` or ``s``, the longest in which all are whole. Numbers have none.
     """
 
     values: NDArray[np.float64]
@@ -42,16 +42,16 @@ class Measure:
 
     @property
     def are_whole(self) -> bool:
-        """Whether numbers count things, years or days; in pandas they are floats where one is missing."""
+        """True if all numbers are whole, as counts, years and days are; pandas stores floats if one is missing."""
         known = self.values[np.isfinite(self.values)]
         return bool((known == np.rint(known)).all() and np.abs(known).max() < MOST_WHOLE)
 
     def json_value(self, number: float) -> float | str:
-        """A number for JSON; a time in ISO 8601."""
+        """Return a number for JSON, or a time in ISO 8601."""
         return self._time(number) if self.unit else number
 
     def texts(self, numbers: list[float]) -> list[str]:
-        """Numbers in as few digits as tell them apart, with marks of thousands; times as ISO 8601 has them.
+        """Format numbers with as few digits as tell them apart and thousands separators, and times in ISO 8601.
 
         Examples
         --------
@@ -71,7 +71,7 @@ class Measure:
 
 
 def measure_of(column: "pyarrow.ChunkedArray") -> Measure | None:
-    """Measure in a column of numbers, dates or times; None for other columns."""
+    """Convert a column of numbers, dates or times; None for other columns."""
     import pyarrow as pa
     import pyarrow.compute as pc
 
@@ -82,7 +82,7 @@ def measure_of(column: "pyarrow.ChunkedArray") -> Measure | None:
     if not (pa.types.is_date(kind) or pa.types.is_timestamp(kind)):
         return None
     if pa.types.is_timestamp(kind) and kind.tz is not None:
-        with suppress(pa.ArrowInvalid):  # of a zone that is unknown here
+        with suppress(pa.ArrowInvalid):  # an unknown time zone
             column = pc.local_timestamp(column)
     whole = column.cast(pa.timestamp("s"), safe=False).cast(pa.int64()).cast(pa.float64(), safe=False)
     seconds = np.asarray(whole.to_numpy(), np.float64)
@@ -92,9 +92,9 @@ def measure_of(column: "pyarrow.ChunkedArray") -> Measure | None:
 
 
 def breaks_of(text: str, unit: str | None = None) -> NDArray[np.float64]:
-    """Inner breaks of classes, of numbers or, with a unit, of times; those of either if it is None.
+    """Parse inner breaks of classes: numbers if `unit` is empty, times if it is a unit, either if it is None.
 
-    A `ParameterError` if they are none.
+    Raises a `ParameterError` if they are not rising numbers or times.
     """
     for own in ("", "s") if unit is None else (unit,):
         try:
@@ -108,22 +108,22 @@ def breaks_of(text: str, unit: str | None = None) -> NDArray[np.float64]:
 
 
 def _second_of(text: str) -> float:
-    """Seconds since 1970 of a time in ISO 8601."""
+    """Parse a time in ISO 8601 as seconds since 1970."""
     return float(np.datetime64(text.strip(), "s").astype(np.int64)) if text.strip().count("-") >= 2 else np.nan
 
 
 def distinct(rising: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The first of numbers that read the same."""
+    """Keep the first of numbers that read the same."""
     _, first = np.unique([_text(value, DIGITS[-1]) for value in rising.tolist()], return_index=True)
     return np.asarray(rising[np.sort(first)])
 
 
 def _text(number: float, digits: int) -> str:
-    """A number in so many significant digits; what is before the point is there in full."""
+    """Format a number with `digits` significant digits; its integer part is always complete."""
     return f"{number:.0f}" if 10**digits <= abs(number) < MOST_WHOLE else f"{number:.{digits}g}"
 
 
 def _group_digits(text: str) -> str:
-    """A number with marks of thousands; one with an exponent as it is."""
+    """Add thousands separators to a number, unless it has an exponent."""
     found: Any = PLAIN.fullmatch(text)
     return text if found is None else f"{found[1]}{int(found[2]):,}{found[3] or ''}"

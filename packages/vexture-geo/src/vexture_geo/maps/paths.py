@@ -1,4 +1,4 @@
-"""Paths of a map: the polygons of each feature as one path in the unit square, without an object for each vertex."""
+"""Paths of a map: the polygons of each feature as one path in the unit square, without an object per vertex."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -14,7 +14,7 @@ from vexture_geo.base.rings import Rings, orient_rings
 
 
 class MapFit:
-    """The box of a map in the middle of the unit square, at its own aspect ratio."""
+    """Transform of a map's box to the middle of the unit square, at its own aspect ratio."""
 
     def __init__(self, box: Bounds) -> None:
         west, south, east, north = box
@@ -24,18 +24,18 @@ class MapFit:
 
     @property
     def to_source(self) -> NDArray[np.float64]:
-        """Map from the unit square to the units of the map."""
+        """Return the matrix from the unit square to the units of the map."""
         return np.array([[self.scale, 0.0, self.low[0]], [0.0, self.scale, self.low[1]]])
 
     def inward(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Points in the unit square."""
+        """Transform points to the unit square."""
         return np.clip((points - self.low) / self.scale, 0.0, 1.0)
 
 
 def area_paths(
     rings: Rings, names: NDArray[Any], rgba: NDArray[np.float64], rank: NDArray[np.int64], fit: MapFit
 ) -> Iterator[Path]:
-    """A path of each feature's polygons, in the order of their ranks."""
+    """Make a path of each feature's polygons, in the order of the ranks."""
     if not len(rings.ends):
         return
     rings = orient_rings(rings)

@@ -1,4 +1,4 @@
-"""Features in the reference system of a map; on Web Mercator, without the poles and across the antimeridian."""
+"""Features in the reference system of a map. Web Mercator has no poles and continues beyond the antimeridian."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -42,33 +42,33 @@ from vexture_geo.vector.features import Features, Lines, Points
 
 MERCATOR: Final = "EPSG:3857"
 RADIUS: Final = 6378137.0
-"""Metres. Of the sphere of Web Mercator."""
+"""Radius of the sphere of Web Mercator, in metres."""
 
 MOST_LATITUDE: Final = 85.0511287798066
-"""Degrees. At this latitude the world in Web Mercator is a square."""
+"""Latitude, in degrees, at which the world in Web Mercator is a square."""
 
 DEGREES: Final = np.array([TURN, TURN / 2])
-"""Sides of the world in longitude and latitude."""
+"""Sides of the world in longitude and latitude, in degrees."""
 
 EVERYWHERE: Final = (-np.inf, -np.inf, np.inf, np.inf)
-"""A side may bulge out of the box of all points."""
+"""Box of all places, because a side may bulge out of the box of its points."""
 
 LONGEST: Final = 5.0
-"""Degrees of a side of which the ends and the middle tell how a map bends it."""
+"""Longest side, in degrees, whose ends and middle show how a map bends it."""
 
 MOST_LETTERS: Final = 60
-"""Of the name of an area in a message."""
+"""Longest name of an area in a message."""
 
 BEYOND_POINT: Final = "point beyond the map"
 
 DEGREE: Final = 111_320.0
-"""Metres in a degree of latitude, as far as widths of strokes need it."""
+"""Metres in a degree of latitude, exact enough for widths of strokes."""
 
 Move = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
 def place_features(features: Features, crs: str, notes: Notes) -> Features:
-    """Features in another reference system; what has no place there is cut off or left out, with a note."""
+    """Transform features to another system; parts without a place there are cut off or left out, with a note."""
     rings, turn = features.rings, period(features.crs)
     if turn:
         for marks in (features.lines, features.points):
@@ -94,7 +94,7 @@ def place_features(features: Features, crs: str, notes: Notes) -> Features:
 
 
 def _refuse_metres_of_marks(marks: Lines | Points, features: Features, notes: Notes) -> None:
-    """Refuse lines or points most of which cannot be in degrees; note others that cannot, which have no place."""
+    """Raise an error if most points of lines or points cannot be in degrees; note a minority, which has no place."""
     points = marks.points
     wrong = ~are_degrees(points, features.crs)
     if not wrong.any():
@@ -116,7 +116,7 @@ def _mover(start: str, end: str, before: Move = lambda points: points) -> Move:
 
 
 def _project(features: Features, crs: str, notes: Notes) -> Features:
-    """Features on another map, cut where it is torn."""
+    """Transform features to another map, cut where it is torn."""
     domain = domain_of(crs)
     if domain is not None and period(features.crs) is None and is_wide(crs):
         features = _in_degrees(features)
@@ -128,7 +128,7 @@ def _project(features: Features, crs: str, notes: Notes) -> Features:
             _note_torn(features, crs, notes)
     move, rings = _mover(features.crs, crs), features.rings
     is_around = domain is not None and domain.pole != 0.0 and period(features.crs) == TURN
-    if is_around:  # both sides of the antimeridian are one, bit for bit
+    if is_around:  # makes both sides of the antimeridian byte-identical
         move = _mover(features.crs, crs, within_turn)
     if len(rings.ends):
         rings = _usable(rings, features.crs, crs, move, notes)
@@ -140,7 +140,7 @@ def _project(features: Features, crs: str, notes: Notes) -> Features:
 
 
 def _in_degrees(features: Features) -> Features:
-    """Features in longitude and latitude; straight sides stay straight in their own system."""
+    """Transform features to longitude and latitude; sides stay straight in their own system."""
     move = _mover(features.crs, WORLD)
     rings, lines = features.rings, features.lines
     if len(rings.ends):
@@ -171,7 +171,7 @@ def _within(features: Features, domain: Domain, notes: Notes) -> Features:
 
 
 def _within_cap(features: Features, cap: Cap, notes: Notes) -> Features:
-    """Clip features to the cap that a map shows, which looks at the globe from one side."""
+    """Clip features to the cap that a perspective map shows."""
     rings, lines = cap.of_rings(features.rings), cap.of_lines(features.lines)
     points = _select_points(features.points, cap.distance(features.points.points) <= cap.radius, notes)
     if rings is not features.rings or lines is not features.lines:
@@ -181,14 +181,14 @@ def _within_cap(features: Features, cap: Cap, notes: Notes) -> Features:
 
 
 def _select_points(points: Points, is_shown: NDArray[np.bool_], notes: Notes) -> Points:
-    """The points that a map shows."""
+    """Select the points that a map shows."""
     for _ in range(int((~is_shown).sum())):
         notes.left_out(BEYOND_POINT)
     return Points(points.points[is_shown], points.feature[is_shown])
 
 
 def _note_torn(features: Features, crs: str, notes: Notes) -> None:
-    """Note which features, in longitude and latitude, lie across a tear that is at no meridian."""
+    """Note which features, in longitude and latitude, cross a tear that follows no meridian."""
     parts = [features.rings] if len(features.rings.ends) else []
     parts += [rings_along(features.lines)] if len(features.lines.ends) else []
     for rings in parts:
@@ -200,7 +200,7 @@ def _note_torn(features: Features, crs: str, notes: Notes) -> None:
 
 
 def _on_mercator(features: Features, notes: Notes) -> Features:
-    """Features on Web Mercator, which has no poles; beyond the antimeridian it goes on."""
+    """Transform features to Web Mercator, which has no poles and continues beyond the antimeridian."""
     if period(features.crs) is None:
         features = _in_degrees(features)
     rings, lines = features.rings, features.lines
@@ -235,14 +235,14 @@ def _reach(*points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[n
 
 
 def _mercator(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Web Mercator of longitudes and latitudes."""
+    """Project longitudes and latitudes to Web Mercator."""
     longitude, latitude = np.radians(degrees).T
     with np.errstate(invalid="ignore"):
         return RADIUS * np.stack([longitude, np.arcsinh(np.tan(latitude))], axis=1)
 
 
 def _usable(rings: Rings, start: str, end: str, move: Move, notes: Notes) -> Rings:
-    """Polygons moved; if some have no image, or one that is much too large, only those in the system's area of use."""
+    """Transform polygons; if some have no image or a much too large one, keep only those in the area of use."""
     rings_there = _map_finely(rings, move, None)
     finite = bool(np.isfinite(rings_there.points).all())
     area = system(end).area_of_use
@@ -262,7 +262,7 @@ def _usable(rings: Rings, start: str, end: str, move: Move, notes: Notes) -> Rin
 
 
 def _note_far(points: NDArray[np.float64], start: str, end: str, notes: Notes) -> None:
-    """Note that a map is not meant for some places; one around a pole is known to show a hemisphere."""
+    """Note that a map is not meant for some places, unless it is one around a pole, which shows a hemisphere."""
     area, domain = system(end).area_of_use, domain_of(end)
     if area is not None and not (domain and domain.pole) and is_far(transform_points(points, start, WORLD), end):
         name = area.name.rstrip(".") if len(area.name) <= MOST_LETTERS else f"{area.name[:MOST_LETTERS]}..."
@@ -273,13 +273,13 @@ def _note_far(points: NDArray[np.float64], start: str, end: str, notes: Notes) -
 
 
 def _system_name(crs: str) -> str:
-    """A system that has a name."""
+    """Name of a system for a message."""
     name = format_system(crs)
     return "this system" if name == "unknown" else name
 
 
 def _area(bounds: Bounds, crs: str) -> Bounds:
-    """An area of use in another system; it may go on beyond the antimeridian."""
+    """Transform an area of use to another system; it may extend beyond the antimeridian."""
     west, south, east, north = bounds
     corners = np.array([(west, south), (east + TURN * (east < west), north)], np.float64)
     (west, south), (east, north) = (corners if period(crs) == TURN else transform_points(corners, WORLD, crs)).tolist()
@@ -287,7 +287,7 @@ def _area(bounds: Bounds, crs: str) -> Bounds:
 
 
 def _map_finely(rings: Rings, move: Move, size: NDArray[np.float64] | None) -> Rings:
-    """Rings with more points where a mapped side is no longer straight."""
+    """Transform rings, with more points where a transformed side is no longer straight."""
     image = move(rings.points)
     known = image[np.isfinite(image).all(axis=1)]
     if not len(known):
@@ -298,7 +298,7 @@ def _map_finely(rings: Rings, move: Move, size: NDArray[np.float64] | None) -> R
 
 
 def _marks(features: Features, move: Move, notes: Notes, *, is_bent: bool = True) -> tuple[Lines, Points]:
-    """Lines, curved where the map bends them, and points; those without an image are left out."""
+    """Transform lines, curved where the map bends them, and points; those without an image are left out."""
     lines, spots = features.lines, features.points
     if len(lines.ends):
         there_back = rings_along(lines)

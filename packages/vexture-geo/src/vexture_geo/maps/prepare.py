@@ -1,4 +1,4 @@
-"""Layers of a map before their conversion: read, in the map's reference system, coloured, and fitted into a box."""
+"""Layers of a map, ready for conversion: in the map's reference system, coloured, and fitted into a box."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     import pyarrow
 
 FILL, INK, DOT = "#c3cdd6", "#404a54", "#d55e00"
-"""Colours of areas, lines and points that none is given for."""
+"""Default colours of areas, lines and points."""
 
 Box: TypeAlias = tuple[float, float]
 
@@ -41,7 +41,7 @@ NO_LINES: Final = Rings(np.empty((0, 2)), np.empty(0, np.intp), np.empty(0, np.i
 
 @dataclass(frozen=True)
 class MapLayer:
-    """A source of a map, what of it is drawn, and how.
+    """Source of a map, with the selection and the style of its features.
 
     Parameters
     ----------
@@ -49,25 +49,25 @@ class MapLayer:
     layer, where, id, columns
         As in `vexture_geo.vector.features.read_features`.
     source_crs : str, optional
-        Reference system of the source, where it names none.
+        Reference system of the source, if it names none.
     color : Scale or str, optional
         Colours by an attribute; a text is the column of a scale with defaults.
     times : Times, optional
-        What colours show at each step of time; those of the first step are the texture's own.
+        Values that colours show at each step of time; the texture itself has the colours of the first step.
     fill : str, optional
-        One CSS colour for all of it.
+        One CSS colour for all features.
     order : str, optional
-        Column by which overlapping polygons are painted, the greatest on top; by default the smaller are on top.
+        Column that orders overlapping polygons, the greatest on top; by default the smaller are on top.
     stroke : str
         Width of lines: ``500m`` on the ground, or ``1.5px`` of a map of the stated size.
     outline : str, optional
-        CSS colour of the borders of polygons, which are drawn above these, each once; not of the edge of the world.
+        CSS colour of the borders of polygons. Each is drawn once, above the polygons; the edge of the world is not.
     outline_width : str
-        Their width, as of lines.
+        Width of borders, given as for lines.
     symbol : Drawing, optional
-        What is drawn at points; a dot by default.
+        Drawing at each point; a dot by default.
     symbol_size : str
-        Width of symbols, as of lines.
+        Width of symbols, given as for lines.
     """
 
     source: Any
@@ -104,7 +104,7 @@ class MapLayer:
 
     @property
     def name(self) -> str:
-        """The layer's name, or else the file's."""
+        """Name of the layer, or else of the file."""
         named = isinstance(self.source, str | FilePath)
         return self.layer or (FilePath(self.source).name.partition(".")[0] if named else "map")
 
@@ -127,7 +127,7 @@ class PaintedLayer:
 
     layer: MapLayer
     label: str
-    """The layer's name, by which it is told from the others."""
+    """Unique name of the layer."""
 
     features: Features
     names: NDArray[Any]
@@ -138,7 +138,7 @@ class PaintedLayer:
     symbols: Symbols | None
 
     def colours(self, default: str) -> NDArray[np.float64]:
-        """Colour and opacity of each feature, (f, 4): by its attribute, or else of all; `default` is a CSS colour."""
+        """Colour and opacity of each feature, (f, 4): by attribute, or one for all; `default` is a CSS colour."""
         if self.rgba is not None:
             return self.rgba
         return np.tile(rgba_of(self.layer.fill or default, "fill"), (len(self.features), 1))
@@ -150,16 +150,16 @@ class Prepared:
 
     Parameters
     ----------
-    layers : tuple of Painted
-        In the order in which they are drawn.
-    fit : Fit
-        The map's box in the unit square.
+    layers : tuple of PaintedLayer
+        In drawing order.
+    fit : MapFit
+        Place of the map's box in the unit square.
     legends : tuple of dict
     table : pyarrow.Table
         Attributes of all features.
     crs, name : str
     notes : Notes
-        Of what was read; the conversion adds to them.
+        Notes on reading; the conversion adds to them.
     """
 
     layers: tuple[PaintedLayer, ...]
@@ -178,7 +178,7 @@ class Prepared:
 
 @contextmanager
 def in_memory() -> Iterator[None]:
-    """Say what to do where there is not enough memory."""
+    """Raise an error that says what to do if there is not enough memory."""
     import shapely
 
     try:
@@ -196,9 +196,9 @@ def in_memory() -> Iterator[None]:
 def prepare_layers(
     layers: Sequence[MapLayer], *, crs: str, size: int | Box, name: str | None, max_seconds: float
 ) -> Prepared:
-    """Read layers; parameters and errors are those of `vexture_geo.maps.convert_map`.
+    """Read layers; see `vexture_geo.maps.convert_map` for parameters and errors.
 
-    `size` may be the width and height in pixels of a box into which the map is fitted.
+    `size` may also be the width and height in pixels of a box into which the map is fitted.
     """
     if not isinstance(layers, Sequence) or not all(isinstance(layer, MapLayer) for layer in layers):
         raise ParameterError("`layers` is no list of layers; give one, such as [MapLayer(source)]")
@@ -217,7 +217,7 @@ def prepare_layers(
 
 
 def _planar(layers: Sequence[MapLayer], crs: str, notes: Notes) -> tuple[Sequence[MapLayer], str]:
-    """Layers and the system of their map: where none is known of any GeoDataFrame, a plane, as GeoPandas plots them."""
+    """Return layers and the map's system: a plane, as GeoPandas plots, if no GeoDataFrame names its own."""
     frames = [layer.source for layer in layers if layer.source_crs is None and hasattr(layer.source, "geometry")]
     if len(frames) < len(layers) or not same_system(crs, MERCATOR):
         return layers, crs
@@ -229,7 +229,7 @@ def _planar(layers: Sequence[MapLayer], crs: str, notes: Notes) -> tuple[Sequenc
 
 
 def _read(layer: MapLayer, crs: str, notes: Notes) -> Features:
-    """Features of a layer, in the map's reference system."""
+    """Read the features of a layer in the map's reference system."""
     with about(str(layer.source) if isinstance(layer.source, str | FilePath) else layer.name):
         options = {"layer": layer.layer, "where": layer.where, "id": layer.id, "columns": _columns(layer)}
         with renaming({"crs": "source_crs"}):
@@ -243,20 +243,20 @@ def _read(layer: MapLayer, crs: str, notes: Notes) -> Features:
 
 
 def _columns(layer: MapLayer) -> tuple[str, ...] | None:
-    """The columns that a layer keeps or needs; all, where a pattern chooses some."""
+    """Columns that a layer keeps or needs; None, for all, if a pattern chooses some."""
     if layer.columns is None or (layer.times is not None and layer.times.is_pattern):
         return None
     stepped = layer.times is not None
     needed = (layer.color.column if layer.color and not stepped else None, layer.order)
     steps = layer.times.column_names() if layer.times is not None else ()
-    own = (name for name in needed if name not in (None, ID))  # ids are there in any case
+    own = (name for name in needed if name not in (None, ID))  # ids are always read
     return tuple(dict.fromkeys([*layer.columns, *steps, *own]))
 
 
 def _colour_layers(
     read: list[tuple[MapLayer, Features]], notes: Notes
 ) -> tuple[list[PaintedLayer], list[dict[str, Any]]]:
-    """Names and colours of all features; ids that two layers share get the layer's name before them."""
+    """Name and colour all features; ids that two layers share are prefixed with the layer's name."""
     if sum(layer.times is not None for layer, _ in read) > 1:
         raise ParameterError("`times` is given for several sources; give it for one, and '' for the others")
     every = np.concatenate([features.ids for _, features in read])
@@ -281,7 +281,7 @@ def _colour_layers(
 
 
 def _labels(layers: Sequence[MapLayer]) -> list[str]:
-    """Names of layers; one that another had before gets a number."""
+    """Names of layers; a repeated name gets a number."""
     labels = list[str]()
     for layer in layers:
         label, number = layer.name, 1
@@ -295,7 +295,7 @@ def _labels(layers: Sequence[MapLayer]) -> list[str]:
 def _add_steps(
     layer: MapLayer, times: Times, features: Features, notes: Notes
 ) -> tuple[Features, Steps, dict[str, Any]]:
-    """Features with the values of all steps, their colours at each, and the legend of these."""
+    """Add the values of all steps to features; return them with their colours at each step and the legend."""
     features, columns, labels, title = with_steps(features, times, notes)
     scale = replace(layer.color or Scale(""), column=title)
     steps, legend = colour_steps(features.table, columns, labels, scale, notes)
@@ -308,7 +308,7 @@ def _add_steps(
 def _add_marks(
     painted: list[PaintedLayer], crs: str, size: int | Box, notes: Notes
 ) -> tuple[tuple[PaintedLayer, ...], MapFit]:
-    """Layers with the areas of their lines and points, and the box of all."""
+    """Add the areas of lines and points to layers, and fit the box of all."""
     boxes = [np.concatenate([f.rings.points, f.lines.points, f.points.points]) for f in (p.features for p in painted)]
     every = np.concatenate(boxes)
     if not len(every):
@@ -334,7 +334,7 @@ def _add_marks(
 def _outline(
     one: PaintedLayer, is_named: bool, used_names: set[str], crs: str, pixel: float, notes: Notes
 ) -> LayerOutline:
-    """The borders of a layer; the name of their element is that of no feature."""
+    """Make the outline of a layer; no feature has the name of its element."""
     layer, rings = one.layer, one.features.rings
     width = width_of(layer.outline_width, "outline_width")
     if layer.outline is None or not len(rings.ends):
@@ -347,7 +347,7 @@ def _outline(
 
 
 def _symbols(one: PaintedLayer, crs: str, pixel: float) -> Symbols | None:
-    """The symbols of a layer's points, if it has any."""
+    """Make the symbols of a layer's points, if it has any."""
     points, layer = one.features.points, one.layer
     if not len(points.points):
         return None
@@ -361,14 +361,14 @@ def _symbols(one: PaintedLayer, crs: str, pixel: float) -> Symbols | None:
 
 
 def _dot() -> Drawing:
-    """A round symbol that fills the unit square."""
+    """Make a round symbol that fills the unit square."""
     from vexture.conversion.reading import read
 
     return read(b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 2 2"><circle cx="1" cy="1" r="1"/></svg>')
 
 
 def _table(painted: list[PaintedLayer], legends: list[dict[str, Any]]) -> "pyarrow.Table":
-    """Attributes of all layers: `id` is the element's name in the texture; of several layers, `layer` is its name."""
+    """Attributes of all layers: `id` names the element in the texture; with several layers, `layer` is its name."""
     import pyarrow as pa
 
     tables = []

@@ -1,4 +1,4 @@
-"""Symbols at points: the paths of a drawing about each of some points, without what others hide where they crowd."""
+"""Symbols at points: a drawing at each point, without most of what other symbols hide where they crowd."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,27 +15,27 @@ from vexture.drawing.paint import Paint
 from vexture_geo.maps.paths import MapFit
 
 CROWD: Final = 1024
-"""Fewer symbols than this lose nothing that others hide: their map takes little time as it is."""
+"""Number of symbols below which hidden parts are kept, because their map takes little time anyway."""
 
 FINE: Final = 8
-"""Cells of the grid of what is hidden in the radius of a symbol of middling size."""
+"""Cells of the grid of hidden areas in the radius of a symbol of median size."""
 
 MOST_CELLS: Final = 1 << 24
-"""Of the grid, 64 MB."""
+"""Most cells of the grid: 64 MB."""
 
 MOST_VISITS: Final = 1 << 28
-"""Cells in the boxes of all symbols together, some seconds."""
+"""Most cells in the boxes of all symbols together: some seconds."""
 
 INNER: Final = 1.0 - 1e-6
-"""Part of a circle that counts, against rounding."""
+"""Fraction of a circle that counts, to allow for rounding."""
 
 STRAIGHT: Final = 1e-9
-"""Angle, in radians, by which a convex outline may turn back by rounding."""
+"""Angle, in radians, by which rounding may turn a convex outline back."""
 
 
 @dataclass(frozen=True, eq=False)
 class Symbols:
-    """The paths of a drawing about each of some points.
+    """Copies of a drawing's paths at points.
 
     Parameters
     ----------
@@ -44,9 +44,9 @@ class Symbols:
     sizes : (n,) float64 array
         In the units of the map, like the points.
     names : list of str
-        Elements.
+        Element of each point.
     paints : list
-        Paint of each; None where the drawing's own paints stay.
+        Paint of each; None keeps the drawing's own paints.
 
     Raises
     ------
@@ -68,15 +68,15 @@ class Symbols:
         return len(self.names)
 
     def _copies(self, path: Path) -> NDArray[np.float64]:
-        """The cubics of a path of the drawing about each point, (n, m, 4, 2), in the units of the map.
+        """Cubics of a path of the drawing at each point, (n, m, 4, 2), in the units of the map.
 
-        All are placed at once: of hundreds of thousands, each operation on one alone would take seconds.
+        All are placed at once, because an operation for each of hundreds of thousands would take seconds.
         """
         return (np.concatenate(path.contours) - 0.5) * self.sizes[:, None, None, None] + self.points[:, None, None, :]
 
     @property
     def corners(self) -> NDArray[np.float64]:
-        """Least and greatest coordinates of where cubics start, (2, 2) or (0, 2), in the units of the map."""
+        """Least and greatest coordinates of the start points of cubics, (2, 2) or (0, 2), in the units of the map."""
         low, high = [], []
         for path in self.symbol.paths:
             for start in np.concatenate(path.contours)[:, 0] if path.contours else ():
@@ -86,7 +86,7 @@ class Symbols:
         return np.array([np.min(low, axis=0), np.max(high, axis=0)]) if low and len(self) else np.empty((0, 2))
 
     def paths(self, fit: MapFit) -> Iterator[Path]:
-        """The paths, in the unit square, whole."""
+        """Yield all paths, uncut, in the unit square."""
         copies = []
         for path in self.symbol.paths:
             spans = [*pairwise([0, *np.cumsum([len(contour) for contour in path.contours]).tolist()])]
@@ -98,9 +98,9 @@ class Symbols:
                 yield Path.unchecked(contours, rule, paint or own, element=name)
 
     def seen_paths(self, fit: MapFit) -> Iterator[Path]:
-        """The paths, in the unit square; where many convex ones crowd, without most of what later ones hide.
+        """Yield the paths in the unit square; where many convex ones crowd, without most of what later ones hide.
 
-        A path of which nothing is seen has no contours: its element is there, as that of any feature.
+        A path that is wholly hidden has no contours; its element exists, like that of any feature.
         """
         circles = _circles(self.symbol)
         if circles is None or len(self) < CROWD:
@@ -121,7 +121,7 @@ class Symbols:
 
 
 class _Circles(NamedTuple):
-    """Circles in and around a convex outline, about one middle."""
+    """Concentric circles in and around a convex outline."""
 
     middle: NDArray[np.float64]
     inner: float
@@ -147,14 +147,14 @@ def _circles(symbol: Drawing) -> _Circles | None:
     middle = (start.min(axis=0) + start.max(axis=0)) / 2
     chord = end - start
     across = chord[:, 0] * (middle - start)[:, 1] - chord[:, 1] * (middle - start)[:, 0]
-    far = np.abs(across) / np.maximum(np.hypot(*chord.T), 1e-300)  # from the lines of chords: no more than from these
+    far = np.abs(across) / np.maximum(np.hypot(*chord.T), 1e-300)  # to the chord's line: at most that to the chord
     is_inside = (across > 0.0).all() or (across < 0.0).all()
     outer = float(np.hypot(*(fine.reshape(-1, 2) - middle).T).max())
     return _Circles(middle, float(far.min()) * INNER if is_inside else 0.0, outer / INNER)
 
 
 def _halve_cubics(cubics: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Both halves of each cubic, by de Casteljau's algorithm."""
+    """Halve each cubic by de Casteljau's algorithm."""
     a, b, c, d = cubics.transpose(1, 0, 2)
     p, q, r = (a + b) / 2, (b + c) / 2, (c + d) / 2
     s, t = (p + q) / 2, (q + r) / 2
@@ -165,7 +165,7 @@ def _halve_cubics(cubics: NDArray[np.float64]) -> NDArray[np.float64]:
 def _cut_hidden(
     outlines: NDArray[np.float64], middles: NDArray[np.float64], inner: NDArray[np.float64], outer: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
-    """Visible parts of outlines (n, m, 4, 2), the place after the last cubic of each, and which of them hide others."""
+    """Visible parts of outlines (n, m, 4, 2), the index after the last cubic of each, and which of them hide others."""
     count = len(outlines)
     low, high = (middles - outer[:, None]).min(axis=0), (middles + outer[:, None]).max(axis=0)
     wide, tall = high - low

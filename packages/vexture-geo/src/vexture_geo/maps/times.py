@@ -1,4 +1,4 @@
-"""Values that change with time: columns of a layer, or a table of ids, times and values; and their colours."""
+"""Values that change with time, from columns of a layer or a table of ids, times and values; and their colours."""
 
 import os
 import re
@@ -23,16 +23,16 @@ if TYPE_CHECKING:
 
 TABLES: Final = (".parquet", ".arrow", ".feather", ".csv")
 ANY: Final = "*"
-"""In a pattern of names, what stands for anything."""
+"""Wildcard in a pattern of names."""
 
 ID: Final = "id"
 TIME: Final = "time"
 
 STEP_COLUMNS: Final = "columns"
-"""Member of a legend: the columns of the table that have the values of its steps."""
+"""Member of a legend that lists the columns of the table with the values of its steps."""
 
 MOST_COLOURS: Final = 100_000_000
-"""Colours of all features at all steps, of which each takes some 50 bytes on the way."""
+"""Most colours of all features at all steps; each takes some 50 bytes during conversion."""
 
 DIGITS: Final = re.compile(r"(\d+)")
 
@@ -44,7 +44,7 @@ class Times:
     Parameters
     ----------
     source : sequence of str, str, path, table or DataFrame
-        Columns of the layer, one for each step; or a pattern of their names, such as ``y*``; or a table, or a file of
+        Columns of the layer, one for each step; a pattern of their names, such as ``y*``; or a table, or the file of
         one (Parquet, Arrow or CSV), with the columns ``id``, ``time`` and one of values.
     labels : sequence of str, optional
         Names of the steps; by default those of the columns, or the times of the table.
@@ -67,7 +67,7 @@ class Times:
 
     @property
     def is_table(self) -> bool:
-        """Whether the values are in a table beside the layer."""
+        """True if the values are in a table beside the layer."""
         if isinstance(self.source, os.PathLike):
             return True
         if isinstance(self.source, str):
@@ -76,11 +76,11 @@ class Times:
 
     @property
     def is_pattern(self) -> bool:
-        """Whether a text stands for several columns."""
+        """True if a text is a pattern for several columns."""
         return isinstance(self.source, str) and not self.is_table and ANY in self.source
 
     def columns(self, names: Sequence[str]) -> list[str]:
-        """The columns of a layer, in the order of the steps; those of a pattern as their numbers rise."""
+        """Columns of a layer in the order of the steps; those of a pattern are sorted by their numbers."""
         if self.is_pattern:
             like = re.compile(".*".join(re.escape(part) for part in self.source.split(ANY)), re.DOTALL)
             found = sorted((name for name in names if like.fullmatch(name)), key=_natural)
@@ -98,7 +98,7 @@ class Times:
         return wanted
 
     def column_names(self) -> tuple[str, ...]:
-        """Columns that are named one by one."""
+        """Columns that are named one by one, not by a pattern."""
         if self.is_table or self.is_pattern:
             return ()
         parts = self.source.split(",") if isinstance(self.source, str) else self.source
@@ -113,7 +113,7 @@ class Steps:
     ----------
     labels : tuple of str
     columns : tuple of str
-        Of the table, with the values.
+        Columns of the table with the values.
     rgba : (t, f, 4) array
         Not premultiplied.
     """
@@ -123,7 +123,7 @@ class Steps:
     rgba: NDArray[np.float64]
 
     def at(self, time: float) -> NDArray[np.float64]:
-        """Colours at a time in steps, (f, 4); between two steps they are mixed in sRGB, as those of palettes.
+        """Colours at a time in steps, (f, 4); between two steps they are mixed in sRGB, as in palettes.
 
         Examples
         --------
@@ -138,7 +138,7 @@ class Steps:
         return np.asarray(one + share * (following - one))
 
     def as_json(self, names: Sequence[str], legend: dict[str, Any]) -> dict[str, Any]:
-        """Return what a page needs: ``ids`` and ``colors`` are those of `setTimes` of the npm package's layers."""
+        """Return data for a page: ``ids`` and ``colors`` are those of `setTimes` of the npm package's layers."""
         coded, place = np.unique(np.round(self.rgba, 4).reshape(-1, 4), axis=0, return_inverse=True)
         words = np.array([hex_of(colour) for colour in coded], object)
         colours = words[place.reshape(self.rgba.shape[:2])].tolist()
@@ -146,7 +146,7 @@ class Steps:
 
 
 def with_steps(features: Features, times: Times, notes: Notes) -> tuple[Features, list[str], tuple[str, ...], str]:
-    """Features with a column of values for each step; the columns, the steps' names, and what the values are called."""
+    """Add a column of values for each step; return features, columns, names of steps, and the title of the values."""
     if times.is_table:
         columns, found, title = _join_values(features, times.source, notes)
         table = features.table
@@ -172,7 +172,7 @@ def with_steps(features: Features, times: Times, notes: Notes) -> tuple[Features
 def colour_steps(
     table: "pyarrow.Table", columns: Sequence[str], labels: tuple[str, ...], scale: Scale, notes: Notes
 ) -> tuple[Steps, dict[str, Any]]:
-    """Colours of the rows of a table at each step, on one scale of all values; and its legend."""
+    """Colour the rows of a table at each step, on one scale of all values; return colours and legend."""
     import pyarrow as pa
 
     try:
@@ -188,12 +188,12 @@ def colour_steps(
 
 
 def _natural(name: str) -> list[tuple[int, Any]]:
-    """Key by which numbers in names are sorted as numbers."""
+    """Return a key that sorts numbers in names as numbers."""
     return [(0, int(part)) if part.isdecimal() else (1, part) for part in DIGITS.split(name) if part]
 
 
 def _join_values(features: Features, source: Any, notes: Notes) -> tuple[dict[str, Any], tuple[str, ...], str]:
-    """Columns of a table's values, one for each of its times; the times, and the name of the values."""
+    """Return a column of a table's values for each of its times, the times, and the name of the values."""
     import pyarrow as pa
 
     table = _table(source)
@@ -233,7 +233,7 @@ def _join_values(features: Features, source: Any, notes: Notes) -> tuple[dict[st
 
 
 def _encode_values(column: Any, name: str) -> tuple[NDArray[np.int64], Any]:
-    """The place of each value of a column among those that there are, -1 where there is none; and these."""
+    """Index of each value of a column among its distinct values, -1 where there is none; and these."""
     import pyarrow as pa
 
     try:
@@ -248,7 +248,7 @@ def _encode_values(column: Any, name: str) -> tuple[NDArray[np.int64], Any]:
 
 
 def _steps(column: Any) -> tuple[NDArray[np.int64], tuple[str, ...]]:
-    """The step of each row, -1 where it has no time, and the names of the steps."""
+    """Step of each row, -1 where it has no time, and the names of the steps."""
     import pyarrow as pa
 
     codes, coded = _encode_values(column, TIME)
@@ -257,13 +257,13 @@ def _steps(column: Any) -> tuple[NDArray[np.int64], tuple[str, ...]]:
     if not (pa.types.is_dictionary(column.type) and column.type.ordered):
         keys = dict(zip(used, _keys([times[code] for code in used]), strict=True))
         used.sort(key=keys.__getitem__)
-    step = np.full(len(times) + 1, -1, np.int64)  # the last is that of no time
+    step = np.full(len(times) + 1, -1, np.int64)  # the last is for rows without a time
     step[used] = np.arange(len(used))
     return step[codes], tuple(str(name) for name in texts_of([times[code] for code in used]))
 
 
 def _keys(times: list[Any]) -> list[Any]:
-    """Keys to sort times by: texts as numbers, or else as the numbers in them."""
+    """Keys that sort times: texts as numbers, or else by the numbers in them."""
     if not all(isinstance(time, str) for time in times):
         return times
     try:
@@ -274,14 +274,14 @@ def _keys(times: list[Any]) -> list[Any]:
 
 
 def _free(name: str, used_names: set[str]) -> str:
-    """A name that no column has."""
+    """Make a name that no column has."""
     while name in used_names:
         name += "_"
     return name
 
 
 def _table(source: Any) -> "pyarrow.Table":
-    """A table of ids, times and values."""
+    """Read a table of ids, times and values."""
     import pyarrow as pa
 
     if isinstance(source, pa.Table):
@@ -313,7 +313,7 @@ def _table(source: Any) -> "pyarrow.Table":
 
 
 def _of_frame(frame: Any) -> "pyarrow.Table":
-    """The columns of a DataFrame, without geometries."""
+    """Convert the columns of a DataFrame, without geometries."""
     import pyarrow as pa
 
     if not hasattr(frame, "items"):

@@ -1,1 +1,1 @@
-"""Pyramids of tiles: what one texture cannot hold, as a planar map for each tile of the web's Mercator grid."""
+"""Pyramids of tiles for maps too large for one texture: a planar map for each tile of the web's Mercator grid."""

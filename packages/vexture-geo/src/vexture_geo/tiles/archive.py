@@ -1,4 +1,4 @@
-"""Pyramids as one file, PMTiles version 3, or as a folder with a TileJSON."""
+"""Write pyramids as one PMTiles file (version 3), or as a folder with a TileJSON."""
 
 import gzip
 import hashlib
@@ -20,25 +20,25 @@ if TYPE_CHECKING:
     from vexture_geo.tiles.store import Content
 
 ARCHIVE: Final = ".pmtiles"
-"""Suffix of the one file."""
+"""Suffix of an archive."""
 
 LISTED: Final = "tiles.json"
-"""The description in a folder."""
+"""Name of the TileJSON in a folder."""
 
 MOST_FILES: Final = 200_000
-"""Tiles of a folder: more would fill the directories of a disk."""
+"""Most tiles in a folder, because more would fill the directories of a disk."""
 
 ROOT_BYTES: Final = 16384 - 127
-"""The header and the root directory are in the first 16 KiB of an archive."""
+"""Most bytes of the root directory: with the header it lies in the first 16 KiB of an archive."""
 
 Extra = Mapping[Path, Callable[[BinaryIO], None]]
-"""Files that belong to a pyramid, and what writes them."""
+"""Functions that write the files beside a pyramid, by path."""
 
 Runs = Sequence[tuple[int, int, str]]
 
 
 def check_target(output: Path) -> None:
-    """Raise a `DeviceError` if a pyramid cannot be written there."""
+    """Raise a `DeviceError` if a pyramid cannot be written to a path."""
     if output.suffix.lower() == ARCHIVE:
         if output.is_dir():
             raise DeviceError(f"{output}: is a folder; name a file")
@@ -48,7 +48,7 @@ def check_target(output: Path) -> None:
 
 
 def table_of(output: Path, kind: str) -> Path | None:
-    """The file of a pyramid's table of attributes: beside an archive, or in the folder; None if it has none."""
+    """Path of a pyramid's table of attributes: beside an archive, or in the folder; None if it has none."""
     if kind == TABLES[-1]:
         return None
     return output.with_suffix(f".{kind}") if output.suffix.lower() == ARCHIVE else output / f"table.{kind}"
@@ -63,7 +63,7 @@ def write_archive(
     about: Any,
     extra: Extra,
 ) -> int:
-    """Write one file, and those beside it, each whole or not, and return its size; `bounds` are in degrees."""
+    """Write an archive and the files beside it, each whole or not at all, and return its size; `bounds` in degrees."""
     from pmtiles.tile import Compression, Entry, TileType, serialize_header
     from pmtiles.writer import optimize_directories
 
@@ -100,7 +100,7 @@ def write_archive(
 
 
 def _write_whole(path: Path, write: Callable[[BinaryIO], None]) -> None:
-    """Write a file, whole or not."""
+    """Write a file completely or not at all."""
     partial = path.with_name(f".{path.name}{TEMPORARY}")
     try:
         with partial.open("wb") as file:
@@ -122,7 +122,7 @@ def write_folder(
     about: Any,
     extra: Extra,
 ) -> int:
-    """Write a folder with a file for each tile, whole or not, and return the size of what differs."""
+    """Write a folder with one file per tile, completely or not at all, and return the size of its distinct tiles."""
     count = sum(count for _, count, _ in runs)
     if count > MOST_FILES:
         raise LimitError(f"{output}: {count} tiles are too many files; the limit is {MOST_FILES}; write one {ARCHIVE}")
@@ -139,7 +139,7 @@ def write_folder(
                 write(file)
         (partial / LISTED).write_text(json.dumps(listed, indent=1) + "\n")
     except BaseException:
-        shutil.rmtree(partial, ignore_errors=True)  # it may be what fills the disk
+        shutil.rmtree(partial, ignore_errors=True)  # it may have filled the disk
         raise
     old = output.with_name(f".{output.name}.old{TEMPORARY}")
     shutil.rmtree(old, ignore_errors=True)
@@ -151,7 +151,7 @@ def write_folder(
 
 
 def _fill(partial: Path, runs: Runs, contents: "Mapping[str, Content]") -> int:
-    """Write the tiles of a folder, and return the size of what differs."""
+    """Write the tiles of a folder, and return the size of its distinct tiles."""
     from pmtiles.tile import tileid_to_zxy
 
     first_of: dict[str, Path] = {}
@@ -171,7 +171,7 @@ def _fill(partial: Path, runs: Runs, contents: "Mapping[str, Content]") -> int:
 
 
 def _link_file(path: Path, other: Path) -> None:
-    """The same file once more, on disks that can do that."""
+    """Link a file to another path, or copy it where the disk has no hard links."""
     with suppress(OSError):
         os.link(path, other)
         return

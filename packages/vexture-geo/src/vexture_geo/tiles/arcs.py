@@ -1,4 +1,4 @@
-"""Borders of polygons as arcs between the corners where three of them meet, each simplified once."""
+"""Simplify borders of polygons as arcs between the corners where three polygons meet, each arc once."""
 
 from typing import Any
 
@@ -10,9 +10,10 @@ from vexture_geo.tiles.shared_borders import Corners, corners_of
 
 
 def simplify_borders(shapes: NDArray[Any], box: Bounds, tolerance: float, least: float) -> NDArray[Any]:
-    """Polygons, (n,), of which no border moves farther than a tolerance; empty where nothing is left.
+    """Simplify polygons, (n,), so that no border moves farther than a tolerance; some may become empty.
 
-    Douglas and Peucker's way for each arc. Corners on the sides of the box stay; holes of less than an area go.
+    Each arc is simplified by Douglas and Peucker's algorithm. Corners on the sides of the box stay; holes with less
+    area than `least` are removed.
     """
     import shapely
 
@@ -29,12 +30,12 @@ def simplify_borders(shapes: NDArray[Any], box: Bounds, tolerance: float, least:
     step = np.arange(len(points)) - starts[line]
     points = points[starts[line] + np.where(backwards[line], counts[line] - 1 - step, step)]
     ends = np.ones(len(points), np.bool_)
-    ends[starts + counts - 1] = False  # the next arc begins there
+    ends[starts + counts - 1] = False  # the next arc begins with this corner
     return _polygons(points[ends], ring[line[ends]], corners.polygon, len(shapes), least)
 
 
 def _nodes(corners: Corners, box: Bounds) -> NDArray[np.bool_]:
-    """Corners between arcs, (m,): where not two sides meet, on the box, and two of each ring that has fewer."""
+    """Corners between arcs, (m,): where not exactly two sides meet, on the box, and two of each ring with fewer."""
     count = len(corners.points)
     first, last = np.divmod(np.unique(corners.sides), count)
     degree = np.bincount(first, minlength=count) + np.bincount(last, minlength=count)
@@ -55,7 +56,7 @@ def _nodes(corners: Corners, box: Bounds) -> NDArray[np.bool_]:
 
 
 def _roll_rings(corners: Corners, is_node: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Places of all rings, each from its first node on."""
+    """Places of all rings, each starting at its first node."""
     here = is_node[corners.ids]
     place = np.arange(len(here))
     first = np.minimum.reduceat(np.where(here, place, len(here)), corners.starts) - corners.starts
@@ -67,9 +68,9 @@ def _roll_rings(corners: Corners, is_node: NDArray[np.bool_]) -> NDArray[np.intp
 def _arcs(
     corners: Corners, rolled: NDArray[np.intp], is_node: NDArray[np.bool_]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_], NDArray[np.intp]]:
-    """Places of the corners of all arcs, with both ends; the arc of each; which arcs are reversed, and whose they are.
+    """Places of the corners of all arcs, with both ends; the arc of each; which arcs are reversed; the ring of each.
 
-    All arcs begin at the lesser of their ends: those of two polygons that share a border are the same then.
+    Each arc begins at the lesser of its ends, so that polygons that share a border have the same arc.
     """
     starts = np.flatnonzero(is_node[corners.ids[rolled]])
     ring_of_place = np.repeat(np.arange(len(corners.starts)), corners.lengths)
@@ -77,7 +78,7 @@ def _arcs(
     sides = np.diff(np.append(starts, len(rolled)))
     last = np.append(starts[1:], 0)
     closes = np.append(ring[1:] != ring[:-1], True)
-    last[closes] = corners.starts[ring[closes]]  # the ring's first node, in its rolled order
+    last[closes] = corners.starts[ring[closes]]  # first node of the ring, in its rolled order
     backwards = corners.ids[rolled[starts]] > corners.ids[rolled[last]]
     counts = sides + 1
     arc = np.repeat(np.arange(len(starts)), counts)
@@ -91,7 +92,7 @@ def _arcs(
 def _polygons(
     points: NDArray[np.float64], ring: NDArray[np.intp], polygon: NDArray[np.intp], count: int, least: float
 ) -> NDArray[Any]:
-    """Polygons of rings: without rings that enclose nothing, and small holes; `ring` is that of each point."""
+    """Build polygons from rings, without small holes and rings without area; `ring` is the ring of each point."""
     import shapely
 
     fresh = _fresh(points, ring)
@@ -121,7 +122,7 @@ def _polygons(
 
 
 def _fresh(points: NDArray[np.float64], ring: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Points that are elsewhere than the one after them in their ring: a ring that touched itself may repeat some."""
+    """Find points that differ from the next one in their ring: a ring that touched itself may repeat points."""
     starts = np.flatnonzero(np.diff(ring, prepend=-1))
     following = np.arange(1, len(points) + 1)
     following[np.append(starts[1:], len(points)) - 1] = starts

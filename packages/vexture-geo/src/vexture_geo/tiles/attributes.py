@@ -1,4 +1,4 @@
-"""Attributes of a pyramid's features: the table beside it, and their colours by one of its columns."""
+"""Attributes of a pyramid's features: the table beside it, and colours by one of its columns."""
 
 from collections.abc import Iterator
 from contextlib import ExitStack
@@ -32,11 +32,11 @@ class TileStyle:
     color : Scale or None
         Colours by an attribute.
     fill : str or None
-        One CSS colour for all; grey by default.
+        One CSS colour for all features; grey by default.
     columns : tuple of str or None
         Attributes in the table; all by default.
     order : str or None
-        Column whose greater values lie above; by default smaller features lie above larger ones.
+        Column whose greater values are painted above; by default smaller features are above larger ones.
     table : str
         Kind of the table's file: ``parquet``, ``arrow`` or ``none``.
     """
@@ -48,7 +48,7 @@ class TileStyle:
     table: str = TABLES[-1]
 
     def check(self) -> None:
-        """Raise a `ParameterError` before anything is read."""
+        """Raise a `ParameterError` for wrong options before anything is read."""
         if self.color is not None and self.fill is not None:
             raise ParameterError("`color` and `fill` exclude each other; leave one out")
         if self.fill is not None:
@@ -58,44 +58,44 @@ class TileStyle:
 
     @property
     def has_table(self) -> bool:
-        """Whether a table is written."""
+        """True if a table is written."""
         return self.table != TABLES[-1]
 
     @property
     def read(self) -> list[str] | None:
-        """Columns that are read; None is all."""
+        """Columns to read; None for all."""
         wanted = (None if self.color is None else self.color.column, self.order)
-        own = list(dict.fromkeys(name for name in wanted if name not in (None, ID)))  # ids are there in any case
+        own = list(dict.fromkeys(name for name in wanted if name not in (None, ID)))  # ids are always read
         if not self.has_table:
             return own
         return None if self.columns is None else list(dict.fromkeys([*self.columns, *own]))
 
     @property
     def key(self) -> list[Any]:
-        """All that it is, as JSON."""
+        """All options as JSON, to compare with those of an unfinished pyramid."""
         scale = self.color
         colours = scale and [scale.column, scale.kind, scale.palette, scale.classes, scale.no_data]
         return [colours, self.fill, self.columns and list(self.columns), self.order, self.table]
 
 
 class Attributes:
-    """The attributes of a source in a folder: written as they come, in batches; those of colours stay in memory."""
+    """Attributes of a source, written to a folder batch by batch; the column of colours stays in memory."""
 
-    def __init__(self, folder: Path, look: TileStyle) -> None:
-        self._folder, self._look = folder, look
+    def __init__(self, folder: Path, style: TileStyle) -> None:
+        self._folder, self._style = folder, style
         self._coloured: list[pyarrow.ChunkedArray] = []
         self._writer: Any = None
         self._opened = ExitStack()
 
     def add(self, features: Any) -> None:
-        """Append those of some features."""
-        if self._look.color is not None:
-            name = self._look.color.column
+        """Append the attributes of some features."""
+        if self._style.color is not None:
+            name = self._style.color.column
             features.refuse_numbers(name)
             if name not in features.table.column_names:
-                colours_of(features.table, self._look.color, Notes())  # says which there are
+                colours_of(features.table, self._style.color, Notes())  # its error lists the columns
             self._coloured.append(features.table.column(name))
-        if self._look.has_table:
+        if self._style.has_table:
             import pyarrow as pa
 
             if self._writer is None:
@@ -107,28 +107,28 @@ class Attributes:
     def close(self, layer: str, notes: Notes) -> list[dict[str, Any]]:
         """Write the features' colours, and return the legends."""
         self._opened.close()
-        look = self._look
-        if look.color is None or not self._coloured:
-            rgba, legends = np.array([GREY if look.fill is None else rgba_of(look.fill, "fill")]), []
+        style = self._style
+        if style.color is None or not self._coloured:
+            rgba, legends = np.array([GREY if style.fill is None else rgba_of(style.fill, "fill")]), []
         else:
             import pyarrow as pa
 
             values = [chunk for column in self._coloured for chunk in column.chunks]
-            table = pa.table({look.color.column: pa.chunked_array(values, self._coloured[0].type)})
-            rgba, legend = colours_of(table, look.color, notes)
+            table = pa.table({style.color.column: pa.chunked_array(values, self._coloured[0].type)})
+            rgba, legend = colours_of(table, style.color, notes)
             legends = [{"layer": layer, **legend}]
         np.save(self._folder / PAINTS, pack_colours(rgba))
         return legends
 
 
 def paints_of(folder: Path) -> NDArray[np.uint32]:
-    """The colours of features by their numbers; a single one is that of all."""
+    """Read the colours of features by their numbers; a single colour applies to all."""
     found: NDArray[np.uint32] = np.load(folder / PAINTS)
     return found
 
 
 def write_table(file: IO[bytes], folder: Path, kind: str, legends: list[dict[str, Any]]) -> None:
-    """Write the table of a folder as a file of a kind."""
+    """Write the table of a folder as Parquet or Arrow."""
     import pyarrow as pa
 
     with pa.memory_map(str(folder / ROWS)) as rows, pa.ipc.open_file(rows) as reader:

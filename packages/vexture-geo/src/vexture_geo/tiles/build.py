@@ -1,4 +1,4 @@
-"""A pyramid of tiles: from a source to one file or a folder."""
+"""Build a pyramid of tiles from a source, as one file or a folder."""
 
 import errno
 import os
@@ -31,29 +31,29 @@ from vexture_geo.vector.tables import check_targets
 from vexture_geo.vector.vectors import is_memory
 
 VERSION: Final = 7
-"""Of what is kept of unfinished pyramids; what another one wrote is not used."""
+"""Version of the files of unfinished pyramids; files of another version are not used."""
 
 FULL: Final = (errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC))  # the last is not on Windows
-"""Errors of a disk, or a share of it, that has no room."""
+"""Errors of a disk, or a quota of it, that is full."""
 
 MOVES: Final = 0.25
-"""Pixels: what a border is off at most, at the zoom of its tile."""
+"""Largest error of a border, in pixels, at the zoom of its tile."""
 
 Work = Callable[[Iterator[Job], int], Iterator[JobResult]]
-"""Does pieces of work, so many of them, in order."""
+"""Does jobs, of which the number is given, in order."""
 
 Report = Callable[[str, int, int], None]
-"""Called with the kind of work, the number done, and the number in total; 0 if it is unknown."""
+"""Called with the kind of work, the number of finished jobs, and the total; 0 if it is unknown."""
 
 RANKS: Final = "ranks.npy"
-"""File in the folder of an unfinished pyramid."""
+"""File of the ranks of features in the folder of an unfinished pyramid."""
 
 WORLD: Final = (-HALF, -HALF, HALF, HALF)
 
 
 @dataclass(frozen=True)
 class TilesSummary:
-    """Counts of a finished pyramid, and notes."""
+    """Counts of a finished pyramid, and notes on it."""
 
     tiles: int
     contents: int
@@ -70,14 +70,14 @@ def make_tiles(
     Parameters
     ----------
     source : path
-        What `vexture_geo.vector.features.feature_batches` reads.
+        Source that `vexture_geo.vector.features.feature_batches` reads.
     output : Path
-        A file ``.pmtiles``, or a folder. The table of attributes is beside the one, and in the other.
+        A file ``.pmtiles``, or a folder. The table of attributes is written beside the file or into the folder.
     options : TileOptions
     report : callable
         Called with the progress of the work.
     batches : callable or None
-        Makes an iterator of the source's features, in place of that function.
+        Replaces `feature_batches` as the source of batches of features.
 
     Raises
     ------
@@ -87,7 +87,7 @@ def make_tiles(
         If the output cannot be written, or the executor cannot be reached.
     """
     check_target(output)
-    check_targets([output, *([table] if (table := table_of(output, options.look.table)) else [])], [Path(source)])
+    check_targets([output, *([table] if (table := table_of(output, options.style.table)) else [])], [Path(source)])
     writable(output.parent)
     options.check_workers()
     key = {"version": VERSION, "source": digest_of(Path(source)), **options.key}
@@ -103,7 +103,7 @@ def make_tiles(
     except BaseException as error:
         store.close()
         if not store.has_parts:
-            store.remove()  # reading begins anew
+            store.remove()  # the next run reads from the beginning
         if isinstance(error, VextureError) and not store.has_parts:
             raise
         if isinstance(error, Exception) and (kind_and_reason := _reason(error, output)) is not None:
@@ -115,7 +115,7 @@ def make_tiles(
 
 
 def _reason(error: Exception, output: Path) -> tuple[type[VextureError], str] | None:
-    """Remedy of an error, and the class of error to raise with it; None if there is none."""
+    """Class and message of the error to raise in place of another; None to raise that itself."""
     if isinstance(error, VextureError):
         return type(error), str(error)
     if isinstance(error, MemoryError) or is_memory(error) or getattr(error, "errno", None) == errno.ENOMEM:
@@ -131,7 +131,7 @@ def _reason(error: Exception, output: Path) -> tuple[type[VextureError], str] | 
 
 
 def describe_unfinished(output: Path) -> str:
-    """Describe what is left of an unfinished pyramid, and what to do with it."""
+    """Describe what an unfinished pyramid has left, and how to continue."""
     folder = output.with_name(output.name + SUFFIX)
     if not folder.exists():
         return "nothing of it is finished, and reading begins anew"
@@ -146,7 +146,7 @@ def _read(source: Any, store: Store, options: TileOptions, report: Report, batch
         from vexture_geo.vector.features import feature_batches as batches
     notes = Notes()
     count, boxes, others = 0, [], 0
-    attributes, order = Attributes(store.folder, options.look), Order(options.look.order)
+    attributes, order = Attributes(store.folder, options.style), Order(options.style.order)
 
     def pieces() -> Iterator[FeaturePieces]:
         nonlocal count, others
@@ -177,9 +177,9 @@ def _read(source: Any, store: Store, options: TileOptions, report: Report, batch
 
 @contextmanager
 def _name_errors(source: Any, options: TileOptions) -> Iterator[None]:
-    """Put the name of the source in front of errors about it; columns may be read for colours or the order only."""
-    look = options.look
-    columns = {"color": look.color and look.color.column, "order": look.order}
+    """Prefix errors with the source's name; columns may be read for colours or the order only."""
+    style = options.style
+    columns = {"color": style.color and style.color.column, "order": style.order}
     with about(str(source)):
         try:
             yield
@@ -192,7 +192,7 @@ def _name_errors(source: Any, options: TileOptions) -> Iterator[None]:
 
 
 def _work(store: Store, parts: list[SourcePart], options: TileOptions, report: Report) -> None:
-    """Do all the work that is not done: the parts, zoom by zoom the geometry, and then the tiles of all these zooms."""
+    """Do all missing work: the parts, then the geometry of each zoom, and then the tiles of all these zooms."""
     leaves = {part.tile for part in parts}
     pyramid = options.pyramid(paints_of(store.folder), ranks_of(store.folder))
 
@@ -218,19 +218,19 @@ def _work(store: Store, parts: list[SourcePart], options: TileOptions, report: R
         found = [(data, shift) for each, shift in around if (data := _around(store, leaves, each))]
         return Job("tile", tile, tuple(data for data, _ in found), tuple(shift for _, shift in found))
 
-    # all at once, those of low zooms first, which have most in them: no worker waits for them at the end of each zoom
+    # all tiles at once, so that no worker waits at the end of a zoom; low zooms first, because they hold most
     _do_all(
         store, "tile", [tile for zoom in above if zoom >= options.min_zoom for tile in inner[zoom]], one, work, report
     )
 
 
 def _geometry_name(store: Store, tile: Tile) -> str | None:
-    """Name of the work that made the geometry of a tile; None if nothing is there."""
+    """Name of the job that made a tile's geometry; None if the tile is empty."""
     return next((name for kind in ("leaf", "join") if store.has(name := f"{kind}-{tile.name}")), None)
 
 
 def _around(store: Store, leaves: set[Tile], tile: Tile) -> bytes | None:
-    """Geometry that holds a tile: its own, or the source in the part in which it lies."""
+    """Geometry that contains a tile: its own, or the source of the part in which it lies."""
     if name := _geometry_name(store, tile):
         data = store.geometry(name)
         if data:
@@ -242,7 +242,7 @@ def _around(store: Store, leaves: set[Tile], tile: Tile) -> bytes | None:
 
 
 def _do_all(store: Store, kind: str, tiles: list[Tile], job: Callable[[Tile], Job], work: Work, report: Report) -> None:
-    """Do all work of a kind that is not done."""
+    """Do all missing work of one kind."""
     missing = [tile for tile in tiles if not store.has(f"{kind}-{tile.name}")]
     before = len(tiles) - len(missing)
     made = work((job(tile) for tile in missing), len(missing))
@@ -252,22 +252,22 @@ def _do_all(store: Store, kind: str, tiles: list[Tile], job: Callable[[Tile], Jo
 
 
 WORDS: Final = {"leaf": "parts", "join": "generalising", "tile": "tiles"}
-"""Kinds of work, for people."""
+"""Names of kinds of work in progress reports."""
 
 
 def _write_output(store: Store, output: Path, options: TileOptions, facts: Any) -> TilesSummary:
-    """Write the output."""
+    """Write the pyramid with its metadata and its table."""
     runs, contents = store.tiles()
     zooms = options.zooms
     about: dict[str, Any] = {"name": options.name or output.stem, "attribution": options.attribution}
     about["vexture"] = {"margin": MARGIN, "zooms": list(zooms), "sharp": options.max_zoom}
     about["vexture"]["tolerance"] = MOVES / TILE_PIXELS
     about["vexture"] |= {"legends": legends} if (legends := facts["legends"]) else {}
-    table = table_of(output, options.look.table)
+    table = table_of(output, options.style.table)
     extra: dict[Path, Callable[[BinaryIO], None]] = {}
     if table is not None:
         about["vexture"]["table"] = table.name
-        extra[table] = lambda file: write_table(file, store.folder, options.look.table, legends)
+        extra[table] = lambda file: write_table(file, store.folder, options.style.table, legends)
     write = write_archive if output.suffix.lower() == ARCHIVE else write_folder
     size = write(output, runs, contents, zooms, _degrees(facts["bounds"]), about, extra)
     notes = tuple(Note(*note) for note in facts["notes"])
@@ -275,7 +275,7 @@ def _write_output(store: Store, output: Path, options: TileOptions, facts: Any) 
 
 
 def _why_empty(facts: Any, condition: str | None) -> str:
-    """Reason why there is nothing for tiles, and what to do."""
+    """Explain why there is nothing to draw, and what to do."""
     if not facts["features"]:
         return f"no feature meets `where` {condition!r}; correct it" if condition else "it has no features; give some"
     if others := facts["others"]:
@@ -284,14 +284,14 @@ def _why_empty(facts: Any, condition: str | None) -> str:
 
 
 def _degrees(box: list[float]) -> Bounds:
-    """West, south, east, north in degrees, within the world."""
+    """Return west, south, east and north in degrees, clipped to the world."""
     west, south, east, north = (min(max(value, -HALF), HALF) / HALF * pi for value in box)
     low, high = (degrees(2.0 * atan(exp(y)) - pi / 2.0) for y in (south, north))
     return (degrees(west), low, degrees(east), high)
 
 
 class Order:
-    """The order of a source's features, which come in batches: by a column, else the smaller above the larger."""
+    """Order of a source's features, which come in batches: by a column, or else smaller above larger."""
 
     def __init__(self, column: str | None) -> None:
         self._column = column
@@ -300,21 +300,21 @@ class Order:
         self._features: Any = None
 
     def add(self, features: Any, found: FeaturePieces, first: int) -> None:
-        """Append features, which are numbered from `first`, and their pieces in the world."""
+        """Append a batch of features, numbered from `first`, and their pieces in the world."""
         if self._column is None:
             import shapely
 
-            inside = found.within(WORLD)  # what is repeated beyond the antimeridian counts once
+            inside = found.within(WORLD)  # copies beyond the antimeridian do not count
             area: NDArray[np.float64] = shapely.area(inside.shapes)
             self._areas.append(np.bincount(inside.order - first, area, len(features.ids)).astype(np.float64))
             return
         if self._features is None:
-            ranks(features, self._column)  # says what is wrong with the column before all is read
+            ranks(features, self._column)  # its error reports a wrong column before all is read
             self._features = features
         self._values.append(features.table.column(self._column))
 
     def write(self, folder: Path) -> None:
-        """Keep the place of each feature, from the lowest on."""
+        """Write the rank of each feature, 0 for the lowest."""
         np.save(folder / RANKS, self._ranks().astype(np.uint32))
 
     def _ranks(self) -> NDArray[np.int64]:
@@ -331,6 +331,6 @@ class Order:
 
 
 def ranks_of(folder: Path) -> NDArray[np.uint32]:
-    """The places of features by their numbers: the higher one is seen where they overlap."""
+    """Read the ranks of features by their numbers: where they overlap, the higher one is visible."""
     found: NDArray[np.uint32] = np.load(folder / RANKS)
     return found

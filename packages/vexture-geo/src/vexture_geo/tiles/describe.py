@@ -1,4 +1,4 @@
-"""Facts about a pyramid of tiles, from its file or folder."""
+"""Read facts about a pyramid of tiles from its file or folder."""
 
 import gzip
 import hashlib
@@ -19,15 +19,15 @@ from vexture_geo.tiles.archive import ARCHIVE, LISTED
 MAGIC: Final = b"PMTiles"
 
 HEADER: Final = 127
-"""Bytes of an archive's header."""
+"""Bytes in an archive's header."""
 
 DEEPEST: Final = 3
-"""Levels of directories below the first one."""
+"""Levels of directories below the root."""
 
 REMEDY: Final = "make it again by vexture tiles"
 
 Bytes = Callable[[int, int], bytes]
-"""Bytes of a file: from where, and how many."""
+"""Reads bytes of a file from an offset, and a number of them."""
 
 
 @dataclass
@@ -38,14 +38,14 @@ class ZoomCount:
     sizes: dict[Any, int] = field(default_factory=dict)
 
     def add(self, tiles: int, content: Any, size: int) -> None:
-        """Count equal tiles: what tells their content from others, and the bytes of that."""
+        """Count tiles that are equal, by a key of their content and its bytes."""
         self.tiles += tiles
         self.sizes[content] = size
 
 
 @dataclass(frozen=True)
 class TileCount:
-    """Counts of tiles: equal ones are one content, and `bytes` those of the archive or of all contents."""
+    """Counts of tiles: equal tiles share one content; `bytes` is the size of the archive or of all contents."""
 
     tiles: int
     contents: int
@@ -56,7 +56,7 @@ class TileCount:
 
 
 def is_pyramid(path: Path) -> bool:
-    """Whether a path means a pyramid: a file by its first bytes or its name, a folder by its description."""
+    """Return whether a path means a pyramid: a file by its first bytes or its name, a folder by its description."""
     if path.is_dir():
         return (path / LISTED).is_file()
     try:
@@ -72,7 +72,7 @@ def facts_of(path: Path) -> dict[str, Any]:
     Raises
     ------
     FormatError
-        If it is damaged, or no pyramid of vexture.
+        If it is damaged, or not a pyramid by vexture.
     DeviceError
         If it cannot be read.
     """
@@ -101,7 +101,7 @@ def facts_of(path: Path) -> dict[str, Any]:
 
 
 def _check_metadata(path: Path, about: Any) -> dict[str, Any]:
-    """Metadata, if they are those of a pyramid of vexture."""
+    """Return metadata if they are those of a pyramid by vexture; raise a `FormatError` otherwise."""
     known: dict[str, Any] = about if isinstance(about, dict) else {}
     own = known["vexture"] if isinstance(known.get("vexture"), dict) else {}
     zooms = own.get("zooms")
@@ -117,18 +117,18 @@ def _check_metadata(path: Path, about: Any) -> dict[str, Any]:
 
 
 def _is_legend(legend: Any) -> bool:
-    """Whether a legend has all that is printed of it."""
+    """Return whether a legend has every member that is printed."""
     texts = isinstance(legend, dict) and all(isinstance(legend.get(key), str) for key in ("layer", "column", "scale"))
     return texts and isinstance(legend.get("entries"), list)
 
 
 def _is_box(bounds: Any) -> bool:
-    """Whether bounds are four numbers."""
+    """Return whether bounds are four numbers."""
     return isinstance(bounds, list) and len(bounds) == 4 and all(isinstance(value, int | float) for value in bounds)
 
 
 def _of_archive(path: Path) -> tuple[dict[str, Any], list[float], TileCount]:
-    """Metadata, bounds and tiles of an archive."""
+    """Read metadata, bounds and tiles of an archive."""
     from pmtiles.tile import Compression, SpecVersionUnsupported, TileType, deserialize_header
 
     with path.open("rb") as file:
@@ -162,7 +162,7 @@ def _of_archive(path: Path) -> tuple[dict[str, Any], list[float], TileCount]:
 
 
 DAMAGED: Final = (ValueError, EOFError, IndexError, OverflowError, gzip.BadGzipFile, zlib.error, RecursionError)
-"""What reading damaged bytes raises."""
+"""Errors from reading damaged bytes."""
 
 
 def _count_tiles(header: Any, read: Bytes, size: int) -> TileCount:
@@ -174,7 +174,7 @@ def _count_tiles(header: Any, read: Bytes, size: int) -> TileCount:
     for entry in _entries(header, read, header["root_offset"], header["root_length"], 0):
         end = header["tile_data_offset"] + entry.offset + entry.length
         if end > size:
-            read(end, 0)  # says that it breaks off
+            read(end, 0)  # raises the error of a truncated file
         count += entry.run_length
         places.add(entry.offset)
         for zoom, tiles in _zooms(entry.tile_id, entry.run_length):
@@ -185,7 +185,7 @@ def _count_tiles(header: Any, read: Bytes, size: int) -> TileCount:
 
 
 def _zooms(tile: int, count: int) -> Iterator[tuple[int, int]]:
-    """Count the tiles of each zoom in a run: the 4^z numbers of zoom z follow those of the zooms before."""
+    """Count tiles of each zoom in a run; the 4^z numbers of zoom z follow those of lower zooms."""
     while count > 0:
         zoom = (3 * tile + 1).bit_length() - 1 >> 1
         here = min(count, (4 ** (zoom + 1) - 1) // 3 - tile)
@@ -194,7 +194,7 @@ def _zooms(tile: int, count: int) -> Iterator[tuple[int, int]]:
 
 
 def _entries(header: Any, read: Bytes, offset: int, length: int, depth: int) -> Iterator[Any]:
-    """Entries of a directory and of those below it."""
+    """Yield the entries of a directory and of the directories below it."""
     from pmtiles.tile import deserialize_directory
 
     for entry in deserialize_directory(read(offset, length)):
@@ -208,7 +208,7 @@ def _entries(header: Any, read: Bytes, offset: int, length: int, depth: int) -> 
 
 
 def _of_folder(path: Path) -> tuple[dict[str, Any], Any, TileCount]:
-    """Metadata, bounds and tiles of a folder."""
+    """Read metadata, bounds and tiles of a folder."""
     listed = path / LISTED
     try:
         about = _check_metadata(listed, json.loads(listed.read_bytes()))
@@ -221,7 +221,7 @@ def _of_folder(path: Path) -> tuple[dict[str, Any], Any, TileCount]:
     longest, largest = 0, ""
     for file in files:
         told = file.stat()
-        place = (told.st_dev, told.st_ino)  # equal tiles are one file where the disk can do that
+        place = (told.st_dev, told.st_ino)  # equal tiles are hard links to one file where the disk allows it
         if place not in known:
             known[place] = hashlib.sha256(file.read_bytes()).digest()
         sizes[known[place]] = told.st_size
@@ -253,7 +253,7 @@ def _table_facts(table: Path | None) -> tuple[int | None, list[str] | None]:
 
 
 def lines_of(facts: dict[str, Any]) -> Iterator[str]:
-    """Facts about a pyramid for people, one per line, without missing values."""
+    """Describe a pyramid for people, one fact per line, without missing values."""
     sharp = facts["sharp"]
     zooms = ", ".join(map(str, facts["zooms"])) + (f"; exact up to views of {sharp}" if sharp is not None else "")
     bounds = facts["bounds"] and "west {:.6g}, south {:.6g}, east {:.6g}, north {:.6g}".format(*facts["bounds"])

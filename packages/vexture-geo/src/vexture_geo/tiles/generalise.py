@@ -1,10 +1,10 @@
-"""Generalising: what is smaller than a part of a pixel goes, and what two polygons share stays shared.
+"""Generalise polygons: remove details smaller than a fraction of a pixel, and keep shared borders shared.
 
-Borders are cut where three meet into *arcs*, and each arc is simplified once. What lies on the sides of the box stays
-where it is, so that pieces of one feature in boxes side by side still fit.
+Borders are cut where three meet into *arcs*, and each arc is simplified once. Corners on the sides of the box stay in
+place, so that pieces of one feature in adjacent boxes still fit.
 
-Polygons too small to be seen one by one, such as a town of blocks between streets, become squares of the same area: on
-a map of the country they would be nowhere if all that is smaller than a pixel went.
+Polygons too small to be seen one by one, such as a town of blocks between streets, become squares of the same area.
+If everything smaller than a pixel were removed, they would be missing on a map of the country.
 """
 
 from typing import Any, Final
@@ -19,45 +19,44 @@ from vexture_geo.tiles.pieces import FeaturePieces, join_pieces
 from vexture_geo.tiles.shared_borders import shared_lengths
 
 MOST_ROUNDS: Final = 32
-"""In each of them, small polygons become part of larger ones beside them."""
+"""Most rounds, in each of which small polygons are merged with larger neighbours."""
 
 MOST_POINTS: Final = 1_000_000
-"""That are simplified at once, which takes some 300 bytes for each; only tiles that no longer part have more."""
+"""Most points simplified at once, at some 300 bytes each; only a tile that cannot be divided further has more."""
 
 DEEPEST: Final = 8
-"""Times that the box of more points is quartered."""
+"""Most times that a box with more points is quartered."""
 
 CELLS: Final = (1, 2, 4)
-"""Pixels across the cells in which specks are gathered; those that are too few in one are gathered in a larger one."""
+"""Sides, in pixels, of the cells in which specks are gathered; too few specks are gathered in a larger cell."""
 
 SHARE: Final = 0.25
-"""Of a pixel's area: of a cell whose specks have less in all, no square is made."""
+"""Fraction of a pixel's area: a cell whose specks have less area in all becomes no square."""
 
 
 def generalise_polygons(pieces: FeaturePieces, box: Bounds, tolerance: float, least: float) -> FeaturePieces:
-    """Polygons for pixels of some size.
+    """Generalise polygons for pixels of some size.
 
     Parameters
     ----------
-    pieces : Pieces
+    pieces : FeaturePieces
         Polygons within the box.
     box : tuple of float
-        What touches its sides goes on beyond.
+        Polygons that touch its sides continue beyond it.
     tolerance : float
-        Metres by which a border may move.
+        Largest distance, in metres, that a border may move.
     least : float
-        Square metres. A smaller polygon becomes part of the neighbour with which it shares most of its border; those
-        without one are aggregated (`aggregate`). Smaller holes are filled. With 0, all features
-        stay.
+        Square metres. A smaller polygon is merged with the neighbour with which it shares most of its border; those
+        without a neighbour are aggregated (`aggregate`). Smaller holes are filled. With 0, all features stay.
     """
     if tolerance > 0.0 and pieces.points > MOST_POINTS:
-        tolerance /= 2.0  # a half here, a half below
+        tolerance /= 2.0  # half of it here, the other half below
         pieces = _thin(pieces, box, tolerance, DEEPEST)
     return _generalise_at_once(pieces, box, tolerance, least)
 
 
 def _thin(pieces: FeaturePieces, box: Bounds, tolerance: float, depth: int) -> FeaturePieces:
-    """Polygons with fewer points, made in parts of the box, so that memory is for the points of one."""
+    """Reduce points box by box, so that memory holds the points of one box."""
     if pieces.points <= MOST_POINTS or depth == 0:
         return _generalise_at_once(pieces, box, tolerance, 0.0)
     x, y = (box[0] + box[2]) / 2.0, (box[1] + box[3]) / 2.0
@@ -70,7 +69,7 @@ def _thin(pieces: FeaturePieces, box: Bounds, tolerance: float, depth: int) -> F
 
 
 def _generalise_at_once(pieces: FeaturePieces, box: Bounds, tolerance: float, least: float) -> FeaturePieces:
-    """As above, of all at once."""
+    """Generalise all polygons at once; see `generalise_polygons`."""
     import shapely
 
     kept, specks = _merge_small(dissolve(pieces), box, least)
@@ -84,7 +83,7 @@ def _generalise_at_once(pieces: FeaturePieces, box: Bounds, tolerance: float, le
 
 
 def _repair(shapes: NDArray[Any]) -> NDArray[Any]:
-    """The polygons; those whose rings cross are valid then."""
+    """Make polygons whose rings cross valid."""
     import shapely
 
     broken = np.flatnonzero(~shapely.is_valid(shapes))
@@ -94,12 +93,12 @@ def _repair(shapes: NDArray[Any]) -> NDArray[Any]:
 
 
 def dissolve(pieces: FeaturePieces) -> FeaturePieces:
-    """Polygons of which those of one feature do not touch."""
+    """Unite touching polygons of each feature."""
     return _unite_groups(pieces, np.unique(pieces.order, return_inverse=True)[1])
 
 
 def _unite_groups(pieces: FeaturePieces, group: NDArray[np.intp]) -> FeaturePieces:
-    """One shape for each group of pieces; it is of the feature of the group's first piece."""
+    """Unite each group of pieces to one shape of the feature of the group's first piece."""
     if not len(pieces):
         return pieces
     order = np.argsort(group, kind="stable")
@@ -114,7 +113,7 @@ def _unite_groups(pieces: FeaturePieces, group: NDArray[np.intp]) -> FeaturePiec
 
 
 def _merge_small(pieces: FeaturePieces, box: Bounds, least: float) -> tuple[FeaturePieces, FeaturePieces]:
-    """Polygons without those that are too small, which are part of a neighbour; and those that have none."""
+    """Merge polygons that are too small with a neighbour; return the polygons, and small ones without a neighbour."""
     import shapely
 
     none = pieces.take(np.zeros(len(pieces), np.bool_))
@@ -129,7 +128,7 @@ def _merge_small(pieces: FeaturePieces, box: Bounds, least: float) -> tuple[Feat
     stays = ((whole >= least) | goes_on)[label]
     sizes = np.bincount(label, minlength=len(label))[label]
     several = np.flatnonzero(stays & (sizes > 1))
-    several = several[np.argsort(label[several] != several, kind="stable")]  # whose feature it is comes first
+    several = several[np.argsort(label[several] != several, kind="stable")]  # the polygon that keeps its feature first
     groups = np.unique(label[several], return_inverse=True)[1]
     return join_pieces([pieces.take(stays & (sizes == 1)), _unite_groups(pieces.take(several), groups)]), pieces.take(
         ~stays
@@ -139,20 +138,20 @@ def _merge_small(pieces: FeaturePieces, box: Bounds, least: float) -> tuple[Feat
 def _labels(
     shapes: NDArray[Any], area: NDArray[np.float64], goes_on: NDArray[np.bool_], least: float
 ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.bool_]]:
-    """The polygon that each becomes part of, or itself; their areas then, and which of them touch the box."""
+    """Polygon into which each is merged, or itself; their areas after merging, and which of them touch the box."""
     one, other, length = shared_lengths(shapes)
     label, whole, goes_on = np.arange(len(shapes)), area.copy(), goes_on.copy()
     for _ in range(MOST_ROUNDS):
         small = (whole < least) & ~goes_on
         a, b = label[one], label[other]
         apart = small[a] & (a != b)
-        # to a larger one only, so that nobody goes in a circle
+        # only into a larger one, so that no merges form a cycle
         apart &= (whole[b] > whole[a]) | ((whole[b] == whole[a]) & (b > a)) | goes_on[b]
         if not apart.any():
             break
         pairs, at = np.unique(a[apart] * len(label) + b[apart], return_inverse=True)
         best = np.lexsort((pairs, np.bincount(at, length[apart]), pairs // len(label)))
-        pairs = pairs[best]  # of each small one, the longest border last
+        pairs = pairs[best]  # the longest border of each small polygon comes last
         last = np.append(np.flatnonzero(np.diff(pairs // len(label))), len(pairs) - 1)
         target = np.arange(len(label))
         target[pairs[last] // len(label)] = pairs[last] % len(label)
@@ -166,14 +165,14 @@ def _labels(
 
 
 def aggregate(specks: FeaturePieces, least: float) -> FeaturePieces:
-    """Squares in place of specks, each where they are and of the feature that has most of it.
+    """Replace specks by squares, each in place of its specks and of the feature with the largest part.
 
     Parameters
     ----------
-    specks : Pieces
-        Polygons of less than `least`.
+    specks : FeaturePieces
+        Polygons with less area than `least`.
     least : float
-        Square metres: the area of a pixel, at whose corners cells begin, the same for all tiles.
+        Square metres: the area of a pixel. Cells begin at corners of pixels, and so are the same for all tiles.
 
     Examples
     --------
@@ -193,7 +192,7 @@ def aggregate(specks: FeaturePieces, least: float) -> FeaturePieces:
         cell, of = np.unique(np.floor(middle / side), axis=0, return_inverse=True)
         whole = np.bincount(of, area, len(cell))
         filled = whole >= SHARE * least
-        ranked = np.lexsort((specks.order[owner], -area, of))  # the largest part's feature, and of those the first
+        ranked = np.lexsort((specks.order[owner], -area, of))  # largest part first, then first feature
         first = owner[ranked[np.searchsorted(of[ranked], np.arange(len(cell)))]]
         half = np.sqrt(np.minimum(whole, side**2))[:, np.newaxis] / 2.0
         at = np.stack([np.bincount(of, area * place, len(cell)) / whole for place in middle.T], axis=1)
@@ -208,14 +207,14 @@ def aggregate(specks: FeaturePieces, least: float) -> FeaturePieces:
 
 
 def _parts(specks: FeaturePieces, side: float) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
-    """Of each speck, as if it were a square, what is in each cell: whose it is, its area and its middle."""
+    """Divide specks, as squares, among cells: return the speck, the area and the middle of each part."""
     import shapely
 
     middle = shapely.get_coordinates(shapely.centroid(specks.shapes))
     half = np.sqrt(shapely.area(specks.shapes))[:, np.newaxis] / 2.0
-    line = np.floor((middle + half) / side) * side  # between two cells, or beside the speck
+    line = np.floor((middle + half) / side) * side  # between two cells, or outside the speck
     line = np.clip(line, middle - half, middle + half)
-    ends = np.stack([middle - half, line, middle + half])  # west and south of it, and east and north
+    ends = np.stack([middle - half, line, middle + half])  # parts lie west and south of it, or east and north
     size, at = np.diff(ends, axis=0), (ends[:-1] + ends[1:]) / 2.0
     area = size[:, np.newaxis, :, 0] * size[np.newaxis, :, :, 1]
     x, y = np.broadcast_arrays(at[:, np.newaxis, :, 0], at[np.newaxis, :, :, 1])

@@ -1,4 +1,4 @@
-"""The grid of tiles of Web Mercator (EPSG:3857): boxes, numbers along Hilbert's curve, zooms and their tolerances."""
+"""The grid of tiles of Web Mercator (EPSG:3857): boxes, numbers along Hilbert's curve, and zooms."""
 
 from math import pi
 from typing import Final, NamedTuple
@@ -9,13 +9,13 @@ from vexture_geo.base.extent import Bounds
 CRS: Final = "EPSG:3857"
 
 HALF: Final = pi * 6378137.0
-"""Metres. Half the side of the world's square."""
+"""Half the side of the world's square, in metres."""
 
 LATITUDE: Final = 85.0511287798066
-"""Degrees. Northern and southern border of the world's square."""
+"""Northern and southern limit of the world's square, in degrees."""
 
 MARGIN: Final = 1 / 32
-"""Share of a tile's side by which its unit square is wider on each side."""
+"""Margin of a tile's unit square on each side, as a fraction of the tile's side."""
 
 TILE_PIXELS: Final = 512
 """CSS pixels across a tile at its own zoom."""
@@ -28,7 +28,7 @@ STEPS: Final = (2, 3)
 
 
 class Tile(NamedTuple):
-    """A tile of the web's grid: x to the east, y to the south, from the north-west.
+    """A tile of the web's grid; x counts eastwards and y southwards from the north-west corner.
 
     Examples
     --------
@@ -42,12 +42,12 @@ class Tile(NamedTuple):
 
     @property
     def side(self) -> float:
-        """Metres across."""
+        """Side in metres."""
         return 2.0 * HALF / (1 << self.z)
 
     @property
     def box(self) -> Bounds:
-        """West, south, east, north; neighbours have the same bits on their common side."""
+        """West, south, east and north; neighbours have byte-identical common sides."""
         count = 1 << self.z
 
         def at(line: int) -> float:
@@ -57,7 +57,7 @@ class Tile(NamedTuple):
 
     @property
     def number(self) -> int:
-        """Its number in PMTiles: zoom by zoom, along Hilbert's curve."""
+        """Number in PMTiles: zoom by zoom, along Hilbert's curve."""
         x, y, distance = self.x, self.y, 0
         for bit in range(self.z - 1, -1, -1):
             half = 1 << bit
@@ -71,18 +71,18 @@ class Tile(NamedTuple):
         return _before(self.z) + distance
 
     def parent(self, z: int) -> "Tile":
-        """The tile of a lower zoom in which it lies."""
+        """Return the tile of a lower zoom that contains this one."""
         shift = self.z - z
         return Tile(z, self.x >> shift, self.y >> shift)
 
     def below(self, steps: int) -> "list[Tile]":
-        """All tiles in it, some zooms below, row by row."""
+        """List the tiles in this one, `steps` zooms below, row by row."""
         count = 1 << steps
         first_x, first_y = self.x << steps, self.y << steps
         return [Tile(self.z + steps, first_x + x, first_y + y) for y in range(count) for x in range(count)]
 
     def around(self) -> "list[tuple[Tile, float]]":
-        """Its neighbours, and by how many metres each is moved to be one: the world goes on beyond its side."""
+        """Neighbours, and the metres by which each is moved to be one, because the world repeats beyond its side."""
         count = 1 << self.z
         found = []
         for y in range(max(self.y - 1, 0), min(self.y + 2, count)):
@@ -93,17 +93,17 @@ class Tile(NamedTuple):
 
     @property
     def name(self) -> str:
-        """Its name in files."""
+        """Name in files."""
         return f"{self.z}-{self.x}-{self.y}"
 
 
 def _before(z: int) -> int:
-    """Tiles of lower zooms."""
+    """Count the tiles of lower zooms."""
     return ((1 << 2 * z) - 1) // 3
 
 
 def span(tile: Tile, z: int) -> tuple[int, int]:
-    """Number of the first tile at a higher zoom in a tile, and how many there are: they follow one another.
+    """Number of the first tile at a higher zoom within a tile, and the count of these, which are consecutive.
 
     Examples
     --------
@@ -115,17 +115,17 @@ def span(tile: Tile, z: int) -> tuple[int, int]:
 
 
 def widen_box(box: Bounds, by: float) -> Bounds:
-    """A box with a margin."""
+    """Widen a box by a margin on each side."""
     return (box[0] - by, box[1] - by, box[2] + by, box[3] + by)
 
 
 def pixel(z: int) -> float:
-    """Metres across a pixel of a zoom."""
+    """Side of a pixel at a zoom, in metres."""
     return 2.0 * HALF / (TILE_PIXELS << z)
 
 
 def check_zooms(least: int, most: int, step: int) -> None:
-    """Raise a `ParameterError` if there is no such pyramid."""
+    """Raise a `ParameterError` if no pyramid can have these zooms."""
     if step not in STEPS:
         raise ParameterError(f"`step` is {step}; it must be {' or '.join(map(str, STEPS))}")
     if not 0 <= most <= MOST_ZOOM:
@@ -138,7 +138,7 @@ def check_zooms(least: int, most: int, step: int) -> None:
 
 
 def last_zoom(most: int, step: int) -> int:
-    """Zoom of the last tiles of a pyramid, which are right for views to zoom `most`: up to `step` zooms above.
+    """Zoom of the last tiles of a pyramid, which are sharp in views to zoom `most`, up to `step` zooms higher.
 
     Examples
     --------
@@ -149,7 +149,7 @@ def last_zoom(most: int, step: int) -> int:
 
 
 def coarse(most: int, step: int) -> list[int]:
-    """Zooms that are generalised, from 0: those before the last.
+    """Generalised zooms, from 0: those before the last.
 
     Examples
     --------
@@ -160,5 +160,5 @@ def coarse(most: int, step: int) -> list[int]:
 
 
 def zooms_of(least: int, most: int, step: int) -> list[int]:
-    """Zooms of a pyramid that have tiles."""
+    """Zooms that have tiles in a pyramid."""
     return [z for z in (*coarse(most, step), last_zoom(most, step)) if z >= least]

@@ -1,4 +1,4 @@
-"""Options of a pyramid, as a user chooses them."""
+"""Options of a pyramid."""
 
 import hashlib
 from dataclasses import dataclass, field
@@ -22,22 +22,23 @@ class TileOptions:
     Parameters
     ----------
     max_zoom : int
-        The largest zoom of views in which no border is off by more than a quarter of a pixel. As tiles are sharp far
-        beyond their own zoom, the last ones are of a zoom up to `step` lower (`vexture_geo.tiles.grid.last_zoom`).
+        The largest zoom of views in which no border is off by more than a quarter of a pixel. Because tiles are sharp
+        far beyond their own zoom, the zoom of the last tiles is up to `step` lower
+        (`vexture_geo.tiles.grid.last_zoom`).
     min_zoom : int
         The smallest zoom that has tiles.
     step : int
-        2 or 3: zooms from one level to the next.
+        Zooms between levels of the pyramid: 2 or 3.
     layer, where, id, source_crs : str or None
-        Of the source, as `vexture_geo.vector.features.feature_batches` has them; the last is its `crs`.
+        See `vexture_geo.vector.features.feature_batches`; `source_crs` is its `crs`.
     name, attribution : str
         Written to the metadata.
-    look : TileStyle
-        Colours, what is above, and the table of attributes.
+    style : TileStyle
+        Colours and order of features, and the table of attributes.
     processes : int
-        Processes that share the work on this machine.
+        Worker processes on this machine.
     scheduler : str or None
-        Address of a Dask scheduler, whose workers do the work.
+        Address of a Dask scheduler whose workers do the work.
     """
 
     max_zoom: int = 12
@@ -49,7 +50,7 @@ class TileOptions:
     source_crs: str | None = None
     name: str = ""
     attribution: str = ""
-    look: TileStyle = field(default_factory=TileStyle)
+    style: TileStyle = field(default_factory=TileStyle)
     processes: int = 1
     scheduler: str | None = None
 
@@ -57,10 +58,10 @@ class TileOptions:
         check_zooms(self.min_zoom, self.max_zoom, self.step)
         if self.processes < 1:
             raise ParameterError(f"`processes` is {self.processes}; it must be at least 1")
-        self.look.check()
+        self.style.check()
 
     def pyramid(self, paints: NDArray[np.uint32], ranks: NDArray[np.uint32]) -> Pyramid:
-        """Its zooms, and the colours and the order of its features."""
+        """Make the data that all work shares from features' colours and ranks."""
         return Pyramid(self.coarse, self.zooms, self.step, self.max_zoom, paints, ranks)
 
     @property
@@ -70,7 +71,7 @@ class TileOptions:
 
     @property
     def coarse(self) -> tuple[int, ...]:
-        """Zooms that are generalised."""
+        """Generalised zooms."""
         return tuple(coarse(self.max_zoom, self.step))
 
     @property
@@ -81,13 +82,13 @@ class TileOptions:
             "where": self.where,
             "crs": self.source_crs,
             "id": self.id,
-            "columns": self.look.read,
+            "columns": self.style.read,
         }
 
     @property
     def key(self) -> dict[str, Any]:
-        """All that finished work depends on, besides the source."""
-        return {"zooms": [self.min_zoom, self.max_zoom, self.step], **self.reading, "look": self.look.key}
+        """Everything that finished work depends on, besides the source."""
+        return {"zooms": [self.min_zoom, self.max_zoom, self.step], **self.reading, "look": self.style.key}
 
     def check_workers(self) -> None:
         """Raise a `DeviceError` if the executor cannot be reached."""
@@ -102,7 +103,7 @@ class TileOptions:
 
 
 def digest_of(source: Path) -> str:
-    """Digest of a source's content, with that of files beside it that are part of it."""
+    """Digest a source's content, including the files beside it that belong to it."""
     try:
         if source.is_dir():
             files = sorted(path for path in source.rglob("*") if path.is_file())

@@ -1,4 +1,4 @@
-"""The source in parts of the world, each small enough for one piece of work; on disk, as the source may be larger."""
+"""Divide a source into parts of the world, each small enough for one job; on disk, as the source may be large."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -9,28 +9,28 @@ from vexture_geo.tiles.grid import MARGIN, Tile, widen_box
 from vexture_geo.tiles.pieces import FeaturePieces, join_pieces, schema
 
 WEIGHT: Final = 200_000
-"""Points of a part, above which it is split: some seconds of work."""
+"""Points above which a part is split: some seconds of work."""
 
 TILE_WEIGHT: Final = 64
-"""Points that take about as long as a further tile of the largest zoom which a border goes through."""
+"""Points that take about as long as one more tile of the largest zoom crossed by a border."""
 
 GROUP: Final = 200_000
-"""Points that are in memory for a file before they are written."""
+"""Points that are buffered for a file before they are written."""
 
 DEEPEST: Final = 6
-"""Zooms that one pass over a part can go down: each part that is written needs an open file."""
+"""Most zooms that one pass over a part goes down, because each new part needs an open file."""
 
 
 @dataclass(frozen=True)
 class SourcePart:
-    """A tile, and how much work is in it."""
+    """Tile of a part, and the amount of work in it."""
 
     tile: Tile
     weight: float
 
 
 class _File:
-    """A file of pieces that grows; it is there when something is in it."""
+    """A growing file of pieces, which exists once something is in it."""
 
     def __init__(self, folder: Path, tile: Tile, finest: float) -> None:
         self._path, self._tile, self._finest = folder / f"{tile.name}.parquet", tile, finest
@@ -59,7 +59,7 @@ class _File:
         self._waiting, self._points = [], 0
 
     def close(self) -> SourcePart:
-        """Write what is in memory."""
+        """Write buffered pieces."""
         self._flush()
         self._writer.close()
         return SourcePart(self._tile, self.weight)
@@ -68,9 +68,9 @@ class _File:
 def partition_source(
     source: Iterable[FeaturePieces], folder: Path, most: int, step: int, report: Callable[[str], None] = lambda _: None
 ) -> list[SourcePart]:
-    """Write the pieces of a source into files of a folder, and return what parts there are, in order.
+    """Write the pieces of a source into files of a folder, and return the parts, in order.
 
-    `most` is the largest zoom of tiles, and parts are tiles of zooms that `step` divides.
+    `most` is the largest zoom of tiles, and `step` divides the zooms of parts.
     """
     world = Tile(0, 0, 0)
     first = _spread(source, world, 0, folder, most)
@@ -90,7 +90,7 @@ def partition_source(
 
 
 def _steps(part: SourcePart, most: int, step: int) -> int:
-    """Zooms to go down to parts that are small enough."""
+    """Count the zooms to go down until parts are small enough."""
     steps = 0
     while part.weight > WEIGHT << 2 * steps and steps < DEEPEST and part.tile.z + steps + step <= most:
         steps += step
@@ -98,7 +98,7 @@ def _steps(part: SourcePart, most: int, step: int) -> int:
 
 
 def split(source: Iterable[FeaturePieces], tile: Tile, steps: int, folder: Path, most: int) -> list[SourcePart]:
-    """Parts of a tile, some zooms below, as files of a folder."""
+    """Divide a tile into parts some zooms below, as files of a folder."""
     return _spread(source, tile, steps, folder, most)
 
 
@@ -117,7 +117,7 @@ def _spread(source: Iterable[FeaturePieces], tile: Tile, steps: int, folder: Pat
 
 
 def _parts(pieces: FeaturePieces, tile: Tile, zoom: int) -> Iterator[tuple[Tile, FeaturePieces]]:
-    """Divide pieces among the tiles of a zoom, with what is around each."""
+    """Divide pieces among the tiles of a zoom, each with its margin."""
     inside = pieces.within(widen_box(tile.box, MARGIN * Tile(zoom, 0, 0).side))
     if not len(inside):
         return
@@ -129,7 +129,7 @@ def _parts(pieces: FeaturePieces, tile: Tile, zoom: int) -> Iterator[tuple[Tile,
 
 
 def _batches(path: Path) -> Iterator[FeaturePieces]:
-    """Pieces of a file, some at a time."""
+    """Yield the pieces of a file, batch by batch."""
     import pyarrow.parquet as pq
 
     with pq.ParquetFile(path) as file:

@@ -16,7 +16,7 @@ SCHEMA_NAMES: Final = ("order", "id", "geometry")
 
 @dataclass(frozen=True, eq=False)
 class FeaturePieces:
-    """Polygons, (n,), in no order; `order` is the feature of each by its number in the source, `ids` its id."""
+    """Polygons, (n,), in any order; `order` is the number of each one's feature in the source, `ids` its id."""
 
     order: NDArray[np.int64]
     ids: NDArray[Any]
@@ -26,11 +26,11 @@ class FeaturePieces:
         return len(self.order)
 
     def take(self, selection: NDArray[Any]) -> "FeaturePieces":
-        """Some of them, by a mask or their places."""
+        """Select pieces by a mask or by indices."""
         return FeaturePieces(self.order[selection], self.ids[selection], self.shapes[selection])
 
     def with_shapes(self, shapes: NDArray[Any]) -> "FeaturePieces":
-        """Other shapes of the same features: their polygons, if there are any."""
+        """Replace the shapes of the features, and keep only polygons."""
         import shapely
 
         parts, owner = shapely.get_parts(shapes, return_index=True)
@@ -42,7 +42,7 @@ class FeaturePieces:
         return FeaturePieces(self.order[owner[areal]], self.ids[owner[areal]], parts[areal])
 
     def within(self, box: Bounds) -> "FeaturePieces":
-        """Clip the pieces to a box; whole polygons stay as they are, bit for bit."""
+        """Clip the pieces to a box; polygons wholly inside stay byte-identical."""
         import shapely
 
         bounds = shapely.bounds(self.shapes).reshape(-1, 4)
@@ -59,13 +59,13 @@ class FeaturePieces:
 
     @property
     def points(self) -> int:
-        """Points of all of them."""
+        """Number of points of all pieces."""
         import shapely
 
         return int(shapely.get_num_coordinates(self.shapes).sum())
 
     def to_table(self) -> Any:
-        """As a table of Arrow."""
+        """Convert the pieces to a table of Arrow."""
         import pyarrow as pa
         import shapely
 
@@ -74,7 +74,7 @@ class FeaturePieces:
 
     @classmethod
     def of_table(cls, table: Any) -> "FeaturePieces":
-        """From a table, or a batch, of Arrow."""
+        """Read pieces from a table, or a batch, of Arrow."""
         import shapely
 
         order, ids, geometry = (table.column(name) for name in SCHEMA_NAMES)
@@ -82,7 +82,7 @@ class FeaturePieces:
         return cls(order.to_numpy(zero_copy_only=False), ids.to_numpy(zero_copy_only=False), shapes)
 
     def to_bytes(self) -> bytes:
-        """As a file of Parquet, always the same for the same pieces."""
+        """Write a Parquet file, byte-identical for the same pieces."""
         import pyarrow.parquet as pq
 
         file = BytesIO()
@@ -91,16 +91,16 @@ class FeaturePieces:
 
     @classmethod
     def of_bytes(cls, data: bytes) -> "FeaturePieces":
-        """From a file of Parquet; no threads, as processes may be copied at any moment."""
+        """Read a Parquet file, without threads, because the process may be forked at any moment."""
         import pyarrow.parquet as pq
 
         file = pq.ParquetFile(BytesIO(data))
-        groups = range(file.num_row_groups)  # one after another, as their bytes take more memory than shapes do
+        groups = range(file.num_row_groups)  # one by one, because their bytes take more memory than shapes
         return join_pieces([cls.of_table(file.read_row_group(number, use_threads=False)) for number in groups])
 
 
 def join_pieces(parts: "list[FeaturePieces]") -> FeaturePieces:
-    """Several, one after another."""
+    """Concatenate pieces."""
     if not parts:
         return FeaturePieces(np.empty(0, np.int64), np.empty(0, object), np.empty(0, object))
     return FeaturePieces(
@@ -111,7 +111,7 @@ def join_pieces(parts: "list[FeaturePieces]") -> FeaturePieces:
 
 
 def schema() -> Any:
-    """Columns of a table of pieces."""
+    """Schema of a table of pieces."""
     import pyarrow as pa
 
     return pa.schema(list(zip(SCHEMA_NAMES, (pa.int64(), pa.string(), pa.binary()), strict=True)))

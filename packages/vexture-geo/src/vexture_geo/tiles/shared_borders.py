@@ -1,4 +1,4 @@
-"""Borders that polygons share, bit for bit, and their lengths."""
+"""Find borders that polygons share, byte-identically, and their lengths."""
 
 from typing import Any, NamedTuple
 
@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 
 class Corners(NamedTuple):
-    """The rings of polygons as lists of corners, none with its first corner repeated."""
+    """Rings of polygons as lists of corners; none repeats its first corner."""
 
     points: NDArray[np.float64]  # (m, 2), each once, sorted
     ids: NDArray[np.intp]  # (n,): the corner at each place of the rings, one ring after another
@@ -16,7 +16,7 @@ class Corners(NamedTuple):
 
     @property
     def lengths(self) -> NDArray[np.intp]:
-        """Corners of each ring."""
+        """Number of corners of each ring."""
         return np.diff(np.append(self.starts, len(self.ids)))
 
     @property
@@ -28,26 +28,26 @@ class Corners(NamedTuple):
 
     @property
     def sides(self) -> NDArray[np.int64]:
-        """A number for the side after each place, the same in both directions."""
+        """Number of the side after each place, the same in both directions."""
         after = self.after
         return np.minimum(self.ids, after) * len(self.points) + np.maximum(self.ids, after)
 
 
 def corners_of(shapes: NDArray[Any]) -> Corners:
-    """Corners of shapely's polygons."""
+    """Collect the corners of shapely polygons."""
     import shapely
 
     rings, polygon = shapely.get_rings(shapes, return_index=True)
     points, ring = shapely.get_coordinates(rings, return_index=True)
     last = np.diff(ring, append=-1) != 0
     points, ring = points[~last], ring[~last]
-    places = np.ascontiguousarray(points + 0.0).view(np.complex128).ravel()  # no -0.0
+    places = np.ascontiguousarray(points + 0.0).view(np.complex128).ravel()  # without -0.0
     unique, ids = np.unique(places, return_inverse=True)
     return Corners(unique.view(np.float64).reshape(-1, 2), ids, np.flatnonzero(np.diff(ring, prepend=-1)), polygon)
 
 
 def shared_lengths(shapes: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """Sides that two polygons have: one of the two, the other, and the side's length; each in both directions."""
+    """Find the sides that two polygons share: one polygon, the other, and the side's length, in both directions."""
     corners = corners_of(shapes)
     sides = corners.sides
     order = np.argsort(sides, kind="stable")

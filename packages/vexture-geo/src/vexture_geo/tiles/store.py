@@ -14,31 +14,31 @@ from vexture.texture.files import TEMPORARY
 from vexture_geo.tiles.subtree import JobResult
 
 SUFFIX: Final = ".parts"
-"""Appended to the name of the output."""
+"""Suffix of the folder, appended to the name of the output."""
 
 KEY, PARTS, JOURNAL = "key.json", "parts.json", "journal"
 
 
 @dataclass(frozen=True)
 class Content:
-    """Place of a tile's bytes."""
+    """Location of a tile's bytes."""
 
     path: Path
     offset: int
     length: int
 
     def read(self) -> bytes:
-        """The bytes."""
+        """Read the bytes."""
         with self.path.open("rb") as file:
             file.seek(self.offset)
             return file.read(self.length)
 
 
 class Store:
-    """The folder of a pyramid that is being made.
+    """Folder of an unfinished pyramid.
 
-    A pack holds what one piece of work made. It is written whole or not, and the journal has its digest: a pack that
-    the journal does not know is made again.
+    A pack holds the result of one job. It is written completely or not at all, and the journal records its digest: a
+    pack that is not in the journal is made again.
     """
 
     def __init__(self, folder: Path, key: dict[str, Any]) -> None:
@@ -56,18 +56,18 @@ class Store:
         self._known = dict(self._journal())
 
     def write(self, name: str, data: bytes) -> None:
-        """Write a file, whole or not."""
+        """Write a file completely or not at all."""
         path = self.folder / name
         partial = path.with_name(path.name + TEMPORARY)
         try:
             partial.write_bytes(data)
             partial.replace(path)
         except BaseException:
-            partial.unlink(missing_ok=True)  # it may be what fills the disk
+            partial.unlink(missing_ok=True)  # it may have filled the disk
             raise
 
     def read_parts(self) -> Any:
-        """Read the facts about the parts of the source, if all of them are there."""
+        """Read the facts about the parts of the source, if all parts exist."""
         text = _text(self.folder / PARTS)
         if text is None:
             shutil.rmtree(self.sources, ignore_errors=True)
@@ -77,26 +77,26 @@ class Store:
 
     @property
     def has_parts(self) -> bool:
-        """Whether the source is read, so that a later run can go on."""
+        """True if the source is read, so that a later run can go on."""
         return (self.folder / PARTS).exists()
 
     def write_parts(self, facts: Any) -> None:
-        """Record that all parts of the source are there."""
+        """Record the facts about the source once all its parts exist."""
         self.write(PARTS, json.dumps(facts).encode())
 
     def _journal(self) -> Iterator[tuple[str, str]]:
-        lines = (_text(self.folder / JOURNAL) or "").split("\n")[:-1]  # the last may be half of one
+        lines = (_text(self.folder / JOURNAL) or "").split("\n")[:-1]  # the last line may be incomplete
         for name, _, digest in (line.partition(" ") for line in lines):
             path = self.folder / name
             if path.is_file() and _digest(path) == digest:
                 yield name, digest
 
     def has(self, name: str) -> bool:
-        """Whether a piece of work is done."""
+        """Return whether a job is done."""
         return name in self._known
 
     def add(self, name: str, result: JobResult) -> None:
-        """Store the result of a piece of work."""
+        """Store the result of a job."""
         head = json.dumps(
             {
                 "runs": result.runs,
@@ -112,14 +112,14 @@ class Store:
         self._known[name] = digest
 
     def geometry(self, name: str) -> bytes:
-        """Geometry for lower zooms that a piece of work made."""
+        """Read the geometry for lower zooms that a job made."""
         with (self.folder / name).open("rb") as file:
             length = json.loads(file.readline())["geometry"]
             file.seek(-length, os.SEEK_END)
             return file.read(length)
 
     def tiles(self) -> tuple[list[tuple[int, int, str]], dict[str, Content]]:
-        """All runs of equal tiles by number, count and digest, in order; and where the contents are."""
+        """Return all runs of equal tiles by number, count and digest, in order, and the locations of contents."""
         runs: list[tuple[int, int, str]] = []
         contents: dict[str, Content] = {}
         for name in sorted(self._known):
@@ -140,12 +140,12 @@ class Store:
         return joined, contents
 
     def close(self) -> None:
-        """Leave it to others."""
+        """Release the folder's lock."""
         if self._lock is not None:
             self._lock.close()
 
     def remove(self) -> None:
-        """Remove it: the pyramid is there."""
+        """Remove the folder of a finished pyramid."""
         self.close()
         shutil.rmtree(self.folder, ignore_errors=True)
 
@@ -163,7 +163,7 @@ def _digest(path: Path) -> str:
 
 
 def _lock(folder: Path) -> BinaryIO | None:
-    """A lock that ends with the process, however it ends."""
+    """Lock a folder until the process ends in any way."""
     try:
         import fcntl
     except ImportError:  # on Windows

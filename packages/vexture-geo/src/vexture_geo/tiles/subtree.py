@@ -1,6 +1,6 @@
-"""Pieces of work: the tiles of a part of the world, its geometry for lower zooms, and one tile of a lower zoom.
+"""Jobs: the tiles of a part of the world, its geometry for lower zooms, or one tile of a lower zoom.
 
-Each gets all that it needs and gives all that it made, so that it can be done by any process on any machine.
+A job carries all its input and returns all its output, so that any process on any machine can run it.
 """
 
 import hashlib
@@ -16,23 +16,23 @@ from vexture_geo.tiles.pieces import FeaturePieces, join_pieces
 from vexture_geo.tiles.texture import covering_piece, tile_texture, uniform_texture
 
 MOVED: Final = 0.24
-"""Pixels by which generalising may move a border at a zoom, with all that was done for higher zooms before."""
+"""Pixels by which generalising for a zoom, after that for higher zooms, may move a border."""
 
 LAST: Final = 0.215
-"""The same of the last zoom, in whose views, up to three zooms deeper, rounding may move it by 0.03 pixels."""
+"""The same for the last zoom: in views up to three zooms deeper, rounding may add 0.03 pixels."""
 
 LEAST: Final = 1.0
-"""Pixels across a square whose area the smallest feature has."""
+"""Side, in pixels, of a square with the area of the smallest feature."""
 
 CROWDED: Final = 16_000
-"""Features of a tile before the last zoom, above which smaller ones are merged until there are fewer."""
+"""Most features of a tile before the last zoom; above this, smaller ones are merged."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pyramid:
-    """Data that all work shares.
+    """Data that all jobs share.
 
-    Generalised zooms, those of tiles, the step, the zoom of sharp views, features' colours and their order.
+    These are the generalised zooms, zooms of tiles, step, zoom of sharp views, features' colours and features' ranks.
     """
 
     coarse: tuple[int, ...]
@@ -44,11 +44,11 @@ class Pyramid:
 
     @property
     def most(self) -> int:
-        """The last zoom, whose tiles have all features."""
+        """Last zoom, whose tiles have all features."""
         return self.zooms[-1]
 
     def pixel(self, zoom: int) -> float:
-        """Metres across the pixels for which tiles of a zoom are made: the last ones are for the sharpest views."""
+        """Side, in metres, of the pixels that tiles of a zoom are made for; the last zoom is for the sharpest views."""
         return pixel(self.sharp if zoom == self.most else zoom)
 
 
@@ -56,8 +56,8 @@ class Pyramid:
 class Job:
     """Work for a tile.
 
-    ``leaf``: all tiles in it, of the source around it. ``join``: its geometry at its zoom, of that of the parts in it.
-    ``tile``: itself, of its geometry and that around it; `shifts` move each of the parts by metres.
+    ``leaf`` makes all tiles in it from the source around it. ``join`` makes its geometry at its zoom from that of the
+    parts in it. ``tile`` makes one tile from its geometry and that around it, which `shifts` move by metres.
     """
 
     kind: str
@@ -67,27 +67,27 @@ class Job:
 
     @property
     def name(self) -> str:
-        """Its name in files."""
+        """Name in files."""
         return f"{self.kind}-{self.tile.name}"
 
 
 @dataclass
 class JobResult:
-    """Result of work: runs of tiles by number, count and digest; the contents by digest; geometry for lower zooms."""
+    """Result of a job: runs of tiles by number, count and digest; contents by digest; geometry for lower zooms."""
 
     runs: list[tuple[int, int, str]] = field(default_factory=list)
     contents: dict[str, bytes] = field(default_factory=dict)
     geometry: bytes = b""
 
     def add(self, first: int, count: int, content: bytes) -> None:
-        """Add equal tiles that follow one another."""
+        """Add equal tiles with consecutive numbers."""
         digest = hashlib.sha256(content).hexdigest()
         self.contents.setdefault(digest, content)
         self.runs.append((first, count, digest))
 
 
 def run_job(pyramid: Pyramid, job: Job) -> JobResult:
-    """Do a piece of work."""
+    """Run a job."""
     given = [FeaturePieces.of_bytes(part) for part in job.parts]
     made = JobResult()
     if job.kind == "leaf":
@@ -103,7 +103,7 @@ def run_job(pyramid: Pyramid, job: Job) -> JobResult:
 
 
 def _leaf(pyramid: Pyramid, tile: Tile, pieces: FeaturePieces, result: JobResult) -> None:
-    """All tiles in a tile, and its geometry for lower zooms."""
+    """Make all tiles in a tile, and its geometry for lower zooms."""
     around = widen_box(tile.box, MARGIN * tile.side)
     for zoom in pyramid.zooms:
         if zoom >= tile.z:
@@ -118,13 +118,13 @@ def _leaf(pyramid: Pyramid, tile: Tile, pieces: FeaturePieces, result: JobResult
 def _at_zoom(
     pyramid: Pyramid, pieces: FeaturePieces, tile: Tile, box: tuple[float, float, float, float]
 ) -> FeaturePieces:
-    """Geometry of a tile at its zoom; with those before, for higher zooms, the tolerances add up to what is allowed."""
+    """Generalise a tile's geometry for its zoom; with those of higher zooms, tolerances add up to the limit."""
     tolerance = MOVED * pixel(tile.z) * (1.0 - 0.5**pyramid.step)
     return generalise_polygons(pieces, box, tolerance, (LEAST * pixel(tile.z)) ** 2)
 
 
 def _descend(pyramid: Pyramid, pieces: FeaturePieces, tile: Tile, zoom: int, result: JobResult) -> None:
-    """Tiles of a zoom in a tile, and for each run of those that one feature covers only one."""
+    """Make the tiles of a zoom in a tile; tiles that one feature covers share one texture for each run."""
     here = pieces.within(widen_box(tile.box, MARGIN * tile.side))
     if not len(here):
         return
@@ -138,7 +138,7 @@ def _descend(pyramid: Pyramid, pieces: FeaturePieces, tile: Tile, zoom: int, res
 
 
 def _tile(pyramid: Pyramid, pieces: FeaturePieces, tile: Tile, result: JobResult) -> None:
-    """One tile of what is in its square."""
+    """Make one tile from the pieces in its square."""
     least = (LEAST * pixel(tile.z)) ** 2
     box = widen_box(tile.box, MARGIN * tile.side)
     while tile.z < pyramid.most and len(np.unique(pieces.order)) > CROWDED:
@@ -151,7 +151,7 @@ def _tile(pyramid: Pyramid, pieces: FeaturePieces, tile: Tile, result: JobResult
 
 
 def _shift(pieces: FeaturePieces, by: float) -> FeaturePieces:
-    """Pieces moved to the east."""
+    """Move pieces to the east."""
     import shapely
 
     if by == 0.0:

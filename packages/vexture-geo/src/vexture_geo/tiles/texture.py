@@ -1,4 +1,4 @@
-"""One tile: polygons of features as a planar map that can be restyled, as the bytes of a texture's file."""
+"""Make one tile: polygons of features as a planar map that can be restyled, encoded as a texture's file."""
 
 from typing import Final
 
@@ -19,31 +19,31 @@ from vexture_geo.tiles.grid import CRS, MARGIN, Tile, widen_box
 from vexture_geo.tiles.pieces import FeaturePieces
 
 ROOT: Final = "map"
-"""Name of the map of polygons in each tile."""
+"""Name of the polygons' map in each tile."""
 
 GREY: Final = (0.8, 0.8, 0.8, 1.0)
-"""Colour and opacity of features that none is given for."""
+"""Default colour and opacity of features."""
 
 LEVELS: Final = 255
-"""Steps of a colour's parts and of its opacity."""
+"""Steps of a colour's components and its opacity."""
 
 FULL: Final = 1.0 - 1e-9
-"""Part of a tile's square that a polygon covers which covers all of it, but for rounding."""
+"""Fraction of a tile's square that a polygon must cover to count as covering all of it, despite rounding."""
 
 PRECISION: Final = 2.0**-17
-"""Parts of a tile's square by which rounding moves a border at most: 0.06 pixels in views four zooms deeper."""
+"""Largest error of a border by rounding, as a fraction of a tile's square: 0.06 pixels in views four zooms deeper."""
 
 MOST_FEATURES: Final = MOST_PAINTS - 1
-"""Features of a tile: one paint is nothing."""
+"""Most features of a tile; one paint is reserved for no feature."""
 
 
 def square_of(tile: Tile) -> tuple[float, float, float, float]:
-    """The box of a tile's unit square: wider than the tile."""
+    """Box of a tile's unit square, which is wider than the tile."""
     return widen_box(tile.box, MARGIN * tile.side)
 
 
 def covering_piece(pieces: FeaturePieces, tile: Tile, ranks: NDArray[np.uint32]) -> int:
-    """Place of the piece that covers the square of a tile and is topmost; -1 if none does."""
+    """Index of the topmost piece if it covers the square of a tile; -1 otherwise."""
     if not len(pieces):
         return -1
     box = square_of(tile)
@@ -54,22 +54,22 @@ def covering_piece(pieces: FeaturePieces, tile: Tile, ranks: NDArray[np.uint32])
 
 
 def pack_colours(rgba: ArrayLike) -> NDArray[np.uint32]:
-    """Colours and opacities, (n, 4), as a number each."""
+    """Pack colours and opacities, (n, 4), into one integer each."""
     parts = np.rint(np.asarray(rgba, np.float64).clip(0.0, 1.0) * LEVELS).astype("u1")
     return np.ascontiguousarray(parts).view("<u4").ravel().astype(np.uint32)
 
 
 def _paint(paints: NDArray[np.uint32], feature: int) -> Paint:
-    """The colour of a feature; a single one is that of all."""
+    """Colour of a feature; a single colour applies to all."""
     number = int(paints[feature if len(paints) > 1 else 0])
     red, green, blue, opacity = (part / LEVELS for part in number.to_bytes(4, "little"))
     return Paint((red, green, blue), opacity)
 
 
 def tile_texture(pieces: FeaturePieces, tile: Tile, paints: NDArray[np.uint32], ranks: NDArray[np.uint32]) -> bytes:
-    """File of the texture of what is in a tile's square, in the colours and the order of the source's features.
+    """Encode the texture of the pieces in a tile's square, in the colours and the order of the source's features.
 
-    Raises a `LimitError` if it has too many features.
+    Raises a `LimitError` if there are too many features.
     """
     box = square_of(tile)
     size = box[2] - box[0]
@@ -78,7 +78,7 @@ def tile_texture(pieces: FeaturePieces, tile: Tile, paints: NDArray[np.uint32], 
 
 
 def uniform_texture(pieces: FeaturePieces, place: int, paints: NDArray[np.uint32]) -> bytes:
-    """File of the texture of a tile in which one piece is everywhere: it names no place, so that all are equal."""
+    """Encode the texture of a tile that one piece covers; it names no place, so that all such tiles are equal."""
     corners = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
     square = line_cubics(corners, np.roll(corners, -1, axis=0))
     path = Path((square,), paint=_paint(paints, int(pieces.order[place])), element=str(pieces.ids[place]))
@@ -86,7 +86,7 @@ def uniform_texture(pieces: FeaturePieces, place: int, paints: NDArray[np.uint32
 
 
 def _write_texture(drawing: Drawing) -> bytes:
-    # borders are simplified already, and to merge more of their sides into curves would take twice as long
+    # borders are already simplified, and merging more sides into curves would take twice as long
     planar = build_map(drawing, precision=PRECISION, restyle=True)
     assert planar is not None
     style = style_of(drawing, planar)
@@ -101,7 +101,7 @@ def _paths(
     paints: NDArray[np.uint32],
     ranks: NDArray[np.uint32],
 ) -> tuple[Path, ...]:
-    """A path for each feature, the lowest first."""
+    """Make one path for each feature, the lowest first."""
     _, place, number = np.unique(ranks[pieces.order], return_index=True, return_inverse=True)
     features = pieces.order[place]
     if len(features) > MOST_FEATURES:

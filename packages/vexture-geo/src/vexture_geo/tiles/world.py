@@ -1,4 +1,4 @@
-"""Polygons of features in the world's square: projected, cut at its borders, repeated where it begins again."""
+"""Polygons in the world's square: projected, cut at its borders, and repeated beyond the antimeridian."""
 
 from typing import Any, Final
 
@@ -14,16 +14,16 @@ from vexture_geo.tiles.grid import CRS, HALF, LATITUDE, MARGIN, pixel
 from vexture_geo.tiles.pieces import FeaturePieces
 
 BENT: Final = 0.02
-"""Pixels of the largest zoom by which a projected side may be off."""
+"""Largest error of a projected side, in pixels of the largest zoom."""
 
 BEYOND: Final = 2.0 * MARGIN
-"""Turns of the world to the east and to the west of it, each, that the square of its one tile at zoom 0 shows."""
+"""Turns beyond the world on each side, to the east and the west, that the single tile at zoom 0 shows."""
 
 DEGREES: Final = "EPSG:4326"
 
 
 def in_world(features: Any, first: int, most: int, notes: Notes) -> FeaturePieces:
-    """Pieces of a batch of features, which are numbered from `first`, for tiles up to a zoom."""
+    """Cut a batch of features, numbered from `first`, into pieces for tiles up to a zoom."""
     rings, own = features.rings, features.crs
     if not len(rings.ends):
         return FeaturePieces(np.empty(0, np.int64), np.empty(0, object), np.empty(0, object))
@@ -35,7 +35,7 @@ def in_world(features: Any, first: int, most: int, notes: Notes) -> FeaturePiece
 
 
 def _in_degrees(rings: Rings, crs: str, most: int, notes: Notes) -> Rings:
-    """Rings of longitudes and latitudes in metres, with copies beyond the antimeridian."""
+    """Project rings from longitude and latitude to metres, with copies beyond the antimeridian."""
     turn = period(crs)
     assert turn is not None
     degree = turn / 360.0
@@ -57,14 +57,14 @@ def _in_degrees(rings: Rings, crs: str, most: int, notes: Notes) -> Rings:
 
 
 def _project(points: Any, crs: str, turn: float) -> Any:
-    """Points in metres; those beyond the antimeridian stay beyond it."""
+    """Project points to metres; those beyond the antimeridian stay beyond it."""
     turns = np.rint(points[:, 0] / turn)
     image = transform_points(points - np.stack([turns * turn, np.zeros(len(turns))], axis=1), crs, CRS)
     return image + np.stack([turns * 2.0 * HALF, np.zeros(len(turns))], axis=1)
 
 
 def _in_metres(rings: Rings, crs: str, notes: Notes) -> Rings:
-    """Rings of a projected system in metres of Web Mercator."""
+    """Project rings from a projected system to metres of Web Mercator."""
     rings = repair_rings(rings, notes)
     if crs != CRS:
         size = np.full(2, 1.0)

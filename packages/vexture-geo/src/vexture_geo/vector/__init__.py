@@ -1,1 +1,1 @@
-"""Features: polygons, lines and points in files of any vector format."""
+"""Read features (polygons, lines and points) from files of any vector format."""

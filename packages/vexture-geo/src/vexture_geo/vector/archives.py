@@ -1,6 +1,6 @@
-"""Zips of geographic data: a shapefile or several, a FileGDB, or one file of another format. Nothing else is unpacked.
+"""Zips of geographic data: one or more shapefiles, a FileGDB, or one file of another format. Others are not unpacked.
 
-Names in a zip are no places: files are in memory, or in a folder that is made for them, by the last part of their name.
+Paths in a zip are never used: files are read in memory, or written to a new folder by the last part of their path.
 """
 
 import os
@@ -22,37 +22,37 @@ PARTS: Final = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 
 FOLDER: Final = ".gdb"
 NAME: Final = re.compile(r"\w[\w.-]*")
-"""What the folder of a FileGDB ends in, and the names of files that it has."""
+"""Suffix of the folder of a FileGDB, and pattern of the names of its files."""
 
 SINGLE: Final = (
     *(".geojson", ".geojsons", ".geojsonl", ".ndjson", ".json", ".topojson", ".kml", ".gpx", ".gml", ".csv", ".tsv"),
     *(".gpkg", ".sqlite", ".fgb", ".parquet", ".feather", ".arrow"),
 )
-"""Suffixes of formats that are one file."""
+"""Suffixes of formats that consist of one file."""
 
 DEPTHS: Final = (".tif", ".tiff", ".nc", ".nc4", ".asc", ".flt", ".grib", ".grib2", ".grb", ".grb2")
 """Suffixes of rasters and meshes of depths."""
 
 KML: Final = ".kml"
 MAIN: Final = "doc.kml"
-"""Suffix of KML, and the name of what of a KMZ is shown."""
+"""Suffix of KML, and name of the main file of a KMZ."""
 
 MOST_NAMED: Final = 6
-"""Files that a message names."""
+"""Most files that a message names."""
 
 REMEDY: Final = "zip the .shp, .shx, .dbf and .prj together"
 
 
 def unzip(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | bytes:
-    """Return the source itself or, of a zip, what it holds: a zip of shapefiles or of a FileGDB alone, or one file.
+    """Return the source, or the content of a zip: shapefiles or a FileGDB in a new zip, or one file.
 
-    Raises a `SourceError` if it holds none of them, or is damaged, and a `LimitError` if it holds several.
+    Raises a `SourceError` if it contains none of these or is damaged, and a `LimitError` if it contains several.
     """
     if not start_of(source).startswith(ZIP):
         return source
     try:
         with zipfile.ZipFile(BytesIO(read_bytes(source))) as archive:
-            named = [info for info in archive.infolist() if info.filename]  # a name that is empty is no place, either
+            named = [info for info in archive.infolist() if info.filename]  # an empty name is no path
             infos = [info for info in named if not info.is_dir() and _is_own(info.filename)]
             return _read_contents(archive, infos)
     except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError, OSError, ValueError) as error:
@@ -60,7 +60,7 @@ def unzip(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | by
 
 
 def _read_contents(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> bytes:
-    """Read the contents of a zip, by the names of its files."""
+    """Read the content of a zip, by the names of its files."""
     shapes = [info for info in infos if _suffix(info.filename) in PARTS]
     if any(_suffix(info.filename) == PARTS[0] for info in shapes):
         return _shapefiles({PurePosixPath(info.filename).name: read for info, read in _read(archive, shapes)})
@@ -72,7 +72,7 @@ def _read_contents(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> by
     singles = [info for info in infos if _suffix(info.filename) in SINGLE]
     main = [info for info in singles if PurePosixPath(info.filename).name.lower() == MAIN]
     texts = [info for info in singles if _suffix(info.filename) == KML]
-    if main and len(texts) > 1:  # a KMZ may be in parts, to which its main one links
+    if main and len(texts) > 1:  # a KMZ may have parts, to which its main file links
         return _pack_files({info.filename: read for info, read in _read(archive, texts)})
     depths = [info.filename for info in infos if _suffix(info.filename) in DEPTHS]
     if depths and not singles:
@@ -88,7 +88,7 @@ def _read_contents(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> by
 
 
 def _is_own(name: str) -> bool:
-    """Whether a file of a zip is data, and not what some systems add."""
+    """Return whether a file of a zip is data, and not added by an operating system."""
     place = PurePosixPath(name)
     return not place.name.startswith(".") and "__MACOSX" not in place.parts
 
@@ -111,14 +111,14 @@ def _format_name(name: str) -> str:
 
 
 def _read(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo]) -> list[tuple[zipfile.ZipInfo, bytes]]:
-    """Contents of files of a zip, none of which has more bytes than it says."""
+    """Read files of a zip, at most as many bytes of each as its entry states."""
     if sum(info.file_size for info in infos) > LARGEST_FILE:
         raise SourceError(f"what the zip holds is larger than {LARGEST_FILE:,} bytes; split it")
     return [(info, archive.read(info)) for info in infos]
 
 
 def pack_shapefile(path: Path) -> bytes:
-    """Content of a ``.shp`` and of the files beside it, in one zip; equal files give equal bytes."""
+    """Pack a ``.shp`` and the files beside it into one zip; equal files give equal bytes."""
     try:
         beside = {each.name.lower(): each for each in path.parent.iterdir()}
     except OSError as error:
@@ -128,7 +128,7 @@ def pack_shapefile(path: Path) -> bytes:
 
 
 def pack_parts(path: Path) -> bytes | None:
-    """A shapefile or FileGDB of several files as one zip; None of anything else."""
+    """Pack the files of a shapefile or FileGDB into one zip; None for other files."""
     if is_stream(path):
         return None
     if is_geodatabase(path):
@@ -137,7 +137,7 @@ def pack_parts(path: Path) -> bytes | None:
 
 
 def pack_geodatabase(path: Path) -> bytes:
-    """Content of the folder of a FileGDB, in one zip; equal files give equal bytes."""
+    """Pack the folder of a FileGDB into one zip; equal files give equal bytes."""
     refuse_links_of_folder(path)
     files = {}
     for each in sorted(path.iterdir()):
@@ -149,7 +149,7 @@ def pack_geodatabase(path: Path) -> bytes:
 
 
 def refuse_links_of_folder(path: Path) -> None:
-    """Raise a `SourceError` if a file of the folder of a FileGDB is a symbolic link to one elsewhere."""
+    """Raise a `SourceError` if a file in the folder of a FileGDB is a symbolic link to another place."""
     place = os.path.realpath(path)
     for each in sorted(path.iterdir()):
         if each.is_symlink() and os.path.dirname(os.path.realpath(each)) != place:
@@ -160,7 +160,7 @@ def refuse_links_of_folder(path: Path) -> None:
 
 
 def packed_files(content: bytes) -> tuple[str, dict[str, bytes]]:
-    """Kind of a zip that `pack_parts` or `unzip` made, as a suffix (``.shp``, ``.gdb`` or ``.kml``), and its files."""
+    """Return the kind of a zip of `pack_parts` or `unzip`, a suffix (``.shp``, ``.gdb`` or ``.kml``), and its files."""
     with zipfile.ZipFile(BytesIO(content)) as archive:
         files = {name: archive.read(name) for name in archive.namelist()}
     if all(_suffix(name) == KML for name in files):
@@ -170,12 +170,12 @@ def packed_files(content: bytes) -> tuple[str, dict[str, bytes]]:
 
 
 def _geodatabase(files: dict[str, bytes]) -> bytes:
-    """Files of a FileGDB in one zip."""
+    """Pack the files of a FileGDB into one zip."""
     return _pack_files({f"a{FOLDER}/{name}": content for name, content in files.items() if NAME.fullmatch(name)})
 
 
 def _shapefiles(files: dict[str, bytes]) -> bytes:
-    """Files of shapefiles in one zip."""
+    """Pack the files of shapefiles into one zip."""
     named = {Path(name).stem + Path(name).suffix.lower(): content for name, content in files.items()}
     for stem in [Path(name).stem for name in named if name.endswith(PARTS[0])]:
         if f"{stem}.shx" not in named:
@@ -190,5 +190,5 @@ def _pack_files(files: dict[str, bytes]) -> bytes:
     packed = BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
         for name, content in files.items():
-            archive.writestr(zipfile.ZipInfo(name), content)  # without a time: equal files give equal bytes
+            archive.writestr(zipfile.ZipInfo(name), content)  # without a time, so that equal files give equal bytes
     return packed.getvalue()

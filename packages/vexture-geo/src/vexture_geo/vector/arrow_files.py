@@ -1,4 +1,4 @@
-"""Tables with geometries: GeoParquet, Feather (files of Arrow), and CSV with WKT or with coordinates in columns."""
+"""Read tables with geometries: GeoParquet, Feather (Arrow files), and CSV with WKT or columns of coordinates."""
 
 import json
 import os
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 
 
 GEOMETRY: Final = "geometry"
-"""Name of the geometries of CSV; a column that has it already has a longer one."""
+"""Name of the geometry column of CSV, unless an attribute has that name."""
 
 SHOWN: Final = 60
-"""Characters of a value, or of an error of Arrow's, in a message."""
+"""Most characters of a value, or of an error of Arrow's, in a message."""
 
 MOST_NAMED: Final = 12
-"""Columns that a message names."""
+"""Most columns that a message names."""
 
 UNNAMED: Final = "several of its columns have no name; give each one, or remove it"
 
@@ -38,47 +38,47 @@ UTF_16: Final = (b"\xff\xfe", b"\xfe\xff")
 
 CODE: Final = re.compile(rb'(?<![^,;\t|"\s])0\d')
 CODE_ALONE: Final = r"^\s*0\d"
-"""A number with a zero before other digits: at the start of a value somewhere in a text, and of one value."""
+"""Pattern of a number with a leading zero, for the start of any value in a text, and for one value."""
 
 SEPARATORS: Final = ";\t"
-"""Separators of columns beside which a comma may be that of decimals."""
+"""Separators of columns with which a comma may be a decimal mark."""
 
 NUMBER: Final = r"^-?\d+(,\d+)?$"
 GROUPED: Final = r"^-?(\d+|[1-9]\d{0,2}(\.\d{3})+)(,\d+)?$"
 BOTH: Final = r"\.\d{3},\d"
-"""A number that may have points between its thousands, and what only one with both has."""
+"""Pattern of a number that may have points as thousands separators, and of one that also has a decimal comma."""
 
 LEADING_ZERO: Final = r"^-?0\d"
-"""A number with a zero before other digits, which a code has."""
+"""Pattern of a number with a leading zero, as codes have."""
 
 THOUSANDS: Final = r"^-?([1-9]\d{0,2},\d{3}|\d{1,3})$"
-"""A number of which the comma may be that of thousands."""
+"""Pattern of a number whose comma may separate thousands."""
 
 
 @dataclass(frozen=True)
 class TableFile:
-    """A table in memory, which is read as `pyarrow.parquet.ParquetFile` is."""
+    """A table in memory with the interface of `pyarrow.parquet.ParquetFile`."""
 
     table: "pyarrow.Table"
 
     @property
     def schema_arrow(self) -> "pyarrow.Schema":
-        """Its columns and metadata."""
+        """Columns and metadata of the table."""
         return self.table.schema
 
     def read(self, columns: Sequence[str], use_threads: bool = False) -> "pyarrow.Table":
-        """Some columns of all rows."""
+        """Read some columns of all rows."""
         return self.table.select(list(columns))
 
     def iter_batches(
         self, batch_size: int, columns: Sequence[str], use_threads: bool = False
     ) -> "Iterator[pyarrow.RecordBatch]":
-        """Some columns, so many rows at once."""
+        """Iterate over some columns, `batch_size` rows at once."""
         return iter(self.table.select(list(columns)).combine_chunks().to_batches(batch_size))
 
 
 def is_table(source: str | os.PathLike[str] | bytes) -> bool:
-    """Whether a file is Parquet, Arrow or CSV, by its first bytes; CSV without known columns by its name."""
+    """Return whether a file is Parquet, Arrow or CSV, by its first bytes; CSV without known columns by name."""
     start = start_of(source)
     return start.startswith((PARQUET, ARROW)) or _is_csv(source, start)
 
@@ -93,7 +93,7 @@ def _is_csv(source: str | os.PathLike[str] | bytes, start: bytes) -> bool:
 
 
 def open_table(source: str | os.PathLike[str] | bytes) -> Any:
-    """A `pyarrow.parquet.ParquetFile`, or what is read alike."""
+    """Open a `pyarrow.parquet.ParquetFile`, or an object with its interface."""
     import pyarrow.parquet as pq
 
     start = start_of(source)
@@ -107,17 +107,17 @@ def open_table(source: str | os.PathLike[str] | bytes) -> Any:
 
 
 def _feather(content: bytes) -> "pyarrow.Table":
-    """A file of Arrow, of which nothing points out of its buffers."""
+    """Read an Arrow file whose offsets all lie within its buffers."""
     import pyarrow as pa
 
     with pa.ipc.open_file(pa.py_buffer(content)) as file:
         table = file.read_all()
-    table.validate(full=True)  # which reading does not: an offset may lead anywhere
+    table.validate(full=True)  # reading does not check offsets, which may point anywhere
     return table
 
 
 def _csv(content: bytes) -> "pyarrow.Table":
-    """A table of text, with geometries of its columns."""
+    """Read a CSV table, with geometries from its columns."""
     import pyarrow as pa
 
     _refuse_other_encodings(content)
@@ -144,7 +144,7 @@ def _csv(content: bytes) -> "pyarrow.Table":
 
 
 def _refuse_repeated(names: Sequence[str]) -> None:
-    """Raise a `SourceError` if two columns have one name: none of them could be chosen."""
+    """Raise a `SourceError` if two columns share a name, because neither could be chosen."""
     again = next((name for name, count in Counter(names).items() if count > 1), None)
     if again is not None:
         what = f"it has several columns {again!r}; rename all but one" if again else UNNAMED
@@ -168,7 +168,7 @@ def _refuse_other_encodings(content: bytes) -> None:
 
 
 def _columns(content: bytes, header: Header) -> "pyarrow.Table":
-    """All columns of a table of text; numbers of which one starts with a zero, as those of codes do, stay texts."""
+    """Read all columns of a CSV table; a column with any leading zero, as codes have, stays text."""
     import pyarrow as pa
     from pyarrow import compute
 
@@ -200,7 +200,7 @@ def _read_csv(content: bytes, header: Header, types: dict[str, Any]) -> "pyarrow
 
 
 def _from_texts(column: Any, name: str) -> NDArray[Any]:
-    """WKB of texts; None where there is none."""
+    """Convert texts to WKB; None where a text is empty."""
     texts = np.array([(text or "").strip() or None for text in column.to_pylist()], object)
     found = wkb_of_texts(texts)
     for row, shape in enumerate(found):
@@ -211,7 +211,7 @@ def _from_texts(column: Any, name: str) -> NDArray[Any]:
 
 
 def _from_numbers(*columns: tuple[Any, str]) -> NDArray[Any]:
-    """WKB of the points of two columns; None where one has no value."""
+    """Convert two columns to WKB of points; None where a value is missing."""
     import pyarrow as pa
     import shapely
 
@@ -230,9 +230,9 @@ def _from_numbers(*columns: tuple[Any, str]) -> NDArray[Any]:
 
 
 def with_decimal_commas(table: "pyarrow.Table", header: Header) -> "pyarrow.Table":
-    """A table with numbers in place of texts that are numbers with decimal commas, in every row of a column.
+    """Convert columns of texts that are all numbers with decimal commas to numbers.
 
-    Beside columns with decimal points, a column of which all commas may be those of thousands stays text.
+    If other columns have decimal points, a column whose commas may all separate thousands stays text.
     """
     import pyarrow as pa
     from pyarrow import compute

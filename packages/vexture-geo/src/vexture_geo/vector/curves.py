@@ -1,4 +1,4 @@
-"""Curves in WKB as straight sides: arcs of lines and rings; and surfaces as the polygons that they are made of."""
+"""Straighten curves in WKB: arcs in lines and rings become chords, and surfaces become their polygons."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -13,68 +13,68 @@ from vexture.base.errors import LimitError
 from vexture.base.tolerance import ROUND
 
 HEAD: Final = 5
-"""Bytes of a geometry that say of what kind it is."""
+"""Bytes of a geometry that give its kind."""
 
 BROKEN: Final = b"\x01"
-"""What no reader of WKB takes for a geometry."""
+"""Bytes that no reader of WKB accepts as a geometry."""
 
 POINT, LINE, POLYGON, COLLECTION = 1, 2, 3, 7
 ARCS, COMPOUND, CURVED = 8, 9, 10
 TRIANGLE: Final = 17
 
 STRAIGHT: Final = {ARCS: LINE, COMPOUND: LINE, CURVED: POLYGON, 11: 5, 12: 6, 15: 6, 16: 6, TRIANGLE: POLYGON}
-"""Kinds of geometries in WKB that GEOS cannot hold, and what is made of each: 11 and 12 are collections of curves and
-of surfaces, 15 and 16 surfaces of polygons and of triangles."""
+"""Kinds of WKB geometries that GEOS cannot hold, and the kinds that replace them: 11 and 12 are collections of curves
+and of surfaces, 15 and 16 surfaces of polygons and of triangles."""
 
 PARTED: Final = (4, 5, 6, COLLECTION, COMPOUND, CURVED, 11, 12, 15, 16)
 """Kinds that consist of other geometries."""
 
 FLAGS: Final = 0xE0000000
-"""Of the extended WKB: it has z, m and the number of a reference system."""
+"""Flags of extended WKB: it has z, m and the number of a reference system."""
 
 DEEPEST: Final = 16
-"""Collections in collections."""
+"""Most levels of nested collections."""
 
 ARC: Final = 5e-4
-"""Parts of the distance between the points of an arc. Its chords are nearer to it than this, where a pyramid of tiles
-shows it from nearby; and than `ROUND` of the extent of all curves, in any case."""
+"""Largest distance of chords from an arc, as a fraction of the distance between its points, because a pyramid of tiles
+shows arcs closely. Chords are also within `ROUND` of the extent of all curves."""
 
 LEAST_PIECES: Final = 4
-"""Chords of a whole circle."""
+"""Fewest chords of a whole circle."""
 
 FLAT: Final = 1e-12
-"""Parts of the square of their distance: three points that span a smaller area are on a line."""
+"""Fraction of the square of their distance: three points that span a smaller area are collinear."""
 
 FARTHEST: Final = 1e3
-"""Times the distance between the points of an arc. One of a larger radius has no far side."""
+"""Largest radius in distances between the points of an arc; a larger arc is never the long way around."""
 
 MOST_POINTS: Final = 50_000_000
-"""Ends of chords of all curves."""
+"""Most ends of chords in all curves."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Shape:
-    """A geometry: its kind, and its points, its rings or its parts."""
+    """A geometry: its kind, and its points, rings or parts."""
 
     kind: int
     rings: list[NDArray[np.float64]] = field(default_factory=list)
     parts: list["_Shape"] = field(default_factory=list)
 
     def each(self) -> Iterator["_Shape"]:
-        """The geometry and all that it consists of."""
+        """Yield the geometry and everything that it consists of."""
         yield self
         for part in self.parts:
             yield from part.each()
 
 
 class _Reader:
-    """Reads the WKB of one geometry; a `ValueError` or `struct.error` if it is damaged."""
+    """Reader of one geometry in WKB, which raises a `ValueError` or `struct.error` for damage."""
 
     def __init__(self, content: bytes) -> None:
         self.content, self.at = content, 0
 
     def shape(self, depth: int = 0) -> _Shape:
-        """The geometry that begins here."""
+        """Read the geometry that begins here."""
         (order,) = self._numbers("<B")
         sign = "<" if order else ">"
         (code,) = self._numbers(f"{sign}I")
@@ -105,15 +105,15 @@ class _Reader:
 
 
 def straighten_curves(shapes: NDArray[Any]) -> NDArray[Any]:
-    """Geometries in WKB without curves; those that have some lose z and m, and damaged ones of a curved kind all.
+    """Replace curves in WKB geometries by chords; curved geometries lose z and m, and damaged ones become `BROKEN`.
 
-    Chords are nearer to their arc than `ROUND` of the extent of all curves. An arc has the same ones in either
-    direction, so that neighbours still share their border.
+    Chords are within `ROUND` of the extent of all curves. An arc has the same chords in both directions, so that
+    neighbours still share their border.
 
     Raises a `LimitError` if they are too many.
     """
     found = dict[int, _Shape | None]()
-    kinds = dict[bytes, int]()  # geometries of a file begin alike, and there may be millions
+    kinds = dict[bytes, int]()  # cached, because millions of geometries share the same head
     for place, content in enumerate(shapes):
         if not isinstance(content, bytes):
             continue
@@ -145,7 +145,7 @@ def straighten_curves(shapes: NDArray[Any]) -> NDArray[Any]:
 
 
 def _kind_of(code: int) -> tuple[int, int]:
-    """The kind of a geometry and the coordinates of its points, of either notation of z and m."""
+    """Return the kind of a geometry and the number of coordinates of its points, in either notation of z and m."""
     kind = code & ~FLAGS
     iso = kind // 1000
     size = 2 + bool(code & 0x80000000) + bool(code & 0x40000000)
@@ -153,18 +153,18 @@ def _kind_of(code: int) -> tuple[int, int]:
 
 
 def _kind_at(content: bytes) -> int:
-    """The kind of a geometry by its first bytes; 0 if there are none."""
+    """Return the kind of a geometry by its first bytes; 0 if they are missing."""
     return _kind_of(int.from_bytes(content[1:5], "little" if content[0] else "big"))[0] if len(content) >= 5 else 0
 
 
 class _Chords:
-    """Writes geometries with chords in place of arcs, which are no farther from them than `distance`."""
+    """Writer of geometries with chords in place of arcs, at most `distance` from them."""
 
     def __init__(self, distance: float) -> None:
         self.distance, self.count = distance, 0
 
     def written(self, shape: _Shape) -> bytes:
-        """A geometry in WKB; a `ValueError` if an arc lacks a point."""
+        """Encode a geometry as WKB; a `ValueError` if an arc lacks a point."""
         kind = STRAIGHT.get(shape.kind, shape.kind)
         head = pack("<BI", 1, kind)
         if kind == POINT:
@@ -177,7 +177,7 @@ class _Chords:
         return head + pack("<I", len(shape.parts)) + b"".join(map(self.written, shape.parts))
 
     def _line(self, shape: _Shape) -> NDArray[np.float64]:
-        """Points of a line, arcs, or both, one after the other."""
+        """Collect the points of a line, of arcs, or of a sequence of both."""
         if shape.kind == LINE:
             return shape.rings[0]
         if shape.kind == ARCS:
@@ -189,7 +189,7 @@ class _Chords:
         return np.concatenate([np.empty((0, 2)), *joined])
 
     def _along(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Points along arcs, each of which goes from one point through the next to the second next."""
+        """Compute points along arcs, each from one point through the next to the one after that."""
         if not len(points):
             return points
         if len(points) % 2 == 0:
@@ -222,18 +222,18 @@ def _counted_points(points: NDArray[np.float64]) -> bytes:
 
 
 def _is_back(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether arcs go down or, if level, to the left: each is divided in the other direction."""
+    """Return which arcs go down or, if level, to the left, and so are divided from their other end."""
     (x, y), (end_x, end_y) = start.T, end.T
     return np.asarray((end_y < y) | ((end_y == y) & (end_x < x)))
 
 
 def _circles(arcs: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
-    """Centre, radius, first angle and sweep of arcs through three points; the sweep of what is straight is 0.
+    """Centre, radius, first angle and sweep of arcs through three points; the sweep of a straight arc is 0.
 
-    An arc that ends where it starts is a circle, of which the second point is opposite.
+    An arc that ends where it starts is a circle, and its second point is opposite.
     """
     start, through, end = arcs.transpose(1, 0, 2)
-    with np.errstate(all="ignore"):  # who reads the chords refuses what is not finite
+    with np.errstate(all="ignore"):  # chords that are not finite are refused later
         one, other = through - start, end - start
         cross = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
         size = np.ptp(arcs, axis=1).max(axis=1)

@@ -1,4 +1,4 @@
-"""Parts of a GeoPackage or SpatiaLite that could lead out of it: tables in other files, systems that name files."""
+"""Detect parts of a GeoPackage or SpatiaLite that lead elsewhere: tables in other files, systems that name files."""
 
 import os
 import re
@@ -17,18 +17,18 @@ SPATIALITE: Final = "SQLite"
 
 APPLICATION: Final = slice(68, 72)
 IDENTIFIERS: Final = (b"GPKG", b"GP10", b"GP11")
-"""Application identifiers of a GeoPackage, at these bytes of an SQLite file."""
+"""Application identifiers of a GeoPackage, and their position in an SQLite file."""
 
 SYSTEMS: Final = {"gpkg_spatial_ref_sys": GEOPACKAGE, "spatial_ref_sys": SPATIALITE}
 CONTENTS: Final = {GEOPACKAGE: "gpkg_contents", SPATIALITE: "geometry_columns"}
-"""Tables of reference systems, and those that list tables of features."""
+"""Tables of reference systems, and tables that list tables of features."""
 
 DEFINITIONS: Final = ("definition", "srtext", "proj4text", "srs_wkt")
-"""What the names of the columns begin with that define a system."""
+"""Prefixes of the names of columns that define a system."""
 
 SPACE: Final = r"(?:\s|/\*.*?\*/|--[^\n]*\n)"
 VIRTUAL: Final = re.compile(rf"{SPACE}*create{SPACE}+virtual\b", re.IGNORECASE | re.DOTALL)
-"""Start of a statement that makes a table of what a module reads."""
+"""Start of a statement that makes a virtual table, which a module reads."""
 
 NAME: Final = r"""(?:"(?:[^"]|"")*"|'(?:[^']|'')*'|`[^`]*`|\[[^\]]*\]|\w+)"""
 INDEX: Final = re.compile(
@@ -36,17 +36,17 @@ INDEX: Final = re.compile(
     r"(?:(?:rtree|rtree_i32|fts[345])\s*\(|Virtual(?:SpatialIndex|Elementary|KNN2?)\s*\(\s*\)\s*$)",
     re.IGNORECASE,
 )
-"""Such a statement, of an index that is in the file itself: of places or of texts."""
+"""Such a statement for an index within the file itself, of places or of texts."""
 
 OUTSIDE: Final = re.compile(
     r"\b(?:gdal_get_\w*pixel_value|ogr_\w+|load_extension|blob(?:from|to)file|xb_(?:load|store)xml"
     r"|(?:import|export)\w+|eval)\s*\(",
     re.IGNORECASE,
 )
-"""Functions of GDAL and SpatiaLite that read files or ask servers."""
+"""Functions of GDAL and SpatiaLite that read files or contact servers."""
 
 STEPS: Final = 1_000_000
-"""Of the database's machine between two looks at the clock."""
+"""Steps of SQLite's virtual machine between two checks of the time limit."""
 
 SHOWN: Final = 100
 """Characters of a link in a message."""
@@ -55,10 +55,10 @@ REFUSED: Final = "and no other file is read; remove it, or save the layer that y
 
 
 def refuse_links_of_database(source: str | os.PathLike[str] | bytes) -> str:
-    """GDAL's name of the format of an SQLite database of features.
+    """Return GDAL's name of the format of an SQLite database of features.
 
-    Raises a `SourceError` if it is none, or names files or addresses: GDAL would look at all of its tables and views
-    when it opens it, whichever layer is wanted.
+    Raises a `SourceError` if it is not one, or names files or addresses, because GDAL visits all of its tables and
+    views when it opens it, whichever layer is read.
     """
     try:
         with closing(_open_database(source)) as base:
@@ -67,12 +67,12 @@ def refuse_links_of_database(source: str | os.PathLike[str] | bytes) -> str:
                 _refuse_statement(kind, name, sql)
             for kind, name, _ in known:
                 if name.lower() in SYSTEMS:
-                    if kind != "table":  # which could take for ever
+                    if kind != "table":  # a view could run without end
                         raise SourceError(f"its {name} is a {kind} rather than a table; save it again")
                     _refuse_systems(base, name)
             names = {name.lower() for _, name, _ in known}
             found = next((format_ for format_, table in CONTENTS.items() if table in names), None)
-    except (sqlite3.Error, OverflowError, UnicodeDecodeError, MemoryError) as error:  # of sizes that are damaged
+    except (sqlite3.Error, OverflowError, UnicodeDecodeError, MemoryError) as error:  # the last for damaged sizes
         check_time()
         raise SourceError(f"its database is damaged ({reason_of(error)}); save it again") from None
     if found is None:
@@ -81,7 +81,7 @@ def refuse_links_of_database(source: str | os.PathLike[str] | bytes) -> str:
 
 
 def as_geopackage(content: bytes) -> bytes:
-    """A GeoPackage with an identifier, without which GDAL takes it for another database."""
+    """Add the identifier of a GeoPackage, without which GDAL takes it for another database."""
     if content[APPLICATION] in IDENTIFIERS:
         return content
     return content[: APPLICATION.start] + IDENTIFIERS[1] + content[APPLICATION.stop :]

@@ -1,6 +1,6 @@
-"""The ids of features in GeoJSON as the file has them: GDAL gives others to those that are there twice, or are texts.
+"""Ids of GeoJSON features as in the file: GDAL changes ids that occur twice or are texts.
 
-RFC 7946, 3.2: a feature has an id beside its properties, a text or a number. A property may have that name as well.
+RFC 7946, 3.2: a feature has an id beside its properties, a text or a number. A property may also be named id.
 """
 
 import json
@@ -22,9 +22,9 @@ WHOLE: Final = re.compile(rb'"id"\s*:\s*(-?\d{1,18})\s*[,}\]]')
 
 
 def ids_of_json(content: bytes, has_column: bool) -> dict[int, str | None]:
-    """Ids of GeoJSON by GDAL's numbers of its features, or none where GDAL has the same.
+    """Ids of GeoJSON features by GDAL's numbers of them; empty if GDAL has the same ids.
 
-    `has_column` is as in `may_differ`.
+    See `may_differ` for `has_column`.
     """
     from pyogrio import raw
 
@@ -39,7 +39,7 @@ def ids_of_json(content: bytes, has_column: bool) -> dict[int, str | None]:
 
 
 def with_ids(table: "pyarrow.Table", numbers: NDArray[np.int64], ids: dict[int, str | None]) -> "pyarrow.Table":
-    """Attributes with a column `id` of the features' own; a property of that name gets another one."""
+    """Add a column `id` of the features' own ids to attributes; a property of that name is renamed."""
     import pyarrow as pa
 
     column = pa.array([ids[number] for number in numbers.tolist()], pa.string())
@@ -47,7 +47,7 @@ def with_ids(table: "pyarrow.Table", numbers: NDArray[np.int64], ids: dict[int, 
 
 
 def names_beside_id(names: list[str]) -> list[str]:
-    """Names of columns without `id`, which the features' own has.
+    """Rename a column `id` to make room for the features' own ids.
 
     Examples
     --------
@@ -61,9 +61,9 @@ def names_beside_id(names: list[str]) -> list[str]:
 
 
 def may_differ(content: bytes, numbers: Sequence[int], has_column: bool) -> bool:
-    """Whether ids that GDAL has of features may be others than those of a file; most files need not be read twice.
+    """Return whether GDAL's ids of features may differ from those of a file; most files need not be read twice.
 
-    `numbers` are GDAL's own, of all features in their order; `has_column` says whether there is an attribute `id`.
+    `numbers` are GDAL's numbers of all features, in order; `has_column` says whether there is an attribute `id`.
 
     Examples
     --------
@@ -71,13 +71,13 @@ def may_differ(content: bytes, numbers: Sequence[int], has_column: bool) -> bool
     (False, True)
     """
     keys = content.count(KEY)
-    if has_column:  # of properties, or made by GDAL of texts; each feature has one such key
+    if has_column:  # from properties, or made by GDAL from text ids; each feature has one such key
         return keys > len(numbers)
     return keys > 0 and [int(found[1]) for found in WHOLE.finditer(content)] != [*numbers]
 
 
 def given_ids(content: bytes) -> list[str | None] | None:
-    """The id of each feature of a collection, None where it has none; None of all if no feature has one.
+    """Return the id of each feature of a collection, None where it has none; None instead of a list if none has one.
 
     Examples
     --------
@@ -87,7 +87,7 @@ def given_ids(content: bytes) -> list[str | None] | None:
     try:
         whole = json.loads(content)
     except (ValueError, RecursionError):
-        return None  # GDAL says what is wrong with it, or reads it in another way
+        return None  # GDAL reports the error, or reads it in another way
     features = whole.get("features") if isinstance(whole, dict) and whole.get("type") == "FeatureCollection" else None
     if not isinstance(features, list):
         return None

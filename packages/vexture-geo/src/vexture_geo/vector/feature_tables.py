@@ -1,4 +1,4 @@
-"""Tables of features as their formats have them: attributes in Arrow beside geometries in WKB, in chunks."""
+"""Tables of features in any format: attributes in Arrow with geometries in WKB, in chunks."""
 
 import os
 from collections.abc import Iterator, Mapping
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
     import pyarrow
 
 PART: Final = 16_384
-"""Features of which a condition chooses some, before more are read."""
+"""Number of features that are filtered by a condition at once."""
 
 MOST_NAMED: Final = 12
-"""Columns that a message names."""
+"""Most columns that a message names."""
 
 REFUSALS: Final = ("Invalid SQL", "no such column", "syntax error")
-"""What GDAL says of a condition, at once or, where it is a database's, when it reads."""
+"""Words in GDAL's errors about a condition, at once or, in a database, while reading."""
 
 READ: Final = f"give a file of GeoJSON, TopoJSON, {VECTOR_FILES}"
 
@@ -49,7 +49,7 @@ class FeatureQuery:
     bounds: Bounds | None = None
 
     def select_columns(self, names: list[str]) -> list[str]:
-        """The columns to read of those that there are; `ParameterError` if one is missing."""
+        """Select the columns to read among all; `ParameterError` if one is missing."""
         for parameter, wanted in (("id", () if self.id is None else (self.id,)), ("columns", self.columns or ())):
             for name in wanted:
                 if name not in names:
@@ -60,7 +60,7 @@ class FeatureQuery:
 
 @dataclass(frozen=True, eq=False)
 class FeatureChunk:
-    """Some features: attributes, geometries (WKB, or shapely's if `parsed`) and their numbers in the source."""
+    """Some features: attributes, geometries (WKB, or shapely geometries if `parsed`) and numbers in the source."""
 
     table: "pyarrow.Table"
     shapes: NDArray[Any]
@@ -69,34 +69,34 @@ class FeatureChunk:
     id_column: str | None = None
     parsed: bool = False
     bounded: bool = False
-    """Whether bounds are applied already."""
+    """Whether the bounds are already applied."""
 
     fallback: str | None = field(default=None)
-    """Reference system of coordinates that can be degrees, where the source names none."""
+    """Reference system for coordinates that can be degrees, if the source names none."""
 
     is_told: bool = False
-    """Whether the source itself names its reference system, rather than its format."""
+    """Whether the source itself names its reference system, rather than implying it by its format."""
 
     labels: NDArray[Any] | None = None
-    """Names that the source has for its features, where no column has their ids: the index of a GeoDataFrame."""
+    """Ids from the index of a GeoDataFrame, if no column has ids."""
 
     unlabelled: str = ""
-    """Reason why the index of a GeoDataFrame is not its features' ids."""
+    """Reason why the index of a GeoDataFrame does not serve as ids."""
 
     damaged: int = 0
-    """Geometries that are not whole, in the source and not only here."""
+    """Number of geometries that are incomplete in the source itself."""
 
     remarks: Mapping[str, int] = field(default_factory=dict)
-    """What is to be told of the source, and how often: for instance, links that nobody reads."""
+    """Remarks on the source with their counts, such as links that are not read."""
 
     def take(self, rows: NDArray[np.intp]) -> "FeatureChunk":
-        """Some of the rows, all of which are in bounds."""
+        """Select rows, all of which are within bounds."""
         labels = None if self.labels is None else self.labels[rows]
         part = replace(self, table=self.table.take(rows), shapes=self.shapes[rows], numbers=self.numbers[rows])
         return replace(part, labels=labels, bounded=True)
 
     def crs(self, points: NDArray[np.float64]) -> str | None:
-        """Reference system that the source names, or that its coordinates allow."""
+        """Return the reference system that the source names, or that its coordinates allow."""
         if self.system or self.fallback is None:
             return self.system
         degrees = not len(points) or bool((np.abs(points).max(axis=0) <= (360.0, 90.0)).all())
@@ -104,7 +104,7 @@ class FeatureChunk:
 
 
 def chunks_of(source: Any, choice: FeatureQuery, batch: int | None) -> Iterator[FeatureChunk]:
-    """The features of a source, at most `batch` at once, or all in one chunk."""
+    """Read the features of a source, at most `batch` at once, or all in one chunk."""
     if hasattr(source, "geometry") and hasattr(source, "crs"):
         yield from _split(_frame(source, choice), batch)
         return
@@ -146,7 +146,7 @@ def _gdal(file: VectorFile, choice: FeatureQuery, batch: int | None) -> Iterator
         with _condition(choice.where, names), gdal_errors(file.formats):
             meta, reader = stack.enter_context(raw.open_arrow(content, **options))
         places = meta["fid_column"] or "OGC_FID", meta["geometry_name"] or "wkb_geometry"
-        while True:  # nothing of GDAL's is held while who asked works with what it got
+        while True:  # no lock of GDAL is held while the caller works on a chunk
             with _condition(choice.where, names), gdal_errors(file.formats):
                 table = (
                     reader.read_all() if batch is None else pa.Table.from_batches([*islice(reader, 1)], reader.schema)
@@ -170,7 +170,7 @@ def _arrow_chunk(
     crs: str | None,
     damaged: int,
 ) -> FeatureChunk:
-    """A table of GDAL: its own number comes before attributes of that name, and its geometry after them."""
+    """Make a chunk of GDAL's table: GDAL's number precedes attributes of that name, and its geometry follows them."""
     first, last = table.schema.get_all_field_indices(number)[0], table.schema.get_all_field_indices(geometry)[-1]
     numbers = np.asarray(table.column(first).to_numpy(), np.int64)
     shapes = objects_of(table.column(last))
@@ -191,7 +191,7 @@ def _arrow_chunk(
 
 @contextmanager
 def _condition(condition: str | None, names: list[str]) -> Iterator[None]:
-    """Add the columns there are to GDAL's refusal of a condition."""
+    """Add the names of existing columns to GDAL's error about a condition."""
     try:
         yield
     except SourceError as error:
@@ -215,10 +215,10 @@ def _parquet(source: Any, choice: FeatureQuery, batch: int | None) -> Iterator[F
         geometry = geometry_column(file)
         names = [name for name in file.schema_arrow.names if name != geometry.name]
         columns = choice.select_columns(names)
-        used = names if choice.where is not None else columns  # a condition may need any of them
+        used = names if choice.where is not None else columns  # a condition may use any column
         wanted = [*used, geometry.name]
         if batch is None and choice.where is None:
-            table = file.read(wanted, use_threads=False)  # a thread that has no memory ends the process
+            table = file.read(wanted, use_threads=False)  # a thread that runs out of memory ends the process
             yield _parquet_chunk(table, np.arange(len(table)), geometry, columns, choice)
             return
         first, kept = 0, []
@@ -228,7 +228,7 @@ def _parquet(source: Any, choice: FeatureQuery, batch: int | None) -> Iterator[F
             if choice.where is not None:
                 rows = _rows_where(table.drop_columns([geometry.name]), choice.where)
                 table, numbers = table.take(rows), numbers[rows]
-            if batch is None:  # only what is wanted is ever together in memory
+            if batch is None:  # only selected rows are ever in memory together
                 kept.append((table, numbers))
             else:
                 yield _parquet_chunk(table, numbers, geometry, columns, choice)
@@ -237,7 +237,7 @@ def _parquet(source: Any, choice: FeatureQuery, batch: int | None) -> Iterator[F
             tables = [table for table, _ in kept] or [file.schema_arrow.empty_table().select(wanted)]
             numbers = np.concatenate([np.empty(0, np.int64), *(each for _, each in kept)])
             yield _parquet_chunk(pa.concat_tables(tables), numbers, geometry, columns, choice)
-    except (pa.ArrowInvalid, pa.ArrowNotImplementedError, OSError, UnicodeDecodeError) as error:  # of a column's name
+    except (pa.ArrowInvalid, pa.ArrowNotImplementedError, OSError, UnicodeDecodeError) as error:  # the last for names
         raise SourceError(f"the table cannot be read ({shorten_text(str(error), 120)}); save it again") from None
 
 
@@ -255,7 +255,7 @@ def _parquet_chunk(
 
 
 def _rows_where(table: "pyarrow.Table", condition: str) -> NDArray[np.intp]:
-    """Rows for which a condition in SQL holds."""
+    """Indices of rows that meet a condition in SQL."""
     import duckdb
     import pyarrow as pa
 
@@ -271,7 +271,7 @@ def _rows_where(table: "pyarrow.Table", condition: str) -> NDArray[np.intp]:
 
 
 def _frame(frame: Any, choice: FeatureQuery) -> FeatureChunk:
-    """A GeoDataFrame."""
+    """Make a chunk of a GeoDataFrame."""
     import pyarrow as pa
 
     if choice.layer is not None:
@@ -284,7 +284,7 @@ def _frame(frame: Any, choice: FeatureQuery) -> FeatureChunk:
     given = {} if frame.ndim == 1 else dict(zip(columns, (frame[name] for name in frame.columns), strict=True))
     others = {name: arrow_of(values) for name, values in given.items() if str(values.dtype) != "geometry"}
     labels, why = labels_of(frame.index)
-    if why:  # what its levels tell is not lost
+    if why:  # keeps the levels of the index as columns
         named = [(number, str(name)) for number, name in enumerate(frame.index.names) if name is not None]
         levels = {name: frame.index.get_level_values(number) for number, name in named}
         others = {name: arrow_of(level.to_series()) for name, level in levels.items() if name not in columns} | others
@@ -302,11 +302,11 @@ def _frame(frame: Any, choice: FeatureQuery) -> FeatureChunk:
 
 
 def _split(chunk: FeatureChunk, batch: int | None) -> Iterator[FeatureChunk]:
-    """Runs of a chunk's rows."""
+    """Split a chunk into runs of rows."""
     step = batch or max(len(chunk.numbers), 1)
     for first in range(0, max(len(chunk.numbers), 1), step):
         rows = slice(first, first + step)
         part = replace(chunk, table=chunk.table.slice(first, step), shapes=chunk.shapes[rows])
         labels = None if chunk.labels is None else chunk.labels[rows]
         yield replace(part, numbers=chunk.numbers[rows], labels=labels)
-        chunk = replace(chunk, unlabelled="")  # it is told once
+        chunk = replace(chunk, unlabelled="")  # reported only once

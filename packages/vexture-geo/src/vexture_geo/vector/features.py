@@ -25,13 +25,13 @@ if TYPE_CHECKING:
     import pyarrow
 
 ID: Final = "id"
-"""Column of a table that has the ids of features."""
+"""Column of ids of features in a table."""
 
 NEAR: Final = 10.0
-"""Units from the origin at which drawings that are no maps begin, and a map of degrees seldom."""
+"""Distance from the origin, in units, within which drawings begin, but maps in degrees rarely do."""
 
 BATCH: Final = 65_536
-"""Features that are in memory at once when they are streamed."""
+"""Most features in memory at once while streaming."""
 
 Source = Any
 """A path, the content of a file, or a GeoDataFrame."""
@@ -39,7 +39,7 @@ Source = Any
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """Lines: `points`, (n, 2), of all of them, the index after the last point of each, and the feature of each."""
+    """Lines: `points`, (n, 2), of all lines, the index after the last point of each, and the feature of each."""
 
     points: NDArray[np.float64]
     ends: NDArray[np.intp]
@@ -47,7 +47,7 @@ class Lines:
 
     @property
     def steps(self) -> NDArray[np.float64]:
-        """Distance to the east that the side to each point covers; 0 for the first of a line."""
+        """Eastward distance of the side that ends at each point; 0 for the first point of a line."""
         steps = np.diff(self.points[:, 0], prepend=self.points[:1, 0])
         steps[self.ends[:-1]] = 0.0
         return steps
@@ -68,14 +68,14 @@ class Features:
     Parameters
     ----------
     rings : Rings
-        The polygons, x, y in the units of `crs`: valid ones, each of a feature (`feature`).
+        Valid polygons in x, y in the units of `crs`, each with its `feature`.
     ids : (f,) array of str
-        Each once.
+        Unique ids of the features.
     table : pyarrow.Table
-        f rows of attributes, the column ``id`` first, without geometries.
+        Attributes without geometries, f rows; the first column is ``id``.
     crs : str
     lines, points : Lines, Points
-        What features have of these.
+        Lines and points of the features.
     """
 
     rings: Rings
@@ -85,11 +85,11 @@ class Features:
     lines: Lines
     points: Points
     is_numbered: bool = False
-    """Whether ids are no more than the numbers of features, as their source has none."""
+    """Whether ids are only the numbers of features, because the source has none."""
 
     @property
     def feature(self) -> NDArray[np.intp]:
-        """The feature of each polygon, (p,)."""
+        """Feature of each polygon, (p,)."""
         assert self.rings.feature is not None
         return self.rings.feature
 
@@ -97,7 +97,7 @@ class Features:
         return len(self.ids)
 
     def refuse_numbers(self, column: str) -> None:
-        """Raise a `ParameterError` where colours are to show ids that are only numbers."""
+        """Raise a `ParameterError` if `column` is ``id`` and ids are only numbers, which colours cannot show."""
         if column == ID and self.is_numbered:
             others = self.table.column_names[1:]
             is_there = any(name.rstrip("_") == ID for name in others)
@@ -123,27 +123,27 @@ def read_features(
     ----------
     source : path, bytes or GeoDataFrame
     layer : str, optional
-        Which one, of a file that has several.
+        Layer to read, if the source has several.
     where : str, optional
         Condition in SQL on the attributes, such as ``population > 1000 AND kind = 'town'``.
     crs : str, optional
-        Reference system of the source, if it does not say it itself.
+        Reference system of the source, if it names none.
     id : str, optional
-        Column that identifies features; by default the format's own id, the index of a GeoDataFrame if it is one of
-        its own and tells rows apart, or else the feature's number, from 0.
+        Column that identifies features. By default it is the format's own id, or the index of a GeoDataFrame if it is
+        not the default one and its labels are unique, or else the feature's number, from 0.
     columns : sequence of str, optional
         Attributes to keep; all by default.
     bounds : tuple of float, optional
-        West, south, east, north in units of the source: features whose boxes touch it.
+        West, south, east, north in units of the source: only features whose boxes touch it are read.
     notes : Notes
-        Gets what is left out or repaired.
+        Receives what is left out or repaired.
 
     Raises
     ------
     SourceError
         If it cannot be read, or names no reference system.
     ParameterError
-        If a layer, a column or the condition is unknown to it.
+        If there is no such layer or column, or the condition is wrong.
     """
     choice = FeatureQuery(layer, where, id, None if columns is None else tuple(columns), bounds)
     (chunk,) = chunks_of(source, choice, None)
@@ -163,7 +163,7 @@ def feature_batches(
     notes: Notes,
     batch: int = BATCH,
 ) -> Iterator[Features]:
-    """Read features as `read_features` does, at most `batch` at once; files that are read as a whole are small."""
+    """Read features like `read_features`, at most `batch` at once; formats that are read as a whole are small."""
     if batch < 1:
         raise ParameterError(f"`batch` is {batch}; it must be 1 or more features")
     choice = FeatureQuery(layer, where, id, None if columns is None else tuple(columns), bounds)
@@ -175,7 +175,7 @@ def feature_batches(
 def _features(
     chunk: FeatureChunk, choice: FeatureQuery, crs: str | None, counts: dict[str, int], notes: Notes
 ) -> Features:
-    """Features of a chunk; `counts` counts the ids of those before it."""
+    """Make the features of a chunk; `counts` holds the counts of ids in earlier chunks."""
     import shapely
 
     notes.remark("the file is damaged: a geometry refers to arcs that it does not have", chunk.damaged)
@@ -223,7 +223,7 @@ def _features(
 
 
 def _system(chunk: FeatureChunk, rings: Rings, crs_option: str | None, notes: Notes) -> str:
-    """Reference system of a chunk: that which its source names, or else the one that is given for it."""
+    """Choose the reference system of a chunk: the source's own, or else the given one."""
     found = chunk.crs(rings.points)
     if crs_option is None or not chunk.is_told:
         try:
@@ -240,7 +240,7 @@ def _system(chunk: FeatureChunk, rings: Rings, crs_option: str | None, notes: No
 
 
 def _valid(rings: Rings, turn: float | None, ids: NDArray[Any], notes: Notes) -> Rings:
-    """Valid polygons; visible repairs are noted. Those that jump over the antimeridian are unwrapped later."""
+    """Repair polygons and note visible repairs; those that jump over the antimeridian are unwrapped later."""
     import shapely
 
     if not len(rings.ends):
@@ -271,7 +271,7 @@ def _areas(rings: Rings, count: int) -> NDArray[np.float64]:
 
 
 def _short(parts: NDArray[Any], notes: Notes) -> NDArray[np.bool_]:
-    """Polygons with a ring of fewer than three corners, which enclose nothing."""
+    """Find polygons with a ring of fewer than three corners, which enclose nothing."""
     import shapely
 
     rings, owner = shapely.get_rings(parts, return_index=True)
@@ -290,7 +290,7 @@ def _lines(lines: NDArray[Any], feature: NDArray[np.intp]) -> Lines:
 
 
 def _ids(chunk: FeatureChunk, choice: FeatureQuery, counts: dict[str, int], notes: Notes) -> NDArray[Any]:
-    """The id of each feature as a text; one that was there before gets a number."""
+    """Ids of features as texts; an id that occurred before gets a number."""
     if chunk.id_column is None and chunk.labels is not None:
         return chunk.labels
     if chunk.id_column is None:
@@ -316,7 +316,7 @@ def _ids(chunk: FeatureChunk, choice: FeatureQuery, counts: dict[str, int], note
 
 
 def _table(chunk: FeatureChunk, ids: NDArray[Any]) -> "pyarrow.Table":
-    """Attributes with the column `id` first."""
+    """Attributes with `id` as the first column."""
     import pyarrow as pa
 
     table = chunk.table

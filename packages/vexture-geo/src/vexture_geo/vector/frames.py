@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 
 def labels_of(index: Any) -> tuple[NDArray[Any] | None, str]:
-    """The labels of an index as texts, where they tell rows apart and are more than their numbers.
+    """Labels of an index as texts, if they are unique and more than row numbers.
 
-    Where they do not tell rows apart, there are none, and the second text says why.
+    If they are not unique, there are none, and the second text says why.
     """
     if index.nlevels > 1:
         return None, "has several levels"
@@ -29,9 +29,9 @@ def labels_of(index: Any) -> tuple[NDArray[Any] | None, str]:
 
 
 def arrow_of(values: Any) -> Any:
-    """A column of pandas; one that Arrow has no type for, as of numbers and texts together, is its values as texts.
+    """Convert a column of pandas to Arrow; values without a type in Arrow, such as mixed numbers and texts, are texts.
 
-    Numbers beyond 64 bits are floats, categories keep their order, and periods and intervals are texts.
+    Numbers beyond 64 bits become floats, categories keep their order, and periods and intervals become texts.
     """
     import pyarrow as pa
 
@@ -65,7 +65,7 @@ def _as_texts(values: Any) -> Any:
 
 
 def check_texts(table: "pyarrow.Table") -> None:
-    """Refuse texts in another encoding, which GDAL passes on as they are."""
+    """Refuse texts in another encoding, which GDAL does not convert."""
     import pyarrow as pa
 
     for name, column in zip(table.column_names, table.columns, strict=True):

@@ -1,4 +1,4 @@
-"""GeoJSON: the areas of its polygons, with their simplestyle colours."""
+"""Read GeoJSON: the areas of its polygons, with their simplestyle colours."""
 
 import json
 import os
@@ -49,7 +49,7 @@ class AreaStyle(NamedTuple):
 
 
 class Area(NamedTuple):
-    """One polygon: its rings in the units of the file, y up, its look, and its name in messages."""
+    """A polygon: its rings in the units of the file, y up, its style, and its name in messages."""
 
     rings: list[Ring]
     look: AreaStyle
@@ -59,22 +59,22 @@ class Area(NamedTuple):
 def read_geojson(
     source: str | os.PathLike[str] | bytes, *, names: str | None = None, snap: float | None = None
 ) -> Drawing:
-    """Read GeoJSON (RFC 7946): polygons with their holes, one path for each.
+    """Read GeoJSON (RFC 7946) polygons with their holes, one path for each polygon.
 
-    The box around them is fitted into the unit square at its own aspect ratio. The properties ``fill`` and
-    ``fill-opacity`` of a feature (simplestyle) are its paint, else black. Its ``id``, else its property ``name``, is
-    the name of its paths (`Path.element`). Points and lines, which have no area, are left out and named. The old member
-    ``crs`` is read where it names a system; without it, coordinates are degrees of longitude and latitude.
+    Their bounding box is fitted into the unit square at its own aspect ratio. The properties ``fill`` and
+    ``fill-opacity`` of a feature (simplestyle) give its paint, black by default. Its ``id``, or else its property
+    ``name``, names its paths (`Path.element`). Points and lines have no area; they are left out and noted. The obsolete
+    member ``crs`` is read if it names a system; without it, coordinates are degrees of longitude and latitude.
 
     Parameters
     ----------
     source : path or bytes
         The file, plain or gzipped, or its content.
     names : str, optional
-        Property by whose values the paths are named, rather than by ``id``.
+        Property whose values name the paths, in place of ``id``.
     snap : float, optional
-        Borders of two polygons that differ by no more than this become one, in parts of the larger side of the box;
-        3e-6 by default, 0 leaves all as it is, 0.01 is the most. The detail of a border that no other is near stays.
+        Largest distance, as a fraction of the box's larger side, at which borders of two polygons become one; 3e-6 by
+        default, 0 leaves everything as it is, and 0.01 is the most. Details of a border without a neighbour stay.
 
     Returns
     -------
@@ -85,15 +85,15 @@ def read_geojson(
     Raises
     ------
     SourceError
-        If it cannot be read, is not GeoJSON, exceeds a limit or holds no area. Features, polygons and rings are
-        counted from 1.
+        If it cannot be read, is not GeoJSON, exceeds a limit or contains no area. Messages count features, polygons and
+        rings from 1.
     ParameterError
         If `snap` is out of range.
 
     Warns
     -----
     SourceWarning
-        Once for a file, of all notes.
+        One warning per file, with all notes.
 
     Examples
     --------
@@ -118,7 +118,7 @@ def read_geojson(
 
 
 def geojson_drawing(content: bytes, name: str, *, names: str | None = None, snap: float | None = None) -> Drawing:
-    """Read GeoJSON, plain or gzipped, as `read_geojson` does, but without a warning: all notes are in the drawing."""
+    """Read GeoJSON, plain or gzipped, like `read_geojson`, but without a warning: the drawing holds all notes."""
     notes = Notes()
     value = _parse_object(one_json(decompress(content)))
     reader = _Reader(notes, names)
@@ -137,12 +137,12 @@ def geojson_drawing(content: bytes, name: str, *, names: str | None = None, snap
     drawing = Drawing.from_source(paths, (float(low[0]), -float(high[1]), width, height), name)
     if not drawing.paths:
         raise SourceError("its polygons enclose no area; correct their coordinates")
-    turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source takes y down; no -0.0
+    turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source has y down; + 0.0 removes -0.0
     return replace(drawing, to_source=turned, crs=_crs(value.get("crs")), notes=notes.in_order)
 
 
 def _snap_areas(areas: list[Area], size: float, snap: float | None, notes: Notes) -> list[list[Ring]]:
-    """Rings of each area, with shared borders."""
+    """Snap shared borders of areas, and return the rings of each area."""
     rings = [ring for area in areas for ring in area.rings]
     points, ends = snap_borders(np.concatenate(rings), np.cumsum([len(ring) for ring in rings]), size, snap, notes)
     each = iter(np.split(points, ends[:-1]))
@@ -150,19 +150,19 @@ def _snap_areas(areas: list[Area], size: float, snap: float | None, notes: Notes
 
 
 def areas_of(content: bytes, notes: Notes) -> tuple[list[Area], str]:
-    """Areas of a file's content, not gzipped, and the reference system of their coordinates."""
+    """Read the areas of a file's content, not gzipped, and the reference system of their coordinates."""
     value = _parse_object(content)
     return list(_Reader(notes).areas(value)), _crs(value.get("crs"))
 
 
 def omissions(notes: Notes) -> str:
-    """Summary of what was left out, in parentheses, for the message that no polygon is left."""
+    """Summarise what was left out, in parentheses, for the message that no polygon remains."""
     line = line_of("met", notes.in_order).removeprefix("met: ")
     return f" ({line})" if line else ""
 
 
 def _parse_object(content: bytes) -> dict[str, Any]:
-    """Object of a JSON text."""
+    """Parse a JSON text as an object."""
     try:
         value = json.loads(content.removeprefix(BYTE_ORDER_MARK))
     except RecursionError:
@@ -181,7 +181,7 @@ def _parse_object(content: bytes) -> dict[str, Any]:
 
 
 class _Reader:
-    """Walks over one file, collects notes and counts positions; features are named by a property, or their `id`."""
+    """Reader of one file, which collects notes and counts positions; a property or the `id` names features."""
 
     def __init__(self, notes: Notes, names: str | None = None) -> None:
         self._notes = notes
@@ -190,7 +190,7 @@ class _Reader:
         self._positions = 0
 
     def areas(self, value: dict[str, Any]) -> Iterator[Area]:
-        """Areas of the outermost object."""
+        """Yield the areas of the outermost object."""
         kind = value.get("type")
         if kind != "FeatureCollection":
             yield from (
@@ -214,7 +214,7 @@ class _Reader:
             yield from self._geometry(value["geometry"], place, look)
 
     def _geometry(self, value: Any, place: str, look: AreaStyle, depth: int = 0) -> Iterator[Area]:
-        """Areas of a geometry; `place` names the place in messages."""
+        """Yield the areas of a geometry; `place` names the place in messages."""
         if not isinstance(value, dict):
             raise SourceError(f"{_at(place, 'the geometry')} is a {type(value).__name__}, not an object; correct it")
         kind = value.get("type")
@@ -247,7 +247,7 @@ class _Reader:
             yield Area(kept, look, place)
 
     def _ring(self, ring: Any, place: str) -> Ring | None:
-        """Positions of a ring, the first not repeated at the end; None of fewer than three."""
+        """Return the positions of a ring, the first not repeated at the end; None if there are fewer than three."""
         if not isinstance(ring, list):
             raise SourceError(f"{place} is a {type(ring).__name__}, not a list of positions; correct it")
         self._positions += len(ring)
@@ -264,20 +264,20 @@ class _Reader:
         return points
 
     def check_names(self) -> None:
-        """Raise a `SourceError` if names are to be those of a property that no feature has."""
+        """Raise a `SourceError` if no feature has the property that should name features."""
         if self._names is not None and self._names not in self._known:
             known = ", ".join(sorted(map(repr, self._known))[:10]) or "none"
             raise SourceError(f"no feature has the property {self._names!r} of `names`; there are {known}")
 
     def _element(self, identity: Any, properties: Any) -> str:
-        """Name of a feature, from a text or a number."""
+        """Choose the name of a feature, from a text or a number."""
         held = properties if isinstance(properties, dict) else {}
         self._known.update(held.keys())
         chosen = (identity, held.get("name")) if self._names is None else (held.get(self._names), identity)
         return next((str(value) for value in chosen if type(value) in (str, *NUMBERS)), "")
 
     def _paint(self, properties: Any) -> Paint:
-        """Colour of a feature."""
+        """Choose the paint of a feature."""
         if not isinstance(properties, dict):
             return Paint()
         fill, opacity = properties.get("fill", "#000"), properties.get("fill-opacity", 1)
@@ -296,7 +296,7 @@ class _Reader:
 
 
 def _usual(ring: list[Any]) -> Ring | None:
-    """Positions of a valid ring whose positions have equal lengths; None of any other. The fast path."""
+    """Convert a valid ring whose positions have equal lengths, as a fast path; None for any other ring."""
     lengths = set(map(len, ring)) if set(map(type, ring)) == {list} else set()
     if len(lengths) != 1 or min(lengths) < 2:
         return None
@@ -311,7 +311,7 @@ def _usual(ring: list[Any]) -> Ring | None:
 
 
 def _position_by_position(ring: list[Any], place: str) -> Ring:
-    """Positions of any ring, or an error that names the invalid one."""
+    """Convert any ring, or raise an error that names its first invalid position."""
     for number, position in enumerate(ring, 1):
         if not isinstance(position, list) or len(position) < 2 or any(type(c) not in NUMBERS for c in position[:2]):
             raise SourceError(f"{place}, position {number} is {_format_value(position)}; it must be two numbers")
@@ -329,7 +329,7 @@ def _position_by_position(ring: list[Any], place: str) -> Ring:
 
 
 def _contour(ring: Ring) -> NDArray[np.float64]:
-    """A ring as a closed contour of straight cubics, y down."""
+    """Convert a ring to a closed contour of straight cubics, y down."""
     turned = ring * (1.0, -1.0)
     return line_cubics(turned, np.roll(turned, -1, axis=0))
 
@@ -339,7 +339,7 @@ def _at(place: str, part: str) -> str:
 
 
 def _format_value(value: Any) -> str:
-    """A value for a message: short, in one line."""
+    """Format a value for a message, short and in one line."""
     if isinstance(value, dict):
         return "an object"
     text = repr(value[:3] if isinstance(value, list) else value)
@@ -347,7 +347,7 @@ def _format_value(value: Any) -> str:
 
 
 def _crs(member: Any) -> str:
-    """Name of the reference system, from the member `crs` that GeoJSON had before RFC 7946; a link is refused.
+    """Name the reference system by the member `crs` that GeoJSON had before RFC 7946; links are refused.
 
     Examples
     --------

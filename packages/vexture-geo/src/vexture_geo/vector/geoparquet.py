@@ -1,4 +1,4 @@
-"""Geometries of a table of Arrow: which column has them, how they are encoded, and in which reference system."""
+"""Find the geometry column of an Arrow table, its encoding, and its reference system."""
 
 import json
 from dataclasses import dataclass
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 
 NAMES: Final = ("geometry", "geom", "wkb_geometry", "wkb", "wkt")
-"""Columns that may hold geometries, where nothing in the file says which do."""
+"""Names of columns that may hold geometries, if nothing else in the file marks one."""
 
 WKB, WKT = "wkb", "wkt"
 DEPTHS: Final = {"point": 0, "linestring": 1, "multipoint": 1, "polygon": 2, "multilinestring": 2, "multipolygon": 3}
-"""Encodings of GeoArrow, and how many lists are around their coordinates."""
+"""Encodings of GeoArrow, and the depth of the lists around their coordinates."""
 
 EXTENSION: Final = "geoarrow."
 PROJJSON: Final = "projjson:"
@@ -33,14 +33,14 @@ SPHERICAL: Final = "its sides are great circles; they are drawn straight in long
 TEXTS: Final = "its geometries are texts in WKT"
 
 WRAPPING: Final = "Unknown error: Wrapping"
-"""What Arrow says where there is no memory for an object."""
+"""Start of Arrow's message if there is no memory for an object."""
 
 REMEDY: Final = "save it as GeoParquet with geometries in WKB"
 
 
 @dataclass(frozen=True)
 class GeometryColumn:
-    """The column of geometries.
+    """Column of geometries.
 
     Parameters
     ----------
@@ -48,9 +48,9 @@ class GeometryColumn:
     encoding : str
         ``wkb``, ``wkt``, or one of GeoArrow, such as ``polygon``.
     crs : str, optional
-        None if it is said to be unknown, or not said at all.
+        None if it is stated to be unknown, or not stated.
     remarks : tuple of str
-        What is to be told of it.
+        Remarks for the user.
     """
 
     name: str
@@ -59,7 +59,7 @@ class GeometryColumn:
     remarks: tuple[str, ...] = ()
 
     def shapes(self, table: "pyarrow.Table") -> NDArray[Any]:
-        """Geometries of a table in WKB, None where there is none, `BROKEN` where one is."""
+        """Convert a table's geometries to WKB; None where there is none, `BROKEN` where one is broken."""
         column = table.column(self.name)
         if self.encoding in DEPTHS:
             return np.concatenate([np.empty(0, object), *(_of_arrow(chunk, self.encoding) for chunk in column.chunks)])
@@ -68,7 +68,7 @@ class GeometryColumn:
 
 
 def geometry_column(file: Any) -> GeometryColumn:
-    """The column of geometries of a table: that of its metadata, of a type for geometries, or of such a name."""
+    """Find the geometry column of a table by its metadata, by a type for geometries, or by name."""
     import pyarrow.parquet as pq
 
     schema = file.schema_arrow
@@ -92,7 +92,7 @@ def geometry_column(file: Any) -> GeometryColumn:
 
 
 def _of_metadata(geo: bytes, schema: "pyarrow.Schema") -> GeometryColumn:
-    """The column that the metadata of GeoParquet name."""
+    """Find the column that GeoParquet metadata name."""
     try:
         about = json.loads(geo)
         name = about["primary_column"]
@@ -106,7 +106,7 @@ def _of_metadata(geo: bytes, schema: "pyarrow.Schema") -> GeometryColumn:
 
 
 def _make_column(name: str, encoding: str, crs: Any, edges: Any) -> GeometryColumn:
-    """A column of an encoding that is known."""
+    """Make a column, if its encoding is supported."""
     if encoding not in (WKB, WKT, *DEPTHS):
         raise SourceError(f"its geometries are {encoding!r:.60}; {REMEDY}")
     said = {SPHERICAL: edges not in (None, "planar"), TEXTS: encoding == WKT}
@@ -115,7 +115,7 @@ def _make_column(name: str, encoding: str, crs: Any, edges: Any) -> GeometryColu
 
 
 def _extension(field: "pyarrow.Field") -> tuple[str, tuple[Any, Any]]:
-    """The name of a column's type of extension, and the reference system and the kind of sides that it has."""
+    """Return the extension type of a column, with its reference system and the kind of its sides."""
     import pyarrow as pa
 
     if isinstance(field.type, pa.BaseExtensionType):
@@ -131,7 +131,7 @@ def _extension(field: "pyarrow.Field") -> tuple[str, tuple[Any, Any]]:
 
 
 def _named_crs(crs: str, metadata: dict[bytes, bytes]) -> str | None:
-    """A reference system as columns of the type GEOMETRY name it: by a number, or by a key of the file's metadata."""
+    """Find the reference system of a GEOMETRY column, named by a number or by a key of the file's metadata."""
     if crs.startswith(PROJJSON):
         found = metadata.get(crs.removeprefix(PROJJSON).encode())
         return crs if found is None else found.decode(errors="replace")
@@ -142,7 +142,7 @@ def _named_crs(crs: str, metadata: dict[bytes, bytes]) -> str | None:
 
 
 def _of_name(schema: "pyarrow.Schema") -> GeometryColumn:
-    """The column whose name says that it holds geometries."""
+    """Find the column whose name suggests geometries."""
     import pyarrow as pa
 
     for field in schema:
@@ -157,13 +157,13 @@ def _of_name(schema: "pyarrow.Schema") -> GeometryColumn:
 
 
 def objects_of(column: "pyarrow.ChunkedArray") -> NDArray[Any]:
-    """WKB or texts as objects, None where there is none."""
+    """Convert WKB or texts to objects; None where there is none."""
     import pyarrow as pa
 
     try:
         return np.asarray(column.to_numpy(zero_copy_only=False), object)
     except pa.ArrowException as error:
-        if WRAPPING in str(error)[: 2 * len(WRAPPING)]:  # the rest of this message is the geometry
+        if WRAPPING in str(error)[: 2 * len(WRAPPING)]:  # the rest of the message is the geometry
             if not pa.types.is_binary(column.type) and not pa.types.is_large_binary(column.type):
                 return _objects_of_texts(column)
             raise MemoryError from None
@@ -171,7 +171,7 @@ def objects_of(column: "pyarrow.ChunkedArray") -> NDArray[Any]:
 
 
 def _objects_of_texts(column: "pyarrow.ChunkedArray") -> NDArray[Any]:
-    """Texts that need not be in UTF-8: the others hold what no WKT has."""
+    """Decode texts that may not be in UTF-8; invalid bytes become characters that no WKT has."""
     import pyarrow as pa
 
     held = column.cast(pa.large_binary()).to_pylist()
@@ -179,7 +179,7 @@ def _objects_of_texts(column: "pyarrow.ChunkedArray") -> NDArray[Any]:
 
 
 def _of_arrow(array: Any, encoding: str) -> NDArray[Any]:
-    """Geometries in the lists of GeoArrow as WKB."""
+    """Convert geometries in lists of GeoArrow to WKB."""
     import pyarrow as pa
     import shapely
 
@@ -202,7 +202,7 @@ def _of_arrow(array: Any, encoding: str) -> NDArray[Any]:
 
 
 def _lists_of(array: Any, depth: int) -> tuple[NDArray[np.float64], tuple[NDArray[np.int64], ...]]:
-    """Coordinates in lists, and the ends of these, of the innermost first."""
+    """Return the coordinates in nested lists, and the ends of the lists, the innermost first."""
     import pyarrow as pa
 
     offsets: tuple[NDArray[np.int64], ...] = ()

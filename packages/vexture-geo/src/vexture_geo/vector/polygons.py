@@ -1,4 +1,4 @@
-"""Polygons of water in a vector file as `Extent`."""
+"""Read polygons of water in a vector file as an `Extent`."""
 
 import os
 from dataclasses import replace
@@ -41,7 +41,7 @@ from vexture_geo.vector.geojson import UNLOCATED, WORLD, omissions
 from vexture_geo.vector.vectors import areas_of_wkb, read_areas
 
 BEYOND = 0.5
-"""Sides of the unit square. Polygons farther from it are dropped before they are transformed."""
+"""Distance in unit squares beyond which polygons are dropped before they are transformed."""
 
 
 @gis_packages()
@@ -57,9 +57,9 @@ def read_polygons(
 ) -> Extent:
     """Read the area under water from a file of features of any format (`content.VECTOR_FILES`), or GeoJSON.
 
-    All polygons in the file are water, where they overlap too. Straight sides stay straight; rings that cross the
-    antimeridian are unwrapped; invalid polygons are repaired, and borders that differ by `snap` become
-    one. Parameters and errors as in `vexture.read_extent`.
+    All polygons in the file are water, even where they overlap. Straight sides stay straight; rings that cross the
+    antimeridian are unwrapped; invalid polygons are repaired, and borders that differ by at most `snap` become one. See
+    `vexture.read_extent` for parameters and errors.
     """
     notes = Notes()
     rings, named = _areas(source, file_name, layer, notes)
@@ -71,10 +71,10 @@ def read_polygons(
         note_short_ways(rings.steps, turn, notes)
         rings = unwrap_rings(rings, turn)
     if len(rings.ends):
-        said = None if named == WORLD else named  # GeoJSON that names no system may be a plane of its own
+        said = None if named == WORLD else named  # GeoJSON that names no system may use a local plane
         refuse_other_units(own, said, "", rings.box, is_given=crs is not None)
         rings = repair_rings(rings, notes)
-    # features without geometry are an empty flood; anything else without polygons is a mistake
+    # features without geometry are an empty flood; other files without polygons are a mistake
     if not len(rings.ends) and any(note.message != UNLOCATED for note in notes.in_order):
         raise SourceError(f"it holds no polygon{omissions(notes)}; give polygons of what is under water")
     if frame is None:
@@ -89,7 +89,7 @@ def read_polygons(
 def _areas(
     source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, notes: Notes
 ) -> tuple[Rings, str | None]:
-    """Polygons of any file, in its own coordinates, and the reference system that it names."""
+    """Read the polygons of any file in its own coordinates, and the reference system that it names."""
     source = unzip(unpack_source(source))
     if not is_table(source):
         if not is_geodatabase(source) and kind_of(start_of(source), file_name) is FileKind.SVG:  # by no other sign
@@ -104,7 +104,7 @@ def _areas(
 
 
 def _place_rings(rings: Rings, crs: str, frame: Frame) -> Rings:
-    """Rings near a frame, in its reference system."""
+    """Transform rings near a frame to its reference system."""
     if not len(rings.ends):
         return rings
     before, turn, square = rings, period(frame.crs), bounds_of_square(frame)
@@ -126,7 +126,7 @@ def _place_rings(rings: Rings, crs: str, frame: Frame) -> Rings:
 
 
 def _outside(rings: Rings, crs: str, frame: Frame) -> str:
-    """Message that no polygon lies within the bounds, with the likely reason."""
+    """Compose the message that no polygon lies within the bounds, with the likely reason."""
     extent, bounds = rings.box, frame.bounds
     text = f"its extent {format_bounds(extent, crs)} is outside of the bounds {format_bounds(bounds, frame.crs)}"
     degrees, wanted = like_degrees(extent), like_degrees(bounds)
@@ -138,7 +138,7 @@ def _outside(rings: Rings, crs: str, frame: Frame) -> str:
 
 
 def _draw_rings(rings: Rings, frame: Frame, name: str) -> Drawing:
-    """Rings as one path in the unit square of a frame."""
+    """Draw rings as one path in the unit square of a frame."""
     crs = None if frame.crs == UNPLACED else frame.crs
     if not len(rings.ends):
         return Drawing((), frame.to_source, name, crs)

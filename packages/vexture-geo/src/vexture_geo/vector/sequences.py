@@ -1,4 +1,4 @@
-"""Sequences of features in JSON: each after a mark (RFC 8142), in a line of its own, or simply one after another."""
+"""Sequences of JSON features: each after a separator (RFC 8142), on its own line, or simply concatenated."""
 
 import json
 import re
@@ -8,19 +8,19 @@ from vexture.base.content import BYTE_ORDER_MARK, RECORD
 from vexture.base.errors import SourceError, shorten_text
 
 SHOWN: Final = 80
-"""Characters of an error in a message."""
+"""Most characters of an error in a message."""
 
 WHOLE: Final = (b'"FeatureCollection"', b'"Topology"')
-"""What one text of all features has once, and a sequence of features never."""
+"""Texts that occur once in a single collection of all features, and never in a sequence."""
 
 BETWEEN: Final = re.compile(r"[ \t\r\n]*,?[ \t\r\n]*")
-"""What is between two features."""
+"""Separator of two features."""
 
 
 def one_json(content: bytes) -> bytes:
-    r"""A sequence of features in JSON (RFC 8142, or one after another) as one collection; other JSON as it is.
+    r"""Join a sequence of JSON features (RFC 8142 or concatenated) into one collection; return other JSON unchanged.
 
-    A comma may be between two features, as it is where lines are those of a collection.
+    Features may be separated by commas, as in lines taken from a collection.
 
     Examples
     --------
@@ -44,11 +44,11 @@ def one_json(content: bytes) -> bytes:
 
 
 def _one_after_another(content: bytes) -> list[bytes]:
-    """Texts of features, between which are spaces or a comma; at most one of anything else."""
+    """Split concatenated features, separated by spaces or commas; return at most one text of other JSON."""
     try:
         text = content.decode()
     except UnicodeDecodeError as error:
-        if content[:1] != b"{" or b"\0" in content[:4]:  # of UTF-16, or no JSON at all: who reads it says so
+        if content[:1] != b"{" or b"\0" in content[:4]:  # UTF-16, or no JSON at all, which the reader reports
             return []
         raise SourceError(f"it is no UTF-8 text (byte {error.start}); save it as UTF-8") from None
     decode, features, at = json.JSONDecoder().raw_decode, list[bytes](), 0
@@ -57,20 +57,20 @@ def _one_after_another(content: bytes) -> list[bytes]:
         try:
             value, end = decode(text, at)
         except (ValueError, RecursionError) as error:
-            if not features:  # it may be anything
+            if not features:  # it may be any format
                 return []
             raise _no_json(error, number) from None
         features.append(text[at:end].encode())
         between = BETWEEN.match(text, end)
         at = between.end() if between else end
-        if number == 1 and at == len(text):  # one text of any kind
+        if number == 1 and at == len(text):  # a single text of any kind
             return features
         _check_feature(value, number)
     return features
 
 
 def _check_record(record: bytes, number: int) -> None:
-    """Refuse what is no feature: GDAL passes over it in silence."""
+    """Raise an error for a record that is no feature, because GDAL silently skips it."""
     try:
         value = json.loads(record)
     except (ValueError, RecursionError) as error:

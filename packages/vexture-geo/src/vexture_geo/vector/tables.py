@@ -1,4 +1,4 @@
-"""Tables of attributes as files: of a whole map, or of features that come in batches."""
+"""Write tables of attributes as files, for a whole map or in batches of features."""
 
 import json
 from collections.abc import Iterable, Iterator
@@ -12,19 +12,19 @@ if TYPE_CHECKING:
     import pyarrow
 
 TABLES: Final = ("parquet", "arrow", "none")
-"""Kinds of files, by their suffixes; the last is none."""
+"""Kinds of files, by suffix; the last one means no file."""
 
 LEGEND: Final = "vexture.legend"
 """Key of the legends in the metadata of the table."""
 
 
 def with_legends(schema: "pyarrow.Schema", legends: list[dict[str, Any]]) -> "pyarrow.Schema":
-    """A schema of which the metadata have the legends of the colours, and nothing else."""
+    """Replace the metadata of a schema by the legends of colours."""
     return schema.with_metadata({LEGEND: json.dumps(legends)})
 
 
 def table_bytes(table: "pyarrow.Table", kind: str) -> bytes:
-    """A table as a file of a kind."""
+    """Encode a table as Parquet or Arrow."""
     import pyarrow as pa
 
     sink = pa.BufferOutputStream()
@@ -34,14 +34,14 @@ def table_bytes(table: "pyarrow.Table", kind: str) -> bytes:
 
 
 def write_batches(file: IO[bytes], schema: "pyarrow.Schema", batches: "Iterable[pyarrow.Table]", kind: str) -> None:
-    """Write tables, one after another, as one file of a kind."""
+    """Write consecutive tables as one Parquet or Arrow file."""
     with _writer(file, schema, kind) as writer:
         for table in batches:
             writer.write_table(table.cast(schema))
 
 
 def cast(table: "pyarrow.Table", schema: "pyarrow.Schema") -> "pyarrow.Table":
-    """A table with the types of one before it; a `ParameterError` if its values have others."""
+    """Cast a table to the types of an earlier one; a `ParameterError` if its values do not fit."""
     import pyarrow as pa
 
     try:
@@ -52,7 +52,7 @@ def cast(table: "pyarrow.Table", schema: "pyarrow.Schema") -> "pyarrow.Table":
 
 
 def check_targets(targets: Iterable[Path], sources: Iterable[Path]) -> None:
-    """Raise a `ParameterError` if a file that is written is a source, or would replace a table of somebody else's."""
+    """Raise a `ParameterError` if an output file is a source, or would replace a table that no map has written."""
     for target in targets:
         if any(target.exists() and source.exists() and target.samefile(source) for source in sources):
             raise ParameterError(f"{target} is a source itself; give another `output`, or `table` none")
@@ -61,7 +61,7 @@ def check_targets(targets: Iterable[Path], sources: Iterable[Path]) -> None:
 
 
 def _is_own(place: Path) -> bool:
-    """Whether a file is a table as maps have them."""
+    """Return whether a file is a table written by a map."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 

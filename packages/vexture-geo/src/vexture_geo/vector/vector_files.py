@@ -1,7 +1,7 @@
-"""Files of features as GDAL is given them: by their first bytes, with the formats that GDAL may take them for.
+"""Pass files of features to GDAL: choose by their first bytes the formats that GDAL may try.
 
-GDAL gets a file only if nothing in it leads to another, and in memory, so that it opens, fetches and writes nothing
-else. What is too large for that, and the folder of a FileGDB, it opens by an absolute path.
+GDAL receives only files without links to other files, and in memory, so that it opens, fetches and writes nothing
+else. Files too large for that, and the folder of a FileGDB, are opened by an absolute path.
 """
 
 import os
@@ -49,7 +49,7 @@ JSON: Final = ("GeoJSON", "TopoJSON")
 SHAPEFILES: Final = ("ESRI Shapefile",)
 GEODATABASE: Final = ("OpenFileGDB",)
 MARKUP: Final[Mapping[str, tuple[str, ...]]] = {"kml": ("LIBKML", "KML"), "gpx": ("GPX",), "gml": ("GML",)}
-"""GDAL's names of formats; of two, the first that this GDAL has."""
+"""GDAL's names of formats; of two, the first one that this GDAL supports is used."""
 
 PLACED: Final = b"<Placemark"
 """Start of a feature of KML."""
@@ -57,10 +57,10 @@ PLACED: Final = b"<Placemark"
 SIZE_OF_HEADER: Final = slice(8, 12)
 HEADER_START: Final = 12
 FLATGEOBUF_HEADER: Final = 16 * 2**20
-"""Where a FlatGeobuf says the size of its header, where that starts, and more bytes than GDAL takes."""
+"""Position of the size of a FlatGeobuf header, start of the header, and a limit above GDAL's own."""
 
 PIECE: Final = 2**20
-"""Bytes that are parsed between two looks at the clock."""
+"""Bytes parsed between two checks of the time limit."""
 
 NETWORK_LINK: Final = "NetworkLink"
 HREF: Final = "http://www.w3.org/1999/xlink href"
@@ -71,7 +71,7 @@ SHOWN: Final = 80
 
 @dataclass(frozen=True)
 class VectorFile:
-    """A file for GDAL: in memory, or its place; the formats that it may be, and its links that are not read."""
+    """A file for GDAL: its content or path, its possible formats, and counts of its links, which are not read."""
 
     content: bytes | str
     formats: tuple[str, ...]
@@ -79,18 +79,18 @@ class VectorFile:
 
     @property
     def is_json(self) -> bool:
-        """Whether it is GeoJSON or TopoJSON."""
+        """True if the file is GeoJSON or TopoJSON."""
         return self.formats == JSON
 
     @property
     def has_fixed_layers(self) -> bool:
-        """Whether there are always the same layers, whatever is in them."""
+        """True if the format always has the same layers, whether empty or not."""
         return self.formats == MARKUP["gpx"]
 
 
 @contextmanager
 def open_vectors(source: str | os.PathLike[str] | bytes) -> Iterator[VectorFile]:
-    """A file of features, within this context; a `SourceError` if it is none, or names other files."""
+    """Open a file of features within this context; a `SourceError` if it is not one, or names other files."""
     if is_geodatabase(source):
         place = plain_place(source)
         if not place.lower().endswith(".gdb"):
@@ -107,7 +107,7 @@ def open_vectors(source: str | os.PathLike[str] | bytes) -> Iterator[VectorFile]
 
 
 def _on_disk(path: Path) -> VectorFile | None:
-    """A file that is not read as a whole: a shapefile, or a file that is too large; None of any other."""
+    """Open a file that is not read as a whole, a shapefile or a file that is too large; None for others."""
     start = start_of(path)
     if not path.is_file():
         return None
@@ -135,7 +135,7 @@ def _on_disk(path: Path) -> VectorFile | None:
 
 
 def _in_memory(content: bytes, opened: ExitStack) -> VectorFile:
-    """A file by its content."""
+    """Open a file by its content."""
     if content.startswith(SHAPEFILE):
         raise SourceError("a shapefile is several files; give them together as a .zip")
     if content.startswith(ZIP):
@@ -157,7 +157,7 @@ def _in_memory(content: bytes, opened: ExitStack) -> VectorFile:
 
 
 def _from_zip(content: bytes, kind: str, files: dict[str, bytes], opened: ExitStack) -> VectorFile:
-    """Give GDAL the files of a zip; those that it knows only by a name get a place of their own."""
+    """Open the files of a zip; formats that GDAL recognises only by name are written to a temporary folder."""
     if kind == FOLDER:
         folder = Path(opened.enter_context(TemporaryDirectory(prefix="vexture-", suffix=FOLDER)))
         for name, part in files.items():
@@ -167,7 +167,7 @@ def _from_zip(content: bytes, kind: str, files: dict[str, bytes], opened: ExitSt
         main = next(part for name, part in files.items() if name.lower().endswith(MAIN))
         if PLACED in main or links_of_markup(
             main, beside=files
-        ):  # GDAL reads its places, or the parts that it links to
+        ):  # GDAL reads its places, or the parts to which it links
             return VectorFile(main, MARKUP["kml"], links_of_markup(main))
         links = sum((Counter(links_of_markup(part, beside=files)) for part in files.values()), Counter())
         place = Path(opened.enter_context(TemporaryDirectory(prefix="vexture-")), "a.kmz")
@@ -177,7 +177,7 @@ def _from_zip(content: bytes, kind: str, files: dict[str, bytes], opened: ExitSt
 
 
 def _refuse_links_of_flatgeobuf(source: Path | bytes) -> None:
-    """Raise a `SourceError` if the reference system in the header of a FlatGeobuf names a file or an address."""
+    """Raise a `SourceError` if the reference system in a FlatGeobuf header names a file or an address."""
     if isinstance(source, bytes):
         start = source[:FLATGEOBUF_HEADER]
     else:
@@ -190,7 +190,7 @@ def _refuse_links_of_flatgeobuf(source: Path | bytes) -> None:
 def links_of_markup(content: bytes, beside: Collection[str] = ()) -> Mapping[str, int]:
     """Count links in XML that are not read, as texts of notes; raise a `SourceError` for damage or a DTD.
 
-    GDAL stops at damage and keeps what came before it, in silence. A link of KML to a file `beside` it is read.
+    GDAL silently stops at damage and keeps what precedes it. A KML link to a file `beside` it is read.
 
     Examples
     --------
@@ -231,6 +231,6 @@ def links_of_markup(content: bytes, beside: Collection[str] = ()) -> Mapping[str
             check_time()
             parser.Parse(content[first : first + PIECE])
         parser.Parse(b"", True)
-    except (expat.ExpatError, LookupError, ValueError) as error:  # the last two of an encoding
+    except (expat.ExpatError, LookupError, ValueError) as error:  # the last two for unknown encodings
         raise SourceError(f"the XML is damaged ({shorten_text(str(error), SHOWN)}); save it again") from None
     return found

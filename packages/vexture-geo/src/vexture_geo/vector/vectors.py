@@ -1,4 +1,4 @@
-"""Vector files of geographic data as rings.
+"""Read vector files of geographic data as rings.
 
 GDAL reads all formats but GeoJSON and tables.
 """
@@ -27,37 +27,37 @@ from vexture_geo.vector.sequences import one_json
 from vexture_geo.vector.vector_files import VectorFile, open_vectors
 
 AREAL: Final = ("Polygon", "Surface", "Unknown", "GeometryCollection", "Triangle", "TIN")
-"""Words in the geometry types of layers that may hold polygons."""
+"""Words in geometry types of layers that may contain polygons."""
 
 QUIET: Final = Lock()
-"""Held while Python's warnings are silenced: the filter is common to all threads."""
+"""Lock held while Python's warnings are silenced, because all threads share the filter."""
 
 DAMAGED: Final = "feature whose geometry is damaged, or has a line or ring of too few points"
 
 NO_MEMORY: Final = "bad_alloc"
-"""What GEOS and GDAL say where there is none."""
+"""Word in messages of GEOS and GDAL about lack of memory."""
 
 MOST_NAMED: Final = 12
-"""Layers that a message names."""
+"""Most layers that a message names."""
 
 POINTS_OF_LINES: Final = "_points"
-"""End of the names of layers that have the points of another layer's lines."""
+"""Suffix of the names of layers that hold the points of another layer's lines."""
 
 OF_MEMORY: Final = re.compile("pyogrio_[0-9a-f]{32}")
-"""Name of a file in memory, which a layer without a name gets: it is another whenever the file is opened."""
+"""Name of a file in memory, which a layer without a name gets and which changes each time the file is opened."""
 
 UNNAMED: Final = "unnamed"
-"""Name of such a layer here."""
+"""Name used here for such a layer."""
 
 FORMATS: Final = "not recognized as being in a supported file format"
-"""What GDAL says of damage in its first bytes; advice on its own options follows."""
+"""GDAL's message about damage in the first bytes; advice on its own options follows."""
 
 SCHEMAS: Final = "*.gfs"
-"""Files that GDAL makes of GML for its next reading, in memory."""
+"""Files in memory in which GDAL caches the schema of GML."""
 
 
 class Layer(NamedTuple):
-    """A layer of a file: its number, by which it is opened, its name, and the kind of its geometries, None of none."""
+    """Layer of a file: its number, by which it is opened, its name, and the kind of its geometries, if any."""
 
     number: int
     name: str
@@ -67,9 +67,9 @@ class Layer(NamedTuple):
 def read_areas(
     source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, notes: Notes
 ) -> tuple[Rings, str | None]:
-    """Polygons of a vector file, in its own coordinates, and the reference system that it names.
+    """Read the polygons of a vector file in its own coordinates, and the reference system that it names.
 
-    `LimitError` if it has several layers and `layer` is None, `ParameterError` if it has no such layer.
+    Raises a `LimitError` if it has several layers and `layer` is None, and a `ParameterError` if it has no such layer.
     """
     source = unzip(decompress(source) if isinstance(source, bytes) else source)
     kind = FileKind.AREAS if is_geodatabase(source) else kind_of(start_of(source) or read_bytes(source), file_name)
@@ -79,7 +79,7 @@ def read_areas(
         if layer is not None:
             raise ParameterError(f"GeoJSON has no layers, so none {layer!r}; leave `layer` out")
         return _geojson(one_json(read_bytes(source)), notes)
-    import_module("pyogrio")  # who lacks it is told so first
+    import_module("pyogrio")  # reports a missing package before anything else
     with open_vectors(source) as file:
         for link, count in file.links.items():
             notes.remark(link, count)
@@ -96,7 +96,7 @@ def _geojson(content: bytes, notes: Notes) -> tuple[Rings, str | None]:
 
 
 def _gdal(file: VectorFile, layer: str | None, notes: Notes) -> tuple[Rings, str | None]:
-    """Polygons that GDAL reads."""
+    """Read polygons with GDAL."""
     from pyogrio import raw
 
     with gdal_errors(file.formats):
@@ -108,10 +108,10 @@ def _gdal(file: VectorFile, layer: str | None, notes: Notes) -> tuple[Rings, str
 
 
 def layers_of(file: VectorFile, name: str | None) -> list[Layer]:
-    """Layers to choose from, within `gdal_errors`.
+    """List the layers to choose from, within `gdal_errors`.
 
-    A format that always has the same layers has those with features, unless one is `name`, and none that has the
-    points of another: GPX has those of its routes and tracks once more.
+    For a format with fixed layers, these are the layers with features, unless one is `name`. Layers with the points of
+    another layer are left out: GPX repeats the points of its routes and tracks in such layers.
     """
     from pyogrio import list_layers, read_info
 
@@ -128,7 +128,7 @@ def layers_of(file: VectorFile, name: str | None) -> list[Layer]:
 
 @contextmanager
 def gdal_errors(formats: Sequence[str]) -> Iterator[None]:
-    """Let GDAL read features in some formats, silence its warnings, and turn what it raises into a `SourceError`."""
+    """Let GDAL read features in some formats, silence its warnings, and turn its errors into a `SourceError`."""
     with QUIET, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # warnings of GDAL; invalid geometries are found later
         try:
@@ -136,7 +136,7 @@ def gdal_errors(formats: Sequence[str]) -> Iterator[None]:
                 yield
                 if "GML" in formats:
                     _forget_schemas()
-        except ParameterError:  # of `layer`; it is a ValueError too
+        except ParameterError:  # about `layer`; it is a ValueError too
             raise
         except (
             RuntimeError,
@@ -158,13 +158,13 @@ def _forget_schemas() -> None:
 
 
 def gdal_reason(error: Exception) -> str:
-    """GDAL's message, without its internals."""
+    """Shorten GDAL's message, without internals."""
     text = " ".join(str(error).split()).rpartition("Raw error: ")[2]
     if isinstance(error, NameError):
         return "its reference system is damaged"
     if FORMATS in text:
         return f"the file is {FORMATS}, or damaged"
-    if "sqlite3" in text:  # followed by the query
+    if "sqlite3" in text:  # the query follows
         return "its database is damaged"
     start = text.find("/vsi")
     if start >= 0:  # the name of a file in memory
@@ -173,7 +173,7 @@ def gdal_reason(error: Exception) -> str:
 
 
 def choose_layer(layers: list[Layer], name: str | None, *, any_kind: bool = False) -> Layer:
-    """The layer to read: one that may hold polygons, unless `any_kind`."""
+    """Choose the layer to read: one that may contain polygons, or any with `any_kind`."""
     areal = [layer for layer in layers if any_kind or any(word in str(layer.kind) for word in AREAL)]
     if name is None:
         if len(areal) == 1 or len(layers) == 1:
@@ -192,15 +192,15 @@ def _join_names(layers: list[Layer]) -> str:
 
 
 def parse_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArray[np.intp], NDArray[np.intp]]:
-    """Geometries of WKB as shapely's, and the place of each; what has none is noted and left out.
+    """Parse WKB with shapely; return the geometries and the place of each. Missing geometries are noted and left out.
 
-    The places of damaged ones, which are left out as well, come last.
+    The places of damaged geometries, also left out, are returned last.
 
     Raises a `SourceError` if none is sound.
     """
     import shapely
 
-    given = np.array([bool(shape) for shape in shapes], np.bool_)  # FlatGeobuf has empty ones for none
+    given = np.array([bool(shape) for shape in shapes], np.bool_)  # FlatGeobuf has empty bytes for no geometry
     for _ in range(int((~given).sum())):
         notes.left_out(UNLOCATED)
     feature = np.flatnonzero(given)
@@ -223,11 +223,11 @@ def parse_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArray
 
 
 def check_memory(shape: bytes) -> None:
-    """Raise a `MemoryError` if that is why a geometry was not read, and not because it is damaged."""
+    """Raise a `MemoryError` if a geometry was not read for lack of memory rather than damage."""
     import shapely
 
     try:
-        shapely.from_wkb(shape)  # which fails again only if it is damaged
+        shapely.from_wkb(shape)  # fails again only if it is damaged
     except shapely.errors.GEOSException as error:
         if not is_memory(error):
             return
@@ -235,12 +235,12 @@ def check_memory(shape: bytes) -> None:
 
 
 def is_memory(error: Exception) -> bool:
-    """Whether GEOS had not enough memory."""
+    """Return whether GEOS lacked memory."""
     return NO_MEMORY in str(error)
 
 
 def parts_of(whole: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
-    """Points, lines and polygons of geometries, and the place of the geometry of each."""
+    """Split geometries into points, lines and polygons; return these and the place of the geometry of each."""
     import shapely
 
     parts, owner = shapely.get_parts(whole, return_index=True)
@@ -251,7 +251,7 @@ def parts_of(whole: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
 
 
 def areas_of_wkb(shapes: NDArray[Any], notes: Notes) -> Rings:
-    """Polygons of geometries in WKB."""
+    """Read the polygons of geometries in WKB."""
     import shapely
 
     whole, feature, _ = parse_wkb(shapes, notes)

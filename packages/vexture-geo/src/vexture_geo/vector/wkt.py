@@ -1,4 +1,4 @@
-"""Geometries in texts, as columns of Parquet and CSV have them: WKT, or WKB in hexadecimal digits."""
+"""Geometries in text columns of Parquet and CSV: WKT, or WKB in hexadecimal digits."""
 
 import re
 from typing import Any, Final
@@ -12,17 +12,17 @@ SRID: Final = re.compile(r"^\s*SRID=\d+;\s*", re.IGNORECASE)
 """Start of extended WKT, which names a reference system."""
 
 ALIKE: Final = {"TIN": "MULTIPOLYGON", "POLYHEDRALSURFACE": "MULTIPOLYGON", "TRIANGLE": "POLYGON"}
-"""Surfaces that GEOS does not know, and what is written as they are."""
+"""Surfaces that GEOS does not support, and the types with the same notation."""
 
 SURFACE: Final = re.compile(rf"\b({'|'.join(ALIKE)})\b", re.IGNORECASE)
 CURVE: Final = re.compile(r"\b(CIRCULARSTRING|COMPOUNDCURVE|CURVEPOLYGON|MULTICURVE|MULTISURFACE)\b", re.IGNORECASE)
 
 HEADER: Final = 9
-"""Bytes of a collection in WKB before its first geometry: the order of bytes, the kind, and how many there are."""
+"""Bytes of a WKB collection before its first geometry: the byte order, the kind, and the count."""
 
 
 def wkb_of_texts(texts: NDArray[Any]) -> NDArray[Any]:
-    r"""Geometries of texts in WKB, with curves as they are: None where there is none, `BROKEN` where one is.
+    r"""Convert texts to WKB, keeping curves: None where there is no text, `BROKEN` where one is broken.
 
     Examples
     --------
@@ -41,7 +41,7 @@ def wkb_of_texts(texts: NDArray[Any]) -> NDArray[Any]:
             found[place] = _bytes_of(text)
         else:
             (others if CURVE.search(text) or SURFACE.search(text) else straight).append(place)
-    with np.errstate(all="ignore"):  # who reads the geometries refuses what is not finite
+    with np.errstate(all="ignore"):  # geometries that are not finite are refused later
         shapes = shapely.from_wkt([plain[place] for place in straight], on_invalid="ignore")
         for place, shape, content in zip(straight, shapes, shapely.to_wkb(shapes), strict=True):
             found[place] = BROKEN if shape is None else content
@@ -51,7 +51,7 @@ def wkb_of_texts(texts: NDArray[Any]) -> NDArray[Any]:
 
 
 def _curved_wkb(text: str) -> bytes:
-    """WKB of one text with curves or surfaces: GEOS writes those in a collection, which shapely has no type for."""
+    """Convert a text with curves or surfaces to WKB, within a collection, because shapely has no type for them."""
     import shapely
 
     inner = SURFACE.sub(lambda word: ALIKE[word[1].upper()], text)

@@ -1,4 +1,4 @@
-"""`vexture.map`: features in the colours of an attribute, in a notebook, with a legend, hovering and picking."""
+"""`vexture.map`: show features coloured by an attribute in a notebook, with a legend, hovering and picking."""
 
 import os
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from vexture_geo.maps.notebook.map_widget import MapWidget
 
 CAPACITY: Final = 15
-"""Pieces in a leaf: more than by default, as the bytes are sent to the page at once."""
+"""Pieces in a leaf: more than by default, because the bytes are sent to the page at once."""
 
 
 def map(
@@ -34,30 +34,30 @@ def map(
     Parameters
     ----------
     source : GeoDataFrame or path
-        A file that ``vexture map`` reads.
+        Features, or a file that ``vexture map`` reads.
     column : str or sequence of str, optional
-        Attribute that colours show; several, or a pattern such as ``y*``, are those of the steps of time.
+        Attribute that colours show. Several, or a pattern such as ``y*``, are the steps of time.
     times : sequence of str, table, DataFrame or path, optional
-        Names of the steps; or a table of ``id``, ``time`` and a value, in place of `column`. With steps a slider is
-        shown, and the trait `time` is the step.
+        Names of the steps; or a table of ``id``, ``time`` and a value, in place of `column`. With steps, the widget has
+        a slider, and its trait `time` is the step.
     tooltip : bool or sequence of str, optional
-        Attributes that are told of the feature under the pointer; by default the one that is shown and some others,
-        False or None for none.
+        Attributes in the tip of the feature under the pointer; by default the one that is shown and some others. False
+        or None shows no tip.
     legend : bool
     width, height, background, view
-        As of `vexture.show`.
+        See `vexture.show`.
     **options
-        Of the colours (`vexture_geo.maps.Scale`): ``scale``, ``palette``, ``classes``, ``no_data``. Of what is drawn
+        For colours (`vexture_geo.maps.Scale`): ``scale``, ``palette``, ``classes``, ``no_data``. For layers
         (`MapLayer`): ``layer``, ``where``, ``id``, ``columns``, ``fill``, ``order``, ``stroke``, ``outline``,
-        ``outline_width``, ``symbol``, ``symbol_size``, ``source_crs``. Of the map (`convert_map`): ``crs``, ``snap``,
-        ``size``, ``tolerance``. By default ``id`` is the index of a GeoDataFrame that has one of its own; lines are
-        3px wide and dots 8px. These px are pixels of the widget that shows the whole map (640 wide, if it is as wide as
-        its cell), and grow with the map when it is zoomed; with ``size`` they are those of a map of that size.
+        ``outline_width``, ``symbol``, ``symbol_size``, ``source_crs``. For the map (`convert_map`): ``crs``, ``snap``,
+        ``size``, ``tolerance``. By default ``id`` is the index of a GeoDataFrame that has its own index; lines are 3px
+        wide and dots 8px. A px is a pixel of the widget that shows the whole map (640 wide, if it is as wide as its
+        cell), and grows with the map when it is zoomed; with ``size`` it is a pixel of a map of that size.
 
     Returns
     -------
     MapWidget
-        Its traits `column`, `time`, `selected`, `hovered`, `picked` and `view` change the picture, and tell what users
+        Its traits `column`, `time`, `selected`, `hovered`, `picked` and `view` change the picture and report what users
         do.
 
     Raises

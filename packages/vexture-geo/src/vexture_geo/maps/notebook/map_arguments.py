@@ -1,4 +1,4 @@
-"""Arguments of `vexture.map`, as it takes them; wrong ones are refused with one line, before anything is read."""
+"""Arguments of `vexture.map`: wrong ones are refused in one line, before anything is read."""
 
 import os
 from collections.abc import Iterable
@@ -18,10 +18,10 @@ from vexture_geo.maps.colours import DEFAULT_CLASSES, NO_DATA
 from vexture_geo.maps.place import MERCATOR
 
 STROKE: Final = "3px"
-"""Width of lines, which are seen in a widget at once, as those of GeoPandas' ``explore``."""
+"""Default width of lines: visible in a widget at once, like those of GeoPandas' ``explore``."""
 
 OF_STEPS: Final = {"times": "column", "labels": "times"}
-"""Where `column` names those of steps, what it and their names are called by layers."""
+"""Parameters of layers, and the arguments of `map` that they come from, where `column` names the steps' columns."""
 
 THEIRS: Final = {
     "palette": ("cmap",),
@@ -36,12 +36,12 @@ THEIRS: Final = {
     "view": ("location", "zoom_start"),
 }
 OWN: Final = {their: own for own, every in THEIRS.items() for their in every}
-"""Options of GeoPandas' maps, and what does the same here."""
+"""Options of GeoPandas' maps, and their equivalents here."""
 
 
 @dataclass(frozen=True, slots=True)
 class MapOptions:
-    """Options of `vexture.map`: those of a `Scale`, whose `kind` is `scale`, of a `MapLayer` and of `convert_map`."""
+    """Options of `vexture.map`: those of a `Scale` (`scale` is its `kind`), a `MapLayer` and `convert_map`."""
 
     scale: str = "auto"
     palette: str | None = None
@@ -66,11 +66,11 @@ class MapOptions:
     max_seconds: float = DEFAULT_SECONDS
 
     def scale_of(self, column: str) -> Scale:
-        """Colours of a column."""
+        """Make the scale of a column."""
         return Scale(column, self.scale, self.palette, self.classes, self.no_data)
 
     def layer_of(self, source: Any, color: Scale | None, times: Times | None) -> MapLayer:
-        """The layer of a source, in the colours of a scale, of steps, or in its own."""
+        """Make the layer of a source, coloured by a scale, by steps, or by one fill."""
         return MapLayer(
             source,
             layer=self.layer,
@@ -91,7 +91,7 @@ class MapOptions:
 
 
 def parse_options(options: dict[str, Any], column: Any, legend: Any, *, has_colours: bool) -> MapOptions:
-    """Check options, of which None is the default; refuse unknown and impossible ones."""
+    """Check options, where None means the default; refuse unknown and impossible ones."""
     known = MapOptions.__dataclass_fields__
     for name in options:
         if name not in known:
@@ -121,7 +121,7 @@ def _is_number(value: Any) -> bool:
 
 
 def check_source(source: Any) -> None:
-    """Refuse a table without geometries."""
+    """Raise a `ParameterError` for a table without geometries."""
     if not hasattr(source, "columns") or hasattr(source, "geometry"):
         return
     kind = type(source).__name__
@@ -130,7 +130,7 @@ def check_source(source: Any) -> None:
 
 
 def size_of(size: Any, width: Any, height: Any) -> int | tuple[float, float]:
-    """Pixels of the map's larger side; without them, of the box that a widget has for it at first."""
+    """Pixels of the map's larger side; without `size`, the box that a widget has for it at first."""
     if size is not None:
         return pixels("size", size)
     box = (
@@ -141,11 +141,11 @@ def size_of(size: Any, width: Any, height: Any) -> int | tuple[float, float]:
 
 
 def column_of(source: Any, column: Any) -> "str | list[str] | None":
-    """The name of a column, or those of several."""
+    """Name of a column, or a list of names."""
     if column is None or isinstance(column, str):
         return column
     if not isinstance(column, Iterable):
-        return str(column)  # of a GeoDataFrame it may be a number
+        return str(column)  # a GeoDataFrame may name columns by numbers
     parts = list(column)
     if not parts:
         raise ParameterError("`column` is an empty list; name a column, or leave it out")
@@ -159,9 +159,9 @@ def column_of(source: Any, column: Any) -> "str | list[str] | None":
 
 
 def times_of(source: Any, column: str | list[str] | None, times: Any) -> Times | None:
-    """Values that change with time: columns and the names of steps, or a table."""
+    """Values that change with time: columns with the names of steps, or a table."""
     names = {str(name) for name in getattr(source, "columns", ())}
-    is_column = isinstance(column, str) and column in names  # whatever signs its name has
+    is_column = isinstance(column, str) and column in names  # even if its name contains a wildcard
     several = column is not None and not is_column and (not isinstance(column, str) or Times(column).is_pattern)
     if times is not None and not isinstance(times, os.PathLike | Iterable):
         raise ParameterError(

@@ -1,4 +1,4 @@
-"""Pictures of a map that is not converted yet: exact where no polygons of a layer overlap, and there at once."""
+"""Pictures of a map before its conversion: drawn at once, and exact where no polygons of a layer overlap."""
 
 from dataclasses import dataclass
 
@@ -15,12 +15,12 @@ from vexture_geo.maps.prepare import DOT, FILL, INK, PaintedLayer, Prepared
 from vexture_geo.maps.symbols import Symbols
 
 CHORDS = 8
-"""Sides in place of a cubic of a symbol."""
+"""Chords in place of a cubic of a symbol."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Sheet:
-    """Sides, the colours of their owners, (c, 4), and the row of each in the map's table, which outlines follow."""
+    """Sides, the colours of their owners, (c, 4), and the owners' rows in the map's table, followed by outlines."""
 
     sides: Sides
     rgba: NDArray[np.float64]
@@ -29,14 +29,14 @@ class _Sheet:
 
 @dataclass(frozen=True, eq=False)
 class MapPicture:
-    """Sheets of a map, one above the other."""
+    """Sheets of a map, each above the ones before it."""
 
     sheets: tuple[_Sheet, ...]
 
     def draw(self, rgba: NDArray[np.float64] | None, size: Size, view: ViewLike) -> NDArray[np.float32]:
-        """Premultiplied sRGB and opacity of each pixel, (height, width, 4), top row first.
+        """Draw premultiplied sRGB and opacity of each pixel, (height, width, 4), top row first.
 
-        `rgba`, (f, 4), are other colours of the rows of the table, and then of the outlines of layers.
+        `rgba`, (f, 4), replaces the colours of the table's rows, and then those of the layers' outlines.
         """
         picture = np.zeros(1, np.float32)
         for sheet in self.sheets:
@@ -45,7 +45,7 @@ class MapPicture:
         return picture
 
     def colours(self, count: int) -> NDArray[np.float64]:
-        """Colours of the rows of the table, and then of the outlines of layers, (count, 4)."""
+        """Colours of the table's rows, and then of the layers' outlines, (count, 4)."""
         rgba = np.zeros((count, 4))
         for sheet in self.sheets:
             rgba[sheet.rows] = sheet.rgba
@@ -53,7 +53,7 @@ class MapPicture:
 
 
 def map_picture(ready: Prepared) -> MapPicture:
-    """The areas, the lines and the symbols of each layer."""
+    """Make sheets of the areas, the lines and the symbols of each layer."""
     sheets: list[_Sheet] = []
     first, borders = 0, sum(len(one.features) for one in ready.layers)
     for one in ready.layers:
@@ -71,7 +71,7 @@ def map_picture(ready: Prepared) -> MapPicture:
 
 
 def plain(ready: Prepared, rgba: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Colours of the rows of the table, and then those of outlines in `rgba`, where no attribute is shown."""
+    """Colours of the table's rows if no attribute is shown, and then those of outlines in `rgba`."""
     changed, first = rgba.copy(), 0
     for one in ready.layers:
         features = one.features
@@ -90,7 +90,7 @@ def _ring_sides(rings: Rings, fit: MapFit) -> Sides:
 
 
 def _symbols(one: PaintedLayer, symbols: Symbols, fit: MapFit, rows: NDArray[np.intp]) -> _Sheet:
-    """Chords of the symbols of points; each path of a symbol has its own colour."""
+    """Make chords of the symbols of points; each path of a symbol has its own colour."""
     number = dict(zip(one.names.tolist(), rows.tolist(), strict=True))
     paths = [*symbols.paths(fit)]
     cubics = np.concatenate([contour for path in paths for contour in path.contours])
@@ -101,7 +101,7 @@ def _symbols(one: PaintedLayer, symbols: Symbols, fit: MapFit, rows: NDArray[np.
     places = np.einsum("tk,nkx->ntx", weights, cubics)
     start, end = places[:, :-1].reshape(-1, 2), places[:, 1:].reshape(-1, 2)
     areas = np.bincount(owner, start[:, 0] * end[:, 1] - end[:, 0] * start[:, 1])
-    turned = (areas < 0.0)[owner, None]  # outlines of drawings go either way
+    turned = (areas < 0.0)[owner, None]  # outlines of drawings have either orientation
     sides = Sides(np.where(turned, end, start), np.where(turned, start, end), owner.astype(np.int64))
     rgba = np.array([(*path.paint.color, path.paint.opacity) for path in paths])
     return _Sheet(sides, rgba, np.array([number[path.element] for path in paths], np.intp))

@@ -1,4 +1,4 @@
-"""Steps of time of a map's widget: the colours of each, as a page gets them once, and the values in tips."""
+"""Steps of time of a map's widget: their colours, which a page gets once, and their values in tips."""
 
 import zlib
 from typing import TYPE_CHECKING, Any, Final
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     import pyarrow
 
 COLOUR_ONE: Final = 10_000
-"""What 1 of a colour is, as it is sent: colours of elements have four digits."""
+"""Integer that encodes 1 in the colours that are sent: colours of elements have four digits."""
 
 
 def encode_colours(rgba: NDArray[np.float64]) -> dict[str, bytes]:
-    """Colours, (..., 4), as they are sent: each one once, and the place of each among them."""
+    """Encode colours, (..., 4): each distinct one once, and the index of each among them."""
     whole = np.uint16(np.rint(COLOUR_ONE * rgba))
     unique, places = np.unique(whole.view(np.uint64).ravel(), return_inverse=True)
     kind = np.uint8 if len(unique) <= 1 << 8 else np.uint16 if len(unique) <= 1 << 16 else np.uint32
@@ -26,7 +26,7 @@ def encode_colours(rgba: NDArray[np.float64]) -> dict[str, bytes]:
 
 
 class MapSteps:
-    """The steps of the layer that changes with time; the other layers keep their colours."""
+    """Steps of the layer that changes with time; the other layers keep their colours."""
 
     def __init__(self, ready: Prepared, still: NDArray[np.float64]) -> None:
         assert ready.steps is not None
@@ -44,17 +44,17 @@ class MapSteps:
         return round_colours(rgba)
 
     def encode_steps(self, rows: NDArray[np.intp]) -> dict[str, Any]:
-        """Colours of some rows of the table at all steps, one step after another; the places are deflated."""
+        """Encode the colours of some rows of the table at all steps, one step after another; indices are deflated."""
         every = np.stack([self.at(step)[rows] for step in range(len(self.labels))])
         parts = encode_colours(every)
         return {"colors": parts["colors"], "places": zlib.compress(parts["places"])}
 
     def value(self, table: "pyarrow.Table", row: int, time: float) -> tuple[str, Any]:
-        """Name of the nearest step, and a feature's value there."""
+        """Return the name of the nearest step, and a feature's value there."""
         step = min(max(round(time), 0), len(self.columns) - 1)
         return self.labels[step], table.column(self.columns[step])[row].as_py()
 
 
 def steps_of(ready: Prepared, still: NDArray[np.float64]) -> MapSteps | None:
-    """The steps of a map that changes with time."""
+    """Make the steps of a map that changes with time; None for other maps."""
     return None if ready.steps is None else MapSteps(ready, still)

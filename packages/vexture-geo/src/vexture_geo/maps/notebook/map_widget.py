@@ -1,6 +1,6 @@
-"""The widget of a map: its column, its selection, and the tip of a feature, as traits.
+"""Widget of a map, with its column, its selection, and the tip of a feature as traits.
 
-The map is converted in a thread beside the cells of the notebook, and arrives between two messages.
+The map is converted in a thread while the notebook's cells run, and is shown between two messages.
 """
 
 import asyncio
@@ -34,10 +34,10 @@ from vexture_geo.maps.notebook.tip import Tips
 from vexture_geo.maps.prepare import Prepared
 
 MOST_PIXELS: Final = 4096
-"""Of a side of a picture."""
+"""Most pixels along a side of a picture."""
 
 SELECTED: Final = (0.0, 0.9, 1.0, 1.0)
-"""Colour of the selected feature: in no ramp of the default palettes."""
+"""Colour of the selected feature, which no default palette contains."""
 
 Result = TypeVar("Result")
 
@@ -50,19 +50,19 @@ class MapWidget(VectorWidget):
     column : str or None
         Attribute that colours show; without one all features look alike, or show the steps of time.
     time : float
-        In steps, from 0; between two of them colours are mixed. The slider changes it, and so may Python.
+        Time in steps, from 0; between two steps colours are mixed. The slider and Python may change it.
     times : list of str
-        Names of the steps; none where another column is shown.
+        Names of the steps; empty while another column is shown.
     selected : str or None
-        Name of a feature, which is shown in another colour; a click selects.
+        Name of the highlighted feature; a click selects one.
     legend : dict or None
-        What colours mean: ``title``, ``kind``, and ``entries`` of a ``label`` and a ``color``.
+        Meaning of the colours: ``title``, ``kind``, and ``entries`` of a ``label`` and a ``color``.
     tip : list
-        Names and values of the attributes of the feature under the pointer.
+        Names and values of attributes of the feature under the pointer.
     table : pyarrow.Table
-        All attributes; the first column, ``id``, has the names.
+        All attributes; the first column, ``id``, holds the names of features.
     view, colors, picked, hovered, background, width, height
-        As of `VectorWidget`.
+        See `VectorWidget`.
     """
 
     column = LabelTrait(None, allow_none=True)
@@ -120,7 +120,7 @@ class MapWidget(VectorWidget):
 
     @property
     def texture(self) -> Texture:
-        """The converted map; it is waited for."""
+        """Texture of the converted map; reading it waits for the conversion."""
         try:
             self._pending.result()
         finally:
@@ -128,7 +128,7 @@ class MapWidget(VectorWidget):
         return super().texture
 
     def _show_texture(self) -> None:
-        """Show the texture in place of the pictures."""
+        """Replace pictures by the texture."""
         with self._lock:
             if self._texture is not None or self.comm is None:
                 return
@@ -145,18 +145,18 @@ class MapWidget(VectorWidget):
                 self._source = share_content(content)
                 self._send_colours()
                 self._mark({"new": self.selected})
-                self.send_state("colors")  # without those of what is hidden
+                self.send_state("colors")  # without the colours of hidden features
                 self._picture = None
-        # last, as a warning may be an error
+        # last, because a filter may turn a warning into an error
         warn_at(self._asked_at, self._name, [note for note in made.conversion.notes if note not in self._notes])
 
     def _feature(self, name: str | None) -> int | None:
-        """The row of a feature in the table."""
+        """Row of a feature in the table; None if there is none."""
         row = self._row.get(name or "")
         return row if row is not None and row < len(self.table) else None
 
     def _is_seen(self, name: str) -> bool:
-        """Whether a feature is in the texture, as far as that is known: some lie wholly below others."""
+        """Return whether a feature is in the texture, or unknown: some lie wholly below others."""
         return self._style_rows is None or name in self._in_texture
 
     @cached_property
@@ -165,7 +165,7 @@ class MapWidget(VectorWidget):
         return frozenset(self._ids[row] for row in self._style_rows.tolist())
 
     def _send_colours(self) -> None:
-        """Send the colours of the elements of the style that are not the texture's: of all steps, or of a column."""
+        """Send colours of the style's elements that differ from the texture's: of all steps, or of a column."""
         if self._style_rows is None:
             return
         timed = self._changing is not None and bool(self.times)
@@ -177,7 +177,7 @@ class MapWidget(VectorWidget):
         self._coloring = encode_colours(self._rgba[self._style_rows]) if self._is_recolored and not timed else None
 
     def _send_picture(self, request: Any) -> None:
-        """Send a picture of a view, (x, y, width, height), in so many pixels."""
+        """Send a picture of a view, (x, y, width, height), in the requested size."""
         if self._texture is not None or not request:
             return
         size = tuple(max(1, min(MOST_PIXELS, int(side))) for side in request["size"])
@@ -185,7 +185,7 @@ class MapWidget(VectorWidget):
         self._picture = {**request, "content": png_of(picture, "transparent", fast=True)}
 
     def _draw_picture(self, size: Size, view: Any) -> NDArray[np.float32]:
-        """A picture of the map as it was read."""
+        """Draw a picture of the map as it was read."""
         changed = {**self.components(self.colors), **self._marked}
         rgba = self._rgba.copy() if changed or self._is_recolored else None
         if rgba is None and self._last is not None and self._last[:2] == (size, tuple(view)):
@@ -206,7 +206,7 @@ class MapWidget(VectorWidget):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write what the widget shows; see `VectorWidget.save`."""
         if Path(path).suffix.lower() != PNG:
-            assert self.texture is not None  # it is waited for
+            assert self.texture is not None  # waits for the conversion
         super().save(path)
 
     def only_saved(self) -> dict[str, Any]:
@@ -214,7 +214,7 @@ class MapWidget(VectorWidget):
         return {"_tips": self._tips.as_json(self.column, bool(self.times))}
 
     def components(self, colours: Mapping[str, Any]) -> dict[str, list[float]]:
-        """Red, green, blue and opacity of colours by the names of features."""
+        """Return red, green, blue and opacity of colours by the names of features."""
         if not isinstance(colours, Mapping):
             raise ParameterError("the colours are no mapping of names, such as {'4': 'red'}")
         for name in colours:
@@ -256,7 +256,7 @@ class MapWidget(VectorWidget):
         return proposal["value"]
 
     def _recolour(self, change: Any) -> None:
-        """Show another column, or again the steps of time."""
+        """Show another column, or return to the steps of time."""
         legend: dict[str, Any] | None
         if change["new"] is not None:
             rgba, legend = self._colours_of(change["new"])
@@ -277,13 +277,13 @@ class MapWidget(VectorWidget):
         scale = replace(self._scale, column=column)
         try:
             rgba, legend = colours_of(self.table, scale, Notes())
-        except ParameterError:  # a column of texts: the scale was chosen for another one
+        except ParameterError:  # a column of texts, but the scale was chosen for another one
             rgba, legend = colours_of(self.table, replace(scale, kind="categories", palette=None), Notes())
-        borders = self._rgba[len(rgba) :]  # of outlines, which no column colours
+        borders = self._rgba[len(rgba) :]  # colours of outlines, which no column changes
         return np.concatenate([round_colours(rgba), borders]), legend
 
     def _go(self, change: Any) -> None:
-        """Another time: the page has its colours, and only a picture in place of the texture is drawn again."""
+        """Show another time: the page has its colours, and only a picture in place of the texture is drawn again."""
         if self._changing is None or not self.times:
             return
         self._rgba, self._is_recolored = self._changing.at(change["new"]), True
@@ -291,12 +291,12 @@ class MapWidget(VectorWidget):
         self._update_tip({"new": self.hovered})
 
     def _draw_again(self) -> None:
-        """Draw the picture that stands for the texture."""
+        """Redraw the picture in place of the texture."""
         if self._picture is not None:
             self._send_picture({name: self._picture[name] for name in ("view", "size")})
 
     def _mark(self, change: Any) -> None:
-        """Colour what is selected."""
+        """Highlight the selected feature."""
         name = change["new"]
         self._marked = {name: SELECTED} if name is not None and self._is_seen(name) else {}
         if "name" in change:
@@ -312,7 +312,7 @@ class MapWidget(VectorWidget):
 
 
 def _legend(found: dict[str, Any]) -> dict[str, Any]:
-    """A legend as pages draw it."""
+    """Convert a legend to the form that pages draw."""
     entries = [{"label": each["label"], "color": each["color"]} for each in found["entries"]]
     if "no_data" in found:
         entries.append({"label": "no data", "color": found["no_data"]["color"]})
@@ -320,32 +320,32 @@ def _legend(found: dict[str, Any]) -> dict[str, Any]:
 
 
 def _error_message(error: BaseException) -> str:
-    """Message of an error, in one line; of a class that is not vexture's, with its name."""
+    """Format an error in one line, with the name of its class unless it is vexture's."""
     if isinstance(error, EXPECTED) or not isinstance(error, Exception):
         return str(error)
     return f"{type(error).__name__}: {reason_of(error)}"
 
 
 def _home(sides: tuple[float, float]) -> Rect:
-    """The box of a map in the unit square, with a margin."""
+    """Box of a map in the unit square, with a margin."""
     width, height = sides
     return (0.5 - width / 2 - MARGIN, 0.5 - height / 2 - MARGIN, width + 2 * MARGIN, height + 2 * MARGIN)
 
 
 def _encode(ready: Map) -> tuple[Map, bytes]:
-    """A map, and the bytes that a page gets."""
+    """Return a map, and its bytes for the page."""
     return ready, ready.conversion.texture.to_ktx2()
 
 
 class Pending(Generic[Result]):
-    """The result of a function that a thread of its own calls.
+    """Result of a function that runs in its own thread.
 
     Parameters
     ----------
     work : callable
     then : callable
-        Called once, when the result is there: by the loop of the kernel, so that it never runs beside a cell; without a
-        loop, by the thread.
+        Called once when the result is ready, by the kernel's event loop, so that it never runs while a cell does;
+        without a loop, by the thread.
     """
 
     def __init__(self, work: Callable[[], Result], then: Callable[[], None]) -> None:
@@ -362,7 +362,7 @@ class Pending(Generic[Result]):
     def _run(self) -> None:
         try:
             self._result = self._work()
-        except BaseException as error:  # it is raised where the result is asked for
+        except BaseException as error:  # raised again where the result is requested
             self._error = error
         loop = self._loop
         if loop is None:
@@ -372,18 +372,18 @@ class Pending(Generic[Result]):
 
     @property
     def is_done(self) -> bool:
-        """Whether there is a result, or an error."""
+        """True if there is a result, or an error."""
         return not self._thread.is_alive() or self._result is not None or self._error is not None
 
     @property
     def error(self) -> BaseException | None:
-        """Error of finished work, if it failed."""
+        """Error of the work, if it failed."""
         return self._error
 
     def result(self) -> Result:
-        """The result, once it is there; what the work raised is raised again."""
+        """Wait for the result; an error of the work is raised again."""
         while self._result is None and self._error is None:
-            self._thread.join(0.05)  # so that it can be interrupted
+            self._thread.join(0.05)  # short, so that it can be interrupted
         if self._error is not None:
             raise self._error
         assert self._result is not None

@@ -12,13 +12,13 @@ if TYPE_CHECKING:
     from vexture_geo.maps.notebook.map_steps import MapSteps
 
 MOST_TOLD: Final = 12
-"""Attributes in a tip."""
+"""Most attributes in a tip."""
 
 LONGEST: Final = 80
-"""Letters of a value there."""
+"""Most letters of a value in a tip."""
 
 MOST_SAVED: Final = 5_000
-"""Features of which a saved page tells: it has the texts of all of them."""
+"""Most features for which a saved page has tips: it stores the texts of all of them."""
 
 
 class Tips:
@@ -29,7 +29,7 @@ class Tips:
     table : pyarrow.Table
     tooltip : bool or names of columns
     steps : MapSteps, optional
-        Of a map that changes with time.
+        Steps of a map that changes with time.
     """
 
     def __init__(self, table: "pyarrow.Table", tooltip: Any, steps: "MapSteps | None") -> None:
@@ -37,7 +37,7 @@ class Tips:
         self._chosen = _chosen_names(table.column_names, tooltip)
 
     def _names(self, column: str | None) -> list[str]:
-        """Names of a tip's attributes: the column shown comes first, and those of steps only if they are named."""
+        """Names of a tip's attributes: the shown column comes first, and columns of steps only if they are chosen."""
         if self._chosen is not None:
             return self._chosen
         steps = self._steps.columns if self._steps else ()
@@ -45,7 +45,7 @@ class Tips:
         return [*([] if column is None else [column]), *every][:MOST_TOLD]
 
     def tip_of(self, row: int, column: str | None, time: float | None) -> list[list[str]]:
-        """Names and values of a row, where a column is shown, or a time in steps."""
+        """Names and values of a row; the shown column or the value at a time in steps comes first."""
         values = self._table.slice(row, 1).to_pylist()[0]
         tip = [[name, format_attribute(values[name])] for name in self._names(column)]
         if time is None or self._steps is None or self._chosen == []:
@@ -54,7 +54,7 @@ class Tips:
         return [[name, format_attribute(value)], *tip]
 
     def as_json(self, column: str | None, is_timed: bool) -> dict[str, Any] | None:
-        """Tips of all features for a page without a kernel: by their names the values, and those of steps."""
+        """Tips of all features, by name, for a page without a kernel: their values, and those of steps."""
         if len(self._table) > MOST_SAVED or self._chosen == []:
             return None
         names = self._names(column)
@@ -68,7 +68,7 @@ class Tips:
 
 
 def _chosen_names(names: Sequence[str], tooltip: Any) -> list[str] | None:
-    """Attributes that a tip has; None if they are not chosen."""
+    """Attributes that `tooltip` chooses; None for the default."""
     if tooltip is True:
         return None
     if tooltip is None or tooltip is False:
@@ -83,7 +83,7 @@ def _chosen_names(names: Sequence[str], tooltip: Any) -> list[str] | None:
 
 
 def format_attribute(value: Any) -> str:
-    """A value in a tip: a number has no marks of thousands, which legends have, as it may be a year or a code.
+    """Format a value for a tip. A number has no thousands separators, as it may be a year or a code.
 
     Examples
     --------
