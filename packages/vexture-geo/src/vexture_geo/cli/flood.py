@@ -93,10 +93,11 @@ def flood(
     workers: int | None,
     **parameters: Any,
 ) -> None:
-    """Show a flood as a living sea, on one page or on a server.
+    """Show a flood as animated water, on one page or on a server.
 
-    The extent is wet places in any format that vexture map reads (but TopoJSON), or depths: GeoTIFF, a grid of Esri
-    (.asc, .flt), GRIB, or NetCDF on rows and columns, a curvilinear grid, or a mesh (UGRID: D-Flow FM, ADCIRC, SCHISM).
+    The extent is a file of wet areas, in any format that vexture map reads except TopoJSON, or of depths: GeoTIFF,
+    Esri grid (.asc, .flt), GRIB, or NetCDF with rows and columns, a curvilinear grid or a mesh (UGRID: D-Flow FM,
+    ADCIRC, SCHISM).
     """
     from vexture_geo.base.crs import gis_packages
 

@@ -62,11 +62,11 @@ EACH: Final = "once for all sources, or once for each ('' for none)"
 def map(
     sources: tuple[Path, ...], output: Path, symbol: Path | None, table: str, as_json: bool, **options: Any
 ) -> None:
-    """Make a map of geographic data: one texture, and a table of the attributes beside it.
+    """Convert geographic data into one texture and a table of attributes.
 
-    SOURCE is a GeoPackage, SpatiaLite, FlatGeobuf, shapefile, FileGDB, KML, KMZ, GPX, GML, GeoJSON (also in lines),
-    TopoJSON, GeoParquet, Feather, or CSV with columns of WKT or of coordinates; several are layers, drawn in order.
-    Features are elements of the texture, named by their ids.
+    SOURCE is a GeoPackage, SpatiaLite, FlatGeobuf, shapefile, FileGDB, KML, KMZ, GPX, GML, GeoJSON (also
+    newline-delimited), TopoJSON, GeoParquet, Feather, or CSV with a column of WKT or two of coordinates. Several sources
+    become layers, drawn in this order. Features are elements of the texture, named by their ids.
     """
     start = perf_counter()
     with one_line():

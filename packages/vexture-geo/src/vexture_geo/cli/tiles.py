@@ -48,11 +48,11 @@ Examples:
 @click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler whose workers do the work.")
 @click.option("-q", "--quiet", is_flag=True, help="Print errors only.")
 def tiles(source: Path, output: Path, **options: Any) -> None:
-    """Make a pyramid of tiles of a map's polygons: one file (PMTiles), or a folder with a TileJSON.
+    """Make a pyramid of tiles from polygons: one PMTiles file, or a folder with a TileJSON.
 
-    Each tile is a texture that is sharp far beyond its own zoom. It has polygons only: lines and points are for
-    `vexture map`. A table of attributes is beside the file, or in the folder. Who is interrupted, or killed, goes on
-    where it was when the same command runs again.
+    Each tile is a texture that stays sharp far beyond its own zoom. Tiles hold polygons only; use `vexture map` for
+    lines and points. A table of attributes is written next to the file, or into the folder. If the command is
+    interrupted or killed, run it again to continue.
     """
     with one_line():
         from vexture_geo.tiles.build import describe_unfinished, make_tiles

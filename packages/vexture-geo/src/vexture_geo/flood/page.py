@@ -88,7 +88,7 @@ def flood_page(
     depths: Sequence[float] = DEPTHS,
     **options: Any,
 ) -> FloodPage:
-    """Show a flood as a living sea: the page of `vexture flood`, in a notebook or as a file.
+    """Show a flood as animated water: the page of `vexture flood`, in a notebook or as a file.
 
     Needs ``vexture[gis]`` for anything but GeoJSON.
 

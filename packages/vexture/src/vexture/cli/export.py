@@ -22,7 +22,7 @@ Example:
 @strict_option
 @conversion_options
 def export(files: tuple[Path, ...], output: Path, title: str | None, strict: bool, **conversion: Any) -> None:
-    """Write one page that shows drawings, with everything in it."""
+    """Write a self-contained web page that shows drawings."""
     with one_line():
         from vexture.pages.view import export as write
 

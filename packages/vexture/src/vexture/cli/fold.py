@@ -35,7 +35,7 @@ def fold(
     picture: Path | None,
     fonts: tuple[Path, ...] | None,
 ) -> None:
-    """Make the outline of a drawing slide to and fro, as water on a beach."""
+    """Make the outline of a drawing move to and fro, like water on a beach."""
     with one_line():
         import numpy as np
 

@@ -53,7 +53,7 @@ def font(
     quiet: bool,
     **options: Any,
 ) -> None:
-    """Convert the characters of a font into one texture, a shape for each, with its metrics as JSON beside it.
+    """Convert the characters of a font into one texture, with a shape for each and metrics as JSON.
 
     FONT is a file, or a folder of the faces of a font; by default Noto Sans.
     """

@@ -101,7 +101,7 @@ def gltf(
     quiet: bool,
     **options: Any,
 ) -> None:
-    """Put drawings on materials of a model (glTF 2.0, .glb or .gltf).
+    """Put drawings on the materials of a model (glTF 2.0, .glb or .gltf).
 
     three.js shows them with the plugin of the npm entry vexture/gltf. Other programs show the original materials;
     everything else in the model stays as it is.

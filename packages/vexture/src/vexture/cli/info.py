@@ -26,7 +26,7 @@ Examples:
 @click.argument("texture", metavar="TEXTURE|TILES|-", type=PATH)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def info(texture: Path, as_json: bool) -> None:
-    """Describe a texture, or a pyramid of tiles: a file (PMTiles), or a folder."""
+    """Describe a texture or a pyramid of tiles (a PMTiles file or a folder)."""
     with one_line():
         from vexture.base.content import start_of
         from vexture.conversion.extensions import find_geographic_reader

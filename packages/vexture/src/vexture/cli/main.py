@@ -21,16 +21,16 @@ if TYPE_CHECKING:
 SUMMARIES: Final = {
     "convert": "Convert drawings into textures.",
     "text": "Convert a word or lines of text into a texture.",
-    "font": "Convert the characters of a font into one texture, a shape for each, with its metrics as JSON beside it.",
-    "render": "Draw a drawing, a picture as it is traced, or a texture as a PNG, in its colours.",
-    "info": "Describe a texture, or a pyramid of tiles: a file (PMTiles), or a folder.",
-    "restyle": "Give elements of a planar map other colours.",
-    "view": "Show drawings or packed textures in the browser, until Ctrl-C.",
-    "export": "Write one page that shows drawings, with everything in it.",
-    "serve": "Serve a folder of shapes, and take new ones by a token.",
+    "font": "Convert the characters of a font into one texture, with a shape for each and metrics as JSON.",
+    "render": "Render a drawing, a traced picture or a texture to a PNG, in its colours.",
+    "info": "Describe a texture or a pyramid of tiles (a PMTiles file or a folder).",
+    "restyle": "Change the colours of elements in a planar map.",
+    "view": "Show drawings or packed textures in the browser until you press Ctrl-C.",
+    "export": "Write a self-contained web page that shows drawings.",
+    "serve": "Serve a folder of shapes, and accept new ones from clients with a token.",
     "push": "Publish a drawing, geographic data or a packed texture on a server.",
-    "fold": "Make the outline of a drawing slide to and fro, as water on a beach.",
-    "gltf": "Put drawings on materials of a model (glTF 2.0, .glb or .gltf).",
+    "fold": "Make the outline of a drawing move to and fro, like water on a beach.",
+    "gltf": "Put drawings on the materials of a model (glTF 2.0, .glb or .gltf).",
 }
 """Commands in the order of the help, each with its first sentence, so that the help need not import them."""
 
@@ -51,9 +51,9 @@ ELSEWHERE: Final = {
 """Commands of known distributions, with instructions to install them."""
 
 ADDED_SUMMARIES: Final = {
-    "flood": "Show a flood as a living sea, on one page or on a server.",
-    "map": "Make a map of geographic data: one texture, and a table of the attributes beside it.",
-    "tiles": "Make a pyramid of tiles of a map's polygons: one file (PMTiles), or a folder with a TileJSON.",
+    "flood": "Show a flood as animated water, on one page or on a server.",
+    "map": "Convert geographic data into one texture and a table of attributes.",
+    "tiles": "Make a pyramid of tiles from polygons: one PMTiles file, or a folder with a TileJSON.",
 }
 """First sentences of the commands of vexture-geo, so that the help need not import these either."""
 

@@ -21,7 +21,7 @@ Examples:
 def push(file: Path, url: str, token_file: Path) -> None:
     """Publish a drawing, geographic data or a packed texture on a server.
 
-    URL is the server's, or SERVER/shapes/NAME; without a NAME, the shape is named after the file.
+    URL is the address of the server, or SERVER/shapes/NAME. Without a NAME, the shape is named after the file.
     """
     with one_line():
         from vexture.server.push import push as send

@@ -102,7 +102,7 @@ def render(
     max_seconds: float,
     **options: Any,
 ) -> None:
-    """Draw a drawing, a picture as it is traced, or a texture as a PNG, in its colours.
+    """Render a drawing, a traced picture or a texture to a PNG, in its colours.
 
     SOURCE_OR_TEXTURE may be - for standard input.
     """

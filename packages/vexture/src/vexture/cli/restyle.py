@@ -29,7 +29,7 @@ Example:
 )
 @click.option("--root", metavar="NAME", help="The drawing, in a texture of several.")
 def restyle(texture: Path, paints: tuple[str, ...], output: Path, root: str | None) -> None:
-    """Give elements of a planar map other colours.
+    """Change the colours of elements in a planar map.
 
     A colour is a CSS colour, or none. Make the texture with --split faces --restyle; vexture info lists its elements.
     """

@@ -40,7 +40,7 @@ def serve(
     precision: float | None,
     fonts: tuple[Path, ...] | None,
 ) -> None:
-    """Serve a folder of shapes, and take new ones by a token.
+    """Serve a folder of shapes, and accept new ones from clients with a token.
 
     DIR is created if it does not exist. Shapes that are pushed are kept in .vexture inside it.
     """

@@ -24,7 +24,7 @@ Examples:
 @click.option("--no-open", "opening", is_flag=True, flag_value=False, default=True, help="Do not open a browser.")
 @conversion_options
 def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening: bool, **conversion: Any) -> None:
-    """Show drawings or packed textures in the browser, until Ctrl-C.
+    """Show drawings or packed textures in the browser until you press Ctrl-C.
 
     The page shows a texture made for deep zoom; it also reports the smaller size that `vexture convert` writes.
     """
