@@ -65,8 +65,8 @@ def map(
     """Convert geographic data into one texture and a table of attributes.
 
     SOURCE is a GeoPackage, SpatiaLite, FlatGeobuf, shapefile, FileGDB, KML, KMZ, GPX, GML, GeoJSON (also
-    newline-delimited), TopoJSON, GeoParquet, Feather, or CSV with a column of WKT or two of coordinates. Several sources
-    become layers, drawn in this order. Features are elements of the texture, named by their ids.
+    newline-delimited), TopoJSON, GeoParquet, Feather, or CSV with a column of WKT or two of coordinates. Several
+    sources become layers, drawn in this order. Features are elements of the texture, named by their ids.
     """
     start = perf_counter()
     with one_line():
