@@ -42,6 +42,7 @@ help:
 	@echo 'make gallery  build a site of live, editable examples, with node and npm; it opens from the disk, too'
 	@echo 'make counties  build a page with a map of all counties of the United States, with node and npm'
 	@echo 'make test    lint, types and all tests but the slow ones, with all that they need'
+	@echo 'make lint    the checks of style and types, with the tools that they need'
 	@echo 'make test-core  the tests of the core, without vexture-geo and vexture-evidence'
 	@echo 'make sweep   the tests that take long and find little that those do not, and 24,000 drawings of others'
 	@echo 'make docs    build the documentation into site/, to be read from the disk'

@@ -365,7 +365,7 @@ def test_geographic_data_that_need_an_extra_name_it_in_one_line(
 @pytest.mark.parametrize(
     ("file", "content", "command", "remedy"),
     [
-        ("lake.geojson", LAKE.encode(), ["convert"], "'vexture[geo]', or 'vexture[gis]' for all formats"),
+        ("lake.geojson", LAKE.encode(), ["convert"], "pip install 'vexture[geo]'"),
         ("wet.gpkg", b"SQLite format 3\0" + bytes(52) + b"GPKG", ["convert"], "'vexture[gis]' for all formats"),
         ("triangle.svg", DRAWING.encode(), ["view"], "'vexture[server]'"),
         ("disc.png", picture, ["convert"], "'vexture[trace]'"),
@@ -386,7 +386,8 @@ def test_what_the_core_alone_lacks_is_named_in_one_line(
 def test_a_public_name_of_geographic_data_says_what_to_install(vexture: Installed, name: str) -> None:
     outcome = vexture.python(f"import vexture\nvexture.{name}")
     assert outcome.returncode == 1
-    expected = f"DeviceError: vexture.{name} needs the package vexture-geo: pip install 'vexture[geo]'"
+    extra = "notebook,map" if name == "map" else "geo"
+    expected = f"MissingPackageError: vexture.{name} needs the package vexture-geo: pip install 'vexture[{extra}]'"
     assert outcome.stderr.splitlines()[-1].endswith(expected)
 
 
@@ -394,6 +395,7 @@ def test_a_public_name_of_geographic_data_says_what_to_install(vexture: Installe
 def test_a_command_of_geographic_data_says_what_to_install(vexture: Installed, command: str) -> None:
     outcome = vexture.run(command)
     assert outcome.returncode == 2
-    assert outcome.stderr.endswith("the package vexture-geo adds it: pip install 'vexture[geo]'\n")
+    extra = "geo" if command == "flood" else "map"
+    assert outcome.stderr.endswith(f"the package vexture-geo adds it: pip install 'vexture[{extra}]'\n")
     listed = vexture.run("--help").stdout.split("Commands:\n")[1].splitlines()
     assert command not in {line.split()[0] for line in listed}

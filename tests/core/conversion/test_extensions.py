@@ -4,6 +4,7 @@ from importlib.metadata import EntryPoint
 
 import pytest
 
+from vexture.base.content import FileKind
 from vexture.base.errors import DeviceError
 from vexture.conversion import extensions
 
@@ -27,7 +28,7 @@ def install(monkeypatch):
 
 def test_the_module_of_the_entry_point_is_the_reader(install):
     install("colorsys")
-    assert extensions.geographic_reader().__name__ == "colorsys"
+    assert extensions.geographic_reader(FileKind.DEPTHS).__name__ == "colorsys"
 
 
 def test_the_reader_is_looked_for_once(install):
@@ -40,5 +41,9 @@ def test_the_reader_is_looked_for_once(install):
 def test_without_a_reader_the_remedy_is_named(install):
     install()
     assert extensions.find_geographic_reader() is None
-    with pytest.raises(DeviceError, match=r"^reading a shapefile needs the package vexture-geo: pip install '"):
-        extensions.geographic_reader("a shapefile")
+    with pytest.raises(
+        DeviceError, match=r"^reading geographic data needs .* vexture-geo: pip install 'vexture\[geo\]'"
+    ):
+        extensions.geographic_reader(FileKind.GEOJSON)
+    with pytest.raises(DeviceError, match=r"pip install 'vexture\[gis\]'"):
+        extensions.geographic_reader(FileKind.DEPTHS)

@@ -7,7 +7,7 @@ from vexture.base.notes import check_losses
 from vexture.svg.read import svg_drawing
 
 SQUARE = '<path d="M0 0h9v9z"{}>{}</path>'
-REVEALED = "what only an animation shows is drawn as that shows it"
+REVEALED = "parts that only an animation makes visible are drawn as it shows them"
 
 
 def drawn(body: str) -> Drawing:

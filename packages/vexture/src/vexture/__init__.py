@@ -7,6 +7,7 @@ from vexture.base.errors import (
     DeviceError,
     FormatError,
     LimitError,
+    MissingPackageError,
     ParameterError,
     SourceError,
     SourceWarning,
@@ -136,4 +137,7 @@ def _home_of(home: str, name: str) -> Any:
     except ModuleNotFoundError as error:
         if error.name != "vexture_geo":
             raise
-        raise DeviceError(f"vexture.{name} needs the package vexture-geo: pip install 'vexture[geo]'") from None
+        extra = "notebook,map" if name == "map" else "geo"
+        raise MissingPackageError(
+            f"vexture.{name} needs the package vexture-geo: pip install 'vexture[{extra}]'"
+        ) from None

@@ -26,6 +26,9 @@ UNPLACED: Final = (
 )
 """Reference system of a plane without a known place in the world."""
 
+OF_MAP: Final = ("cmap", "duckdb", "pmtiles", "pyarrow", "shapely")
+"""Packages of the extra ``map``; all others are of ``gis``."""
+
 MANY: Final = 10_000
 """Number of points from which duplicates are searched before a transform."""
 
@@ -61,9 +64,10 @@ def gis_packages() -> Iterator[None]:
     try:
         yield
     except ModuleNotFoundError as error:
-        if (error.name or "vexture").split(".")[0] == "vexture":
+        if error.name is None or error.name.split(".")[0] == "vexture":
             raise
-        raise DeviceError(f"geographic data needs the package {error.name}: pip install 'vexture[gis]'") from None
+        extra = "map" if error.name.split(".")[0] in OF_MAP else "gis"
+        raise DeviceError(f"geographic data needs the package {error.name}: pip install 'vexture[{extra}]'") from None
 
 
 def choose_crs(crs_option: str | None, found: str | None) -> str:

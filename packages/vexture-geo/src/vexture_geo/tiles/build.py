@@ -16,6 +16,7 @@ from vexture.base.content import about
 from vexture.base.errors import DeviceError, LimitError, ParameterError, SourceError, VextureError, reason_of
 from vexture.base.notes import Note, Notes
 from vexture.texture.files import writable
+from vexture_geo.base.crs import gis_packages
 from vexture_geo.base.extent import Bounds
 from vexture_geo.maps.coverage import ranks, ranks_by_area
 from vexture_geo.tiles.archive import ARCHIVE, check_target, table_of, write_archive, write_folder
@@ -62,6 +63,7 @@ class TilesSummary:
     notes: tuple[Note, ...]
 
 
+@gis_packages()
 def make_tiles(
     source: Any, output: Path, options: TileOptions, report: Report = lambda *_: None, batches: Any = None
 ) -> TilesSummary:

@@ -59,6 +59,10 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
+class MissingPackageError(DeviceError, AttributeError):
+    """A public name needs a package that is not installed; ``hasattr`` answers False."""
+
+
 def format_count(count: int, noun: str) -> str:
     """Format a count and its noun, which is plural unless the count is 1.
 

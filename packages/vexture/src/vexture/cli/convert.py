@@ -233,16 +233,13 @@ def options_of_convert(*names: str) -> Callable[[click.Command], click.Command]:
 
 
 def drawings_in(sources: tuple[Path, ...]) -> tuple[Path, ...]:
-    """Replace each folder by its SVG files, sorted by name."""
+    """Replace each folder by its SVG files, sorted by name; keep a folder without any, whose conversion fails."""
     files = list[Path]()
     for source in sources:
         if not source.is_dir():
             files.append(source)
             continue
-        found = sorted(file for file in source.iterdir() if _is_drawing(file))
-        if not found:
-            raise SourceError(f"{source}: the folder holds no SVG file; name a folder that does, or files")
-        files += found
+        files += sorted(file for file in source.iterdir() if _is_drawing(file)) or [source]
     return tuple(files)
 
 
@@ -306,6 +303,8 @@ def _convert_one(
     if quiet:  # kernels log that they are being compiled
         logging.getLogger("vexture").setLevel(logging.ERROR)
     try:
+        if source.is_dir():
+            raise SourceError(f"{source}: the folder holds no SVG file; name a folder that does, or files")
         if for_atlas:
             whole = source if content is None else content
             parts = [*parts_of(whole, Parameters(**parameters), shown_name(source))]

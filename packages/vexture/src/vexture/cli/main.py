@@ -40,13 +40,12 @@ COMMANDS: Final = {name: f"vexture.cli.{name}" for name in SUMMARIES}
 PLUGINS: Final = "vexture.commands"
 """Group of entry points by which other distributions add commands."""
 
-OF_GEO: Final = "the package vexture-geo adds it: pip install 'vexture[geo]'"
-
 ELSEWHERE: Final = {
-    "flood": OF_GEO,
-    "map": OF_GEO,
-    "tiles": OF_GEO,
-    "report": "the package vexture-evidence adds it: in a clone, pip install packages/vexture-evidence",
+    "flood": "the package vexture-geo adds it: pip install 'vexture[geo]'",
+    "map": "the package vexture-geo adds it: pip install 'vexture[map]'",
+    "tiles": "the package vexture-geo adds it: pip install 'vexture[map]'",
+    "report": "the package vexture-evidence adds it: in a clone, pip install ./packages/vexture "
+    "./packages/vexture-geo ./packages/vexture-evidence",
 }
 """Commands of known distributions, with instructions to install them."""
 

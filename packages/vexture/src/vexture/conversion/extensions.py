@@ -17,8 +17,6 @@ READERS: Final = "vexture.readers"
 
 GEOGRAPHIC: Final = "geographic"
 
-INSTALL_GEO: Final = "pip install 'vexture[geo]', or 'vexture[gis]' for all formats"
-
 Source: TypeAlias = str | os.PathLike[str] | bytes
 
 
@@ -50,9 +48,10 @@ def find_geographic_reader() -> GeographicReader | None:
     return next((cast(GeographicReader, point.load()) for point in points), None)
 
 
-def geographic_reader(subject: str = "a file of geographic data") -> GeographicReader:
-    """Import the reader of geographic data; raise a `DeviceError` if none is installed."""
+def geographic_reader(kind: FileKind) -> GeographicReader:
+    """Import the reader of geographic data of a kind; raise a `DeviceError` if none is installed."""
     reader = find_geographic_reader()
     if reader is None:
-        raise DeviceError(f"reading {subject} needs the package vexture-geo: {INSTALL_GEO}")
+        extra = "geo" if kind is FileKind.GEOJSON else "gis"
+        raise DeviceError(f"reading geographic data needs the package vexture-geo: pip install 'vexture[{extra}]'")
     return reader

@@ -218,7 +218,7 @@ def _read_other(kind: FileKind, source: Place | bytes, label: str, names: str | 
         from vexture.tracing.trace import image_drawing
 
         return image_drawing(source, name)
-    return geographic_reader().read_drawing(kind, source, label, name, names=names, snap=snap)
+    return geographic_reader(kind).read_drawing(kind, source, label, name, names=names, snap=snap)
 
 
 def _is_drawing(source: Place | bytes) -> bool:
@@ -234,5 +234,5 @@ def content_of(path: str | os.PathLike[str]) -> bytes:
     """Return the content of a file; a FileGDB, or a shapefile with the files next to it, is packed as a zip."""
     with about(os.fspath(path)):
         if not is_stream(path) and (is_geodatabase(path) or start_of(path).startswith(SHAPEFILE)):
-            return geographic_reader().pack(Path(path)) or read_bytes(path)
+            return geographic_reader(FileKind.AREAS).pack(Path(path)) or read_bytes(path)
         return read_bytes(path)

@@ -29,7 +29,7 @@ from vexture.svg.transform import Transform
 from vexture.svg.unsupported import ANIMATION
 from vexture.svg.viewport import Rectangle
 
-REVEALED: Final = "what only an animation shows is drawn as that shows it"
+REVEALED: Final = "parts that only an animation makes visible are drawn as it shows them"
 EMPTY_TOO: Final = "its animations show nothing more"
 
 
