@@ -29,6 +29,7 @@ FOLDERS = sorted(
 
 LONGEST_MODULE = 400
 LONGEST_FUNCTION = 60  # without its docstring
+MOST_PARAMETERS = 8  # positional ones; what travels together is a named tuple
 LONGEST_EXAMPLE = 40
 DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "utils"}
 
@@ -288,6 +289,19 @@ def test_modules_and_functions_are_of_a_readable_length():
                 body = node.body[1:] if ast.get_docstring(node) else node.body
                 lines = node.end_lineno - body[0].lineno + 1 if body else 0
                 assert lines <= LONGEST_FUNCTION, (path, node.name)
+
+
+def test_functions_have_few_positional_parameters():
+    for path in sorted((ROOT / "packages").rglob("*.py")):
+        for node in ast.walk(tree_of(path)):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and not is_command(node):
+                count = len(node.args.posonlyargs) + len(node.args.args)
+                assert count <= MOST_PARAMETERS, (path, node.name)
+
+
+def is_command(node):
+    """Whether a function is a command of click, which passes each option as an argument of its own."""
+    return any(ast.unparse(decorator).startswith("click.") for decorator in node.decorator_list)
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)

@@ -10,7 +10,7 @@ from vexture.drawing.drawing import Drawing, FillRule, Path
 from vexture.tree.bounds import DEFAULT_DEPTH, bounds_of
 from vexture.tree.build import SLICE, grow_on, new_growth
 from vexture.tree.cubics import gather
-from vexture.tree.divide import CROWDED, RUN, PiecePool, divide
+from vexture.tree.divide import CROWDED, RUN, Cell, PiecePool, divide
 from vexture.tree.growth import LAST, PIECES, WAITING, Growth, tree_of, with_needed_room
 from vexture.tree.tree import MOST_QUADS
 
@@ -76,7 +76,8 @@ def test_lists_of_few_pieces_hold_no_runs(at_limit):
     growth, child_at = Growth(*tree), np.empty(9, np.int64)
     pool, last = PiecePool(*growth.pool), int(growth.stack[0, LAST])
     middle = np.median(cubics[:, 0], axis=0)
-    divide(pool, 0, last, 0.9 * middle[0], middle[1], 1e-6, int(growth.stack[0, PIECES]), at_limit, child_at)
+    cell = Cell(0.9 * middle[0] - 0.5, middle[1] - 0.5, 1.0, 0, last)
+    divide(pool, cell, 1e-6, int(growth.stack[0, PIECES]), at_limit, child_at)
     lists = [pool.numbers[start:end] for start, end in pairwise(child_at[:5].tolist())]
     length = np.diff(pool.runs[:, :2])[:, 0]
     crowded = [sum(length[-1 - i] if i < 0 else 1 for i in numbers.tolist()) > CROWDED for numbers in lists]

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from vexture.base.content import FileKind, kind_of, start_of, unpack_source
 from vexture.base.errors import LimitError, ParameterError, SourceError
@@ -98,16 +98,11 @@ def read_extent(
 
     path = "" if isinstance(source, bytes) or is_dataset(source) else str(os.fspath(source))
     shown = file_name or path or "the data"
-    options: dict[str, Any] = {
-        "frame": frame,
-        "bounds": bounds,
-        "crs": crs,
-        "time_dim": time_dim,
-        "variable": variable,
-        "layer": layer,
-    }
     try:
-        extent = extent_of(source, shown, hmin=hmin, snap=snap, depths=depths, **options)
+        extent = extent_of(
+            source, shown, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
+            layer=layer, snap=snap, depths=depths,
+        )  # fmt: skip
     except (SourceError, LimitError, ParameterError) as error:
         raise type(error)(f"{path}: {error}" if path else str(error)) from None
     warn_of(shown, extent.notes)

@@ -1,5 +1,7 @@
 """One cubic through many points, by least squares."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -30,6 +32,14 @@ MEASURED = 4
 
 ALONG = 0.001
 """First weight of squared distances along the curve; tenfold after each step that made the fit worse."""
+
+
+class NormalEquations(NamedTuple):
+    """Scratch arrays of `_least_squares`."""
+
+    terms: NDArray[np.float64]  # (`TERMS`, n): what each point adds to the entries
+    a: NDArray[np.float64]  # (4, 4)
+    b: NDArray[np.float64]  # (4,)
 
 
 @kernel(allocates=False)
@@ -108,9 +118,7 @@ def _least_squares(
     t: NDArray[np.float64],
     along_weight: float,
     curve: NDArray[np.float64],
-    terms: NDArray[np.float64],
-    a: NDArray[np.float64],
-    b: NDArray[np.float64],
+    equations: NormalEquations,
     n: int,
 ) -> bool:
     """Move P1 and P2 so that the squared distances across the curve are least; False if undetermined.
@@ -118,9 +126,9 @@ def _least_squares(
     Distances along the curve count `along_weight` only, because projection moves the point along the curve anyway. This
     is the tangent distance minimisation of Wang, Pottmann and Liu, "Fitting B-spline curves to point clouds by
     curvature-based squared distance minimization" (ACM TOG 25, 2006). It converges many times faster than distances to
-    fixed parameters. There are n points; the
-    arrays may be longer. `terms` (`TERMS`, n) is overwritten.
+    fixed parameters. There are n points; the arrays may be longer. `equations` are overwritten.
     """
+    terms, a, b = equations
     _terms(x, y, t, along_weight, curve, terms)
     xx11, xy11, yy11, xx12, xy12, yy12, xx22, xy22, yy22 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     bx1, by1, bx2, by2 = 0.0, 0.0, 0.0, 0.0
@@ -226,8 +234,9 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
         for axis in range(2):
             curve[k, axis] = (1.0 - k / 3.0) * points[0, axis] + (k / 3.0) * points[n - 1, axis]
     width = 1 + (n + LANES - 2) // LANES * LANES  # the points after the first one, in full vectors
-    scratch, a, b = np.empty((4 + TERMS, width)), np.empty((4, 4)), np.empty(4)
+    scratch = np.empty((4 + TERMS, width))
     x, y, t, best_t, terms = scratch[0], scratch[1], scratch[2], scratch[3], scratch[4:]
+    equations = NormalEquations(terms, np.empty((4, 4)), np.empty(4))
     for i in range(width):
         k = min(i, n - 1)
         x[i], y[i], t[i] = points[k, 0], points[k, 1], 1.0
@@ -246,7 +255,7 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
             along *= 10.0
         if best <= tolerance or slow == SLOW_ROUNDS or (done == FAR_ROUND and best > FAR * tolerance):
             break
-        if not _least_squares(x, y, t, along, curve, terms, a, b, n):
+        if not _least_squares(x, y, t, along, curve, equations, n):
             break
     copy_curve(best_curve, curve)
     return best

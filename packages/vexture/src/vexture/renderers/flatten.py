@@ -55,6 +55,14 @@ class ImageFrame(NamedTuple):
     flatness: float
 
 
+class HomogeneousPoint(NamedTuple):
+    """A point in homogeneous pixel coordinates (X, Y, W)."""
+
+    x: float
+    y: float
+    w: float
+
+
 def find_chords(drawing: Drawing, size: tuple[int, int], view: NDArray[np.float64], flatness: float) -> Chords:
     """All chords that an image of a drawing with segments needs; a first pass counts them.
 
@@ -153,21 +161,22 @@ def halve(curve: NDArray[np.float64], first: NDArray[np.float64]) -> None:
 @kernel
 def add_curve(curve: NDArray[np.float64], pieces: int, owner: int, frame: ImageFrame, chords: Chords) -> None:
     """Add a cubic as chords of equal steps in t, split where they pass out of sight."""
-    x0, y0, w0 = curve[0, 0], curve[0, 1], curve[0, 2]
+    start = HomogeneousPoint(curve[0, 0], curve[0, 1], curve[0, 2])
     for k in range(1, pieces + 1):
         t = k / pieces
         s = 1.0 - t
         b0, b1, b2, b3 = s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t  # at t = 1 exactly 0, 0, 0, 1
-        x1 = b0 * curve[0, 0] + b1 * curve[1, 0] + b2 * curve[2, 0] + b3 * curve[3, 0]
-        y1 = b0 * curve[0, 1] + b1 * curve[1, 1] + b2 * curve[2, 1] + b3 * curve[3, 1]
-        w1 = b0 * curve[0, 2] + b1 * curve[1, 2] + b2 * curve[2, 2] + b3 * curve[3, 2]
-        if (w0 < frame.near) != (w1 < frame.near):
-            f = (frame.near - w0) / (w1 - w0)
-            x, y = x0 + f * (x1 - x0), y0 + f * (y1 - y0)
-            add_line(x0, y0, w0, x, y, frame.near, owner, frame, chords)
-            x0, y0, w0 = x, y, frame.near
-        add_line(x0, y0, w0, x1, y1, w1, owner, frame, chords)
-        x0, y0, w0 = x1, y1, w1
+        x = b0 * curve[0, 0] + b1 * curve[1, 0] + b2 * curve[2, 0] + b3 * curve[3, 0]
+        y = b0 * curve[0, 1] + b1 * curve[1, 1] + b2 * curve[2, 1] + b3 * curve[3, 1]
+        w = b0 * curve[0, 2] + b1 * curve[1, 2] + b2 * curve[2, 2] + b3 * curve[3, 2]
+        end = HomogeneousPoint(x, y, w)
+        if (start.w < frame.near) != (w < frame.near):
+            f = (frame.near - start.w) / (w - start.w)
+            between = HomogeneousPoint(start.x + f * (x - start.x), start.y + f * (y - start.y), frame.near)
+            add_line(start, between, owner, frame, chords)
+            start = between
+        add_line(start, end, owner, frame, chords)
+        start = end
 
 
 @kernel
@@ -177,20 +186,18 @@ def snap(y: float) -> float:
 
 
 @kernel
-def to_screen(x: float, y: float, w: float, frame: ImageFrame) -> tuple[float, float]:
+def to_screen(point: HomogeneousPoint, frame: ImageFrame) -> tuple[float, float]:
     """Pixel coordinates of a homogeneous point; a point out of sight is moved first (see `ImageFrame`)."""
-    hidden = max(frame.near - w, 0.0)
-    w = max(w, frame.near)
-    return (x + hidden * frame.lift_x) / w, snap((y + hidden * frame.lift_y) / w)
+    hidden = max(frame.near - point.w, 0.0)
+    w = max(point.w, frame.near)
+    return (point.x + hidden * frame.lift_x) / w, snap((point.y + hidden * frame.lift_y) / w)
 
 
 @kernel
-def add_line(
-    x0: float, y0: float, w0: float, x1: float, y1: float, w1: float, owner: int, frame: ImageFrame, chords: Chords
-) -> None:
+def add_line(start: HomogeneousPoint, end: HomogeneousPoint, owner: int, frame: ImageFrame, chords: Chords) -> None:
     """Add the part of a line that the image needs: nothing right of the image, only the heights left of it."""
-    x0, y0 = to_screen(x0, y0, w0, frame)
-    x1, y1 = to_screen(x1, y1, w1, frame)
+    x0, y0 = to_screen(start, frame)
+    x1, y1 = to_screen(end, frame)
     if y0 > y1:
         x0, y0, x1, y1, owner = x1, y1, x0, y0, -owner
     if y0 == y1 or y1 <= 0.0 or y0 >= frame.height:

@@ -166,7 +166,7 @@ def children(
         _sort_by_child(twice, twice_end, xm, ym, out, end, child_at)
         windings = np.empty((len(cell.present), 8), np.int64)
         lists = (out.points, out.path, places, windings)  # no runs
-        child_windings(lists, child_at, cell.present, x0, y0, xm, ym, 0, windings)
+        child_windings(lists, child_at, cell.present, x0, y0, half, 0, windings)
         for child in range(4):
             here = _copy_present(cell, child, windings, rules, present, paths)
             if here < 0:

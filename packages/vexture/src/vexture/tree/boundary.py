@@ -1,9 +1,9 @@
-"""The boundary inside one candidate leaf: fill rules, overlaps and crossings are resolved here.
+"""The boundary in one candidate leaf, after fill rules, overlaps and crossings are resolved.
 
 The pieces of all paths in a cell are rounded to the leaf's integer lattice, so that every comparison of y is exact.
-Horizontal *slabs* are cut at each end's and each crossing's y. In a slab nothing crosses: one sweep from the left edge,
-with prefix sums of the paths' windings, finds the pieces that separate inside from outside. No winding is ever
-evaluated geometrically, so a wrong order of two nearly coincident curves costs area, never parity.
+The cell is cut into horizontal *slabs* at the y of each end and of each crossing. In a slab nothing crosses. One sweep
+from the left edge, with prefix sums of the paths' windings, finds the pieces that separate inside from outside. No
+winding is evaluated geometrically, so a wrong order of two nearly coincident curves costs area, never parity.
 """
 
 from typing import NamedTuple
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.base.layout import LATTICE
 from vexture.tree.crossings import crossing_heights, x_at
+from vexture.tree.separate import CellPieces
 from vexture.tree.winding import inside
 
 NEAR = 1.0
@@ -23,25 +24,25 @@ MOST_RESOLVED = 160
 """Pieces. A cell with more is not resolved, because resolving compares every pair."""
 
 SCANLINES = 64
-"""Heights at which a cell with too many pieces to resolve is measured."""
+"""Horizontal lines along which a cell with too many pieces to resolve is measured."""
 
 
 class Boundary(NamedTuple):
-    """The resolved boundary in a leaf: parts of pieces (*runs*) that separate inside from outside."""
+    """The resolved boundary in a leaf. Its *runs* are the parts of pieces that separate inside from outside."""
 
     heights: NDArray[np.float64]  # (slabs + 1,): lattice y of the slabs' borders
     left: NDArray[np.int64]  # (slabs,): 1 where the left edge of the leaf is inside
-    run_piece: NDArray[np.int64]  # (runs,): the piece that each run is a part of
+    run_piece: NDArray[np.int64]  # (runs,): the piece that the run is part of
     run_role: NDArray[np.int64]  # (runs,): 1 if the right side is inside, -1 if the left side is
     run_y: NDArray[np.float64]  # (runs, 2): lattice y of the lower and upper end
 
 
 @kernel
 def quantise(points: NDArray[np.float64], x0: float, y0: float, size: float) -> NDArray[np.float64]:
-    """Pieces of a cell on its lattice: ends become integers, and inner control points move along with them.
+    """Round the pieces of a cell to its lattice: ends become integers, and inner control points move with them.
 
-    A point on the left edge stays on it, and no other point may come to lie there: the rule of windings counts the ends
-    on that edge.
+    A point on the left edge stays there, and no other point is moved onto it, because the rule of windings counts the
+    ends on that edge.
     """
     out = np.empty((len(points), 4, 2))
     for i in range(len(points)):
@@ -51,7 +52,7 @@ def quantise(points: NDArray[np.float64], x0: float, y0: float, size: float) -> 
 
 @kernel(allocates=False)
 def quantise_piece(points: NDArray[np.float64], x0: float, y0: float, size: float, out: NDArray[np.float64]) -> None:
-    """Write one piece, (4, 2), on its cell's lattice; see `quantise`."""
+    """Write one piece, (4, 2), rounded to its cell's lattice; see `quantise`."""
     scale = LATTICE / size
     for k in range(4):
         out[k, 0] = (points[k, 0] - x0) * scale
@@ -66,7 +67,7 @@ def quantise_piece(points: NDArray[np.float64], x0: float, y0: float, size: floa
 
 @kernel(allocates=False)
 def _sift(keys: NDArray[np.float64], order: NDArray[np.int64], root: int, count: int) -> None:
-    """Restore the heap below a place."""
+    """Restore the heap below place `root`."""
     while 2 * root + 1 < count:
         child = 2 * root + 1
         if child + 1 < count and keys[order[child]] < keys[order[child + 1]]:
@@ -99,7 +100,7 @@ def sort_order(keys: NDArray[np.float64], count: int) -> NDArray[np.int64]:
 
 @kernel
 def slab_heights(curves: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Heights of the slabs' borders, sorted, each once: the leaf's own, every end's, every crossing's."""
+    """Heights of the slabs' borders, sorted and distinct: of the leaf's edges, the ends and the crossings."""
     n = len(curves)
     heights, count = crossing_heights(curves, NEAR, 2 * n + 2)
     heights[count], heights[count + 1] = 0.0, LATTICE
@@ -122,8 +123,8 @@ def order_slab(
 ) -> int:
     """Order the pieces that span a slab by x; return how many there are.
 
-    Their numbers are written to `active`, and their x at the three inner heights to `x`. The middle height decides, or
-    the sum of the three where neighbours are close.
+    Their numbers are written to `active`, and their x at three inner heights to `x`. They are ordered by x at the
+    middle height, or by the sum of all three where neighbours are close.
     """
     count, height = 0, high - low
     for i in range(len(curves)):
@@ -160,7 +161,7 @@ def order_slab(
 
 @kernel(allocates=False)
 def coincide(x: NDArray[np.float64], i: int, j: int, height: float) -> bool:
-    """Whether two pieces of a slab are one boundary: at three heights less than a unit apart, across them."""
+    """Whether two pieces of a slab are one boundary: less than a unit apart, across them, at three heights."""
     if x[i, 0] == np.inf:
         return False
     lean = max(abs(x[i, 2] - x[i, 0]), abs(x[j, 2] - x[j, 0])) / (0.7 * height)
@@ -172,11 +173,7 @@ def coincide(x: NDArray[np.float64], i: int, j: int, height: float) -> bool:
 
 @kernel
 def _roles_in_slab(
-    curves: NDArray[np.float64],
-    owner: NDArray[np.int64],
-    multiplicity: NDArray[np.int64],
-    windings: NDArray[np.int64],
-    rules: NDArray[np.int64],
+    cell: CellPieces,
     active: NDArray[np.int64],
     count: int,
     x: NDArray[np.float64],
@@ -184,15 +181,17 @@ def _roles_in_slab(
     previous: NDArray[np.int64],
     role: NDArray[np.int64],
 ) -> int:
-    """Sweep a slab from the left: set the role of each piece in it; return whether the left edge is inside.
+    """Sweep a slab from the left: set the role of each piece in it; return 1 if the left edge is inside, else 0.
 
-    Neighbours that coincide form a group. If it has the same side before and after, all its pieces are dropped.
-    Otherwise one stays: preferably one that had that role in the slab below, else the one that reaches highest.
+    The cell's windings are those at the left edge. Neighbours that coincide form a group. If a group has the same side
+    before and after it, all its pieces are dropped. Otherwise one piece stays: preferably one that had the same role in
+    the slab below, else the one that reaches highest.
     """
-    w = np.empty(len(windings), np.int64)
+    curves, owner, multiplicity, rules = cell.curves, cell.owner, cell.multiplicity, cell.rules
+    w = np.empty(len(cell.windings), np.int64)
     paths_inside = 0
     for p in range(len(w)):
-        w[p] = windings[p]
+        w[p] = cell.windings[p]
         paths_inside += 1 if inside(w[p], rules[p]) else 0
     left = 1 if paths_inside > 0 else 0
     first = 0
@@ -207,14 +206,14 @@ def _roles_in_slab(
             paths_inside += 1 if inside(w[p], rules[p]) else 0
             last += 1
         if before != (paths_inside > 0):
-            wanted = -1 if before else 1
+            new_role = -1 if before else 1
             best, best_reach = -1, -1.0
             for k in range(first, last):
                 i = active[k]
-                reach = max(curves[i, 0, 1], curves[i, 3, 1]) + (2.0 * LATTICE if previous[i] == wanted else 0.0)
+                reach = max(curves[i, 0, 1], curves[i, 3, 1]) + (2.0 * LATTICE if previous[i] == new_role else 0.0)
                 if reach > best_reach:
                     best, best_reach = i, reach
-            role[best] = wanted
+            role[best] = new_role
         first = last
     return left
 
@@ -229,8 +228,9 @@ def resolve(
 ) -> Boundary:
     """Boundary of the union of all paths in a leaf, from its pieces on the lattice (`quantise`).
 
-    `owner` (n,) is the path of each piece, as an index into `corner`, the corner windings, and `rules`, both of the
-    leaf's paths only. `multiplicity` (n,) says how often each piece is there; negative: in the other direction.
+    `corner` and `rules` hold the corner windings and fill rules of the leaf's own paths. `owner` (n,) is the path of
+    each piece, an index into both. `multiplicity` (n,) is the number of copies of each piece; it is negative if they
+    run in the other direction.
     """
     heights = slab_heights(curves)
     slabs, count = len(heights) - 1, len(curves)
@@ -242,6 +242,7 @@ def resolve(
     windings = np.empty(len(corner), np.int64)
     for p in range(len(corner)):
         windings[p] = corner[p]
+    cell = CellPieces(curves, owner, multiplicity, corner, rules, windings)
     active, x = np.empty(count, np.int64), np.empty((count, 3))
     runs = 0
     for slab in range(slabs + 1):
@@ -255,9 +256,7 @@ def resolve(
                         windings[owner[i]] += event * multiplicity[i]
             high = heights[slab + 1]
             spanning = order_slab(curves, low, high, active, x)
-            left[slab] = _roles_in_slab(
-                curves, owner, multiplicity, windings, rules, active, spanning, x, high - low, previous, role
-            )
+            left[slab] = _roles_in_slab(cell, active, spanning, x, high - low, previous, role)
         for i in range(count):
             if role[i] != previous[i]:
                 if previous[i] != 0:
@@ -277,9 +276,9 @@ def cell_paths(
     corner: NDArray[np.int64],
     cell_rules: NDArray[np.int64],
 ) -> None:
-    """Number the paths of a cell from 0; write the `owner` of each piece, and their corner windings and fill rules.
+    """Number the paths of a cell from 0; write the `owner` of each piece, and the paths' corner windings and rules.
 
-    `path` is in the order of `present`.
+    The pieces, whose paths are `path`, are in the order of `present`.
     """
     k = 0
     for i in range(len(path)):

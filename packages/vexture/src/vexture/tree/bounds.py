@@ -16,7 +16,7 @@ DEFAULT_DEPTH: Final = 16
 """Depth limit. Cells of this depth are 1.5e-5 of the drawing wide."""
 
 DISPLACEMENT: Final = 2.0
-"""Lattice units by which a curve may move: its points are rounded when it is cut, and again in its leaf."""
+"""Lattice units by which a curve may move, because its points are rounded when it is cut, and again in its leaf."""
 
 COINCIDENT: Final = 0.25
 """Share of the largest shift within which the pieces of a crowded cell count as one. Rounding takes half of it."""
@@ -27,14 +27,14 @@ class Bounds(NamedTuple):
 
     capacity: int  # pieces in a leaf
     tolerance: float  # unit-square units
-    near: float  # unit-square units within which pieces of a crowded cell are one
+    near: float  # unit-square units within which pieces of a crowded cell count as one
     least_depth: int  # depth of the largest leaf with pieces
     max_depth: int
     most_quads: int
 
 
 class TreeParameters(TypedDict, total=False):
-    """Parameters of `build_tree` and `build_map`, for functions that hand them on."""
+    """Parameters of `build_tree` and `build_map`, for functions that pass them on."""
 
     tolerance: float
     max_depth: int
@@ -71,7 +71,7 @@ def bounds_of(
     most_quads: int,
     default_capacity: int = DEFAULT_CAPACITY,
 ) -> Bounds:
-    """Bounds of a tree from the parameters of `build_tree`; raises a `ParameterError` if one is out of range."""
+    """Bounds of a tree from the parameters of `build_tree`; raise a `ParameterError` if one is out of range."""
     check_whole("max_depth", max_depth, MOST_DEPTH, DEFAULT_DEPTH)
     check_whole("capacity", capacity, MOST_CURVES, default_capacity)
     finest = DISPLACEMENT * 0.5**max_depth / LATTICE

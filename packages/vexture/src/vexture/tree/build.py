@@ -13,7 +13,7 @@ from vexture.base.tolerance import CLOSED
 from vexture.drawing.drawing import Drawing
 from vexture.tree.bounds import DEFAULT_CAPACITY, DEFAULT_DEPTH, Bounds, bounds_of, check_growth
 from vexture.tree.cubics import gather
-from vexture.tree.divide import CROWDED, PARTS, PiecePool, divide, holds_runs, list_all
+from vexture.tree.divide import CROWDED, PARTS, Cell, PiecePool, divide, holds_runs, list_all
 from vexture.tree.growth import (
     COUNT,
     COVERAGE,
@@ -42,13 +42,14 @@ from vexture.tree.tree import MOST_QUADS, Tree
 from vexture.tree.winding import child_windings, inside
 
 SLICE = 300_000
-"""Work between two looks at the clock, some 0.1 s: pieces in the cells that are divided, and `CELL` for each cell."""
+"""Work between two checks of the clock, about 0.1 s. A cell that is divided costs its pieces and `CELL`."""
 
 IN_RUNS = 1 << 14
-"""Cubics. A smaller drawing gains nothing from runs, which keep crowded cells from being leaves, as of copies."""
+"""Cubics. A smaller drawing gains nothing from runs, and cells that hold runs cannot be leaves, even if crowded with
+copies."""
 
 CELL = 20
-"""Work of dividing a cell without pieces, and of its leaves."""
+"""Work of dividing a cell and making its leaves, besides the work for its pieces."""
 
 
 class Work(NamedTuple):
@@ -69,7 +70,7 @@ def _child_paths(
     rules: NDArray[np.int64],
     end: int,
 ) -> int:
-    """Append the paths that have pieces in a child; return the new end, or -1 if another path fills the child."""
+    """Append the paths that have pieces in a child to the lists; return the new end, or -1 if another path fills it."""
     for k in range(last - first):
         path = present[first + k, 0]
         if windings[k, 4 + child]:
@@ -100,16 +101,16 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
     pool, present, stack, corner, counts = tree.pool, tree.present, tree.stack, tree.corner, tree.counts
     child_at, windings, cells, first_below = work.child_at, work.windings, tree.cells, tree.first
     top = counts[WAITING] - 1
-    quad, depth, first, last = stack[top, QUAD], stack[top, DEPTH], stack[top, FIRST], stack[top, LAST]
+    quad, depth = stack[top, QUAD], stack[top, DEPTH]
     first_path, last_path = stack[top, FIRST_PATH], stack[top, LAST_PATH]
     x0, y0, half = corner[top, 0], corner[top, 1], 0.5 ** (depth + 1)
-    xm, ym = x0 + half, y0 + half
+    divided = Cell(x0, y0, 2.0 * half, stack[top, FIRST], stack[top, LAST])
     grain = 0.5 ** max(depth + 1, bounds.least_depth) / LATTICE
     at_limit = depth + 1 == bounds.max_depth
-    pieces = divide(pool, first, last, xm, ym, grain, stack[top, PIECES], at_limit, child_at)
+    pieces = divide(pool, divided, grain, stack[top, PIECES], at_limit, child_at)
     touching = present[first_path:last_path]
     lists = (pool.points, pool.path, pool.numbers, pool.runs)
-    child_windings(lists, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
+    child_windings(lists, child_at, touching, x0, y0, half, counts[WHOLE], windings)
     first_below[quad, 0], first_below[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = last_path
     for child in range(4):
@@ -120,30 +121,15 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
             cells[quad, child, COVERAGE] = 1.0
         if here < 0 or child_at[child] == child_at[child + 1]:
             continue
-        x, y, end = x0 + half * (child & 1), y0 + half * (child >> 1), child_at[child + 1]
+        x, y, first, last = x0 + half * (child & 1), y0 + half * (child >> 1), child_at[child], child_at[child + 1]
         leaf = TreeLeaf(DIVIDE, 0, 0.0, 0.0, True)
-        if depth + 1 >= bounds.least_depth and not holds_runs(pool, child_at[child], end):
-            paths, target = present[end_path:here], tree.curves[counts[CURVES] :]
-            leaf = leaf_of(
-                pool,
-                child_at[child],
-                end,
-                paths,
-                rules,
-                x,
-                y,
-                half,
-                bounds.capacity,
-                bounds.tolerance,
-                bounds.near,
-                at_limit,
-                work.leaf,
-                target,
-            )
+        if depth + 1 >= bounds.least_depth and not holds_runs(pool, first, last):
+            cell, paths, target = Cell(x, y, half, first, last), present[end_path:here], tree.curves[counts[CURVES] :]
+            leaf = leaf_of(pool, cell, paths, rules, bounds, at_limit, work.leaf, target)
         if leaf.size == DIVIDE:
             cells[quad, child, IS_QUAD] = 1.0
-            stack[top, QUAD], stack[top, DEPTH], stack[top, FIRST] = counts[QUADS], depth + 1, child_at[child]
-            stack[top, LAST], stack[top, FIRST_PATH], stack[top, LAST_PATH] = end, end_path, here
+            stack[top, QUAD], stack[top, DEPTH], stack[top, FIRST] = counts[QUADS], depth + 1, first
+            stack[top, LAST], stack[top, FIRST_PATH], stack[top, LAST_PATH] = last, end_path, here
             stack[top, PIECES], corner[top, 0], corner[top, 1] = pieces, x, y
             top, end_path = top + 1, here
             counts[QUADS] += 1
@@ -158,7 +144,7 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
 
 @kernel
 def _into_square(points: NDArray[np.float64]) -> float:
-    """Move ends of pieces into the unit square, and return by how much at most."""
+    """Move ends of pieces into the unit square; return the largest move."""
     outside = 0.0
     for i in range(len(points)):
         for end in (0, 3):
@@ -171,7 +157,7 @@ def _into_square(points: NDArray[np.float64]) -> float:
 
 @kernel
 def root_paths(pool: PiecePool, listed: int) -> tuple[NDArray[np.int64], int]:
-    """Paths of the unit square with corner windings 0, with room for more, and their number."""
+    """Paths of the unit square, with corner windings 0 and room for more paths, and their number."""
     paths, before = 0, -1
     present = np.zeros((16, 2), np.int64)
     for counted in (True, False):
@@ -192,7 +178,7 @@ def root_paths(pool: PiecePool, listed: int) -> tuple[NDArray[np.int64], int]:
 def grow_on(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, most_work: int, aside: int) -> None:
     """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done.
 
-    It also ends before a cell whose list is no longer than `aside`, unless that is 0.
+    Unless `aside` is 0, also stop before a cell whose list is no longer than `aside`.
     """
     work = Work(np.empty(9, np.int64), np.empty((len(rules), 8), np.int64), new_workspace(len(rules)))
     stack, counts = tree.stack, tree.counts
@@ -216,7 +202,7 @@ def grow(
     most_work: int,
     aside: int,
 ) -> tuple[Growth, float]:
-    """Divide the unit square as `grow_on` does; also returns how far the outline lies outside the unit square."""
+    """Divide the unit square as `grow_on` does; return the tree and how far the outline lies outside the square."""
     tree, outside = new_growth(cubics, owner, bounds.max_depth, len(cubics) > IN_RUNS)
     grow_on(tree, rules, bounds, most_work, aside)
     return tree, outside
@@ -226,7 +212,7 @@ def grow(
 def new_growth(
     cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: int, in_runs: bool
 ) -> tuple[Growth, float]:
-    """The unit square with the pieces of cubics, to be divided, and how far the outline lies outside it."""
+    """Make the undivided unit square with the pieces of cubics; also return how far the outline lies outside it."""
     n = len(cubics)
     room = (PARTS + 2) * n + 64
     rows = n if in_runs and n > CROWDED else 0
@@ -271,8 +257,9 @@ def build_tree(
     quantisation, within which chains of pieces become one cubic; 0 keeps every piece. The unit square has depth 0. A
     leaf holds more pieces than `capacity` (up to 15) only at the depth limit, or where all of them meet at one point.
     `precision` bounds the displacement by quantisation: leaves with curves are made small enough for it; None forces no
-    depth. Large drawings are shared by so many `threads`, by default one for each processor; the tree is the same with
-    any number. A tree of more than `most_quads` raises a `LimitError`, a curve outside the unit square a `SourceError`.
+    depth. Large drawings are built by `threads` threads, by default one for each processor; the tree does not depend
+    on their number. A tree of more than `most_quads` raises a `LimitError`, a curve outside the unit square a
+    `SourceError`.
 
     Examples
     --------

@@ -13,7 +13,7 @@ from vexture.drawing.contours import Closed, join_contours, together
 from vexture.drawing.drawing import Drawing, FillRule
 
 MIXED: Final = 0.7548776662466927
-"""Factor that makes one number of several."""
+"""Factor by which several numbers are combined into one."""
 
 
 def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
@@ -38,15 +38,15 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
 def cubics_and_paths(
     of_paths: Sequence[Sequence[NDArray[np.float64]]],
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Cubics of some paths, and the path of each."""
+    """Cubics of some paths, and the number of each cubic's path."""
     lengths = [sum(map(len, contours)) for contours in of_paths]
     return join_contours(together(of_paths)), np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
 
 
 def _all_differ(contours: Sequence[NDArray[np.float64]]) -> bool:
-    """Whether contours that are parts of one array are certainly no copies: their first handles differ.
+    """Whether contours that are parts of one array are certainly no copies, because their first handles differ.
 
-    Alike handles give the same number, which is rounded in the same way for each.
+    Equal handles give equal numbers, because each number is rounded in the same way.
     """
     if not isinstance(contours, Closed):
         return False
@@ -60,9 +60,10 @@ def _all_differ(contours: Sequence[NDArray[np.float64]]) -> bool:
 
 
 def _names(contours: Sequence[NDArray[np.float64]]) -> Iterator[bytes]:
-    """A name of each contour, alike for copies alone: length and first handle, or all its bits if others share those.
+    """A name for each contour, which only copies share.
 
-    So a coast is not copied once more to find that it has no copies.
+    It is the contour's length and first handle, or all its bits if another contour shares those. So the bits of a long
+    coast need not be copied to find that it has no copies.
     """
     short = [b"%d " % len(contour) + contour[0, :2].tobytes() for contour in contours]
     shared = Counter(short)

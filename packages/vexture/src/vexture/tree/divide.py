@@ -4,16 +4,16 @@ All pieces are in one pool, and a cell is a list of numbers of pieces. So dividi
 that are cut. A cell is cut at its middle lines, x first. The cut coordinate is set exactly in both halves, so that
 neighbouring cells share the same floating-point point and no seam can open between them. The other coordinate is
 rounded to a lattice, so that a line through a cell's corner leaves no sliver beside it, and leaves of any depth can
-hold the point exactly; so is that of an end that lies on the line already. A piece goes to the upper (right) child iff
-**both** its ends are at or beyond the line: a decision by their midpoint fails where it rounds up.
+hold the point exactly. An end that already lies on the line is rounded as well. A piece goes to the upper (right) child
+iff **both** its ends are at or beyond the line: a decision by their midpoint fails where it rounds up.
 
 Most pieces of a coast lie, with many neighbours along their contour, far inside one of a cell's children. So the lists
-of crowded cells hold *runs*: a few of the drawing's own cubics that follow one another, under one negative number. A
-run whose box meets no middle line moves as one; the cubics of any other are copied into the pool. Lists that leaves may
-be made of hold none.
+of crowded cells hold *runs*: up to 16 consecutive cubics of the drawing under one negative number. A run whose box
+meets no middle line moves as a whole; the cubics of any other run are copied into the pool. The list of a cell that may
+become a leaf holds no runs.
 
-Cells are divided depth first. What a cell appended to the pool and to the lists is discarded when all cells below it
-are done, so both stay small and in the processor's cache.
+Cells are divided depth first. When all cells below a cell are done, the rows that it appended to the pool and to the
+lists are free again, so both stay small and in the processor's cache.
 """
 
 from typing import NamedTuple
@@ -29,7 +29,6 @@ from vexture.bezier.split import copy_curve, split
 PARTS = 4
 """Most parts of one piece: each of the two middle lines cuts it at most once."""
 
-
 RUN = 16
 """Most pieces in a run."""
 
@@ -38,16 +37,26 @@ CROWDED = 512
 
 
 class PiecePool(NamedTuple):
-    """The pieces of all cells that are not done, and lists of their numbers."""
+    """The pieces of all cells that are not done yet, and lists of their numbers."""
 
     points: NDArray[np.float64]  # (room, 4, 2): pieces that are in no run
     path: NDArray[np.int64]  # (room,): the path of each
     numbers: NDArray[np.int64]  # (room,): lists of pieces, one after another; -1 - k is run k
     child: NDArray[np.int64]  # (room,), scratch: the child that each part belongs to
     part: NDArray[np.int64]  # (room,), scratch: the number of each part
-    boxes: NDArray[np.float64]  # (runs, 4): least x and y, greatest x and y of each run; no rows if there are none
+    boxes: NDArray[np.float64]  # (runs, 4): least x and y, greatest x and y of each run
     runs: NDArray[np.int64]  # (runs, 3): first cubic of each run, the cubic after its last, and its path
-    cubics: NDArray[np.float64]  # (n, 4, 2): the drawing's, only to be read
+    cubics: NDArray[np.float64]  # (n, 4, 2): the drawing's cubics, which are only read
+
+
+class Cell(NamedTuple):
+    """A cell, whose pieces are the pool's numbers first..last-1, in the order of its paths."""
+
+    x: float  # of the bottom-left corner
+    y: float
+    size: float
+    first: int
+    last: int
 
 
 @kernel(allocates=False)
@@ -73,10 +82,10 @@ def _cut(
 
 @kernel(allocates=False)
 def _is_run(cubics: NDArray[np.float64], box: NDArray[np.float64]) -> bool:
-    """Whether cubics that follow one another are a run; write its box.
+    """Whether consecutive cubics may be a run; write its box.
 
-    They are monotone, of some length, and inside the unit square without its left and lower side, where windings are
-    counted.
+    They must be monotone, have different ends, and lie in the unit square off its left and lower sides, where windings
+    are counted.
     """
     box[0] = box[1] = np.inf
     box[2] = box[3] = -np.inf
@@ -91,7 +100,7 @@ def _is_run(cubics: NDArray[np.float64], box: NDArray[np.float64]) -> bool:
 
 @kernel(allocates=False)
 def _run_end(cubics: NDArray[np.float64], owner: NDArray[np.int64], first: int) -> int:
-    """Number of the cubic after those of a run that may start with a given one: they are of one contour."""
+    """Number of the cubic after the longest run that may start with cubic `first`, all in one contour."""
     last = first + 1
     while last < min(first + RUN, len(cubics)) and owner[last] == owner[first]:
         if cubics[last, 0, 0] != cubics[last - 1, 3, 0] or cubics[last, 0, 1] != cubics[last - 1, 3, 1]:
@@ -102,7 +111,7 @@ def _run_end(cubics: NDArray[np.float64], owner: NDArray[np.int64], first: int) 
 
 @kernel
 def list_all(pool: PiecePool, owner: NDArray[np.int64]) -> tuple[int, int, int]:
-    """List a drawing, in runs if the pool has rows for them; return the list's length, and how many pieces and runs.
+    """List a drawing, in runs if the pool has rows for them; return the numbers of list entries, pieces and runs.
 
     `owner` (n,) is the path of each cubic.
     """
@@ -126,7 +135,7 @@ def list_all(pool: PiecePool, owner: NDArray[np.int64]) -> tuple[int, int, int]:
 
 @kernel(allocates=False)
 def _add_run(pool: PiecePool, number: int, pieces: int) -> int:
-    """Copy the cubics of a run, of a negative number, behind so many pieces; return the new number of pieces."""
+    """Append the cubics of a run, given by its negative number, to the pool; return the new number of pieces."""
     run = pool.runs[-1 - number]
     for i in range(run[0], run[1]):
         copy_curve(pool.cubics[i], pool.points[pieces])
@@ -149,7 +158,7 @@ def holds_runs(pool: PiecePool, first: int, last: int) -> bool:
 def _divide_piece(
     pool: PiecePool, i: int, xm: float, ym: float, grain: float, pieces: int, parts: int
 ) -> tuple[int, int]:
-    """Write the parts of a piece and the child of each behind `parts` others; return both new counts."""
+    """Cut a piece at the middle lines; append its parts and the child of each; return both new counts."""
     points, path, owner, part = pool.points, pool.path, pool.child, pool.part
     x, y = points[i, 0, 0], points[i, 0, 1]
     if (x - xm) * (points[i, 3, 0] - xm) > 0.0 and (y - ym) * (points[i, 3, 1] - ym) > 0.0:
@@ -170,27 +179,18 @@ def _divide_piece(
 
 
 @kernel(allocates=False)
-def divide(
-    pool: PiecePool,
-    first: int,
-    last: int,
-    xm: float,
-    ym: float,
-    grain: float,
-    pieces: int,
-    at_limit: bool,
-    child_at: NDArray[np.int64],
-) -> int:
-    """Append the lists of a cell's four children behind its own list, first..last-1; return the new number of pieces.
+def divide(pool: PiecePool, cell: Cell, grain: float, pieces: int, at_limit: bool, child_at: NDArray[np.int64]) -> int:
+    """Append the lists of a cell's four children behind its own list; return the new number of pieces.
 
-    `xm` and `ym` are the cell's middle, `grain` the spacing of the lattice to which points on the middle lines are
-    rounded, and `pieces` the number of pieces in the pool, which must have room. The children's lists hold no runs if
-    they are `at_limit`, the depth limit. The start of each child's list, and the end of the last, are written to
-    `child_at` (9,), which has four more rows to count in.
+    `grain` is the spacing of the lattice to which points on the middle lines are rounded. `pieces` is the number of
+    pieces in the pool, which must have room. The children's lists hold no runs if the children are `at_limit`, the
+    depth limit. The start of each child's list, and the end of the last, are written to `child_at` (9,), whose other
+    four rows are scratch.
     """
     numbers, owner, part, boxes = pool.numbers, pool.child, pool.part, pool.boxes
+    xm, ym = cell.x + 0.5 * cell.size, cell.y + 0.5 * cell.size
     parts = 0
-    for place in range(first, last):
+    for place in range(cell.first, cell.last):
         i = numbers[place]
         if i >= 0:
             pieces, parts = _divide_piece(pool, i, xm, ym, grain, pieces, parts)
@@ -204,16 +204,16 @@ def divide(
         pieces = last_copied = _add_run(pool, i, pieces)
         for k in range(copied, last_copied):
             pieces, parts = _divide_piece(pool, k, xm, ym, grain, pieces, parts)
-    return _write_lists(pool, last, pieces, parts, at_limit, child_at)
+    return _write_lists(pool, cell.last, pieces, parts, at_limit, child_at)
 
 
 @kernel(allocates=False)
 def _write_lists(
     pool: PiecePool, start: int, pieces: int, parts: int, at_limit: bool, child_at: NDArray[np.int64]
 ) -> int:
-    """Write the list of each child, in the order of the parts: those of crowded children keep their runs.
+    """Write the list of each child, in the order of the parts; return the new number of pieces.
 
-    Returns the new number of pieces.
+    Only the lists of crowded children keep their runs.
     """
     numbers, owner, part = pool.numbers, pool.child, pool.part
     for column in range(9):
@@ -255,7 +255,7 @@ def snap(curve: NDArray[np.float64], end: int, axis: int, grain: float) -> None:
 
 @kernel(allocates=False)
 def child_of(curve: NDArray[np.float64], xm: float, ym: float) -> int:
-    """Number of the child, (x half) + 2 (y half), of a piece that crosses no middle line."""
+    """Number of the child, (x half) + 2 (y half), that holds a piece that crosses no middle line."""
     right = 1 if curve[0, 0] >= xm and curve[3, 0] >= xm else 0
     upper = 2 if curve[0, 1] >= ym and curve[3, 1] >= ym else 0
     return right + upper

@@ -1,4 +1,4 @@
-"""The tree while it grows: arrays with room, of which kernels fill the rows one after another."""
+"""The tree while it grows: arrays with spare rows, which kernels fill one after another."""
 
 from typing import Any, NamedTuple
 
@@ -16,31 +16,32 @@ IS_QUAD, COUNT, WINDING, COVERAGE = range(4)
 QUADS, CURVES, UNRESOLVED, WAITING, WHOLE = range(5)
 """Counts: quads, curves, unresolved leaves, cells on the stack, pieces of the unit square."""
 
-
 QUAD, DEPTH, FIRST, LAST, FIRST_PATH, LAST_PATH, PIECES = range(7)
-"""Columns of the stack of cells to divide: quad, depth, lists of pieces and of paths, and pieces in the pool."""
+"""Columns of the stack of cells to divide: quad, depth, range of the list of pieces, range of the list of paths, and
+number of pieces in the pool."""
 
 
 class Growth(NamedTuple):
-    """The tree while it grows, with the cells to divide; rows beyond the counts are free."""
+    """The tree while it grows, and the cells to divide. Rows beyond the counts are free."""
 
     pool: PiecePool
     present: NDArray[np.int64]  # (room, 2): lists of paths with corner windings
     stack: NDArray[np.int64]  # (room, 7): cells to divide
     corner: NDArray[np.float64]  # (room, 2): their bottom-left corners
-    # (room, 4, 4): for each cell of each quad: whether a quad, count, corner winding, coverage
+    # (room, 4, 4): of each cell of each quad: whether it is a quad, count, corner winding, coverage
     cells: NDArray[np.float64]
     first: NDArray[np.int64]  # (room, 2): first quad below each quad, first curve of its leaves
-    curves: NDArray[Any]  # (room, 4, 2), in lattice units: float64, or int32 when they have grown in parts
+    curves: NDArray[Any]  # (room, 4, 2), in lattice units: float64, or int32 after growing in parts
     counts: NDArray[np.int64]  # (5,)
     deviation: NDArray[np.float64]  # (1,): largest distance of a leaf's outline from the drawing's
-    # (5,): rows that the next cell needs of pieces, lists of them, lists of paths, quads and curves
+    # (5,): rows that the arrays of pieces, of lists of them, of lists of paths, of quads and of curves need for the
+    # next cell
     needed: NDArray[np.int64]
 
 
 @kernel(allocates=False)
 def has_room(tree: Growth) -> bool:
-    """Write the rows that the next cell needs; whether the arrays have them."""
+    """Write the rows that the arrays need for the next cell; return whether they have them."""
     top, needed = tree.counts[WAITING] - 1, tree.needed
     last, last_path = tree.stack[top, LAST], tree.stack[top, LAST_PATH]
     listed = last - tree.stack[top, FIRST]
@@ -60,7 +61,7 @@ def has_room(tree: Growth) -> bool:
 
 
 def tree_of(tree: Growth) -> Tree:
-    """The tree that has grown, its quads numbered level by level, in its final types."""
+    """Make the final tree, with its quads numbered level by level, when all cells are done."""
     quads, _, unresolved, *_ = tree.counts.tolist()
     order = np.concatenate([*levels(tree.cells[:quads, :, IS_QUAD] == 1.0, tree.first[:, 0])])
     cells = tree.cells[order]
@@ -80,13 +81,13 @@ def tree_of(tree: Growth) -> Tree:
 
 
 def first_of(lengths: NDArray[np.int64], start: int) -> NDArray[np.int32]:
-    """Numbers of the first of so many, one run after another; 0 where there are none: it compresses better."""
+    """First number of each run, if runs of these lengths follow one another; 0 for empty runs compresses better."""
     firsts = start + np.cumsum(lengths) - lengths
     return np.where(lengths > 0, firsts, 0).astype(np.int32)
 
 
 def with_needed_room(tree: Growth) -> Growth:
-    """The tree, with at least twice the room where the next cell has none."""
+    """Return the tree with larger arrays where the next cell has no room."""
     pieces, numbers, paths, quads, curves = tree.needed.tolist()
     points, path, listed, child, part, boxes, spans, cubics = tree.pool
     listed, child, part = (roomy(rows, numbers) for rows in (listed, child, part))
@@ -105,7 +106,7 @@ def with_needed_room(tree: Growth) -> Growth:
 
 
 def roomy(rows: NDArray[Any], needed: int) -> NDArray[Any]:
-    """The rows, or a longer copy if fewer than are needed."""
+    """Return the array itself, or a longer copy if it has fewer rows than `needed`."""
     if needed <= len(rows):
         return rows
     out = np.empty((len(rows) + needed, *rows.shape[1:]), rows.dtype)

@@ -1,9 +1,9 @@
 """The packed leaf: a few monotone pieces on the leaf's lattice, between which the winding number is 0 or 1.
 
-In the cells of most drawings pieces touch only at their ends. Then the sides of each piece follow by counting
-(`separate.py`), and the piece is kept, reversed or dropped. All other cells are resolved (`boundary.py`). In both cases
-horizontal pieces are dropped, because they change no winding, except those that end on the left edge where the rule of
-windings needs an end: the leaf's corner winding and the ends on the edge must agree with what is inside there.
+In most cells pieces touch only at their ends. Then counting windings gives the sides of each piece (`separate.py`), and
+the piece is kept, reversed or dropped. All other cells are resolved (`boundary.py`). In both cases horizontal pieces
+are dropped, because they change no winding. Only those stay that end on the left edge where the rule of windings needs
+an end: the leaf's corner winding and the ends on the edge must agree with what is inside there.
 """
 
 from typing import NamedTuple
@@ -16,8 +16,9 @@ from vexture.base.layout import LATTICE, MOST_CURVES
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.tree.boundary import MOST_RESOLVED, Boundary, cell_paths, crowded_area, quantise_piece, resolve
+from vexture.tree.bounds import Bounds
 from vexture.tree.coincide import match, may_coincide
-from vexture.tree.divide import PiecePool
+from vexture.tree.divide import Cell, PiecePool
 from vexture.tree.merge import MOST_MERGED, follows, merge_chains
 from vexture.tree.separate import UNSURE, CellPieces, all_separate, any_inside, clean_pieces, left_edge_windings
 from vexture.tree.winding import winding_area
@@ -41,8 +42,8 @@ def _events(out: NDArray[np.float64], count: int, y: float) -> int:
 def _match_left_edge(out: NDArray[np.float64], count: int, y: float, target: int) -> int:
     """Make starts minus ends on the left edge at a height equal to `target`; return the new count of pieces.
 
-    Where they differ an end is moved off the edge, or one beside it onto it, or, where the boundary leaves the edge
-    horizontally, a horizontal piece is added.
+    If they differ, an end is moved off the edge, or an end beside the edge onto it. If there is no such end, the
+    boundary leaves the edge horizontally, and a horizontal piece is added.
     """
     for _ in range(2 * len(out)):
         missing = target - _events(out, count, y)
@@ -69,7 +70,7 @@ def _match_left_edge(out: NDArray[np.float64], count: int, y: float, target: int
 
 @kernel(allocates=False)
 def _add_horizontal(out: NDArray[np.float64], count: int, y: float, starts: bool) -> int:
-    """Append a horizontal piece from (or to) the left edge, as far as the next end; return the count."""
+    """Append a horizontal piece from (or to) the left edge, as far as the next end; return the new count."""
     x = LATTICE
     for k in range(count):
         for end in (0, 3):
@@ -99,16 +100,16 @@ def corner_winding(cell: CellPieces, out: NDArray[np.float64], count: int) -> tu
 
 
 DIVIDE = -1
-"""`Leaf.size` of a cell that must be divided."""
+"""`TreeLeaf.size` of a cell that must be divided."""
 
 SPARE = 12
-"""Pieces above the capacity that a cell may have before it is resolved: horizontal ones and overlaps vanish."""
+"""Pieces above the capacity that a cell may have before it is resolved. Horizontal and overlapping ones vanish."""
 
 LONG_HANDLE = 512.0
-"""Lattice units, of a handle that rounding turns by too little to be seen."""
+"""Lattice units. Rounding turns a longer handle by too little to be seen."""
 
 MOST_RUNS = 1000
-"""Runs of resolved pieces that are kept to measure a cell's area."""
+"""Most runs of resolved pieces that are kept to measure a cell's area."""
 
 
 class TreeLeaf(NamedTuple):
@@ -117,12 +118,12 @@ class TreeLeaf(NamedTuple):
     size: int  # number of pieces, or `DIVIDE`
     winding: int  # corner winding, 0 without pieces
     coverage: float  # filled part of the cell
-    distance: float  # by which merging moved the outline at most, in unit-square units
+    distance: float  # the farthest that merging moved the outline, in unit-square units
     resolved: bool  # False if the cell, at the depth limit, holds more than a leaf can store
 
 
 class Workspace(NamedTuple):
-    """Arrays that are reused from cell to cell: making them would cost more than most cells."""
+    """Arrays that are reused from cell to cell, because allocating them takes longer than most cells."""
 
     cell: CellPieces
     path: NDArray[np.int64]
@@ -143,9 +144,9 @@ def round_controls(curves: NDArray[np.float64], count: int) -> None:
 
 @kernel(allocates=False)
 def _aim(curve: NDArray[np.float64], end: int, control: int) -> None:
-    """Lengthen or shorten a handle of a short piece to where rounding turns it least: its direction is seen at the end.
+    """Change the length of a short handle so that rounding turns it least, because its direction is visible at the end.
 
-    Such a piece bends little, so that the length of a handle hardly matters: it must not move the curve by half a unit.
+    The piece bends little, so the length hardly matters, as long as it moves the curve by no more than half a unit.
     """
     x, y = curve[control, 0] - curve[end, 0], curve[control, 1] - curve[end, 1]
     far_x, far_y = curve[3 - control, 0] - curve[end, 0], curve[3 - control, 1] - curve[end, 1]
@@ -157,12 +158,12 @@ def _aim(curve: NDArray[np.float64], end: int, control: int) -> None:
     across = abs(x * chord_y - y * chord_x) / chord if chord > 0.0 else length
     best, least = 1.0, np.inf
     for k in range(int(length)):
-        change = -(k + 1) // 2 if k % 2 == 1 else k // 2  # units, to and fro
+        change = -(k + 1) // 2 if k % 2 == 1 else k // 2  # units, shorter and longer in turn
         share = (length + change) / length
         if abs(share - 1.0) * across > 0.5:
             break
         if change > 0 and (abs(share * x) > abs(far_x) or abs(share * y) > abs(far_y)):
-            continue  # it stays before the other handle, so that the piece stays monotone
+            continue  # must not pass the other handle, so that the piece stays monotone
         to_x, to_y = np.rint(share * x), np.rint(share * y)
         turn = abs(to_x * y - to_y * x) / max(np.sqrt(to_x * to_x + to_y * to_y), 0.5)
         if turn < 0.9 * least:
@@ -199,7 +200,7 @@ def _resolved_pieces(curves: NDArray[np.float64], boundary: Boundary, out: NDArr
 
 @kernel(allocates=False)
 def _meet(out: NDArray[np.float64], count: int) -> bool:
-    """Whether all pieces have an end at one point, so that dividing the cell does not separate them there."""
+    """Whether all pieces have an end at one point, where dividing the cell does not separate them."""
     for end in (0, 3):
         x, y = out[0, end, 0], out[0, end, 1]
         meeting = 0
@@ -213,7 +214,7 @@ def _meet(out: NDArray[np.float64], count: int) -> bool:
 
 @kernel(allocates=False)
 def _write_chains(out: NDArray[np.float64], count: int, target: NDArray[np.float64]) -> None:
-    """Copy pieces, each behind the one that ends where it starts: files with points side by side compress better."""
+    """Copy pieces, each after the one that ends where it starts, because equal points side by side compress better."""
     for k in range(count):
         best, rank = k, 0
         for j in range(k, count):
@@ -241,7 +242,10 @@ def _upright(curves: NDArray[np.float64]) -> int:
 
 @kernel
 def new_workspace(paths: int) -> Workspace:
-    """Arrays for any cell that may be resolved, of a drawing of so many paths: copies that cancel leave no pieces."""
+    """Arrays for any cell that may be resolved, in a drawing of `paths` paths.
+
+    Copies that cancel leave paths without pieces, so a cell may have more paths than pieces.
+    """
     return Workspace(
         CellPieces(
             np.empty((MOST_RESOLVED, 4, 2)),
@@ -258,32 +262,23 @@ def new_workspace(paths: int) -> Workspace:
 
 
 @kernel
-def _crowded_area(
-    pool: PiecePool,
-    first: int,
-    last: int,
-    present: NDArray[np.int64],
-    rules: NDArray[np.int64],
-    x0: float,
-    y0: float,
-    size: float,
-) -> float:
+def _crowded_area(pool: PiecePool, cell: Cell, present: NDArray[np.int64], rules: NDArray[np.int64]) -> float:
     """Filled part of a cell at the depth limit that holds too many pieces to resolve."""
-    n = last - first
+    n = cell.last - cell.first
     points, path = np.empty((n, 4, 2)), np.empty(n, np.int64)
     for k in range(n):
-        i = pool.numbers[first + k]
+        i = pool.numbers[cell.first + k]
         copy_curve(pool.points[i], points[k])
         path[k] = pool.path[i]
-    return crowded_area(points, path, present, rules, x0, y0, size)
+    return crowded_area(points, path, present, rules, cell.x, cell.y, cell.size)
 
 
 @kernel
 def _resolve_cell(cell: CellPieces, out: NDArray[np.float64]) -> int:
-    """Write the pieces of a cell's boundary after its overlaps and crossings are resolved; return how many.
+    """Resolve overlaps and crossings in a cell; write the pieces of its boundary; return how many.
 
-    There are at most twice as many runs as pieces and crossings. Runs beyond the room of `out` are left out; such cells
-    hold far more than a leaf can store.
+    There are at most twice as many runs as pieces and crossings. Runs for which `out` has no room are left out, because
+    such cells hold far more than a leaf can store.
     """
     boundary = resolve(cell.curves, cell.owner, cell.multiplicity, cell.corner, cell.rules)
     return _resolved_pieces(cell.curves, boundary, out)
@@ -292,56 +287,45 @@ def _resolve_cell(cell: CellPieces, out: NDArray[np.float64]) -> int:
 @kernel(allocates=False)
 def leaf_of(
     pool: PiecePool,
-    first: int,
-    last: int,
+    cell: Cell,
     present: NDArray[np.int64],
     rules: NDArray[np.int64],
-    x0: float,
-    y0: float,
-    size: float,
-    capacity: int,
-    tolerance: float,
-    near: float,
+    bounds: Bounds,
     at_limit: bool,
     workspace: Workspace,
     target: NDArray[np.float64],
 ) -> TreeLeaf:
-    """Leaf of a cell, whose pieces are the pool's numbers first..last-1; the leaf's pieces are written to `target`.
+    """Make the leaf of a cell, and write the leaf's pieces to `target`, (MOST_CURVES, 4, 2), in lattice units.
 
-    `capacity` is the number of pieces in a leaf; more are allowed only at the depth limit, or where dividing would not
-    separate them. `tolerance` bounds the distance by which merging moves the outline, in unit-square units; 0 merges
-    nothing. With `at_limit` the cell may not be divided, and the result is always a leaf. `target` (MOST_CURVES, 4, 2)
-    is in lattice units.
+    A leaf holds more pieces than `bounds.capacity` only at the depth limit, or where dividing would not separate them.
+    Merging moves the outline by at most `bounds.tolerance`, and 0 merges nothing. With `at_limit` the cell may not be
+    divided, and the result is always a leaf.
     """
-    n, paths = last - first, len(present)
+    n, paths = cell.last - cell.first, len(present)
     room, out, distance = workspace.cell, workspace.out, 0.0
+    capacity, tolerance = bounds.capacity, bounds.tolerance
     most = capacity + SPARE
     matched, upright = -1, 0
-    if n > most and may_coincide(pool, first, last, x0, y0, size):
-        matched, upright = match(pool, first, last, x0, y0, size, near, present, rules, room, workspace.path)
+    if n > most and may_coincide(pool, cell):
+        matched, upright = match(pool, cell, bounds.near, present, rules, room, workspace.path)
     if matched >= 0:
         n = matched
     elif n > MOST_RESOLVED and at_limit:
-        return TreeLeaf(0, 0, _crowded_area(pool, first, last, present, rules, x0, y0, size), 0.0, False)
+        return TreeLeaf(0, 0, _crowded_area(pool, cell, present, rules), 0.0, False)
     elif n > (MOST_MERGED if tolerance > 0.0 else 2 * MOST_CURVES) and not at_limit:
         return TreeLeaf(DIVIDE, 0, 0.0, 0.0, True)
     else:
-        points, paths_of, numbers, curves, path = (
-            pool.points,
-            pool.path,
-            pool.numbers,
-            room.curves[:n],
-            workspace.path[:n],
-        )
+        points, paths_of, numbers = pool.points, pool.path, pool.numbers
+        curves, path = room.curves[:n], workspace.path[:n]
         for k in range(n):
-            i = numbers[first + k]
-            quantise_piece(points[i], x0, y0, size, curves[k])
+            i = numbers[cell.first + k]
+            quantise_piece(points[i], cell.x, cell.y, cell.size, curves[k])
             path[k] = paths_of[i]
         if tolerance > 0.0 and 1 < n <= MOST_MERGED:
             n, distance = merge_chains(
                 room.curves[:n],
                 workspace.path[:n],
-                tolerance * LATTICE / size,
+                tolerance * LATTICE / cell.size,
                 n if at_limit else max(most, MOST_CURVES),
                 out,
                 workspace.merged_path,
@@ -354,19 +338,19 @@ def leaf_of(
     curves = room.curves[:n]
     if not at_limit and upright > most and (upright > MOST_CURVES or not _meet(curves, n)):
         return TreeLeaf(DIVIDE, 0, 0.0, 0.0, True)
-    cell = CellPieces(
+    local = CellPieces(
         curves, room.owner[:n], room.multiplicity[:n], room.corner[:paths], room.rules[:paths], room.windings[:paths]
     )
     if matched < 0:
-        cell_paths(workspace.path[:n], present, rules, cell.owner, cell.corner, cell.rules)
+        cell_paths(workspace.path[:n], present, rules, local.owner, local.corner, local.rules)
     round_controls(curves, n)
-    count = clean_pieces(cell, out) if all_separate(curves) else UNSURE
+    count = clean_pieces(local, out) if all_separate(curves) else UNSURE
     if count == UNSURE:
-        count = _resolve_cell(cell, out)
-    count, winding = corner_winding(cell, out, count)
+        count = _resolve_cell(local, out)
+    count, winding = corner_winding(local, out, count)
     round_controls(out, count)
     area = min(max(winding_area(out[:count], winding, LATTICE), 0.0), 1.0)
-    distance *= size / LATTICE
+    distance *= cell.size / LATTICE
     if count == 0:
         return TreeLeaf(0, 0, area, distance, True)
     if count > capacity and not (count <= MOST_CURVES and (at_limit or _meet(out, count))):

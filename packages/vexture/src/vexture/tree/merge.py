@@ -1,7 +1,7 @@
 """Merging: a chain of pieces that one cubic describes within tolerance becomes that cubic (the thesis's fit).
 
-It works on one cell after its pieces are on the lattice. The ends of a chain do not move, so neighbouring cells still
-meet. What a fitted cubic crosses is resolved afterwards like any other crossing.
+The pieces of a cell are merged after they are rounded to its lattice. The ends of a chain do not move, so neighbouring
+cells still meet. Where a fitted cubic crosses other pieces, the crossing is resolved afterwards like any other.
 """
 
 import numpy as np
@@ -14,14 +14,14 @@ from vexture.bezier.monotone import MOST_PARTS, turns
 from vexture.bezier.split import copy_curve, split
 
 MOST_MERGED = 64
-"""Pieces. In a cell with more nothing is merged, because it will be divided."""
+"""Pieces. In a cell with more, nothing is merged, because the cell will be divided."""
 
 
 @kernel
 def _fit_run(
     curves: NDArray[np.float64], first: int, last: int, tolerance: float, out: NDArray[np.float64]
 ) -> tuple[int, float]:
-    """Fit one cubic to pieces first..last-1; write its monotone parts; return how many (0: no fit) and the distance."""
+    """Fit one cubic to pieces first..last-1; write its monotone parts; return how many (0: no fit) and its distance."""
     rest = np.empty((4, 2))
     distance = fit_run(curves, first, last, tolerance, False, rest)
     if not distance <= tolerance:
@@ -31,7 +31,7 @@ def _fit_run(
 
 @kernel
 def _monotone_parts(rest: NDArray[np.float64], out: NDArray[np.float64]) -> int:
-    """Write the monotone parts of a cubic, their inner ends on the lattice within the cell; return how many.
+    """Write the monotone parts of a cubic, with their inner ends rounded to the cell's lattice; return how many.
 
     `rest` is overwritten.
     """
@@ -77,13 +77,13 @@ def merge_chains(
     merged: NDArray[np.float64],
     merged_path: NDArray[np.int64],
 ) -> tuple[int, float]:
-    """Write the pieces of a cell, as many as possible merged; return their number and the largest distance.
+    """Write the pieces of a cell, with as many as possible merged; return their number and the largest distance.
 
-    Each chain is read once: the longest start that one cubic describes, then the longest start of the rest, and so on.
-    `curves` are in the order of their contours. `tolerance` is the largest distance of a cubic from the pieces that it
-    replaces, in lattice units. The rest is left out once more than `most` written pieces are not horizontal: the cell
-    will be divided. `merged` (room, 4, 2) and `merged_path` (room,) are written and need room for `MOST_PARTS`
-    pieces more than there were.
+    Each chain is merged greedily: one cubic replaces as many of its first pieces as possible, the next cubic as many of
+    the rest, and so on. `curves` are in the order of their contours. `tolerance` is the largest distance of a cubic
+    from the pieces that it replaces, in lattice units. Once more than `most` written pieces are not horizontal, the
+    rest is left out, because the cell will be divided. `merged` (room, 4, 2) and `merged_path` (room,) are written and
+    need room for `MOST_PARTS` pieces more than `curves` holds.
     """
     trial = np.empty((MOST_PARTS, 4, 2))
     best = np.empty((MOST_PARTS, 4, 2))

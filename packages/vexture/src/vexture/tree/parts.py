@@ -1,8 +1,8 @@
-"""Large trees grow in parts: what is below a cell needs nothing of the rest, and may grow in a thread of its own.
+"""Growing large trees in parts: the subtree of a cell needs nothing of the rest, and may grow in its own thread.
 
-One thread divides the cells at the top, which takes little: their pieces move in runs. Each cell with a short list is
-set aside as the root of a part. Parts are joined in the order in which they were set aside, so that the tree is the
-same however many threads there were.
+One thread divides the cells at the top, which takes little time because their pieces move in runs. Each cell with a
+short list is set aside as the root of a part. Parts are joined in the order in which they were set aside, so the tree
+does not depend on the number of threads.
 """
 
 import multiprocessing
@@ -35,10 +35,10 @@ from vexture.tree.growth import (
 )
 
 LARGE = 1 << 17
-"""Cubics. Smaller drawings take no longer than threads need to be worth it."""
+"""Cubics. Smaller drawings grow too fast for threads to help."""
 
 PART = 2048
-"""Longest list, of pieces and runs, of a cell that is the root of a part: some 10 ms of work."""
+"""Longest list, of pieces and runs, in a cell that is the root of a part: about 10 ms of work."""
 
 AHEAD = 2
 """Parts for each thread: one grows while the next is set aside."""
@@ -47,13 +47,14 @@ A = TypeVar("A")
 P = TypeVar("P")
 
 Step = Callable[[Growth, int], Growth]
-"""Grows a tree for a while, down to cells whose lists are at most so long; raises an error at a limit."""
+"""Function that grows a tree for a while, down to cells with lists of at most a given length. It raises an error at a
+limit."""
 
 
 class TreePart(NamedTuple):
     """A part that has grown."""
 
-    quad: int  # the number of its first quad in the whole
+    quad: int  # the number of its first quad in the whole tree
     cells: NDArray[np.float64]
     first: NDArray[np.int64]
     curves: NDArray[np.int32]
@@ -62,14 +63,14 @@ class TreePart(NamedTuple):
 
 
 def usual_threads() -> int:
-    """Threads if nobody asks for a number: one for each processor, but one in a process that others work beside."""
+    """Default number of threads: one for each processor, or 1 in one of several worker processes."""
     if multiprocessing.parent_process() is not None and multiprocessing.current_process().name != ALONE:
         return 1
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def new_part(tree: Growth) -> Growth:
-    """Arrays for a part; they serve one part after another, because new pages of memory take time."""
+    """Arrays for a part. One part after another uses them, because new pages of memory take time."""
     fresh = {name: roomy(getattr(tree.pool, name)[:0], PART) for name in ("points", "path", "numbers", "child", "part")}
     return Growth(
         tree.pool._replace(**fresh),
@@ -109,7 +110,7 @@ def set_aside(tree: Growth, part: Growth) -> int:
 
 
 def _grown(part: Growth, quad: int, step: Step, stopped: Event) -> tuple[TreePart, Growth]:
-    """Grow a part; also returns its arrays, for another one."""
+    """Grow a part; return it and its arrays, which the next part can use."""
     while part.counts[WAITING] > 0 and not stopped.is_set():
         part = step(part, 0)
     quads, curves = part.counts[QUADS], part.counts[CURVES]
@@ -126,10 +127,10 @@ def _grown(part: Growth, quad: int, step: Step, stopped: Event) -> tuple[TreePar
 def grow_in_threads(
     fresh: Callable[[], A], find: Callable[[A], int], grow: Callable[[A, int, Event], tuple[P, A]], threads: int
 ) -> Generator[P, None, None]:
-    """Parts that have grown in threads, in the order in which they were set aside.
+    """Grow parts in threads; yield them in the order in which they were set aside.
 
-    `find` sets a part aside in arrays that `fresh` has made, and returns the number of its quad, or -1 if there is none
-    left; `grow` returns the part and its arrays, for another one. The caller must go through all parts.
+    `fresh` makes arrays for a part. `find` sets a part aside in them and returns the number of its quad, or -1 if no
+    part is left. `grow` returns the part and the arrays, for another part. The caller must consume all parts.
     """
     growing: deque[Future[tuple[P, A]]] = deque()
     free = [fresh() for _ in range(AHEAD * threads)]
@@ -154,7 +155,7 @@ def grow_in_threads(
 
 
 def grow_parts(tree: Growth, step: Step, threads: int, check: Callable[[int], None]) -> Growth:
-    """The tree when it has grown, part by part; its curves are whole numbers then.
+    """Grow a tree in parts; return it with integer curves.
 
     `check` is called with the number of quads so far, and may raise an error.
     """
@@ -179,11 +180,11 @@ def grow_parts(tree: Growth, step: Step, threads: int, check: Callable[[int], No
             quads += len(part.cells)
             check(quads)
     tree, curves = joined_cells(tree, parts)
-    return step(tree, 0)._replace(curves=curves)  # a step without a cell: it takes means above the parts
+    return step(tree, 0)._replace(curves=curves)  # a step without a cell, which computes the means above the parts
 
 
 def joined_cells(tree: Growth, parts: Sequence[TreePart]) -> tuple[Growth, NDArray[np.int32]]:
-    """The cells at the top and those of the parts, and all curves. A part's first quad has its place in the top."""
+    """Join the cells at the top and in the parts, and all curves. The top has a row for each part's first quad."""
     quads, curves = int(tree.counts[QUADS]), int(tree.counts[CURVES])
     cells: list[NDArray[Any]] = [tree.cells[:quads].copy()]
     first: list[NDArray[Any]] = [tree.first[:quads].copy()]

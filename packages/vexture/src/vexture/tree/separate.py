@@ -1,6 +1,6 @@
-"""Cells whose pieces touch at most at their ends: the sides of each piece follow by counting windings.
+"""Cells whose pieces touch only at their ends: counting windings gives the sides of each piece.
 
-The cells of most drawings are of this kind. All others are resolved in `boundary.py`.
+Most cells of most drawings are of this kind. All others are resolved in `boundary.py`.
 """
 
 from typing import NamedTuple
@@ -21,7 +21,7 @@ class CellPieces(NamedTuple):
 
     curves: NDArray[np.float64]  # (n, 4, 2): ends and control points are integers
     owner: NDArray[np.int64]  # (n,): path of each piece, an index into the arrays below
-    multiplicity: NDArray[np.int64]  # (n,): how often each piece is there; negative: in the other direction
+    multiplicity: NDArray[np.int64]  # (n,): copies of each piece; negative if they run in the other direction
     corner: NDArray[np.int64]  # (paths,): corner windings
     rules: NDArray[np.int64]  # (paths,): `FillRule`s
     windings: NDArray[np.int64]  # (paths,): scratch
@@ -38,7 +38,7 @@ def _shares(curves: NDArray[np.float64], i: int, end: int, j: int) -> bool:
 def _beside(curves: NDArray[np.float64], line: int, other: int) -> bool:
     """Whether the hulls of two pieces lie on different sides of a line along the first one's chord.
 
-    They may touch the line in one end of the other piece, if that is also an end of the first piece.
+    One end of the other piece may lie on the line, if it is also an end of the first piece.
     """
     x0, y0 = curves[line, 0, 0], curves[line, 0, 1]
     dx, dy = curves[line, 3, 0] - x0, curves[line, 3, 1] - y0
@@ -62,7 +62,7 @@ def _beside(curves: NDArray[np.float64], line: int, other: int) -> bool:
 
 @kernel(allocates=False)
 def _separate(curves: NDArray[np.float64], i: int, j: int) -> bool:
-    """Whether boxes or hulls prove that two monotone pieces have no common point except an end of both."""
+    """Whether boxes or hulls prove that two monotone pieces have no common point but a common end."""
     for axis in range(2):
         a, b = curves[i, 0, axis], curves[i, 3, axis]
         c, d = curves[j, 0, axis], curves[j, 3, axis]
@@ -76,7 +76,7 @@ def _separate(curves: NDArray[np.float64], i: int, j: int) -> bool:
 
 @kernel(allocates=False)
 def all_separate(curves: NDArray[np.float64]) -> bool:
-    """Whether no two pieces have a common point except an end of both; pairs of horizontal pieces are ignored."""
+    """Whether no two pieces have a common point but a common end; pairs of horizontal pieces are ignored."""
     for i in range(len(curves)):
         for j in range(i):
             both_level = curves[i, 0, 1] == curves[i, 3, 1] and curves[j, 0, 1] == curves[j, 3, 1]
@@ -108,7 +108,7 @@ def left_edge_windings(cell: CellPieces, y: float, below: bool) -> None:
 
 @kernel(allocates=False)
 def _role(cell: CellPieces, i: int) -> int:
-    """1 if only the right side of a piece is inside, -1 if only the left side is, else 0; or `UNSURE`."""
+    """Role of a piece: 1 if only its right side is inside, -1 if only its left side is, else 0; or `UNSURE`."""
     curves, owner, windings, rules = cell.curves, cell.owner, cell.windings, cell.rules
     y = 0.5 * (curves[i, 0, 1] + curves[i, 3, 1])
     left_edge_windings(cell, y, False)
@@ -133,7 +133,7 @@ def _role(cell: CellPieces, i: int) -> int:
 
 @kernel(allocates=False)
 def clean_pieces(cell: CellPieces, out: NDArray[np.float64]) -> int:
-    """Write the pieces between inside and outside, all of the cell being separate; return how many, or `UNSURE`."""
+    """Write the pieces between inside and outside of a cell whose pieces are separate; return how many, or `UNSURE`."""
     curves = cell.curves
     count = 0
     for i in range(len(curves)):

@@ -8,16 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 MOST_QUADS = 2_000_000
-"""Quads of the largest tree that is built, some 200 MB."""
+"""Quads of the largest tree that is built, about 200 MB."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tree:
     """A quad-tree with packed leaves: each holds a few monotone pieces on the leaf's own lattice.
 
-    Quad 0 is the unit square. Cell k of a quad is its (x half) + 2 (y half), y up. The quads below a quad have
-    consecutive numbers, in the order of its cells without the leaves: level by level. So have the curves of its leaves,
-    in the order of its cells without the quads.
+    Quad 0 is the unit square. Cell k of a quad is (x half) + 2 (y half), with y up. Quads are numbered level by level.
+    The quads below a quad have consecutive numbers, in the order of the cells that they divide. The curves of a quad's
+    leaves have consecutive numbers, in the order of the leaves.
 
     In every leaf the winding number is 0 or 1, and 1 means filled: the filled side is on the left of a piece. At a
     point p of a leaf it is the leaf's corner winding, plus the starts minus the ends on the leaf's left edge at or
@@ -35,11 +35,11 @@ class Tree:
     curves: NDArray[np.int32]
     # largest distance between the drawing's outline and the leaves', in unit-square units, before quantisation
     deviation: float
-    unresolved: int  # number of leaves at the depth limit that hold more than a leaf can store; they are constant
+    unresolved: int  # constant leaves at the depth limit, of cells that hold more than a leaf can store
 
     @property
     def texels(self) -> int:
-        """Texels of a texture that it takes."""
+        """Texels that the tree takes in a texture."""
         return len(self.count) + len(self.curves)
 
     @property
@@ -54,7 +54,7 @@ class Tree:
 
 
 def runs(first: NDArray[np.integer[Any]], length: NDArray[np.integer[Any]]) -> NDArray[np.int64]:
-    """Consecutive numbers from each first one on, so many of each, one run after another.
+    """Runs of consecutive numbers, one after another: `length[k]` numbers from `first[k]` on.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def runs(first: NDArray[np.integer[Any]], length: NDArray[np.integer[Any]]) -> N
 
 
 def levels(is_quad: NDArray[np.bool_], first_quad: NDArray[np.integer[Any]]) -> Iterator[NDArray[np.int64]]:
-    """Quads of each level of a tree, in the order of their parents and of the cells of these."""
+    """Quads of each level of a tree, in the order of their parents and of the parents' cells."""
     level = np.zeros(1, np.int64)
     while len(level):
         yield level

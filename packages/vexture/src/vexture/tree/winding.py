@@ -1,13 +1,13 @@
-"""Winding numbers, which are counted and never computed from equations.
+"""Winding numbers, which are counted rather than computed geometrically.
 
 The winding number of a point is the sum of -sign(dy) over the pieces that cross the ray from it to x = -infinity, each
-over its half-open range of y. A cell keeps one integer for each path in it, the *corner winding* Wc, such that anywhere
+over its half-open range of y. A cell has one integer for each path in it, the *corner winding* Wc, such that anywhere
 in the cell
 
     W(p) = Wc + (starts on the left edge at or below p) - (ends there) + sum of -sign(dy) over pieces left of p.
 
-The rule needs no special case for pieces on the left edge, corners hit exactly or tangencies. The children's corner
-windings follow from their parent's by comparing and counting alone.
+The rule needs no special case for pieces on the left edge, pieces through a corner, or tangencies. The children's
+corner windings follow from their parent's by comparisons and counting alone.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ from vexture.base.kernels import kernel
 from vexture.bezier.area import integral_x_dy
 
 Lists = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]
-"""Pieces, the path of each, lists of their numbers, and runs, as in a `PiecePool`."""
+"""Pieces, the path of each, lists of piece numbers, and runs, as in a `PiecePool`."""
 
 
 @kernel(allocates=False)
@@ -41,17 +41,16 @@ def child_windings(
     present: NDArray[np.int64],
     x0: float,
     y0: float,
-    xm: float,
-    ym: float,
+    half: float,
     whole: int,
     out: NDArray[np.int64],
 ) -> None:
     """Write the corner windings of a cell's four children to `out` (m or more, 8).
 
-    Each row is of one path in `present`: four corner windings, then whether the path has a piece in each child.
-    `lists` hold one of pieces for each child, in the order of `present`; `child_at` (5 or more,) is the start of each
-    list and the end of the last. The cell's middle is (xm, ym). Runs, and the first `whole` pieces, which were never
-    cut, end on the lines of no cell: they change no winding at its corners.
+    Each row describes one path in `present`: four corner windings, then whether the path has a piece in each child.
+    `lists` hold a list of pieces for each child, in the order of `present`; `child_at` (5 or more,) holds each list's
+    start and the last one's end. The children are `half` wide, and the first one's corner is (x0, y0). Runs, and the
+    first `whole` pieces, which were never cut, end on the lines of no cell: they change no winding at its corners.
     """
     points, path, numbers, runs = lists
     whole = whole if x0 > 0.0 and y0 > 0.0 else 0  # they may end on the sides of the unit square
@@ -59,8 +58,8 @@ def child_windings(
         for column in range(8):
             out[k, column] = 0
     for child in range(4):
-        cx = x0 if (child & 1) == 0 else xm
-        cy = y0 if child < 2 else ym
+        cx = x0 if (child & 1) == 0 else x0 + half
+        cy = y0 if child < 2 else y0 + half
         k = 0
         for place in range(child_at[child], child_at[child + 1]):
             i = numbers[place]
@@ -91,9 +90,9 @@ def child_windings(
 
 @kernel(allocates=False)
 def winding_area(curves: NDArray[np.float64], corner_winding: int, side: float) -> float:
-    """Mean winding number over a cell of width `side`; where the winding number is 0 or 1, the exact coverage.
+    """Mean winding number over a cell of width `side`, which is the exact coverage if all winding numbers are 0 or 1.
 
-    `curves` have the cell's bottom left as origin; x is exactly 0 for points on its left edge.
+    The origin of `curves` is the cell's bottom-left corner; x is exactly 0 for points on its left edge.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """Bands of a gradient: the parts of its ramp between two jumps of colour, each a gradient without a jump.
 
-A hard stop is an edge, and so is where a ramp repeats. So a path with such a gradient is cut along it when the map is
-built: the edge is stored as any outline is, and is exact at every scale. Between its edges a ramp is smooth.
+A hard stop is an edge, and so is the place where a ramp repeats. A path with such a gradient is cut along these edges
+when the map is built. They are stored like outlines, and are exact at every scale. Between them the ramp is smooth.
 """
 
 from enum import IntEnum
@@ -18,31 +18,33 @@ from vexture.drawing.paint import Affine, Gradient, Spread, Stop
 from vexture.drawing.unit_square import clip_contours
 
 MOST_BANDS: Final = 1024
-"""More are finer than the pixels of most pictures; a shader averages the ramp across its jumps instead."""
+"""Most bands. More are finer than the pixels of most pictures, and a shader averages the ramp across its jumps
+instead."""
 
 STEEP: Final = 1 / 64
-"""Unit-square units: a ramp that changes within less is cut at its stops. A pixel may hold all of the change, and only
-edges are exact there."""
+"""Unit-square units. A ramp that changes within a shorter length is cut at its stops, because a pixel may hold the
+whole change, and only edges are exact there."""
 
 ROUND: Final = 1e-8
-"""Unit-square units: how far a cubic may be from its arc."""
+"""Largest distance of a cubic from its arc, in unit-square units."""
 
 CLOSE: Final = 1e-9
-"""Radii: focal circles this near to touching the outer one touch it; places on a ramp that are the same."""
+"""Radii. Focal circles within this distance of touching the outer circle touch it, and places on a ramp within this
+distance are one."""
 
 Box = NDArray[np.float64]
 """Least and greatest coordinates, (2, 2)."""
 
 
 class Bands(NamedTuple):
-    """A gradient in a box: the one that holds at a point is the one whose number is that of the regions around it."""
+    """The bands of a gradient in a box. Band k applies where k of the regions contain the point."""
 
     gradients: tuple[Gradient, ...]
     regions: tuple[NDArray[np.float64], ...]  # closed contours, each with the next one inside
 
 
 class Knot(NamedTuple):
-    """A place of a ramp that goes on: the stop that ends what is before it, and the one that begins what is after."""
+    """A place on an unrolled ramp, the stop that ends the part before it and the stop that begins the part after."""
 
     place: float
     before: Stop
@@ -50,9 +52,9 @@ class Knot(NamedTuple):
 
 
 def bands_of(gradient: Gradient, box: Box, at_all_stops: bool = False) -> Bands:
-    """The bands of a gradient in a box; one and no regions if the ramp does not jump there, or too often.
+    """Bands of a gradient in a box; one band without regions if the ramp does not jump there, or jumps too often.
 
-    With `at_all_stops` soft stops part bands, too: what a blend mode makes of the ramp may jump there.
+    With `at_all_stops` soft stops separate bands, too, because the blended ramp may jump there.
 
     Examples
     --------
@@ -74,7 +76,7 @@ def bands_of(gradient: Gradient, box: Box, at_all_stops: bool = False) -> Bands:
 
 
 class RampShape(IntEnum):
-    """Shape of the lines of equal colour: one point; lines; nested circles; touching circles; circles of a cone."""
+    """Shape of the lines of equal colour: a point, lines, nested circles, touching circles, or circles of a cone."""
 
     FLAT = 0
     LINES = 1
@@ -101,7 +103,7 @@ def _kind(gradient: Gradient) -> RampShape:
 
 
 def _outwards(gradient: Gradient) -> Gradient:
-    """The same gradient of nested circles, the last of which is the largest."""
+    """Rewrite a gradient of nested circles so that its last circle is the largest."""
     if gradient.focus is None or gradient.focus[1] < 1.0:
         return gradient
     (a, b, c), (d, e, f), (focus, radius) = *gradient.to_ramp, gradient.focus
@@ -111,7 +113,7 @@ def _outwards(gradient: Gradient) -> Gradient:
 
 
 def _within(gradient: Gradient, kind: RampShape, box: Box, at_all_stops: bool) -> Bands:
-    """The bands of a gradient where it paints."""
+    """Bands of a gradient in the part of a box that it paints."""
     whole = Bands((gradient,), ())
     low, high = _reach(gradient, kind, box)
     if gradient.spread is not Spread.PAD and high - low > MOST_BANDS:
@@ -136,7 +138,7 @@ def _within(gradient: Gradient, kind: RampShape, box: Box, at_all_stops: bool) -
 
 
 def _differ(one: Stop, other: Stop) -> bool:
-    """Whether two stops differ in what is seen of them."""
+    """Whether two stops differ visibly."""
     return (one.color, one.opacity) != (other.color, other.opacity) and max(one.opacity, other.opacity) > 0.0
 
 
@@ -159,7 +161,7 @@ def _places_in(gradient: Gradient, kind: RampShape, length: float) -> float:
 
 
 def _reach(gradient: Gradient, kind: RampShape, box: Box) -> tuple[float, float]:
-    """Least place on the ramp in a box, or less, and greatest, or more; circles of the least have no radius."""
+    """Lower and upper bound of the places on the ramp in a box; for circles, the lower is where the radius is 0."""
     corners = np.array([(x, y, 1.0) for x in box[:, 0] for y in box[:, 1]]) @ np.array(gradient.to_ramp).T
     if gradient.focus is None:
         return float(corners[:, 0].min()), float(corners[:, 0].max())
@@ -169,13 +171,13 @@ def _reach(gradient: Gradient, kind: RampShape, box: Box) -> tuple[float, float]
         return -np.inf, np.inf
     if kind is RampShape.NESTED:
         return -radius / grows, max(_place(focus, radius, x, y) for x, y in corners.tolist())
-    # a circle of radius r comes to r (focus / grows - 1) from the tip
+    # the distance of a circle of radius r from the tip is r (focus / grows - 1)
     away = float(np.linalg.norm(corners - (focus / grows, 0.0), axis=1).max())
     return -radius / grows, (away / (focus / grows - 1.0) - radius) / grows
 
 
 def _place(focus: float, radius: float, x: float, y: float) -> float:
-    """The place of a point on the ramp of nested circles: the greatest root, as in FORMAT.md, D.6."""
+    """Place of a point on the ramp of nested circles: the greatest root, as in FORMAT.md, D.6."""
     grows = 1.0 - radius
     a = focus * focus - grows * grows
     b = radius * grows - (x - focus) * focus
@@ -184,7 +186,7 @@ def _place(focus: float, radius: float, x: float, y: float) -> float:
 
 
 def _going_on(gradient: Gradient, low: float, high: float) -> list[Knot]:
-    """The knots of a ramp in order, with those of all periods that meet an interval."""
+    """Knots of a ramp in order, including those of all repetitions that meet an interval."""
     own = list(gradient.stops)
     if gradient.spread is Spread.PAD:
         return _knots([(stop.offset, stop) for stop in own])
@@ -212,9 +214,10 @@ def _knots(placed: list[tuple[float, Stop]]) -> list[Knot]:
 
 
 def _band(gradient: Gradient, knots: list[Knot], is_begun: bool, is_ended: bool) -> Gradient:
-    """The part of a ramp between two knots, padded, with its own places from 0 to 1.
+    """Gradient of the part of a ramp between two knots, padded, with places from 0 to 1.
 
-    Of a knot where the part begins or ends, only one side belongs to it.
+    If `is_begun`, only the later side of the first knot belongs to the part; if `is_ended`, only the earlier side of
+    the last knot does.
     """
     placed = [(knot.place, stop) for knot in knots for stop in (knot.before, knot.after)]
     placed = placed[1 if is_begun else 0 : -1 if is_ended else len(placed)]
@@ -234,7 +237,7 @@ def _band(gradient: Gradient, knots: list[Knot], is_begun: bool, is_ended: bool)
 
 
 def _from(placed: list[tuple[float, Stop]], start: float) -> list[tuple[float, Stop]]:
-    """The stops of a ramp from a place on, where the circle has no radius."""
+    """Stops of a ramp from a place on, at which the radius of the circle is 0."""
     first = next(k for k, (place, _) in enumerate(placed) if place > start)
     if first == 0:
         return placed
@@ -246,7 +249,7 @@ def _from(placed: list[tuple[float, Stop]], start: float) -> list[tuple[float, S
 
 
 def _stretch_ramp(gradient: Gradient, start: float, end: float) -> tuple[Affine, tuple[float, float] | None]:
-    """Compute map and focus of the gradient that spans the part from `start` to `end` of another one."""
+    """Compute the map and focus of a gradient that spans the part from `start` to `end` of another gradient."""
     (a, b, c), (d, e, f) = gradient.to_ramp
     size = end - start
     if gradient.focus is None:
@@ -259,7 +262,7 @@ def _stretch_ramp(gradient: Gradient, start: float, end: float) -> tuple[Affine,
 
 
 def _region(gradient: Gradient, kind: RampShape, place: float, box: Box) -> NDArray[np.float64]:
-    """The part of a box beyond a place of a linear ramp, or before it of a radial one, as a contour."""
+    """Contour of the part of a box that is beyond a place on a linear ramp, or before a place on a radial one."""
     (a, b, c), (d, e, _) = gradient.to_ramp
     if gradient.focus is None:
         return _beyond(np.array([a, b]), place - c, box)
@@ -284,7 +287,7 @@ def _region(gradient: Gradient, kind: RampShape, place: float, box: Box) -> NDAr
 
 
 def _cone(gradient: Gradient, box: Box) -> NDArray[np.float64]:
-    """The part of a box that the circles of a cone sweep: of touching ones half of the plane, of equal ones a strip."""
+    """Part of a box that the circles sweep: a half-plane if they touch, a strip if they are equal, else a cone."""
     assert gradient.focus is not None
     focus, radius = gradient.focus
     grows = 1.0 - radius
@@ -303,7 +306,7 @@ def _cone(gradient: Gradient, box: Box) -> NDArray[np.float64]:
 
 
 def _from_ramp(gradient: Gradient, contour: NDArray[np.float64], box: Box) -> NDArray[np.float64]:
-    """A contour of the ramp's plane in the unit square, clipped to a box; empty if it lies beside that."""
+    """Map a contour from the ramp's plane to the unit square and clip it to a box; empty if it lies outside."""
     (a, b, c), (d, e, f) = gradient.to_ramp
     contour = (contour - (c, f)) @ np.linalg.inv([[a, b], [d, e]]).T
     if (contour.min(axis=(0, 1)) >= box[1]).any() or (contour.max(axis=(0, 1)) <= box[0]).any():
@@ -314,7 +317,7 @@ def _from_ramp(gradient: Gradient, contour: NDArray[np.float64], box: Box) -> ND
 
 
 def _beyond(normal: NDArray[np.float64], level: float, box: Box) -> NDArray[np.float64]:
-    """The part of a box in which a linear function is at least a level, as a contour (Sutherland and Hodgman, 1974)."""
+    """Contour of the part of a box in which a linear function is at least `level` (Sutherland and Hodgman, 1974)."""
     (x0, y0), (x1, y1) = box.tolist()
     corners = [np.array(corner) for corner in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
     found: list[NDArray[np.float64]] = []

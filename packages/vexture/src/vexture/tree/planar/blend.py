@@ -15,8 +15,8 @@ COLOR, LUMINOSITY, LIGHTER = int(Blend.COLOR), int(Blend.LUMINOSITY), int(Blend.
 LUMINANCE = int(Mask.LUMINANCE)
 
 NOTHING = 1e-9
-"""A component this near to 0 or 1 is that, but for rounding, at which dodge and burn jump; and so little saturation is
-none, or hue and saturation would make a colour of it."""
+"""A component within this distance of 0 or 1 counts as 0 or 1, where dodge and burn jump. A saturation below it counts
+as 0, because hue and saturation would amplify its rounding error to a colour."""
 
 
 @kernel(allocates=False)

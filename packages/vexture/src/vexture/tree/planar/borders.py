@@ -1,7 +1,7 @@
-"""The borders in one cell: its pieces on the cell's lattice, those that coincide counted once.
+"""The borders in one cell: its pieces on the cell's lattice, with coincident pieces counted once.
 
-A map has every border twice, and copies of an outline lie on one another. Such pieces are one *border* here, which
-several paths cross in one direction or the other.
+In a map, every border between two areas is in the outlines of both, and copies of an outline coincide. Such pieces are
+one *border* here, along which several paths run in one direction or the other.
 """
 
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from vexture.base.kernels import kernel
 from vexture.base.layout import LATTICE
 from vexture.bezier.split import copy_curve
 from vexture.tree.boundary import quantise_piece
-from vexture.tree.divide import PiecePool
+from vexture.tree.divide import Cell, PiecePool
 from vexture.tree.merge import follows, merge_chains
 from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.winding import inside
@@ -22,31 +22,21 @@ SAME = 2.0
 """Lattice units by which control points of coincident pieces may differ: each is rounded where a cell cuts it."""
 
 
-class PlanarCell(NamedTuple):
-    """A cell: its pieces are the pool's numbers first..last-1, in the order of its paths."""
-
-    x: float
-    y: float
-    size: float
-    first: int
-    last: int
-
-
 class Borders(NamedTuple):
-    """Different pieces of a cell, and the paths that cross them; room for the cells that may become a leaf."""
+    """The different pieces of a cell and the paths along them, with room for any cell that may become a leaf."""
 
     curves: NDArray[np.float64]  # (room, 4, 2), in lattice units
-    rows: NDArray[np.int64]  # (room,): which of the lists below is each border's
-    begin: NDArray[np.int64]  # (room + 1,): where each list begins in `path` and `times`
+    rows: NDArray[np.int64]  # (room,): number of each border's list of paths
+    begin: NDArray[np.int64]  # (room + 1,): start of each list in `path` and `times`
     path: NDArray[np.int64]  # (pieces,): places in the cell's list of paths
-    times: NDArray[np.int64]  # (pieces,): how often they run along the border; negative: in the other direction
-    sums: NDArray[np.float64]  # (room,), scratch: the sum of each border's ends, alike in both directions
+    times: NDArray[np.int64]  # (pieces,): how often each path runs along the border; negative in the other direction
+    sums: NDArray[np.float64]  # (room,), scratch: the sum of each border's ends, the same in both directions
     work: NDArray[np.int64]  # (room,), scratch
 
 
 @kernel
 def new_borders(room: int, pieces: int) -> Borders:
-    """Arrays for so many borders, in cells of so many pieces."""
+    """Arrays for `room` borders, in cells of `pieces` pieces."""
     return Borders(
         np.empty((room, 4, 2)),
         np.empty(room, np.int64),
@@ -60,7 +50,7 @@ def new_borders(room: int, pieces: int) -> Borders:
 
 @kernel(allocates=False)
 def _same_border(a: NDArray[np.float64], b: NDArray[np.float64]) -> int:
-    """1 if two pieces coincide, -1 if they do so in opposite directions, else 0."""
+    """Direction in which two pieces coincide: 1 for the same, -1 for the opposite, 0 if they do not."""
     for turn in (1, -1):
         same = True
         for k in (0, 3, 1, 2):
@@ -76,7 +66,7 @@ def _same_border(a: NDArray[np.float64], b: NDArray[np.float64]) -> int:
 
 
 @kernel(allocates=False)
-def find_borders(pool: PiecePool, cell: PlanarCell, present: NDArray[np.int64], most: int, borders: Borders) -> int:
+def find_borders(pool: PiecePool, cell: Cell, present: NDArray[np.int64], most: int, borders: Borders) -> int:
     """Write the borders in a cell; return how many, or -1 if there are more than `most`."""
     kind, turn = pool.child, pool.part  # scratch with room for the pieces of any cell
     count, curves, sums = 0, borders.curves, borders.sums
@@ -92,7 +82,7 @@ def find_borders(pool: PiecePool, cell: PlanarCell, present: NDArray[np.int64], 
         kind[i], turn[i] = count, 1
         ends = piece[0, 0] + piece[3, 0] + 4.0 * LATTICE * (piece[0, 1] + piece[3, 1])
         for k in range(count):
-            if sums[k] == ends:  # most differ here
+            if sums[k] == ends:  # rules out most pairs
                 turned = _same_border(curves[k], piece)
                 if turned != 0:
                     kind[i], turn[i] = k, turned
@@ -106,8 +96,8 @@ def find_borders(pool: PiecePool, cell: PlanarCell, present: NDArray[np.int64], 
 
 
 @kernel(allocates=False)
-def _crossing_paths(pool: PiecePool, cell: PlanarCell, present: NDArray[np.int64], count: int, borders: Borders) -> int:
-    """Write which paths cross each border; drop those that none crosses; return how many are left."""
+def _crossing_paths(pool: PiecePool, cell: Cell, present: NDArray[np.int64], count: int, borders: Borders) -> int:
+    """Write the paths along each border; drop borders without any; return how many are left."""
     kind, turn, begin = pool.child, pool.part, borders.begin
     for k in range(count + 1):
         begin[k] = 0
@@ -137,9 +127,9 @@ def _crossing_paths(pool: PiecePool, cell: PlanarCell, present: NDArray[np.int64
 
 @kernel(allocates=False)
 def _pack(borders: Borders, count: int) -> int:
-    """Close the gaps between the borders' rows, without rows of 0 times; return how many borders have any.
+    """Close gaps between the borders' rows; drop rows of 0 times and borders without rows; return how many are left.
 
-    `borders.work` has how many rows of each are filled.
+    `borders.work` holds the number of rows of each border that are filled.
     """
     begin, filled, kept, at = borders.begin, borders.work, 0, 0
     for k in range(count):
@@ -173,10 +163,10 @@ def _crossed_alike(borders: Borders, i: int, j: int) -> bool:
 def merge_borders(
     borders: Borders, count: int, tolerance: float, most: int, room: NDArray[np.float64]
 ) -> tuple[int, float]:
-    """Merge chains of borders that the same paths cross; return how many are left, and how far they moved at most.
+    """Merge chains of borders with the same paths; return how many are left, and the farthest that they moved.
 
-    More than `most` may be returned without the rest of them. `tolerance` and the result are in lattice units; `room`
-    is scratch for curves.
+    Merging may stop when more than `most` are left, without the rest of them. `tolerance` and the distance are in
+    lattice units; `room` is scratch for curves.
     """
     chains = False
     for k in range(count):
@@ -212,7 +202,7 @@ def cross(
     windings: NDArray[np.int64],
     key: int,
 ) -> int:
-    """Add the paths of a border to the windings, `by` times; return the key after that."""
+    """Add the paths of a border to the windings, `by` times; return the new key."""
     of, rules = borders.rows[border], layers.rules
     for row in range(borders.begin[of], borders.begin[of + 1]):
         k = borders.path[row]
@@ -233,7 +223,7 @@ def set_left_edge(
     y: float,
     windings: NDArray[np.int64],
 ) -> int:
-    """Write the windings at the left edge just above a height, right of the borders along it; return their key."""
+    """Write the windings at the left edge just above a height, right of borders along the edge; return their key."""
     for k in range(len(present)):
         windings[k] = present[k, 1]
     key = key_of(layers, present, windings)

@@ -1,8 +1,9 @@
 """Building a `PlanarMap` from a drawing: cells are divided depth first until each is a leaf.
 
-A cell keeps the paths that change in it, with their winding numbers at its corner. A path that covers the cell and is
-opaque hides all below it, pieces included. One that covers the cell below all that change there is composited into the
-cell's *ground*, the face from which it starts. So hundreds of layers are short lists in small cells.
+A cell has a list of the paths whose outlines pass through it, with their winding numbers at its corner. An opaque path
+that covers the cell hides all paths below it, and their pieces. A path that covers the cell and lies below all listed
+paths becomes part of the cell's *ground*, the face on which the listed paths are painted. So a small cell has a short
+list even under hundreds of layers.
 """
 
 from typing import NamedTuple
@@ -20,7 +21,7 @@ from vexture.drawing.paint import Gradient
 from vexture.tree.bounds import DEFAULT_DEPTH, Bounds, bounds_of, check_growth
 from vexture.tree.build import CELL, SLICE, new_growth
 from vexture.tree.cubics import cubics_and_paths
-from vexture.tree.divide import PARTS, divide
+from vexture.tree.divide import PARTS, Cell, divide
 from vexture.tree.growth import (
     COUNT,
     CURVES,
@@ -41,8 +42,8 @@ from vexture.tree.growth import (
 )
 from vexture.tree.leaf import DIVIDE
 from vexture.tree.parts import LARGE, usual_threads
-from vexture.tree.planar.borders import PlanarCell, key_of
-from vexture.tree.planar.faces import FaceTable, face_of, new_faces, roomier_faces
+from vexture.tree.planar.borders import key_of
+from vexture.tree.planar.faces import CellFaces, FaceTable, face_of, new_faces, roomier_faces
 from vexture.tree.planar.growth import BASE, IS_MEAN, PlanarGrowth, State, growth_from_tuples, with_room
 from vexture.tree.planar.layers import PlanarLayers, Rows, layers_of, looks_of, rows_of
 from vexture.tree.planar.leaf import PlanarLeaf, PlanarWorkspace, new_workspace, planar_leaf
@@ -57,19 +58,19 @@ from vexture.tree.winding import child_windings, inside
 class PlanarWork(NamedTuple):
     """Arrays that are reused from cell to cell."""
 
-    counts: NDArray[np.int64]  # (5,): what the map had before a cell
-    row: NDArray[np.int64]  # (7,): the row of the stack of the cell
+    counts: NDArray[np.int64]  # (5,): counts of the map before a cell is divided
+    row: NDArray[np.int64]  # (7,): the cell's row of the stack
     child_at: NDArray[np.int64]  # (9,): start of each child's list of pieces; see `divide`
     windings: NDArray[np.int64]  # (paths, 8): what `child_windings` writes
     leaf: PlanarWorkspace
 
 
 SHORT_SLICE = SLICE // 8
-"""Work between two looks at the number of texels, where it is limited."""
+"""Work between two checks of the number of texels, where it is limited."""
 
 DEFAULT_MAP_CAPACITY = 12
-"""Pieces in a leaf of a map: in maps every border is cut by more cells than in a silhouette. With 14, maps take 4 to 7
-% fewer texels, and a pixel reads about one more."""
+"""Pieces in a leaf of a map, in which more cells cut a border than in a silhouette. With 14, maps take 4 to 7 % fewer
+texels, and a pixel reads about one more."""
 
 
 @kernel(allocates=False)
@@ -118,7 +119,7 @@ def _grow_quad(
 ) -> None:
     """Divide the cell on top of the stack: each child becomes a leaf or is pushed onto the stack.
 
-    If the faces have no room, nothing has been done.
+    If the table of faces has no room, nothing is changed.
     """
     tree = growth.tree
     pool, present, stack, corner, counts = tree.pool, tree.present, tree.stack, tree.corner, tree.counts
@@ -131,12 +132,12 @@ def _grow_quad(
         row[k] = stack[top, k]
     quad, depth, under = row[QUAD], row[DEPTH], growth.ground[top]
     rows, half = (row[FIRST_PATH], row[LAST_PATH]), 0.5 ** (row[DEPTH] + 1)
-    xm, ym = x0 + half, y0 + half
+    divided = Cell(x0, y0, 2.0 * half, row[FIRST], row[LAST])
     grain = 0.5 ** max(depth + 1, bounds.least_depth) / LATTICE
-    pieces = divide(pool, row[FIRST], row[LAST], xm, ym, grain, row[PIECES], False, child_at)
+    pieces = divide(pool, divided, grain, row[PIECES], False, child_at)
     touching = present[rows[0] : rows[1]]
     lists = (pool.points, pool.path, pool.numbers, pool.runs)
-    child_windings(lists, child_at, touching, x0, y0, xm, ym, counts[WHOLE], windings)
+    child_windings(lists, child_at, touching, x0, y0, half, counts[WHOLE], windings)
     tree.first[quad, 0], tree.first[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = rows[1]
     for child in range(4):
@@ -144,10 +145,9 @@ def _grow_quad(
         first, last = child_at[child], child_at[child + 1]
         while first < last and (here == end_path or pool.path[pool.numbers[first]] < present[end_path, 0]):
             first += 1  # hidden by a path above
-        cell = PlanarCell(x0 + half * (child & 1), y0 + half * (child >> 1), half, first, last)
-        leaf = _leaf(
-            growth, cell, quad, child, ground, present[end_path:here], layers, faces, depth + 1, bounds, work.leaf
-        )
+        cell = Cell(x0 + half * (child & 1), y0 + half * (child >> 1), half, first, last)
+        cell_faces = CellFaces(faces, layers, ground, present[end_path:here], work.leaf.windings)
+        leaf = _leaf(growth, cell, quad, child, cell_faces, depth + 1, bounds, work.leaf)
         if leaf.size == DIVIDE:
             stack[top, QUAD], stack[top, DEPTH], stack[top, FIRST] = counts[QUADS], depth + 1, first
             stack[top, LAST], stack[top, FIRST_PATH], stack[top, LAST_PATH] = last, end_path, here
@@ -168,20 +168,18 @@ def _grow_quad(
 @kernel(allocates=False)
 def _leaf(
     growth: PlanarGrowth,
-    cell: PlanarCell,
+    cell: Cell,
     quad: int,
     child: int,
-    ground: int,
-    present: NDArray[np.int64],
-    layers: PlanarLayers,
-    faces: FaceTable,
+    cell_faces: CellFaces,
     depth: int,
     bounds: Bounds,
     workspace: PlanarWorkspace,
 ) -> PlanarLeaf:
-    """Write a cell of a quad, and the pieces of its leaf, if it is one."""
+    """Write a cell of a quad and, if it is a leaf, the pieces of the leaf."""
     tree, mean = growth.tree, growth.mean[quad, child]
     if cell.first == cell.last:
+        faces, layers, ground, present, _ = cell_faces
         face = face_of(faces, layers, ground, present, present[:, 1], key_of(layers, present, present[:, 1]))
         leaf = PlanarLeaf(0, faces.paint[face], 0.0, True)
         if set_flat_mean(workspace.pieces, 0, leaf.base, faces, mean):
@@ -189,19 +187,7 @@ def _leaf(
     elif depth < bounds.least_depth:
         leaf = PlanarLeaf(DIVIDE, 0, 0.0, True)
     else:
-        leaf = planar_leaf(
-            tree.pool,
-            cell,
-            ground,
-            present,
-            layers,
-            faces,
-            bounds.capacity,
-            bounds.tolerance,
-            depth == bounds.max_depth,
-            workspace,
-            mean,
-        )
+        leaf = planar_leaf(tree.pool, cell, cell_faces, bounds, depth == bounds.max_depth, workspace, mean)
     out = tree.cells[quad, child]
     out[IS_QUAD], out[COUNT], out[BASE], out[IS_MEAN] = 0.0, 0.0, 0.0, 0.0
     if leaf.size == DIVIDE:
@@ -242,7 +228,7 @@ def grow_map(
 ) -> None:
     """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done.
 
-    It also ends before a cell whose list is no longer than `aside`, unless that is 0.
+    Unless `aside` is 0, also stop before a cell whose list is no longer than `aside`.
     """
     tree = growth.tree
     stack, counts, paths, in_cell = tree.stack, tree.counts, len(layers.rules), 0
@@ -266,9 +252,9 @@ def grow_map(
 
 @kernel(ahead=True)
 def plant_map(cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: int) -> tuple[PlanarGrowth, float]:
-    """The unit square, to be divided, and how far the outline lies outside it."""
+    """Make the undivided unit square; also return how far the outline lies outside it."""
     tree, outside = new_growth(cubics, owner, max_depth, False)
-    has_room(tree)  # says what the first cell needs
+    has_room(tree)  # writes the rows that the first cell needs
     return PlanarGrowth(
         tree,
         np.zeros(len(tree.stack), np.int64),
@@ -278,7 +264,7 @@ def plant_map(cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: 
 
 
 def row_cubics(rows: Rows) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Cubics of some rows, (n, 4, 2), and the number of the row of each, (n,)."""
+    """Cubics of rows, (n, 4, 2), and the number of each cubic's row, (n,)."""
     return cubics_and_paths([path.contours for path in rows.paths])
 
 
@@ -296,8 +282,9 @@ def build_map(
 ) -> PlanarMap | None:
     """Planar map of a drawing in its colours; None if it needs more than `most_texels`.
 
-    With `restyle` faces of different elements keep a border where they have one colour. Large maps of crowded symbols
-    are then shared by so many `threads`, by default one for each processor; the map is the same with any number.
+    With `restyle`, faces of different elements keep the border between them even if they have one colour. Large maps of
+    crowded symbols are then built by `threads` threads, by default one for each processor; the map does not depend on
+    their number.
 
     The other parameters and errors are those of `build_tree`.
 
@@ -331,7 +318,7 @@ def build_map(
         return most_texels is None or texels_of(quads, curves) <= most_texels
 
     state = State(growth_from_tuples(*root), layers, new_faces())
-    # only drawings that lack what is hidden: parts number paints in an order of their own, and others keep their bytes
+    # only drawings with hidden paths: parts number paints in another order, and other drawings must keep their bytes
     if restyle and layers.hides.any() and state.growth.tree.stack[0, LAST] > LARGE:
         grown = grow_map_parts(state, step, usual_threads() if threads is None else threads, check)
         return None if grown is None else _map_of(drawing.name, rows.gradients, grown)
@@ -343,7 +330,7 @@ def build_map(
 
 
 def _map_of(name: str, gradients: tuple[Gradient, ...], state: State) -> PlanarMap:
-    """The map that has grown, numbered as a `Tree`, in its final types; paints are numbered as they were met."""
+    """Make the final map, numbered as a `Tree`; paints are numbered in the order in which they were met."""
     growth, layers, faces = state
     tree, quads = growth.tree, growth.tree.counts[QUADS]
     order = np.concatenate([*levels(tree.cells[:quads, :, IS_QUAD] == 1.0, tree.first[:, 0])])

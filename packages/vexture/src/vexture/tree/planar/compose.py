@@ -1,8 +1,9 @@
 """A stack of paths as a *program*: the operations that give its colour at any point.
 
-Solids are composited as SVG says, source-over in sRGB, and groups of solids by themselves: of flat colours one solid is
-left. Gradients stay operations, in the order in which they are painted: what `KEEP` sets aside is composited with what
-follows by the next `MIX`, or masked by it. A mask that holds a gradient comes after all that it masks.
+Solids are composited as SVG defines it, source-over in sRGB, and groups of solids separately, so a stack of flat
+colours becomes one solid. Gradients remain operations, in painting order. `KEEP` sets the colour so far aside, and the
+matching `MIX` composites the group on it, or masks it by the group. A mask that holds a gradient comes after all that
+it masks.
 """
 
 from typing import NamedTuple
@@ -18,25 +19,25 @@ from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.planar.shades import COUNT, FOCUS, flat_shade, shade_at
 
 ONE = float(PAINT_ONE)
-"""Colours are equal if they are equal in these steps, in which paints are stored."""
+"""Steps in which paints are stored. Colours are equal if they are equal in these steps."""
 
 SOLID, SHADE, KEEP, MIX = range(4)
-"""What an operation does: paint a solid, a gradient; begin a group; end it."""
+"""Codes of operations: paint a solid; paint a gradient; begin a group; end a group."""
 
 NORMAL = int(Blend.NORMAL)
 
 
 class Operations(NamedTuple):
-    """Operations from below, a row for each."""
+    """Operations in painting order, one in each row."""
 
     code: NDArray[np.int64]
-    number: NDArray[np.int64]  # of a gradient; of `MIX` its blend mode or `MASKS` + mask, above 16 bits of opacity
+    number: NDArray[np.int64]  # a gradient's number; of `MIX` its blend mode or `MASKS` + mask, above 16 opacity bits
     rgba: NDArray[np.float64]  # (room, 4): premultiplied colours of solids
 
 
 @kernel
 def new_operations(layers: PlanarLayers, stack: NDArray[np.int32]) -> Operations:
-    """Arrays with room for those of a stack."""
+    """Arrays with room for the operations of a stack."""
     room = len(stack) + 1
     for k in range(len(stack)):
         group = layers.group[stack[k]]
@@ -63,7 +64,7 @@ def _solid(ops: Operations, count: int, base: int, rgba: NDArray[np.float64], op
 
 @kernel(allocates=False)
 def _blends(ops: Operations, start: int, count: int) -> bool:
-    """Whether some of the operations blend with what is below them otherwise than source-over, or mask it."""
+    """Whether any of the operations blends with the colour below other than source-over, or masks it."""
     inside = 0
     for k in range(start, count):
         if ops.code[k] == KEEP:
@@ -95,7 +96,7 @@ def _swap(ops: Operations, first: int, second: int, end: int) -> None:
 
 @kernel(allocates=False)
 def _end_group(ops: Operations, count: int, base: int, start: int, opacity: float, blend: int) -> int:
-    """End a group that begins with the `KEEP` at `start`, in one that begins at `base`; return the new number."""
+    """End the group of the `KEEP` at `start`, inside a group that begins at `base`; return the number of operations."""
     if count == start + 1:
         return start
     onto = start - base  # operations below it, in the group around it
@@ -107,7 +108,7 @@ def _end_group(ops: Operations, count: int, base: int, start: int, opacity: floa
             blend_over(ops.rgba[base], rgba, opacity, blend)
             return start
     if opacity == 1.0 and (onto == 0 or (blend == NORMAL and not _blends(ops, start + 1, count))):
-        _swap(ops, start, start + 1, count)  # it makes no difference, as source-over is associative
+        _swap(ops, start, start + 1, count)  # drops the `KEEP`, as source-over is associative
         return count - 1
     ops.code[count] = MIX
     ops.number[count] = ((blend if onto > 0 else NORMAL) << 16) | int(np.rint(ONE * opacity))
@@ -116,7 +117,7 @@ def _end_group(ops: Operations, count: int, base: int, start: int, opacity: floa
 
 @kernel(allocates=False)
 def _is_in(layers: PlanarLayers, group: int, around: int) -> bool:
-    """Whether a group, or -1, is another one or lies in it."""
+    """Whether a group, or -1 for none, is the group `around` or lies in it."""
     while group >= 0 and layers.depth[group] > layers.depth[around]:
         group = layers.outer[group]
     return group == around
@@ -134,8 +135,9 @@ def _leave(
 ) -> int:
     """End the innermost group, or let it mask the one around it; return the new number of operations.
 
-    `starts` has for each open group where its `KEEP` is, and where what it paints begins: until it is ended, that is
-    after its masks that hold gradients. `mask_state` has what its other masks leave, and of how many nothing was met.
+    For each open group, `starts` holds the place of its `KEEP` and the start of what it paints, which is after its
+    masks with gradients until the group ends. `mask_state` holds the share that its other masks leave, and the number
+    of its masks that have not been met.
     """
     g, start, mask = around[level], starts[level, 0], layers.mask[around[level]]
     left = layers.opacity[g] * (mask_state[level, 0] if mask_state[level, 1] == 0.0 else 0.0)
@@ -156,7 +158,7 @@ def _leave(
 
 @kernel(allocates=False)
 def _band(layers: PlanarLayers, stack: NDArray[np.int32], k: int) -> int:
-    """Number of the band of a gradient, of a path in a stack: so many of the regions after it are there, too."""
+    """Number of the gradient's band for a path in a stack: the count of the path's regions that follow it there."""
     after = k + 1
     while after < len(stack) and layers.cut[stack[after]] == stack[k]:
         after += 1
@@ -167,7 +169,7 @@ def _band(layers: PlanarLayers, stack: NDArray[np.int32], k: int) -> int:
 def compose(layers: PlanarLayers, stack: NDArray[np.int32], is_flat: bool, ops: Operations) -> int:
     """Write the operations of a stack of paths; return how many, or -1 if no paint can hold them.
 
-    Of flat colours there is one solid, or none. With `is_flat` gradients are the solids of their means.
+    A stack of flat colours becomes one solid, or none. With `is_flat`, gradients count as solids of their mean colours.
     """
     deepest = 1
     for g in range(len(layers.depth)):
@@ -209,7 +211,7 @@ def compose(layers: PlanarLayers, stack: NDArray[np.int32], is_flat: bool, ops: 
 
 @kernel(allocates=False)
 def _fits(layers: PlanarLayers, ops: Operations, count: int) -> bool:
-    """Whether a shader can run the operations: few, of few stops, few groups in one another."""
+    """Whether a shader can run the operations: they, their stops and their nested groups must be few."""
     texels, stops, kept, most = 0, 0, 0, 0
     for k in range(count):
         texels += 1
@@ -227,7 +229,7 @@ def _fits(layers: PlanarLayers, ops: Operations, count: int) -> bool:
 
 @kernel(allocates=False)
 def key_of_operations(ops: Operations, count: int) -> int:
-    """Hash of the operations, colours in steps of 1/65535; 0 only of none and of one solid."""
+    """Hash of the operations, with colours in steps of 1/65535; 0 only for no operation or one solid."""
     if count == 0 or (count == 1 and ops.code[0] == SOLID):
         return 0
     key = count

@@ -1,8 +1,8 @@
 """Faces: regions in which the same paths are inside, each of one paint.
 
-A face is found by the set of paths that are inside: the exclusive or of a random key of each. Crossing a border
-changes the key by the keys of the paths that begin or end there, whatever lies below and above them. What a face that
-is new looks like is composed once, path by path and group by group: a colour, or a program if it holds gradients.
+A face is found by the set of paths that are inside: its key is the exclusive or of a random key of each of them. At a
+border only the keys of the paths that begin or end there change it, whatever lies below and above them. The paint of a
+new face is composed once, path by path and group by group: a colour, or a program if it holds gradients.
 """
 
 from typing import NamedTuple
@@ -23,24 +23,34 @@ class FaceTable(NamedTuple):
     """Table of all faces. Face 0 is where nothing is painted."""
 
     slots: NDArray[np.int64]  # (4 room,): face + 1 of each hash slot, or 0
-    paint_slots: NDArray[np.int64]  # (4 room,): the same by paint
+    paint_slots: NDArray[np.int64]  # (4 room,): the same for a hash of paints
     keys: NDArray[np.int64]  # (room,)
-    rgba: NDArray[np.float64]  # (room, 4), premultiplied; 0 of programs
-    program: NDArray[np.int64]  # (room,): key of its operations, 0 of a colour
+    rgba: NDArray[np.float64]  # (room, 4), premultiplied; 0 for programs
+    program: NDArray[np.int64]  # (room,): key of its operations; 0 for a colour
     look: NDArray[np.int64]  # (room,): key of the stack's elements, in a map to be restyled, else 0
     paint: NDArray[np.int64]  # (room,): the first face of the same colour or program, and look
     starts: NDArray[np.int64]  # (room + 1,): where the stack of each face begins in `paths`
-    paths: NDArray[np.int32]  # numbers of the paths inside, from below; from the highest that covers all below it on
-    counts: NDArray[np.int64]  # (2,): faces; 1 if there was no room for another
+    paths: NDArray[np.int32]  # stacks: numbers of the paths inside, from below, without those that another one hides
+    counts: NDArray[np.int64]  # (2,): number of faces; 1 if there was no room for another, else 0
+
+
+class CellFaces(NamedTuple):
+    """The table of faces and what decides which of them a point of a cell lies in."""
+
+    faces: FaceTable
+    layers: PlanarLayers
+    ground: int  # the face where no path in the cell is inside
+    present: NDArray[np.int64]  # (n, 2): paths in painting order, each with its winding at the cell's corner
+    windings: NDArray[np.int64]  # (n or more,), scratch: windings of these paths at a point
 
 
 def new_faces(room: int = FIRST_ROOM, paths: int = FIRST_ROOM) -> FaceTable:
-    """A table that holds face 0; its room is a power of two."""
+    """Make a table that holds face 0; `room` must be a power of two."""
     return _faces(room, paths)
 
 
 def faces_with(faces: FaceTable, face: int) -> FaceTable:
-    """A table that holds face 0 and one of others, which is face 1, unless it is face 0."""
+    """Make a table of face 0 and, as face 1, a face of another table, unless that is face 0 itself."""
     start, end = faces.starts[face : face + 2]
     out = new_faces(paths=max(FIRST_ROOM, int(end - start)))
     if face:
@@ -91,7 +101,7 @@ def _faces(room: int, paths: int) -> FaceTable:
 
 
 def roomier_faces(faces: FaceTable) -> FaceTable:
-    """A copy with twice the room of what is full."""
+    """Copy a full table with twice the room for faces or for paths, whichever is full."""
     count, room = int(faces.counts[0]), len(faces.keys)
     out = _faces(2 * room, len(faces.paths)) if count == room else _faces(room, 2 * len(faces.paths))
     for rows, old in zip(out[2:7], faces[2:7], strict=True):
@@ -114,7 +124,7 @@ def refill(faces: FaceTable) -> None:
 
 @kernel(allocates=False, ahead=True)
 def add_faces(faces: FaceTable, more: FaceTable, first: int, last: int, number: NDArray[np.int64]) -> None:
-    """Add faces first..last-1 of another table to one that has room; write the number that each has there."""
+    """Add faces first..last-1 of the table `more` to one with room; write their new numbers to `number`."""
     for k in range(first, last):
         slot = _slot_of(faces, more.keys[k]) if more.keys[k] != 0 else 0
         if more.keys[k] == 0 or faces.slots[slot] != 0:
@@ -144,7 +154,7 @@ def _free_slot(slots: NDArray[np.int64], key: int) -> int:
 
 @kernel(allocates=False)
 def _paint_key(faces: FaceTable, face: int) -> int:
-    """Hash of a face's program or look, or else its colour in steps of 1/65535; 0 only of what is transparent."""
+    """Hash of a face's program and look, or of its colour in steps of 1/65535; 0 only for a transparent face."""
     key = faces.program[face] ^ faces.look[face]
     if key != 0:
         return key
@@ -165,13 +175,16 @@ def _same_paint(faces: FaceTable, a: int, b: int) -> bool:
 
 @kernel
 def stack_of(faces: FaceTable, face: int) -> NDArray[np.int32]:
-    """Numbers of the paths inside, from below."""
+    """Stack of a face: the numbers of the paths inside, from below."""
     return faces.paths[faces.starts[face] : faces.starts[face + 1]]
 
 
 @kernel(ahead=True)
 def operations_of(layers: PlanarLayers, stack: NDArray[np.int32]) -> tuple[int, Operations, int]:
-    """Number of a stack's operations, these, and 1 if its gradients are their means: no paint can hold them; else 0."""
+    """Compose a stack; return the number of operations, the operations, and whether gradients became their means.
+
+    The last is 1 if no paint can hold the gradients, else 0.
+    """
     ops = new_operations(layers, stack)
     count = compose(layers, stack, False, ops)
     if count >= 0:
@@ -188,7 +201,7 @@ def _stack(
     windings: NDArray[np.int64],
     face: int,
 ) -> bool:
-    """Write the stack of a face, which is that of its ground and the paths inside; False if there is no room."""
+    """Write the stack of a face: its ground's stack, then the paths inside; return False if there is no room."""
     start = faces.starts[face]
     end, first = start, faces.starts[ground]
     if start + faces.starts[ground + 1] - first + len(present) > len(faces.paths):
@@ -209,7 +222,7 @@ def _stack(
 
 @kernel(allocates=False)
 def _look_of(layers: PlanarLayers, stack: NDArray[np.int32]) -> int:
-    """Hash of a stack's elements, in order; 0 of a map that is not to be restyled."""
+    """Hash of a stack's elements, in order; 0 in a map that is not to be restyled."""
     key = 0
     for k in range(len(stack)):
         key = (key ^ layers.look[stack[k]]) * 0x5851F42D4C957F2D
@@ -239,10 +252,10 @@ def face_of(
     windings: NDArray[np.int64],
     key: int,
 ) -> int:
-    """The face above another one, `ground`, in which some paths are inside by their windings.
+    """Find or add the face whose stack is that of the face `ground` and the paths that are inside.
 
-    `present` (n, 2) lists paths in painting order, `windings` (n,) belongs to it. `key` is the exclusive or of the keys
-    of the paths that are inside. Without room for a new face, `faces.counts[1]` becomes 1 and the result is 0.
+    `present` (n, 2) lists paths in painting order, and `windings` (n,) decides which are inside. `key` is the exclusive
+    or of their keys. Without room for a new face, `faces.counts[1]` becomes 1 and the result is 0.
     """
     if key == 0:
         return ground
@@ -250,12 +263,18 @@ def face_of(
     slot = _slot_of(faces, key)
     if faces.slots[slot] != 0:
         return faces.slots[slot] - 1
-    return _new_face(faces, layers, ground, present, windings, key, slot)  # apart: what is rare slows what is not
+    return _new_face(faces, layers, ground, present, windings, key, slot)  # rare, and slows this function if inlined
+
+
+@kernel(allocates=False)
+def paint_of(cell: CellFaces, key: int) -> int:
+    """Paint where the paths of a cell have its `windings`; `key` is the exclusive or of the keys of those inside."""
+    return cell.faces.paint[face_of(cell.faces, cell.layers, cell.ground, cell.present, cell.windings, key)]
 
 
 @kernel(allocates=False)
 def _slot_of(faces: FaceTable, key: int) -> int:
-    """The slot of the face with a key, or the free one where it belongs."""
+    """Slot of the face with a key, or the free slot for it."""
     mask = len(faces.slots) - 1
     slot = key & mask
     while faces.slots[slot] != 0 and faces.keys[faces.slots[slot] - 1] != key:
@@ -273,7 +292,7 @@ def _new_face(
     key: int,
     slot: int,
 ) -> int:
-    """Add a face with a key to the table, and its paint, if that is new."""
+    """Add a face to the table at a free slot, and its paint if that is new."""
     face = faces.counts[0]
     if face == len(faces.keys) or not _stack(faces, layers, ground, present, windings, face):
         faces.counts[1] = 1
@@ -293,7 +312,7 @@ def _new_face(
 
 @kernel(allocates=False)
 def _set_paint(faces: FaceTable, face: int) -> None:
-    """Find the first face of the same paint as a new one, which may be the first."""
+    """Set the paint of a new face: the first face that looks the same, or the new face itself."""
     mask = len(faces.slots) - 1
     slot = _paint_key(faces, face) & mask
     while faces.paint_slots[slot] != 0:

@@ -1,4 +1,4 @@
-"""A planar map while it grows: the tree, and what a map has beside it."""
+"""A planar map while it grows: the tree, and the arrays that only a map has."""
 
 from typing import Any, Final, NamedTuple
 
@@ -11,11 +11,11 @@ from vexture.tree.planar.layers import PlanarLayers
 
 BASE: Final = WINDING
 IS_MEAN: Final = COVERAGE
-"""Columns of the cells that mean something else here."""
+"""Columns of the cells that have another meaning in a map."""
 
 
 class PlanarGrowth(NamedTuple):
-    """The map while it grows. Columns of its cells: whether a quad, count, base paint, whether only the mean counts."""
+    """The map while it grows. Columns of its cells: whether it is a quad, count, base paint, whether it is a mean."""
 
     tree: Growth
     ground: NDArray[np.int64]  # (stack,): ground of each cell to divide
@@ -24,7 +24,7 @@ class PlanarGrowth(NamedTuple):
 
 
 class State(NamedTuple):
-    """A map while it grows, with its layers and the faces that were met."""
+    """A map while it grows, with its layers and the faces met so far."""
 
     growth: PlanarGrowth
     layers: PlanarLayers
@@ -32,11 +32,11 @@ class State(NamedTuple):
 
 
 def growth_from_tuples(tree: tuple[Any, ...], *others: Any) -> PlanarGrowth:
-    """Make a growth of the plain tuples that `plant_map` returns."""
+    """Make a `PlanarGrowth` from the plain tuples that `plant_map` returns."""
     return PlanarGrowth(Growth(*tree), *others)
 
 
 def with_room(growth: PlanarGrowth) -> PlanarGrowth:
-    """The map, with at least twice the room where the next cell has none."""
+    """Return the map with larger arrays where the next cell has no room."""
     tree = with_needed_room(growth.tree)
     return PlanarGrowth(tree, growth.ground, roomy(growth.mean, len(tree.cells)), roomy(growth.sides, len(tree.curves)))

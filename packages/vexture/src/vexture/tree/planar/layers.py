@@ -1,4 +1,4 @@
-"""The layers of a drawing, as arrays: what its faces are composited of."""
+"""The layers of a drawing, of which its faces are composited, as arrays."""
 
 from typing import Final, NamedTuple
 
@@ -13,48 +13,48 @@ from vexture.tree.planar.shades import Shades, shades_of
 from vexture.tree.planar.style import elements_of
 
 MARGIN: Final = 2.0**-10
-"""By how much the box in which a gradient is cut is wider than its path: sides of both would coincide else."""
+"""Width by which the box for cutting a gradient exceeds its path, because their sides would coincide otherwise."""
 
 
 JUMPING: Final = {Blend.COLOR_DODGE, Blend.COLOR_BURN, Blend.HUE, Blend.SATURATION, Blend.COLOR, Blend.LUMINOSITY}
-"""Blend modes that jump where a component of a colour is 0 or 1, or where it is grey: mostly at stops."""
+"""Blend modes that jump where a component of a colour is 0 or 1, or where the colour is grey, mostly at stops."""
 
 
 class Rows(NamedTuple):
-    """The paths of a drawing, each before the regions that cut its gradient into bands."""
+    """The paths of a drawing, each followed by the regions that cut its gradient into bands."""
 
     paths: tuple[Path, ...]
-    cut: NDArray[np.int64]  # of a region: the row of the path that it cuts; else -1
+    cut: NDArray[np.int64]  # row of the path that a region cuts; -1 for a path
     shade: NDArray[np.int64]  # first of each path's `bands`, or -1
-    bands: NDArray[np.int64]  # numbers of gradients: those of the bands of a path follow one another
+    bands: NDArray[np.int64]  # numbers of gradients; the bands of one path are consecutive
     gradients: tuple[Gradient, ...]
 
 
 class PlanarLayers(NamedTuple):
-    """Parts that faces are composited of. The first arrays have a row for each path, in painting order."""
+    """Parts of which faces are composited. The first arrays have a row for each path, in painting order."""
 
     rules: NDArray[np.int64]
-    rgba: NDArray[np.float64]  # (paths, 4), premultiplied; of a gradient its mean
+    rgba: NDArray[np.float64]  # (paths, 4), premultiplied; the mean of a gradient
     opaque: NDArray[np.bool_]
-    covers: NDArray[np.bool_]  # whether a path hides all below it: opaque, in no group
-    hides: NDArray[np.bool_]  # whether it did: something below is not in the map
+    covers: NDArray[np.bool_]  # whether a path hides all paths below it, because it is opaque and in no group
+    hides: NDArray[np.bool_]  # whether it has hidden something, which the map lacks
     shade: NDArray[np.int64]  # first of each path's `bands`, or -1
-    cut: NDArray[np.int64]  # the row of the path whose gradient a row, which paints nothing, cuts into bands; else -1
+    cut: NDArray[np.int64]  # row of the path that a region cuts into bands, which itself paints nothing; -1 for a path
     keys: NDArray[np.int64]
     look: NDArray[np.int64]  # key of each path's element, in a map to be restyled, else 0
     group: NDArray[np.int64]  # innermost group of each path, or -1
-    outer: NDArray[np.int64]  # of each group: the group around it, or -1
-    depth: NDArray[np.int64]  # of each group: how many there are around it
+    outer: NDArray[np.int64]  # (groups,): the group around each group, or -1
+    depth: NDArray[np.int64]  # (groups,): number of groups around it
     opacity: NDArray[np.float64]
     blend: NDArray[np.int64]
     mask: NDArray[np.int64]
-    masked: NDArray[np.int64]  # of each group: how many masks it has
+    masked: NDArray[np.int64]  # (groups,): number of its masks
     bands: NDArray[np.int64]  # numbers of gradients
     shades: Shades
 
 
 def rows_of(drawing: Drawing, restyle: bool = False) -> Rows:
-    """The rows of a drawing; a map to be restyled has flat colours, and its rows are the drawing's paths."""
+    """Rows of a drawing; with `restyle` they are just its paths, because colours that can be changed are flat."""
     numbers: dict[Gradient, int] = {}
     at_all_stops = any(group.blend in JUMPING for group in drawing.groups)
     paths: list[Path] = []
@@ -81,7 +81,7 @@ def rows_of(drawing: Drawing, restyle: bool = False) -> Rows:
 
 
 def layers_of(rows: Rows, groups: tuple[Group, ...], looks: NDArray[np.int64] | None = None) -> PlanarLayers:
-    """The arrays of some rows; with `looks`, a key of each, faces are alike by these, not by their colours."""
+    """Make the arrays of rows; with `looks`, a key for each row, faces are compared by these keys, not by colours."""
     paints = [path.paint for path in rows.paths]
     rgba = np.array([(*paint.color, paint.opacity) for paint in paints]).reshape(-1, 4)
     group = np.array([path.group for path in rows.paths], np.int64)
@@ -100,7 +100,7 @@ def layers_of(rows: Rows, groups: tuple[Group, ...], looks: NDArray[np.int64] | 
 
 
 def solid_layers(rgba: NDArray[np.float64], group: NDArray[np.int64], groups: tuple[Group, ...]) -> PlanarLayers:
-    """The arrays of flat colours, (n, 4), not premultiplied, and the groups that they are in."""
+    """Make the arrays of flat colours, (n, 4), not premultiplied, in their groups."""
     zeros, false = np.zeros(len(rgba), np.int64), np.zeros(len(rgba), np.bool_)
     return PlanarLayers(
         zeros,
@@ -125,13 +125,13 @@ def solid_layers(rgba: NDArray[np.float64], group: NDArray[np.int64], groups: tu
 
 
 def looks_of(drawing: Drawing) -> NDArray[np.int64]:
-    """A key for each path, one for those of one element."""
+    """Key of each path's element."""
     elements, number = elements_of(drawing)
     return _keys(len(elements))[number]
 
 
 def _keys(count: int) -> NDArray[np.int64]:
-    """Numbers without pattern: SplitMix64 (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators")."""
+    """Pseudorandom numbers, by SplitMix64 (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators")."""
     z = np.arange(1, count + 1, dtype=np.uint64) * np.uint64(0x9E3779B97F4A7C15)
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)

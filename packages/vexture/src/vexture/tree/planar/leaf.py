@@ -1,8 +1,8 @@
 """The leaf of a planar map: a few monotone pieces, each between two faces of different paint.
 
-The base paint of a leaf and the ends on its left edge must agree with the faces there. An end on the left edge says
-that the paint changes at its height by what its piece has on its two sides. Going up, the changes must telescope, paint
-by paint, from each face on the edge to the next: sums of colours alone could agree by chance, and would no longer if a
+The base paint of a leaf and the ends on its left edge must agree with the faces there. At the height of an end on the
+left edge the paint changes by the difference of its piece's two sides. Going up, the changes must telescope, paint by
+paint, from each face on the edge to the next. Sums of colours could agree by chance, and would no longer agree after a
 paint is changed.
 """
 
@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.base.layout import LATTICE, MOST_CURVES
 from vexture.tree.boundary import MOST_RESOLVED
-from vexture.tree.divide import PiecePool
+from vexture.tree.bounds import Bounds
+from vexture.tree.divide import Cell, PiecePool
 from vexture.tree.leaf import DIVIDE, SPARE, round_controls
 from vexture.tree.merge import MOST_MERGED
-from vexture.tree.planar.borders import Borders, PlanarCell, find_borders, merge_borders, new_borders, set_left_edge
-from vexture.tree.planar.faces import FaceTable, face_of
-from vexture.tree.planar.layers import PlanarLayers
+from vexture.tree.planar.borders import Borders, find_borders, merge_borders, new_borders, set_left_edge
+from vexture.tree.planar.faces import CellFaces, paint_of
 from vexture.tree.planar.means import add_programs, set_crowded_mean, set_flat_mean
 from vexture.tree.planar.slabs import PlanarPieces, clean_borders, sweep
 from vexture.tree.separate import all_separate
@@ -27,7 +27,7 @@ from vexture.tree.separate import all_separate
 
 @kernel(allocates=False)
 def _tally(ids: NDArray[np.int64], sums: NDArray[np.int64], n: int, paint: int, by: int) -> int:
-    """Add to the sum of a paint; return how many paints there are."""
+    """Add to the sum of a paint; return the new number of paints."""
     for k in range(n):
         if ids[k] == paint:
             sums[k] += by
@@ -38,7 +38,7 @@ def _tally(ids: NDArray[np.int64], sums: NDArray[np.int64], n: int, paint: int, 
 
 @kernel(allocates=False)
 def _changes(pieces: PlanarPieces, count: int, y: float, ids: NDArray[np.int64], sums: NDArray[np.int64]) -> int:
-    """Tally the paints that ends on the left edge at a height add and take away; return how many there are."""
+    """Tally the paints that ends on the left edge at a height add and remove; return the number of paints."""
     n = 0
     for k in range(count):
         for end, event in ((0, 1), (3, -1)):
@@ -71,18 +71,18 @@ class Tally(NamedTuple):
 
     heights: NDArray[np.float64]  # (2 borders + 1,)
     ids: NDArray[np.int64]  # (4 pieces + 8,): paints
-    sums: NDArray[np.int64]  # (4 pieces + 8,): how much more often each begins than ends
+    sums: NDArray[np.int64]  # (4 pieces + 8,): how much more often each paint begins than ends
 
 
 @kernel
 def new_tally(borders: int, pieces: int) -> Tally:
-    """Arrays for cells of so many borders and pieces."""
+    """Arrays for cells of at most `borders` borders and `pieces` pieces."""
     return Tally(np.empty(2 * borders + 1), np.empty(4 * pieces + 8, np.int64), np.empty(4 * pieces + 8, np.int64))
 
 
 @kernel(allocates=False)
 def _find_heights(borders: Borders, count: int, out: NDArray[np.float64]) -> int:
-    """Write the heights of all ends on the left edge, from the lowest, each once; the first is 0. Return how many."""
+    """Write the distinct heights of ends on the left edge, after 0, in rising order; return how many."""
     n = 1
     out[0] = 0.0
     for i in range(count):
@@ -105,24 +105,21 @@ def _find_heights(borders: Borders, count: int, out: NDArray[np.float64]) -> int
 def settle_left_edge(
     borders: Borders,
     count: int,
-    ground: int,
-    present: NDArray[np.int64],
-    layers: PlanarLayers,
-    faces: FaceTable,
-    windings: NDArray[np.int64],
+    cell_faces: CellFaces,
     pieces: PlanarPieces,
     piece_count: int,
     tally: Tally,
 ) -> tuple[int, int]:
     """Make the ends on the left edge agree with the faces there; return the number of pieces and the base paint.
 
-    Where they do not telescope, they move off the edge, and one horizontal piece says it instead. The base is the paint
-    at the bottom left corner, before what starts or ends there.
+    Ends whose changes do not telescope move off the edge, and one horizontal piece makes the change instead. The base
+    is the paint at the bottom-left corner, before any start or end there.
     """
+    layers, present, windings = cell_faces.layers, cell_faces.present, cell_faces.windings
     heights, ids, sums = tally
     levels = _find_heights(borders, count, heights)
     key = set_left_edge(borders, count, layers, present, 0.0, windings)
-    below = faces.paint[face_of(faces, layers, ground, present, windings, key)]
+    below = paint_of(cell_faces, key)
     n = _tally(ids, sums, _changes(pieces, piece_count, 0.0, ids, sums), below, -1)
     base, single = below, True
     for k in range(n):
@@ -137,7 +134,7 @@ def settle_left_edge(
     for s in range(1, levels):
         y = heights[s]
         key = set_left_edge(borders, count, layers, present, y, windings)
-        above = faces.paint[face_of(faces, layers, ground, present, windings, key)]
+        above = paint_of(cell_faces, key)
         n = _tally(ids, sums, _changes(pieces, piece_count, y, ids, sums), above, -1)
         n = _tally(ids, sums, n, below, 1)
         if not _all_zero(sums, n):
@@ -152,20 +149,22 @@ def settle_left_edge(
 
 
 KNOT = LATTICE / 4.0
-"""Pieces that all have an end in a square this wide are one *knot*: dividing the leaf would follow it down many levels.
-They need not meet exactly: crossings are rounded, and maps have short borders between two junctions."""
+"""Width of a square, in lattice units. Pieces that all have an end in it are a *knot*, which many divisions of the leaf
+would not separate. They need not meet exactly: crossings are rounded, and maps have short borders between junctions."""
 
 MOST_PIECES = 250
-"""Pieces of a resolved cell at the depth limit that are kept to measure its mean."""
+"""Most pieces of a resolved cell at the depth limit that are kept to measure its mean."""
 
 
 class PlanarLeaf(NamedTuple):
     """Content of a cell that a leaf stores, besides its mean."""
 
     size: int  # number of pieces, or `DIVIDE`
-    base: int  # paint at the bottom left corner, before what starts or ends there
-    distance: float  # by which merging moved borders at most, in unit-square units
-    resolved: bool  # False if the cell, at the depth limit, holds more than a leaf can store: only its mean counts
+    base: int  # paint at the bottom-left corner, before any start or end there
+    distance: float  # the farthest that merging moved borders, in unit-square units
+    resolved: (
+        bool  # False if the cell, at the depth limit, holds more than a leaf can store, which then has only a mean
+    )
 
 
 class PlanarWorkspace(NamedTuple):
@@ -179,7 +178,7 @@ class PlanarWorkspace(NamedTuple):
 
 @kernel
 def new_workspace(paths: int, in_cell: int) -> PlanarWorkspace:
-    """Arrays for the cells of a drawing of so many paths, and of so many pieces in one cell."""
+    """Arrays for the cells of a drawing of `paths` paths, with at most `in_cell` pieces in one cell."""
     room = MOST_PIECES + 2 * MOST_RESOLVED
     return PlanarWorkspace(
         new_borders(MOST_RESOLVED + 1, in_cell),
@@ -209,24 +208,20 @@ def _is_knot(pieces: PlanarPieces, count: int) -> bool:
 @kernel(allocates=False)
 def planar_leaf(
     pool: PiecePool,
-    cell: PlanarCell,
-    ground: int,
-    present: NDArray[np.int64],
-    layers: PlanarLayers,
-    faces: FaceTable,
-    capacity: int,
-    tolerance: float,
+    cell: Cell,
+    cell_faces: CellFaces,
+    bounds: Bounds,
     at_limit: bool,
     workspace: PlanarWorkspace,
     mean: NDArray[np.float64],
 ) -> PlanarLeaf:
-    """Leaf of a cell above a face, `ground`; its pieces are left in the workspace, its mean colour in `mean` (4,).
+    """Make the leaf of a cell; write its pieces to the workspace and its mean colour to `mean`, (4,).
 
-    `capacity` is the number of pieces in a leaf; more are allowed only at the depth limit and in knots. `tolerance`
-    bounds the distance by which merging moves borders, in unit-square units; 0 merges nothing. With `at_limit` the cell
-    may not be divided.
+    A leaf holds more pieces than `bounds.capacity` only at the depth limit and in knots. Merging moves borders by at
+    most `bounds.tolerance`, and 0 merges nothing. With `at_limit` the cell may not be divided.
     """
-    borders, windings, out, distance = workspace.borders, workspace.windings, workspace.pieces, 0.0
+    borders, out, distance = workspace.borders, workspace.pieces, 0.0
+    capacity, tolerance, present = bounds.capacity, bounds.tolerance, cell_faces.present
     most = MOST_RESOLVED if at_limit else capacity + SPARE
     found = max(most, MOST_MERGED) if tolerance > 0.0 else most
     count = find_borders(pool, cell, present, found, borders)
@@ -235,18 +230,18 @@ def planar_leaf(
         distance *= cell.size / LATTICE
     made = -1
     if 0 <= count <= most and all_separate(borders.curves[:count]):
-        made = clean_borders(borders, count, ground, present, layers, faces, windings, out)
+        made = clean_borders(borders, count, cell_faces, out)
     if 0 <= count <= most and made < 0:
         stored = MOST_PIECES if at_limit else MOST_CURVES
-        made = sweep(borders, count, ground, present, layers, faces, windings, stored, out)
+        made = sweep(borders, count, cell_faces, stored, out)
     if made < 0:
         if at_limit:
-            set_crowded_mean(pool, cell, ground, present, layers, faces, windings, mean)
+            set_crowded_mean(pool, cell, cell_faces, mean)
         return PlanarLeaf(0 if at_limit else DIVIDE, 0, 0.0, False)
-    made, base = settle_left_edge(borders, count, ground, present, layers, faces, windings, out, made, workspace.tally)
+    made, base = settle_left_edge(borders, count, cell_faces, out, made, workspace.tally)
     round_controls(out.curves, made)
-    if set_flat_mean(out, made, base, faces, mean):
-        add_programs(out, made, base, cell, layers, faces, mean)
+    if set_flat_mean(out, made, base, cell_faces.faces, mean):
+        add_programs(out, made, base, cell, cell_faces.layers, cell_faces.faces, mean)
     if made > capacity and not (made <= MOST_CURVES and (at_limit or _is_knot(out, made))):
         return PlanarLeaf(0 if at_limit else DIVIDE, base, distance, False)
     return PlanarLeaf(made, base, distance, True)

@@ -9,7 +9,7 @@ from vexture.tree.planar.programs import Program
 
 
 def texels_of(quads: int, curves: int) -> int:
-    """Texels of so many quads, of three each, and curves, of five quarters; without the paints."""
+    """Texels of quads, at 3 each, and of curves, at 5/4 each, without the paints."""
     return 3 * quads + curves + curves // 4
 
 
@@ -23,7 +23,7 @@ class PlanarMap:
     """
 
     is_quad: NDArray[np.bool_]  # (quads, 4): whether a cell is divided
-    is_mean: NDArray[np.bool_]  # (quads, 4): leaves that hold more than can be stored, of which only the mean counts
+    is_mean: NDArray[np.bool_]  # (quads, 4): leaves of cells that hold more than can be stored, which have only a mean
     count: NDArray[np.uint8]  # (quads, 4): pieces in each leaf
     base: NDArray[np.int32]  # (quads, 4): base paint of each leaf; 0 elsewhere
     first_quad: NDArray[np.int32]  # (quads,): first of the quads below each quad; 0 without any
@@ -31,12 +31,12 @@ class PlanarMap:
     mean: NDArray[np.float64]  # (quads, 4, 4): exact mean colour of each cell, premultiplied
     curves: NDArray[np.int32]  # (curves, 4, 2), in lattice units of their leaf
     sides: NDArray[np.int32]  # (curves, 2): paint on the left and on the right of each
-    paints: NDArray[np.uint16]  # (paints, 4): premultiplied, in steps of 1/65535; paint 0 is nothing; 0 of programs
-    programs: dict[int, Program]  # of the paints that hold gradients, by their numbers
-    stacks: tuple[NDArray[np.int32], ...]  # of each paint: the paths inside where it was met first, from below
-    flattened: int  # paints of a colour whose gradients, or their blending, no program can hold: of their means
+    paints: NDArray[np.uint16]  # (paints, 4): premultiplied, in steps of 1/65535; 0 for paint 0, nothing, and programs
+    programs: dict[int, Program]  # programs of the paints that hold gradients, by the paints' numbers
+    stacks: tuple[NDArray[np.int32], ...]  # paths inside, from below, where each paint was met first
+    flattened: int  # paints that are mean colours, because no program can hold their gradients or the blending
     deviation: float  # largest distance between the drawing's outlines and the map's, before quantisation
-    hiding: frozenset[int] = frozenset()  # paths that hide something, which the map therefore does not have
+    hiding: frozenset[int] = frozenset()  # paths that hide something, which the map therefore lacks
 
     @property
     def coverage(self) -> NDArray[np.float64]:
@@ -45,10 +45,10 @@ class PlanarMap:
 
     @property
     def texels(self) -> int:
-        """Texels of a texture that it takes: about, as lists are rounded up."""
+        """Texels that the map takes in a texture, approximately, because lists are rounded up."""
         return texels_of(len(self.count), len(self.curves)) + len(self.paints) // 2
 
     @property
     def unresolved(self) -> int:
-        """Number of cells at the depth limit of which only the mean is known."""
+        """Number of cells at the depth limit that have only a mean."""
         return int(self.is_mean.sum())

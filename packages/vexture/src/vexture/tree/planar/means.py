@@ -1,4 +1,4 @@
-"""Mean colours of leaves: exact areas of faces, of exact colours, or for gradients their means over sample points."""
+"""Mean colours of leaves: exact areas of faces times their exact colours, or for gradients means over sample points."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,28 +8,28 @@ from vexture.base.layout import LATTICE
 from vexture.bezier.area import integral_x_dy
 from vexture.tree.boundary import sort_order
 from vexture.tree.crossings import x_at
-from vexture.tree.divide import PiecePool
-from vexture.tree.planar.borders import PlanarCell, key_of
+from vexture.tree.divide import Cell, PiecePool
+from vexture.tree.planar.borders import key_of
 from vexture.tree.planar.compose import colour_at
-from vexture.tree.planar.faces import FaceTable, face_of, operations_of, stack_of
+from vexture.tree.planar.faces import CellFaces, FaceTable, face_of, operations_of, stack_of
 from vexture.tree.planar.layers import PlanarLayers
 from vexture.tree.planar.slabs import PlanarPieces
 from vexture.tree.winding import inside
 
 SCANLINES = 64
-"""Heights at which a cell with too many pieces to resolve is measured."""
+"""Horizontal lines along which a cell with too many pieces to resolve is measured."""
 
 GOLDEN = 0.6180339887498949
-"""Points (k / n, frac(k GOLDEN)) are spread evenly, and no line of a hard stop meets many of them (Niederreiter,
-"Random Number Generation and Quasi-Monte Carlo Methods", 3)."""
+"""Golden ratio minus 1. Points (k / n, frac(k GOLDEN)) are spread evenly, and no line of a hard stop meets many of
+them (Niederreiter, "Random Number Generation and Quasi-Monte Carlo Methods", 3)."""
 
 MOST_POINTS, LEAST_POINTS = 1024, 32
-"""Points in a leaf of gradients: the most in the root's cells, a quarter of that two levels below, and so on."""
+"""Sample points in a leaf of gradients. Their number is proportional to the leaf's width, within these limits."""
 
 
 @kernel(allocates=False)
 def _area(curve: NDArray[np.float64]) -> float:
-    """By how much a piece counts its left face more, and its right one less, over its leaf; of the leaf's area."""
+    """Share of its leaf's area that a piece adds to its left face and takes from its right one."""
     area = (curve[0, 1] - curve[3, 1]) / LATTICE + integral_x_dy(curve) / LATTICE**2
     area += 1.0 - curve[0, 1] / LATTICE if curve[0, 0] == 0.0 else 0.0
     area -= 1.0 - curve[3, 1] / LATTICE if curve[3, 0] == 0.0 else 0.0
@@ -38,7 +38,7 @@ def _area(curve: NDArray[np.float64]) -> float:
 
 @kernel(allocates=False)
 def _counts(curve: NDArray[np.float64], x: float, y: float) -> int:
-    """The same at a point, in lattice units."""
+    """Times that a piece adds its left face and takes its right one at a point, in lattice units."""
     by = 1 if curve[0, 0] == 0.0 and curve[0, 1] <= y else 0
     by -= 1 if curve[3, 0] == 0.0 and curve[3, 1] <= y else 0
     if curve[0, 1] <= y < curve[3, 1] and min(curve[0, 0], curve[3, 0]) <= x:
@@ -64,7 +64,7 @@ def _add_colour(
 
 @kernel(allocates=False)
 def set_flat_mean(pieces: PlanarPieces, count: int, base: int, faces: FaceTable, mean: NDArray[np.float64]) -> bool:
-    """Write the mean colour of a leaf, without its programs; return whether it has any."""
+    """Write the mean colour of a leaf without its programs; return whether it has programs."""
     holds_program = faces.program[base] != 0
     for c in range(4):
         mean[c] = faces.rgba[base, c]
@@ -80,7 +80,7 @@ def set_flat_mean(pieces: PlanarPieces, count: int, base: int, faces: FaceTable,
 
 @kernel(allocates=False)
 def _hold(mean: NDArray[np.float64]) -> None:
-    """Bring a colour into 0..1."""
+    """Limit a colour to 0..1."""
     for c in range(4):
         mean[c] = min(max(mean[c], 0.0), 1.0)
 
@@ -90,12 +90,12 @@ def add_programs(
     pieces: PlanarPieces,
     count: int,
     base: int,
-    cell: PlanarCell,
+    cell: Cell,
     layers: PlanarLayers,
     faces: FaceTable,
     mean: NDArray[np.float64],
 ) -> None:
-    """Add the means of a leaf's programs: of each the mean over the points in it, times its exact area."""
+    """Add the colours of a leaf's programs to its mean: each program's mean over its sample points, times its area."""
     found, areas, n = np.full(2 * count + 1, -1), np.zeros(2 * count + 1), 0
     for k in range(2 * count + 1):
         side = k - 1
@@ -116,7 +116,7 @@ def add_programs(
         work, met = np.empty((operations + 1, 4)), 0
         total[:] = 0.0
         for k in range(points):
-            is_last_chance = k == points - 1 and met == 0  # a face between all points
+            is_last_chance = k == points - 1 and met == 0  # a face that holds no sample point
             if inside_of[k] == found[at] or is_last_chance:
                 x, y = cell.x + cell.size * (k + 0.5) / points, cell.y + cell.size * (k * GOLDEN % 1.0)
                 colour_at(layers, ops, operations, x, y, work, colour)
@@ -130,7 +130,7 @@ def add_programs(
 
 @kernel
 def _faces_at(pieces: PlanarPieces, count: int, base: int, points: int) -> NDArray[np.int64]:
-    """The face at each point of a leaf: as one is left of all that are counted, its number is their sum."""
+    """Face at each point of a leaf: the sum of face numbers, because all others cancel."""
     found = np.full(points, base)
     for k in range(points):
         x, y = (k + 0.5) / points * LATTICE, k * GOLDEN % 1.0 * LATTICE
@@ -140,17 +140,9 @@ def _faces_at(pieces: PlanarPieces, count: int, base: int, points: int) -> NDArr
 
 
 @kernel
-def set_crowded_mean(
-    pool: PiecePool,
-    cell: PlanarCell,
-    ground: int,
-    present: NDArray[np.int64],
-    layers: PlanarLayers,
-    faces: FaceTable,
-    windings: NDArray[np.int64],
-    mean: NDArray[np.float64],
-) -> None:
-    """Write the mean colour of a cell with too many pieces to resolve: that of `SCANLINES` lines."""
+def set_crowded_mean(pool: PiecePool, cell: Cell, cell_faces: CellFaces, mean: NDArray[np.float64]) -> None:
+    """Write the mean colour of a cell with too many pieces to resolve: the mean over `SCANLINES` lines."""
+    faces, layers, ground, present, windings = cell_faces
     n = cell.last - cell.first
     crossing_x, crossing, owner = np.empty(n), np.empty(n, np.int64), np.empty(n, np.int64)
     k = 0

@@ -1,8 +1,9 @@
-"""Large maps grow in parts, in several threads, as large trees do: each part has a table of its own of the faces in it.
+"""Growing large maps in parts, in several threads, as large trees grow. Each part has its own table of faces.
 
-The tables become one in the order of the parts, so that the map is the same, bit for bit, with any number of threads.
-That holds where faces of one paint have exactly one colour, as in maps to be restyled. Paints may be numbered in
-another order than in a map that grows in one piece: which faces are met first depends on when their table is full.
+The tables are joined in the order of the parts, so that the map is the same, bit for bit, with any number of threads.
+This holds only if faces of one paint have exactly one colour, as in maps to be restyled. Paints may be numbered in
+another order than in a map that grows as a whole, because the order in which faces are met depends on when their table
+is full.
 """
 
 from collections.abc import Callable, Generator, Sequence
@@ -19,21 +20,22 @@ from vexture.tree.planar.faces import FaceTable, add_faces, faces_with, new_face
 from vexture.tree.planar.growth import BASE, PlanarGrowth, State
 
 Step = Callable[[State, int], State]
-"""Grows a map for a while, down to cells whose lists are at most so long; raises an error at a limit."""
+"""Function that grows a map for a while, down to cells with lists of at most a given length. It raises an error at a
+limit."""
 
 
 class _Arrays:
-    """Arrays that serve one part after another, and how many faces were met before the part."""
+    """Arrays that one part after another uses, and the number of faces met before the part."""
 
     def __init__(self, whole: State) -> None:
         tree = new_part(whole.growth.tree)
         rows = np.zeros((len(tree.cells), 4, 4)), np.zeros((len(tree.curves), 2), np.int64)
         growth = PlanarGrowth(tree, np.zeros_like(whole.growth.ground), *rows)
-        layers = whole.layers._replace(hides=whole.layers.hides.copy())  # which several threads must not write
+        layers = whole.layers._replace(hides=whole.layers.hides.copy())  # which threads must not share
         self.state, self.met = State(growth, layers, whole.faces), 0
 
     def set_aside(self, whole: State) -> int:
-        """Move the cell on top of the stack of a map to here; return the number of its quad."""
+        """Move the cell on top of a map's stack to these arrays; return the number of its quad."""
         growth, layers, _ = self.state
         tree = whole.growth.tree
         top = tree.stack[tree.counts[WAITING] - 1]
@@ -52,11 +54,11 @@ class _MapPart(NamedTuple):
     mean: NDArray[np.float64]
     sides: NDArray[np.int64]
     faces: FaceTable
-    met: int  # faces that the map above had met before it
+    met: int  # faces that the map had met when the part was set aside
 
 
 def _grown(arrays: _Arrays, quad: int, step: Step, stopped: Event) -> tuple[_MapPart, _Arrays]:
-    """Grow a part; also returns its arrays, for another one."""
+    """Grow a part; return it and its arrays, which the next part can use."""
     while arrays.state.growth.tree.counts[WAITING] > 0 and not stopped.is_set():
         arrays.state = step(arrays.state, 0)
     growth, _, faces = arrays.state
@@ -75,9 +77,9 @@ def _grown(arrays: _Arrays, quad: int, step: Step, stopped: Event) -> tuple[_Map
 
 
 def grow_map_parts(state: State, step: Step, threads: int, check: Callable[[int, int], bool]) -> State | None:
-    """The map when it has grown, part by part; its curves are whole numbers then.
+    """Grow a map in parts; return it with integer curves, or None if `check` returns False.
 
-    `check` is called with the numbers of quads and curves so far, and may raise an error; None if it returns False.
+    `check` is called with the numbers of quads and curves so far, and may raise an error.
     """
     every: list[_Arrays] = []
 
@@ -113,7 +115,7 @@ def grow_map_parts(state: State, step: Step, threads: int, check: Callable[[int,
 
 
 def _join_parts(state: State, parts: Sequence[_MapPart], step: Step) -> State:
-    """The cells at the top and those of the parts, and all curves, by the numbers of faces of one table."""
+    """Join the cells at the top and those of the parts, and all curves, with faces numbered by one table."""
     (tree, ground, mean, sides), layers, _ = state
     quads, curves = int(tree.counts[QUADS]), int(tree.counts[CURVES])
     tree.cells[[part.cells.quad for part in parts]] = 0.0
@@ -128,19 +130,21 @@ def _join_parts(state: State, parts: Sequence[_MapPart], step: Step) -> State:
         beside.append(own[part.sides])
     tree, outlines = joined_cells(tree, [part.cells for part in parts])
     growth = PlanarGrowth(tree, ground, np.concatenate(means), np.concatenate(beside))
-    growth, _, _ = step(State(growth, layers, faces), 0)  # a step without a cell: it takes means above the parts
+    growth, _, _ = step(
+        State(growth, layers, faces), 0
+    )  # a step without a cell, which computes the means above the parts
     return State(growth._replace(tree=growth.tree._replace(curves=outlines)), layers, faces)
 
 
 def _renumber(cells: NDArray[np.float64], paints: NDArray[np.int64]) -> None:
-    """Give cells other numbers of their base paints."""
+    """Replace the numbers of cells' base paints."""
     cells[:, :, BASE] = paints[cells[:, :, BASE].astype(np.int64)]
 
 
 def _one_table(
     top: FaceTable, parts: Sequence[_MapPart]
 ) -> tuple[FaceTable, NDArray[np.int64], list[NDArray[np.int64]]]:
-    """A table of all faces in the order of the parts, and the paints there of the faces of each table."""
+    """Join the tables of faces in the order of the parts; also return the paint of each old table's faces."""
     tables = [top, *(part.faces for part in parts)]
     counts = [int(table.counts[0]) for table in tables]
     paths = sum(int(table.starts[count]) for table, count in zip(tables, counts, strict=True))

@@ -1,4 +1,4 @@
-"""Programs: the paints of faces in which gradients are seen."""
+"""Programs: the paints of faces with visible gradients."""
 
 from collections.abc import Sequence
 from typing import NamedTuple, TypeAlias
@@ -15,24 +15,24 @@ from vexture.tree.planar.layers import PlanarLayers
 
 
 class Solid(NamedTuple):
-    """Paint a colour on what is there."""
+    """Paint a colour over the colour so far."""
 
     rgba: tuple[int, int, int, int]  # premultiplied, in steps of 1/65535
 
 
 class Keep(NamedTuple):
-    """Begin a group: keep what is there, and start from nothing."""
+    """Begin a group: set the colour so far aside, and start from nothing."""
 
 
 class Mix(NamedTuple):
-    """End a group: composite it on what was kept, or let it mask that."""
+    """End a group: composite it on the colour that was set aside, or mask that colour by it."""
 
     opacity: int  # in steps of 1/65535
     how: Blend | Mask
 
 
 Operation: TypeAlias = Solid | Gradient | Keep | Mix
-"""What a program does, one after another; a gradient is painted on what is there."""
+"""A step of a program; a gradient is painted over the colour so far."""
 
 Program: TypeAlias = tuple[Operation, ...]
 
@@ -40,7 +40,7 @@ Program: TypeAlias = tuple[Operation, ...]
 def programs_of(
     gradients: Sequence[Gradient], layers: PlanarLayers, stacks: Sequence[NDArray[np.int32]]
 ) -> tuple[dict[int, Program], int]:
-    """The programs of the stacks that need one, by their places; and of how many no paint can hold the gradients."""
+    """Programs of the stacks that need one, by their places, and the number of stacks that had to be flattened."""
     programs: dict[int, Program] = {}
     flattened = 0
     for place, stack in enumerate(stacks if gradients else ()):
@@ -63,10 +63,10 @@ def _operation(ops: Operations, k: int, gradients: Sequence[Gradient]) -> Operat
 
 
 def ending_of(number: int) -> Blend | Mask:
-    """Return the blend or mask that ends a group, by its number in a program."""
+    """Blend or mask that ends a group, by its number in a program."""
     return Blend(number) if number < MASKS else Mask(number - MASKS)
 
 
 def number_of_ending(ending: Blend | Mask) -> int:
-    """Number in a program of how a group ends."""
+    """Number of a blend or mask in a program."""
     return MASKS + ending if isinstance(ending, Mask) else int(ending)

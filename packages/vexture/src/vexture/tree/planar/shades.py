@@ -13,20 +13,20 @@ REFLECT, REPEAT = int(Spread.REFLECT), int(Spread.REPEAT)
 
 
 class Shades(NamedTuple):
-    """Gradients: two arrays, as each one more costs every call of a kernel."""
+    """Gradients in two arrays only, because each array slows every call of a kernel."""
 
-    rows: NDArray[np.float64]  # (n, 11): both rows of the map to the ramp; `FOCUS` and on
+    rows: NDArray[np.float64]  # (n, 11): both rows of the map to the ramp; the columns from `FOCUS` on
     stops: NDArray[np.float64]  # (stops, 5): colours, not premultiplied, and `OFFSET`
 
 
 FOCUS, SPREAD, FIRST, COUNT = 6, 8, 9, 10
-"""Columns of a gradient: focal point and radius, -1 of linear ones; spread; its first stop, and how many it has."""
+"""Columns of a gradient: focal point and radius, -1 if it is linear; spread; first stop; number of stops."""
 
 OFFSET = 4
 
 
 def shades_of(gradients: Sequence[Gradient]) -> Shades:
-    """The arrays of some gradients."""
+    """Make the arrays of gradients."""
     rows: list[list[float]] = []
     stops: list[tuple[float, ...]] = []
     for one in gradients:
@@ -38,9 +38,9 @@ def shades_of(gradients: Sequence[Gradient]) -> Shades:
 
 @kernel(allocates=False)
 def _ramp_place(focus: float, radius: float, x: float, y: float) -> float:
-    """The greatest t whose circle goes through a point and has a radius; NaN if there is none.
+    """Greatest t whose circle goes through a point and has a radius of at least 0; NaN if there is none.
 
-    With q from the focal point to the point: |q - t c|^2 = (fr + t dr)^2, of c = (-fx, 0) and dr = 1 - fr.
+    With q from the focal point to the point: |q - t c|^2 = (fr + t dr)^2, where c = (-fx, 0) and dr = 1 - fr.
     """
     q, grows = x - focus, 1.0 - radius
     a = focus * focus - grows * grows
@@ -49,7 +49,7 @@ def _ramp_place(focus: float, radius: float, x: float, y: float) -> float:
     inside = b * b - a * c
     if inside < 0.0:
         return np.nan
-    far = b + np.copysign(np.sqrt(inside), b)  # the roots are far / a and c / far: neither is a small difference
+    far = b + np.copysign(np.sqrt(inside), b)  # the roots are far / a and c / far, without cancellation
     first = far / a if a != 0.0 else -np.inf
     second = c / far if far != 0.0 else -np.inf
     for t in (max(first, second), min(first, second)):
@@ -60,7 +60,7 @@ def _ramp_place(focus: float, radius: float, x: float, y: float) -> float:
 
 @kernel(allocates=False)
 def _spread(spread: int, t: float) -> float:
-    """The place on the ramp itself; a padded one goes on in the colours of its first stop and its last."""
+    """Place on the ramp from 0 to 1; unchanged if padded, because the first and last colours continue."""
     if spread == REPEAT:
         return t - np.floor(t)
     if spread == REFLECT:
@@ -70,7 +70,7 @@ def _spread(spread: int, t: float) -> float:
 
 @kernel(allocates=False)
 def flat_shade(shades: Shades, number: int, out: NDArray[np.float64]) -> bool:
-    """Write the premultiplied colour (4,) of a gradient that has one stop, and return True, if it is one everywhere."""
+    """Write the premultiplied colour (4,) of a gradient and return True, if it has one colour everywhere."""
     row = shades.rows[number]
     if row[COUNT] != 1.0 or row[FOCUS] + row[FOCUS + 1] >= 1.0:
         return False

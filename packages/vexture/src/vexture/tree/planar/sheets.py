@@ -1,8 +1,8 @@
-"""Cutting a drawing of many layers into sheets, each a planar map, that are drawn one over the other.
+"""Cutting a drawing of many layers into sheets, each a planar map, which are drawn over one another.
 
 The texels of a planar map grow with the square of the number of outlines that cross or run beside one another: 800
-concentric translucent discs need a million, where their layers need ten thousand. So a map has a budget. A drawing that
-exceeds it is cut into sheets of consecutive layers, as many to a sheet as their share of the budget allows.
+concentric translucent discs need a million, while their layers need ten thousand. So a map has a budget. A drawing that
+exceeds it is cut into sheets of consecutive layers. A sheet has as many layers as their share of the budget allows.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,33 +23,34 @@ from vexture.tree.tree import Tree
 FLATTENED: Final = (
     f"gradients by their mean colours: too many on one another, or in more than {MOST_KEPT} groups in one another"
 )
-"""Message about faces of planar maps."""
+"""Note about flattened faces of planar maps."""
 
 SEVERAL: Final = "so many crossing shapes are {} maps on one another; what is below shows through where they touch"
-"""Message about sheets."""
+"""Note about several sheets."""
 
 LEAST_BUDGET: Final = 1 << 17
-"""Texels that any drawing may have: two megabytes. A coat of arms in a flag needs one, and is exact only as a whole."""
+"""Texels that any drawing may have, two megabytes. A coat of arms in a flag needs one megabyte, and is exact only as
+one sheet."""
 
 BUDGET: Final = 2
-"""Texels of all sheets for each cubic and path: about twice those of the drawing's layers."""
+"""Texels of all sheets for each cubic and path, about twice as many as the drawing's layers need."""
 
 SPARED: Final = 8
-"""Part of a sheet's texels that it may do without: to find how many layers just fit takes as long again."""
+"""A sheet may leave 1/8 of its texels unused, because finding the most layers that fit would take twice as long."""
 
 STEPS: Final = 4
-"""Numbers of layers that are tried between one and its double."""
+"""Numbers of layers that are tried between one number and its double."""
 
 
 class Sheet(NamedTuple):
-    """Consecutive paths of a drawing, and their map; or one layer of it, and its tree."""
+    """Consecutive paths of a drawing and their map, or one layer and its tree."""
 
     drawing: Drawing
     tree: PlanarMap | Tree
 
     @property
     def paint(self) -> Paint | None:
-        """Paint of a layer."""
+        """Paint of a layer; None for a map."""
         return self.drawing.paths[0].paint if isinstance(self.tree, Tree) else None
 
     def with_name(self, name: str, number: int) -> "Sheet":
@@ -59,11 +60,11 @@ class Sheet(NamedTuple):
 
 
 def sheets_of(drawing: Drawing, restyle: bool = False, **parameters: Unpack[TreeParameters]) -> list[Sheet]:
-    """The sheets of a drawing, the lowest first: one, unless its map needs too many texels.
+    """Sheets of a drawing, the lowest first: one, unless its map needs too many texels.
 
     A drawing that is one layer of one colour needs no map, unless it is to be restyled. `parameters` and errors are
-    those of `build_map`. A `precision` cuts no drawing: its texels, like those of layers, grow with the length of
-    outlines, not with their crossings.
+    those of `build_map`. A `precision` does not affect the cutting: the texels that it adds grow with the length of
+    outlines, as those of layers do, not with their crossings.
     """
     precision = parameters.pop("precision", None)
     sheets = _within_budget(drawing, restyle, **parameters)
@@ -83,7 +84,7 @@ def _rebuild_sheet(sheet: Sheet, restyle: bool, **parameters: Unpack[TreeParamet
 
 
 def _within_budget(drawing: Drawing, restyle: bool, **parameters: Unpack[TreeParameters]) -> list[Sheet]:
-    """The sheets of a drawing, each within its share of the budget."""
+    """Sheets of a drawing, each within its share of the budget."""
     layers = () if restyle or drawing.is_coloured else drawing.layers()
     if len(layers) == 1:
         return [Sheet(layers[0], build_tree(layers[0], **parameters))]
@@ -112,7 +113,7 @@ def _is_flat(paths: Sequence[Path]) -> bool:
 
 
 def notes_of_sheets(sheets: Sequence[Sheet]) -> tuple[Note, ...]:
-    """Notes of the faces that have the means of gradients instead of these, and of several sheets."""
+    """Notes about faces with mean colours instead of gradients, and about several sheets."""
     count = sum(sheet.tree.flattened for sheet in sheets if isinstance(sheet.tree, PlanarMap))
     notes = [Note("simplified", FLATTENED, count)] if count else []
     if len(sheets) > 1:
@@ -121,11 +122,12 @@ def notes_of_sheets(sheets: Sequence[Sheet]) -> tuple[Note, ...]:
 
 
 def _greedy(count: int, share: float, tried: Callable[[int, int], Sheet | None]) -> list[Sheet]:
-    """Sheets of so many items, each of about as many as fit.
+    """Sheets of `count` items, each with about as many items as fit.
 
-    A sheet fills its share but for an eighth, or does not hold one step of items more. `tried` makes a sheet of the
-    items first..last-1, or none if they need too many texels; of one it always does. `share` are the texels of one
-    item. The search begins at the number of items in the sheet below, and goes in steps that double, then halve.
+    A sheet fills at least 7/8 of its share, or has no room for one more step of items. `tried` makes a sheet of the
+    items first..last-1, or returns None if they need too many texels; it always makes a sheet of a single item. `share`
+    is the number of texels for one item. The search begins at the number of items in the sheet below, with steps that
+    double until they pass the goal, and then halve.
     """
     sheets: list[Sheet] = []
     first = below = 0
@@ -168,7 +170,7 @@ def _sizes(most: int) -> list[int]:
 
 
 def _items(drawing: Drawing) -> list[list[Path]]:
-    """The paths of a drawing in runs that cannot be cut: those of an outermost group, with all that it blends with."""
+    """Paths of a drawing in runs that cannot be cut: an outermost group, and all paths below if it blends with them."""
     items: list[list[Path]] = []
     before = -1
     for path in drawing.paths:
@@ -185,5 +187,5 @@ def _items(drawing: Drawing) -> list[list[Path]]:
 
 
 def _part(drawing: Drawing, items: Sequence[list[Path]], count: int) -> Drawing:
-    """A drawing of some of the items."""
+    """Drawing of some of its items; the drawing itself if they are all."""
     return replace(drawing, paths=tuple(path for item in items for path in item)) if len(items) < count else drawing

@@ -1,7 +1,7 @@
 """The pieces of a leaf between faces of different paints.
 
-Where borders touch only at their ends, the faces on both sides of each follow by counting windings along a horizontal
-line through its middle. All other cells are cut into slabs, in which nothing crosses, and each is swept from the left.
+If borders touch only at their ends, counting windings along a horizontal line through the middle of a border gives the
+faces on both its sides. All other cells are cut into slabs in which nothing crosses, and each is swept from the left.
 """
 
 from typing import NamedTuple
@@ -15,8 +15,7 @@ from vexture.tree.boundary import coincide, order_slab, slab_heights
 from vexture.tree.crossings import x_at
 from vexture.tree.leaf import keep_run
 from vexture.tree.planar.borders import Borders, cross, set_left_edge
-from vexture.tree.planar.faces import FaceTable, face_of
-from vexture.tree.planar.layers import PlanarLayers
+from vexture.tree.planar.faces import CellFaces, paint_of
 
 
 class PlanarPieces(NamedTuple):
@@ -45,9 +44,9 @@ def along_edge(curve: NDArray[np.float64]) -> bool:
 
 @kernel(allocates=False)
 def beside(curve: NDArray[np.float64], other: NDArray[np.float64], y: float) -> int:
-    """1 if a border that does not cross another one is left of it at a height within both, -1 if right; 0 if unclear.
+    """Side of `curve` at a height within both borders: 1 if `other` is left of it, -1 if right, 0 if unclear.
 
-    Most lie on different sides of a line along the first one's chord, all control points of each.
+    The two do not cross. The control points of most pairs are separated by a line along the chord of `curve`.
     """
     if max(other[0, 0], other[3, 0]) <= min(curve[0, 0], curve[3, 0]):
         return 1
@@ -67,17 +66,9 @@ def beside(curve: NDArray[np.float64], other: NDArray[np.float64], y: float) -> 
 
 
 @kernel(allocates=False)
-def clean_borders(
-    borders: Borders,
-    count: int,
-    ground: int,
-    present: NDArray[np.int64],
-    layers: PlanarLayers,
-    faces: FaceTable,
-    windings: NDArray[np.int64],
-    out: PlanarPieces,
-) -> int:
+def clean_borders(borders: Borders, count: int, cell_faces: CellFaces, out: PlanarPieces) -> int:
     """Write the pieces of borders that touch only at their ends; return how many, or -1 if their order is not clear."""
+    layers, present, windings = cell_faces.layers, cell_faces.present, cell_faces.windings
     pieces = 0
     for i in range(count):
         curve = borders.curves[i]
@@ -95,16 +86,16 @@ def clean_borders(
                 return -1
             if side > 0:
                 key = cross(borders, j, -1 if d > a else 1, layers, present, windings, key)
-        before = faces.paint[face_of(faces, layers, ground, present, windings, key)]
+        before = paint_of(cell_faces, key)
         key = cross(borders, i, -1 if curve[3, 1] > curve[0, 1] else 1, layers, present, windings, key)
-        after = faces.paint[face_of(faces, layers, ground, present, windings, key)]
+        after = paint_of(cell_faces, key)
         if before != after:
             pieces = _add(out, pieces, curve, before, after)
     return pieces
 
 
 class Roles(NamedTuple):
-    """Of each border: the paints beside it in this slab and in the one below, -1 without any, and since when."""
+    """Paints beside each border in this slab and in the slab below, -1 without any, and the height they start at."""
 
     now: NDArray[np.int64]  # (borders, 2)
     before: NDArray[np.int64]  # (borders, 2)
@@ -118,20 +109,18 @@ def _roles_in_slab(
     spanning: int,
     x: NDArray[np.float64],
     height: float,
-    ground: int,
-    present: NDArray[np.int64],
-    layers: PlanarLayers,
-    faces: FaceTable,
-    windings: NDArray[np.int64],
+    cell_faces: CellFaces,
     key: int,
     roles: Roles,
 ) -> None:
-    """Sweep a slab from its left edge, where `windings` and `key` are.
+    """Sweep a slab from its left edge, where the cell's windings and `key` are given; set the roles of its borders.
 
-    Neighbours that coincide form a group. If it has one paint on both sides, all its borders are dropped. Otherwise one
-    stays: preferably one that had that role in the slab below, else the one that reaches highest.
+    Neighbours that coincide form a group. If a group has one paint on both sides, all its borders are dropped.
+    Otherwise one border stays: preferably one that had the same role in the slab below, else the one that reaches
+    highest.
     """
-    before = faces.paint[face_of(faces, layers, ground, present, windings, key)]
+    layers, present, windings = cell_faces.layers, cell_faces.present, cell_faces.windings
+    before = paint_of(cell_faces, key)
     first = 0
     while first < spanning:
         last = first
@@ -141,7 +130,7 @@ def _roles_in_slab(
                 up = curve[3, 1] > curve[0, 1]
                 key = cross(borders, active[last], -1 if up else 1, layers, present, windings, key)
             last += 1
-        after = faces.paint[face_of(faces, layers, ground, present, windings, key)]
+        after = paint_of(cell_faces, key)
         if before != after:
             best, best_reach = -1, -1.0
             for m in range(first, last):
@@ -158,18 +147,9 @@ def _roles_in_slab(
 
 
 @kernel
-def sweep(
-    borders: Borders,
-    count: int,
-    ground: int,
-    present: NDArray[np.int64],
-    layers: PlanarLayers,
-    faces: FaceTable,
-    windings: NDArray[np.int64],
-    most: int,
-    out: PlanarPieces,
-) -> int:
+def sweep(borders: Borders, count: int, cell_faces: CellFaces, most: int, out: PlanarPieces) -> int:
     """Write the pieces of borders that cross or coincide in part, slab by slab; return how many, or -1 above `most`."""
+    layers, present, windings = cell_faces.layers, cell_faces.present, cell_faces.windings
     curves = borders.curves[:count]
     heights = slab_heights(curves)
     roles = Roles(np.full((count, 2), -1), np.full((count, 2), -1), np.zeros(count))
@@ -183,9 +163,7 @@ def sweep(
             high = heights[slab + 1]
             spanning = order_slab(curves, low, high, active, x)
             key = set_left_edge(borders, count, layers, present, low, windings)
-            _roles_in_slab(
-                borders, active, spanning, x, high - low, ground, present, layers, faces, windings, key, roles
-            )
+            _roles_in_slab(borders, active, spanning, x, high - low, cell_faces, key, roles)
         for i in range(count):
             left, right = roles.before[i, 0], roles.before[i, 1]
             if roles.now[i, 0] == left and roles.now[i, 1] == right:

@@ -1,4 +1,4 @@
-"""Restyling data of a planar map: the elements of its drawing, and those that each paint is composited of."""
+"""Restyling data of a planar map: the elements of its drawing, and the elements of which each paint is composited."""
 
 from dataclasses import dataclass, replace
 from itertools import chain, pairwise
@@ -14,19 +14,19 @@ from vexture.drawing.group import Group, groups_around
 from vexture.drawing.paint import Paint
 
 DIGITS: Final = 6
-"""Decimals of an element's colour and opacity: finer than the steps of 1/65535 in which paints are stored."""
+"""Decimals of an element's colour and opacity, finer than the steps of 1/65535 in which paints are stored."""
 
 MOST_NESTED: Final = 100
-"""Groups around one another: a file of very deep ones would take long to read."""
+"""Most groups nested in one another. A file with deeper nesting would take long to read."""
 
 SHADED: Final = "gradient, of its mean colour, as colours that can be changed are flat"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlanarStyle:
-    """The n elements of a planar map, in painting order, and what its p paints are made of.
+    """The n elements of a planar map, in painting order, and the elements that make up each of its p paints.
 
-    An element is the paths that have one name, one paint and one group: they get a new colour together.
+    An element is all paths of one name, one paint and one group. They get a new colour together.
 
     Parameters
     ----------
@@ -37,12 +37,12 @@ class PlanarStyle:
     group : (n,) int64 array
         The innermost group around each, as a place in `groups`; -1 if there is none.
     hides : (n,) bool array
-        Whether something below is not in the map, as nothing is seen through an opaque colour.
+        Whether the map lacks something below, because the element's opaque colour hides it.
     groups : tuple of Group
         As in `Drawing.groups`.
     starts : (p + 1,) int64 array
     members : int32 array
-        Paint j is made of the elements `members[starts[j] : starts[j + 1]]`, from below; some may be there repeatedly.
+        Paint j is made of the elements `members[starts[j] : starts[j + 1]]`, from below; an element may be repeated.
     """
 
     names: tuple[str, ...]
@@ -55,7 +55,7 @@ class PlanarStyle:
 
     @property
     def top(self) -> NDArray[np.int64]:
-        """The topmost element that is seen in each paint, (p,); -1 without any."""
+        """The topmost visible element of each paint, (p,); -1 without any."""
         some = np.diff(self.starts) > 0
         top = np.full(len(some), -1)
         top[some] = self.members[self.starts[1:][some] - 1]
@@ -66,7 +66,7 @@ class PlanarStyle:
         return top
 
     def _visible_elements(self, stack: list[int]) -> list[int]:
-        """Return the elements of a stack that are no masks and are not hidden by an empty mask."""
+        """Return the elements of a stack that are not in masks and are not hidden by an empty mask."""
         around = {element: groups_around(self.groups, int(self.group[element])) for element in set(stack)}
         open_groups = {group for found in around.values() for group in found}
         hidden = {g.outer for place, g in enumerate(self.groups) if g.mask and place not in open_groups}
@@ -76,7 +76,7 @@ class PlanarStyle:
     def check_groups(self) -> None:
         """Raise a `LimitError` if groups are nested too deeply.
 
-        Raise a `SourceError` if they are not nested, or the elements of one do not follow one another.
+        Raise a `SourceError` if they are not nested properly, or if a group's elements are not consecutive.
         """
         depth: list[int] = []
         for group in self.groups:
@@ -93,7 +93,7 @@ def round_colours(rgba: Any) -> NDArray[np.float64]:
 
 
 def restylable(drawing: Drawing) -> Drawing:
-    """The drawing with flat colours; a note says how many gradients had their means."""
+    """Replace gradients by their mean colours; a note gives their number."""
     shaded = sum(path.paint.gradient is not None for path in drawing.paths)
     if not shaded:
         return drawing
@@ -102,9 +102,11 @@ def restylable(drawing: Drawing) -> Drawing:
 
 
 def elements_of(drawing: Drawing) -> tuple[list[Path], NDArray[np.int64]]:
-    """The first path of each element of a drawing, in order, and the number of each path's element."""
+    """First path of each element of a drawing, in order, and the number of each path's element."""
     paints: dict[Paint, int] = {}
-    known: dict[int, int] = {}  # by identity: most paths share their paints, whose hashes take longer than the rest
+    known: dict[
+        int, int
+    ] = {}  # by identity: most paths share their paints, and hashing a paint takes longer than the rest
     places: dict[tuple[str, int, int], int] = {}
     first: list[Path] = []
     numbers: list[int] = []
@@ -120,7 +122,7 @@ def elements_of(drawing: Drawing) -> tuple[list[Path], NDArray[np.int64]]:
 
 
 def style_of(drawing: Drawing, planar: Any) -> PlanarStyle:
-    """The style of a drawing's `PlanarMap`, which was built to be restyled."""
+    """Style of a drawing's `PlanarMap` that was built to be restyled."""
     first, number = elements_of(drawing)
     hides = np.zeros(len(first), np.bool_)
     hides[number[list(planar.hiding)]] = True
