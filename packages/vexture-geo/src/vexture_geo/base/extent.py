@@ -101,8 +101,8 @@ class Step:
     drawing : Drawing
         The area under water, in the frame; without paths if all is dry. Its notes are those of the file.
     time : datetime or None
-        As the file gives it (in UTC where it names no time zone).
-    Time in the file (in UTC if it names no time zone).
+        Time in the file (in UTC if it names no time zone).
+    depth : (rows, columns) float32 array or None
         Depth in metres over the frame, the northernmost row first; NaN where unknown. None if the source has no depths,
         or only classes of them.
     deeper : tuple of Drawing
@@ -129,8 +129,8 @@ class Extent:
     Parameters
     ----------
     frame : Frame
-        Rectangle of the world that all steps are read into.
-    Rectangle of the world into which all steps are read.
+        Rectangle of the world into which all steps are read.
+    steps : tuple of Step
         In order of time; one for a file without times.
     bed : (rows, columns) float32 array or None
         Height of the bed in metres over the frame, the northernmost row first; None if the source has none.
