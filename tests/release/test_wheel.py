@@ -366,7 +366,7 @@ def test_geographic_data_that_need_an_extra_name_it_in_one_line(
     ("file", "content", "command", "remedy"),
     [
         ("lake.geojson", LAKE.encode(), ["convert"], "pip install 'vexture[geo]'"),
-        ("wet.gpkg", b"SQLite format 3\0" + bytes(52) + b"GPKG", ["convert"], "'vexture[gis]' for all formats"),
+        ("wet.gpkg", b"SQLite format 3\0" + bytes(52) + b"GPKG", ["convert"], "pip install 'vexture[gis]'"),
         ("triangle.svg", DRAWING.encode(), ["view"], "'vexture[server]'"),
         ("disc.png", picture, ["convert"], "'vexture[trace]'"),
     ],
@@ -395,7 +395,6 @@ def test_a_public_name_of_geographic_data_says_what_to_install(vexture: Installe
 def test_a_command_of_geographic_data_says_what_to_install(vexture: Installed, command: str) -> None:
     outcome = vexture.run(command)
     assert outcome.returncode == 2
-    extra = "geo" if command == "flood" else "map"
-    assert outcome.stderr.endswith(f"the package vexture-geo adds it: pip install 'vexture[{extra}]'\n")
+    assert outcome.stderr.endswith(f"adds it: pip install 'vexture[{'geo' if command == 'flood' else 'map'}]'\n")
     listed = vexture.run("--help").stdout.split("Commands:\n")[1].splitlines()
     assert command not in {line.split()[0] for line in listed}

@@ -160,7 +160,7 @@ def made_atlas(
             notes.left_out(f"{describe_character(character)}, which {face.family} lacks")
         if not found:
             number = format_count(len(required) + len(ranged), "character")
-            raise SourceError(f"{face.family} has none of what is unique for ({number}); give others as `characters`")
+            raise SourceError(f"{face.family} has none of what is asked for ({number}); give others as `characters`")
         glyphs = {character: shape(of, character, features=PLAIN)[0] for character, of in found.items()}
         box = missing_glyph(face)
         shapes = drawn(glyphs | {NOTDEF: box}, notes)
