@@ -1,0 +1,188 @@
+"""Outlines of strokes, against the distance from the path for round strokes, and against closed formulas."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from vexture.bezier.convert import ellipse_cubics, line_cubics
+from vexture.bezier.joins import BEVEL, BUTT, MITER, MITER_CLIP, ROUND_CAP, ROUND_JOIN, SQUARE, StrokeStyle
+from vexture.bezier.stroke import stroke_path
+
+TOLERANCE = 1e-3
+T = np.linspace(0.0, 1.0, 200, endpoint=False)[:, None]
+
+
+def style(width, cap=BUTT, join=MITER, limit=4.0):
+    return StrokeStyle(width / 2, cap, join, limit, TOLERANCE, TOLERANCE / 16)
+
+
+def lines(*points):
+    points = np.array(points, np.float64)
+    return line_cubics(points[:-1], points[1:])
+
+
+def stroke(cubics, closed, kind):
+    found = [contour for contour in stroke_path(cubics, closed, kind) if len(contour)]
+    for contour in found:
+        assert (contour[:, 3] == np.roll(contour[:, 0], -1, axis=0)).all()
+    return found
+
+
+def points_on(cubics):
+    s = 1.0 - T
+    p0, p1, p2, p3 = np.moveaxis(cubics[:, None], 2, 0)
+    return (s**3 * p0 + 3 * s * s * T * p1 + 3 * s * T * T * p2 + T**3 * p3).reshape(-1, 2)
+
+
+def area(contours):
+    total = 0.0
+    for contour in contours:
+        x, y = points_on(contour).T
+        total += float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2)
+    return total
+
+
+def windings(contours, places):
+    total = np.zeros(len(places), np.int64)
+    for contour in contours:
+        polygon = points_on(contour)
+        a = polygon - places[:, None]
+        b = np.roll(polygon, -1, axis=0) - places[:, None]
+        left = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+        total += ((a[..., 1] <= 0) & (b[..., 1] > 0) & (left > 0)).sum(axis=1)
+        total -= ((a[..., 1] > 0) & (b[..., 1] <= 0) & (left < 0)).sum(axis=1)
+    return total
+
+
+def distances(path, places):
+    """Distance from each place to a polyline."""
+    start, step = path[:-1], np.diff(path, axis=0)
+    square = np.maximum((step * step).sum(axis=1), 1e-300)
+    found = []
+    for place in places:
+        share = np.clip(((place - start) * step).sum(axis=1) / square, 0.0, 1.0)
+        found.append(np.hypot(*(start + share[:, None] * step - place).T).min())
+    return np.array(found)
+
+
+def check_round(cubics, closed, half, seed, count=50):
+    """Places are in a round stroke if, and only if, they are nearer to the path than half the width."""
+    path = np.concatenate([points_on(cubics), cubics[-1:, 3], *([cubics[:1, 0]] if closed else [])])
+    random = np.random.default_rng(seed)
+    around = path[random.integers(0, len(path), 2 * count)]
+    angle, off = random.uniform(0, 2 * np.pi, 2 * count), 10 ** random.uniform(-3.5, -0.5, 2 * count)
+    radius = half * (1.0 + random.choice([-1.0, 1.0], 2 * count) * off)
+    near = around + radius[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    places = np.concatenate([near, random.uniform(path.min(axis=0) - half, path.max(axis=0) + half, (count, 2))])
+    distance = distances(path, places)
+    sure = np.abs(distance - half) > 1.2 * TOLERANCE
+    winding = windings(stroke(cubics, closed, style(2 * half, ROUND_CAP, ROUND_JOIN)), places)
+    assert (winding >= 0)[sure].all()
+    np.testing.assert_array_equal((winding > 0)[sure], (distance < half)[sure])
+
+
+@pytest.mark.parametrize("half", [0.3, 2.0, 6.0])
+@pytest.mark.parametrize("closed", [False, True])
+def test_random_curves_have_round_strokes(half, closed):
+    for seed in range(9):
+        random = np.random.default_rng(seed)
+        points = random.uniform(0, 10, (3 * (1 + seed % 3) + 1, 2))
+        if seed % 3 == 0:
+            points = np.round(points / 3) * 3
+        check_round(np.stack([points[k : k + 4] for k in range(0, len(points) - 1, 3)]), closed, half, seed)
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        [(0, 0), (10, 10), (0, 10), (10, 0)],  # a cusp
+        [(0, 0), (10.001, 10), (0, 10), (10, 0)],  # almost one, from either side
+        [(0, 0), (9.999, 10), (0, 10), (10, 0)],
+        [(0, 0), (20, 0), (-10, 0), (10, 0)],  # a line that turns back twice
+        [(0, 0), (20, 1e-7), (-10, 0), (10, 0)],
+        [(0, 0), (0, 0), (10, 5), (10, 0)],  # ends without arms
+        [(0, 0), (0, 10), (10, 0), (10, 0)],
+        [(0, 0), (0, 0), (10, 5), (10, 5)],
+        [(0, 0), (8, 8), (-8, 8), (0, 0)],  # a loop
+        [(0, 0), (5, 1), (5, 1), (0, 2)],
+    ],
+)
+def test_degenerate_cubics(points):
+    for half in (0.2, 1.0, 5.0):
+        check_round(np.array([points], np.float64), False, half, 1)
+
+
+@settings(derandomize=True, max_examples=25, deadline=None)
+@given(
+    st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), min_size=7, max_size=7),
+    st.sampled_from([0.1, 1.0, 3.0]),
+    st.booleans(),
+)
+def test_control_points_on_a_lattice(points, half, closed):
+    points = np.array(points, np.float64)
+    check_round(np.stack([points[:4], points[3:]]), closed, half, 5, 40)
+
+
+def test_a_bend_between_two_samples_is_seen():
+    """A third of a turn within a few hundredths of the parameter, on the side where it makes a wide arc."""
+    points = [(0.0263, 9.10407), (9.84803, 2.86297), (8.13661, 0.82408), (4.3828, 8.17704)]
+    check_round(np.array([points]), False, 6.0, 13, 600)
+
+
+def test_a_tight_arc_leaves_no_hole():
+    arc = ellipse_cubics((0.0, 0.0), (1.0, 1.0), 1e-9)
+    contours = stroke(arc, True, style(2 * 1.5))
+    assert windings(contours, np.array([[0.0, 0.0], [0.3, 0.2], [0.9, 0.0], [2.4, 0.0]])).min() >= 1
+    assert windings(contours, np.array([[2.6, 0.0]])) == 0
+
+
+@pytest.mark.parametrize(("cap", "expected"), [(BUTT, 80.0), (SQUARE, 96.0), (ROUND_CAP, 80.0 + np.pi * 4.0)])
+def test_caps(cap, expected):
+    assert area(stroke(lines((0, 0), (20, 0)), False, style(4.0, cap))) == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize(("cap", "expected"), [(SQUARE, 16.0), (ROUND_CAP, np.pi * 4.0)])
+@pytest.mark.parametrize("closed", [False, True])
+def test_a_point_has_only_its_caps(cap, expected, closed):
+    assert area(stroke(lines((5, 5), (5, 5)), closed, style(4.0, cap))) == pytest.approx(expected, rel=1e-3)
+
+
+def test_a_point_with_butt_caps_is_nothing():
+    assert stroke(lines((5, 5), (5, 5)), False, style(4.0)) == []
+
+
+@pytest.mark.parametrize(
+    ("join", "limit", "outside"),
+    [
+        *((MITER, 4.0, 4.0), (MITER, 1.2, 2.0), (BEVEL, 4.0, 2.0), (ROUND_JOIN, 4.0, np.pi)),
+        # a clip at 1.2 of half the width 2 cuts a triangle of height 2 sqrt(2) - 2.4 from the tip
+        *((MITER_CLIP, 4.0, 4.0), (MITER_CLIP, 1.2, 4.0 - (2 * 2**0.5 - 2.4) ** 2)),
+    ],
+)
+def test_joins_of_a_right_angle(join, limit, outside):
+    """A square of twice ten, a square of the corner inside, and what the join adds."""
+    for turn in (-1, 1):
+        contours = stroke(lines((0, 0), (10, 0), (10, 10 * turn)), False, style(4.0, BUTT, join, limit))
+        assert area(contours) == pytest.approx(80.0 - 4.0 + outside, rel=1e-4)  # the corner inside counts once
+        assert len(contours[0]) <= 10
+
+
+def test_a_closed_square_is_a_frame():
+    contours = stroke(lines((0, 0), (10, 0), (10, 10), (0, 10), (0, 0)), True, style(2.0))
+    assert [abs(area([contour])) for contour in contours] == pytest.approx([144.0, 64.0])
+    assert [len(contour) for contour in contours] == [12, 4]
+
+
+def test_a_mirrored_path_has_the_mirrored_stroke():
+    curve = np.array([[[0.0, 0.0], [9.0, 1.0], [-4.0, 7.0], [6.0, 8.0]]])
+    for join in (MITER, BEVEL, MITER_CLIP):
+        one = area(stroke(curve, True, style(1.5, BUTT, join)))
+        assert area(stroke(curve * [-1.0, 1.0], True, style(1.5, BUTT, join))) == pytest.approx(one, rel=1e-5)
+
+
+def test_steps_without_length_make_no_joins():
+    plain = stroke(lines((0, 0), (10, 0), (10, 10)), False, style(2.0))
+    noisy = stroke(lines((0, 0), (10, 0), (10 + 2e-6, -3e-6), (10, 10), (10, 10)), False, style(2.0))
+    assert len(noisy[0]) == len(plain[0])
+    assert area(noisy) == pytest.approx(area(plain), rel=1e-6)
