@@ -291,8 +291,9 @@ def test_numbers_out_of_range(square, tmp_path, command, arguments):
 
 
 def test_module_and_function_of_one_name():
-    code = "import vexture; vexture.convert; import vexture.renderers.view; assert callable(vexture.render)"
-    subprocess.run([sys.executable, "-c", code], check=True, env=os.environ)
+    code = "import vexture; vexture.convert; import vexture.renderers.view; print(callable(vexture.render))"
+    outcome = subprocess.run([sys.executable, "-c", code], check=True, env=os.environ, capture_output=True, text=True)
+    assert outcome.stdout == "True\n"
 
 
 def test_public_names_are_there():
