@@ -6,20 +6,8 @@ from fitting import assert_legible
 
 from vexture_evidence.figures.edges import edges
 from vexture_evidence.measures.renderings import at_edge
-from vexture_evidence.measures.shape import ConvertedDrawing, example
 
 pytestmark = pytest.mark.slow  # test_report_is_whole draws these figures too
-
-NOTHING = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 2"/>'
-
-
-@pytest.fixture(scope="module", params=["duck", "crossings", "hairline", "nothing"])
-def shape(request, tmp_path_factory):
-    if request.param != "nothing":
-        return ConvertedDrawing(example(request.param))
-    path = tmp_path_factory.mktemp("drawings") / "nothing.svg"
-    path.write_text(NOTHING)
-    return ConvertedDrawing(path)
 
 
 def shown(axes):

@@ -7,20 +7,8 @@ from matplotlib.colors import to_rgb
 
 from vexture_evidence.figures.resolutions import FROM_LEAF, INSIDE, OUTSIDE, STORED, exaggerated_cut_off, resolutions
 from vexture_evidence.measures.renderings import MIP, at_sizes, cut_off_at
-from vexture_evidence.measures.shape import ConvertedDrawing, example
 
 pytestmark = pytest.mark.slow  # test_report_is_whole draws these figures too
-
-NOTHING = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 2"/>'
-
-
-@pytest.fixture(scope="module", params=["duck", "crossings", "hairline", "nothing"])
-def shape(request, tmp_path_factory):
-    if request.param != "nothing":
-        return ConvertedDrawing(example(request.param))
-    path = tmp_path_factory.mktemp("drawings") / "nothing.svg"
-    path.write_text(NOTHING)
-    return ConvertedDrawing(path)
 
 
 def shown(axes):
