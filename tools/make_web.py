@@ -13,8 +13,18 @@ from typing import Final
 
 from both_languages import both
 from vexture.base import layout
+from vexture.base.tolerance import CLOSED, ROUND
+from vexture.drawing.unit_square import FARTHEST
 from vexture.fold import layout as fold_layout
 from vexture.renderers.shader import PARTS, WRAPS, read_shader, shader_text
+from vexture.svg import paint_servers, pattern_tiles, scene, values
+from vexture.svg.animations import ANIMATIONS
+from vexture.svg.document import LANGUAGE, MOST_ATTRIBUTES
+from vexture.svg.filters import STEP
+from vexture.svg.painter import MOST_SEGMENTS
+from vexture.svg.properties import BLENDS
+from vexture.svg.space import MOST_MASKS
+from vexture.svg.strokes import MOST_DASHES
 from vexture.thesis import layout as thesis_layout
 from vexture.thesis import method as thesis_method
 from vexture.thesis.shader_text import FOLD_HEIGHT, PACKAGE, constants
@@ -193,6 +203,39 @@ def layout_module(owner: ModuleType, file: str) -> str:
     return "".join(parts)
 
 
+def reader_module() -> str:
+    """Text of the module with the words and limits that the reader of SVG in Python shares with the one in a page."""
+    named = {
+        "ANIMATIONS": sorted(ANIMATIONS),
+        "BLENDS": list(BLENDS),
+        "CLOSED": CLOSED,
+        "CONTAINERS": sorted(scene.CONTAINERS),
+        "DEEPEST": scene.DEEPEST,
+        "FARTHEST": FARTHEST,
+        "FILTER_STEPS": [f"fe{name}" for name in STEP.pattern[3:-1].split("|")],
+        "LANGUAGE": LANGUAGE,
+        "LARGEST": values.LARGEST,
+        "MOST_ATTRIBUTES": MOST_ATTRIBUTES,
+        "MOST_DASHES": MOST_DASHES,
+        "MOST_MASKS": MOST_MASKS,
+        "MOST_SEGMENTS": MOST_SEGMENTS,
+        "MOST_STOPS": paint_servers.MOST_STOPS,
+        "MOST_TILED": pattern_tiles.MOST,
+        "MOST_USED": scene.MOST_USED,
+        "PIXELS": values.PIXELS,
+        "ROUND": ROUND,
+        "UNKNOWN_SERVERS": paint_servers.UNKNOWN,
+        "UNPAINTED": sorted(scene.UNPAINTED),
+    }
+    types = {"MOST_TILED": "number", "PIXELS": "number", "UNKNOWN_SERVERS": "string"}
+    parts = [HEADER.format(owner="packages/vexture/src/vexture/svg/")]
+    for name, value in named.items():
+        if isinstance(value, dict):
+            parts.append(f"/** @type {{Readonly<Record<string, {types[name]}>>}} */\n")
+        parts.append(f"export const {name} = {json.dumps(value)};\n")
+    return "".join(parts)
+
+
 def main() -> int:
     """Write the files, or with --check compare them; the exit code."""
     stale = []
@@ -200,6 +243,7 @@ def main() -> int:
     folded = inline_numbers(shader_text("fold.glsl", fold_layout))
     steps = read_shader("steps.glsl")
     modules = {
+        "svg-reader.js": reader_module(),
         "coverage-nodes.js": nodes_module("coverage", f"layers.glsl and steps.glsl{BOTH}", steps + layers),
         "colour-nodes.js": nodes_module(
             "colour", f"sheets.glsl, to stand after these{BOTH}", steps + sheets, steps + layers

@@ -8,6 +8,7 @@ ROOT = Path(__file__).parents[2]
 
 SCRIPTS_MAY_IMPORT = {
     "src": {"generated"},
+    "src/convert": {"generated", "src"},
     "src/globe": {"src", "src/tiles"},
     "src/gltf": {"generated", "src"},
     "src/maplibre": {"src", "src/tiles"},

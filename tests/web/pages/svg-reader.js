@@ -1,0 +1,27 @@
+// Reads SVG for tests; outlines of strokes come from the server.
+import { openSvg } from '../../../web/src/convert/page-engine.js';
+import { readSvg } from '../../../web/src/convert/read-svg.js';
+
+function strokeOutline(cubics, closed, style) {
+  const request = new XMLHttpRequest();
+  request.open('POST', '/stroke', false);
+  request.send(JSON.stringify({ cubics: [...cubics], closed, style }));
+  return JSON.parse(request.responseText).map((contour) => Float64Array.from(contour));
+}
+
+const plain = (path) => ({ ...path, contours: path.contours.map((contour) => [...contour]) });
+
+window.readText = (text, name) => {
+  const start = performance.now();
+  try {
+    const engine = openSvg(text);
+    try {
+      const drawing = readSvg(engine, { name, strokeOutline });
+      return { ...drawing, paths: drawing.paths.map(plain), ms: performance.now() - start };
+    } finally {
+      engine.close();
+    }
+  } catch (error) {
+    return { error: `${error.name}: ${error.message}`, stack: error.stack, ms: performance.now() - start };
+  }
+};

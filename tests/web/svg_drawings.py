@@ -1,0 +1,133 @@
+"""Drawings that the page's reader of SVG makes, and their comparison with those of Python's."""
+
+import http.server
+import json
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from chromium import bundle
+from vexture.base.notes import Note
+from vexture.base.tolerance import ROUND
+from vexture.drawing.drawing import Drawing, FillRule
+from vexture.drawing.drawing import Path as DrawnPath
+from vexture.drawing.group import Blend, Group, Mask
+from vexture.drawing.paint import Gradient, Paint, Spread, Stop
+from vexture.renderers.exact import render_exact_colours
+from vexture.svg.outline import ShapeOutline
+from vexture.svg.strokes import Stroke, stroke_contours
+
+ENTRY = Path(__file__).parent / "pages" / "svg-reader.js"
+SIDE = 128
+"""Pixels across the pictures that are compared."""
+
+VISIBLE, MOST_OFF = 16 / 255, 0.005
+"""Difference from which a pixel is off, and the share of pixels off below which a drawing is right."""
+
+
+def stroke(request: dict[str, Any]) -> list[list[float]]:
+    """Outline of a stroke, for the page, whose own kernel is tested elsewhere."""
+    style = request["style"]
+    outline = ShapeOutline(np.array(request["cubics"]).reshape(-1, 4, 2), request["closed"])
+    own = Stroke(
+        style["width"], style["cap"], style["join"], style["miterLimit"], tuple(style["dashes"]), style["dashOffset"]
+    )
+    contours = stroke_contours([outline], own, style["tolerance"] / ROUND)
+    return [contour.ravel().tolist() for contour in contours]
+
+
+@contextmanager
+def served_reader(folder: Path) -> Iterator[tuple[str, list[str]]]:
+    """Serve the page with the reader, and outlines of strokes; yield its address and the list of paths asked for."""
+    bundle(ENTRY, folder / "reader.js")
+    files = {"/": (b"<!doctype html><meta charset=utf-8><script type=module src=/reader.js></script>", "text/html")}
+    files["/reader.js"] = ((folder / "reader.js").read_bytes(), "text/javascript")
+    asked: list[str] = []
+
+    class Handler(http.server.BaseHTTPRequestHandler):
+        def log_message(self, *arguments: object) -> None:
+            """Log nothing."""
+
+        def do_GET(self) -> None:
+            if self.path not in files:
+                asked.append(self.path)
+            self.answer(*files.get(self.path, (b"", "text/plain")))
+
+        def do_POST(self) -> None:
+            request = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
+            self.answer(json.dumps(stroke(request)).encode(), "application/json")
+
+        def answer(self, content: bytes, kind: str) -> None:
+            self.send_response(200)
+            self.send_header("Content-Type", kind)
+            self.send_header("Content-Length", str(len(content)))
+            self.end_headers()
+            self.wfile.write(content)
+
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    try:
+        yield f"http://127.0.0.1:{server.server_port}", asked
+    finally:
+        server.shutdown()
+        server.server_close()
+
+
+def to_drawing(value: dict[str, Any]) -> Drawing:
+    """Make Python's drawing of the page's."""
+    groups = tuple(
+        Group(one["outer"], one["opacity"], Blend(one["blend"]), Mask(one["mask"]), one["pattern"])
+        for one in value["groups"]
+    )
+    paths = tuple(
+        DrawnPath(
+            tuple(np.array(contour).reshape(-1, 4, 2) for contour in one["contours"]),
+            FillRule(one["fillRule"]),
+            to_paint(one["paint"]),
+            one["group"],
+            one["element"],
+        )
+        for one in value["paths"]
+    )
+    a, b, c, d, e, f = value["toSource"]
+    notes = tuple(Note(one["kind"], one["message"], one["count"]) for one in value["notes"])
+    return Drawing(paths, np.array([[a, c, e], [b, d, f]]), value["name"], None, notes, groups, tuple(value["sides"]))
+
+
+def to_paint(value: dict[str, Any]) -> Paint:
+    """Make Python's paint of the page's."""
+    gradient = value["gradient"]
+    if gradient is not None:
+        stops = tuple(Stop(one["offset"], tuple(one["color"]), one["opacity"]) for one in gradient["stops"])
+        rows = tuple(tuple(row) for row in gradient["toRamp"])
+        focus = None if gradient["focus"] is None else tuple(gradient["focus"])
+        gradient = Gradient(rows, stops, Spread(gradient["spread"]), focus)  # type: ignore[arg-type]
+    return Paint(tuple(value["color"]), value["opacity"], gradient)
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How a page's drawing differs from Python's."""
+
+    share: float  # of pixels that are off
+    is_equal: bool  # bit for bit, in all contours
+
+    @property
+    def is_right(self) -> bool:
+        return self.share < MOST_OFF
+
+
+def difference(ours: Drawing, theirs: Drawing) -> Difference:
+    """Compare the pictures and the outlines of two drawings."""
+    first, second = (render_exact_colours(drawing, SIDE) for drawing in (ours, theirs))
+    share = float((np.abs(first - second).max(axis=-1) > VISIBLE).mean())
+    same = len(ours.paths) == len(theirs.paths) and all(
+        len(a.contours) == len(b.contours) and all(map(np.array_equal, a.contours, b.contours))
+        for a, b in zip(ours.paths, theirs.paths, strict=True)
+    )
+    return Difference(share, same)

@@ -1,0 +1,116 @@
+// Parsing of markup into an inert document, within limits.
+import { MOST_ATTRIBUTES } from '../../generated/svg-reader.js';
+import { VextureError, line } from '../errors.js';
+import { shortenText } from './report.js';
+
+export const SVG = 'http://www.w3.org/2000/svg';
+
+/** Longest text, and most elements, that a page can read without standing still for long. */
+const LONGEST = 32 * 2 ** 20;
+const MOST_ELEMENTS = 200_000;
+
+/** Deepest nesting, and most letters of all entities together, as of libxml2 in Python. */
+const DEEPEST = 256;
+const LONGEST_ENTITY = 10_000_000;
+
+const PREFIXES = 20;
+const PROGRAM = 'or convert it with the program vexture';
+
+/** @type {Readonly<Record<string, string>>} */
+const KNOWN = { xlink: 'http://www.w3.org/1999/xlink' };
+
+/**
+ * Parse an SVG document. Nothing is fetched, and no script runs.
+ *
+ * @param {string} text
+ * @returns {Element} its root
+ * @throws {VextureError} if it is not well-formed, exceeds a limit, or is not SVG
+ */
+export function parseSvg(text) {
+  checkSize(text);
+  let source = text.replace(/^\ufeff/, '').trimStart();
+  for (let k = 0; k < PREFIXES; k++) {
+    const parsed = new DOMParser().parseFromString(source, 'image/svg+xml');
+    const error = parsed.getElementsByTagName('parsererror')[0];
+    const root = parsed.documentElement;
+    if (!error && root.localName === 'svg' && root.namespaceURI === null) source = declare(source, 'xmlns', SVG);
+    else if (!error) return checkRoot(root);
+    else {
+      const message = error.textContent ?? '';
+      const prefix = /Namespace prefix ([\w.-]+) /.exec(message)?.[1];
+      if (!prefix) throw new VextureError(errorText(source, message), 'markup');
+      source = declare(source, `xmlns:${prefix}`, KNOWN[prefix] ?? 'about:blank');
+    }
+  }
+  throw new VextureError(`more than ${PREFIXES} prefixes are not declared; declare them`, 'markup');
+}
+
+/** @param {string} source @param {string} name @param {string} value @returns {string} with an attribute of the outermost element */
+const declare = (source, name, value) => source.replace(/<svg(?=[\s/>])/, `<svg ${name}="${value}"`);
+
+/** @param {string} source @param {string} message of the browser @returns {string} */
+function errorText(source, message) {
+  if (!source.startsWith('<')) return `not well-formed XML: ${source ? 'it does not begin with <' : 'it is empty'}`;
+  const reason = message.split('\n').find((one) => /error|:/i.test(one) && !/page contains|Below is/i.test(one)) ?? message;
+  return `not well-formed XML: ${line(new Error(reason))}`;
+}
+
+/** @param {string} text @throws {VextureError} if it is too long, has too many elements, or its entities are too long */
+function checkSize(text) {
+  const most = (/** @type {number} */ limit) => limit.toLocaleString('en-US');
+  if (text.length > LONGEST) {
+    throw new VextureError(`the file has ${most(text.length)} letters; a page reads ${most(LONGEST)}; simplify or split it, ${PROGRAM}`, 'size');
+  }
+  let count = 0;
+  for (let at = text.indexOf('<'); at >= 0; at = text.indexOf('<', at + 1)) {
+    const code = text.charCodeAt(at + 1) | 32; // in lower case
+    if (code >= 97 && code <= 122) count++;
+  }
+  if (count > MOST_ELEMENTS) {
+    throw new VextureError(`it has ${most(count)} elements; a page reads ${most(MOST_ELEMENTS)}; simplify it, ${PROGRAM}`, 'elements');
+  }
+  if (text.includes('<!ENTITY')) checkEntities(text);
+}
+
+/** @param {string} text @throws {VextureError} if the entities that it defines are external, or expand to too much */
+function checkEntities(text) {
+  /** @type {Map<string, number>} */
+  const sizes = new Map();
+  const sizeOf = (/** @type {string} */ part) => {
+    let size = part.length;
+    for (const [, name] of part.matchAll(/&([^#;&\s][^;&\s]*);/g)) size += sizes.get(name) ?? 0;
+    return size;
+  };
+  let end = 0;
+  for (const match of text.matchAll(/<!ENTITY\s+(%\s+)?([^\s"']+)\s+(?:(["'])(.*?)\3|(SYSTEM|PUBLIC))/gs)) {
+    if (match[5]) throw new VextureError(`Entity '${shortenText(match[2], 40)}' is external; only entities that the file itself defines are read, external ones never`, 'entity');
+    if (!sizes.has(match[2])) sizes.set(match[2], sizeOf(match[4]));
+    end = match.index + match[0].length;
+  }
+  if (sizeOf(text.slice(end)) - (text.length - end) > LONGEST_ENTITY || Math.max(...sizes.values()) > LONGEST_ENTITY) {
+    throw new VextureError('its entities expand to too much text (an entity bomb?); write the drawing without entities', 'entity');
+  }
+}
+
+/** @param {Element} root @returns {Element} @throws {VextureError} if it is not SVG, or exceeds a limit */
+function checkRoot(root) {
+  const name = root.localName;
+  if (name !== 'svg') throw new VextureError(`the root element is <${name.slice(0, 40)}>, not <svg>; this is not an SVG file`, 'root');
+  if (root.namespaceURI !== SVG) {
+    throw new VextureError(`the root element has the namespace '${root.namespaceURI?.slice(0, 80)}'; the one of SVG is '${SVG}'`, 'root');
+  }
+  let depth = 1;
+  for (let one = /** @type {Element | null} */ (root); one;) {
+    if (depth > DEEPEST) throw new VextureError(`its elements are nested more than ${DEEPEST} deep; flatten its groups`, 'depth');
+    if (one.attributes.length > MOST_ATTRIBUTES) {
+      const [count, most] = [one.attributes.length, MOST_ATTRIBUTES].map((value) => value.toLocaleString('en-US'));
+      throw new VextureError(`<${one.localName.slice(0, 40)}> has ${count} attributes; the limit is ${most}; remove those that draw nothing`, 'attributes');
+    }
+    if (one.firstElementChild) [one, depth] = [one.firstElementChild, depth + 1];
+    else {
+      while (one && one !== root && !one.nextElementSibling) [one, depth] = [one.parentElement, depth - 1];
+      one = one === root ? null : one?.nextElementSibling ?? null;
+    }
+  }
+  return root;
+}
