@@ -33,7 +33,7 @@ VISIBLE, MOST_OFF = 16 / 255, 0.005
 def stroke(request: dict[str, Any]) -> list[list[float]]:
     """Outline of a stroke, for the page, whose own kernel is tested elsewhere."""
     style = request["style"]
-    outline = ShapeOutline(np.array(request["cubics"]).reshape(-1, 4, 2), request["closed"])
+    outline = ShapeOutline(np.array(request["cubics"], np.float64).reshape(-1, 4, 2), request["closed"])
     own = Stroke(
         style["width"], style["cap"], style["join"], style["miterLimit"], tuple(style["dashes"]), style["dashOffset"]
     )
@@ -86,7 +86,7 @@ def to_drawing(value: dict[str, Any]) -> Drawing:
     )
     paths = tuple(
         DrawnPath(
-            tuple(np.array(contour).reshape(-1, 4, 2) for contour in one["contours"]),
+            tuple(np.array(contour, np.float64).reshape(-1, 4, 2) for contour in one["contours"]),
             FillRule(one["fillRule"]),
             to_paint(one["paint"]),
             one["group"],

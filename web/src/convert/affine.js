@@ -106,6 +106,12 @@ export function parseTransform(text, length) {
   return product;
 }
 
+/** @param {string} text a list of transforms @returns {boolean} whether arguments have units, which attributes do not allow */
+export const hasUnits = (text) => /[a-z%]\s*[,)]|[\d.](?:[a-df-z%]|e(?![+-]?\d))[^()]*\)/i.test(text);
+
+/** @param {string} text an attribute of a paint server @returns {Affine | null} */
+export const parseAttribute = (text) => (hasUnits(text) ? null : parseTransform(text, number));
+
 /** @param {string} text @returns {string[] | null} numbers with units, which may touch as in "1-2"; null if there is more */
 function argumentsOf(text) {
   return /^[\s,]*$/.test(text.replace(ARGUMENT, '')) ? (text.match(ARGUMENT) ?? []) : null;

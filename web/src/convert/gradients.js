@@ -1,6 +1,6 @@
 // SVG gradients: their elements, and their position on the painted shapes (SVG 2, 14.2).
 import { LARGEST, MOST_STOPS } from '../../generated/svg-reader.js';
-import { IDENTITY, aboutOrigin, multiply, parseTransform, translate } from './affine.js';
+import { IDENTITY, aboutOrigin, multiply, parseAttribute, parseTransform, translate } from './affine.js';
 import { boundsOf } from './contours.js';
 import { along, diagonal, fraction, lengthOf, number, viewport } from './lengths.js';
 import { isSingular, paintInDrawing, rowsOf } from './paints.js';
@@ -130,13 +130,13 @@ export function readRamp(chain, stops, report) {
     for (const key of Object.keys(words)) words[key] = engine.attribute(element, key) ?? words[key];
   }
   const style = engine.style(first);
-  words.gradientTransform = serverTransform(style) ?? words.gradientTransform;
-  const moved = parseTransform(words.gradientTransform, number);
+  const own = serverTransform(style);
+  const moved = own ? parseTransform(own, number) : parseAttribute(words.gradientTransform);
   const isBoxed = BOXED[words.gradientUnits.trim()];
   const spread = SPREADS.indexOf(words.spreadMethod.trim());
   if (words.gradientUnits && isBoxed === undefined) report.invalid('gradientUnits', words.gradientUnits, first);
   if (words.spreadMethod && spread < 0) report.invalid('spreadMethod', words.spreadMethod, first);
-  if (!moved) report.invalid('gradientTransform', words.gradientTransform, first);
+  if (!moved) report.invalid('gradientTransform', own ?? words.gradientTransform, first);
   return {
     isRadial: name === 'radialGradient', lengths, isBoxed: isBoxed !== false, moved: moved ?? IDENTITY,
     origin: style.get('transform-origin') || '0 0', spread: Math.max(spread, 0), stops, fontSize: style.fontSize,

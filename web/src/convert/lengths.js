@@ -1,6 +1,7 @@
 // Numbers and lengths of SVG: syntax, units, and limits.
 import { LARGEST, PIXELS } from '../../generated/svg-reader.js';
 import { VextureError } from '../errors.js';
+import { calculate } from './calc.js';
 
 /** A number of an element exceeds `LARGEST`; only that element is dropped. */
 export class TooLargeError extends VextureError {}
@@ -84,6 +85,7 @@ export const viewport = (width, height, rem = 16) => ({ width, height, rem, oute
  */
 export function lengthOf(view, text, whole, fontSize) {
   const match = WRITTEN.exec(text);
+  if (!match && text.includes('(')) return calculate(text, (unit) => factorOf(view, unit, whole, fontSize));
   const factor = match && factorOf(view, match[2].toLowerCase(), whole, fontSize);
   return match && factor !== null ? bounded(match[1]) * factor : null;
 }

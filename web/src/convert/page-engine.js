@@ -1,5 +1,7 @@
 // The document and its styles, by the browser's own engine: in a frame without scripts and network.
 import { VextureError } from '../errors.js';
+import { hasUnits } from './affine.js';
+import { copyElement, copyStyles } from './element.js';
 import { closeFrame, openFrame } from './frame.js';
 import { SVG, parseSvg } from './parse.js';
 import { strip } from './strip.js';
@@ -48,17 +50,21 @@ const PLANE = /^(?:\s*(?:matrix|translate[xy]?|scale[xy]?|rotate|skew[xy]?)\([^(
 const COLOR = /^(?:rgba?\(|color\(srgb )([^)]*)\)$/;
 
 /**
- * Open a document in a frame of the page.
+ * Open a document in a frame of the page; an `<svg>` of the page keeps the colours and variables that it has there.
  *
- * @param {string} text
+ * @param {string | Element} source markup, or an element
  * @returns {Engine}
  * @throws {VextureError} if it is no SVG, or exceeds a limit
  */
-export function openSvg(text) {
+export function openSvg(source) {
   if (typeof document === 'undefined') {
     throw new VextureError('SVG is read in a page, and there is no document here; read it there, or give contours', 'document');
   }
-  return new PageEngine(parseSvg(text));
+  if (typeof source === 'string') return new PageEngine(parseSvg(source));
+  const { root, pairs } = copyElement(source);
+  const engine = new PageEngine(root);
+  copyStyles(pairs, engine.window);
+  return engine;
 }
 
 /** @implements {Engine} */
@@ -93,7 +99,7 @@ class PageEngine {
 
   /** @param {Element} element */
   name(element) {
-    return element.namespaceURI === SVG || element.namespaceURI === null ? element.localName : null;
+    return element.namespaceURI === SVG ? element.localName : null;
   }
 
   /** @param {Element} element */
@@ -258,9 +264,15 @@ class PageStyle {
 
   /** @param {string} name @returns {string} */
   read(name) {
-    if (WRITTEN.has(name)) return this.declared(name) || (CSS_ONLY.has(name) ? '' : this.element.getAttribute(name)?.trim() ?? '');
+    if (WRITTEN.has(name)) return this.declared(name) || (CSS_ONLY.has(name) ? '' : this.attribute(name));
     const value = this.computed.getPropertyValue(name === 'mask' ? 'mask-image' : name) || 'none';
     return NUMERIC.has(name) && value.replace(/\D/g, '').length > 5 ? this.exact(name, value) : value;
+  }
+
+  /** @param {string} name @returns {string} the text of a presentation attribute, where the browser accepts units in it */
+  attribute(name) {
+    const text = this.element.getAttribute(name)?.trim() ?? '';
+    return name === 'transform' && hasUnits(text) ? this.computed.getPropertyValue(name) : text;
   }
 
   /** @param {string} name @returns {number} */

@@ -42,11 +42,11 @@ export class Painter {
     this.segments = 0;
   }
 
-  /** Paint a shape and its markers. @param {any} element @param {Place} place @param {Placed[][]} markers */
-  paint(element, place, markers) {
+  /** Paint a shape and its markers. @param {any} element @param {Place} place @param {(() => Placed[][]) | null} [markers] */
+  paint(element, place, markers = null) {
     const { style } = place;
     if (style.get('visibility') !== 'visible' || isFlat(place.space)) return;
-    if (!place.isClip && !markers.length && style.get('fill') === 'none' && style.get('stroke') === 'none') return;
+    if (!place.isClip && !markers && style.get('fill') === 'none' && style.get('stroke') === 'none') return;
     const size = this.canvas.size / stretch(place.space.whole);
     const shape = { element, style, view: place.view, tolerance: ROUND * size, report: this.scene.report };
     const outlines = shapeOutlines(shape);
@@ -57,7 +57,7 @@ export class Painter {
     for (const part of new Set([...style.get('paint-order').split(/\s+/), ...PARTS])) {
       if (part === 'fill' && fill) this.add(outlines.map(loopOf), place, rule, fill, place.name);
       else if (part === 'stroke' && line) this.stroke(shape, outlines, place, line, size);
-      else if (part === 'markers') for (const marker of markers) this.scene.walk(marker, this);
+      else if (part === 'markers') for (const marker of markers?.() ?? []) this.scene.walk(marker, this);
     }
   }
 

@@ -1,6 +1,6 @@
 // Parsing of markup into an inert document, within limits.
 import { MOST_ATTRIBUTES } from '../../generated/svg-reader.js';
-import { VextureError, line } from '../errors.js';
+import { VextureError } from '../errors.js';
 import { shortenText } from './report.js';
 
 export const SVG = 'http://www.w3.org/2000/svg';
@@ -29,20 +29,31 @@ const KNOWN = { xlink: 'http://www.w3.org/1999/xlink' };
 export function parseSvg(text) {
   checkSize(text);
   let source = text.replace(/^\ufeff/, '').trimStart();
-  for (let k = 0; k < PREFIXES; k++) {
-    const parsed = new DOMParser().parseFromString(source, 'image/svg+xml');
-    const error = parsed.getElementsByTagName('parsererror')[0];
-    const root = parsed.documentElement;
-    if (!error && root.localName === 'svg' && root.namespaceURI === null) source = declare(source, 'xmlns', SVG);
-    else if (!error) return checkRoot(root);
-    else {
-      const message = error.textContent ?? '';
-      const prefix = /Namespace prefix ([\w.-]+) /.exec(message)?.[1];
-      if (!prefix) throw new VextureError(errorText(source, message), 'markup');
-      source = declare(source, `xmlns:${prefix}`, KNOWN[prefix] ?? 'about:blank');
-    }
+  let { root, message } = parse(source);
+  if (message) {
+    source = withPrefixes(source);
+    ({ root, message } = parse(source));
   }
-  throw new VextureError(`more than ${PREFIXES} prefixes are not declared; declare them`, 'markup');
+  if (message) throw new VextureError(errorText(source, message), 'markup');
+  if (root.localName === 'svg' && root.namespaceURI === null) ({ root } = parse(declare(source, 'xmlns', SVG)));
+  return checkRoot(root);
+}
+
+/** @param {string} source @returns {{ root: Element, message: string }} and the message of an error, if there is one */
+function parse(source) {
+  const parsed = new DOMParser().parseFromString(source, 'image/svg+xml');
+  return { root: parsed.documentElement, message: parsed.getElementsByTagName('parsererror')[0]?.textContent ?? '' };
+}
+
+/** @param {string} source @returns {string} with declarations of all its prefixes, which HTML does not need */
+function withPrefixes(source) {
+  const used = new Set([...source.matchAll(/<([\w.-]+):|\s([\w.-]+):[\w.-]+\s*=/g)].map((match) => match[1] ?? match[2]));
+  let declared = source;
+  for (const prefix of [...used].slice(0, PREFIXES)) {
+    const isKnown = prefix === 'xml' || prefix === 'xmlns' || source.includes(`xmlns:${prefix}`);
+    if (!isKnown) declared = declare(declared, `xmlns:${prefix}`, KNOWN[prefix] ?? 'about:blank');
+  }
+  return declared;
 }
 
 /** @param {string} source @param {string} name @param {string} value @returns {string} with an attribute of the outermost element */
@@ -51,8 +62,8 @@ const declare = (source, name, value) => source.replace(/<svg(?=[\s/>])/, `<svg 
 /** @param {string} source @param {string} message of the browser @returns {string} */
 function errorText(source, message) {
   if (!source.startsWith('<')) return `not well-formed XML: ${source ? 'it does not begin with <' : 'it is empty'}`;
-  const reason = message.split('\n').find((one) => /error|:/i.test(one) && !/page contains|Below is/i.test(one)) ?? message;
-  return `not well-formed XML: ${line(new Error(reason))}`;
+  const reason = /error on (line.*?)(?=Below is|$)/s.exec(message)?.[1] ?? message;
+  return `not well-formed XML: ${shortenText(reason.replace(/\s+/g, ' ').trim(), 160)}`;
 }
 
 /** @param {string} text @throws {VextureError} if it is too long, has too many elements, or its entities are too long */

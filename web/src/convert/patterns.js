@@ -1,5 +1,5 @@
 // SVG patterns: their elements, and the position of their tiles on the painted shapes (SVG 2, 14.3).
-import { IDENTITY, aboutOrigin, multiply, parseTransform, scale, translate } from './affine.js';
+import { IDENTITY, aboutOrigin, multiply, parseAttribute, parseTransform, scale, translate } from './affine.js';
 import { boundsOf } from './contours.js';
 import { BOXED, SHORTEST, WHOLE, serverTransform } from './gradients.js';
 import { along, lengthOf, number } from './lengths.js';
@@ -111,13 +111,12 @@ export function readPattern(chain, report) {
   if (!holder) return null;
   const style = engine.style(chain[0]);
   const own = serverTransform(style);
-  const parse = (/** @type {string} */ text) => parseTransform(text, number);
   return {
     element: chain[0], holder, fontSize: style.fontSize,
     lengths: ['x', 'y', 'width', 'height'].map((name, k) => read(name, (text) => lengthText(text, k > 1), '0')),
     isBoxed: read('patternUnits', (text) => BOXED[text.trim()], true),
     boxIsUnit: read('patternContentUnits', (text) => BOXED[text.trim()], false),
-    moved: (own && parse(own)) || read('patternTransform', parse, IDENTITY),
+    moved: (own && parseTransform(own, number)) || read('patternTransform', parseAttribute, IDENTITY),
     origin: style.get('transform-origin') || '0 0',
     view: read('viewBox', viewBox, /** @type {Rectangle | null} */ (null)),
     fit: read('preserveAspectRatio', parseFit, CENTRED),

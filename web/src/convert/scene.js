@@ -6,7 +6,7 @@ import { ClipShape } from './clip-shapes.js';
 import { boundsOf, loopOf, rectangle, rectangleOf } from './contours.js';
 import { HIDING, filterLabel } from './filters.js';
 import { noteImage } from './images.js';
-import { TooLargeError, lengthOf, words } from './lengths.js';
+import { TooLargeError, along, lengthOf, words } from './lengths.js';
 import { hasMarkers, markersOf } from './markers.js';
 import { MASKING, addMasks } from './masks.js';
 import { BLACK } from './paints.js';
@@ -30,6 +30,16 @@ const DRAWN = [...Object.keys(SHAPES), ...CONTAINERS, 'image', 'text', 'use'];
 
 const TRANSFORMS = ['translate', 'rotate', 'scale', 'transform'];
 
+/** Properties of the outermost element as a CSS box, with the values that are visible. */
+const BOX = {
+  'background-image': { property: 'background-image', shows: /\(/ },
+  border: { property: 'border-top-style', shows: /^(?!none|hidden)./ },
+  'border-radius': { property: 'border-top-left-radius', shows: /[1-9]/ },
+  'box-shadow': { property: 'box-shadow', shows: /px/ },
+  outline: { property: 'outline-style', shows: /^(?!none|hidden)./ },
+  padding: { property: 'padding-left', shows: /[1-9]/ },
+};
+
 /** An error that names an element. */
 class LocatedError extends VextureError {}
 
@@ -47,6 +57,8 @@ export class Scene {
     this.servers = new PaintServers(engine, this.report);
     this.style = engine.style(engine.root);
     this.used = 0;
+    /** @type {Map<any, number>} */
+    this.shown = new Map();
     /** Larger side of the drawing. */
     this.size = 1;
   }
@@ -77,6 +89,7 @@ export class Scene {
   insideRoot(around, painter, content, frame) {
     const opacity = this.style.opacity('opacity');
     if (this.style.get('display') === 'none' || opacity === 0 || !this.noteEffects(this.root, this.style)) return [];
+    noteBox(this.style, this.report);
     let place = { ...around, space: this.spaceInside(around.space, content, frame) };
     if (opacity < 1 || Object.keys(MASKING).some((name) => this.style.get(name) !== 'none')) place.veil = new Veil(null, opacity);
     const inner = addMasks(this, this.root, place);
@@ -92,18 +105,17 @@ export class Scene {
 
   /** @param {import('./space.js').Space} around @param {Affine} content @param {Rectangle} frame */
   spaceInside(around, content, frame) {
-    const move = this.ownTransform(this.style, (text, axis) => lengthOf(this.viewOf(frame), text, frame[2 + axis], this.style.fontSize));
-    if (!move || isIdentity(move)) return withTransform(around, content);
-    const origin = this.style.get('transform-origin') || 'center';
-    const length = (/** @type {string} */ text, /** @type {number} */ axis) => {
-      return lengthOf(this.viewOf(frame), text, frame[2 + axis], this.style.fontSize);
-    };
-    return windowIn(withTransform(around, aboutOrigin(move, origin, length)), frame, content);
-  }
-
-  /** @param {Rectangle} frame @returns {import('./lengths.js').Viewport} */
-  viewOf(frame) {
-    return { width: frame[2], height: frame[3], rem: this.style.fontSize, outermost: null };
+    const length = along({ width: frame[2], height: frame[3], rem: this.style.fontSize, outermost: null }, this.style.fontSize);
+    try {
+      const move = this.ownTransform(this.style, length);
+      if (isIdentity(move)) return withTransform(around, content);
+      const origin = this.style.get('transform-origin') || 'center';
+      return windowIn(withTransform(around, aboutOrigin(move, origin, length)), frame, content);
+    } catch (error) {
+      if (!(error instanceof TooLargeError)) throw error;
+      this.report.leftOut(`transform of the outermost <svg>: ${error.message}`);
+      return withTransform(around, content);
+    }
   }
 
   /** Paint all elements of a stack, the last first, with their content. @param {Placed[]} first @param {Painter} painter */
@@ -150,6 +162,7 @@ export class Scene {
     const isSeen = place.isClip || isMeasured || style.opacity('opacity') > 0;
     const isHidden = style.get('display') === 'none' && !(name === 'symbol' && place.use);
     if (isHidden || !isSeen || (place.isClip && CONTAINERS.includes(name))) return [];
+    if (style.get('display') === 'contents') return this.contentsOf(element, name, place);
     if (!DRAWN.includes(name) || name === 'text') {
       if (!isMeasured) this.report.leftOut(`<${name.slice(0, 40)}>`);
       return [];
@@ -164,6 +177,13 @@ export class Scene {
     if (isMeasured) return this.content(element, name, inner, painter);
     const masked = addMasks(this, element, inner, inner.isClip ? ['clip-path'] : undefined);
     return [...masked.shown, ...this.content(element, name, masked.place, painter)];
+  }
+
+  /** The content of a group that has no box, and so no effects (CSS Display 3, B). @param {any} element @param {string} name @param {Place} place @returns {Placed[]} */
+  contentsOf(element, name, place) {
+    if (name !== 'g') return [];
+    const inner = { ...place, element, outer: place, depth: place.depth + 1 };
+    return this.engine.children(element).map((child) => [child, inner]);
   }
 
   /**
@@ -195,7 +215,7 @@ export class Scene {
   content(element, name, inner, painter) {
     if (name in SHAPES) {
       const isMarked = !inner.isClip && !(painter instanceof Ruler) && hasMarkers(name, inner.style);
-      painter.paint(element, inner, isMarked ? markersOf(this, element, inner) : []);
+      painter.paint(element, inner, isMarked ? () => markersOf(this, element, inner) : null);
       return [];
     }
     if (name === 'image') {
@@ -235,9 +255,23 @@ export class Scene {
       this.report.leftOut(`${this.report.describe(element)} that shows itself`);
       return [];
     }
-    this.checkUsed(this.engine.count(target), place.masks);
+    this.checkUsed(this.shownBy(target), place.masks);
     const context = { place, outlines: () => [this.boxOutline(place)] };
     return [[this.engine.instance(element, target), { ...place, used: true, use: place.style, context }]];
+  }
+
+  /** @param {any} element @returns {number} number of elements that a `use` of it shows, with those of uses inside; memorized */
+  shownBy(element) {
+    const original = this.engine.original(element);
+    const known = this.shown.get(original);
+    if (known !== undefined) return known;
+    this.shown.set(original, 0); // a use of itself shows nothing
+    let count = 1;
+    for (const child of this.engine.children(original)) count += this.shownBy(child);
+    const target = this.engine.name(original) === 'use' ? this.engine.target(this.engine.link(original) ?? '') : null;
+    if (target) count += this.shownBy(target);
+    this.shown.set(original, count);
+    return count;
   }
 
   /** @param {Place} place @returns {import('./contours.js').Outline} the bounding box of the element at a place */
@@ -326,6 +360,13 @@ export class Scene {
     if (label === null) this.report.invalid('filter', value.replaceAll('"', ''), element);
     else if (label !== HIDING) this.report.leftOut(label);
     return label !== HIDING;
+  }
+}
+
+/** Note what the outermost element shows as a CSS box. @param {Style} style @param {Report} report */
+function noteBox(style, report) {
+  for (const [name, { property, shows }] of Object.entries(BOX)) {
+    if (shows.test(style.get(property))) report.leftOut(`${name} of the outermost <svg>`);
   }
 }
 
