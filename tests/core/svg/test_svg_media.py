@@ -1,28 +1,12 @@
 """Conditions of media, and what each answers for a drawing."""
 
-import warnings
 from pathlib import Path
 
 import pytest
 import tinycss2
+from styled_squares import SQUARE, colors, read_quietly
 
-from vexture.base.errors import SourceWarning
-from vexture.drawing.drawing import Drawing
 from vexture.svg.media import Medium
-from vexture.svg.read import read_svg
-
-SQUARE = '<path id="p" d="M0 0h9v9z"/>'
-
-
-def read_quietly(folder: Path, body: str, root: str = 'viewBox="0 0 9 9"') -> Drawing:
-    file = folder / "a.svg"
-    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" {root}>{body}</svg>')
-    with warnings.catch_warnings(action="ignore", category=SourceWarning):
-        return read_svg(file)
-
-
-def colors(drawing: Drawing) -> list[tuple[float, float, float]]:
-    return [path.paint.color for path in drawing.paths]
 
 
 @pytest.mark.parametrize(

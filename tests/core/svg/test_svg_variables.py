@@ -1,24 +1,8 @@
 """Custom properties: references that multiply, chains and rings of them."""
 
-import warnings
 from pathlib import Path
 
-from vexture.base.errors import SourceWarning
-from vexture.drawing.drawing import Drawing
-from vexture.svg.read import read_svg
-
-SQUARE = '<path id="p" d="M0 0h9v9z"/>'
-
-
-def read_quietly(folder: Path, body: str, root: str = 'viewBox="0 0 9 9"') -> Drawing:
-    file = folder / "a.svg"
-    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" {root}>{body}</svg>')
-    with warnings.catch_warnings(action="ignore", category=SourceWarning):
-        return read_svg(file)
-
-
-def colors(drawing: Drawing) -> list[tuple[float, float, float]]:
-    return [path.paint.color for path in drawing.paths]
+from styled_squares import SQUARE, colors, read_quietly
 
 
 def test_references_that_multiply_have_no_value(tmp_path: Path) -> None:

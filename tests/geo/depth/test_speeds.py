@@ -2,24 +2,12 @@
 
 import numpy as np
 import pytest
-import xarray
-from floods import series
+from floods import write_speeds
 
 from vexture_geo.depth.depths import read_depths
 
 EDGES = (0.4, 0.8)
 DIMS = ("time", "y", "x")
-
-
-def run(path, **speeds):
-    """A file of depths with variables of speeds: dimensions, values that are spread over them, attributes."""
-    with xarray.open_dataset(series(path, EDGES), decode_cf=False) as dataset:
-        data = dataset.load()
-    for name, (dims, values, attributes) in speeds.items():
-        shape = [data.sizes.get(dim, 2) for dim in dims]
-        data[name] = (dims, np.broadcast_to(np.asarray(values, np.float32), shape).copy(), attributes)
-    data.to_netcdf(path)
-    return path
 
 
 def speeds_of(path):
@@ -39,7 +27,7 @@ def speeds_of(path):
     ],
 )  # fmt: skip
 def test_speeds_are_read_as_such_or_from_their_parts(variables, tmp_path):
-    for speed in speeds_of(run(tmp_path / "run.nc", **variables)):
+    for speed in speeds_of(write_speeds(tmp_path / "run.nc", EDGES, **variables)):
         np.testing.assert_allclose(speed, 1.5, rtol=1e-6)
 
 
@@ -54,9 +42,9 @@ def test_speeds_are_read_as_such_or_from_their_parts(variables, tmp_path):
     ],
 )
 def test_speeds_of_other_places_times_and_layers_are_left_out(variables, tmp_path):
-    assert speeds_of(run(tmp_path / "run.nc", **variables)) == [None, None]
+    assert speeds_of(write_speeds(tmp_path / "run.nc", EDGES, **variables)) == [None, None]
 
 
 def test_what_is_no_speed_is_unknown(tmp_path):
     parts = {"u": (DIMS, -999.0, {}), "v": (DIMS, 1.0, {})}
-    assert not np.isfinite(speeds_of(run(tmp_path / "run.nc", **parts))).any()
+    assert not np.isfinite(speeds_of(write_speeds(tmp_path / "run.nc", EDGES, **parts))).any()

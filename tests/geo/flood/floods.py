@@ -8,6 +8,7 @@ from pathlib import Path
 
 import netCDF4
 import numpy as np
+import xarray
 from server import COMMAND, SECONDS, TOKEN, Server, serving
 
 from typed_commands import run_command
@@ -147,3 +148,14 @@ def west(share):
 def surfaces(extent):
     relief = relief_of(extent)
     return relief, [surface_of(step, extent.frame, relief, extent.bed, HMIN) for step in extent.steps]
+
+
+def write_speeds(path, edges, **speeds):
+    """Write a series of depths with variables of speeds: dimensions, values that are spread over them, attributes."""
+    with xarray.open_dataset(series(path, edges), decode_cf=False) as dataset:
+        data = dataset.load()
+    for name, (dims, values, attributes) in speeds.items():
+        shape = [data.sizes.get(dim, 2) for dim in dims]
+        data[name] = (dims, np.broadcast_to(np.asarray(values, np.float32), shape).copy(), attributes)
+    data.to_netcdf(path)
+    return path

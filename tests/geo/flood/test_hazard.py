@@ -5,8 +5,7 @@ from io import BytesIO
 
 import numpy as np
 import pytest
-import xarray
-from floods import depths, flood, scene_of, series
+from floods import depths, flood, scene_of, series, write_speeds
 from PIL import Image
 
 from vexture_geo.depth.depths import read_depths
@@ -16,19 +15,9 @@ EDGES = (0.4, 0.8)
 DIMS = ("time", "y", "x")
 
 
-def run(path, **speeds):
-    """A file of depths with variables of speeds: dimensions, values that are spread over them, attributes."""
-    with xarray.open_dataset(series(path, EDGES), decode_cf=False) as dataset:
-        data = dataset.load()
-    for name, (dims, values, attributes) in speeds.items():
-        shape = [data.sizes.get(dim, 2) for dim in dims]
-        data[name] = (dims, np.broadcast_to(np.asarray(values, np.float32), shape).copy(), attributes)
-    data.to_netcdf(path)
-    return path
-
-
+@pytest.mark.usefixtures("page_is_built")
 def test_the_page_has_the_rating_of_each_step(tmp_path):
-    path = run(tmp_path / "run.nc", speed=(DIMS, 1.5, {"units": "m s-1"}))
+    path = write_speeds(tmp_path / "run.nc", EDGES, speed=(DIMS, 1.5, {"units": "m s-1"}))
     assert flood("--extent", path, "--time-dim", "time", "-o", tmp_path / "page.html").returncode == 0
     told = scene_of(tmp_path / "page.html")["flood"]
     assert [(one["from"], one["color"]) for one in told["hazards"]] == [(one.least, one.color) for one in HAZARDS]
@@ -46,6 +35,7 @@ def test_the_page_has_the_rating_of_each_step(tmp_path):
         assert row[-10] == 0.0  # dry
 
 
+@pytest.mark.usefixtures("page_is_built")
 def test_without_speeds_there_is_no_rating(tmp_path):
     path = series(tmp_path / "run.nc", EDGES)
     assert flood("--extent", path, "--time-dim", "time", "-o", tmp_path / "page.html").returncode == 0
@@ -55,7 +45,7 @@ def test_without_speeds_there_is_no_rating(tmp_path):
 
 
 def test_a_step_that_is_dry_or_has_no_known_speed_has_no_picture(tmp_path):
-    (step, _) = read_depths(run(tmp_path / "run.nc", speed=(DIMS, np.nan, {})), "run.nc").steps
+    (step, _) = read_depths(write_speeds(tmp_path / "run.nc", EDGES, speed=(DIMS, np.nan, {})), "run.nc").steps
     assert hazard_png(step, (40, 20), 0.01) is None
-    (step, _) = read_depths(run(tmp_path / "run.nc", speed=(DIMS, 1.0, {})), "run.nc").steps
+    (step, _) = read_depths(write_speeds(tmp_path / "run.nc", EDGES, speed=(DIMS, 1.0, {})), "run.nc").steps
     assert hazard_png(step, (40, 20), 50.0) is None

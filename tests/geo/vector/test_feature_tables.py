@@ -1,35 +1,16 @@
 """Tables of features: chosen rows and columns, in batches."""
 
-import geopandas
 import pytest
-import shapely
+from four_squares import save_features, squares
 
 from vexture.base.errors import ParameterError
 from vexture.base.notes import Notes
 from vexture_geo.vector.features import feature_batches, read_features
 
-NAMES = ["a", "b", "c", "d"]
-
-
-def squares() -> geopandas.GeoDataFrame:
-    """Four squares side by side in metres, the last with a hole."""
-    shapes = [shapely.box(k, 0, k + 1, 1) for k in range(3)]
-    shapes.append(shapely.Polygon(shapely.box(3, 0, 4, 1).exterior, [shapely.box(3.2, 0.2, 3.8, 0.8).exterior.coords]))
-    return geopandas.GeoDataFrame({"name": NAMES, "size": [1, 2, 3, 4]}, geometry=shapes, crs="EPSG:28992")
-
-
-def saved(frame, folder, kind):
-    place = folder / f"map.{kind}"
-    if kind == "parquet":
-        frame.to_parquet(place)
-    else:
-        frame.to_file(place)
-    return place
-
 
 @pytest.mark.parametrize("kind", ["gpkg", "fgb", "shp", "geojson", "parquet", "frame"])
 def test_conditions_columns_and_bounds(kind, tmp_path):
-    source = squares() if kind == "frame" else saved(squares(), tmp_path, kind)
+    source = squares() if kind == "frame" else save_features(squares(), tmp_path, kind)
     found = read_features(source, id="name", where="size >= 2 AND name <> 'd'", columns=["size"], notes=Notes())
     assert sorted(found.ids) == ["b", "c"]
     near = read_features(source, id="name", bounds=(2.5, 0.2, 2.7, 0.4), notes=Notes())
@@ -44,7 +25,7 @@ def test_conditions_columns_and_bounds(kind, tmp_path):
 
 @pytest.mark.parametrize("kind", ["gpkg", "fgb", "geojson", "parquet", "frame"])
 def test_batches_together_are_the_whole(kind, tmp_path):
-    source = squares() if kind == "frame" else saved(squares(), tmp_path, kind)
+    source = squares() if kind == "frame" else save_features(squares(), tmp_path, kind)
     parts = list(feature_batches(source, id="name", where="size > 1", batch=2, notes=Notes()))
     assert max(map(len, parts)) <= 2
     assert sorted(name for part in parts for name in part.ids) == ["b", "c", "d"]

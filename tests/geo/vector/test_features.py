@@ -7,33 +7,16 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 import shapely
+from four_squares import NAMES, save_features, squares
 
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
 from vexture_geo.vector.features import read_features
 
-NAMES = ["a", "b", "c", "d"]
-
-
-def squares() -> geopandas.GeoDataFrame:
-    """Four squares side by side in metres, the last with a hole."""
-    shapes = [shapely.box(k, 0, k + 1, 1) for k in range(3)]
-    shapes.append(shapely.Polygon(shapely.box(3, 0, 4, 1).exterior, [shapely.box(3.2, 0.2, 3.8, 0.8).exterior.coords]))
-    return geopandas.GeoDataFrame({"name": NAMES, "size": [1, 2, 3, 4]}, geometry=shapes, crs="EPSG:28992")
-
-
-def saved(frame, folder, kind):
-    place = folder / f"map.{kind}"
-    if kind == "parquet":
-        frame.to_parquet(place)
-    else:
-        frame.to_file(place)
-    return place
-
 
 @pytest.mark.parametrize("kind", ["gpkg", "fgb", "shp", "geojson", "parquet", "frame"])
 def test_every_format_gives_the_same_features(kind, tmp_path):
-    source = squares() if kind == "frame" else saved(squares(), tmp_path, kind)
+    source = squares() if kind == "frame" else save_features(squares(), tmp_path, kind)
     found = read_features(source, id="name", notes=Notes())
     order = np.argsort(found.ids)  # FlatGeobuf sorts by place
     assert found.ids[order].tolist() == NAMES
@@ -89,7 +72,7 @@ def test_a_repair_that_nobody_can_see_is_not_told():
 
 
 def test_a_source_without_a_reference_system_says_so(tmp_path):
-    place = saved(squares().set_crs(None, allow_override=True), tmp_path, "parquet")
+    place = save_features(squares().set_crs(None, allow_override=True), tmp_path, "parquet")
     with pytest.raises(SourceError, match=r"names no reference system.*`crs`"):
         read_features(place, notes=Notes())
     assert read_features(place, crs="EPSG:28992", notes=Notes()).crs == "EPSG:28992"
@@ -104,7 +87,7 @@ def test_parquet_without_geometries_says_so(tmp_path):
 def test_a_source_that_names_its_reference_system_keeps_it(tmp_path):
     """GeoJSON is said to be in degrees by its format, whatever it holds: there the given system counts."""
     notes = Notes()
-    found = read_features(saved(squares(), tmp_path, "gpkg"), crs="EPSG:4326", notes=notes)
+    found = read_features(save_features(squares(), tmp_path, "gpkg"), crs="EPSG:4326", notes=notes)
     assert found.crs == "EPSG:28992"
     assert [str(note) for note in notes.in_order] == [
         "it names its own reference system, EPSG:28992, so EPSG:4326 is not used for it"
