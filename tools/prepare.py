@@ -81,7 +81,7 @@ with sync_playwright() as started:
 SYSTEM = (
     Need(
         "OpenGL without a window",
-        "from vexture.thesis.gpu import context; context()",
+        "from vexture.thesis.texture import context; context()",
         ("libegl1", "libgl1", "libgl1-mesa-dri", "libgles2", "libgbm1"),
         "the tests of the gpu renderer",
     ),

@@ -9,7 +9,7 @@ from hand import FULL, need_gpu, texture_of
 
 from vexture.base.errors import LimitError, ParameterError
 from vexture.renderers.device import context
-from vexture.thesis.gpu import render_thesis_gpu
+from vexture.thesis.texture import render_thesis_gpu
 
 
 def test_too_large_a_picture_names_the_limit() -> None:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from vexture.renderers.exact import Sweep, add_edge, cross, next_slab
 from vexture.renderers.flatten import Chords
-from vexture.renderers.slabs import Sweep, add_edge, cross, next_slab
 
 
 def test_a_slab_ends_where_chords_cross() -> None:

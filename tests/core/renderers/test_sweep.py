@@ -12,7 +12,7 @@ from hand import EMPTY, Corner, Curve, Floats, decode, need_gpu, samples, speckl
 from vexture.thesis import cpu, method
 from vexture.thesis.cpu import render_thesis_cpu
 from vexture.thesis.cubic import solution_path, solve_cubic
-from vexture.thesis.gpu import render_thesis_gpu
+from vexture.thesis.texture import render_thesis_gpu
 
 PIXELS = 24
 FRAMES = 24

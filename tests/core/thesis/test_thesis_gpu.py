@@ -9,9 +9,8 @@ from vexture.conversion.images import coverage
 from vexture.renderers.device import context
 from vexture.renderers.shader import vertex_source
 from vexture.thesis.cpu import render_thesis_cpu
-from vexture.thesis.gpu import fold, program, render_thesis_gpu
 from vexture.thesis.shader_text import compose
-from vexture.thesis.texture import ThesisTexture
+from vexture.thesis.texture import ThesisTexture, fold, program, render_thesis_gpu
 
 SHIFT = 0.00123  # so that no point falls on the edge of a cell
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from vexture_geo.tiles.arcs import simplify_borders
+from vexture_geo.tiles.generalise import simplify_borders
 
 BOX = (-1.0, -1.0, 101.0, 101.0)
 

@@ -8,7 +8,7 @@ from tile_sources import batch_of
 from vexture.base.errors import SourceError
 from vexture.base.notes import Notes
 from vexture_geo.tiles.grid import HALF, MARGIN
-from vexture_geo.tiles.world import in_world
+from vexture_geo.tiles.partitions import in_world
 
 
 def world(shapes, crs="EPSG:4326"):

@@ -6,7 +6,7 @@ from contextlib import closing
 import pytest
 
 from vexture.base.errors import SourceError
-from vexture_geo.vector.databases import APPLICATION, GEOPACKAGE, SPATIALITE, as_geopackage, refuse_links_of_database
+from vexture_geo.vector.vector_files import APPLICATION, GEOPACKAGE, SPATIALITE, as_geopackage, refuse_links_of_database
 
 TABLES = (
     "CREATE TABLE gpkg_contents (table_name TEXT)",

@@ -24,9 +24,8 @@ from vexture.texture.encode import encode
 from vexture.texture.root import Root
 from vexture.texture.texture import Texture
 from vexture.thesis import method
-from vexture.thesis.gpu import fold
 from vexture.thesis.shader_text import TextureSizes, compose
-from vexture.thesis.texture import ThesisTexture
+from vexture.thesis.texture import ThesisTexture, fold
 from vexture.tree.build import build_tree
 from vexture_evidence.measures.bands import BandTexture, band_constants, band_shader
 

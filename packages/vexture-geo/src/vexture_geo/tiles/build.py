@@ -23,11 +23,10 @@ from vexture_geo.tiles.archive import ARCHIVE, check_target, table_of, write_arc
 from vexture_geo.tiles.attributes import Attributes, paints_of, write_table
 from vexture_geo.tiles.grid import HALF, MARGIN, TILE_PIXELS, Tile, last_zoom
 from vexture_geo.tiles.options import TileOptions, digest_of
-from vexture_geo.tiles.partitions import SourcePart, partition_source
+from vexture_geo.tiles.partitions import SourcePart, in_world, partition_source
 from vexture_geo.tiles.pieces import FeaturePieces
 from vexture_geo.tiles.store import SUFFIX, Store
 from vexture_geo.tiles.subtree import Job, JobResult, run_job
-from vexture_geo.tiles.world import in_world
 from vexture_geo.vector.tables import check_targets
 from vexture_geo.vector.vectors import is_memory
 

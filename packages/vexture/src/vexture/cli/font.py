@@ -12,9 +12,8 @@ from vexture.base.layout import PACKED_SUFFIX
 from vexture.base.notes import Note
 from vexture.cli.convert import check_places, given_options, options_of_convert
 from vexture.cli.messages import echo, one_line, say_notes
-from vexture.cli.options import PATH
+from vexture.cli.options import PATH, face_options
 from vexture.cli.result import is_texture_file
-from vexture.cli.text import face_options
 from vexture.texture.registry import DEFAULT
 
 EXAMPLE = """\b

@@ -286,3 +286,21 @@ def viewer_parameters(
     if precision is not None:
         values["precision"] = precision
     return replace(VIEWER_PARAMETERS, **values)
+
+
+def face_options(command: Any) -> Any:
+    """Add the options that choose a face to a command."""
+    stretch = click.option(
+        "--stretch", metavar="PERCENT", type=float, default=100.0, show_default=True, help="Width of the letters."
+    )
+    style = click.option(
+        "--style",
+        type=click.Choice(["normal", "italic", "oblique"]),
+        default="normal",
+        show_default=True,
+        help="Slope of the letters.",
+    )
+    weight = click.option(
+        "--weight", metavar="W", type=float, default=400, show_default=True, help="Weight, 1 to 1000; 700 is bold."
+    )
+    return weight(style(stretch(command)))

@@ -10,7 +10,7 @@ from vexture.base.deadline import DEFAULT_SECONDS
 from vexture.base.errors import SourceError
 from vexture.cli.convert import check_places, given_options, options_of_convert
 from vexture.cli.messages import one_line
-from vexture.cli.options import PATH, STANDARD, Colour, standard_input
+from vexture.cli.options import PATH, STANDARD, Colour, face_options, standard_input
 from vexture.cli.result import NORMAL, QUIET, VERBOSE, ConversionResult, facts_of, say_outcome, shape_facts, written
 from vexture.texture.registry import DEFAULT
 
@@ -25,24 +25,6 @@ Examples:
 
 STYLED = ("family", "weight", "style", "stretch", "features", "direction", "language", "align", "line_height", "name")
 """Options that set parameters of `vexture.text`."""
-
-
-def face_options(command: Any) -> Any:
-    """Add the options that choose a face to a command."""
-    stretch = click.option(
-        "--stretch", metavar="PERCENT", type=float, default=100.0, show_default=True, help="Width of the letters."
-    )
-    style = click.option(
-        "--style",
-        type=click.Choice(["normal", "italic", "oblique"]),
-        default="normal",
-        show_default=True,
-        help="Slope of the letters.",
-    )
-    weight = click.option(
-        "--weight", metavar="W", type=float, default=400, show_default=True, help="Weight, 1 to 1000; 700 is bold."
-    )
-    return weight(style(stretch(command)))
 
 
 @options_of_convert(

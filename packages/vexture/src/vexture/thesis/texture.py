@@ -2,6 +2,7 @@
 
 import os
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Final
 
@@ -12,12 +13,14 @@ from vexture.base.errors import FormatError, LimitError, ParameterError
 from vexture.base.layout import TEXT_ENCODING, TEXT_VERSION
 from vexture.drawing.drawing import IDENTITY
 from vexture.drawing.paint import Paint
+from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compile_shader, context, draw, upload
 from vexture.renderers.picture import composite_pictures, paint_layer
-from vexture.renderers.view import Size, ViewLike, size_of
+from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 from vexture.texture.files import file_name, is_folder, read_file, write_together
 from vexture.texture.registry import TextureRenderer
 from vexture.thesis import layout
 from vexture.thesis.png import read_png, write_png
+from vexture.thesis.shader_text import TextureSizes, ThesisPair, view_source
 from vexture.thesis.tree import CellKind
 
 REMEDY: Final = "convert the drawing again"
@@ -170,7 +173,6 @@ class ThesisTexture:
             return render_thesis_cpu(self, size, view)
         if renderer != "gpu":
             raise ParameterError(f"`renderer` is {renderer!r}; a texture is rendered by 'cpu' or 'gpu'")
-        from vexture.thesis.gpu import render_thesis_gpu
 
         return render_thesis_gpu(self, size, view)
 
@@ -330,3 +332,49 @@ def _read_transform(texts: dict[str, str]) -> NDArray[np.float64]:
     if transform.shape != (6,) or not np.isfinite(transform).all():
         raise FormatError(f"{layout.TEXT_TRANSFORM} is {text[:80]!r}; it must be six finite numbers; {REMEDY}")
     return transform.reshape(2, 3)
+
+
+@lru_cache(maxsize=64)
+def program(sizes: TextureSizes) -> Any:
+    """Compiled shader, with its triangle, for all textures with the same sizes."""
+    return compile_shader(view_source(VERSION, sizes))
+
+
+def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:
+    """Arrange a list as a texture of at most `height` rows; row r goes to row r % height in block r // height.
+
+    `rows` is a (rows, width, 3) array, uint8 or uint16. The result is (min(rows, height), blocks * width, 4), float32
+    in 0..1; unused values are 0.
+    """
+    count, width, channels = rows.shape
+    blocks = -(-count // height)
+    height = min(count, height)
+    padded = np.zeros((blocks * height, width, 4), np.float32)
+    padded[:count, :, :channels] = rows / np.float32(np.iinfo(rows.dtype).max)
+    return padded.reshape(blocks, height, width, 4).swapaxes(0, 1).reshape(height, -1, 4)
+
+
+def render_thesis_gpu(
+    texture: ThesisPair, size: Size, view: ViewLike = None, fold_height: int | None = None
+) -> NDArray[np.float32]:
+    """Render a texture with the thesis's shader; parameters as in `vexture.coverage`.
+
+    The lists are folded at `fold_height` rows; None folds them at the device's limit. Raises a `FormatError` if the
+    texture's quads do not form a tree, a `DeviceError` without OpenGL, and a `LimitError` if the device cannot draw
+    such a large image.
+    """
+    width, height = size_of(size)
+    matrix = view_matrix(view, (width, height))
+    with ONE_AT_A_TIME, context() as gl:
+        sizes = TextureSizes.of_texture(texture, fold_height or gl.info["GL_MAX_TEXTURE_SIZE"])
+        triangle = program(sizes)
+        lists = []
+        for unit, (name, rows) in enumerate((("quads", texture.quads), ("curves", texture.curves))):
+            lists.append(upload(gl, fold(rows, sizes.fold_height), unit, "f4"))
+            triangle.program[name] = unit
+        triangle.program["list_lengths"] = (len(texture.quads), len(texture.curves))
+        triangle.program["to_unit"].write(matrix.T.astype(np.float32).tobytes())
+        pixels = draw(gl, triangle, (width, height))[..., 0]
+        for uploaded in lists:
+            uploaded.release()
+    return pixels
