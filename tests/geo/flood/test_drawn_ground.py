@@ -4,7 +4,7 @@ import numpy as np
 from floods import FRAME, west
 
 from vexture_geo.base.extent import Extent, Step
-from vexture_geo.flood.drawn_ground import DRAWN, drawn_ground
+from vexture_geo.flood.ground import DRAWN, drawn_ground
 from vexture_geo.flood.relief import relief_of
 
 

@@ -6,8 +6,8 @@ from floods import BOUNDS, CRS, FRAME, surfaces
 
 from vexture.drawing.drawing import Drawing
 from vexture_geo.base.extent import Extent, Frame, Step
-from vexture_geo.flood.drawn_ground import drawn_ground
 from vexture_geo.flood.grids import coverage_over
+from vexture_geo.flood.ground import drawn_ground
 from vexture_geo.flood.open_water import calm_waves, open_water, openness_at
 from vexture_geo.flood.relief import beyond_of
 from vexture_geo.flood.surface import highest_of

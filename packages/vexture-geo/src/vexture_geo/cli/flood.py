@@ -113,6 +113,8 @@ def flood(
         for option, value in {"token_file": token_file, "follow": follow, "keep": keep}.items():
             if value is not None and not serving:
                 raise ParameterError(f"`{option}` {value}: one page {STAYS[option]}; use it with `serve`")
+        if follow is not None and parameters["layer"] is not None:
+            raise ParameterError(f"`layer` {parameters['layer']!r}: it is for polygons, and `follow` reads depths")
         classes = DEPTHS if depths is None else depths_of(depths)
         box = None if bounds is None else bounds_of(bounds)
         source = follow if extent is None else extent

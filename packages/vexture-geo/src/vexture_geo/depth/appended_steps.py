@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from vexture.base.content import NETCDF, known_kind, start_of
 from vexture.base.errors import ParameterError, SourceError
 from vexture_geo.base.crs import gis_packages
 from vexture_geo.base.extent import Bounds, Extent, Frame, Step
-from vexture_geo.depth.depths import DepthsInFrame, depths_in_frame
+from vexture_geo.depth.depths import DepthOptions, DepthsInFrame, depths_in_frame
 from vexture_geo.depth.partitions import partitions_beside
 from vexture_geo.depth.series import Reading
 
@@ -113,18 +113,25 @@ def files_of(path: Path) -> list[Path]:
 
 @contextmanager
 def open_growing(
-    path: Path, *, frame: Frame | None, known: Sequence[KnownStep] = (), rewritten: bool = False, **options: Any
+    path: Path,
+    *,
+    frame: Frame | None,
+    known: Sequence[KnownStep] = (),
+    rewritten: bool = False,
+    **options: Unpack[DepthOptions],
 ) -> Iterator[GrowingFile]:
-    """Open a growing NetCDF file; see `depths.depths_in_frame` for options and errors.
+    """Open a growing NetCDF file; see `depths.read_depths` for options and errors.
 
     `rewritten` says that the file may have been replaced since the `known` steps were read.
     """
-    with _open_growing(path, frame, options) as placed:
+    with _open_growing(path, frame, None, options) as placed:
         yield GrowingFile(placed, known, rewritten)
 
 
 @gis_packages()
-def whole_run(path: Path, *, bounds: Bounds | None, **options: Any) -> tuple[Extent, tuple[KnownStep, ...]]:
+def whole_run(
+    path: Path, *, bounds: Bounds | None, **options: Unpack[DepthOptions]
+) -> tuple[Extent, tuple[KnownStep, ...]]:
     """Read all steps that a file holds now, in a frame of its own, with a record of each.
 
     Raises
@@ -134,7 +141,7 @@ def whole_run(path: Path, *, bounds: Bounds | None, **options: Any) -> tuple[Ext
     ParameterError
         If it is of another kind, or the options do not fit it.
     """
-    with _open_growing(path, None, {"bounds": bounds, **options}) as placed:
+    with _open_growing(path, None, bounds, options) as placed:
         changes = list(GrowingFile(placed, (), False).changes())
         if not changes:
             raise placed.without_numbers()
@@ -144,7 +151,9 @@ def whole_run(path: Path, *, bounds: Bounds | None, **options: Any) -> tuple[Ext
 
 
 @contextmanager
-def _open_growing(path: Path, frame: Frame | None, options: dict[str, Any]) -> Iterator[DepthsInFrame]:
+def _open_growing(
+    path: Path, frame: Frame | None, bounds: Bounds | None, options: DepthOptions
+) -> Iterator[DepthsInFrame]:
     if path.exists() and not path.is_file():
         raise ParameterError("is no file; name the NetCDF file that the model writes")
     start = start_of(path)
@@ -155,8 +164,7 @@ def _open_growing(path: Path, frame: Frame | None, options: dict[str, Any]) -> I
         raise ParameterError(
             f"holds {kind}, and only NetCDF is followed; show it with `extent`, and push what is newer"
         )
-    given = {"bounds": None, "crs": None, "time_dim": None, "variable": None, **options}
-    with depths_in_frame(path, path.name, frame=frame, **given) as placed:
+    with depths_in_frame(path, path.name, frame=frame, bounds=bounds, **options) as placed:
         yield placed
 
 

@@ -2,11 +2,11 @@
 
 import asyncio
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Final, NamedTuple, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 from vexture.base.content import about
 from vexture.base.errors import EXPECTED, SourceError, reason_of
@@ -17,6 +17,7 @@ from vexture.server.worker import Worker
 from vexture_geo.base.crs import MissingReferenceError
 from vexture_geo.base.extent import Bounds, Extent
 from vexture_geo.depth.appended_steps import GrowingFile, KnownStep, StepChange, files_of, open_growing, whole_run
+from vexture_geo.depth.depths import DepthOptions
 from vexture_geo.depth.netcdf import MOST_STEPS
 from vexture_geo.flood.conversion import FloodConversion
 from vexture_geo.flood.credits import Credits, credits_of
@@ -60,7 +61,7 @@ class FollowedRun:
     """A file that a model writes; `options` are those of `vexture_geo.depth.depths.read_depths`."""
 
     path: Path
-    options: Mapping[str, Any]
+    options: DepthOptions
 
     @property
     def stamp(self) -> _Stamp:

@@ -5,13 +5,14 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypedDict
 
 from vexture.base.errors import ParameterError
 from vexture.base.tolerance import HMIN
 
 if TYPE_CHECKING:
     from vexture.base.workers import Workers
+    from vexture_geo.depth.depths import DepthOptions
 
 PERIOD: Final = 8.0
 """Default seconds between two waves on a beach."""
@@ -87,6 +88,17 @@ class FloodOptions:
         return {**given, "depths": self.contours}
 
     @property
+    def of_depths(self) -> "DepthOptions":
+        """Parameters of the reader of depths, which has no layers."""
+        return {
+            "crs": self.crs,
+            "time_dim": self.time_dim,
+            "hmin": self.hmin,
+            "variable": self.variable,
+            "depths": self.contours,
+        }
+
+    @property
     def contours(self) -> tuple[float, ...]:
         """Depths, in metres, between consecutive classes of the map of depths."""
         return contours_of(self.depths, self.hmin)
@@ -101,6 +113,24 @@ class FloodOptions:
                 f"longer side of {longest:.3g} m; choose a smaller one"
             )
         return self.amplitude
+
+
+class FloodParameters(TypedDict, total=False):
+    """Parameters of `FloodOptions` that `flood_page` passes on."""
+
+    crs: str | None
+    bounds: tuple[float, float, float, float] | None
+    time_dim: str | None
+    hmin: float
+    variable: str | None
+    layer: str | None
+    amplitude: float | None
+    period: float
+    title: str | None
+    source: str | None
+    licence: str | None
+    workers: int
+    scheduler: str | None
 
 
 def contours_of(depths: tuple[float, ...], hmin: float) -> tuple[float, ...]:

@@ -3,13 +3,13 @@
 import html
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Unpack
 
 from vexture.base.errors import ParameterError
 from vexture_geo.flood.bundle import FLOOD
-from vexture_geo.flood.options import DEPTHS, FloodOptions, classes_of
+from vexture_geo.flood.options import DEPTHS, FloodOptions, FloodParameters, classes_of
 
 if TYPE_CHECKING:
     from xarray import DataArray, Dataset
@@ -25,9 +25,6 @@ UNNAMED: Final = "flood"
 
 READING: Final = ("bounds", "time_dim", "variable", "layer")
 """Parameters of the reader, which an extent that has been read cannot use."""
-
-KNOWN: Final = frozenset(one.name for one in fields(FloodOptions)) - {"extent"}
-"""Parameters of a flood."""
 
 FRAME: Final = (
     '<iframe srcdoc="{page}" title="{title}" allow="fullscreen; clipboard-write" '
@@ -86,7 +83,7 @@ def flood_page(
     ground: str | os.PathLike[str] | None = None,
     relief: str | os.PathLike[str] | None = None,
     depths: Sequence[float] = DEPTHS,
-    **options: Any,
+    **options: Unpack[FloodParameters],
 ) -> FloodPage:
     """Show a flood as animated water: the page of `vexture flood`, in a notebook or as a file.
 
@@ -149,7 +146,7 @@ def flood_page(
     if not height > 0:
         raise ParameterError(f"`height` is {height}; it is a number of pixels above 0")
     for name, value in options.items():
-        if name not in KNOWN:
+        if name not in FloodParameters.__annotations__:
             raise TypeError(f"`{name}` is {value!r:.80}, but a flood has no such parameter; leave it out")
     named = Path(UNNAMED) if isinstance(source, Extent) or is_dataset(source) else Path(source)
     picture, heights = (None if path is None else Path(path) for path in (ground, relief))
@@ -157,9 +154,9 @@ def flood_page(
     built(FLOOD.script, FLOOD.package)
     if isinstance(source, Extent):
         for name in READING:
-            if options.get(name) is not None:
+            if (value := options.get(name)) is not None:
                 raise ParameterError(
-                    f"`{name}` is {options[name]!r}, but the extent has been read; give it to vexture.read_extent"
+                    f"`{name}` is {value!r}, but the extent has been read; give it to vexture.read_extent"
                 )
         given = source, Credits()
     else:

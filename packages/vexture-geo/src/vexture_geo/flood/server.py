@@ -96,8 +96,7 @@ def make_flood(
     """
     from vexture_geo.flood.credits import credits_of
     from vexture_geo.flood.depth_classes import classes_shown
-    from vexture_geo.flood.drawn_ground import drawn_ground
-    from vexture_geo.flood.ground import encode_webp, ground_of
+    from vexture_geo.flood.ground import drawn_ground, encode_webp, ground_of
     from vexture_geo.flood.open_water import calm_waves
     from vexture_geo.flood.relief import beyond_of, relief_of
     from vexture_geo.flood.surface import highest_of, surface_of
@@ -349,7 +348,7 @@ def _serve(
     from vexture_geo.flood.follow import FollowedRun, first_steps, follow
     from vexture_geo.flood.ground import GROUND_TYPE
 
-    run = FollowedRun(options.extent, {"crs": options.crs, "hmin": options.hmin, **options.reading})
+    run = FollowedRun(options.extent, options.of_depths)
     start = first_steps(run, options.bounds, report) if server_options.follows else None
     made = make_flood(options, report, start, store)
     if shelf.names:
