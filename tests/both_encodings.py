@@ -1,16 +1,12 @@
 """Encoding and decoding in either encoding, for tests that hold for both."""
 
-import pytest
-
 from vexture.texture.decode import decode as decode_packed
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.root import Root
+from vexture.thesis.decode import decode as decode_thesis
 from vexture.thesis.encode import encode as encode_thesis
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellTree
-
-thesis_decode = pytest.importorskip("vexture_evidence.measures.thesis_decode", reason="it needs vexture-evidence")
-decode_thesis = thesis_decode.decode
 
 
 def encode(tree, bits=16, *, to_source, name, crs=None):

@@ -1,12 +1,12 @@
 """Random valid inputs for property tests."""
 
 import numpy as np
-import pytest
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from vexture.base.layout import LATTICE, MOST_CURVES
 from vexture.bezier.area import leaf_area
+from vexture.thesis.decode import edge_point
 from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
 from vexture.thesis.tree import CellKind, CellTree
 from vexture.tree.tree import Tree
@@ -34,8 +34,7 @@ def edge_ends(draw: st.DrawFn) -> tuple[float, float]:
 @st.composite
 def edge_cubics(draw: st.DrawFn) -> NDArray[np.float64]:
     """Cubics from edge to edge that stay in their cell and in the format's range: arches, S-curves, cusps, loops."""
-    thesis_decode = pytest.importorskip("vexture_evidence.measures.thesis_decode", reason="it needs vexture-evidence")
-    ends = thesis_decode.edge_point(np.array(draw(edge_ends())))
+    ends = edge_point(np.array(draw(edge_ends())))
     inner = np.array([[draw(st.floats(CONTROL_MIN, CONTROL_MAX)) for _ in range(2)] for _ in range(2)])
     chord = ends[0] + (ends[1] - ends[0]) * np.array([[1.0], [2.0]]) / 3.0
     for part in (1.0, 0.75, 0.5, 0.25, 0.1, 0.0):  # of the way from the straight line
@@ -49,8 +48,7 @@ def edge_cubics(draw: st.DrawFn) -> NDArray[np.float64]:
 @st.composite
 def edge_corners(draw: st.DrawFn) -> NDArray[np.float64]:
     """Straight corners: P0, the corner twice, P3."""
-    thesis_decode = pytest.importorskip("vexture_evidence.measures.thesis_decode", reason="it needs vexture-evidence")
-    ends = thesis_decode.edge_point(np.array(draw(edge_ends())))
+    ends = edge_point(np.array(draw(edge_ends())))
     corner = np.array([draw(st.floats(0.0, 1.0)) for _ in range(2)])
     return np.stack([ends[0], corner, corner, ends[1]])
 

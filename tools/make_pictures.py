@@ -17,12 +17,12 @@ from PIL import Image, ImageColor, ImageDraw, ImageFont
 
 import vexture
 from vexture.renderers.view import window
+from vexture.thesis.decode import decode
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellTree
 from vexture_evidence.figures.textures import texture_images
 from vexture_evidence.measures.leaves import leaves
 from vexture_evidence.measures.raster import footprint, mip_sides, trilinear
-from vexture_evidence.measures.thesis_decode import decode
 
 ROOT = Path(__file__).resolve().parents[1]
 SHAPE = ROOT / "examples" / "shapes" / "duck.svg"

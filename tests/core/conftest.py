@@ -2,8 +2,8 @@
 
 import pytest
 
-BESIDE = {"httpx", "netCDF4", "resvg", "shapely", "skia", "vexture_geo"}
-"""Packages that tests use beside the core: to compare with, or to try its server with a flood."""
+BESIDE = {"httpx", "resvg", "shapely", "skia"}
+"""Packages with which tests compare, and that of a client."""
 
 
 @pytest.hookimpl(wrapper=True)
@@ -16,3 +16,15 @@ def pytest_make_collect_report(collector):
         report.outcome = "skipped"
         report.longrepr = (str(collector.path), 0, f"Skipped: it needs {name}, which vexture-evidence[test] installs")
     return report
+
+
+@pytest.fixture(scope="session")
+def page_is_built():
+    """Skip where the page of the viewer is not built."""
+    from vexture.base.errors import DeviceError
+    from vexture.pages.page import VIEWER, built
+
+    try:
+        built(VIEWER.script)
+    except DeviceError as error:
+        pytest.skip(str(error))

@@ -4,6 +4,7 @@ import io
 import zipfile
 
 import pytest
+from test_interrupt import check_early_end
 
 from vexture.base.content import FileKind
 from vexture.base.errors import SourceError
@@ -41,3 +42,7 @@ def test_areas_are_read_with_their_name():
 def test_what_is_no_flood_has_no_widget():
     assert extension.flood_widget("pond.geojson", {}) is None
     assert extension.flood_widget(b"", {"height": 300}) is None
+
+
+def test_ctrl_c_ends_a_command_while_its_module_is_imported():
+    check_early_end("vexture_geo.cli.map", "map")

@@ -32,9 +32,13 @@ class Installed:
         else:
             self.environment["NUMBA_DISABLE_JIT"] = "1"
             self.pip("install", "--quiet", "--no-index", "--no-deps", *map(str, wheels))
-            own = {canonicalize_name(one.name): one for one in distributions(path=[str(self.site)])}
-            for needed in requirements_of(own).values():
-                self._link(needed)
+            self.add()
+
+    def add(self, *requirements: str) -> None:
+        """Add packages of the tests' environment with what they require; an extra may be one of the wheels'."""
+        own = {canonicalize_name(one.name): one for one in distributions(path=[str(self.site)])}
+        for needed in requirements_of(own, *requirements).values():
+            self._link(needed)
 
     @property
     def site(self) -> Path:
@@ -64,25 +68,31 @@ class Installed:
     def _link(self, package: Distribution) -> None:
         """Make a package of the tests' environment one of this environment."""
         for name in {path.parts[0] for path in package.files or ()} - {"..", "__pycache__"}:
-            (self.site / name).symlink_to(Path(str(package.locate_file(name))))
+            if not (self.site / name).is_symlink():
+                (self.site / name).symlink_to(Path(str(package.locate_file(name))))
 
     def _ran(self, command: list[str], **environment: str) -> subprocess.CompletedProcess[str]:
         everything = {**self.environment, **environment}
         return subprocess.run(command, cwd=self.work, env=everything, capture_output=True, text=True, check=False)
 
 
-def requirements_of(own: dict[str, Distribution]) -> dict[str, Distribution]:
-    """Packages that some require, and those that they require, without extras but those that they name."""
+def requirements_of(own: dict[str, Distribution], *further: str) -> dict[str, Distribution]:
+    """Packages that some and further requirements need, without extras but those that they name."""
     found: dict[str, Distribution] = {}
     waiting = [(package, "") for package in own.values()]
+
+    def need(requirement: Requirement) -> None:
+        name = canonicalize_name(requirement.name)
+        if name not in found and name not in own:
+            found[name] = distribution(name)
+            waiting.append((found[name], ""))
+        waiting.extend((own.get(name) or found[name], extra) for extra in requirement.extras)
+
+    for requirement in map(Requirement, further):
+        need(requirement)
     while waiting:
         one, extra = waiting.pop()
         for requirement in map(Requirement, one.requires or ()):
-            if requirement.marker and not requirement.marker.evaluate({"extra": extra}):
-                continue
-            name = canonicalize_name(requirement.name)
-            if name not in found and name not in own:
-                found[name] = distribution(name)
-                waiting.append((found[name], ""))
-            waiting += [(own.get(name) or found[name], further) for further in requirement.extras]
+            if not requirement.marker or requirement.marker.evaluate({"extra": extra}):
+                need(requirement)
     return found

@@ -5,17 +5,14 @@ import faulthandler
 import math
 import os
 import signal
-import sqlite3
 import subprocess
 import sys
 import time
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import vexture.base.apart as apart_module
-from typed_commands import run_command
 from vexture.base.apart import apart, each_apart
 from vexture.base.deadline import CLOCK, check_time, within
 from vexture.base.errors import LimitError, ParameterError, SourceError
@@ -23,54 +20,11 @@ from vexture.tree.parts import usual_threads
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
 
-ENDLESS = (
-    "CREATE VIEW v AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT c.x AS fid, geom FROM c, t"
-)
-
-
-def endless_view(path: Path) -> Path:
-    """A GeoPackage whose layer is a view that counts without end: SQLite never comes back from it."""
-    shapely, pyogrio = pytest.importorskip("shapely"), pytest.importorskip("pyogrio.raw")
-    geometry = np.array([shapely.to_wkb(shapely.box(4, 52, 5, 53))], object)
-    pyogrio.write(path, geometry, [], [], layer="t", driver="GPKG", geometry_type="Polygon", crs="EPSG:4326")
-    with sqlite3.connect(path) as database:
-        database.execute(ENDLESS)
-        for table in ("gpkg_contents", "gpkg_geometry_columns"):
-            database.execute(f"UPDATE {table} SET table_name = 'v'")
-        database.execute("UPDATE gpkg_contents SET identifier = 'v'")
-        for table in ("gpkg_extensions", "gpkg_ogr_contents"):
-            database.execute(f"DELETE FROM {table}")
-    database.close()
-    return path
-
 
 @pytest.fixture
 def short_grace(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What GDAL does meanwhile keeps a processor."""
+    """End work that does not end soon after its limit."""
     monkeypatch.setattr(apart_module, "GRACE", 0.1)
-
-
-@pytest.mark.usefixtures("short_grace")
-def test_a_view_without_end_meets_the_limit_and_others_are_read(tmp_path: Path) -> None:
-    """It kept GDAL, and so the command, for ever: neither the limit nor Ctrl-C ended it."""
-    endless, other = endless_view(tmp_path / "endless.gpkg"), tmp_path / "other.svg"
-    other.write_text("<svg")
-    ended = run_command("convert", endless, other, "-o", tmp_path / "out", "--max-seconds", "1", "-q")
-    first, second, last = ended.stderr.splitlines()
-    assert first == f"vexture: {endless}: converting takes longer than 1 s; simplify the drawing or raise --max-seconds"
-    assert second.startswith(f"vexture: {other}: not well-formed XML"), "which is read all the same"
-    assert (ended.returncode, last) == (1, "vexture: 2 of 2 files failed")
-    assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.usefixtures("short_grace")
-def test_a_map_of_a_view_without_end_meets_the_limit(tmp_path: Path) -> None:
-    endless = endless_view(tmp_path / "endless.gpkg")
-    before = sorted(tmp_path.iterdir())
-    ended = run_command("map", endless, "-o", tmp_path / "map.ktx2", "--max-seconds", "0.3")
-    line = f"vexture: {endless}: converting takes longer than 0.3 s; simplify the drawing or raise --max-seconds\n"
-    assert (ended.returncode, ended.stdout, ended.stderr) == (1, "", line)
-    assert sorted(tmp_path.iterdir()) == before
 
 
 def stop(seconds: float) -> str:
@@ -85,6 +39,7 @@ def crash() -> None:
     os.kill(os.getpid(), signal.SIGSEGV)
 
 
+@pytest.mark.usefixtures("short_grace")
 def test_work_that_does_not_end_is_ended() -> None:
     with pytest.raises(LimitError, match=r"^a\.nc: converting takes longer than 0\.1 s; simplify .*`max_seconds`$"):
         apart(stop, 1000.0, name="a.nc", seconds=0.1)
@@ -109,6 +64,7 @@ def moody(kind: str) -> str:
     return kind
 
 
+@pytest.mark.usefixtures("short_grace")
 @pytest.mark.parametrize("processes", [1, 2, 9])
 def test_each_piece_of_work_has_its_own_end(processes: int) -> None:
     kinds = ["a", "crash", "b", "endless", "limit", "parameter", "c"]

@@ -5,9 +5,7 @@ from numpy.typing import NDArray
 
 from strategies import edge_corners, edge_cubics, on_cubic
 from vexture.bezier.area import edge_index, integral_x_dy, leaf_area, loop_area
-
-thesis_decode = pytest.importorskip("vexture_evidence.measures.thesis_decode", reason="it needs vexture-evidence")
-edge_point = thesis_decode.edge_point
+from vexture.thesis.decode import edge_point
 
 CORNERS = np.array([[1.0, 1.0], [1.0, 0.0], [0.0, 0.0], [0.0, 1.0]])  # clockwise, at edge indices 1/4, 1/2, 3/4, 1
 T = np.linspace(0.0, 1.0, 600)[:, None]

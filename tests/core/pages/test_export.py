@@ -15,15 +15,9 @@ from vexture.texture.load import texture_from
 from vexture.thesis.png import read_png
 from viewing import SHAPES
 
+pytestmark = pytest.mark.usefixtures("page_is_built")
+
 LARGEST_DUCK = 916_000
-
-
-@pytest.fixture(autouse=True)
-def page_is_built():
-    try:
-        built(SCRIPT)
-    except DeviceError as error:
-        pytest.skip(str(error))
 
 
 def export(*arguments):

@@ -26,9 +26,6 @@ from vexture.renderers.exact import render_exact
 from vexture.renderers.flatten import CHORD_LIMIT
 from vexture.renderers.view import SIZE_LIMIT, fit, window
 
-peers = pytest.importorskip("vexture_evidence.measures.peers", reason="it needs vexture-evidence")
-skia_path = peers.skia_path
-
 PROMISE = 0.03 / 255
 RULES = [FillRule.NONZERO, FillRule.EVENODD]
 patient = settings(deadline=None)  # the first example may have to wait for the compiler
@@ -302,6 +299,7 @@ def test_deep_zoom_sees_the_tangent():
 
 
 def test_skia_agrees_loosely():
+    skia_path = pytest.importorskip("vexture_evidence.measures.peers", reason="it needs vexture-evidence").skia_path
     size, shape = 256, crowd()
     image = np.zeros((size, size), np.uint8)
     for path in shape.paths:

@@ -2,15 +2,12 @@
 
 import json
 import sys
-import tempfile
 import time
-from contextlib import ExitStack, closing, contextmanager, suppress
+from contextlib import ExitStack, closing, suppress
 from functools import partial
-from pathlib import Path
 
 import pytest
 from attacks import NO_REQUESTS, refusal_status, rest
-from floods import BOUNDS, FloodServer, sea
 from server import SECONDS, Server, Stream, serving
 
 PROGRAM = """
@@ -35,19 +32,6 @@ app.routes.append(Route("/fault", lambda request: 1 / 0))
 serve_until_stopped(app, taken, shelf.close, limits)
 """
 
-FLOOD_PROGRAM = """
-import json, resource, sys
-from vexture.cli.main import main
-from vexture_geo.flood import server as flood
-from vexture.server.limits import Limits
-
-limits = json.loads(sys.argv.pop(1))
-files = limits.pop("files")
-resource.setrlimit(resource.RLIMIT_NOFILE, (files, files))
-flood.Limits = lambda: Limits(**limits)
-main()
-"""
-
 SHORT = 1.0
 PATIENT_LIMITS = {"head_seconds": 600.0, "stall_seconds": 600.0}
 """Limits in seconds: one for which a test waits, and those that no test reaches."""
@@ -70,37 +54,10 @@ def shelf(**given):
     return serving(None, kind=partial(Shelf, **given))
 
 
-class Flood(FloodServer):
-    """The whole server of a flood, with other limits."""
-
-    large = "/flood.js"
-
-    def __init__(self, folder, token=True, files=2000, size=None, **limits):
-        told = {"files": files, **PATIENT_LIMITS, **limits}
-        self.water = sea(folder / "sea.geojson").read_bytes()
-        options = ["--extent", folder / "sea.geojson", "--bounds", ",".join(map(str, BOUNDS))]
-        super().__init__(folder, *options, token=token, program=[sys.executable, "-c", FLOOD_PROGRAM, json.dumps(told)])
-
-    def stop(self):
-        """Show newer water and end; the notes about the flood are no complaints."""
-        assert self.put("flood", self.water)[0] == 200
-        code, said, errors = super().stop()
-        return code, said, "".join(line for line in errors.splitlines(True) if not line.startswith("vexture: "))
-
-
-@contextmanager
-def flood(**given):
-    with tempfile.TemporaryDirectory() as folder, serving(Path(folder), kind=partial(Flood, **given)) as server:
-        yield server
-
-
-@pytest.fixture(params=["shelf", pytest.param("flood", marks=pytest.mark.slow)])
-def served(request):
-    """Context of a server under limits that are given; that of a flood takes seconds to start."""
-    if request.param == "shelf":
-        return shelf
-    request.getfixturevalue("page_is_built")
-    return flood
+@pytest.fixture
+def served():
+    """Context of a server under limits that are given; `tests/geo` has the server of a flood in its place."""
+    return shelf
 
 
 def test_connections_never_use_up_the_descriptors(served):

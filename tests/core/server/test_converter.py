@@ -3,12 +3,9 @@
 import asyncio
 from contextlib import closing
 
-import numpy as np
 import pytest
-from floods import geotiff
 from loops import run
 from server import TOKEN, serving, square
-from test_connections import flood
 
 from vexture.server.converter import Converter
 from vexture.server.limits import Limits
@@ -42,15 +39,6 @@ def check_others_are_converted(server, name, body, slow):
 def test_a_slow_conversion_keeps_no_other_waiting(tmp_path):
     with serving(tmp_path / "shapes") as server:
         check_others_are_converted(server, "quick", square(), fan(1500))
-
-
-@pytest.mark.slow
-@pytest.mark.usefixtures("page_is_built")
-def test_a_slow_conversion_of_a_flood_keeps_no_other_waiting(tmp_path):
-    noise = np.random.default_rng(1).normal(size=(1900, 1900)).astype(np.float32)
-    with flood() as server:
-        slow = geotiff(tmp_path / "noise.tif", noise).read_bytes()  # takes more than a minute
-        check_others_are_converted(server, "flood", server.water, slow)
 
 
 @pytest.mark.slow

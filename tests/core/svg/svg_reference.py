@@ -16,9 +16,6 @@ from PIL import Image
 from same_fonts import FONTS
 from vexture.drawing.drawing import Drawing
 
-peers = pytest.importorskip("vexture_evidence.measures.peers", reason="it needs vexture-evidence")
-paint_with_skia = peers.paint_with_skia
-
 SIDE, FINER = 100, 4
 """Pixels across a picture, and those of it as it is drawn across one of them."""
 
@@ -42,10 +39,11 @@ def render_file(text: str) -> np.ndarray:
 
 def render_drawing(drawing: Drawing, height: int, width: int) -> np.ndarray:
     """What Skia draws from the contours and groups of a drawing that fills a rectangle, (height, width, 4)."""
+    peers = pytest.importorskip("vexture_evidence.measures.peers", reason="it needs vexture-evidence")
     size = max(height, width)
     pixels = np.zeros((size, size, 4), np.uint8)
     with skia.Surface(pixels) as canvas:
-        paint_with_skia(canvas, drawing, np.array([[size, 0, 0], [0, -size, size], [0, 0, 1]]))
+        peers.paint_with_skia(canvas, drawing, np.array([[size, 0, 0], [0, -size, size], [0, 0, 1]]))
     top, left = (size - height) // 2, (size - width) // 2
     return premultiply(pixels)[top : top + height, left : left + width]
 

@@ -1,13 +1,10 @@
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from vexture.bezier.area import edge_index
+from vexture.thesis.decode import edge_point
 from vexture.thesis.encode import quantised_ends
-
-thesis_decode = pytest.importorskip("vexture_evidence.measures.thesis_decode", reason="it needs vexture-evidence")
-edge_point = thesis_decode.edge_point
 
 INDEX = st.floats(0.0, 1.0, exclude_max=True)
 

@@ -10,10 +10,10 @@ from vexture.base.layout import LATTICE
 from vexture.bezier.points import points_along
 from vexture.texture.decode import decode as decode_packed
 from vexture.texture.texture import Texture
+from vexture.thesis.decode import decode as decode_thesis
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellKind, CellTree
 from vexture.tree.tree import Tree as PackedTree
-from vexture_evidence.measures.thesis_decode import decode as decode_thesis
 
 Tree = CellTree | PackedTree
 

@@ -6,7 +6,7 @@ import pytest
 from vexture.bezier.area import edge_index
 from vexture.conversion.pipeline import run_encoding
 from vexture.drawing.drawing import Drawing
-from vexture_evidence.measures.thesis_decode import decode, edge_point
+from vexture.thesis.decode import decode, edge_point
 
 
 def test_points_of_indices_are_on_edges_and_have_those_indices():
