@@ -19,8 +19,8 @@ from vexture.cli.messages import as_options
 from vexture.cli.options import viewer_parameters
 from vexture.cli.view import view
 from vexture.conversion.parameters import Parameters
+from vexture.conversion.sprites import symbol_drawings
 from vexture.server.publish_file import shape_of
-from vexture.svg.sprite import symbol_drawings
 
 SQUARE = "M0 0h4v4h-4z"
 USED = (("a", "var(--first)"), ("b", "var(--second)"))

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from vexture.conversion.sprites import symbol_drawings
 from vexture.svg.read import svg_drawing
-from vexture.svg.sprite import symbol_drawings
 
 RAMP = '<linearGradient id="ramp"><stop stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient>'
 SQUARE = '<path d="M0 0h6v6h-6z"/>'
