@@ -162,7 +162,7 @@ test: .venv/made
 
 # as where only the core is installed; tests that compare with other programs, which vexture-evidence has, say that they
 # are skipped
-test-core: .venv/for-test
+test-core: kernels
 	PYTHONPATH=tools $(PYTEST) -p core_alone -m 'not slow' tests/core
 
 # what `test` leaves out; the drawings come from npm and, on Debian, from apt

@@ -30,15 +30,6 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: (WEB not in item.path.parents, item.get_closest_marker("long") is None))
 
 
-@pytest.fixture(scope="session", autouse=True)
-def loaded_kernels():
-    """Load the kernels once where many tests run: commands convert in forks of a process, which have what it has."""
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        from vexture.server.publish_file import load_kernels
-
-        load_kernels()
-
-
 @pytest.fixture(scope="session")
 def made_once(tmp_path_factory, request):
     """Folder of a name, filled by the first of all processes of tests that asks for it; the others wait for it."""
@@ -57,6 +48,19 @@ def made_once(tmp_path_factory, request):
             return folder
 
     return make_folder
+
+
+@pytest.fixture(scope="session", autouse=True)
+def loaded_kernels(made_once):
+    """Load the kernels once where many tests run: commands convert in forks of a process, which have what it has.
+
+    One process compiles those that are not compiled yet, while the others wait.
+    """
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        from vexture.server.publish_file import load_kernels
+
+        made_once("kernels", lambda _: load_kernels())
+        load_kernels()
 
 
 @pytest.fixture(scope="session")

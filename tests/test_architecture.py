@@ -108,10 +108,16 @@ def tree_of(path):
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
+@cache
+def nodes_of(path):
+    return [*ast.walk(tree_of(path))]
+
+
+@cache
 def imported(path):
     """Modules of the package that a module imports, wherever in it, as ``render.view``."""
     found = set()
-    for node in ast.walk(tree_of(path)):
+    for node in nodes_of(path):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -159,7 +165,7 @@ def public_names(path):
 def numbers(path):
     """All numbers that are typed in a module, with their signs."""
     found = set()
-    for node in ast.walk(tree_of(path)):
+    for node in nodes_of(path):
         negative = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub)
         value = getattr(node.operand if negative else node, "value", None)
         if type(value) in (int, float):
@@ -170,11 +176,11 @@ def numbers(path):
 def texts(path):
     """All string constants but docstrings."""
     documented = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
-    bodies = [node.body for node in ast.walk(tree_of(path)) if isinstance(node, documented) and ast.get_docstring(node)]
+    bodies = [node.body for node in nodes_of(path) if isinstance(node, documented) and ast.get_docstring(node)]
     docstrings = {id(body[0].value) for body in bodies}
     return [
         node.value
-        for node in ast.walk(tree_of(path))
+        for node in nodes_of(path)
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docstrings
     ]
 
@@ -271,7 +277,7 @@ def test_every_module_has_a_docstring_and_a_public_name():
 
 def test_no_module_imports_a_private_name():
     for path in MODULES:
-        imports = [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.ImportFrom)]
+        imports = [node for node in nodes_of(path) if isinstance(node, ast.ImportFrom)]
         names = [alias.name for node in imports if (node.module or "").startswith("vexture") for alias in node.names]
         assert not [name for name in names if re.match(r"_[a-z]", name)], path
 
@@ -284,7 +290,7 @@ def test_no_module_is_a_dumping_ground():
 def test_modules_and_functions_are_of_a_readable_length():
     for path in MODULES + SCRIPTS:
         assert len(path.read_text(encoding="utf-8").splitlines()) <= LONGEST_MODULE, path
-        for node in ast.walk(tree_of(path)):
+        for node in nodes_of(path):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
                 body = node.body[1:] if ast.get_docstring(node) else node.body
                 lines = node.end_lineno - body[0].lineno + 1 if body else 0
@@ -293,7 +299,7 @@ def test_modules_and_functions_are_of_a_readable_length():
 
 def test_functions_have_few_positional_parameters():
     for path in sorted((ROOT / "packages").rglob("*.py")):
-        for node in ast.walk(tree_of(path)):
+        for node in nodes_of(path):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and not is_command(node):
                 count = len(node.args.posonlyargs) + len(node.args.args)
                 assert count <= MOST_PARAMETERS, (path, node.name)

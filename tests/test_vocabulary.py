@@ -3,6 +3,7 @@
 import ast
 import re
 from collections import defaultdict
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -43,8 +44,13 @@ def is_vague(name):
     return is_participle and word not in COPIES | ADJECTIVES
 
 
+@cache
+def nodes_of(path):
+    return [*ast.walk(ast.parse(path.read_text(encoding="utf-8")))]
+
+
 def nodes(path, *kinds):
-    return [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, kinds)]
+    return [node for node in nodes_of(path) if isinstance(node, kinds)]
 
 
 def test_there_is_something_to_check():

@@ -92,7 +92,12 @@ class Target:
     other_seeds: str = ""  # pattern of files elsewhere in the repository
     shrink: Callable[[bytes], bytes] | None = None  # instead of leaving out bytes
     patience: float = 1.0  # times the seconds that an input may take
-    in_a_second: int = 200  # runs, about: the ordinary tests do a second's
+    in_a_second: int = 200  # runs, about
+
+    @property
+    def of_a_test(self) -> int:
+        """Runs in the ordinary tests: those of half a second."""
+        return -(-self.in_a_second // 2)
 
     def seeds(self, name: str) -> list[bytes]:
         """Contents of its corpus, in the order of the files' names, and files that are made."""

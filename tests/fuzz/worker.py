@@ -97,5 +97,5 @@ if __name__ == "__main__":
         memory = mmap.mmap(file.fileno(), SHARED_BYTES)
     limit_memory()
     for each in names:
-        most = TARGETS[each].in_a_second if runs == "second" else int(runs)
+        most = TARGETS[each].of_a_test if runs == "test" else int(runs)
         print(json.dumps({"target": each, **run(each, seed, float(until), most, memory)}), file=OUT, flush=True)

@@ -198,6 +198,12 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
     }
 
 
+@cache
+def openness() -> str:
+    """Picture of where the water is open to waves."""
+    return openness_png(open_water(wet(LEVELS[0]), FRAME))
+
+
 def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
     """Scene of a flood in as many steps."""
     heights = over_frame(COLUMNS, ROWS)
@@ -240,7 +246,7 @@ def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
                 "heights": data_url("application/octet-stream", np.round(heights / unit).astype("<i2").tobytes()),
             },
             "fold": None,
-            "openness": openness_png(open_water(wet(LEVELS[0]), FRAME)),
+            "openness": openness(),
             "views": views(0.52),
             "notes": ["The bay is made of formulas."],
         }

@@ -120,22 +120,22 @@ def test_a_function_that_throws_stops_no_frame(opened_map: Callable[..., Any]) -
     assert failed == []
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ("{ source: 'map.pmtiles' }", "the layer's id is undefined; give a text"),
-        ("{ id: 'a', most: 0, source: 'map.pmtiles' }", "most is 0; give a number of 1 or more"),
-        ("{ id: 'a', opacity: '0.5', source: 'map.pmtiles' }", 'the opacity is "0.5"; give 0 to 1'),
-        ("{ id: 'a', opacity: null, source: 'map.pmtiles' }", "the opacity is null; give 0 to 1"),
-        ("{ id: 'a' }", "the source is undefined; give the address of a .pmtiles or a TileJSON, or "),
-    ],
-)
-def test_options_that_cannot_be_are_refused(options: str, message: str, opened_map: Callable[..., Any]) -> None:
+REFUSED = {
+    "{ source: 'map.pmtiles' }": "the layer's id is undefined; give a text",
+    "{ id: 'a', most: 0, source: 'map.pmtiles' }": "most is 0; give a number of 1 or more",
+    "{ id: 'a', opacity: '0.5', source: 'map.pmtiles' }": 'the opacity is "0.5"; give 0 to 1',
+    "{ id: 'a', opacity: null, source: 'map.pmtiles' }": "the opacity is null; give 0 to 1",
+    "{ id: 'a' }": "the source is undefined; give the address of a .pmtiles or a TileJSON, or ",
+}
+
+
+def test_options_that_cannot_be_are_refused(opened_map: Callable[..., Any]) -> None:
     page = opened_map({"zoom": 2})
-    said = page.evaluate(
-        f"() => {{ try {{ new tiles.constructor({options}) }} catch (error) {{ return `${{error}}` }} }}"
-    )
-    assert said.startswith(f"VextureError: {message}")
+    for options, message in REFUSED.items():
+        said = page.evaluate(
+            f"() => {{ try {{ new tiles.constructor({options}) }} catch (error) {{ return `${{error}}` }} }}"
+        )
+        assert said.startswith(f"VextureError: {message}"), options
     asked = page.evaluate("() => { try { tiles.on('hovered', () => {}) } catch (error) { return error.message } }")
     assert asked == 'the event is "hovered"; give one of hover, click, error'
     asked = page.evaluate("() => { try { tiles.on('click', 5) } catch (error) { return error.message } }")

@@ -112,7 +112,8 @@ def test_several_roots_by_name_and_number() -> None:
     for number, name in enumerate(names):
         picture = decoder.picture(texture, SIZE, root=name, samples=SAMPLES)
         assert_alike(picture, name)
-        np.testing.assert_array_equal(decoder.picture(texture, SIZE, root=number, samples=SAMPLES), picture)
+        first = decoder.picture(texture, SIZE // 4, root=name, samples=1)
+        np.testing.assert_array_equal(decoder.picture(texture, SIZE // 4, root=number, samples=1), first)
 
 
 def test_example_of_part_a() -> None:

@@ -126,7 +126,7 @@ def test_result_type():
 
 
 @given(degenerate_drawings(), st.integers(0, 2**32))
-@settings(patient, max_examples=60)
+@settings(patient, max_examples=25)
 def test_degenerate_drawings_agree_with_exact_scanlines(shape, seed):
     rng = np.random.default_rng(seed)
     size = (7, 5)

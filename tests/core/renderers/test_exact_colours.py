@@ -173,7 +173,7 @@ def painted_drawings(draw):
 
 
 @given(painted_drawings(), st.integers(0, 2**32))
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 def test_degenerate_drawings_agree_with_exact_scanlines(drawing, seed):
     rng = np.random.default_rng(seed)
     size = (7, 5)

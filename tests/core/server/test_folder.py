@@ -21,7 +21,7 @@ LOST = (OSError, http.client.HTTPException, ValueError)
 
 
 @pytest.mark.parametrize("rounds", [
-    pytest.param(4, marks=pytest.mark.long),
+    2,
     pytest.param(200, marks=[pytest.mark.slow, pytest.mark.timeout(3600)]),
 ])  # fmt: skip
 def test_kill_at_random_moments(tmp_path, rounds):

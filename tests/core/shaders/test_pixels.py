@@ -118,8 +118,7 @@ def test_coverage_is_the_mirrors(name: str, view: str) -> None:
     assert off(found, by_glsl(text, numbers(FLAT=int(is_flat)), given, SIZE)[..., 0]) < CLOSE
 
 
-@pytest.mark.parametrize("view", [name for name in VIEWS if name != "near"])
-@pytest.mark.parametrize("is_linear", [0, 1])
+@pytest.mark.parametrize(("view", "is_linear"), [*((name, 0) for name in VIEWS if name != "near"), ("whole", 1)])
 @pytest.mark.parametrize("name", ["gradients/blended", "groups/nested", "groups/nested, widened"])
 def test_colours_are_the_mirrors(name: str, is_linear: int, view: str) -> None:
     given, is_flat = given_of(texture(name), VIEWS[view])

@@ -42,9 +42,10 @@ def test_every_flag_is_read() -> None:
             assert read_svg(file).segments > 0, file
 
 
+@pytest.mark.parametrize("count", [50, pytest.param(150, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("corpus", [mdi, simple_icons])
-def test_a_sample_looks_like_the_reference(corpus: Corpus) -> None:
-    for file in sample(corpus, 150):
+def test_a_sample_looks_like_the_reference(corpus: Corpus, count: int) -> None:
+    for file in sample(corpus, count):
         root = etree.parse(file).getroot()
         root.set("width", str(SHOWN))
         root.set("height", str(SHOWN))

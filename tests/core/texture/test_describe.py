@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_texture_encode import chain, texture_of
 
@@ -20,6 +20,7 @@ FORESTS = st.lists(packed_trees(max_quads=8), min_size=1, max_size=4)
 TRANSFORM = np.array([[24.0, 0.0, -1.5], [0.0, -24.0, 1 / 3]])
 
 
+@settings(max_examples=40)
 @given(FORESTS)
 def test_every_quad_and_curve_is_a_texel_of_its_own(trees: list[Tree]) -> None:
     texture = texture_of(trees)
@@ -32,6 +33,7 @@ def test_every_quad_and_curve_is_a_texel_of_its_own(trees: list[Tree]) -> None:
         assert root["coverage"] == pytest.approx(tree.coverage[0].mean(), abs=0.5 / layout.COVERAGE_ONE)
 
 
+@settings(max_examples=40)
 @given(packed_trees())
 def test_depth(tree: Tree) -> None:
     depth = np.zeros(len(tree.count), int)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from vexture.base.errors import DeviceError
@@ -42,6 +42,7 @@ def test_files_are_as_readable_as_others(tmp_path: Path) -> None:
     assert quads.stat().st_mode == other.stat().st_mode
 
 
+@settings(max_examples=40)
 @given(st.text())
 @example("..")
 @example(".hidden")

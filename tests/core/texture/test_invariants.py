@@ -206,7 +206,7 @@ def random_shape(seed, bits):
 
 
 @every_invariant
-@settings(max_examples=25)
+@settings(max_examples=12)
 @given(st.integers(0, 10**9), st.sampled_from([8, 16]))
 @example(38, 16)  # curves that cross themselves under the even-odd rule
 @example(700, 16)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -241,6 +241,7 @@ def refreshed(content: bytes) -> bytes:
     return out
 
 
+@settings(max_examples=40)
 @given(st.data(), cell_trees(max_quads=6), st.sampled_from([8, 16]))
 def test_damaged_pixels(tmp_path: Path, data: st.DataObject, tree: CellTree, bits: int) -> None:
     texture = encode(tree, bits, to_source=TRANSFORM, name="small")

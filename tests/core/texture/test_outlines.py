@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import corpora
@@ -87,6 +87,7 @@ def with_lines(tree: Tree) -> Tree:
     return replace(tree, curves=lines.astype(np.int32))
 
 
+@settings(max_examples=40)
 @given(packed_trees(max_depth=2, max_quads=4).map(with_lines), st.integers(0, 2**32))
 def test_outlines_are_closed_and_wind_as_the_leaves_say(tree: Tree, seed: int) -> None:
     """Even where pieces and corner windings are random, so that windings are anything."""

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_ktx2 import by_ktx_parse
 
@@ -34,6 +34,7 @@ def same(a: Tree, b: Tree) -> None:
         np.testing.assert_array_equal(x, y, field)
 
 
+@settings(max_examples=40)
 @given(FORESTS)
 def test_decode_is_the_inverse_of_encode(trees: list[Tree]) -> None:
     texture = texture_of(trees)

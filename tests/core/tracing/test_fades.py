@@ -47,7 +47,7 @@ def test_noise_hides_no_gradient():
     assert np.abs(drawn(drawing, (300, 100)) - premultiplied(pixels)).mean() < 1.0
 
 
-@pytest.mark.parametrize("background", ["transparent", "white"])
+@pytest.mark.parametrize("background", ["transparent", pytest.param("white", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("scale", [1, *(pytest.param(other, marks=pytest.mark.slow) for other in (0.8, 2.5))])
 def test_areas_of_a_drawing_keep_their_gradients_and_colours(scale, background):
     size = (round(240 * scale), round(160 * scale))

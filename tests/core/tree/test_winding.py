@@ -35,7 +35,7 @@ def different_paths(drawing):
     return [number for number, path in enumerate(said) if path not in said[:number]]
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=8, deadline=None)
 @given(st.integers(0, 10**9))
 @example(2044)  # paths 0 and 3 are one
 def test_counted_windings_equal_brute_force(seed):
