@@ -142,6 +142,8 @@ LIBRSVG_TESTS = DebianPackage("librsvg2-tests", "usr/libexec/installed-tests/RSV
 OPENCLIPART = DebianPackage("openclipart-svg", "usr/share/openclipart/svg")
 TANGO = DebianPackage("tango-icon-theme", "usr/share/icons/Tango/scalable")
 DEVICON = Package("devicon", "2.17.0", "icons")
+CIRCLE_FLAGS = Package("circle-flags", "2.8.3", "flags")
+SUPER_TINY_ICONS = Package("super-tiny-icons", "0.6.0", "images/svg")
 NOTO = DebianPackage("fonts-noto-core", "usr/share/fonts/truetype/noto")
 GSHHG = DebianPackage("gmt-gshhg-low", "usr/share/gmt-gshhg")
 
@@ -174,6 +176,16 @@ def coat_of_arms() -> Path:
 def emoji(count: int, seed: int) -> list[Path]:
     """Return emoji of Twemoji (CC BY 4.0): a few flat colours."""
     return TWEMOJI.files(count, seed)
+
+
+def icons_logos_and_flags(seed: int) -> list[Path]:
+    """Return 500 files of seven packages: icons of one path, strokes, logos with gradients, flags with clips."""
+    counts = {MDI: 40, LUCIDE: 40, SIMPLE_ICONS: 60, FLAG_ICONS: 110, CIRCLE_FLAGS: 90, SUPER_TINY_ICONS: 80, DEVICON: 80}
+    found = list[Path]()
+    for package, count in counts.items():
+        files = sorted((package.installed_folder() / package.folder).rglob("*.svg"))
+        found += random.Random(seed).sample(files, count)
+    return found
 
 
 def ktx_parse() -> Path:

@@ -1,6 +1,7 @@
 // Reads SVG for tests; outlines of strokes come from the server.
 import { openSvg } from '../../../web/src/convert/page-engine.js';
 import { readSvg } from '../../../web/src/convert/read-svg.js';
+import { svgDrawing } from '../../../web/src/convert/svg.js';
 
 function strokeOutline(cubics, closed, style) {
   const request = new XMLHttpRequest();
@@ -24,4 +25,9 @@ window.readText = (text, name) => {
   } catch (error) {
     return { error: `${error.name}: ${error.message}`, stack: error.stack, ms: performance.now() - start };
   }
+};
+
+window.readSource = async (source, options = {}) => {
+  const drawing = await svgDrawing(source, { strokeOutline, ...options });
+  return { ...drawing, paths: drawing.paths.map(plain) };
 };

@@ -5,8 +5,10 @@ import { shortenText } from './report.js';
 
 export const SVG = 'http://www.w3.org/2000/svg';
 
-/** Longest text, and most elements, that a page can read without standing still for long. */
-const LONGEST = 32 * 2 ** 20;
+/** Longest text that a page can read without standing still for long. */
+export const LONGEST = 32 * 2 ** 20;
+
+/** Most elements, likewise. */
 const MOST_ELEMENTS = 200_000;
 
 /** Deepest nesting, and most letters of all entities together, as of libxml2 in Python. */

@@ -1,0 +1,24 @@
+// The drawing of an SVG, from any source.
+import { openSvg } from './page-engine.js';
+import { readSvg } from './read-svg.js';
+import { loadMarkup } from './source.js';
+
+/**
+ * Read an SVG. Only its own address is fetched, nothing that it refers to.
+ *
+ * @param {string | Blob | ArrayBuffer | Uint8Array | URL | Response | Element} source markup or its place, or an `<svg>` of
+ *   the page, which keeps the colours and variables that it has there
+ * @param {import('./read-svg.js').SvgOptions & { signal?: AbortSignal }} [options]
+ * @returns {Promise<import('./read-svg.js').Drawing>}
+ * @throws {VextureError} if it is no SVG, or exceeds a limit
+ */
+export async function svgDrawing(source, options = {}) {
+  const isElement = typeof Element !== 'undefined' && source instanceof Element;
+  const opened = isElement ? source : await loadMarkup(/** @type {Exclude<typeof source, Element>} */ (source), options);
+  const engine = openSvg(opened);
+  try {
+    return readSvg(engine, options);
+  } finally {
+    engine.close();
+  }
+}
