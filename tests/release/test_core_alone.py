@@ -23,7 +23,7 @@ COPIES = ("FORMAT.md", "examples/shapes", "packages/vexture/pyproject.toml", "py
 """What the tests read of a checkout; packages are installed only."""
 
 MAY_LACK = re.compile(
-    r"vexture-evidence|tblib|more than the 256 rows|zlib|chromium|[Nn]ode|npm|wgpu|Vulkan|OpenGL|not built|corpora"
+    r"vexture-evidence|vexture-geo|tblib|more than the 256 rows|zlib|chromium|[Nn]ode|npm|wgpu|Vulkan|OpenGL|not built"
 )
 """In the reasons of tests that are skipped: other packages of tests, and what is no Python."""
 

@@ -14,7 +14,11 @@ import pytest
 from click.testing import CliRunner
 
 import vexture
+from needed import NEEDS_GEO
 from vexture.cli.main import main
+
+OF_GEO = {name for home, names in vexture._HOMES.items() if home.startswith("vexture_geo") for name in names}
+"""Public names that vexture-geo has."""
 
 SQUARE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><path d="M2 2h6v5h-6z"/></svg>'
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 10 10">{}</svg>'
@@ -194,7 +198,10 @@ def test_missing_files_and_folders_are_called_what_they_are(command, tmp_path, n
         ("a.svg", b"", "is empty; give an SVG,", "it is empty; give a texture"),
         ("a.ktx2", b"\x81\xff<", "holds nothing that can be read; give an SVG,", "begins with"),
         ("a.bin", b"\x81\xff<", "holds nothing that can be read; give an SVG,", "it is not a texture; give a texture"),
-        ("a.json", b'{"a":1}', "is not GeoJSON; give an SVG,", "it is not a texture; give a texture"),
+        pytest.param(
+            *("a.json", b'{"a":1}', "is not GeoJSON; give an SVG,", "it is not a texture; give a texture"),
+            marks=NEEDS_GEO,
+        ),
         ("a.html", b"<html></html>", "not <svg>", "it is not a texture; give a texture"),
     ],
 )
@@ -296,18 +303,20 @@ def test_module_and_function_of_one_name():
     assert outcome.stdout == "True\n"
 
 
-def test_public_names_are_there():
-    for name in vexture.__all__:
-        assert getattr(vexture, name).__name__ == name
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[NEEDS_GEO] * (name in OF_GEO)) for name in vexture.__all__])
+def test_public_names_are_there(name):
+    assert getattr(vexture, name).__name__ == name
+
+
+def test_no_other_name_is_there():
     with pytest.raises(AttributeError, match="nothing"):
         _ = vexture.nothing
 
 
 def test_fonts_of_texts(tmp_path):
     folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
-    file, areas = tmp_path / "text.svg", tmp_path / "areas.geojson"
+    file = tmp_path / "text.svg"
     file.write_text(SVG.format('<text y="8" font-size="8" font-family="cmr10">h</text>'))
-    areas.write_text('{"type": "Polygon", "coordinates": [[[4, 52], [6, 52], [6, 53], [4, 53]]]}')
     for font in (folder, folder / "cmr10.ttf"):
         result = run("convert", file, "-o", tmp_path, "--font", font, "--font", folder / "cmtt10.ttf")
         assert (result.exit_code, result.stderr) == (0, "")
@@ -316,6 +325,12 @@ def test_fonts_of_texts(tmp_path):
     assert shown[0].stderr == ""
     assert (shown[1].exit_code, shown[1].stderr.count("\n")) == (1, 1)
     assert "no.ttf" in shown[1].stderr
+
+
+@NEEDS_GEO
+def test_fonts_are_refused_for_areas(tmp_path):
+    folder, areas = Path(matplotlib.get_data_path()) / "fonts" / "ttf", tmp_path / "areas.geojson"
+    areas.write_text('{"type": "Polygon", "coordinates": [[[4, 52], [6, 52], [6, 53], [4, 53]]]}')
     refused = run("convert", areas, "-o", tmp_path, "--font", folder)
     assert refused.exit_code == 1
     assert f"--font '{folder}' is for the texts of an SVG; leave it out" in refused.stderr

@@ -10,6 +10,7 @@ from PIL import Image
 from test_cli import SQUARE, SVG, run
 
 import vexture
+from needed import NEEDS_GEO
 from vexture.base.layout import MAP_HEAD
 
 LOGO = SVG.format(
@@ -56,6 +57,7 @@ def test_colours_and_parts(tmp_path):
     assert [root.name for root in vexture.load(tmp_path / "logo.ktx2").roots] == [root.name for root in roots]
 
 
+@NEEDS_GEO
 def test_polygons_are_named_by_a_property_and_snapped(tmp_path):
     rings = [[[0, 0], [1, 0], [1, 1], [0, 1]], [[1.000001, 0], [2, 0], [2, 1], [1.000001, 1]]]
     features = [

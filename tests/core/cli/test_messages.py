@@ -6,6 +6,7 @@ import warnings
 import click
 import pytest
 
+from needed import NEEDS_GEO
 from vexture.base.errors import SourceError
 from vexture.cli.messages import as_options, one_line
 
@@ -14,6 +15,7 @@ def test_parameters_become_options():
     assert as_options("`max_depth` is 3; use `fonts`, not `Fonts`") == "--max-depth is 3; use --font, not `Fonts`"
 
 
+@NEEDS_GEO
 def test_the_command_that_runs_names_its_own_options():
     options = [click.Option(["--color", "--page-color", "page_colors"]), click.Option(["--layer"])]
     with click.Context(click.Command("one", params=options)):

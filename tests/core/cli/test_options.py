@@ -8,6 +8,7 @@ import pytest
 from test_cli_streams import LOGO, run, shell
 
 import vexture
+from needed import NEEDS_GEO
 from vexture.conversion.reading import read_drawing
 from vexture.texture.load import texture_from
 
@@ -55,6 +56,7 @@ def test_commands_read_pipes_of_names(logo, tmp_path):
         output.unlink()
 
 
+@NEEDS_GEO
 def test_what_is_read_several_times_is_no_pipe(tmp_path):
     for arguments in (("tiles", "-o", tmp_path / "a.pmtiles"), ("flood", "-o", tmp_path / "a.html", "--extent")):
         result = shell('"$@" <(echo "{}")', *arguments)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import vexture
+from needed import NEEDS_GEO
 from vexture.base.errors import DeviceError, ParameterError
 
 pytest.importorskip("anywidget", reason="anywidget is not installed (pip install 'vexture[notebook]')")
@@ -55,6 +56,7 @@ def test_sources_are_refused_in_a_line(pair):
         vexture.show(3)
 
 
+@NEEDS_GEO
 def test_a_flood_is_its_page_in_a_frame(tmp_path):
     pond = b'{"type": "Polygon", "coordinates": [[[4, 52], [4.01, 52], [4.01, 52.01], [4, 52.01]]]}'
     extent = vexture.read_extent(pond, "pond.geojson")

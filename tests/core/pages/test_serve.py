@@ -14,6 +14,7 @@ from described import check_description
 from PIL import Image
 from server import COMMAND, TOKEN, Server, Stream, serving, square
 
+from needed import NEEDS_GEO
 from vexture.server.limits import Limits
 from vexture.texture.load import texture_from
 
@@ -113,6 +114,7 @@ def test_files_put_there_by_hand_are_served(server):
     assert server.wait_for("by%20hand")["facts"]["segments"] == 4
 
 
+@NEEDS_GEO
 def test_geojson_and_textures_are_published_too(server):
     ring = [[4, 52], [6, 52], [6, 53], [4, 53], [4, 52]]
     status, published = server.put("map", json.dumps({"type": "Polygon", "coordinates": [ring]}))
