@@ -83,6 +83,15 @@ export function modeNamed(name) {
 }
 
 /**
+ * Return the name of a mode in CSS.
+ *
+ * @param {number} mode
+ */
+export function modeName(mode) {
+  return NAMES[mode];
+}
+
+/**
  * Return whether there is a mode of this number.
  *
  * @param {number} mode

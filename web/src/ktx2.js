@@ -15,10 +15,10 @@ const TEXTURE = {
   make: 'convert it first: vexture convert FILE, or import FILE?vexture with vexture/vite',
 };
 
-const HEADER_BYTES = 80;
-const LEVEL_BYTES = 24;
-const TEXEL_BYTES = 16;
-const LENGTH_BYTES = 4;
+export const HEADER_BYTES = 80;
+export const LEVEL_BYTES = 24;
+export const TEXEL_BYTES = 16;
+export const LENGTH_BYTES = 4;
 
 /** VK_FORMAT_R32G32B32A32_UINT. */
 const R32G32B32A32_UINT = 107;
@@ -26,8 +26,8 @@ const R32G32B32A32_UINT = 107;
 const NONE = 0;
 const ZLIB = 3;
 
-/** Header fields with a fixed set of values: their offsets and these values. */
-const FIXED = /** @type {const} */ ([
+/** Header fields with a fixed set of values: their offsets and these values, of which vexture writes the first. */
+export const FIXED = /** @type {const} */ ([
   ['vkFormat', 12, [R32G32B32A32_UINT]],
   ['typeSize', 16, [4]],
   ['pixelDepth', 28, [0]],

@@ -12,14 +12,14 @@ export const LONGEST = 32 * 2 ** 20;
 const MOST_ELEMENTS = 200_000;
 
 /** Deepest nesting, and most letters of all entities together, as of libxml2 in Python. */
-const DEEPEST = 256;
+export const DEEPEST = 256;
 const LONGEST_ENTITY = 10_000_000;
 
 const PREFIXES = 20;
 const PROGRAM = 'or convert it with the program vexture';
 
 /** @type {Readonly<Record<string, string>>} */
-const KNOWN = { xlink: 'http://www.w3.org/1999/xlink' };
+export const KNOWN = { xlink: 'http://www.w3.org/1999/xlink' };
 
 /**
  * Parse an SVG document. Nothing is fetched, and no script runs.
@@ -69,7 +69,7 @@ function errorText(source, message) {
 }
 
 /** @param {string} text @throws {VextureError} if it is too long, has too many elements, or its entities are too long */
-function checkSize(text) {
+export function checkSize(text) {
   const most = (/** @type {number} */ limit) => limit.toLocaleString('en-US');
   if (text.length > LONGEST) {
     throw new VextureError(`the file has ${most(text.length)} letters; a page reads ${most(LONGEST)}; simplify or split it, ${PROGRAM}`, 'size');
@@ -107,18 +107,10 @@ function checkEntities(text) {
 
 /** @param {Element} root @returns {Element} @throws {VextureError} if it is not SVG, or exceeds a limit */
 function checkRoot(root) {
-  const name = root.localName;
-  if (name !== 'svg') throw new VextureError(`the root element is <${name.slice(0, 40)}>, not <svg>; this is not an SVG file`, 'root');
-  if (root.namespaceURI !== SVG) {
-    throw new VextureError(`the root element has the namespace '${root.namespaceURI?.slice(0, 80)}'; the one of SVG is '${SVG}'`, 'root');
-  }
+  checkName(root.localName, root.namespaceURI);
   let depth = 1;
   for (let one = /** @type {Element | null} */ (root); one;) {
-    if (depth > DEEPEST) throw new VextureError(`its elements are nested more than ${DEEPEST} deep; flatten its groups`, 'depth');
-    if (one.attributes.length > MOST_ATTRIBUTES) {
-      const [count, most] = [one.attributes.length, MOST_ATTRIBUTES].map((value) => value.toLocaleString('en-US'));
-      throw new VextureError(`<${one.localName.slice(0, 40)}> has ${count} attributes; the limit is ${most}; remove those that draw nothing`, 'attributes');
-    }
+    checkElement(one.localName, one.attributes.length, depth);
     if (one.firstElementChild) [one, depth] = [one.firstElementChild, depth + 1];
     else {
       while (one && one !== root && !one.nextElementSibling) [one, depth] = [one.parentElement, depth - 1];
@@ -126,4 +118,21 @@ function checkRoot(root) {
     }
   }
   return root;
+}
+
+/** @param {string} name @param {string | null} namespace of the root @throws {VextureError} if it is not that of SVG */
+export function checkName(name, namespace) {
+  if (name !== 'svg') throw new VextureError(`the root element is <${name.slice(0, 40)}>, not <svg>; this is not an SVG file`, 'root');
+  if (namespace !== SVG) {
+    throw new VextureError(`the root element has the namespace '${namespace?.slice(0, 80)}'; the one of SVG is '${SVG}'`, 'root');
+  }
+}
+
+/** @param {string} name @param {number} attributes their number @param {number} depth @throws {VextureError} if an element exceeds a limit */
+export function checkElement(name, attributes, depth) {
+  if (depth > DEEPEST) throw new VextureError(`its elements are nested more than ${DEEPEST} deep; flatten its groups`, 'depth');
+  if (attributes > MOST_ATTRIBUTES) {
+    const [count, most] = [attributes, MOST_ATTRIBUTES].map((value) => value.toLocaleString('en-US'));
+    throw new VextureError(`<${name.slice(0, 40)}> has ${count} attributes; the limit is ${most}; remove those that draw nothing`, 'attributes');
+  }
 }

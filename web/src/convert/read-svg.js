@@ -7,15 +7,9 @@ import { inUnitSquare, toUserUnits } from './unit-square.js';
 import { dropEmptyGroups } from './veils.js';
 import { ANONYMOUS, THINNEST } from './viewport.js';
 
+/** @typedef {import('./drawing.js').Drawing} Drawing */
+
 /**
- * @typedef {object} Drawing painted paths in the unit square, y up, in painting order
- * @property {string} name
- * @property {import('./painter.js').Path[]} paths
- * @property {import('./veils.js').Group[]} groups
- * @property {import('./affine.js').Affine} toSource from the unit square to the units of the source
- * @property {[number, number]} sides width and height of the box, which is centred; the longer side is 1
- * @property {import('./report.js').Note[]} notes everything left out, simplified or invalid
- *
  * @typedef {object} SvgOptions
  * @property {string} [name] of the drawing
  * @property {import('./strokes.js').StrokeOutline} [strokeOutline] without it, strokes are left out, with a note

@@ -1,48 +1,17 @@
-// Notes on one document: everything left out, simplified or invalid, with the words of Python's reader.
-
-/** @typedef {'left out' | 'simplified' | 'invalid' | 'remark'} Kind */
-
-/** @typedef {{ kind: Kind, message: string, count: number }} Note */
-
-/** @type {readonly Kind[]} */
-const KINDS = ['left out', 'simplified', 'invalid', 'remark'];
+// Notes on one document.
+import { Notes } from './notes.js';
 
 /** @param {string} text @param {number} longest */
 export const shortenText = (text, longest) => (text.length > longest ? `${text.slice(0, longest)}...` : text);
 
-/** Collects notes and counts repeated ones. */
-export class Report {
+/** The notes on a document, of which it labels the elements. */
+export class Report extends Notes {
   /** @param {import('./page-engine.js').Engine} engine */
   constructor(engine) {
+    super();
     this.engine = engine;
-    /** @type {Map<string, Note>} */
-    this.counts = new Map();
     /** @type {Set<string>} */
     this.seen = new Set();
-  }
-
-  /** @param {Kind} kind @param {string} message @param {number} [times] */
-  count(kind, message, times = 1) {
-    const text = message.replace(/(?! )[\p{C}\p{Z}]/gu, '\ufffd');
-    const key = `${kind}\n${text}`;
-    const note = this.counts.get(key);
-    if (note) note.count += times;
-    else this.counts.set(key, { kind, message: text, count: times });
-  }
-
-  /** Note an unsupported feature, which paints nothing or has no effect. @param {string} message */
-  leftOut(message) {
-    this.count('left out', message);
-  }
-
-  /** Note a part of the result that differs from the standard. @param {string} message */
-  simplified(message) {
-    this.count('simplified', message);
-  }
-
-  /** Note a sentence about the whole source. @param {string} message */
-  remark(message) {
-    this.count('remark', message);
   }
 
   /** Note a value that the standard does not allow. @param {string} name @param {string} value @param {any} element */
@@ -55,11 +24,5 @@ export class Report {
   describe(element) {
     const id = this.engine.attribute(element, 'id');
     return `<${this.engine.tag(element).slice(0, 40)}${id ? ` id="${id.slice(0, 40)}"` : ''}>`;
-  }
-
-  /** All notes by kind; within a kind, by first occurrence. @returns {Note[]} */
-  get inOrder() {
-    const notes = [...this.counts.values()];
-    return KINDS.flatMap((kind) => notes.filter((note) => note.kind === kind));
   }
 }

@@ -1,5 +1,4 @@
 // The drawing of an SVG, from any source.
-import { openSvg } from './page-engine.js';
 import { readSvg } from './read-svg.js';
 import { loadMarkup } from './source.js';
 
@@ -9,13 +8,14 @@ import { loadMarkup } from './source.js';
  * @param {string | Blob | ArrayBuffer | Uint8Array | URL | Response | Element} source markup or its place, or an `<svg>` of
  *   the page, which keeps the colours and variables that it has there
  * @param {import('./read-svg.js').SvgOptions & { signal?: AbortSignal }} [options]
- * @returns {Promise<import('./read-svg.js').Drawing>}
+ * @returns {Promise<import('./drawing.js').Drawing>}
  * @throws {VextureError} if it is no SVG, or exceeds a limit
  */
 export async function svgDrawing(source, options = {}) {
   const isElement = typeof Element !== 'undefined' && source instanceof Element;
   const opened = isElement ? source : await loadMarkup(/** @type {Exclude<typeof source, Element>} */ (source), options);
-  const engine = openSvg(opened);
+  const { openSvg } = await import('#svg-engine'); // the browser's own engine, or ours where there is no page
+  const engine = openSvg(/** @type {string} */ (opened));
   try {
     return readSvg(engine, options);
   } finally {

@@ -8,15 +8,15 @@ import { access, mkdir, readFile, rename, rm, writeFile } from 'node:fs/promises
 import { availableParallelism } from 'node:os';
 import path from 'node:path';
 import { givenOptions } from '../errors.js';
-import { findConverter, run } from './converter.js';
+import { findConverter, linesOf } from './converter.js';
 import { optionsOf, parametersOf } from './options.js';
 
 /**
  * @typedef {import('./options.js').ConvertOptions} ConvertOptions
  *
  * @typedef {object} ConverterOption Where the converter is.
- * @property {string | readonly string[]} [converter] the program with its leading arguments, such as `['uvx', 'vexture']`;
- *   by default it is searched
+ * @property {string | readonly string[] | false} [converter] the Python program with its leading arguments, such as
+ *   `['uvx', 'vexture']`; false is this package itself. By default the program is searched, and this package takes its place
  *
  * @typedef {ConvertOptions & ConverterOption} VextureOptions options of the conversion of all drawings, and the converter
  */
@@ -31,18 +31,12 @@ const CACHE = 'node_modules/.cache/vexture';
 /** Ending of a file beside a texture, with the warnings of its conversion: each build tells them. */
 const NOTES = '.txt';
 
-/** How the converter begins the line of one. */
-const WARNING = 'vexture: warning: ';
-
-/** @param {string} text */
-const linesOf = (text) => text.split('\n').filter(Boolean);
-
 /** As Vite writes paths. @param {string} file */
 const slashed = (file) => file.replaceAll('\\', '/');
 
 /**
- * Vite plugin that converts drawings when they are imported with the query `?vexture`. It runs the converter of this
- * machine, and reuses its output until the drawing, an option or the converter changes.
+ * Vite plugin that converts drawings when they are imported with the query `?vexture`: by the Python program `vexture` if this
+ * machine has it, or else by itself. It reuses a texture until the drawing, an option or the converter changes.
  *
  * @param {VextureOptions} [options]
  * @returns {import('vite').Plugin}
@@ -63,8 +57,9 @@ export default function vexture(options) {
       const [file, query] = divided(id);
       this.addWatchFile(file);
       try {
-        const parameters = parametersOf({ ...common, ...optionsOf(query) });
-        const { target, notes } = await converting.converted(file, parameters, path.join(root, CACHE));
+        const all = { ...common, ...optionsOf(query) };
+        parametersOf(all); // a wrong name is refused by either converter
+        const { target, notes } = await converting.converted(file, all, path.join(root, CACHE));
         for (const note of notes) this.warn(`${slashed(path.relative(root, file))}: ${note}`);
         return { code: `export { default } from ${JSON.stringify(`${slashed(target)}?url&no-inline`)};`, moduleType: 'js' };
       } catch (error) {
@@ -98,32 +93,32 @@ class Conversions {
 
   /**
    * @param {string} file
-   * @param {string[]} parameters
+   * @param {ConvertOptions} options
    * @param {string} cache folder
    */
-  async converted(file, parameters, cache) {
+  async converted(file, options, cache) {
     const content = await readFile(file);
     this.#found ??= this.#find();
-    const { command, version } = await this.#found.catch((error) => {
+    const converter = await this.#found.catch((error) => {
       this.#found = null; // somebody may install one meanwhile
       throw error;
     });
     const name = path.parse(file).name;
-    const told = JSON.stringify([version, parameters, name]);
-    const key = createHash('sha256').update(told).update(content).digest('hex').slice(0, 16);
+    const identity = JSON.stringify([converter.version, parametersOf(options), name]);
+    const key = createHash('sha256').update(identity).update(content).digest('hex').slice(0, 16);
     const target = path.join(cache, key, `${name.replace(/[^\w.-]/g, '_')}.ktx2`);
-    const work = this.#running.get(target) ?? this.#convert(command, file, parameters, target);
+    const work = this.#running.get(target) ?? this.#convert(converter, file, options, target);
     this.#running.set(target, work);
     return work.finally(() => this.#running.delete(target));
   }
 
   /**
-   * @param {string[]} command
+   * @param {Converter} converter
    * @param {string} file
-   * @param {string[]} parameters
+   * @param {ConvertOptions} options
    * @param {string} target
    */
-  async #convert(command, file, parameters, target) {
+  async #convert(converter, file, options, target) {
     const kept = await readFile(`${target}${NOTES}`, 'utf8').catch(() => null); // written last
     if (kept !== null && (await access(target).then(() => true, () => false))) return { target, notes: linesOf(kept) };
     if (this.#free === 0) await new Promise((/** @type {(value?: unknown) => void} */ go) => this.#waiting.push(go));
@@ -131,10 +126,7 @@ class Conversions {
     const unfinished = path.join(path.dirname(target), `${process.pid}.ktx2`);
     try {
       await mkdir(path.dirname(target), { recursive: true });
-      const { code, said } = await run([...command, 'convert', file, ...parameters, `--output=${unfinished}`]);
-      const plain = linesOf(said).map((line) => line.replace(`${file}: `, ''));
-      if (code !== 0) throw new Error(plain.at(-1)?.replace(/^(vexture|Error): /, '') ?? `the converter ended with ${code}`);
-      const notes = plain.filter((line) => line.startsWith(WARNING)).map((line) => line.slice(WARNING.length));
+      const notes = await converter.convert(file, options, unfinished);
       await rename(unfinished, target);
       await writeFile(`${target}${NOTES}`, notes.join('\n'));
       return { target, notes };

@@ -57,3 +57,24 @@ export function parametersOf(options) {
     throw new Error(`no option is named ${name}; there are ${[...SWITCHES, ...VALUES].join(', ')}`);
   });
 }
+
+/** Options that need the Python program: it has more readers than this package. */
+const OF_THE_PROGRAM = Object.freeze(['select', 'snap', 'traceImages']);
+
+const NUMBERS = Object.freeze(['tolerance', 'maxDepth', 'capacity', 'precision', 'maxSeconds']);
+
+/**
+ * The options of `convertData` of this package.
+ *
+ * @param {ConvertOptions} options
+ * @returns {import('../convert/index.js').ConvertOptions & { strict?: boolean }}
+ * @throws {Error} if one needs the Python program
+ */
+export function ownOptions({ silhouette, ...options }) {
+  const entries = Object.entries(options).filter(([name, value]) => value !== undefined && !(value === false && SWITCHES.includes(name)));
+  for (const [name] of entries) {
+    if (OF_THE_PROGRAM.includes(name)) throw new Error(`${name} needs the Python program, which is not installed: pip install vexture`);
+  }
+  const own = Object.fromEntries(entries.map(([name, value]) => [name, NUMBERS.includes(name) ? Number(value) : value]));
+  return silhouette ? { ...own, split: null } : own;
+}

@@ -1,0 +1,197 @@
+// Conversion of a drawing into the texels of a texture, by the kernels; runs in a worker, in a page and in Node.js.
+import { LATTICE, MAP_HEAD, MOST_CURVES, MOST_DEPTH, MOST_ROWS, ROW_BITS } from '../../generated/layout.js';
+import { VextureError, line } from '../errors.js';
+import { Kernels } from './kernels.js';
+import { sheetsOf } from './sheets.js';
+import { silhouetteOf } from './silhouette.js';
+import { layersOf, splitOf, withoutGradients, withoutMasks } from './split.js';
+
+/** @import { Root } from '../data.js' */
+/** @import { Drawing, Note } from './drawing.js' */
+/** @import { Split } from './split.js' */
+
+/**
+ * @typedef {object} ConversionOptions As in `ConvertOptions`.
+ * @property {Split} [split]
+ * @property {number} [tolerance]
+ * @property {number} [maxDepth]
+ * @property {number} [capacity]
+ * @property {number} [precision]
+ * @property {boolean} [restyle]
+ *
+ * @typedef {object} Converted
+ * @property {string} name
+ * @property {number} width texels in a row
+ * @property {number} height rows
+ * @property {Uint32Array} texels
+ * @property {Root[]} roots
+ * @property {Note[]} notes
+ *
+ * @typedef {object} Bounds Limits of a tree, as `vexture.tree.bounds` in Python.
+ * @property {number | undefined} capacity
+ * @property {number} tolerance
+ * @property {number} near
+ * @property {number} leastDepth
+ * @property {number} maxDepth
+ *
+ * @typedef {object} Sheet A shape of the texture: its part of the drawing, and its texels.
+ * @property {Drawing} drawing
+ * @property {Uint32Array} texels
+ * @property {boolean} isMap
+ * @property {number} [flattened] paints of a map that are mean colours, because no program can hold their gradients
+ * @property {import('../style.js').Style | null} [style]
+ */
+
+const DEFAULT_DEPTH = 16;
+
+/** Default tolerance, which cannot be seen at sizes up to 2,000 pixels. */
+const UNSEEN = 2e-5;
+
+/** Lattice units by which a curve may move, because its points are rounded when it is cut, and again in its leaf. */
+const DISPLACEMENT = 2;
+
+/** Share of the largest shift within which the pieces of a crowded cell count as one. */
+const COINCIDENT = 0.25;
+
+/** Notes on maps. */
+const FLATTENED = 'gradients by their mean colours: too many on one another, or in more than 3 groups in one another';
+const several = (/** @type {number} */ count) =>
+  `so many crossing shapes are ${count} maps on one another; what is below shows through where they touch`;
+
+/** The conversions by one instance of the kernels. */
+export class Conversion {
+  /** @param {Kernels} kernels */
+  constructor(kernels) {
+    this.kernels = kernels;
+  }
+
+  /**
+   * Load the kernels.
+   *
+   * @param {import('./kernels.js').Source} [source]
+   */
+  static async load(source) {
+    return new Conversion(await Kernels.load(source));
+  }
+
+  /**
+   * Convert a drawing.
+   *
+   * @param {Drawing} drawing
+   * @param {ConversionOptions} [options]
+   * @returns {Converted}
+   * @throws {VextureError} if an option is out of range, or the drawing exceeds a limit
+   */
+  convert(drawing, { split = 'auto', restyle = false, ...limits } = {}) {
+    const bounds = boundsOf(limits);
+    const { tolerance } = bounds;
+    const way = splitOf(drawing, split, restyle);
+    const shown = restyle ? withoutGradients(drawing) : way ? drawing : withoutMasks(drawing);
+    const layers = way === 'paint' ? layersOf(drawing) : [];
+    const sheets = way === 'faces' && drawing.paths.length
+      ? sheetsOf(this.kernels, shown, { usual: boundsOf({ ...limits, precision: undefined, tolerance }), precise: limits.precision === undefined ? null : bounds }, restyle)
+      : silhouettesOf(this.kernels, layers.length ? layers : [shown], bounds);
+    const count = sheets.reduce((sum, { texels }) => sum + texels.length / 4, 0);
+    if (count > MOST_ROWS << ROW_BITS) {
+      throw new VextureError(`${drawing.name}: ${count} texels; the limit is ${MOST_ROWS << ROW_BITS}; use a larger \`tolerance\``, 'texels');
+    }
+    const roots = rootsOf(sheets, tolerance, split !== null);
+    return { name: drawing.name, ...inRows(sheets, count), roots, notes: [...(layers[0] ?? shown).notes, ...notesOf(sheets, restyle)] };
+  }
+}
+
+/**
+ * @param {Kernels} kernels
+ * @param {Drawing[]} drawings
+ * @param {Bounds} bounds
+ * @returns {Sheet[]}
+ */
+function silhouettesOf(kernels, drawings, bounds) {
+  let first = 0;
+  return drawings.map((drawing) => {
+    const texels = silhouetteOf(kernels, drawing, bounds, first);
+    first += texels.length / 4;
+    return { drawing, texels, isMap: false };
+  });
+}
+
+/**
+ * Limits of a tree from the options.
+ *
+ * @param {Pick<ConversionOptions, 'tolerance' | 'maxDepth' | 'capacity' | 'precision'>} options
+ * @returns {Bounds}
+ * @throws {VextureError} if one is out of range
+ */
+function boundsOf({ precision, tolerance = precision === undefined ? UNSEEN : 0, maxDepth = DEFAULT_DEPTH, capacity }) {
+  const whole = (/** @type {string} */ name, /** @type {number} */ value, /** @type {number} */ most) => {
+    if (Number.isInteger(value) && value >= 1 && value <= most) return;
+    throw new VextureError(`\`${name}\` ${line(value)} is no whole number in 1..${most}; leave it out`, name);
+  };
+  whole('maxDepth', maxDepth, MOST_DEPTH);
+  if (capacity !== undefined) whole('capacity', capacity, MOST_CURVES);
+  const finest = DISPLACEMENT * 0.5 ** maxDepth / LATTICE;
+  if (precision !== undefined && !(precision >= finest && precision <= 1)) {
+    throw new VextureError(`\`precision\` ${line(precision)} is no number in ${finest}..1 (unit-square units); leave it out`, 'precision');
+  }
+  if (!(tolerance >= 0 && tolerance < 1)) {
+    throw new VextureError(`\`tolerance\` ${line(tolerance)} is no number from 0 to below 1 (unit-square units); 0 keeps every piece`, 'tolerance');
+  }
+  const leastDepth = precision === undefined ? 1 : Math.max(Math.ceil(Math.log2(DISPLACEMENT / (precision * LATTICE))), 1);
+  const near = COINCIDENT * (precision ?? (0.5 * DISPLACEMENT) / LATTICE);
+  return { capacity, tolerance, near, leastDepth, maxDepth };
+}
+
+/**
+ * @param {Sheet[]} sheets
+ * @param {number} tolerance
+ * @param {boolean} isColoured whether layers keep their colours
+ * @returns {Root[]}
+ */
+function rootsOf(sheets, tolerance, isColoured) {
+  let first = 0;
+  return sheets.map(({ drawing, texels, isMap, style = null }) => {
+    const [a, b, c, d, e, f] = drawing.toSource;
+    const quad = first + (isMap ? MAP_HEAD : 0);
+    first += texels.length / 4;
+    const flat = !isMap && isColoured && drawing.paths.length ? drawing.paths[0].paint : null;
+    return {
+      name: drawing.name, quad, transform: [a, c, e, b, d, f], tolerance, crs: drawing.crs ?? null,
+      paint: flat && { color: flat.color, opacity: flat.opacity }, isMap, hasGradients: false, style,
+    };
+  });
+}
+
+/**
+ * The texels in rows of an image; the last row is filled with zeros.
+ *
+ * @param {Sheet[]} sheets
+ * @param {number} count of texels
+ */
+function inRows(sheets, count) {
+  const width = Math.min(1 << Math.ceil(Math.log2(count)), 1 << ROW_BITS);
+  const height = Math.ceil(count / width);
+  const texels = new Uint32Array(4 * width * height);
+  let first = 0;
+  for (const sheet of sheets) {
+    texels.set(sheet.texels, first);
+    first += sheet.texels.length;
+  }
+  return { width, height, texels };
+}
+
+/**
+ * @param {Sheet[]} sheets
+ * @param {boolean} restyle
+ * @returns {Note[]}
+ */
+function notesOf(sheets, restyle) {
+  const flattened = sheets.reduce((sum, sheet) => sum + (sheet.flattened ?? 0), 0);
+  /** @type {Note[]} */
+  const notes = flattened ? [{ kind: 'simplified', message: FLATTENED, count: flattened }] : [];
+  const maps = sheets.filter(({ isMap }) => isMap);
+  if (maps.length && sheets.length > 1) notes.push({ kind: 'simplified', message: several(sheets.length), count: 1 });
+  if (restyle && !sheets.some(({ drawing }) => drawing.paths.some(({ element }) => element))) {
+    notes.push({ kind: 'remark', message: 'no element has a name, so none can get another colour', count: 1 });
+  }
+  return notes;
+}

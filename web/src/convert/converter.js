@@ -1,0 +1,163 @@
+// Runs conversions: in one worker, one after another, or in this thread where there are no workers.
+import { VextureError, line } from '../errors.js';
+import { Conversion } from './conversion.js';
+import { outlineStroke } from './stroke-outline.js';
+
+/** @import { Converted, ConversionOptions } from './conversion.js' */
+/** @import { Drawing } from './drawing.js' */
+
+/**
+ * @typedef {object} ConverterOptions
+ * @property {string | URL | BufferSource} [kernels] address of `kernels.wasm`, or its content; by default that of this package
+ * @property {(() => Worker) | false} [worker] starts the worker, for pages with their own way to load one; false converts in
+ *   this thread
+ *
+ * @typedef {object} Job
+ * @property {Drawing} drawing
+ * @property {ConversionOptions} options
+ * @property {AbortSignal} [signal] stops it
+ * @property {number} maxSeconds
+ *
+ * @typedef {object} Waiting A job that waits for the worker.
+ * @property {Job} job
+ * @property {(converted: Converted) => void} resolve
+ * @property {(error: unknown) => void} reject
+ *
+ * @typedef {{ converted: Converted } | { message: string, field: string }} Answer What the worker sends.
+ */
+
+/** Start the package's own worker; bundlers recognise this form. */
+const startWorker = () => new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'vexture' });
+
+/** Converts drawings one after another. */
+export class Converter {
+  #kernels;
+  #start;
+  /** @type {Worker | null} */
+  #worker = null;
+  /** @type {Waiting[]} */
+  #waiting = [];
+  #busy = false;
+  /** @type {Promise<Conversion> | null} */
+  #here = null;
+
+  /** @param {ConverterOptions} [options] */
+  constructor({ kernels, worker = startWorker } = {}) {
+    this.#kernels = kernels;
+    this.#start = worker && typeof Worker === 'function' ? worker : null;
+  }
+
+  /**
+   * Convert a drawing.
+   *
+   * @param {Job} job
+   * @returns {Promise<Converted>}
+   * @throws {VextureError} if it cannot be converted, or takes too long
+   */
+  convert(job) {
+    job.signal?.throwIfAborted();
+    if (!this.#start) return this.#convertHere(job);
+    return new Promise((resolve, reject) => {
+      this.#waiting.push({ job, resolve, reject });
+      this.#next();
+    });
+  }
+
+  /**
+   * The outlines of strokes, by the kernels in this thread: reading an SVG needs them at once.
+   *
+   * @returns {Promise<import('./strokes.js').StrokeOutline>}
+   */
+  async strokeOutline() {
+    this.#here ??= Conversion.load(this.#kernels);
+    const { kernels } = await this.#here;
+    return (cubics, closed, style) => outlineStroke(kernels, cubics, closed, style);
+  }
+
+  /** Digest of the text of the kernels. */
+  async digest() {
+    this.#here ??= Conversion.load(this.#kernels);
+    return (await this.#here).kernels.digest;
+  }
+
+  /** End the worker; a later conversion starts another one. */
+  dispose() {
+    this.#worker?.terminate();
+    this.#worker = null;
+  }
+
+  /** @param {Job} job */
+  async #convertHere({ drawing, options, signal }) {
+    this.#here ??= Conversion.load(this.#kernels);
+    const converted = (await this.#here).convert(drawing, options);
+    signal?.throwIfAborted();
+    return converted;
+  }
+
+  async #next() {
+    if (this.#busy) return;
+    const waiting = this.#waiting.shift();
+    if (!waiting) return;
+    this.#busy = true;
+    try {
+      waiting.resolve(await this.#convertInWorker(waiting.job));
+    } catch (error) {
+      waiting.reject(error);
+    } finally {
+      this.#busy = false;
+      this.#next();
+    }
+  }
+
+  /**
+   * Convert in the worker, which is ended if the job is stopped or takes too long: a kernel does not listen.
+   *
+   * @param {Job} job
+   * @returns {Promise<Converted>}
+   */
+  #convertInWorker({ drawing, options, signal, maxSeconds }) {
+    signal?.throwIfAborted();
+    const worker = (this.#worker ??= this.#begin());
+    return new Promise((resolve, reject) => {
+      const end = (/** @type {unknown} */ error) => {
+        done();
+        this.dispose();
+        reject(error);
+      };
+      const timer = setTimeout(() => {
+        end(new VextureError(
+          `${drawing.name}: converting took longer than ${maxSeconds} s; give a larger \`maxSeconds\`, or a simpler drawing`,
+          'maxSeconds',
+        ));
+      }, 1000 * maxSeconds);
+      const onAbort = () => end(signal?.reason);
+      const done = () => {
+        clearTimeout(timer);
+        signal?.removeEventListener('abort', onAbort);
+        worker.onmessage = worker.onerror = worker.onmessageerror = null;
+      };
+      signal?.addEventListener('abort', onAbort);
+      worker.onmessage = ({ data }) => {
+        done();
+        if ('converted' in data) resolve(data.converted);
+        else reject(new VextureError(data.message, data.field));
+      };
+      worker.onerror = (event) => {
+        event.preventDefault?.();
+        end(new VextureError(
+          `the worker of conversions does not run (${line(event.message || 'it cannot be loaded')}); check the site's files and ` +
+            'its Content-Security-Policy (worker-src), or convert with `worker: false`',
+          'worker',
+        ));
+      };
+      worker.onmessageerror = () => end(new VextureError('the worker of conversions sent damaged data; try again', 'worker'));
+      worker.postMessage({ drawing, options });
+    });
+  }
+
+  #begin() {
+    const worker = /** @type {() => Worker} */ (this.#start)();
+    worker.postMessage({ kernels: this.#kernels instanceof URL ? this.#kernels.href : this.#kernels });
+    return worker;
+  }
+}

@@ -1,0 +1,130 @@
+// The texels of a planar map, by the kernel `coloured_texels`, and the style of one that can be restyled.
+import { FARTHEST } from '../../generated/svg-reader.js';
+import { MOST_PAINTS } from '../../generated/layout.js';
+import { VextureError } from '../errors.js';
+import { checkOutcome, limitsOf, outlinesOf } from './silhouette.js';
+
+/** @import { Bounds, Sheet } from './conversion.js' */
+/** @import { Drawing, Group, Paint, Path } from './drawing.js' */
+/** @import { Kernels } from './kernels.js' */
+/** @import { Gradient } from './paints.js' */
+/** @import { Style } from '../style.js' */
+
+/** Pieces in a leaf of a map. */
+const MAP_CAPACITY = 12;
+
+/** A limit that nothing reaches. */
+const ENDLESS = 2 ** 52;
+
+/** Decimals of the colours of a style. */
+const DIGITS = 1e6;
+
+/** Names of masks in a style. @type {readonly ['none', 'opacity', 'luminance']} */
+const MASKS = ['none', 'opacity', 'luminance'];
+
+/**
+ * Make the planar map of a drawing.
+ *
+ * @param {Kernels} kernels
+ * @param {Drawing} drawing
+ * @param {Bounds} bounds
+ * @param {object} options
+ * @param {boolean} options.restyle keep elements apart; the drawing has no gradients then
+ * @param {number} options.first index of its first texel
+ * @param {number} options.mostTexels
+ * @returns {Sheet | null} null if it needs more texels
+ * @throws {VextureError} if it leaves the unit square, or its tree is too large
+ */
+export function mapOf(kernels, drawing, bounds, { restyle, first, mostTexels }) {
+  const elements = restyle ? elementsOf(drawing.paths) : null;
+  const limits = limitsOf(bounds, MAP_CAPACITY);
+  const most = Math.min(mostTexels, ENDLESS);
+  const source = sourceOf(drawing, elements?.numbers);
+  const found = kernels.call('coloured_texels', [...source, limits, Number(restyle), first, most, ENDLESS]);
+  const { texels, quads, curves, flattened } = found;
+  if (!texels.length) {
+    checkReach(drawing.name, found.reach);
+    checkOutcome(drawing.name, found.outside, quads);
+    if (3 * quads + curves + (curves >> 2) > most) return null;
+    throw new VextureError(`${drawing.name}: ${found.paints > MOST_PAINTS ? 'too many colours' : 'too many gradients'}; divide the drawing`, 'paints');
+  }
+  return { drawing, texels, isMap: true, flattened, style: elements && styleOf(drawing, elements, found) };
+}
+
+/**
+ * @param {string} name
+ * @param {number} reach
+ */
+function checkReach(name, reach) {
+  if (reach <= FARTHEST) return;
+  throw new VextureError(`${name}: a gradient is ${reach} times the size of the drawing away; the limit is ${FARTHEST}; correct it`, 'gradient');
+}
+
+/**
+ * A drawing as the arrays of Python's `MapSource`.
+ *
+ * @param {Drawing} drawing
+ * @param {number[]} [elements] number of the element of each path
+ */
+function sourceOf({ paths, groups }, elements) {
+  const { cubics, lengths, path, rules } = outlinesOf(paths);
+  /** @type {Gradient[]} */
+  const gradients = [];
+  const columns = paths.flatMap(({ paint, group }, k) => [group, paint.gradient ? gradients.push(paint.gradient) - 1 : -1, elements?.[k] ?? 0, 0]);
+  const rgba = paths.flatMap(({ paint: { color, opacity } }) => [...color, opacity]);
+  let stop = 0;
+  const ramps = gradients.flatMap(({ toRamp, focus, spread, stops }) => {
+    stop += stops.length;
+    return [...toRamp.flat(), ...(focus ?? [-1, -1]), spread, stop - stops.length, stops.length];
+  });
+  const stops = gradients.flatMap((gradient) => gradient.stops.flatMap(({ color, opacity, offset }) => [...color, opacity, offset]));
+  return [
+    cubics, lengths, path, rules, columns, rgba,
+    groups.flatMap(({ outer, blend, mask }) => [outer, blend, mask]),
+    groups.map(({ opacity }) => opacity),
+    ramps, stops,
+  ];
+}
+
+/**
+ * The elements of paths: those of equal name, paint and group are one.
+ *
+ * @param {readonly Path[]} paths
+ * @returns {{ first: Path[], numbers: number[] }} the first path of each element, and the number of each path's element
+ */
+function elementsOf(paths) {
+  /** @type {Map<string, number>} */
+  const known = new Map();
+  /** @type {Path[]} */
+  const first = [];
+  const numbers = paths.map((path) => {
+    const { element, paint: { color, opacity }, group } = path;
+    const key = JSON.stringify([element, color, opacity, group]);
+    let number = known.get(key);
+    if (number === undefined) known.set(key, (number = first.push(path) - 1));
+    return number;
+  });
+  return { first, numbers };
+}
+
+/**
+ * The style of a map that was built to be restyled (FORMAT.md, D.10).
+ *
+ * @param {Drawing} drawing
+ * @param {{ first: Path[], numbers: number[] }} elements
+ * @param {{ starts: ArrayLike<number | bigint>, members: ArrayLike<number>, hides: ArrayLike<number | bigint> }} found
+ * @returns {Style}
+ */
+function styleOf({ groups }, { first, numbers }, { starts, members, hides }) {
+  const round = (/** @type {number} */ part) => Math.round(part * DIGITS) / DIGITS;
+  const hiding = new Set(numbers.filter((_, path) => Number(hides[path]) === 1));
+  return {
+    elements: first.map(({ element, paint: { color: [red, green, blue], opacity }, group }, number) => ({
+      name: element, color: [round(red), round(green), round(blue)], opacity: round(opacity), group, hides: hiding.has(number),
+    })),
+    groups: groups.map(({ outer, opacity, blend, mask }) => ({ outer, opacity, blend, mask: MASKS[mask] })),
+    stacks: Array.from({ length: starts.length - 1 }, (_, paint) => {
+      return Array.from({ length: Number(starts[paint + 1]) - Number(starts[paint]) }, (_, k) => numbers[members[Number(starts[paint]) + k]]);
+    }),
+  };
+}
