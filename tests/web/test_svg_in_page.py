@@ -146,7 +146,10 @@ def test_nothing_is_fetched_and_no_script_runs(reader: tuple[Any, list[str]], re
         ("", "not well-formed XML: it is empty"),
         ("PNG", "not well-formed XML: it does not begin with <"),
         ("<svg", "not well-formed XML: line 1"),
-        ("<html xmlns='http://www.w3.org/1999/xhtml'/>", "the root element is <html>, not <svg>; this is not an SVG file"),
+        (
+            "<html xmlns='http://www.w3.org/1999/xhtml'/>",
+            "the root element is <html>, not <svg>; this is not an SVG file",
+        ),
         ('<svg xmlns="urn:other"/>', "the root element has the namespace 'urn:other'; the one of SVG is"),
         (svg("<g>" * 257 + "</g>" * 257), "its elements are nested more than 256 deep; flatten its groups"),
         (svg('<g id="a">' + '<use href="#b"/>' * 300 + '</g><g id="b">' + "<g/>" * 300 + "</g>"), "a use bomb"),

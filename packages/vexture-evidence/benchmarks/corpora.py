@@ -180,7 +180,15 @@ def emoji(count: int, seed: int) -> list[Path]:
 
 def icons_logos_and_flags(seed: int) -> list[Path]:
     """Return 500 files of seven packages: icons of one path, strokes, logos with gradients, flags with clips."""
-    counts = {MDI: 40, LUCIDE: 40, SIMPLE_ICONS: 60, FLAG_ICONS: 110, CIRCLE_FLAGS: 90, SUPER_TINY_ICONS: 80, DEVICON: 80}
+    counts = {
+        MDI: 40,
+        LUCIDE: 40,
+        SIMPLE_ICONS: 60,
+        FLAG_ICONS: 110,
+        CIRCLE_FLAGS: 90,
+        SUPER_TINY_ICONS: 80,
+        DEVICON: 80,
+    }
     found = list[Path]()
     for package, count in counts.items():
         files = sorted((package.installed_folder() / package.folder).rglob("*.svg"))

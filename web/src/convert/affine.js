@@ -72,7 +72,13 @@ export function stretch([a, b, c, d]) {
   return Math.sqrt((x + y + Math.sqrt((x - y) ** 2 + 4 * (a * c + b * d) ** 2)) / 2);
 }
 
-/** @param {Affine} m @param {Affine} move @param {number} x @param {number} y @returns {Affine} m, then `move` about a point */
+/**
+ * @param {Affine} m
+ * @param {Affine} move
+ * @param {number} x
+ * @param {number} y
+ * @returns {Affine} m, then `move` about a point
+ */
 function about(m, move, x, y) {
   return x || y ? translate(multiply(translate(m, x, y), move), -x, -y) : multiply(m, move);
 }
@@ -106,13 +112,19 @@ export function parseTransform(text, length) {
   return product;
 }
 
-/** @param {string} text a list of transforms @returns {boolean} whether arguments have units, which attributes do not allow */
+/**
+ * @param {string} text a list of transforms
+ * @returns {boolean} whether arguments have units, which attributes do not allow
+ */
 export const hasUnits = (text) => /[a-z%]\s*[,)]|[\d.](?:[a-df-z%]|e(?![+-]?\d))[^()]*\)/i.test(text);
 
 /** @param {string} text an attribute of a paint server @returns {Affine | null} */
 export const parseAttribute = (text) => (hasUnits(text) ? null : parseTransform(text, number));
 
-/** @param {string} text @returns {string[] | null} numbers with units, which may touch as in "1-2"; null if there is more */
+/**
+ * @param {string} text
+ * @returns {string[] | null} numbers with units, which may touch as in "1-2"; null if there is more
+ */
 function argumentsOf(text) {
   return /^[\s,]*$/.test(text.replace(ARGUMENT, '')) ? (text.match(ARGUMENT) ?? []) : null;
 }
@@ -165,7 +177,12 @@ export function parseOrigin(text, length) {
   return x === null || y === null ? null : [x, y];
 }
 
-/** @param {Affine} matrix @param {string} origin @param {AxisLength} length @returns {Affine} the map about an origin */
+/**
+ * @param {Affine} matrix
+ * @param {string} origin
+ * @param {AxisLength} length
+ * @returns {Affine} the map about an origin
+ */
 export function aboutOrigin(matrix, origin, length) {
   const [x, y] = parseOrigin(origin, length) ?? [0, 0];
   return about(IDENTITY, matrix, x, y);

@@ -123,7 +123,11 @@ export function ellipseCubics(center, radii, tolerance) {
   return cubics;
 }
 
-/** @param {number[]} points x and y of each corner @param {boolean} closed @returns {Float64Array} straight sides as cubics */
+/**
+ * @param {number[]} points x and y of each corner
+ * @param {boolean} closed
+ * @returns {Float64Array} straight sides as cubics
+ */
 export function sides(points, closed) {
   const ends = closed || points.length === 2 ? [...points, points[0], points[1]] : points;
   const cubics = new Float64Array(4 * (ends.length - 2));

@@ -8,7 +8,10 @@ import { pathOutlines } from './path-data.js';
 
 /** @typedef {import('./contours.js').Rectangle} Rectangle */
 /** @typedef {import('./arcs.js').Point} Point */
-/** @typedef {{ left: number, top: number, view: import('./lengths.js').Viewport, fontSize: number, tolerance: number }} Box */
+/**
+ * @typedef {{ left: number, top: number, view: import('./lengths.js').Viewport, fontSize: number, tolerance: number }}
+ *   Box
+ */
 
 /** Outlines of a basic shape, and its rectangle if it is an upright one. */
 export class ClipShape {
@@ -26,7 +29,11 @@ const BOXES = {
   'border-box': 'stroke', 'margin-box': 'stroke', 'stroke-box': 'stroke',
 };
 
-/** Indices of the second to fourth of four values, by the number of values. @type {Readonly<Record<number, number[]>>} */
+/**
+ * Indices of the second to fourth of four values, by the number of values.
+ *
+ * @type {Readonly<Record<number, number[]>>}
+ */
 const SIDES_OF = { 1: [0, 0, 0], 2: [1, 0, 1], 3: [1, 2, 1], 4: [1, 2, 3] };
 
 const SPACES = /\s+/;
@@ -63,7 +70,12 @@ function upright(x, y, width, height) {
   return new ClipShape(width > 0 && height > 0 ? [rectangle(x, y, width, height).cubics] : [], 0, [x, y, width, height]);
 }
 
-/** @param {string} text @param {Box} box @param {readonly number[]} axes @returns {number[] | null} one to four lengths as four */
+/**
+ * @param {string} text
+ * @param {Box} box
+ * @param {readonly number[]} axes
+ * @returns {number[] | null} one to four lengths as four
+ */
 function four(text, { view, fontSize }, axes) {
   const parts = words(text, SPACES);
   if (parts.length < 1 || parts.length > 4) return null;

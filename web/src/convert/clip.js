@@ -36,7 +36,13 @@ function isBeyond(contour, axis, bound, side) {
   return false;
 }
 
-/** @param {Float64Array} contour @param {number} axis @param {number} bound @param {number} side @returns {Float64Array} */
+/**
+ * @param {Float64Array} contour
+ * @param {number} axis
+ * @param {number} bound
+ * @param {number} side
+ * @returns {Float64Array}
+ */
 function cutToSide(contour, axis, bound, side) {
   const pieces = /** @type {number[]} */ ([]);
   let inShadow = false;
@@ -75,7 +81,12 @@ function cubicAt(p0, p1, p2, p3, t) {
   return s * s * (s * p0 + 3 * t * p1) + t * t * (3 * s * p2 + t * p3);
 }
 
-/** @param {Float64Array} curve @param {number} axis @param {number} bound @returns {number[]} 0, the parameters on the line, 1 */
+/**
+ * @param {Float64Array} curve
+ * @param {number} axis
+ * @param {number} bound
+ * @returns {number[]} 0, the parameters on the line, 1
+ */
 function crossings(curve, axis, bound) {
   const turns = turningPoints(curve[axis], curve[2 + axis], curve[4 + axis], curve[6 + axis]);
   const cuts = [0];
@@ -98,7 +109,12 @@ function shadow(piece, axis, bound) {
   for (let k = axis; k < 8; k += 2) piece[k] = bound;
 }
 
-/** @param {Float64Array} curve @param {number} t0 @param {number} t1 @returns {number[]} the part between two parameters */
+/**
+ * @param {Float64Array} curve
+ * @param {number} t0
+ * @param {number} t1
+ * @returns {number[]} the part between two parameters
+ */
 function subcubic(curve, t0, t1) {
   const out = new Array(8);
   const s0 = 1 - t0;
@@ -117,7 +133,13 @@ function subcubic(curve, t0, t1) {
   return out;
 }
 
-/** @param {number} p0 @param {number} p1 @param {number} p2 @param {number} p3 @returns {number[]} where a coordinate turns */
+/**
+ * @param {number} p0
+ * @param {number} p1
+ * @param {number} p2
+ * @param {number} p3
+ * @returns {number[]} where a coordinate turns
+ */
 function turningPoints(p0, p1, p2, p3) {
   const a = 3 * (p3 - p0 + 3 * (p1 - p2));
   const b = 6 * (p0 - 2 * p1 + p2);

@@ -2,7 +2,10 @@
 import { isIdentity } from './affine.js';
 import { sides, writeLine } from './arcs.js';
 
-/** @typedef {{ cubics: Float64Array, closed: boolean }} Outline consecutive cubics; `closed` if a stroke joins the last to the first */
+/**
+ * @typedef {{ cubics: Float64Array, closed: boolean }} Outline consecutive cubics; `closed` if a stroke joins the last
+ *   to the first
+ */
 
 /** @typedef {readonly [number, number, number, number]} Rectangle least x, least y, width and height */
 
@@ -97,7 +100,11 @@ function widen(box, cubics, at, axis) {
 /** @param {Bounds} box @returns {Rectangle} */
 export const rectangleOf = ([left, top, right, bottom]) => [left, top, right - left, bottom - top];
 
-/** @param {Float64Array} cubics @param {number} at @returns {boolean} whether the cubic there is a line as `writeLine` makes it */
+/**
+ * @param {Float64Array} cubics
+ * @param {number} at
+ * @returns {boolean} whether the cubic there is a line as `writeLine` makes it
+ */
 export function isStraight(cubics, at) {
   let reach = 0;
   for (let k = at; k < at + 8; k++) reach = Math.max(reach, Math.abs(cubics[k]));

@@ -31,7 +31,11 @@ export function filterLabel(value, engine) {
   return lists.every((list) => list.length) ? `filter of ${joinNames([...new Set(lists.flat())])}` : HIDING;
 }
 
-/** @param {any} element @param {import('./page-engine.js').Engine} engine @returns {string[]} names of a filter's steps */
+/**
+ * @param {any} element
+ * @param {import('./page-engine.js').Engine} engine
+ * @returns {string[]} names of a filter's steps
+ */
 function stepsOf(element, engine) {
   for (const name of ['width', 'height']) {
     const side = number((engine.attribute(element, name) ?? '1').trim().replace(/%$/, ''));

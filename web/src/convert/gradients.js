@@ -10,7 +10,11 @@ import { SMALLEST } from './space.js';
 /** @typedef {import('./paints.js').Gradient} Gradient */
 /** @typedef {import('./lengths.js').Viewport} Viewport */
 
-/** Attributes of the geometry, with their initial values. @type {Readonly<Record<string, Readonly<Record<string, string>>>>} */
+/**
+ * Attributes of the geometry, with their initial values.
+ *
+ * @type {Readonly<Record<string, Readonly<Record<string, string>>>>}
+ */
 const LENGTHS = {
   linearGradient: { x1: '0%', y1: '0%', x2: '100%', y2: '0%' },
   radialGradient: { cx: '50%', cy: '50%', r: '50%', fx: '', fy: '', fr: '0%' },
@@ -31,7 +35,10 @@ export const SHORTEST = 1 / LARGEST;
 /** Distance, relative to the outer radius, at which circles count as touching, as in Skia. */
 const TOUCHING = 1 / 4096;
 
-/** @param {number} radius @returns {[number, number]} centre distance and radius of a focal circle that touches, in float32 */
+/**
+ * @param {number} radius
+ * @returns {[number, number]} centre distance and radius of a focal circle that touches, in float32
+ */
 function touching(radius) {
   if (radius < 0.5) {
     const away = Math.fround(1 - radius);
@@ -143,13 +150,21 @@ export function readRamp(chain, stops, report) {
   };
 }
 
-/** @param {import('./page-engine.js').Style} style @returns {string | null} the CSS transform of a paint server, if any */
+/**
+ * @param {import('./page-engine.js').Style} style
+ * @returns {string | null} the CSS transform of a paint server, if any
+ */
 export function serverTransform(style) {
   const text = style.declared('transform');
   return text && text !== 'none' ? text : null;
 }
 
-/** @param {any} element @param {string} name @param {import('./report.js').Report} report @returns {Record<string, string>} */
+/**
+ * @param {any} element
+ * @param {string} name
+ * @param {import('./report.js').Report} report
+ * @returns {Record<string, string>}
+ */
 function ownLengths(element, name, report) {
   /** @type {Record<string, string>} */
   const found = {};

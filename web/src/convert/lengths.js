@@ -6,7 +6,10 @@ import { calculate } from './calc.js';
 /** A number of an element exceeds `LARGEST`; only that element is dropped. */
 export class TooLargeError extends VextureError {}
 
-/** @typedef {{ width: number, height: number, rem: number, outermost: readonly [number, number] | null }} Viewport sizes to which lengths refer */
+/**
+ * @typedef {{ width: number, height: number, rem: number, outermost: readonly [number, number] | null }} Viewport sizes
+ *   to which lengths refer
+ */
 
 /** Font sizes per unit that depends on the font. @type {Readonly<Record<string, number>>} */
 const FONT_UNITS = { em: 1, ex: 0.5, ch: 0.5 };
@@ -43,7 +46,11 @@ export function numbers(text) {
   return found.includes(null) ? null : /** @type {number[]} */ (found);
 }
 
-/** @param {string} text @param {RegExp} [between] @returns {string[]} parts between commas or spaces, outside of brackets */
+/**
+ * @param {string} text
+ * @param {RegExp} [between]
+ * @returns {string[]} parts between commas or spaces, outside of brackets
+ */
 export function words(text, between = /\s*,\s*|\s+/) {
   const trimmed = text.trim();
   if (!trimmed.includes('(')) return trimmed ? trimmed.split(between) : [];
@@ -61,7 +68,10 @@ export function words(text, between = /\s*,\s*|\s+/) {
 /** @param {string} text a side of the outermost viewport @returns {boolean} whether it depends on the surroundings */
 export const isRelative = (text) => RELATIVE.test(text);
 
-/** @param {string} text @returns {number | null} a number or percentage, clamped to 0..1; null if the text is neither */
+/**
+ * @param {string} text
+ * @returns {number | null} a number or percentage, clamped to 0..1; null if the text is neither
+ */
 export function fraction(text) {
   const match = WRITTEN.exec(text);
   if (!match || (match[2] && match[2] !== '%')) return null;
@@ -90,7 +100,13 @@ export function lengthOf(view, text, whole, fontSize) {
   return match && factor !== null ? bounded(match[1]) * factor : null;
 }
 
-/** @param {Viewport} view @param {string} unit @param {number} whole @param {number} fontSize @returns {number | null} */
+/**
+ * @param {Viewport} view
+ * @param {string} unit
+ * @param {number} whole
+ * @param {number} fontSize
+ * @returns {number | null}
+ */
 function factorOf(view, unit, whole, fontSize) {
   if (unit in PIXELS) return PIXELS[unit];
   if (unit === '%') return whole / 100;

@@ -19,7 +19,11 @@ const MARKERS = ['marker-start', 'marker-mid', 'marker-end'];
 const DEFAULT_SIZE = '3';
 const REVERSED = 'auto-start-reverse';
 
-/** @param {string} name @param {import('./page-engine.js').Style} style @returns {boolean} whether an element can have markers */
+/**
+ * @param {string} name
+ * @param {import('./page-engine.js').Style} style
+ * @returns {boolean} whether an element can have markers
+ */
 export const hasMarkers = (name, style) => MARKED.includes(name) && MARKERS.some((end) => style.get(end) !== 'none');
 
 /**
@@ -119,7 +123,12 @@ function side({ element, style, view, report }, name, whole) {
   return Number(DEFAULT_SIZE);
 }
 
-/** @param {Shape} marker @param {string} name @param {number} whole @returns {number} a coordinate of its reference point */
+/**
+ * @param {Shape} marker
+ * @param {string} name
+ * @param {number} whole
+ * @returns {number} a coordinate of its reference point
+ */
 function anchor({ element, style, view, report }, name, whole) {
   const text = report.engine.attribute(element, name) ?? '0';
   const word = KEYWORDS[text.trim()];
@@ -154,9 +163,15 @@ function vertices(shape) {
   return { points, angles };
 }
 
-/** @typedef {{ start: Point, cubics: number[], closed: boolean, isJoined: boolean }} Subpath with one curve for each segment */
+/**
+ * @typedef {{ start: Point, cubics: number[], closed: boolean, isJoined: boolean }} Subpath with one curve for each
+ *   segment
+ */
 
-/** @param {Subpath} part @returns {number[]} direction at each vertex: halfway between those of the adjacent segments */
+/**
+ * @param {Subpath} part
+ * @returns {number[]} direction at each vertex: halfway between those of the adjacent segments
+ */
 function anglesOf({ cubics, closed }) {
   const n = cubics.length / 8;
   if (!n) return [0];
@@ -170,7 +185,10 @@ function anglesOf({ cubics, closed }) {
   });
 }
 
-/** @param {number[]} cubics @returns {{ leaving: number[], arriving: number[] }} angles along the start and the end of each segment */
+/**
+ * @param {number[]} cubics
+ * @returns {{ leaving: number[], arriving: number[] }} angles along the start and the end of each segment
+ */
 function directions(cubics) {
   /** @type {(number | null)[]} */
   const leaving = [];
@@ -214,7 +232,14 @@ class Segments extends PathPen {
     this.isJoined &&= letter !== 'M' && letter !== 'm';
   }
 
-  /** @param {number} rx @param {number} ry @param {number} rotation @param {boolean} large @param {boolean} sweep @param {Point} end */
+  /**
+   * @param {number} rx
+   * @param {number} ry
+   * @param {number} rotation
+   * @param {boolean} large
+   * @param {boolean} sweep
+   * @param {Point} end
+   */
   arcTo(rx, ry, rotation, large, sweep, end) {
     const first = this.cubics.length;
     super.arcTo(rx, ry, rotation, large, sweep, end);

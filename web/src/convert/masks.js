@@ -3,6 +3,7 @@ import { ROUND } from '../../generated/svg-reader.js';
 import { IDENTITY, inverse, multiply, scale } from './affine.js';
 import { clipShape } from './clip-shapes.js';
 import { boundsOf, rectangleOf } from './contours.js';
+import { elementTransform } from './element-transform.js';
 import { lengthOf } from './lengths.js';
 import { shapeOutlines } from './shapes.js';
 import { contentPlace, isFlat, windowIn, withTransform } from './space.js';
@@ -61,12 +62,19 @@ function addClipShape(scene, shape, place, shown) {
   return place;
 }
 
-/** @param {Scene} scene @param {any} element @param {any} target @param {Place} place @param {Placed[]} shown @returns {Place} */
+/**
+ * @param {Scene} scene
+ * @param {any} element
+ * @param {any} target
+ * @param {Place} place
+ * @param {Placed[]} shown
+ * @returns {Place}
+ */
 function addMask(scene, element, target, place, shown) {
   const { engine, report } = scene;
   const isClip = engine.name(target) === 'clipPath';
   const style = engine.style(target);
-  let matrix = isClip ? scene.transform(target, style, place) : IDENTITY;
+  let matrix = isClip ? elementTransform(scene, target, style, place) : IDENTITY;
   if (engine.attribute(target, isClip ? 'clipPathUnits' : 'maskContentUnits') === 'objectBoundingBox') {
     matrix = multiply(matrix, boxMatrix(scene, element, place));
   }
@@ -92,7 +100,12 @@ function addMask(scene, element, target, place, shown) {
   return place;
 }
 
-/** @param {Scene} scene @param {any} element @param {Place} place @returns {Affine} from the unit square to the bounding box */
+/**
+ * @param {Scene} scene
+ * @param {any} element
+ * @param {Place} place
+ * @returns {Affine} from the unit square to the bounding box
+ */
 export function boxMatrix(scene, element, place) {
   const box = scene.extent(element, place);
   return box ? [box[2], 0, 0, box[3], box[0], box[1]] : NOTHING;

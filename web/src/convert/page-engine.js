@@ -269,7 +269,10 @@ class PageStyle {
     return NUMERIC.has(name) && value.replace(/\D/g, '').length > 5 ? this.exact(name, value) : value;
   }
 
-  /** @param {string} name @returns {string} the text of a presentation attribute, where the browser accepts units in it */
+  /**
+   * @param {string} name
+   * @returns {string} the text of a presentation attribute, where the browser accepts units in it
+   */
   attribute(name) {
     const text = this.element.getAttribute(name)?.trim() ?? '';
     return name === 'transform' && hasUnits(text) ? this.computed.getPropertyValue(name) : text;
@@ -292,7 +295,11 @@ class PageStyle {
     return value === 'auto' || value === '' || isRounded(value, attribute) ? attribute : value;
   }
 
-  /** @param {string} name @param {string} value rounded @returns {string} the text from which it comes, if that is known */
+  /**
+   * @param {string} name
+   * @param {string} value rounded
+   * @returns {string} the text from which it comes, if that is known
+   */
   exact(name, value) {
     for (let one = /** @type {Element | null} */ (this.element); one; one = one.parentElement) {
       const text = inlineText(one, name) ?? one.getAttribute(name);
@@ -302,14 +309,22 @@ class PageStyle {
   }
 }
 
-/** @param {string} value @param {string} text @returns {boolean} whether a value consists of the numbers in a text, rounded */
+/**
+ * @param {string} value
+ * @param {string} text
+ * @returns {boolean} whether a value consists of the numbers in a text, rounded
+ */
 function isRounded(value, text) {
   if (/[a-oq-wyz%(]/i.test(text.replace(/e[+-]?\d/gi, ''))) return false; // other units than pixels
   const [rounded, exact] = [value, text].map((one) => (one.match(/[+-]?(?:\d*\.\d+|\d+)(?:e[+-]?\d+)?/gi) ?? []).map(Number));
   return rounded.length === exact.length && exact.every((number, k) => Math.abs(number - rounded[k]) <= 1e-5 * Math.abs(number));
 }
 
-/** @param {Element} element @param {string} name @returns {string | null} the text of a valid declaration in its `style` */
+/**
+ * @param {Element} element
+ * @param {string} name
+ * @returns {string | null} the text of a valid declaration in its `style`
+ */
 function inlineText(element, name) {
   const text = element.getAttribute('style');
   if (!text?.includes(name)) return null;

@@ -19,7 +19,10 @@ import { Veil } from './veils.js';
 /** @typedef {import('./patterns.js').Tiling} Tiling */
 /** @typedef {import('./shapes.js').Shape} Shape */
 
-/** @typedef {{ contours: Float64Array[], fillRule: number, paint: Paint, group: number, element: string }} Path as Python's `Path` */
+/**
+ * @typedef {{ contours: Float64Array[], fillRule: number, paint: Paint, group: number, element: string }} Path as
+ *   Python's `Path`
+ */
 
 const PARTS = ['fill', 'stroke', 'markers'];
 
@@ -42,7 +45,13 @@ export class Painter {
     this.segments = 0;
   }
 
-  /** Paint a shape and its markers. @param {any} element @param {Place} place @param {(() => Placed[][]) | null} [markers] */
+  /**
+   * Paint a shape and its markers.
+   *
+   * @param {any} element
+   * @param {Place} place
+   * @param {(() => Placed[][]) | null} [markers]
+   */
   paint(element, place, markers = null) {
     const { style } = place;
     if (style.get('visibility') !== 'visible' || isFlat(place.space)) return;
@@ -147,7 +156,12 @@ export class Painter {
     return true;
   }
 
-  /** The first tile, painted once for all shapes in one coordinate system; null if it is too complex. @param {Place} place @param {Tiling} tiling */
+  /**
+   * The first tile, painted once for all shapes in one coordinate system; null if it is too complex.
+   *
+   * @param {Place} place
+   * @param {Tiling} tiling
+   */
   firstTile(place, tiling) {
     const { servers, engine } = this.scene;
     const { pattern, tile, whole, content, view } = tiling;

@@ -28,7 +28,11 @@ export function paintOfGradient(gradient) {
   return { color, opacity: mean((stop) => stop.opacity), gradient };
 }
 
-/** @param {Paint} paint @param {number} opacity @returns {Paint} with its opacity, and those of all stops, multiplied */
+/**
+ * @param {Paint} paint
+ * @param {number} opacity
+ * @returns {Paint} with its opacity, and those of all stops, multiplied
+ */
 export function fadePaint(paint, opacity) {
   if (opacity === 1) return paint;
   const { color, gradient } = paint;
@@ -56,5 +60,8 @@ export function isSingular(matrix, smallest) {
   return !(smallest <= size && size <= 1 / smallest);
 }
 
-/** @param {Gradient} gradient @param {import('./affine.js').Affine} matrix from its coordinates to those of the drawing */
+/**
+ * @param {Gradient} gradient
+ * @param {import('./affine.js').Affine} matrix from its coordinates to those of the drawing
+ */
 export const paintInDrawing = (gradient, matrix) => paintOfGradient(moveGradient(gradient, rowsOf(inverse(matrix))));

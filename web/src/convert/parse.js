@@ -58,7 +58,12 @@ function withPrefixes(source) {
   return declared;
 }
 
-/** @param {string} source @param {string} name @param {string} value @returns {string} with an attribute of the outermost element */
+/**
+ * @param {string} source
+ * @param {string} name
+ * @param {string} value
+ * @returns {string} with an attribute of the outermost element
+ */
 const declare = (source, name, value) => source.replace(/<svg(?=[\s/>])/, `<svg ${name}="${value}"`);
 
 /** @param {string} source @param {string} message of the browser @returns {string} */
@@ -68,7 +73,10 @@ function errorText(source, message) {
   return `not well-formed XML: ${shortenText(reason.replace(/\s+/g, ' ').trim(), 160)}`;
 }
 
-/** @param {string} text @throws {VextureError} if it is too long, has too many elements, or its entities are too long */
+/**
+ * @param {string} text
+ * @throws {VextureError} if it is too long, has too many elements, or its entities are too long
+ */
 export function checkSize(text) {
   const most = (/** @type {number} */ limit) => limit.toLocaleString('en-US');
   if (text.length > LONGEST) {

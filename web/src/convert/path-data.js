@@ -9,7 +9,11 @@ const NEXT = /[ \t\n\r\f]*,?[ \t\n\r\f]*([+-]?(?:\d*\.\d+|\d+)(?:[eE][+-]?\d+)?)
 const FLAG = /[ \t\n\r\f]*,?[ \t\n\r\f]*([01])/y;
 const SPACES = /[ \t\n\r\f]*/y;
 
-/** Arguments after the letter of each command: n for a number, f for a flag. @type {Readonly<Record<string, string>>} */
+/**
+ * Arguments after the letter of each command: n for a number, f for a flag.
+ *
+ * @type {Readonly<Record<string, string>>}
+ */
 const ARGUMENTS = { M: 'nn', L: 'nn', T: 'nn', H: 'n', V: 'n', C: 'nnnnnn', S: 'nnnn', Q: 'nnnn', A: 'nnnffnn', Z: '' };
 
 /** Limit beyond which numbers, and inverse radii, overflow in the arithmetic of an arc, which becomes a line. */

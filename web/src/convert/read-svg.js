@@ -15,7 +15,10 @@ import { ANONYMOUS, THINNEST } from './viewport.js';
  * @property {import('./strokes.js').StrokeOutline} [strokeOutline] without it, strokes are left out, with a note
  */
 
-/** @typedef {{ size: [number, number], view: import('./lengths.js').Viewport, content: import('./affine.js').Affine }} Frame */
+/**
+ * @typedef {{ size: [number, number], view: import('./lengths.js').Viewport, content: import('./affine.js').Affine }}
+ *   Frame
+ */
 
 /**
  * Read the document that an engine holds.
@@ -38,7 +41,10 @@ export function readSvg(engine, { name = 'drawing', strokeOutline } = {}) {
   return { name, paths, groups, toSource, sides: normal.sides, notes: scene.report.inOrder };
 }
 
-/** @param {Scene} scene @returns {Frame | null} the frame that the outermost element sets; null, with a note, if a side is zero */
+/**
+ * @param {Scene} scene
+ * @returns {Frame | null} the frame that the outermost element sets; null, with a note, if a side is zero
+ */
 function frameOf(scene) {
   const { root, style, report } = scene;
   const box = scene.view(root);

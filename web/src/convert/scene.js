@@ -1,19 +1,21 @@
 // Walk through an SVG document in painting order, with a stack of its own; `use` is expanded within limits.
-import { CONTAINERS, DEEPEST, LANGUAGE, MOST_USED, UNPAINTED } from '../../generated/svg-reader.js';
+import { CONTAINERS, DEEPEST, MOST_USED, UNPAINTED } from '../../generated/svg-reader.js';
 import { VextureError } from '../errors.js';
-import { IDENTITY, aboutOrigin, isIdentity, multiply, parseTransform, single, translate } from './affine.js';
+import { IDENTITY, aboutOrigin, isIdentity, multiply, translate } from './affine.js';
 import { ClipShape } from './clip-shapes.js';
+import { DRAWN, applies, noteBox, switchChildren } from './conditions.js';
 import { boundsOf, loopOf, rectangle, rectangleOf } from './contours.js';
+import { elementTransform, ownTransform } from './element-transform.js';
 import { HIDING, filterLabel } from './filters.js';
 import { noteImage } from './images.js';
-import { TooLargeError, along, lengthOf, words } from './lengths.js';
+import { TooLargeError, along, lengthOf } from './lengths.js';
 import { hasMarkers, markersOf } from './markers.js';
 import { MASKING, addMasks } from './masks.js';
 import { BLACK } from './paints.js';
 import { Painter, Ruler } from './painter.js';
 import { Report } from './report.js';
 import { PaintServers } from './servers.js';
-import { SHAPES, shapeOutlines } from './shapes.js';
+import { SHAPES } from './shapes.js';
 import { SPACE, isInside, positionOf, windowIn, within, withTransform } from './space.js';
 import { drawingCanvas } from './tiles.js';
 import { Veil, groupPaths, veilOf } from './veils.js';
@@ -24,21 +26,6 @@ import { CENTRED, THINNEST, parseFit, viewBox, viewTransform } from './viewport.
 /** @typedef {import('./contours.js').Rectangle} Rectangle */
 /** @typedef {import('./page-engine.js').Style} Style */
 /** @typedef {import('./affine.js').Affine} Affine */
-
-/** Elements that are drawn; a `switch` prefers them to unknown ones. */
-const DRAWN = [...Object.keys(SHAPES), ...CONTAINERS, 'image', 'text', 'use'];
-
-const TRANSFORMS = ['translate', 'rotate', 'scale', 'transform'];
-
-/** Properties of the outermost element as a CSS box, with the values that are visible. */
-const BOX = {
-  'background-image': { property: 'background-image', shows: /\(/ },
-  border: { property: 'border-top-style', shows: /^(?!none|hidden)./ },
-  'border-radius': { property: 'border-top-left-radius', shows: /[1-9]/ },
-  'box-shadow': { property: 'box-shadow', shows: /px/ },
-  outline: { property: 'outline-style', shows: /^(?!none|hidden)./ },
-  padding: { property: 'padding-left', shows: /[1-9]/ },
-};
 
 /** An error that names an element. */
 class LocatedError extends VextureError {}
@@ -85,7 +72,13 @@ export class Scene {
     return groupPaths(painter.paths, painter.veils, fade);
   }
 
-  /** @param {Place} around @param {Painter} painter @param {Affine} content @param {Rectangle} frame @returns {Placed[]} */
+  /**
+   * @param {Place} around
+   * @param {Painter} painter
+   * @param {Affine} content
+   * @param {Rectangle} frame
+   * @returns {Placed[]}
+   */
   insideRoot(around, painter, content, frame) {
     const opacity = this.style.opacity('opacity');
     if (this.style.get('display') === 'none' || opacity === 0 || !this.noteEffects(this.root, this.style)) return [];
@@ -107,7 +100,7 @@ export class Scene {
   spaceInside(around, content, frame) {
     const length = along({ width: frame[2], height: frame[3], rem: this.style.fontSize, outermost: null }, this.style.fontSize);
     try {
-      const move = this.ownTransform(this.style, length);
+      const move = ownTransform(this, this.root, this.style, length);
       if (isIdentity(move)) return withTransform(around, content);
       const origin = this.style.get('transform-origin') || 'center';
       return windowIn(withTransform(around, aboutOrigin(move, origin, length)), frame, content);
@@ -118,7 +111,12 @@ export class Scene {
     }
   }
 
-  /** Paint all elements of a stack, the last first, with their content. @param {Placed[]} first @param {Painter} painter */
+  /**
+   * Paint all elements of a stack, the last first, with their content.
+   *
+   * @param {Placed[]} first
+   * @param {Painter} painter
+   */
   walk(first, painter) {
     const stack = [...first];
     for (let placed = stack.pop(); placed; placed = stack.pop()) {
@@ -145,7 +143,14 @@ export class Scene {
     throw new VextureError(`${subject} more than ${most} elements (a use bomb?); draw fewer copies`, 'use');
   }
 
-  /** Paint an element, or return the elements that it shows. @param {any} element @param {Place} place @param {Painter} painter @returns {Placed[]} */
+  /**
+   * Paint an element, or return the elements that it shows.
+   *
+   * @param {any} element
+   * @param {Place} place
+   * @param {Painter} painter
+   * @returns {Placed[]}
+   */
   visit(element, place, painter) {
     if (element instanceof ClipShape) {
       painter.add(element.contours, place, element.rule, BLACK, place.name);
@@ -168,7 +173,7 @@ export class Scene {
       return [];
     }
     if (!place.isClip && !isMeasured && !this.noteEffects(element, style)) return [];
-    const matrix = this.transform(element, style, place);
+    const matrix = elementTransform(this, element, style, place);
     if (place.depth >= DEEPEST) {
       throw new VextureError(`it stands inside ${DEEPEST.toLocaleString('en-US')} others; flatten the groups or the uses`, 'depth');
     }
@@ -179,7 +184,14 @@ export class Scene {
     return [...masked.shown, ...this.content(element, name, masked.place, painter)];
   }
 
-  /** The content of a group that has no box, and so no effects (CSS Display 3, B). @param {any} element @param {string} name @param {Place} place @returns {Placed[]} */
+  /**
+   * The content of a group that has no box, and so no effects (CSS Display 3, B).
+   *
+   * @param {any} element
+   * @param {string} name
+   * @param {Place} place
+   * @returns {Placed[]}
+   */
   contentsOf(element, name, place) {
     if (name !== 'g') return [];
     const inner = { ...place, element, outer: place, depth: place.depth + 1 };
@@ -211,7 +223,15 @@ export class Scene {
     return window && within(window, inner);
   }
 
-  /** Paint a shape, or return the elements that another element shows. @param {any} element @param {string} name @param {Place} inner @param {Painter} painter @returns {Placed[]} */
+  /**
+   * Paint a shape, or return the elements that another element shows.
+   *
+   * @param {any} element
+   * @param {string} name
+   * @param {Place} inner
+   * @param {Painter} painter
+   * @returns {Placed[]}
+   */
   content(element, name, inner, painter) {
     if (name in SHAPES) {
       const isMarked = !inner.isClip && !(painter instanceof Ruler) && hasMarkers(name, inner.style);
@@ -227,13 +247,22 @@ export class Scene {
     return children.map((child) => [child, inner]);
   }
 
-  /** @param {any} element @param {Place} place @returns {Rectangle | null} the box as `around`, without strokes; null without area */
+  /**
+   * @param {any} element
+   * @param {Place} place
+   * @returns {Rectangle | null} the box as `around`, without strokes; null without area
+   */
   extent(element, place) {
     const box = this.around(element, place, false);
     return box && Math.min(box[2], box[3]) > 0 ? box : null;
   }
 
-  /** @param {any} element @param {Place} place @param {boolean} isStroked @returns {Rectangle | null} the box of its content in the units of the place */
+  /**
+   * @param {any} element
+   * @param {Place} place
+   * @param {boolean} isStroked
+   * @returns {Rectangle | null} the box of its content in the units of the place
+   */
   around(element, place, isStroked) {
     const silent = Object.assign(Object.create(Scene.prototype), this, { report: new Report(this.engine) });
     const ruler = new Ruler(silent, isStroked);
@@ -260,7 +289,10 @@ export class Scene {
     return [[this.engine.instance(element, target), { ...place, used: true, use: place.style, context }]];
   }
 
-  /** @param {any} element @returns {number} number of elements that a `use` of it shows, with those of uses inside; memorized */
+  /**
+   * @param {any} element
+   * @returns {number} number of elements that a `use` of it shows, with those of uses inside; memorized
+   */
   shownBy(element) {
     const original = this.engine.original(element);
     const known = this.shown.get(original);
@@ -279,7 +311,11 @@ export class Scene {
     return rectangle(...(this.extent(place.element, place) ?? /** @type {Rectangle} */ ([0, 0, 0, 0])));
   }
 
-  /** @param {Place} place @param {Style | null} use @returns {Rectangle} the viewport of a nested `<svg>` or a `<symbol>` */
+  /**
+   * @param {Place} place
+   * @param {Style | null} use
+   * @returns {Rectangle} the viewport of a nested `<svg>` or a `<symbol>`
+   */
   sides(place, use) {
     const [width, height] = /** @type {const} */ (['width', 'height']).map((name) => {
       const own = use ? use.get(name) : 'auto';
@@ -290,7 +326,12 @@ export class Scene {
     return [...positionOf(place), width, height];
   }
 
-  /** @param {any} element @param {Style} style @param {Rectangle} sides @returns {import('./space.js').ContentWindow | null} */
+  /**
+   * @param {any} element
+   * @param {Style} style
+   * @param {Rectangle} sides
+   * @returns {import('./space.js').ContentWindow | null}
+   */
   window(element, style, sides) {
     const [x, y, width, height] = sides;
     if (!(width > 0 && height > 0)) return null;
@@ -317,41 +358,13 @@ export class Scene {
     return viewTransform(box, fit ?? CENTRED, width, height);
   }
 
-  /** The transform of an element by its properties, about its origin. @param {any} element @param {Style} style @param {Place} place @returns {Affine} */
-  transform(element, style, place) {
-    if (TRANSFORMS.every((name) => ['', 'none'].includes(style.get(name)))) return IDENTITY;
-    let [left, top, width, height] = [0, 0, place.view.width, place.view.height];
-    if (!['', 'view-box'].includes(style.get('transform-box'))) {
-      const isShape = (this.engine.name(element) ?? '') in SHAPES;
-      const shape = { element, style, view: place.view, tolerance: Infinity, report: this.report };
-      const outlines = isShape ? shapeOutlines(shape) : [];
-      if (outlines.length) [left, top, width, height] = rectangleOf(boundsOf(outlines.map(({ cubics }) => cubics)));
-      else this.report.simplified('transform-box of a group read as view-box');
-    }
-    const length = (/** @type {string} */ text, /** @type {number} */ axis) => {
-      return lengthOf(place.view, text, axis ? height : width, style.fontSize);
-    };
-    const matrix = this.ownTransform(style, length, element);
-    const origin = style.get('transform-origin');
-    if (isIdentity(matrix) || (!origin && !left && !top)) return matrix;
-    const about = aboutOrigin(matrix, origin || '0 0', length);
-    return left || top ? multiply([1, 0, 0, 1, left, top], multiply(about, [1, 0, 0, 1, -left, -top])) : about;
-  }
-
-  /** @param {Style} style @param {import('./affine.js').AxisLength} length @param {any} [element] @returns {Affine} */
-  ownTransform(style, length, element = this.root) {
-    let product = IDENTITY;
-    for (const name of TRANSFORMS) {
-      const text = style.get(name);
-      if (!text || text === 'none') continue;
-      const one = name === 'transform' ? parseTransform(text, length) : single(name, words(text), length);
-      if (!one) this.report.invalid(name, text, element);
-      else product = isIdentity(product) ? one : multiply(product, one);
-    }
-    return product;
-  }
-
-  /** Note an unsupported filter or motion. @param {any} element @param {Style} style @returns {boolean} whether anything is visible with the filter */
+  /**
+   * Note an unsupported filter or motion.
+   *
+   * @param {any} element
+   * @param {Style} style
+   * @returns {boolean} whether anything is visible with the filter
+   */
   noteEffects(element, style) {
     if (!['', 'none'].includes(style.get('offset-path'))) this.report.leftOut('offset-path');
     const value = style.get('filter');
@@ -362,25 +375,3 @@ export class Scene {
     return label !== HIDING;
   }
 }
-
-/** Note what the outermost element shows as a CSS box. @param {Style} style @param {Report} report */
-function noteBox(style, report) {
-  for (const [name, { property, shows }] of Object.entries(BOX)) {
-    if (shows.test(style.get(property))) report.leftOut(`${name} of the outermost <svg>`);
-  }
-}
-
-/** @param {import('./page-engine.js').Engine} engine @param {any} element @returns {boolean} whether its conditions hold (SVG 2, 5.9) */
-function applies(engine, element) {
-  if (engine.attribute(element, 'requiredExtensions') !== null) return false;
-  const languages = engine.attribute(element, 'systemLanguage');
-  return languages === null || languages.split(',').some((tag) => tag.trim().toLowerCase().split('-')[0] === LANGUAGE);
-}
-
-/** @param {import('./page-engine.js').Engine} engine @param {any} element @returns {any[]} the child that a `switch` shows, or all for their notes */
-function switchChildren(engine, element) {
-  const children = engine.children(element).filter((child) => engine.name(child) !== null && applies(engine, child));
-  const first = children.find((child) => DRAWN.includes(engine.name(child) ?? ''));
-  return first ? [first] : children;
-}
-

@@ -141,7 +141,13 @@ export class PaintServers {
     return found ?? this.flat(fallback);
   }
 
-  /** @param {any} server @param {string | null} fallback @param {Place} place @param {Outline[]} outlines @returns {Tiling | null} */
+  /**
+   * @param {any} server
+   * @param {string | null} fallback
+   * @param {Place} place
+   * @param {Outline[]} outlines
+   * @returns {Tiling | null}
+   */
   tiling(server, fallback, place, outlines) {
     if (!this.patterns.has(server)) this.patterns.set(server, readPattern(this.chain(server, ['pattern']), this.report));
     const pattern = this.patterns.get(server);
@@ -154,7 +160,11 @@ export class PaintServers {
     return solid && tilingOn(pattern, place, outlines, /** @type {Paint} */ (solid));
   }
 
-  /** @param {any} first @param {readonly string[]} kinds @returns {any[]} an element, the one it refers to, and so on */
+  /**
+   * @param {any} first
+   * @param {readonly string[]} kinds
+   * @returns {any[]} an element, the one it refers to, and so on
+   */
   chain(first, kinds) {
     /** @type {any[]} */
     const chain = [];

@@ -26,7 +26,11 @@ export function readLength({ view, style }, name, text) {
   return lengthOf(view, text, whole, style.fontSize);
 }
 
-/** @param {Shape} shape @param {string} name @returns {number | null} the length that a property sets; null for "auto" */
+/**
+ * @param {Shape} shape
+ * @param {string} name
+ * @returns {number | null} the length that a property sets; null for "auto"
+ */
 export const propertyLength = (shape, name) => readLength(shape, name, shape.style.get(name));
 
 /** @param {Shape} shape @param {string} name @returns {number} the length in an attribute; 0 without the attribute */
@@ -37,7 +41,11 @@ function attributeLength(shape, name) {
   return length ?? 0;
 }
 
-/** @param {Shape} shape @returns {Outline[]} in its user units @throws {TooLargeError} if a coordinate exceeds `LARGEST` */
+/**
+ * @param {Shape} shape
+ * @returns {Outline[]} in its user units
+ * @throws {TooLargeError} if a coordinate exceeds `LARGEST`
+ */
 export function shapeOutlines(shape) {
   const outlines = SHAPES[shape.report.engine.name(shape.element) ?? ''](shape);
   for (const { cubics } of outlines) checkSize(cubics);

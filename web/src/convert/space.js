@@ -43,7 +43,11 @@ export function withTransform(space, matrix) {
 /** @param {Space} space @param {Rectangle} visible @param {Affine} matrix @returns {Space} that inside a viewport */
 export const windowIn = (space, visible, matrix) => ({ ...withTransform(space, matrix), matrix, clip: visible, outer: space });
 
-/** @param {Space} innermost @param {Float64Array} contour @returns {Float64Array} it in the drawing; empty if clipped */
+/**
+ * @param {Space} innermost
+ * @param {Float64Array} contour
+ * @returns {Float64Array} it in the drawing; empty if clipped
+ */
 export function toDrawing(innermost, contour) {
   let points = contour;
   for (let space = /** @type {Space | null} */ (innermost); space; space = space.outer) {
@@ -105,7 +109,12 @@ export function contentPlace(place, element, own) {
   };
 }
 
-/** @param {Place} innermost @param {any} element @param {(element: any) => any} original @returns {boolean} whether it contains the place */
+/**
+ * @param {Place} innermost
+ * @param {any} element
+ * @param {(element: any) => any} original
+ * @returns {boolean} whether it contains the place
+ */
 export function isInside(innermost, element, original) {
   for (let place = /** @type {Place | null} */ (innermost); place; place = place.outer) {
     if (place.element && original(place.element) === original(element)) return true;

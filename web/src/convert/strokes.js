@@ -86,7 +86,11 @@ function dashesOf(shape) {
   return lengths.reduce((sum, length) => sum + length, 0) > 0 ? lengths : [];
 }
 
-/** @param {Outline[]} outlines @param {Omit<StrokeStyle, 'tolerance'>} stroke @throws {VextureError} if there are too many dashes */
+/**
+ * @param {Outline[]} outlines
+ * @param {Omit<StrokeStyle, 'tolerance'>} stroke
+ * @throws {VextureError} if there are too many dashes
+ */
 export function checkDashes(outlines, { dashes }) {
   if (!dashes.length) return;
   const length = outlines.reduce((sum, { cubics }) => sum + arcLength(cubics), 0);

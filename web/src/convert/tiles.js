@@ -34,7 +34,12 @@ function borders({ frame, size, whole }) {
   return { low: [x, y], high: [x + width, y + height], sides: [width, height], near };
 }
 
-/** @param {Canvas} canvas @param {Veil} veil @param {Painted[]} painted @returns {FirstTile} with all paths fitted into the tile */
+/**
+ * @param {Canvas} canvas
+ * @param {Veil} veil
+ * @param {Painted[]} painted
+ * @returns {FirstTile} with all paths fitted into the tile
+ */
 export function firstTileOf(canvas, veil, painted) {
   const fitted = painted.map(({ path, veil: innermost }) => {
     const contours = path.contours.map((contour) => fitContour(canvas, contour)).filter((contour) => contour.length);
@@ -43,7 +48,11 @@ export function firstTileOf(canvas, veil, painted) {
   return { canvas, veil, painted: fitted.filter(({ path }) => path.contours.length) };
 }
 
-/** @param {Canvas} canvas @param {Float64Array} contour @returns {Float64Array} with points near the border moved onto it */
+/**
+ * @param {Canvas} canvas
+ * @param {Float64Array} contour
+ * @returns {Float64Array} with points near the border moved onto it
+ */
 function fitContour(canvas, contour) {
   const { low, high, near } = borders(canvas);
   const fitted = contour.slice();
@@ -71,7 +80,11 @@ export function controlBox(cubics) {
   return box;
 }
 
-/** @param {Canvas} canvas @param {Float64Array} contour @returns {boolean[]} whether a rectangle spans the tile across, and down */
+/**
+ * @param {Canvas} canvas
+ * @param {Float64Array} contour
+ * @returns {boolean[]} whether a rectangle spans the tile across, and down
+ */
 function spans(canvas, contour) {
   const { low, high, near } = borders(canvas);
   if (contour.length !== 32) return [false, false];
@@ -190,13 +203,21 @@ export class PatternTiles {
   }
 }
 
-/** @param {Float64Array[]} shape @param {import('./contours.js').Rectangle} frame @returns {{ shape: Float64Array[], window: Bounds }} */
+/**
+ * @param {Float64Array[]} shape
+ * @param {import('./contours.js').Rectangle} frame
+ * @returns {{ shape: Float64Array[], window: Bounds }}
+ */
 export function visiblePart(shape, [x, y, width, height]) {
   const inside = shape.map((contour) => clipContour(contour, [x, y], [x + width, y + height])).filter((one) => one.length);
   return { shape: inside, window: inside.length ? boundsOf(inside) : [x, y, x, y] };
 }
 
-/** @param {Float64Array[]} shape @param {Bounds} window @returns {boolean} whether a shape is an upright rectangle, bit for bit */
+/**
+ * @param {Float64Array[]} shape
+ * @param {Bounds} window
+ * @returns {boolean} whether a shape is an upright rectangle, bit for bit
+ */
 export function isWindow(shape, [left, top, right, bottom]) {
   if (shape.length !== 1 || shape[0].length !== 32) return false;
   const [cubics] = shape;

@@ -62,7 +62,11 @@ function cutContour(contour, low, high) {
   return cut;
 }
 
-/** @param {Float64Array} contour @returns {Float64Array} without cubics of zero length, closed bit for bit, with exact lines; empty if it encloses nothing */
+/**
+ * @param {Float64Array} contour
+ * @returns {Float64Array} without cubics of zero length, closed bit for bit, with exact lines; empty if it encloses
+ *   nothing
+ */
 function tidyContour(contour) {
   const kept = [];
   for (let k = 0; k < contour.length; k += 8) {
@@ -81,5 +85,9 @@ function tidyContour(contour) {
   return tidy.length > 16 || isBent ? tidy : tidy.slice(0, 0); // two straight sides enclose nothing
 }
 
-/** @param {import('./affine.js').Affine} toPixels @param {import('./affine.js').Affine} content @returns {import('./affine.js').Affine} to user units */
+/**
+ * @param {import('./affine.js').Affine} toPixels
+ * @param {import('./affine.js').Affine} content
+ * @returns {import('./affine.js').Affine} to user units
+ */
 export const toUserUnits = (toPixels, content) => multiply(inverse(content), toPixels);

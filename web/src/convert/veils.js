@@ -6,7 +6,10 @@ const MOST_BOXES = 500;
 
 /** @typedef {import('./contours.js').Bounds} Bounds */
 
-/** @typedef {{ outer: number, opacity: number, blend: number, mask: number, pattern: boolean }} Group as Python's `Group` */
+/**
+ * @typedef {{ outer: number, opacity: number, blend: number, mask: number, pattern: boolean }} Group as Python's
+ *   `Group`
+ */
 
 /** Properties of a group that mask the group around it. */
 export const MASK = { none: 0, opacity: 1, luminance: 2 };

@@ -3,7 +3,10 @@ import { isRelative, lengthOf, numbers, viewport } from './lengths.js';
 
 /** @typedef {import('./contours.js').Rectangle} Rectangle */
 
-/** @typedef {{ across: number, down: number, rule: string }} Fit shares of the free space on the left and above; meet, slice or none */
+/**
+ * @typedef {{ across: number, down: number, rule: string }} Fit shares of the free space on the left and above; meet,
+ *   slice or none
+ */
 
 /** Least width and height of a drawing in user units. */
 export const THINNEST = 1e-9;
@@ -33,7 +36,13 @@ export function parseFit(text) {
   return { across: PART[match[2].toLowerCase()], down: PART[match[3].toLowerCase()], rule: (match[4] ?? 'meet').toLowerCase() };
 }
 
-/** @param {Rectangle} box @param {Fit} fit @param {number} width @param {number} height @returns {import('./affine.js').Affine} */
+/**
+ * @param {Rectangle} box
+ * @param {Fit} fit
+ * @param {number} width
+ * @param {number} height
+ * @returns {import('./affine.js').Affine}
+ */
 export function viewTransform([x, y, boxWidth, boxHeight], fit, width, height) {
   let [across, down] = [width / boxWidth, height / boxHeight];
   if (fit.rule !== 'none') across = down = Math[fit.rule === 'meet' ? 'min' : 'max'](across, down);
