@@ -13,7 +13,10 @@ from installed import Installed
 from dist import build
 
 ROOT = Path(__file__).parents[2]
-TOOLS = ("httpx", "hypothesis", "pytest", "pytest-timeout", "pytest-xdist", "resvg", "shapely", "skia-python")
+TOOLS = (
+    *("httpx", "hypothesis", "pytest", "pytest-timeout", "pytest-xdist"),
+    *("resvg", "shapely", "skia-python", "tblib", "wgpu"),
+)
 """Packages that tests use: a client, and programs to compare with."""
 
 EXTRAS = "vexture[gpu,notebook,plot,server,text,trace]"
@@ -23,7 +26,7 @@ COPIES = ("FORMAT.md", "examples/shapes", "packages/vexture/pyproject.toml", "py
 """What the tests read of a checkout; packages are installed only."""
 
 MAY_LACK = re.compile(
-    r"vexture-evidence|vexture-geo|tblib|more than the 256 rows|zlib|chromium|[Nn]ode|npm|wgpu|Vulkan|OpenGL|not built"
+    r"vexture-evidence|vexture-geo|more than the 256 rows|zlib|chromium|[Nn]ode|npm|Vulkan|OpenGL|not built"
 )
 """In the reasons of tests that are skipped: other packages of tests, and what is no Python."""
 

@@ -112,7 +112,7 @@ def test_gradients_are_those_of_many_points(name: str) -> None:
     """Errors over 4 and 20 pixels, where a gradient is far from flat in a pixel; in 1/255."""
     drawing, texture = made(f"shaded {name}")
     for size, mean in ((4, 1.6), (20, 0.25)):
-        error = 255 * abs(render_cpu_colours(texture, (size, size)) - planar.sample_picture(drawing, size, 8))
+        error = 255 * abs(render_cpu_colours(texture, (size, size)) - planar.sample_picture(drawing, size, 12))
         assert error.mean() < mean, size
 
 
