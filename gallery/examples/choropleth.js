@@ -1,14 +1,13 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { VectorMaterial, VectorTextureLoader } from 'vexture';
+import { addPanel, fillWindow } from './helpers.js';
 
 const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-const label = document.createElement('output');
-label.style.cssText = 'position: fixed; left: 1rem; top: 1rem; font-size: 1.1rem; color: #fff';
-document.body.append(renderer.domElement, label);
+document.body.append(renderer.domElement);
 const scene = new THREE.Scene();
-scene.background = new THREE.Color(0x10161d);
+scene.background = new THREE.Color(0xe9edf0);
 const camera = new THREE.PerspectiveCamera(35, 1, 0.001, 20);
 
 const texture = await new VectorTextureLoader().loadAsync('counties.ktx2');
@@ -17,39 +16,45 @@ const map = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material);
 material.mask.attach(map); // rays tell which county they meet
 scene.add(map);
 
-// an invented rate, and its colour: one list for all counties
-const shades = Array.from({ length: 64 }, (_, k) => {
-  const { r, g, b } = new THREE.Color().lerpColors(new THREE.Color(0x1b2a6b), new THREE.Color(0xf4dc5a), k / 63);
-  return [r ** 0.45, g ** 0.45, b ** 0.45, 1];
-});
+// percentages of each county: unemployment of 2009 (Bureau of Labor Statistics), habitats (U.S. Geological Survey)
+const { figures, counties } = await (await fetch('figures.json')).json();
 const names = texture.roots[0].style.elements.map(({ name }) => name);
-const rate = (k, time) => 0.5 + 0.3 * Math.sin(k / 160 + time) + 0.2 * Math.sin(7.7 * k);
-let hovered = null;
-function paint(time) {
-  const paints = new Map(names.map((name, k) => [name, shades[Math.round(63 * rate(k, time))]]));
-  if (hovered) paints.set(hovered, '#ff5c4c');
-  texture.setPaints(paints); // no tree is built: the changed rows are sent to the graphics card
+const [COLORS, UNKNOWN] = [['#fff7d6', '#fed98e', '#fe9929', '#d95f0e', '#a63603', '#6b1d04'], '#b9c1c8'];
+let [figure, steps, colors, hovered] = [0, [], new Map(), null];
+
+/** Show one of the figures: six classes of equally many counties, and their legend. */
+function show(name) {
+  figure = figures.indexOf(name);
+  const sorted = names.map((one) => counties[one][figure]).filter((value) => value !== null).sort((a, b) => a - b);
+  steps = COLORS.map((_, k) => sorted[Math.floor((k * sorted.length) / COLORS.length)]);
+  const classOf = (value) => steps.findLastIndex((from) => value >= from);
+  colors = new Map(names.map((one) => [one, COLORS[classOf(counties[one][figure])] ?? UNKNOWN]));
+  texture.setPaints(colors); // no tree is built: the changed rows are sent to the graphics card
+  legend([...COLORS.map((color, k) => [color, `from ${steps[k]} %`]), [UNKNOWN, 'no figure']]);
 }
+function hover(name) {
+  if (name === hovered) return;
+  texture.setPaints({ ...(hovered && { [hovered]: colors.get(hovered) }), ...(name && { [name]: '#2b7fff' }) });
+  hovered = name;
+  line.textContent = name ? `${name}: ${counties[name][figure] ?? 'no figure'} %` : 'Point at a county';
+}
+
+const panel = addPanel('Share in per cent');
+const legend = panel.legend();
+panel.choice('Of', figures, show);
+const line = panel.text('Point at a county');
+panel.slider('Tilt', { min: 0, max: 75, value: 15, step: 1, unit: '°' }, (tilt) => (map.rotation.x = (-tilt * Math.PI) / 180));
 
 const [caster, pointer] = [new THREE.Raycaster(), new THREE.Vector2(9, 9)];
 renderer.domElement.addEventListener('pointermove', ({ clientX, clientY }) =>
   pointer.set((2 * clientX) / innerWidth - 1, 1 - (2 * clientY) / innerHeight));
 const controls = new OrbitControls(camera, renderer.domElement);
 Object.assign(controls, { enableDamping: true, zoomToCursor: true, minDistance: 0.05, maxDistance: 8 });
-const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
-function fit() {
-  renderer.setSize(innerWidth, innerHeight);
-  camera.aspect = innerWidth / innerHeight;
-  camera.updateProjectionMatrix();
-}
-addEventListener('resize', fit);
-fit();
-camera.position.set(0, -0.9, Math.max(2.6, 3.1 / camera.aspect));
-renderer.setAnimationLoop((now) => {
+fillWindow(renderer, camera);
+camera.position.set(0, 0, Math.max(2.7, 3.2 / camera.aspect));
+renderer.setAnimationLoop(() => {
   caster.setFromCamera(pointer, camera);
-  hovered = caster.intersectObject(map)[0]?.element?.name ?? null;
-  label.textContent = hovered ?? 'Point at a county';
-  paint(isStill ? 0 : now / 1200);
+  hover(caster.intersectObject(map)[0]?.element?.name ?? null);
   controls.update();
   renderer.render(scene, camera);
 });

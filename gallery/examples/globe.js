@@ -1,15 +1,15 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { VectorGlobe } from 'vexture/globe';
+import { addPanel, fillWindow, moves } from './helpers.js';
 
 const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-const label = document.createElement('output');
-label.style.cssText = 'position: fixed; left: 1rem; top: 1rem; font-size: 1.1rem; color: #fff';
-document.body.append(renderer.domElement, label);
+document.body.append(renderer.domElement);
 const scene = new THREE.Scene();
 scene.background = new THREE.Color(0x05070d);
 const camera = new THREE.PerspectiveCamera(35, 1, 1, 100);
+camera.position.set(0.6, 1.4, 1.9);
 
 // stars, all around and far behind
 const away = Array.from({ length: 1500 }, () => new THREE.Vector3().randomDirection().setLength(50));
@@ -25,9 +25,14 @@ globe.setPaint((id) => palette[number(id) % palette.length]);
 scene.add(globe);
 
 const controls = new OrbitControls(camera, renderer.domElement);
-controls.autoRotate = !matchMedia('(prefers-reduced-motion: reduce)').matches;
-Object.assign(controls, { enableDamping: true, enablePan: false, minDistance: 1.02, maxDistance: 6, autoRotateSpeed: 0.4 });
-controls.addEventListener('start', () => (controls.autoRotate = false));
+Object.assign(controls, { enableDamping: true, enablePan: false, minDistance: 1.02, maxDistance: 8, autoRotateSpeed: 0.4 });
+const panel = addPanel();
+const line = panel.text('Point at a country');
+const show = (log) => `${Number((6371 * 10 ** log).toPrecision(2)).toLocaleString('en')} km`;
+const height = panel.slider('Height', { min: -1.7, max: 0.8, value: 0.4, show }, (log) => camera.position.setLength(1 + 10 ** log));
+panel.color('Sea', '#1f4a6b', (color) => sea.material.color.set(color));
+const turn = panel.toggle('Turn', moves, (isOn) => (controls.autoRotate = isOn));
+controls.addEventListener('start', () => (turn.value = controls.autoRotate = false));
 
 const pointer = new THREE.Vector2(9, 9); // beside the picture
 renderer.domElement.addEventListener('pointermove', ({ clientX, clientY }) =>
@@ -38,20 +43,15 @@ function highlight() {
   if (id === hovered) return;
   globe.setPaint({ ...(hovered && { [hovered]: undefined }), ...(id && { [id]: '#ff5c4c' }) }); // undefined: as before
   hovered = id;
-  label.textContent = id ?? '';
+  line.textContent = id ?? 'Point at a country';
 }
-function fit() {
-  renderer.setSize(innerWidth, innerHeight);
-  camera.aspect = innerWidth / innerHeight;
-}
-addEventListener('resize', fit);
-fit();
-camera.position.set(0.6, 1.4, 1.9).setLength(camera.aspect > 1 ? 3.7 : 6);
+fillWindow(renderer, camera);
 renderer.setAnimationLoop(() => {
-  const height = controls.getDistance() - 1;
-  controls.rotateSpeed = controls.zoomSpeed = Math.min(1, height);
+  const above = controls.getDistance() - 1;
+  height.value = Math.log10(above); // it follows the wheel
+  controls.rotateSpeed = controls.zoomSpeed = Math.min(1, above);
   controls.update();
-  camera.near = height / 4;
+  camera.near = above / 4;
   camera.updateProjectionMatrix();
   highlight();
   globe.update(camera, innerHeight); // chooses the tiles for what the camera sees

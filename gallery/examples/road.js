@@ -1,6 +1,6 @@
 import * as THREE from 'three';
-import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { VectorTextureLoader, applyVectorMask } from 'vexture';
+import { addPanel, fillWindow } from './helpers.js';
 
 const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
@@ -34,23 +34,29 @@ const asphalt = material(0x3b3f44);
 scene.add(new THREE.Mesh(strip(-30, 30, -0.03), material(0x7f9a5b)));
 scene.add(new THREE.Mesh(strip(-WIDTH / 2, WIDTH / 2, -0.005), material(0x3b3f44)));
 scene.add(new THREE.Mesh(strip(-1.5, 1.5, 0), asphalt));
-for (const edge of [-1.85, 1.75]) scene.add(new THREE.Mesh(strip(edge, edge + 0.1, 0.005), material(0xf3f0e6)));
+const lines = [-1.85, 1.75].map((edge) => new THREE.Mesh(strip(edge, edge + 0.1, 0.005), material(0xf3f0e6)));
+scene.add(...lines);
 
 // the word lies in the middle of the texture's square, and comes again and again along the road
-const words = await new VectorTextureLoader().loadAsync('words.ktx2');
-const paint = applyVectorMask(asphalt, words, { mode: 'mix', color: 0xf7f5ee, wrap: 'repeat' });
-const times = 5; // stretched along the road, as painted words are
-paint.transform.setUvTransform(0, 0, 1, times, 0, 0, 0);
+const loader = new VectorTextureLoader();
+const names = ['slow', 'bus', 'school'];
+const words = await Promise.all(names.map((word) => loader.loadAsync(`${word}.ktx2`)));
+const paint = applyVectorMask(asphalt, words[0], { mode: 'mix', wrap: 'repeat' });
 
-const controls = new OrbitControls(camera, renderer.domElement);
-Object.assign(controls, { enableDamping: true, maxPolarAngle: 1.5, maxDistance: 30 });
-camera.position.copy(middle(-1.5)).add(new THREE.Vector3(0, 1.7, 1));
-controls.target.copy(middle(5));
-function fit() {
-  renderer.setSize(innerWidth, innerHeight);
-  camera.aspect = innerWidth / innerHeight;
-  camera.updateProjectionMatrix();
-}
-addEventListener('resize', fit);
-fit();
-renderer.setAnimationLoop(() => controls.update() || renderer.render(scene, camera));
+const panel = addPanel();
+panel.choice('Word', names, (word) => (paint.texture = words[names.indexOf(word)]));
+panel.slider('Times', { min: 3, max: 30, value: 5, step: 1 }, (times) => paint.transform.setUvTransform(0, 0, 1, times, 0, 0, 0));
+panel.color('Paint', '#f7f5ee', (color) => paint.color.set(color));
+const ahead = panel.slider('Way', { min: 0, max: 42, value: 0, unit: 'm' });
+const height = panel.slider('Eyes', { min: 0.5, max: 8, value: 1.7, unit: 'm' });
+const drive = panel.toggle('Drive', false);
+
+fillWindow(renderer, camera);
+let last = 0;
+renderer.setAnimationLoop((now) => {
+  if (drive.value) ahead.value = (ahead.value + (now - last) / 250) % 42;
+  last = now;
+  camera.position.copy(middle(ahead.value - 2.5)).y += height.value;
+  camera.lookAt(middle(ahead.value + 5));
+  renderer.render(scene, camera);
+});

@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { VectorTextureLoader, applyVectorMask } from 'vexture';
+import { addPanel, fillWindow, moves } from './helpers.js';
 
 const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
@@ -33,19 +34,24 @@ const air = new THREE.ShaderMaterial({
 scene.add(new THREE.Mesh(new THREE.SphereGeometry(1.08, 96, 48), air));
 
 const controls = new OrbitControls(camera, renderer.domElement);
-controls.autoRotate = !matchMedia('(prefers-reduced-motion: reduce)').matches;
-Object.assign(controls, { enableDamping: true, enablePan: false, minDistance: 1.02, maxDistance: 6, autoRotateSpeed: 0.5 });
-function fit() {
-  renderer.setSize(innerWidth, innerHeight);
-  camera.aspect = innerWidth / innerHeight;
-  camera.updateProjectionMatrix();
-}
-addEventListener('resize', fit);
-fit();
-camera.position.set(1, 0.85, 0.25).setLength(camera.aspect > 1 ? 4 : 5.8);
+Object.assign(controls, { enableDamping: true, enablePan: false, minDistance: 1.02, maxDistance: 8, autoRotateSpeed: 0.5 });
+camera.position.set(1, 0.85, 0.25);
+
+const panel = addPanel();
+const show = (log) => `${Number((6371 * 10 ** log).toPrecision(2)).toLocaleString('en')} km`;
+const height = panel.slider('Height', { min: -1.7, max: 0.8, value: 0.48, show }, (log) => camera.position.setLength(1 + 10 ** log));
+const east = panel.slider('Sun', { min: -180, max: 180, value: -35, step: 1, unit: '°' });
+panel.color('Land', '#8aa05a', (color) => mask.color.set(color));
+panel.color('Sea', '#1d5c86', (color) => sea.color.set(color));
+panel.toggle('Turn', moves, (isOn) => (controls.autoRotate = isOn));
+
+fillWindow(renderer, camera);
 renderer.setAnimationLoop(() => {
-  controls.rotateSpeed = controls.zoomSpeed = Math.min(1, controls.getDistance() - 1);
+  const above = controls.getDistance() - 1;
+  height.value = Math.log10(above); // it follows the wheel
+  controls.rotateSpeed = controls.zoomSpeed = Math.min(1, above);
   controls.update();
-  sun.position.copy(camera.position).add(new THREE.Vector3(-2, 1.5, 1)); // always day
+  const angle = Math.atan2(camera.position.x, camera.position.z) + (east.value * Math.PI) / 180; // from the visitor's meridian
+  sun.position.setFromSphericalCoords(1, 1.1, angle);
   renderer.render(scene, camera);
 });

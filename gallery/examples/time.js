@@ -1,11 +1,8 @@
 import { AttributionControl, Map, Marker } from 'maplibre-gl';
 import { VectorTileLayer } from 'vexture/maplibre';
+import { addPanel, moves } from './helpers.js';
 
-document.body.insertAdjacentHTML('beforeend', `<div id="map" style="height: 100%"></div>
-  <div style="position: fixed; left: 1rem; top: 1rem; padding: .5rem .8rem; border-radius: .5rem; background: #fffd; width: 13rem">
-    <strong id="month" style="display: block"></strong> <output id="name"></output>
-    <input id="time" type="range" min="0" max="119" step="any" value="0" aria-label="Month" style="width: 100%"></div>`);
-const [month, name, slider] = ['month', 'name', 'time'].map((id) => document.getElementById(id));
+document.body.insertAdjacentHTML('beforeend', '<div id="map" style="height: 100%"></div>');
 
 const cities = { Seattle: [-122.33, 47.61], 'Los Angeles': [-118.24, 34.05], Denver: [-104.99, 39.74], Houston: [-95.37, 29.76],
   Chicago: [-87.63, 41.88], Miami: [-80.19, 25.76], 'New York': [-74.01, 40.71], Anchorage: [-149.9, 61.22] };
@@ -46,13 +43,21 @@ counties.on('click', ({ feature, lngLat }) => {
   if (kept) marker.setLngLat(lngLat).addTo(map);
   else marker.remove();
 });
-let playing = !matchMedia('(prefers-reduced-motion: reduce)').matches;
-slider.addEventListener('pointerdown', () => (playing = false));
+
+const panel = addPanel('A rate that is invented');
+const monthOf = (t) => new Date(2015, Math.round(t)).toLocaleDateString('en', { month: 'short', year: 'numeric' });
+const time = panel.slider('Month', { min: 0, max: 119, value: 0, show: monthOf });
+const plays = panel.toggle('Play', moves);
+panel.slider('Tilt', { min: 0, max: 60, value: 0, step: 1, unit: '°' }, (pitch) => map.setPitch(pitch));
+panel.legend([0, 1, 2, 3].map((k) => [`rgb(${stops[k].map((part) => 255 * part)})`, `${Math.round((100 * k) / 3)} %`]));
+const line = panel.text();
+let [last, shown] = [0, 0];
 requestAnimationFrame(function step(now) {
-  if (playing) slider.value = (now / 250) % 119;
-  const [time, id] = [Number(slider.value), hovered ?? kept];
-  counties.setTime(time);
-  month.textContent = new Date(2015, Math.round(time)).toLocaleDateString('en', { month: 'long', year: 'numeric' });
-  name.value = id ? `${id}: ${(100 * rate(places[id], time)).toFixed(0)} %` : 'Point at a county, click to keep it';
+  if (time.value !== shown) plays.value = false; // the visitor moves it
+  if (plays.value) time.value = (time.value + Math.min(now - last, 100) / 250) % 119;
+  [last, shown] = [now, time.value];
+  counties.setTime(shown);
+  const id = hovered ?? kept;
+  line.textContent = id ? `${id}: ${(100 * rate(places[id], shown)).toFixed(0)} %` : 'Point at a county, click to keep it';
   requestAnimationFrame(step);
 });

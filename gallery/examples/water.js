@@ -1,47 +1,51 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { VectorTextureLoader } from 'vexture';
+import { VectorTextureLoader, applyVectorMask } from 'vexture';
 import { SimpleWater } from 'vexture/water';
+import { addPanel, fillWindow, moves } from './helpers.js';
 
 const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
 document.body.append(renderer.domElement);
 const scene = new THREE.Scene();
 scene.background = new THREE.Color(0xd5e2ea);
-const camera = new THREE.PerspectiveCamera(45, 1, 0.1, 1000);
+scene.fog = new THREE.Fog(0xd5e2ea, 40, 130);
+const camera = new THREE.PerspectiveCamera(45, 1, 0.1, 300);
 
-// sand, which is seen where there is no water
-const sand = new THREE.MeshBasicMaterial({ color: 0xcdb98a });
-const ground = new THREE.Mesh(new THREE.PlaneGeometry(100, 100).rotateX(-Math.PI / 2), sand);
-scene.add(ground);
+// two shapes, the sea, and the same with its beaches; the land is green, and sand within the second
+const coast = await new VectorTextureLoader().loadAsync('coast.ktx2');
+const square = new THREE.PlaneGeometry(100, 100).rotateX(-Math.PI / 2);
+const grass = new THREE.MeshBasicMaterial({ color: 0x7c9a55 });
+applyVectorMask(grass, coast, { root: 'beach', mode: 'mix', color: 0xe3cf9c });
+scene.add(new THREE.Mesh(square, grass));
 
-// the water is where the drawing is, with foam along its outline
-const sea = await new VectorTextureLoader().loadAsync('ocean.ktx2');
-const water = new SimpleWater(new THREE.PlaneGeometry(100, 100), sea, {
-  sunDirection: new THREE.Vector3(-0.5, 0.42, -0.75).normalize(),
-  waterColor: 0x1f6f86,
-  shallow: 0x6fc5bd,
-  foam: { width: 0.02 },
-  distortionScale: 3,
-});
+// the water is where the first shape is, with shallows and foam along its outline
+const sun = new THREE.Vector3();
+const water = new SimpleWater(new THREE.PlaneGeometry(100, 100), coast, { root: 'sea', sunDirection: sun, shallow: 0x63c3bd, fog: true });
 water.rotation.x = -Math.PI / 2;
-water.position.y = 0.1;
+water.position.y = 0.02;
 scene.add(water);
 
 const controls = new OrbitControls(camera, renderer.domElement);
-Object.assign(controls, { enableDamping: true, maxPolarAngle: 1.5, minDistance: 3, maxDistance: 160 });
-const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
-function fit() {
-  renderer.setSize(innerWidth, innerHeight);
-  camera.aspect = innerWidth / innerHeight;
-  camera.updateProjectionMatrix();
-}
-addEventListener('resize', fit);
-fit();
-camera.position.set(22, 9, 34);
-controls.target.set(-8, 0, 2);
+Object.assign(controls, { enableDamping: true, maxPolarAngle: 1.5, minDistance: 3, maxDistance: 110 });
+
+const { uniforms } = water.material;
+const panel = addPanel();
+panel.slider('Sun', { min: 3, max: 80, value: 24, step: 1, unit: '°' }, (height) =>
+  sun.setFromSphericalCoords(1, THREE.MathUtils.degToRad(90 - height), THREE.MathUtils.degToRad(200)));
+panel.slider('Waves', { min: 0.5, max: 8, value: 3 }, (size) => (uniforms.size.value = 12 / size));
+panel.slider('Foam', { min: 0, max: 20, value: 8 }, (width) => (water.foam = { width: width / 1000 }));
+panel.color('Water', '#14607c', (color) => uniforms.waterColor.value.set(color));
+panel.color('Shallows', '#63c3bd', (color) => (water.shallow = color));
+const flows = panel.toggle('Flow', moves);
+
+fillWindow(renderer, camera);
+camera.position.set(18, 12, 34);
+controls.target.set(-2, 0, 2);
+let last = 0;
 renderer.setAnimationLoop((now) => {
-  water.time = isStill ? 1 : now / 1000;
+  if (flows.value) water.time += (now - last) / 1000;
+  last = now;
   controls.update();
   renderer.render(scene, camera);
 });

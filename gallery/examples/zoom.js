@@ -1,11 +1,10 @@
 import * as THREE from 'three';
 import { VectorMaterial, VectorTextureLoader } from 'vexture';
+import { addPanel, moves } from './helpers.js';
 
 const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-const label = document.createElement('output');
-label.style.cssText = 'position: fixed; left: 1rem; bottom: 1rem; padding: 0 .6rem; border-radius: 1rem; background: #fffc';
-document.body.append(renderer.domElement, label);
+document.body.append(renderer.domElement);
 
 // One square fills the view. Where in the drawing it lies is the business of its transform: so no camera, and no
 // corner of a mesh, comes near the limits of 32-bit floats.
@@ -19,32 +18,32 @@ plane.position.set(0.5, 0.5, 0);
 scene.add(plane);
 
 // The stamp's stamp's stamp ... is here; near a corner of the unit square floats are finest, 4e-9 of it.
-const [NEST, DEEPEST, SECONDS] = [0.03 / 0.9, 10000, 24];
-let zoom = 1;
+const [NEST, DEEPEST, SECONDS] = [0.03 / 0.9, 4, 24];
 
-function look() {
+function look(zoom) {
   const near = 1 - 1 / zoom; // the middle goes to the nest as it comes nearer
   const at = 0.5 + (NEST + 0.25 / zoom - 0.5) * near;
   const [width, height] = [Math.max(1, innerWidth / innerHeight), Math.max(1, innerHeight / innerWidth)].map((n) => (1.1 * n) / zoom);
   material.mask.transform.setUvTransform(at - width / 2, at - height / 2, width, height, 0, 0, 0);
-  label.textContent = `${zoom < 10 ? zoom.toFixed(1) : Math.round(zoom).toLocaleString('en')} times`;
 }
-const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
-let [begun, playing] = [performance.now(), !isStill];
-const set = (next) => ((zoom = Math.min(Math.max(next, 1), DEEPEST)), (playing = false));
-addEventListener('wheel', ({ deltaY }) => set(zoom * Math.exp(-deltaY / 300)));
-addEventListener('pointermove', ({ buttons, movementY }) => buttons && set(zoom * Math.exp(-movementY / 60)));
-addEventListener('keydown', ({ key }) => set(zoom * ({ '+': 1.5, '-': 1 / 1.5 }[key] ?? 1)));
-addEventListener('dblclick', () => ([begun, playing] = [performance.now(), true]));
-function fit() {
-  renderer.setSize(innerWidth, innerHeight);
-}
+
+const panel = addPanel();
+const show = (log) => `${log < 1 ? (10 ** log).toFixed(1) : Math.round(10 ** log).toLocaleString('en')} ×`;
+const zoom = panel.slider('Nearer', { min: 0, max: DEEPEST, value: 0, show });
+const plays = panel.toggle('Play', moves);
+const canvas = renderer.domElement;
+canvas.style.touchAction = 'none';
+canvas.addEventListener('wheel', ({ deltaY }) => (zoom.value -= deltaY / 700), { passive: true });
+canvas.addEventListener('pointermove', ({ buttons, movementY }) => buttons && (zoom.value -= movementY / 140));
+
+const fit = () => renderer.setSize(innerWidth, innerHeight);
 addEventListener('resize', fit);
 fit();
-renderer.domElement.style.touchAction = 'none';
+let [last, shown, part] = [0, 0, 0];
 renderer.setAnimationLoop((now) => {
-  const part = (((now - begun) / 1000 / SECONDS) * 2) % 2; // there and back
-  if (playing) zoom = DEEPEST ** (0.5 - 0.5 * Math.cos(Math.PI * part));
-  look();
+  if (zoom.value !== shown) plays.value = false; // the visitor zooms
+  if (plays.value) zoom.value = DEEPEST * (0.5 - 0.5 * Math.cos(2 * Math.PI * (part += Math.min(now - last, 100) / 1000 / SECONDS)));
+  [last, shown] = [now, zoom.value];
+  look(10 ** shown);
   renderer.render(scene, camera);
 });

@@ -49,9 +49,14 @@ class Package:
             raise LimitError(f"{count} files asked of {self.name}, which has {len(available)}; ask for fewer")
         return random.Random(seed).sample(available, count)
 
+    @property
+    def home(self) -> Path:
+        """Return the folder that npm installs it into."""
+        return cache() / f"{self.name.replace('/', '-')}-{self.version}"
+
     def installed_folder(self) -> Path:
         """Return the package's folder, installed first if it is missing."""
-        home = cache() / f"{self.name.replace('/', '-')}-{self.version}"
+        home = self.home
         if not home.exists():
             npm = shutil.which("npm")
             if npm is None:
