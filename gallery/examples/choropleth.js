@@ -46,8 +46,8 @@ const line = panel.text('Point at a county');
 panel.slider('Tilt', { min: 0, max: 75, value: 15, step: 1, unit: '°' }, (tilt) => (map.rotation.x = (-tilt * Math.PI) / 180));
 
 const [caster, pointer] = [new THREE.Raycaster(), new THREE.Vector2(9, 9)];
-renderer.domElement.addEventListener('pointermove', ({ clientX, clientY }) =>
-  pointer.set((2 * clientX) / innerWidth - 1, 1 - (2 * clientY) / innerHeight));
+const point = ({ clientX, clientY }) => pointer.set((2 * clientX) / innerWidth - 1, 1 - (2 * clientY) / innerHeight);
+for (const type of ['pointermove', 'pointerdown']) renderer.domElement.addEventListener(type, point);
 const controls = new OrbitControls(camera, renderer.domElement);
 Object.assign(controls, { enableDamping: true, zoomToCursor: true, minDistance: 0.05, maxDistance: 8 });
 fillWindow(renderer, camera);

@@ -11,7 +11,7 @@ document.body.append(renderer.domElement);
 const scene = new THREE.Scene();
 scene.background = new THREE.Color(0x27313b);
 const camera = new THREE.PerspectiveCamera(38, 1, 0.1, 60);
-const lamp = new THREE.SpotLight(0xfff0d8, 160, 0, 0.7, 0.5);
+const lamp = new THREE.SpotLight(0xfff0d8, 190, 0, 1, 0.6);
 lamp.castShadow = true;
 lamp.shadow.mapSize.set(2048, 2048);
 lamp.shadow.normalBias = 0.04;
@@ -44,15 +44,15 @@ const controls = new OrbitControls(camera, renderer.domElement);
 Object.assign(controls, { enableDamping: true, minDistance: 2, maxDistance: 12, maxPolarAngle: 1.6 });
 
 const panel = addPanel();
-panel.slider('Lamp', { min: -70, max: 70, value: 40, step: 1, unit: '°' }, (angle) =>
+panel.slider('Lamp', { min: -70, max: 70, value: 25, step: 1, unit: '°' }, (angle) =>
   lamp.position.set(6 * Math.sin((angle * Math.PI) / 180), 3.6, 6 * Math.cos((angle * Math.PI) / 180)));
-panel.slider('Decal', { min: 0.5, max: 4, value: 1.9, unit: 'm' }, (size) => // the wall's sides in sizes of the decal, its middle
+panel.slider('Size', { min: 0.5, max: 4, value: 1.9, unit: 'm' }, (size) => // the wall's sides in sizes of the decal, its middle
   decal.transform.setUvTransform(0.5 - 4.5 / size, 0.5 - 2.4 / size, 12 / size, 6 / size, 0, 0, 0));
-panel.color('Decal', '#2f6f8f', (color) => decal.color.set(color));
+panel.color('Decal', '#2f6f8f', (color) => (decal.color = color));
 const turn = panel.toggle('Turn', moves);
 
 fillWindow(renderer, camera);
-camera.position.set(-0.6, 1.2, innerWidth > innerHeight ? 6 : 9);
+camera.position.set(-0.4, 1.1, innerWidth > 480 ? 5.4 : 8);
 renderer.setAnimationLoop((now) => {
   [cat, tree].forEach((mesh, k) => (mesh.rotation.y = turn.value ? 0.5 * Math.sin(now / 1500 + 2 * k) : 0.2));
   controls.update();

@@ -33,7 +33,7 @@ const controls = new OrbitControls(camera, renderer.domElement);
 Object.assign(controls, { enableDamping: true, maxPolarAngle: 1.55, minDistance: 0.03, maxDistance: 12 });
 
 // from the whole bottle to the last line of the label, each step as many times nearer
-const [middle, print, away] = [new THREE.Vector3(0, 1.5, 0), new THREE.Vector3(0, 0.372, 0.424), innerWidth > innerHeight ? 7 : 8.5];
+const [middle, print, away] = [new THREE.Vector3(0, 1.5, 0), new THREE.Vector3(0, 0.372, 0.424), 7];
 function come(times) {
   controls.target.lerpVectors(print, middle, 1 / times);
   camera.position.set(0.28, 0.1, 1).setLength(away / times).add(controls.target);

@@ -49,7 +49,7 @@ const plays = panel.toggle('Play', true);
 const controls = new OrbitControls(camera, renderer.domElement);
 Object.assign(controls, { enableDamping: true, minDistance: 1.5, maxDistance: 14 });
 fillWindow(renderer, camera);
-camera.position.set(0, 0.2, Math.max(4.6, 5 / camera.aspect));
+camera.position.set(0, 0.2, Math.max(4.6, 7.6 / camera.aspect));
 let last = 0;
 renderer.setAnimationLoop((now) => {
   if (plays.value && now - last > 1000 * period.value) {

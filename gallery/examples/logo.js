@@ -39,7 +39,7 @@ panel.color('Mug', '#f7f4ee', (color) => [wall.material, glazed].forEach((materi
 panel.toggle('Turn', moves, (isOn) => (controls.autoRotate = isOn));
 
 fillWindow(renderer, camera);
-camera.position.set(1.2, 1, 4.2).multiplyScalar(innerWidth > innerHeight ? 1 : 1.4);
+camera.position.set(1.2, 1, 4.2).multiplyScalar(innerWidth > 480 ? 1 : 1.2);
 renderer.setAnimationLoop(() => {
   controls.update();
   renderer.render(scene, camera);

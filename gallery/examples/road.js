@@ -46,17 +46,17 @@ const paint = applyVectorMask(asphalt, words[0], { mode: 'mix', wrap: 'repeat' }
 const panel = addPanel();
 panel.choice('Word', names, (word) => (paint.texture = words[names.indexOf(word)]));
 panel.slider('Times', { min: 3, max: 30, value: 5, step: 1 }, (times) => paint.transform.setUvTransform(0, 0, 1, times, 0, 0, 0));
-panel.color('Paint', '#f7f5ee', (color) => paint.color.set(color));
-const ahead = panel.slider('Way', { min: 0, max: 42, value: 0, unit: 'm' });
+panel.color('Paint', '#f7f5ee', (color) => (paint.color = color));
+const way = panel.slider('Way', { min: 0, max: 42, value: 0, unit: 'm' });
 const height = panel.slider('Eyes', { min: 0.5, max: 8, value: 1.7, unit: 'm' });
 const drive = panel.toggle('Drive', false);
 
 fillWindow(renderer, camera);
 let last = 0;
 renderer.setAnimationLoop((now) => {
-  if (drive.value) ahead.value = (ahead.value + (now - last) / 250) % 42;
+  if (drive.value) way.value = (way.value + (now - last) / 250) % 42;
   last = now;
-  camera.position.copy(middle(ahead.value - 2.5)).y += height.value;
-  camera.lookAt(middle(ahead.value + 5));
+  camera.position.copy(middle(way.value - 2.5)).y += height.value;
+  camera.lookAt(middle(way.value + 5));
   renderer.render(scene, camera);
 });

@@ -9,7 +9,7 @@ const cities = { Seattle: [-122.33, 47.61], 'Los Angeles': [-118.24, 34.05], Den
 const features = Object.entries(cities).map(([label, coordinates]) =>
   ({ type: 'Feature', properties: { label }, geometry: { type: 'Point', coordinates } }));
 const map = new Map({
-  container: 'map', bounds: [[-125, 24], [-66.5, 49.5]], fitBoundsOptions: { padding: 20 }, maxZoom: 14, attributionControl: false,
+  container: 'map', bounds: [[-125, 24], [-66.5, 49.5]], fitBoundsOptions: { padding: { top: 30, left: 15, right: 15, bottom: 170 } }, maxZoom: 14, attributionControl: false,
   style: {
     version: 8,
     sources: { cities: { type: 'geojson', data: { type: 'FeatureCollection', features } } },
@@ -24,7 +24,7 @@ const map = new Map({
 // the map itself, whole, as bytes; with an address as its source, a page asks for what it shows
 const counties = new VectorTileLayer({ id: 'counties', source: await (await fetch('counties.pmtiles')).blob() });
 map.once('load', () => map.addLayer(counties, 'labels')); // above the ground, below the names
-counties.ready().then(() => map.addControl(new AttributionControl({ customAttribution: counties.attribution })));
+counties.ready().then(() => map.addControl(new AttributionControl({ customAttribution: counties.attribution }), 'top-right'));
 
 // an invented rate of each county in 120 months: given once, and then a time changes a few bytes of each county in view
 const places = await (await fetch('counties.json')).json();

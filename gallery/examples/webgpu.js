@@ -24,7 +24,7 @@ const names = ['Wales', 'Bhutan', 'Brazil'];
 const flags = await Promise.all(['gb-wls', 'bt', 'br'].map((code) => loader.loadAsync(`${code}.ktx2`)));
 const place = uv().mul(vec3(1, 0.75, 0).xy).add(vec3(0, 0.125, 0).xy); // a flag is 4 to 3, in the middle of its square
 const [wind, threads] = [uniform(1), uniform(0.2)];
-const weave = sin(uv().x.mul(700)).mul(sin(uv().y.mul(525))).mul(threads).add(1);
+const weave = sin(uv().x.mul(320)).mul(sin(uv().y.mul(240))).mul(threads).add(1);
 const phase = positionLocal.x.mul(3.5).sub(moves ? time.mul(wind).mul(3) : 1);
 const wave = sin(phase).add(sin(phase.mul(0.6).add(positionLocal.y)).mul(0.6)).mul(uv().x).mul(wind).mul(0.14);
 const cloth = (flag) => {
@@ -46,7 +46,7 @@ panel.slider('Threads', { min: 0, max: 0.6, value: 0.2 }, (depth) => (threads.va
 const controls = new OrbitControls(camera, renderer.domElement);
 Object.assign(controls, { enableDamping: true, minDistance: 0.3, maxDistance: 9 });
 fillWindow(renderer, camera);
-camera.position.set(0.5, 0.1, Math.max(3.6, 3.6 / camera.aspect));
+camera.position.set(0.5, 0.1, Math.max(3.6, 4.1 / camera.aspect));
 renderer.setAnimationLoop(() => {
   controls.update();
   renderer.render(scene, camera);

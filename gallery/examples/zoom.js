@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 import { VectorMaterial, VectorTextureLoader } from 'vexture';
-import { addPanel, moves } from './helpers.js';
+import { addPanel, fillWindow, moves } from './helpers.js';
 
 const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
@@ -23,7 +23,8 @@ const [NEST, DEEPEST, SECONDS] = [0.03 / 0.9, 4, 24];
 function look(zoom) {
   const near = 1 - 1 / zoom; // the middle goes to the nest as it comes nearer
   const at = 0.5 + (NEST + 0.25 / zoom - 0.5) * near;
-  const [width, height] = [Math.max(1, innerWidth / innerHeight), Math.max(1, innerHeight / innerWidth)].map((n) => (1.1 * n) / zoom);
+  const { fullWidth, fullHeight } = camera.view;
+  const [width, height] = [fullWidth, fullHeight].map((side) => (1.1 * side) / Math.min(fullWidth, fullHeight) / zoom);
   material.mask.transform.setUvTransform(at - width / 2, at - height / 2, width, height, 0, 0, 0);
 }
 
@@ -36,9 +37,7 @@ canvas.style.touchAction = 'none';
 canvas.addEventListener('wheel', ({ deltaY }) => (zoom.value -= deltaY / 700), { passive: true });
 canvas.addEventListener('pointermove', ({ buttons, movementY }) => buttons && (zoom.value -= movementY / 140));
 
-const fit = () => renderer.setSize(innerWidth, innerHeight);
-addEventListener('resize', fit);
-fit();
+fillWindow(renderer, camera);
 let [last, shown, part] = [0, 0, 0];
 renderer.setAnimationLoop((now) => {
   if (zoom.value !== shown) plays.value = false; // the visitor zooms

@@ -8,37 +8,35 @@
 // of what a call returns shows another one, and calls nothing.
 
 const STYLE = `
-.controls { position: fixed; left: .75rem; top: .75rem; width: 16rem; max-height: calc(100% - 1.5rem); overflow: auto; box-sizing: border-box;
-  border-radius: .6rem; background: #fffffff0; color: #1c2733; accent-color: #0b5cad; font: 14px/1.35 system-ui, sans-serif; box-shadow: 0 1px 6px #0004; }
-.controls summary { padding: .45rem .8rem; cursor: pointer; font-weight: 600; user-select: none; }
-.controls label, .controls p { display: grid; grid-template-columns: 5.6rem 1fr auto; gap: .5rem; align-items: center; margin: 0; padding: .15rem .8rem; min-height: 1.9rem; box-sizing: border-box; }
-.controls p { display: block; min-height: 1.4em; }
-.controls > :last-child { margin-bottom: .45rem; }
-.controls input[type=range], .controls select { width: 100%; min-width: 0; margin: 0; font: inherit; }
-.controls input[type=checkbox] { width: 1.2rem; height: 1.2rem; margin: 0; }
-.controls input[type=color] { width: 100%; height: 1.6rem; padding: 0; border: 1px solid #0003; border-radius: .3rem; background: none; }
-.controls button { margin: .2rem 0 .2rem .8rem; padding: .3rem .9rem; font: inherit; color: inherit; background: #fff; border: 1px solid #0004; border-radius: .4rem; cursor: pointer; }
-.controls label output { min-width: 3.2rem; text-align: right; font-variant-numeric: tabular-nums; }
-.controls .legend { display: flex; flex-wrap: wrap; gap: .1rem .7rem; }
-.controls .legend i { display: inline-block; width: .9rem; height: .9rem; margin-right: .3rem; vertical-align: -.1rem; border-radius: .15rem; }
-@media (max-width: 30rem) {
-  .controls { left: .5rem; right: .5rem; top: auto; bottom: .5rem; width: auto; max-height: 45%; }
-  .controls label { min-height: 2.4rem; }
-}`;
+.controls { position: fixed; inset: auto .5rem .5rem; max-height: 50%; overflow: auto; box-sizing: border-box; border-radius: .6rem; padding: 0 .8rem;
+  background: #fffffff2; color: #1c2733; accent-color: #0b5cad; font: 14px/1.35 system-ui, sans-serif; box-shadow: 0 1px 6px #0004; }
+.controls summary { padding: .4rem 0; cursor: pointer; font-weight: 600; user-select: none; }
+.controls > div { display: flex; flex-wrap: wrap; align-items: center; gap: 0 1.4rem; padding-bottom: .4rem; }
+.controls label { flex: 1 1 15rem; display: flex; gap: .6rem; align-items: center; min-height: 2.3rem; }
+.controls label:has(input[type=checkbox], input[type=color]) { flex: 0 1 auto; }
+.controls label > span { flex: none; min-width: 3.4rem; }
+.controls label:has(input[type=checkbox], input[type=color]) > span { min-width: 0; }
+.controls p { flex: 1 0 100%; margin: 0; min-height: 1.5em; }
+.controls input[type=range], .controls select { flex: 1; min-width: 0; margin: 0; font: inherit; }
+.controls select { padding: .2rem; }
+.controls input[type=checkbox] { width: 1.3rem; height: 1.3rem; margin: 0; }
+.controls input[type=color] { width: 2.6rem; height: 1.7rem; padding: 0; border: 1px solid #0003; border-radius: .3rem; background: none; }
+.controls button { padding: .35rem .9rem; font: inherit; color: inherit; background: #fff; border: 1px solid #0004; border-radius: .4rem; cursor: pointer; }
+.controls output { flex: none; min-width: 3.3rem; text-align: right; font-variant-numeric: tabular-nums; }
+.controls .legend { display: flex; flex-wrap: wrap; gap: .1rem .8rem; }
+.controls .legend i { display: inline-block; width: .9rem; height: .9rem; margin-right: .3rem; vertical-align: -.1rem; border-radius: .15rem; border: 1px solid #0003; }`;
 document.head.append(Object.assign(document.createElement('style'), { textContent: STYLE }));
 
 /** Whether this visitor has nothing against movement. */
 export const moves = !matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-const isNarrow = matchMedia('(max-width: 30rem)');
-
-/** Let a renderer and its camera fill the window, from now on. On a phone the middle of the view is above the panel. */
+/** Let a renderer and its camera fill the window, from now on; what the camera is to show is above the panel. */
 export function fillWindow(renderer, camera) {
   const panel = document.querySelector('.controls');
   function fit() {
-    const covered = panel && isNarrow.matches ? panel.offsetHeight : 0;
+    const covered = panel && getComputedStyle(panel).display !== 'none' ? innerHeight - panel.offsetTop : 0;
     renderer.setSize(innerWidth, innerHeight);
-    camera.setViewOffset(innerWidth, innerHeight, 0, covered / 2, innerWidth, innerHeight);
+    camera.setViewOffset(innerWidth, innerHeight - covered, 0, 0, innerWidth, innerHeight); // and its aspect
   }
   addEventListener('resize', fit);
   panel?.addEventListener('toggle', fit);
@@ -53,8 +51,8 @@ const element = (name, properties = {}, ...parts) => {
 
 /** A panel, open at first, which can be folded. */
 export function addPanel(title = 'Controls') {
-  const panel = element('details', { className: 'controls', open: true }, element('summary', { textContent: title }));
-  document.body.append(panel);
+  const panel = element('div');
+  document.body.append(element('details', { className: 'controls', open: true }, element('summary', { textContent: title }), panel));
 
   /** A labelled input: `read` gets its value, `write` shows one, `change` takes it; and what shows it in words, if anything. */
   function add(label, input, { read, write, show }, change) {
