@@ -48,7 +48,7 @@ def glass() -> Profile:
     foot = np.linspace(0, np.pi / 2, 8)
     lip = [(-0.03, 2.9), (0, 2.9), (0.025, 2.88), (0.025, 2.78), (0, 2.76), (0, 2.4)]
     parts = [
-        np.array(lip) + [NARROW, 0],
+        np.array(lip) + np.array((NARROW, 0)),
         np.stack([NARROW + (WIDE - NARROW) * ease, 2.35 - 0.65 * shoulder / np.pi], axis=1),
         [(WIDE, 1.6), (WIDE, 0.1)],
         np.stack([WIDE - 0.08 + 0.08 * np.cos(foot), 0.08 - 0.08 * np.sin(foot)], axis=1),

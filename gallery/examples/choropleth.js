@@ -27,7 +27,7 @@ function show(name) {
   figure = figures.indexOf(name);
   const sorted = names.map((one) => counties[one][figure]).filter((value) => value !== null).sort((a, b) => a - b);
   steps = COLORS.map((_, k) => sorted[Math.floor((k * sorted.length) / COLORS.length)]);
-  const classOf = (value) => steps.findLastIndex((from) => value >= from);
+  const classOf = (value) => (value === null ? -1 : steps.findLastIndex((from) => value >= from));
   colors = new Map(names.map((one) => [one, COLORS[classOf(counties[one][figure])] ?? UNKNOWN]));
   texture.setPaints(colors); // no tree is built: the changed rows are sent to the graphics card
   legend([...COLORS.map((color, k) => [color, `from ${steps[k]} %`]), [UNKNOWN, 'no figure']]);

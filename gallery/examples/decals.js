@@ -47,12 +47,12 @@ const panel = addPanel();
 panel.slider('Lamp', { min: -70, max: 70, value: 25, step: 1, unit: '°' }, (angle) =>
   lamp.position.set(6 * Math.sin((angle * Math.PI) / 180), 3.6, 6 * Math.cos((angle * Math.PI) / 180)));
 panel.slider('Size', { min: 0.5, max: 4, value: 1.9, unit: 'm' }, (size) => // the wall's sides in sizes of the decal, its middle
-  decal.transform.setUvTransform(0.5 - 4.5 / size, 0.5 - 2.4 / size, 12 / size, 6 / size, 0, 0, 0));
+  decal.transform.setUvTransform(0.5 - 4.5 / size, 0.5 - 2.2 / size, 12 / size, 6 / size, 0, 0, 0));
 panel.color('Decal', '#2f6f8f', (color) => (decal.color = color));
 const turn = panel.toggle('Turn', moves);
 
 fillWindow(renderer, camera);
-camera.position.set(-0.4, 1.1, innerWidth > 480 ? 5.4 : 8);
+camera.position.set(-0.4, 1.1, innerWidth > 480 ? 6 : 8.5);
 renderer.setAnimationLoop((now) => {
   [cat, tree].forEach((mesh, k) => (mesh.rotation.y = turn.value ? 0.5 * Math.sin(now / 1500 + 2 * k) : 0.2));
   controls.update();

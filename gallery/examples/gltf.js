@@ -12,9 +12,9 @@ document.body.append(renderer.domElement);
 const scene = new THREE.Scene();
 scene.background = new THREE.Color(0xe4dccb);
 scene.environment = new THREE.PMREMGenerator(renderer).fromScene(new RoomEnvironment(), 0.02).texture; // what glass mirrors
-scene.environmentIntensity = 0.7;
+scene.environmentIntensity = 0.55;
 const camera = new THREE.PerspectiveCamera(30, 1, 0.005, 100);
-const lamp = new THREE.DirectionalLight(0xfff3e0, 2);
+const lamp = new THREE.DirectionalLight(0xfff3e0, 1.5);
 lamp.position.set(3, 6, 4);
 lamp.castShadow = true;
 lamp.shadow.mapSize.set(2048, 2048);

@@ -31,19 +31,19 @@ function App() {
   const from = (set) => ({ target }) => set(Number(target.value));
   return (
     <>
-      <Canvas camera={{ position: [0, 0, innerWidth > 480 ? 6 : 8], fov: 45 }} style={{ height: '100vh' }}>
+      <Canvas camera={{ position: [0, 0, innerWidth > 480 ? 7 : 9.5], fov: 45 }} style={{ height: '100vh' }}>
         <color attach="background" args={['#bfe0f2']} />
         <hemisphereLight args={['white', '#a09070', 2]} />
         <directionalLight position={[2, 3, 4]} intensity={2} />
         <Suspense fallback={null}>
           {/* the drawing, in its own colours */}
           {Array.from({ length: count }, (_, k) => (
-            <Balloon key={k} sway={sway} position={[1.7 * ((k % 3) - 1), 1 + 0.4 * (k % 2), -1.6 * Math.floor(k / 3)]}>
+            <Balloon key={k} sway={sway} position={[1.7 * ((k % 3) - 1), 0.9 + 0.4 * (k % 2), -1.6 * Math.floor(k / 3) - 0.6 * (k % 2)]}>
               <VectorMaterial src="balloon.ktx2" mode="paint" side={2} />
             </Balloon>
           ))}
           {/* the same on a lit banner, whose colour is around it */}
-          <Balloon sway={0.3 * sway} position={[0, -1, 0.2]}>
+          <Balloon sway={0.3 * sway} position={[0, -1, 0.4]}>
             <meshStandardMaterial color={color} side={2}>
               <VectorMask src="balloon.ktx2" mode="paint" />
             </meshStandardMaterial>

@@ -9,7 +9,8 @@ const cities = { Seattle: [-122.33, 47.61], 'Los Angeles': [-118.24, 34.05], Den
 const features = Object.entries(cities).map(([label, coordinates]) =>
   ({ type: 'Feature', properties: { label }, geometry: { type: 'Point', coordinates } }));
 const map = new Map({
-  container: 'map', bounds: [[-125, 24], [-66.5, 49.5]], fitBoundsOptions: { padding: { top: 30, left: 15, right: 15, bottom: 170 } }, maxZoom: 14, attributionControl: false,
+  container: 'map', bounds: [[-125, 24], [-66.5, 49.5]], fitBoundsOptions: { padding: { top: 30, left: 15, right: 15, bottom: 170 } },
+  maxZoom: 14, attributionControl: false,
   style: {
     version: 8,
     sources: { cities: { type: 'geojson', data: { type: 'FeatureCollection', features } } },

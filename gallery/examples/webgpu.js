@@ -1,6 +1,6 @@
 import * as THREE from 'three/webgpu';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { mix, positionLocal, sin, time, uniform, uv, vec3 } from 'three/tsl';
+import { positionLocal, sin, time, uniform, uv, vec3 } from 'three/tsl';
 import { VectorTextureLoader, vectorColor } from 'vexture/webgpu';
 import { addPanel, fillWindow, moves } from './helpers.js';
 

@@ -11,8 +11,8 @@ const STYLE = `
 .controls { position: fixed; inset: auto .5rem .5rem; max-height: 50%; overflow: auto; box-sizing: border-box; border-radius: .6rem; padding: 0 .8rem;
   background: #fffffff2; color: #1c2733; accent-color: #0b5cad; font: 14px/1.35 system-ui, sans-serif; box-shadow: 0 1px 6px #0004; }
 .controls summary { padding: .4rem 0; cursor: pointer; font-weight: 600; user-select: none; }
-.controls > div { display: flex; flex-wrap: wrap; align-items: center; gap: 0 1.4rem; padding-bottom: .4rem; }
-.controls label { flex: 1 1 15rem; display: flex; gap: .6rem; align-items: center; min-height: 2.3rem; }
+.controls > div { display: flex; flex-wrap: wrap; align-items: center; gap: 0 1.4rem; padding-bottom: .3rem; }
+.controls label { flex: 1 1 15rem; display: flex; gap: .6rem; align-items: center; min-height: 38px; }
 .controls label:has(input[type=checkbox], input[type=color]) { flex: 0 1 auto; }
 .controls label > span { flex: none; min-width: 3.4rem; }
 .controls label:has(input[type=checkbox], input[type=color]) > span { min-width: 0; }
