@@ -6,15 +6,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from vexture.bezier.convert import ellipse_cubics, line_cubics
-from vexture.bezier.joins import BEVEL, BUTT, MITER, MITER_CLIP, ROUND_CAP, ROUND_JOIN, SQUARE, StrokeStyle
+from vexture.bezier.joins import BEVEL, BUTT, MITER, MITER_CLIP, ROUND_CAP, ROUND_JOIN, SQUARE
 from vexture.bezier.stroke import stroke_path
 
 TOLERANCE = 1e-3
 T = np.linspace(0.0, 1.0, 200, endpoint=False)[:, None]
 
 
-def style(width, cap=BUTT, join=MITER, limit=4.0):
-    return StrokeStyle(width / 2, cap, join, limit, TOLERANCE, TOLERANCE / 16)
+def style(width, cap=BUTT, join=MITER, limit=4.0, offset=0.0):
+    return np.array([width, cap, join, limit, TOLERANCE, offset], np.float64)
 
 
 def lines(*points):
@@ -22,8 +22,10 @@ def lines(*points):
     return line_cubics(points[:-1], points[1:])
 
 
-def stroke(cubics, closed, kind):
-    found = [contour for contour in stroke_path(cubics, closed, kind) if len(contour)]
+def stroke(cubics, closed, kind, dashes=()):
+    dashes = np.array(dashes, np.float64)
+    contours, counts = stroke_path(cubics, np.array([len(cubics)]), np.array([closed]), kind, dashes)
+    found = np.split(contours, np.cumsum(counts)[:-1]) if len(counts) else []
     for contour in found:
         assert (contour[:, 3] == np.roll(contour[:, 0], -1, axis=0)).all()
     return found

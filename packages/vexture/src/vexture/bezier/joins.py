@@ -6,13 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
-from vexture.bezier.offset import CubicChain, append_cubic, append_line, unit
+from vexture.bezier.chain import CubicChain, append_cubic, append_line, unit
 
 MITER: Final = 0
 ROUND_JOIN: Final = 1
 BEVEL: Final = 2
 MITER_CLIP: Final = 3
 """A miter beyond its limit is cut there, instead of at the corner (SVG 2, 13.5.5)."""
+
+ARCS: Final = 4
+"""The sides go on along circles of their curvature (`vexture.bezier.arcs_join`)."""
 
 BUTT: Final = 0
 ROUND_CAP: Final = 1

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vexture.base.errors import SourceError
 from vexture.base.tolerance import ROUND
+from vexture.bezier.arc_length import path_length
 from vexture.drawing.drawing import FillRule, Path
 from vexture.drawing.paint import BLACK, Paint
 from vexture.svg.compositing import Veil
@@ -23,7 +24,7 @@ from vexture.svg.properties import PARTS
 from vexture.svg.report import Report
 from vexture.svg.shapes import ShapeElement, check, shape_outlines
 from vexture.svg.space import ElementPlace, PlacedElement
-from vexture.svg.strokes import Stroke, arc_length, stroke_contours
+from vexture.svg.strokes import Stroke, stroke_contours
 from vexture.svg.text.typesetter import Text
 from vexture.svg.transform import Identity, Transform, map_points, scale_of
 from vexture.svg.values import number, words
@@ -285,14 +286,11 @@ def stroke_of(shape: ShapeElement, outlines: list[ShapeOutline]) -> Stroke | Non
     if width <= 0.0:
         return None
     join = style["stroke-linejoin"].lower()
-    if join in ("miter-clip", "arcs"):
-        shape.report.simplification(f"stroke-linejoin {join} drawn as miter", shape.element)
-        join = "miter"
     dashes = dashes_of(shape)
     offset = shape.length("stroke-dashoffset") or 0.0
     whole = number(shape.element.get("pathLength", ""))
     if dashes and whole is not None and whole > 0.0:
-        factor = sum(arc_length(outline.cubics) for outline in outlines) / whole
+        factor = sum(path_length(outline.cubics) for outline in outlines) / whole
         dashes, offset = tuple(dash * factor for dash in dashes), offset * factor
     limit = max(number(style["stroke-miterlimit"]) or 0.0, 1.0)
     return Stroke(width, style["stroke-linecap"].lower(), join, limit, dashes, offset)

@@ -1,0 +1,128 @@
+"""Parts of a path that have a parallel curve, or an evolute: what a stroke offsets."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.base.kernels import kernel
+from vexture.bezier.bends import MOST_CUTS, find_cuts
+from vexture.bezier.chain import CubicChain, append_cubic, empty_chain, is_moving, unit
+from vexture.bezier.joins import ROUND_JOIN, StrokeStyle
+from vexture.bezier.roots import cubic_at, turning_points
+from vexture.bezier.split import subcubic
+
+STRAIGHT: Final = 1e-9
+"""Sine of the angle between the arms of a cubic that counts as a line."""
+
+SMOOTH: Final = -1
+"""Kind of a join between parts of one cubic, which need none."""
+
+STYLED: Final = -2
+"""Kind of a join of the style of the stroke."""
+
+
+class Parts(NamedTuple):
+    """Parts of a path."""
+
+    chain: CubicChain
+    kind: NDArray[np.int64]  # (room,): kind of the join at its start
+    last: NDArray[np.float64]  # (2,): where the path is
+
+
+@kernel
+def append_part(parts: Parts, curve: NDArray[np.float64], kind: int) -> Parts:
+    """Add a part of a path."""
+    count = parts.chain.length[0]
+    kinds = parts.kind
+    if count == len(kinds):
+        kinds = np.empty(2 * count + 4, np.int64)
+        for i in range(count):
+            kinds[i] = parts.kind[i]
+    kinds[count] = kind
+    return Parts(append_cubic(parts.chain, curve), kinds, parts.last)
+
+
+@kernel
+def _append_straight(parts: Parts, curve: NDArray[np.float64]) -> Parts:
+    """Add a cubic without area: the line between its ends and the points where it turns back."""
+    far = 3
+    for k in (1, 2):
+        dx, dy = curve[k, 0] - curve[0, 0], curve[k, 1] - curve[0, 1]
+        fx, fy = curve[far, 0] - curve[0, 0], curve[far, 1] - curve[0, 1]
+        if dx * dx + dy * dy > fx * fx + fy * fy:
+            far = k
+    fx, fy = curve[far, 0] - curve[0, 0], curve[far, 1] - curve[0, 1]
+    along, at, line = np.empty(4), np.empty(3), np.empty((4, 2))
+    for k in range(4):
+        along[k] = (curve[k, 0] - curve[0, 0]) * fx + (curve[k, 1] - curve[0, 1]) * fy
+    count = turning_points(along[0], along[1], along[2], along[3], at)
+    at[count] = 1.0
+    x, y, kind = curve[0, 0], curve[0, 1], STYLED
+    for k in range(count + 1):
+        line[0, 0], line[0, 1] = x, y
+        for axis in range(2):
+            line[3, axis] = cubic_at(curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis], at[k])
+            chord = line[3, axis] - line[0, axis]
+            line[1, axis], line[2, axis] = line[0, axis] + chord / 3.0, line[0, axis] + chord * (2.0 / 3.0)
+        if line[3, 0] != x or line[3, 1] != y:
+            parts = append_part(parts, line, kind)
+            x, y, kind = line[3, 0], line[3, 1], ROUND_JOIN
+    return parts
+
+
+@kernel(allocates=False)
+def is_straight(curve: NDArray[np.float64]) -> bool:
+    """Whether all arms have the same or the opposite direction."""
+    ax, ay = 0.0, 0.0
+    for k in range(3):
+        x, y = unit(curve[k + 1, 0] - curve[k, 0], curve[k + 1, 1] - curve[k, 1])
+        if ax == 0.0 and ay == 0.0:
+            ax, ay = x, y
+        elif abs(ax * y - ay * x) > STRAIGHT:
+            return False
+    return True
+
+
+@kernel(allocates=False)
+def _write_part(curve: NDArray[np.float64], t0: float, t1: float, shortest: float, out: NDArray[np.float64]) -> None:
+    """Write the part of a cubic from t0 to t1, (4, 2), with arms that are too short to have a direction set to zero."""
+    subcubic(curve, t0, t1, out)
+    for k, end in ((1, 0), (2, 3)):
+        if max(abs(out[k, 0] - out[end, 0]), abs(out[k, 1] - out[end, 1])) < shortest:
+            out[k, 0], out[k, 1] = out[end, 0], out[end, 1]
+
+
+@kernel
+def cut_path(cubics: NDArray[np.float64], style: StrokeStyle) -> Parts:
+    """Parts of a path that have parallel curves, or an evolute; steps without a direction are left out."""
+    parts = Parts(empty_chain(2 * len(cubics)), np.empty(2 * len(cubics), np.int64), cubics[0, 0].copy())
+    curve, part, cuts = np.empty((4, 2)), np.empty((4, 2)), np.empty(MOST_CUTS)
+    for i in range(len(cubics)):
+        size = 0.0
+        for k in range(4):
+            for axis in range(2):
+                size = max(size, abs(cubics[i, k, axis] - parts.last[axis]))
+        if size < style.shortest:
+            continue
+        _write_part(cubics[i], 0.0, 1.0, style.shortest, curve)
+        for axis in range(2):  # after steps that were left out
+            if curve[1, axis] == curve[0, axis]:
+                curve[1, axis] = parts.last[axis]
+            curve[0, axis] = parts.last[axis]
+            parts.last[axis] = curve[3, axis]
+        if is_straight(curve):
+            parts = _append_straight(parts, curve)
+            continue
+        count, t0, kind = find_cuts(curve, style.half, cuts), 0.0, STYLED
+        for k in range(count + 1):
+            t1 = cuts[k] if k < count else 1.0
+            if t1 <= t0:
+                continue
+            _write_part(curve, t0, t1, style.shortest, part)
+            if is_moving(part):
+                ends = part[1, 0] == part[0, 0] and part[1, 1] == part[0, 1]
+                parts = append_part(parts, part, ROUND_JOIN if ends and kind == SMOOTH else kind)
+                kind = SMOOTH
+            t0 = t1
+    return parts
