@@ -22,7 +22,6 @@ HEAVY = {
     "lxml",
     "moderngl",
     "numba",
-    "pathops",
     "png",
     "scipy",
     "tinycss2",

@@ -27,8 +27,9 @@ from vexture.base.kernels import Kernel, text_digest
 from vexture.base.layout import MAP_HEAD
 from vexture.base.machine_code import RELEASE, SHIPPED, Code, argument_type, host, load
 from vexture.base.tolerance import ROUND
+from vexture.bezier.arc_length import path_length
 from vexture.bezier.cover import DIRECTIONS, cover_cells, cut_outlines, find_reach
-from vexture.bezier.reduce import reduce_contour
+from vexture.bezier.stroke import stroke_path
 from vexture.renderers.colour import draw_colours
 from vexture.renderers.cpu import draw
 from vexture.texture.encode import texel_rows
@@ -129,7 +130,11 @@ def calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
     for file in sorted(SHAPES.glob("*.svg")):
         drawing = read_svg(file)
         for path in drawing.paths[:1]:
-            yield from ((reduce_contour, (contour, ROUND)) for contour in path.contours)
+            for contour in path.contours:
+                yield path_length, (contour,)
+                one = (np.array([len(contour)]), np.array([True]), np.array([0.02, 1.0, 1.0, 4.0, ROUND, 0.0]))
+                for dashes in ([], [0.05, 0.03]):
+                    yield stroke_path, (contour, *one, np.array(dashes, np.float64))
         for tolerance in (0.0, 0.001):
             outlines, bounds = gather(drawing), Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS)
             yield grow, (*outlines, bounds, SLICE, 0)

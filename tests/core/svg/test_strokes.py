@@ -1,4 +1,4 @@
-"""Outlines of strokes: within 1e-5 of the drawing, joined and capped as asked."""
+"""Strokes of shapes: within 1e-5 of the drawing, joined and capped by their style."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from vexture.base.errors import SourceError
 from vexture.base.tolerance import ROUND
 from vexture.bezier.convert import ellipse_cubics
 from vexture.svg.outline import ShapeOutline
-from vexture.svg.strokes import Stroke, arc_length, stroke_contours
+from vexture.svg.strokes import Stroke, stroke_contours
 
 T = np.linspace(0, 1, 41)[:, None]
 
@@ -89,7 +89,6 @@ def test_steps_without_length_make_no_joins() -> None:
 
 @pytest.mark.parametrize("end", [(80.0, 0.0), (80.0, 0.01)])
 def test_dashes(end: tuple[float, float]) -> None:
-    """Straight dashes come from a shortcut of Skia's that leaves its contours open."""
     contours = stroke_contours([line((0, 0), end)], Stroke(6.0, dashes=(8.0, 8.0)), 100.0)
     assert len(contours) == 5
     assert sum(abs(area([contour])) for contour in contours) == pytest.approx(5 * 8 * 6, rel=1e-4)
@@ -97,10 +96,12 @@ def test_dashes(end: tuple[float, float]) -> None:
     np.testing.assert_allclose(starts, [0, 16, 32, 48, 64], atol=2e-2)
 
 
+def test_a_shape_of_several_subpaths_starts_its_dashes_anew() -> None:
+    lines = [line((0, y), (20, y)) for y in (0, 10)]
+    contours = stroke_contours(lines, Stroke(2.0, dashes=(6.0, 4.0), dash_offset=-2.0), 100.0)
+    assert sorted(contour[..., 0].min() for contour in contours) == pytest.approx([2.0, 2.0, 12.0, 12.0])
+
+
 def test_too_many_dashes_are_refused() -> None:
     with pytest.raises(SourceError, match=r"8e\+06 dashes; the limit is 100,000"):
         stroke_contours([line((0, 0), (80, 0))], Stroke(1.0, dashes=(5e-6, 5e-6)), 100.0)
-
-
-def test_length_of_a_circle() -> None:
-    assert arc_length(ellipse_cubics((0, 0), (2, 2), 1e-9)) == pytest.approx(4 * np.pi, rel=1e-8)

@@ -18,6 +18,9 @@ GRID: Final = 8
 HALVINGS: Final = 45
 """Bisections of a place on a cubic."""
 
+NUDGE: Final = 1e-7
+"""Parameter. Curvature at an end without an arm is that at this distance."""
+
 MOST_CUTS: Final = 64
 """Room for the cuts of a cubic: tightness begins or ends at up to 12 places, and is extreme at up to 7."""
 
@@ -59,6 +62,8 @@ def tightness_at(curve: NDArray[np.float64], half: float, t: float) -> float:
     It is kept within 1e30, which stands for a cusp.
     """
     cross, speed = bend_at(curve, t)
+    if speed == 0.0:  # an end without an arm
+        cross, speed = bend_at(curve, NUDGE if t < 0.5 else 1.0 - NUDGE)
     cube = speed * speed * speed
     if not abs(cross) * half < 1e30 * cube:
         return 0.0 if cross == 0.0 else (1e30 if cross > 0.0 else -1e30)

@@ -61,15 +61,6 @@ def append_reversed(chain: CubicChain, other: CubicChain) -> CubicChain:
     return chain
 
 
-@kernel(allocates=False)
-def is_moving(curve: NDArray[np.float64]) -> bool:
-    """Whether a cubic is more than a point."""
-    for k in range(1, 4):
-        if curve[k, 0] != curve[0, 0] or curve[k, 1] != curve[0, 1]:
-            return True
-    return False
-
-
 @kernel
 def close_chain(chain: CubicChain, shortest: float) -> NDArray[np.float64]:
     """Contour (n, 4, 2) of a chain, closed bit for bit, without cubics that move by less than `shortest`."""

@@ -49,6 +49,38 @@ def _place_handles(
         out[1, axis], out[2, axis] = a[axis] + p * a[2 + axis], b[axis] - q * b[2 + axis]
 
 
+@kernel(allocates=False)
+def _is_between_near(
+    curve: NDArray[np.float64],
+    distance: float,
+    t0: float,
+    t1: float,
+    tolerance: float,
+    out: NDArray[np.float64],
+    at: NDArray[np.float64],
+    side: NDArray[np.float64],
+) -> bool:
+    """Whether a cubic is near the parallel curve between its samples, whose places on the cubic are `at`, too."""
+    for i in range(-1, SAMPLES + 2):
+        # halfway between samples, and once more at both ends, where a parallel curve may bend most
+        place = min(max(i + 0.5, 0.25), SAMPLES + 0.75)
+        share = place / (SAMPLES + 1)
+        write_side(curve, distance, t0 + (t1 - t0) * share, side)
+        k = int(place)
+        low, high = (at[k - 1] if k > 0 else 0.0), (at[k] if k < SAMPLES else 1.0)
+        t, ox, oy = low + (high - low) * (place - k), 0.0, 0.0
+        for _ in range(3):
+            ox = side[0] - cubic_at(out[0, 0], out[1, 0], out[2, 0], out[3, 0], t)
+            oy = side[1] - cubic_at(out[0, 1], out[1, 1], out[2, 1], out[3, 1], t)
+            vx = velocity_at(out[0, 0], out[1, 0], out[2, 0], out[3, 0], t)
+            vy = velocity_at(out[0, 1], out[1, 1], out[2, 1], out[3, 1], t)
+            square = vx * vx + vy * vy
+            t = min(max(t + (ox * vx + oy * vy) / square, 0.0), 1.0) if square > 0.0 else t
+        if ox * ox + oy * oy > tolerance * tolerance:
+            return False
+    return True
+
+
 @kernel
 def _fit_part(
     curve: NDArray[np.float64], distance: float, t0: float, t1: float, tolerance: float, out: NDArray[np.float64]
@@ -102,7 +134,7 @@ def _fit_part(
             pp, pq, qq, pr, qr = pp + u * u, pq + u * v, qq + v * v, pr + u * r, qr + v * r
         worst = np.sqrt(worst)
         if worst <= tolerance:
-            return True
+            return _is_between_near(curve, distance, t0, t1, tolerance, out, at, a)
         determinant = pp * qq - pq * pq
         if (worst > 100.0 * tolerance and done > 1) or not determinant > 1e-14 * pp * qq:
             return False

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
-from vexture.bezier.bends import MOST_CUTS, find_cuts
-from vexture.bezier.chain import CubicChain, append_cubic, empty_chain, is_moving, unit
+from vexture.bezier.bends import MOST_CUTS, find_cuts, find_slowest
+from vexture.bezier.chain import CubicChain, append_cubic, empty_chain, unit
 from vexture.bezier.joins import ROUND_JOIN, StrokeStyle
 from vexture.bezier.roots import cubic_at, turning_points
 from vexture.bezier.split import subcubic
@@ -94,6 +94,30 @@ def _write_part(curve: NDArray[np.float64], t0: float, t1: float, shortest: floa
 
 
 @kernel
+def _extent(curve: NDArray[np.float64], t0: float, t1: float) -> float:
+    """Largest difference between a coordinate of a control point of the part of a cubic and that of its start."""
+    part, far = np.empty((4, 2)), 0.0
+    subcubic(curve, t0, t1, part)
+    for k in range(1, 4):
+        far = max(far, max(abs(part[k, 0] - part[0, 0]), abs(part[k, 1] - part[0, 1])))
+    return far
+
+
+@kernel
+def _is_cut(
+    curve: NDArray[np.float64], t0: float, cuts: NDArray[np.float64], k: int, count: int, shortest: float
+) -> bool:
+    """Whether a cut has a distance from the last one, at t0, and from those to come; of near ones, a cusp counts."""
+    slow = np.empty(2)
+    for m in range(find_slowest(curve, slow)):
+        if slow[m] == cuts[k]:
+            near = t0 == 0.0 and _extent(curve, 0.0, cuts[k]) < shortest
+            return cuts[k] > t0 and not near and _extent(curve, cuts[k], 1.0) >= shortest
+    following = cuts[k + 1] if k + 1 < count else 1.0
+    return _extent(curve, t0, cuts[k]) >= shortest and _extent(curve, cuts[k], following) >= shortest
+
+
+@kernel
 def cut_path(cubics: NDArray[np.float64], style: StrokeStyle) -> Parts:
     """Parts of a path that have parallel curves, or an evolute; steps without a direction are left out."""
     parts = Parts(empty_chain(2 * len(cubics)), np.empty(2 * len(cubics), np.int64), cubics[0, 0].copy())
@@ -117,12 +141,10 @@ def cut_path(cubics: NDArray[np.float64], style: StrokeStyle) -> Parts:
         count, t0, kind = find_cuts(curve, style.half, cuts), 0.0, STYLED
         for k in range(count + 1):
             t1 = cuts[k] if k < count else 1.0
-            if t1 <= t0:
+            if k < count and not _is_cut(curve, t0, cuts, k, count, style.shortest):
                 continue
             _write_part(curve, t0, t1, style.shortest, part)
-            if is_moving(part):
-                ends = part[1, 0] == part[0, 0] and part[1, 1] == part[0, 1]
-                parts = append_part(parts, part, ROUND_JOIN if ends and kind == SMOOTH else kind)
-                kind = SMOOTH
-            t0 = t1
+            ends = part[1, 0] == part[0, 0] and part[1, 1] == part[0, 1]
+            parts = append_part(parts, part, ROUND_JOIN if ends and kind == SMOOTH else kind)
+            kind, t0 = SMOOTH, t1
     return parts

@@ -75,7 +75,7 @@ def _write_ends(curve: NDArray[np.float64], distance: float, points: NDArray[np.
     """Write the points at a distance to the right of both ends of a part, or of its evolute where that is nearer."""
     full = np.empty(4)
     for k in range(2):
-        tight = -tightness_at(curve, distance, float(k))
+        tight = abs(tightness_at(curve, distance, float(k)))
         write_side(curve, distance / max(tight, 1.0), float(k), full)
         points[k, 0], points[k, 1] = full[0], full[1]
 
@@ -135,14 +135,17 @@ def _turns_evenly(tangents: NDArray[np.float64], first: int, last: int, side: fl
     Directions are numbered along the path, two to a part, and those of a closed path go on beyond its end.
     """
     n = len(tangents)
-    a, b = tangents[first // 2 % n, first % 2], tangents[last // 2 % n, last % 2]
+    a = tangents[first // 2 % n, first % 2]
     px, py = a[0], a[1]
     for m in range(first + 1, last + 1):
         t = tangents[m // 2 % n, m % 2]
-        if side * (px * t[1] - py * t[0]) > EVEN or side * (a[0] * t[1] - a[1] * t[0]) > EVEN:
+        turn, whole = side * (px * t[1] - py * t[0]), side * (a[0] * t[1] - a[1] * t[0])
+        if turn > EVEN or whole > EVEN:
             return False
+        if (turn > -EVEN and px * t[0] + py * t[1] < 0.0) or (whole > -EVEN and a[0] * t[0] + a[1] * t[1] < 0.0):
+            return False  # it turns back
         px, py = t[0], t[1]
-    return a[0] * b[0] + a[1] * b[1] > 0.0 or side * (a[0] * b[1] - a[1] * b[0]) < -EVEN
+    return True
 
 
 @kernel(allocates=False)
@@ -213,31 +216,27 @@ def _trim(side: Side, before: int, after: int, sign: float, slack: float) -> boo
 
 
 @kernel
-def _follow_bend(side: Side, tangents: NDArray[np.float64], first: int, count: int, sign: float, slack: float) -> Side:
-    """Add chords along a bend: they leave out evolutes that turn evenly, and points that move by less than `slack`."""
+def _follow_bend(side: Side, first: int, count: int, slack: float) -> Side:
+    """Add chords of the evolutes along a bend, without points that move by less than `slack`."""
     n, chain = len(side.begin), side.chain
-    x, y, since, tight = side.points[first, 0, 0], side.points[first, 0, 1], first, True
+    x, y = side.points[first, 0, 0], side.points[first, 0, 1]
     at_x, at_y = x, y
-    for m in range(first, first + count):
-        i = m % n
+    for m in range(count):
+        i = (first + m) % n
         to_x, to_y = side.points[i, 1, 0], side.points[i, 1, 1]
         begin, end = side.begin[i], side.end[i]
         side.begin[i] = chain.length[0]
         moves = not side.tight[i] and _extent(chain, begin, end, side.points[i, 0]) > slack
-        tight = tight and side.tight[i]
-        chord = max(abs(to_x - x), abs(to_y - y)) <= slack or (
-            tight and _turns_evenly(tangents, 2 * since, 2 * m + 1, sign)
-        )
         side.points[i, 0, 0], side.points[i, 0, 1] = x, y
-        if moves or not chord:
+        if moves or max(abs(to_x - x), abs(to_y - y)) > slack:
             chain = append_line(chain, x, y, at_x, at_y)
-            x, y, since, tight = at_x, at_y, m, side.tight[i]
+            x, y = at_x, at_y
         if moves:
             for k in range(begin, end):
                 chain = append_cubic(chain, chain.cubics[k])
-            x, y, since, tight = to_x, to_y, m + 1, True
+            x, y = to_x, to_y
         at_x, at_y = to_x, to_y
-        if m == first + count - 1:
+        if m == count - 1:
             chain = append_line(chain, x, y, at_x, at_y)
             x, y = at_x, at_y
         side.end[i] = chain.length[0]
@@ -288,7 +287,7 @@ def clear_side(
     for i in range(n):
         count = _bend_length(side.minor, parts, tangents, i, closed, style)
         if count > 0:
-            side = _follow_bend(side, tangents, i, count, sign, UNSEEN * style.tolerance)
+            side = _follow_bend(side, i, count, UNSEEN * style.tolerance)
     for i in range(n):
         count = _bend_length(side.minor, parts, tangents, i, closed, style)
         if side.minor[i] and count == 0:
