@@ -10,7 +10,10 @@ from vexture.bezier.joins import BEVEL, BUTT, MITER, MITER_CLIP, ROUND_CAP, ROUN
 from vexture.bezier.stroke import stroke_path
 
 TOLERANCE = 1e-3
-T = np.linspace(0.0, 1.0, 200, endpoint=False)[:, None]
+FLAT = 0.06 * TOLERANCE
+"""Error of the polygons of these tests."""
+EDGE = TOLERANCE + 1.1 * FLAT
+T = np.linspace(0.0, 1.0, 300, endpoint=False)[:, None]
 
 
 def style(width, cap=BUTT, join=MITER, limit=4.0, offset=0.0):
@@ -77,11 +80,40 @@ def check_round(cubics, closed, half, seed, count=50):
     radius = half * (1.0 + random.choice([-1.0, 1.0], 2 * count) * off)
     near = around + radius[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     places = np.concatenate([near, random.uniform(path.min(axis=0) - half, path.max(axis=0) + half, (count, 2))])
+    step = np.diff(path, axis=0)
+    chosen = random.permutation(np.flatnonzero(np.hypot(*step.T) > 0))[:count]
+    across = step[chosen, ::-1] * [-1.0, 1.0] / np.hypot(*step[chosen].T)[:, None]
+    for reach in (half - EDGE, half + EDGE, -half + EDGE, -half - EDGE):
+        places = np.concatenate([places, (path[chosen] + path[chosen + 1]) / 2.0 + reach * across])
     distance = distances(path, places)
-    sure = np.abs(distance - half) > 1.2 * TOLERANCE
+    sure = np.abs(distance - half) > TOLERANCE + FLAT
     winding = windings(stroke(cubics, closed, style(2 * half, ROUND_CAP, ROUND_JOIN)), places)
     assert (winding >= 0)[sure].all()
     np.testing.assert_array_equal((winding > 0)[sure], (distance < half)[sure])
+
+
+def odd_curve(kind, random):
+    """A cubic that almost has a cusp, lies almost on a line, or has an arm next to nothing."""
+    points = random.uniform(0, 10, (4, 2))
+    small = 10 ** random.uniform(-8, -0.5)
+    if kind == "cusp":
+        return np.array([(0, 0), (10, 10), (0, 10), (10, 0)]) + random.normal(size=(4, 2)) * small
+    if kind == "line":
+        points[:, 1] = points[0, 1] + 0.3 * (points[:, 0] - points[0, 0]) + random.normal(size=4) * small
+    elif kind == "arm":
+        points[1] = points[0] + random.normal(size=2) * small
+    else:
+        points[2] = points[3]
+    return points
+
+
+@pytest.mark.parametrize("kind", ["cusp", "line", "arm", "end"])
+@pytest.mark.parametrize("half", [0.05, 0.7, 9.0])
+def test_odd_curves_have_round_strokes(kind, half):
+    """No place further outside than the tolerance is covered, and none further inside is not."""
+    for seed in range(5):
+        random = np.random.default_rng(seed)
+        check_round(odd_curve(kind, random)[None], seed % 2 == 1, half, seed, 40)
 
 
 @pytest.mark.parametrize("half", [0.3, 2.0, 6.0])
@@ -181,6 +213,28 @@ def test_a_mirrored_path_has_the_mirrored_stroke():
     for join in (MITER, BEVEL, MITER_CLIP):
         one = area(stroke(curve, True, style(1.5, BUTT, join)))
         assert area(stroke(curve * [-1.0, 1.0], True, style(1.5, BUTT, join))) == pytest.approx(one, rel=1e-5)
+
+
+def test_bends_as_tight_as_the_stroke_have_few_cubics():
+    """The inner side of a rounded corner is a corner, and that of a circle is next to nothing."""
+    corner = ellipse_cubics((10.0, 10.0), (2.0, 2.0), 1e-4)[:2]  # a quarter
+    x, y = corner[0, 0], corner[-1, 3]
+    path = np.concatenate([lines(x + np.array([0.0, -20.0]), x), corner, lines(y, y + np.array([-20.0, 0.0]))])
+    for half in (1.9999, 2.0, 2.0001, 3.0):
+        (contour,) = stroke(path, False, style(2 * half))
+        assert len(contour) <= 9
+        check_round(path, False, half, 3)
+    circle = ellipse_cubics((0.0, 0.0), (2.0, 2.0), 1e-4)
+    _, *inner = stroke(circle, True, style(4.0))
+    assert sum(map(len, inner)) <= 4
+    assert all(np.abs(contour).max() < TOLERANCE for contour in inner)
+
+
+def test_work_on_one_curve_is_limited():
+    """Numbers of 1e300 cannot be fitted: the answer is coarse, but it comes."""
+    curve = np.array([[[0.0, 0.0], [1e300, 1e300], [-1e300, 3e299], [1.0, 1.0]]])
+    with np.errstate(all="ignore"):
+        assert len(stroke_path(curve, np.array([1]), np.array([False]), style(2.0), np.zeros(0))[0]) < 9000
 
 
 def test_steps_without_length_make_no_joins():

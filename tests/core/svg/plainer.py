@@ -193,8 +193,8 @@ PLAINER = {
     # the outer circle has the radius 40 + 6, and meets the line at x = 30 - 6 (SVG 2, 13.5.6)
     "strokes/join-arcs": '<path d="M24 90V34.393A46 46 0 0 1 76 80H64A34 34 0 0 0 36 46.534V90z"/>',
     # clipped 1.2 * 12 / 2 above the corner (SVG 2, 13.5.5)
-    "strokes/join-miter-clip": '<path d="M14.6334 77.3167L46.8918 12.8H53.1082L85.3666 77.3167L74.6334 82.6833L50 33.4164'
-    'L25.3666 82.6833z"/>',
+    "strokes/join-miter-clip": '<path d="M14.6334 77.3167L46.8918 12.8H53.1082L85.3666 77.3167L74.6334 82.6833'
+    'L50 33.4164L25.3666 82.6833z"/>',
     "strokes/not-scaling": '<path fill="none" stroke="black" stroke-width="10" d="M20 15L50 75L80 15"/>',
     "style/geometry-in-css": '<circle cx="50" cy="50" r="30"/>',
     "style/important": '<g fill="red"><path d="M10 10h30v30h-30z"/><path fill="blue" d="M50 50h30v30h-30z"/></g>',
