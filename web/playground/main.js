@@ -69,7 +69,7 @@ async function show(given) {
 
 /** @param {Given} given @returns {Promise<Drawing>} */
 function readDrawing({ text, name }) {
-  return text.trimStart().startsWith('{') ? readGeojson(text, { name }) : readSvg(text, { name });
+  return text.trimStart().startsWith('{') ? readGeojson(text, { name }) : readSvg(text, { name, converter });
 }
 
 /**
@@ -235,8 +235,11 @@ function listenToGestures() {
     pointers.set(event.pointerId, now);
   });
   canvas.addEventListener('wheel', (/** @type {WheelEvent} */ event) => {
+    const { x, y } = placeOf(event);
+    const { left, top, width, height } = stage.lens;
+    if (x < left || x > left + width || y < top || y > top + height) return; // beside the magnifier the page scrolls
     event.preventDefault();
-    stage.zoom(2 ** (-event.deltaY / 300), placeOf(event));
+    stage.zoom(2 ** (-event.deltaY / 300), { x, y });
   }, { passive: false });
   const step = 40;
   /** @type {Record<string, () => void>} */

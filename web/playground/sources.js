@@ -46,11 +46,18 @@ export class Words {
   svgOf(word) {
     const font = this.#font;
     const path = font.getPath(word, 0, 0, EM);
+    if (!path.commands.length) throw new Error(`the font has no outlines for "${word}"; type other letters, or drop another font`);
     const { x1, y1, x2, y2 } = path.getBoundingBox();
     const room = MARGIN * EM;
     const box = [x1 - room, y1 - room, x2 - x1 + 2 * room, y2 - y1 + 2 * room];
-    return { name: word, text: `<svg xmlns="http://www.w3.org/2000/svg" viewBox="${box.join(' ')}"><path d="${path.toPathData(3)}"/></svg>` };
+    return { name: word, text: `<svg xmlns="http://www.w3.org/2000/svg" viewBox="${box.join(' ')}"><path d="${path.commands.map(dataOfCommand).join('')}"/></svg>` };
   }
+}
+
+/** @param {any} command of opentype.js @returns {string} */
+function dataOfCommand({ type, x1, y1, x2, y2, x, y }) {
+  const points = { M: [x, y], L: [x, y], Q: [x1, y1, x, y], C: [x1, y1, x2, y2, x, y], Z: [] }[/** @type {'M'} */ (type)];
+  return `${type}${points.join(' ')}`;
 }
 
 /**

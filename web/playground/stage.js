@@ -35,6 +35,7 @@ export class Stage {
   #drawn = [];
   /** @type {{ png: Material[], vector: Material[] } | null} */
   #materials = null;
+  #glaze = new MeshStandardMaterial({ roughness: 0.35, side: DoubleSide });
   #isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
 
   /** @param {HTMLCanvasElement} canvas */
@@ -42,6 +43,7 @@ export class Stage {
     this.#canvas = canvas;
     this.#renderer = new WebGLRenderer({ canvas, antialias: true });
     this.#renderer.autoClear = false;
+    this.#renderer.setClearColor('#d1402f');
     this.#views = [this.#makeMagnifier(), this.#makeMug(), this.#makeFloor()];
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
@@ -60,7 +62,12 @@ export class Stage {
     const color = new Color(PAPERS[paper]);
     const plain = { color, side: DoubleSide };
     const lit = { ...plain, roughness: 0.35 };
-    const png = [new MeshBasicMaterial({ map }), new MeshStandardMaterial({ ...lit, map, color: 0xffffff }), new MeshBasicMaterial({ map: repeated(map) })];
+    const png = [
+      new MeshBasicMaterial({ map: magnified(map) }),
+      new MeshStandardMaterial({ ...lit, map, color: 0xffffff }),
+      new MeshBasicMaterial({ map: repeated(map) }),
+    ];
+    this.#glaze.color.set(color);
     const vector = [new MeshBasicMaterial(plain), new MeshStandardMaterial(lit), new MeshBasicMaterial(plain)];
     vector.forEach((material, k) => {
       const mask = applyVectorMask(material, texture, { mode: 'paint', linear: false, wrap: k === 2 ? 'repeat' : 'none' });
@@ -68,7 +75,10 @@ export class Stage {
     });
     this.#materials = { png, vector };
     this.magnifier = { ...subject, zoom: FIRST_ZOOM };
-    if (before) [...before.png, ...before.vector].forEach((material) => material.dispose());
+    for (const material of before ? [...before.png, ...before.vector] : []) {
+      /** @type {MeshBasicMaterial} */ (material).map?.dispose();
+      material.dispose();
+    }
     this.draw();
   }
 
@@ -95,6 +105,9 @@ export class Stage {
       const middle = Math.round(area.width * this.split);
       this.#half(scene, camera, 'png', { ...area, width: middle }, height);
       this.#half(scene, camera, 'vector', { ...area, left: area.left + middle, width: area.width - middle }, height);
+      if (middle <= 0 || middle >= area.width) return;
+      this.#renderer.setScissor(area.left + middle - 1, height - area.top - area.height, 2, area.height);
+      this.#renderer.clear();
     });
   }
 
@@ -169,7 +182,6 @@ export class Stage {
     const sun = new DirectionalLight(0xffffff, 2.2);
     sun.position.set(2, 4, 5);
     scene.add(new HemisphereLight(0xffffff, 0xb8a888, 1.8), sun);
-    const glazed = new MeshStandardMaterial({ color: 0xf7f4ee, roughness: 0.35, side: DoubleSide });
     const start = -DECAL.angle / 2;
     const decal = this.#mesh(new CylinderGeometry(1.002, 1.002, DECAL.height, 64, 1, true, start, DECAL.angle));
     const parts = [
@@ -177,7 +189,7 @@ export class Stage {
       new CircleGeometry(1, 96).rotateX(Math.PI / 2).translate(0, -0.99, 0),
       new TorusGeometry(0.55, 0.13, 24, 64, Math.PI).rotateZ(-Math.PI / 2).translate(0.98, 0, 0).rotateY(Math.PI * 0.62),
     ];
-    const mug = new Group().add(decal, ...parts.map((geometry) => new Mesh(geometry, glazed)));
+    const mug = new Group().add(decal, ...parts.map((geometry) => new Mesh(geometry, this.#glaze)));
     scene.add(mug);
     const fit = (/** @type {Area} */ { width, height }, /** @type {number} */ time) => {
       camera.aspect = width / height;
@@ -228,6 +240,13 @@ export class Stage {
     });
     return texture;
   }
+}
+
+/** @param {CanvasTexture} map @returns {import('three').Texture} without the anisotropic filter, which distorts what is enlarged on some drivers */
+function magnified(map) {
+  const texture = map.clone();
+  texture.anisotropy = 1;
+  return texture;
 }
 
 /** @param {CanvasTexture} map */

@@ -70,8 +70,8 @@ export const ARRAYS = Object.freeze({
 
 /** @typedef {BufferSource | Response | URL | string} Source */
 
-/** The module of this package. */
-export const DEFAULT_SOURCE = new URL('../../kernels/kernels.wasm', import.meta.url);
+/** The module of this package; bundlers recognise this form. A bundle without modules has no address, and must be given one. */
+const ownSource = () => new URL('../../kernels/kernels.wasm', import.meta.url);
 
 export class Kernels {
   /** @type {WebAssembly.Module} */
@@ -107,7 +107,7 @@ export class Kernels {
    * @param {{ signal?: AbortSignal }} [options]
    * @returns {Promise<Kernels>}
    */
-  static async load(source = DEFAULT_SOURCE, { signal = new AbortController().signal } = {}) {
+  static async load(source = ownSource(), { signal = new AbortController().signal } = {}) {
     if (typeof WebAssembly !== 'object') {
       throw new VextureError('this browser has no WebAssembly; convert the drawing with the Python program', 'kernels');
     }
