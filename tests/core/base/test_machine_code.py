@@ -14,6 +14,7 @@ from vexture import Drawing, convert
 from vexture.base import machine_code
 from vexture.base.kernels import Kernel
 from vexture.texture.load import texture_from
+from vexture.tree.planar.faces import new_faces
 
 ROOT = Path(__file__).parents[3]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -45,17 +46,28 @@ def halves_of(values: NDArray[np.float64], factor: float, shift: int) -> tuple[H
 ARGUMENTS: tuple[Any, ...] = (np.array([0.5, 1.25, -7.75]), 3.0, 2)
 
 
-@pytest.fixture(scope="module")
-def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Kernel, Path]:
-    """A kernel and the folder of its code, compiled for this very machine."""
-    folder = tmp_path_factory.mktemp("code")
-    kernel = Kernel(halves_of, allocates=True, ahead=True)
+def longer_of(values: Halves, rows: int) -> tuple[Halves, NDArray[np.float64]]:
+    """An argument if it has enough rows, else a new array; and the beginning of another argument."""
+    whole = values.whole if len(values.whole) >= rows else np.ones((rows, 2), np.int64)
+    return Halves(whole, values.rest), values.rest[:0]
+
+
+def write(function: Any, arguments: tuple[Any, ...], folder: Path) -> Kernel:
+    """Write the code of a function, compiled for this very machine."""
+    kernel = Kernel(function, allocates=True, ahead=True)
     import numba
 
-    kernel.dispatcher = numba.njit(error_model="numpy")(halves_of)  # not from the cache
+    kernel.dispatcher = numba.njit(error_model="numpy")(function)  # not from the cache
     processor = compile_kernels.PROCESSORS[compile_kernels.MACHINE]
-    compile_kernels.write(kernel, ARGUMENTS, kernel.dispatcher(*ARGUMENTS), processor, folder, TEXT)
-    return kernel, folder
+    compile_kernels.write(kernel, arguments, kernel.dispatcher(*arguments), processor, folder, TEXT)
+    return kernel
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Kernel, Path]:
+    """A kernel and the folder of its code."""
+    folder = tmp_path_factory.mktemp("code")
+    return write(halves_of, ARGUMENTS, folder), folder
 
 
 def loaded(written: tuple[Kernel, Path], text: str = TEXT, arguments: Any = ARGUMENTS) -> Any:
@@ -85,6 +97,20 @@ def test_arrays_outlive_the_code_and_are_given_up(written: tuple[Kernel, Path]) 
     assert len(given_up) == 1
     del rest
     assert len(given_up) == 2
+
+
+def test_an_argument_that_is_returned_is_the_array_itself(tmp_path: Path) -> None:
+    values = Halves(np.arange(6).reshape(3, 2), np.arange(4.0))
+    kernel = write(longer_of, (values, 2), tmp_path)
+    code = machine_code.load(kernel, TEXT, machine_code.argument_type((values, 2)), tmp_path)
+    assert code is not None
+    (whole, rest), none = code(values, 3)
+    assert whole is values.whole
+    assert rest is values.rest
+    assert none.shape == (0,)
+    (whole, rest), _ = code(values, 5)
+    np.testing.assert_array_equal(whole, np.ones((5, 2)))
+    assert rest is values.rest
 
 
 @pytest.mark.parametrize(
@@ -154,7 +180,7 @@ print(code(*arguments)[1:], 'numba' in sys.modules)
 
 def test_what_is_compared_of_code_tells_trees_that_grow_from_other_tables() -> None:
     """A table of faces has as many fields as a tree: it is compared as it is."""
-    faces = compile_kernels.new_faces()
+    faces = new_faces()
     assert len(faces) == len(compile_kernels.Growth._fields)
     assert len(compile_kernels.bits(tuple(faces))) == len(faces)
     assert compile_kernels.bits((faces,)) != compile_kernels.bits((faces._replace(counts=faces.counts + 1),))

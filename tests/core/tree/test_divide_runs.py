@@ -11,7 +11,7 @@ from vexture.tree.bounds import DEFAULT_DEPTH, bounds_of
 from vexture.tree.build import SLICE, grow_on, new_growth
 from vexture.tree.cubics import gather
 from vexture.tree.divide import CROWDED, RUN, Cell, PiecePool, divide
-from vexture.tree.growth import LAST, PIECES, WAITING, Growth, tree_of, with_needed_room
+from vexture.tree.growth import LAST, PIECES, WAITING, Growth, growth_from, tree_of
 from vexture.tree.tree import MOST_QUADS
 
 
@@ -34,10 +34,8 @@ def grown(drawing, in_runs, tolerance=0.0, max_depth=DEFAULT_DEPTH):
     tree, _ = new_growth(cubics, owner, max_depth, in_runs)
     tree = Growth(*tree)
     runs = int((tree.pool[2][: tree.stack[0, LAST]] < 0).sum())
-    grow_on(tree, rules, bounds, SLICE, 0)
     while tree.counts[WAITING] > 0:
-        tree = with_needed_room(tree)
-        grow_on(tree, rules, bounds, SLICE, 0)
+        tree = growth_from(grow_on(tree, rules, bounds, SLICE, 0))
     return tree_of(tree), runs
 
 

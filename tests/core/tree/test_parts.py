@@ -20,7 +20,7 @@ from vexture.tree import bounds, parts
 from vexture.tree.bounds import DEFAULT_DEPTH, bounds_of
 from vexture.tree.build import SLICE, build_tree, grow_on, new_growth
 from vexture.tree.cubics import gather
-from vexture.tree.growth import WAITING, Growth, tree_of, with_needed_room
+from vexture.tree.growth import WAITING, Growth, growth_from, tree_of
 from vexture.tree.tree import MOST_QUADS
 
 TOLERANCE = 1e-4
@@ -56,8 +56,7 @@ def whole(coast):
     cubics, owner, rules = gather(coast)
     tree = Growth(*new_growth(cubics, owner, DEFAULT_DEPTH, False)[0])
     while tree.counts[WAITING] > 0:
-        tree = with_needed_room(tree)
-        grow_on(tree, rules, bounds_of(TOLERANCE, DEFAULT_DEPTH, 8, None, MOST_QUADS), SLICE, 0)
+        tree = growth_from(grow_on(tree, rules, bounds_of(TOLERANCE, DEFAULT_DEPTH, 8, None, MOST_QUADS), SLICE, 0))
     return digests(tree_of(tree))
 
 

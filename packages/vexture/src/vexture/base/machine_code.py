@@ -13,12 +13,13 @@ import ctypes
 import json
 import sys
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 SHIPPED = Path(__file__).parents[1] / "compiled"
 """Folder of the code files in a wheel."""
@@ -89,19 +90,47 @@ def _layout(result: TypeDescription) -> Any:
     return ctypes.c_int64 * (SHAPE + 2 * result[1])
 
 
-def _value(result: TypeDescription, storage: Any, release: Callable[[int], None]) -> Any:
+class _Memory:
+    """The memory of an array of a kernel, for NumPy; it is released with its last reference."""
+
+    def __init__(
+        self, dtype: str, shape: tuple[int, ...], words: Sequence[int], release: Callable[[int], None]
+    ) -> None:
+        self.__array_interface__ = {"version": 3, "typestr": dtype, "shape": shape, "data": (words[DATA], False)}
+        weakref.finalize(self, release, words[MEMORY]).atexit = False
+
+
+def _value(result: TypeDescription, storage: Any, release: Callable[[int], None], arguments: tuple[Any, ...]) -> Any:
     """Python value of a result; arrays are not copied, and are released with their last reference."""
     if result is None:
         return None
     if isinstance(result, str):
         return storage
     if result[0] == "tuple":
-        return tuple(_value(part, getattr(storage, f"part_{k}"), release) for k, part in enumerate(result[1:]))
+        parts = enumerate(result[1:])
+        return tuple(_value(part, getattr(storage, f"part_{k}"), release, arguments) for k, part in parts)
     dtype, dimensions, _ = result
     shape = tuple(storage[SHAPE : SHAPE + dimensions])
-    memory = (ctypes.c_char * (storage[COUNT] * storage[ITEM_SIZE])).from_address(storage[DATA])
-    weakref.finalize(memory, release, storage[MEMORY]).atexit = False
-    return np.ndarray(shape, dtype, memory)
+    if storage[MEMORY] == 0:
+        return _argument(dtype, shape, storage, arguments)
+    return np.asarray(_Memory(dtype, shape, storage, release))
+
+
+def _argument(dtype: str, shape: tuple[int, ...], words: Sequence[int], arguments: tuple[Any, ...]) -> NDArray[Any]:
+    """Array of the arguments that a kernel returned, or the beginning of one, which it did not allocate."""
+    for array in _arrays(arguments):
+        if array.ctypes.data == words[DATA] and array.dtype.str == dtype and array.shape[1:] == shape[1:]:
+            return array if array.shape == shape else array[: shape[0]]
+    raise SystemError("a kernel returned a part of an argument that is not its beginning; let it copy the part")
+
+
+def _arrays(value: Any) -> Iterator[NDArray[Any]]:
+    """All arrays in nested tuples."""
+    if isinstance(value, np.ndarray):
+        yield value
+    elif isinstance(value, tuple):
+        for part in value:
+            yield from _arrays(part)
 
 
 class Compiled:
@@ -133,7 +162,7 @@ class Compiled:
         if status != 0:
             raise MemoryError("a kernel failed: it found no memory for its arrays")
         value = held.value if isinstance(held, ctypes._SimpleCData) else held
-        return _value(self.code.result, value, self._release)
+        return _value(self.code.result, value, self._release, arguments)
 
 
 @cache

@@ -1,5 +1,7 @@
 """Cut cubics by de Casteljau's algorithm."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -7,7 +9,7 @@ from vexture.base.kernels import kernel
 
 
 @kernel(allocates=False)
-def copy_curve(source: NDArray[np.float64], target: NDArray[np.float64]) -> None:
+def copy_curve(source: NDArray[Any], target: NDArray[Any]) -> None:
     """Copy a cubic (4, 2) number by number, because Numba takes a second to compile an assignment of slices."""
     for k in range(4):
         target[k, 0] = source[k, 0]

@@ -98,6 +98,15 @@ def leaf_points(texels: NDArray[np.uint32], at: LeafCurves) -> NDArray[np.int32]
     return points
 
 
+@kernel(allocates=False)
+def write_curve(curve: NDArray[np.int32], texel: NDArray[np.uint32]) -> None:
+    """Encode a curve (4, 2), in lattice units, as one texel."""
+    for k in range(4):
+        offset = CONTROL_OFFSET if k in (1, 2) else 0
+        x, y = int(curve[k, 0]) + offset, int(curve[k, 1]) + offset
+        texel[k] = x | y << COORDINATE_BITS
+
+
 @kernel
 def read_curve(texel: NDArray[np.uint32], curve: NDArray[np.float64]) -> None:
     """Write the points of a curve to `curve`, in lattice units."""

@@ -12,7 +12,7 @@ from vexture.base.layout import LATTICE, MOST_CURVES
 from vexture.base.tolerance import CLOSED
 from vexture.drawing.drawing import Drawing
 from vexture.tree.bounds import DEFAULT_CAPACITY, DEFAULT_DEPTH, Bounds, bounds_of, check_growth
-from vexture.tree.cubics import gather
+from vexture.tree.cubics import leave_out_copies, outlines_of
 from vexture.tree.divide import CROWDED, PARTS, Cell, PiecePool, divide, holds_runs, list_all
 from vexture.tree.growth import (
     COUNT,
@@ -32,9 +32,10 @@ from vexture.tree.growth import (
     WHOLE,
     WINDING,
     Growth,
+    growth_from,
     has_room,
     tree_of,
-    with_needed_room,
+    with_room,
 )
 from vexture.tree.leaf import DIVIDE, TreeLeaf, Workspace, leaf_of, new_workspace
 from vexture.tree.parts import LARGE, PART, grow_parts, usual_threads
@@ -175,36 +176,46 @@ def root_paths(pool: PiecePool, listed: int) -> tuple[NDArray[np.int64], int]:
 
 
 @kernel(ahead=True, shares=True)
-def grow_on(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, most_work: int, aside: int) -> None:
-    """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done.
+def grow_on(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, most_work: int, aside: int) -> Growth:
+    """Divide cells, depth first, until none waits, quads are too many or `most_work` is done; return the tree.
 
-    Unless `aside` is 0, also stop before a cell whose list is no longer than `aside`.
+    Unless `aside` is 0, also stop before a cell whose list is no longer than `aside`. The given tree is no longer
+    valid: some of its arrays may be those of the new one.
     """
     work = Work(np.empty(9, np.int64), np.empty((len(rules), 8), np.int64), new_workspace(len(rules)))
     stack, counts = tree.stack, tree.counts
-    while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
+    while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0:
         top = counts[WAITING] - 1
         listed = stack[top, LAST] - stack[top, FIRST]
         if aside > 0 and listed <= aside:
-            return
+            return tree
+        if not has_room(tree):
+            tree = with_room(tree)
         most_work -= CELL + listed
         _grow_quad(tree, rules, bounds, work)
     if counts[WAITING] == 0:
         _mean_coverages(tree, counts[QUADS])
+    return tree
 
 
 @kernel(ahead=True)
 def grow(
     cubics: NDArray[np.float64],
-    owner: NDArray[np.int64],
+    lengths: NDArray[np.int64],
+    path: NDArray[np.int64],
     rules: NDArray[np.int64],
     bounds: Bounds,
     most_work: int,
     aside: int,
 ) -> tuple[Growth, float]:
-    """Divide the unit square as `grow_on` does; return the tree and how far the outline lies outside the square."""
-    tree, outside = new_growth(cubics, owner, bounds.max_depth, len(cubics) > IN_RUNS)
-    grow_on(tree, rules, bounds, most_work, aside)
+    """Divide the unit square as `grow_on` does; return the tree and how far the outline lies outside the square.
+
+    The first four arguments are those of `Outlines`. The square stays undivided if the outline lies outside.
+    """
+    needed, owner = leave_out_copies(cubics, lengths, path, rules)
+    tree, outside = new_growth(needed, owner, bounds.max_depth, len(needed) > IN_RUNS)
+    if outside <= CLOSED:
+        tree = grow_on(tree, rules, bounds, most_work, aside)
     return tree, outside
 
 
@@ -234,7 +245,7 @@ def new_growth(
         np.zeros((cells, 2)),
         np.empty((n + 16, 4, 4)),
         np.empty((n + 16, 2), np.int64),
-        np.empty((4 * n + 8 * MOST_CURVES, 4, 2)),
+        np.empty((4 * n + 8 * MOST_CURVES, 4, 2), np.int32),
         np.array([1, 0, 0, 1, pieces]),
         np.zeros(1),
         np.zeros(5, np.int64),
@@ -268,11 +279,10 @@ def build_tree(
     (1, 6, 0.36)
     """
     bounds = bounds_of(tolerance, max_depth, capacity, precision, most_quads)
-    cubics, owner, rules = gather(drawing)
+    outlines = outlines_of(drawing)
     check_time(drawing.name)
-    aside = PART if len(cubics) > LARGE else 0
-    arrays, outside = grow(cubics, owner, rules, bounds, SLICE, aside)
-    del owner  # 8 bytes for each cubic
+    aside = PART if len(outlines.cubics) > LARGE else 0
+    grown, outside = grow(*outlines, bounds, SLICE, aside)
     if not outside <= CLOSED:  # NaN counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
 
@@ -281,11 +291,9 @@ def build_tree(
 
     def step(tree: Growth, aside: int) -> Growth:
         check(int(tree.counts[QUADS]))
-        tree = with_needed_room(tree)
-        grow_on(tree, rules, bounds, SLICE, aside)
-        return tree
+        return growth_from(grow_on(tree, outlines.rules, bounds, SLICE, aside))
 
-    tree = Growth(PiecePool(*arrays[0]), *arrays[1:])
+    tree = growth_from(grown)
     if aside:
         return tree_of(grow_parts(tree, step, usual_threads() if threads is None else threads, check))
     while tree.counts[WAITING] > 0:

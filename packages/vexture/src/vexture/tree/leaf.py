@@ -213,7 +213,7 @@ def _meet(out: NDArray[np.float64], count: int) -> bool:
 
 
 @kernel(allocates=False)
-def _write_chains(out: NDArray[np.float64], count: int, target: NDArray[np.float64]) -> None:
+def _write_chains(out: NDArray[np.float64], count: int, target: NDArray[np.int32]) -> None:
     """Copy pieces, each after the one that ends where it starts, because equal points side by side compress better."""
     for k in range(count):
         best, rank = k, 0
@@ -293,7 +293,7 @@ def leaf_of(
     bounds: Bounds,
     at_limit: bool,
     workspace: Workspace,
-    target: NDArray[np.float64],
+    target: NDArray[np.int32],
 ) -> TreeLeaf:
     """Make the leaf of a cell, and write the leaf's pieces to `target`, (MOST_CURVES, 4, 2), in lattice units.
 

@@ -31,7 +31,6 @@ from vexture.tree.growth import (
     UNRESOLVED,
     WAITING,
     Growth,
-    roomy,
 )
 
 LARGE = 1 << 17
@@ -71,15 +70,19 @@ def usual_threads() -> int:
 
 def new_part(tree: Growth) -> Growth:
     """Arrays for a part. One part after another uses them, because new pages of memory take time."""
-    fresh = {name: roomy(getattr(tree.pool, name)[:0], PART) for name in ("points", "path", "numbers", "child", "part")}
+
+    def fresh(rows: NDArray[Any]) -> NDArray[Any]:
+        return np.empty((PART, *rows.shape[1:]), rows.dtype)
+
+    own = {name: fresh(getattr(tree.pool, name)) for name in ("points", "path", "numbers", "child", "part")}
     return Growth(
-        tree.pool._replace(**fresh),
-        roomy(tree.present[:0], PART),
+        tree.pool._replace(**own),
+        fresh(tree.present),
         np.zeros_like(tree.stack),
         np.zeros_like(tree.corner),
-        roomy(tree.cells[:0], PART),
-        roomy(tree.first[:0], PART),
-        roomy(tree.curves[:0], PART),
+        fresh(tree.cells),
+        fresh(tree.first),
+        fresh(tree.curves),
         np.zeros_like(tree.counts),
         np.zeros(1),
         np.zeros_like(tree.needed),
@@ -118,7 +121,7 @@ def _grown(part: Growth, quad: int, step: Step, stopped: Event) -> tuple[TreePar
         quad,
         part.cells[:quads].copy(),
         part.first[:quads].copy(),
-        part.curves[:curves].astype(np.int32),
+        part.curves[:curves].copy(),
         float(part.deviation[0]),
         int(part.counts[UNRESOLVED]),
     ), part
@@ -155,7 +158,7 @@ def grow_in_threads(
 
 
 def grow_parts(tree: Growth, step: Step, threads: int, check: Callable[[int], None]) -> Growth:
-    """Grow a tree in parts; return it with integer curves.
+    """Grow a tree in parts.
 
     `check` is called with the number of quads so far, and may raise an error.
     """
@@ -188,7 +191,7 @@ def joined_cells(tree: Growth, parts: Sequence[TreePart]) -> tuple[Growth, NDArr
     quads, curves = int(tree.counts[QUADS]), int(tree.counts[CURVES])
     cells: list[NDArray[Any]] = [tree.cells[:quads].copy()]
     first: list[NDArray[Any]] = [tree.first[:quads].copy()]
-    outlines: list[NDArray[Any]] = [tree.curves[:curves].astype(np.int32)]
+    outlines: list[NDArray[Any]] = [tree.curves[:curves].copy()]
     for part in parts:
         part.first[:] += quads - 1, curves
         cells[0][part.quad], first[0][part.quad] = part.cells[0], part.first[0]

@@ -1,0 +1,114 @@
+"""The kernels that are compiled ahead of time, and arguments for each: for wheels, and for `kernels.wasm`."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from vexture import Drawing, convert, read_svg
+from vexture.base.layout import MAP_HEAD
+from vexture.base.tolerance import ROUND, UNSEEN
+from vexture.bezier.arc_length import path_length
+from vexture.bezier.cover import DIRECTIONS, cover_cells, cut_outlines, find_reach
+from vexture.bezier.stroke import stroke_path
+from vexture.renderers.colour import draw_colours
+from vexture.renderers.cpu import draw
+from vexture.texture.encode import texel_rows, tree_texels
+from vexture.texture.planar import map_texels
+from vexture.texture.silhouette import silhouette_texels
+from vexture.tree.bounds import DEFAULT_CAPACITY, DEFAULT_DEPTH, Bounds, bounds_of
+from vexture.tree.build import SLICE, grow, grow_on
+from vexture.tree.cubics import outlines_of
+from vexture.tree.growth import arrange_tree
+from vexture.tree.planar.build import build_map, grow_map, plant_map, row_cubics
+from vexture.tree.planar.faces import add_faces, new_faces, operations_of, refill, trim_faces
+from vexture.tree.planar.growth import growth_from_tuples, with_room
+from vexture.tree.planar.layers import layers_of, rows_of
+from vexture.tree.tree import MOST_QUADS
+
+SHAPES: Final = Path(__file__).parent.parent / "examples" / "shapes"
+
+ENDLESS: Final = 2**62
+"""Work that no tree takes."""
+
+ROOM: Final = 2**14
+"""Rows of each array of a map that grows: enough for the example drawings."""
+
+
+def ahead_calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
+    """Kernels of a plain `vexture convert` and of the renderer on the CPU, with arguments to compare them on."""
+    for file in sorted(SHAPES.glob("*.svg")):
+        drawing = read_svg(file)
+        for path in drawing.paths[:1]:
+            for contour in path.contours:
+                yield path_length, (contour,)
+                one = (np.array([len(contour)]), np.array([True]), np.array([0.02, 1.0, 1.0, 4.0, ROUND, 0.0]))
+                for dashes in ([], [0.05, 0.03]):
+                    yield stroke_path, (contour, *one, np.array(dashes, np.float64))
+        for tolerance in (0.0, 0.001):
+            outlines, bounds = outlines_of(drawing), Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS)
+            yield grow, (*outlines, bounds, SLICE, 0)
+            started, _ = grow.dispatcher(*outlines, bounds, 0, 0)
+            yield grow_on, (started, outlines.rules, bounds, SLICE, 0)
+            done, _ = grow.dispatcher(*outlines, bounds, ENDLESS, 0)
+            yield arrange_tree, (done.cells, done.first, done.curves, done.counts)
+            yield tree_texels, (*arrange_tree.dispatcher(done.cells, done.first, done.curves, done.counts), 7)
+        texture = convert(drawing, split=None)
+        for flat_view in (0, 1):
+            to_unit = np.array([[0.02, 0.0, 0.0], [0.0, -0.02, 1.0], [0.0, 0.0, 1.0]])
+            image = np.full((50, 50), np.nan, np.float32)
+            yield draw, (texture.texels, flat_view, texture.roots[0].quad, (0, 0), to_unit, image)
+        yield from map_calls(drawing)
+
+
+def map_calls(drawing: Drawing) -> Iterator[tuple[Any, tuple[Any, ...]]]:
+    """The kernels of planar maps."""
+    rows = rows_of(drawing)
+    outlines, layers = row_cubics(rows), layers_of(rows, drawing.groups)
+    yield plant_map, (*outlines, 16)
+    for tolerance in (0.0, 0.001):
+        growth, faces = growth_from_tuples(*plant_map.dispatcher(*outlines, 16)[0]), new_faces()
+        growth.tree.needed[:] = ROOM
+        yield (
+            grow_map,
+            (with_room(growth), layers, faces, Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS), SLICE, 0),
+        )
+    yield refill, (new_faces(),)
+    yield add_faces, (new_faces(), trim_faces(new_faces()), 1, 1, np.zeros(1, np.int64))
+    circles, top = np.zeros((1, 3)), np.zeros((1, 1), np.int32)
+    reach, outlines = np.zeros((1, DIRECTIONS)), np.zeros((1, 1, 4, 2))
+    yield cover_cells, (circles, top)
+    yield find_reach, (circles, top, reach, np.zeros(1, np.bool_))
+    yield cut_outlines, (outlines, circles, reach, np.zeros(1, np.int64))
+    yield operations_of, (layers, np.arange(len(rows.paths), dtype=np.int32))
+    planar = build_map(drawing)
+    assert planar is not None
+    texels = texel_rows(map_texels(planar, 0))
+    for flat_view in (0, 1):
+        to_unit = np.array([[0.02, 0.0, 0.0], [0.0, -0.02, 1.0], [0.0, 0.0, 1.0]])
+        image = np.full((50, 50, 4), np.nan, np.float32)
+        yield draw_colours, (texels, 0, flat_view, MAP_HEAD, (0, 0), to_unit, image)
+
+
+class Entry(NamedTuple):
+    """A function that `kernels.wasm` exports under the name of its kernel."""
+
+    kernel: Any
+    arguments: tuple[Any, ...]  # a sample, for whose types it is compiled
+    results: tuple[str, ...]  # names of the parts of its result
+
+
+def wasm_entries() -> list[Entry]:
+    """The kernels that JavaScript calls."""
+    outlines = outlines_of(Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.5, 0.9)]))
+    bounds = bounds_of(UNSEEN, DEFAULT_DEPTH, DEFAULT_CAPACITY, None, MOST_QUADS)
+    ends, closed, style = np.array([3]), np.array([True]), np.array([0.05, 0.0, 0.0, 4.0, ROUND, 0.0])
+    return [
+        Entry(
+            silhouette_texels,
+            (*outlines, bounds, 0, ENDLESS),
+            ("texels", "outside", "deviation", "unresolved", "quads"),
+        ),
+        Entry(stroke_path, (outlines.cubics, ends, closed, style, np.zeros(0)), ("contours", "lengths")),
+    ]
