@@ -14,17 +14,20 @@ from vexture.bezier.cover import DIRECTIONS, cover_cells, cut_outlines, find_rea
 from vexture.bezier.stroke import stroke_path
 from vexture.renderers.colour import draw_colours
 from vexture.renderers.cpu import draw
+from vexture.texture.coloured import coloured_texels
 from vexture.texture.encode import texel_rows, tree_texels
+from vexture.texture.map_texels import encode_map
 from vexture.texture.planar import map_texels
 from vexture.texture.silhouette import silhouette_texels
 from vexture.tree.bounds import DEFAULT_CAPACITY, DEFAULT_DEPTH, Bounds, bounds_of
 from vexture.tree.build import SLICE, grow, grow_on
 from vexture.tree.cubics import outlines_of
 from vexture.tree.growth import arrange_tree
-from vexture.tree.planar.build import build_map, grow_map, plant_map, row_cubics
-from vexture.tree.planar.faces import add_faces, new_faces, operations_of, refill, trim_faces
-from vexture.tree.planar.growth import growth_from_tuples, with_room
-from vexture.tree.planar.layers import layers_of, rows_of
+from vexture.tree.planar.build import DEFAULT_MAP_CAPACITY, build_map, grow_map, plant_map
+from vexture.tree.planar.faces import add_faces, new_faces, refill, trim_faces
+from vexture.tree.planar.growth import with_map_room
+from vexture.tree.planar.map import arrange_map, texels_of
+from vexture.tree.planar.source import source_of
 from vexture.tree.tree import MOST_QUADS
 
 SHAPES: Final = Path(__file__).parent.parent / "examples" / "shapes"
@@ -64,24 +67,27 @@ def ahead_calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
 
 def map_calls(drawing: Drawing) -> Iterator[tuple[Any, tuple[Any, ...]]]:
     """The kernels of planar maps."""
-    rows = rows_of(drawing)
-    outlines, layers = row_cubics(rows), layers_of(rows, drawing.groups)
-    yield plant_map, (*outlines, 16)
+    source = source_of(drawing)
+    yield plant_map, (source, 16, 0)
     for tolerance in (0.0, 0.001):
-        growth, faces = growth_from_tuples(*plant_map.dispatcher(*outlines, 16)[0]), new_faces()
+        growth, layers, faces, *_ = plant_map.dispatcher(source, 16, 0)
         growth.tree.needed[:] = ROOM
-        yield (
-            grow_map,
-            (with_room(growth), layers, faces, Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS), SLICE, 0),
-        )
-    yield refill, (new_faces(),)
-    yield add_faces, (new_faces(), trim_faces(new_faces()), 1, 1, np.zeros(1, np.int64))
+        growth, bounds = with_map_room(growth), Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS)
+        yield grow_map, (growth, layers, faces, bounds, ENDLESS, SLICE, 0)
+        done = grow_map.dispatcher(*plant_map.dispatcher(source, 16, 0)[:3], bounds, ENDLESS, ENDLESS, 0)
+        state = done[0], layers, done[1]
+        yield arrange_map, state
+        yield encode_map, (arrange_map.dispatcher(*state)[0], 7)
+    yield texels_of, (1, 2)
+    table = 1024, 1024
+    yield new_faces, table
+    yield refill, (new_faces(*table),)
+    yield add_faces, (new_faces(*table), trim_faces(new_faces(*table)), 1, 1, np.zeros(1, np.int64))
     circles, top = np.zeros((1, 3)), np.zeros((1, 1), np.int32)
     reach, outlines = np.zeros((1, DIRECTIONS)), np.zeros((1, 1, 4, 2))
     yield cover_cells, (circles, top)
     yield find_reach, (circles, top, reach, np.zeros(1, np.bool_))
     yield cut_outlines, (outlines, circles, reach, np.zeros(1, np.int64))
-    yield operations_of, (layers, np.arange(len(rows.paths), dtype=np.int32))
     planar = build_map(drawing)
     assert planar is not None
     texels = texel_rows(map_texels(planar, 0))
@@ -101,7 +107,8 @@ class Entry(NamedTuple):
 
 def wasm_entries() -> list[Entry]:
     """The kernels that JavaScript calls."""
-    outlines = outlines_of(Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.5, 0.9)]))
+    triangle = Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.5, 0.9)])
+    outlines = outlines_of(triangle)
     bounds = bounds_of(UNSEEN, DEFAULT_DEPTH, DEFAULT_CAPACITY, None, MOST_QUADS)
     ends, closed, style = np.array([3]), np.array([True]), np.array([0.05, 0.0, 0.0, 4.0, ROUND, 0.0])
     return [
@@ -109,6 +116,14 @@ def wasm_entries() -> list[Entry]:
             silhouette_texels,
             (*outlines, bounds, 0, ENDLESS),
             ("texels", "outside", "deviation", "unresolved", "quads"),
+        ),
+        Entry(
+            coloured_texels,
+            (source_of(triangle), bounds._replace(capacity=DEFAULT_MAP_CAPACITY), 0, 0, ENDLESS, ENDLESS),
+            (
+                *("texels", "starts", "members", "hides", "outside", "reach", "deviation"),
+                *("unresolved", "quads", "curves", "paints", "flattened"),
+            ),
         ),
         Entry(stroke_path, (outlines.cubics, ends, closed, style, np.zeros(0)), ("contours", "lengths")),
     ]

@@ -180,7 +180,7 @@ print(code(*arguments)[1:], 'numba' in sys.modules)
 
 def test_what_is_compared_of_code_tells_trees_that_grow_from_other_tables() -> None:
     """A table of faces has as many fields as a tree: it is compared as it is."""
-    faces = new_faces()
+    faces = new_faces(8, 8)
     assert len(faces) == len(compile_kernels.Growth._fields)
     assert len(compile_kernels.bits(tuple(faces))) == len(faces)
     assert compile_kernels.bits((faces,)) != compile_kernels.bits((faces._replace(counts=faces.counts + 1),))

@@ -9,7 +9,8 @@ from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Paint
-from vexture.texture.curves import LeafCurves, are_straight, curve_texels, leaf_points, leaf_texels, read_leaf_curve
+from vexture.texture.curves import LeafCurves, curve_texels, leaf_points, read_leaf_curve, texels_in
+from vexture.texture.map_texels import is_straight_leaf, write_leaf
 from vexture.texture.planar import decode_map, map_texels
 from vexture.texture.texture import Texture
 
@@ -27,6 +28,11 @@ def polygon(*corners: tuple[float, float], paint: Paint) -> Path:
     return Path(Drawing.polygon(corners).paths[0].contours, paint=paint)
 
 
+def are_straight(curves: np.ndarray, count: list[int]) -> list[bool]:
+    firsts = np.cumsum(count) - count
+    return [is_straight_leaf(curves, first, number) for first, number in zip(firsts.tolist(), count, strict=True)]
+
+
 def triangle() -> Texture:
     """All leaves are straight, and some have an odd number of pieces."""
     paths = (
@@ -41,17 +47,20 @@ def triangle() -> Texture:
 @pytest.mark.parametrize("point", [1, 2])
 def test_a_curve_is_straight_within_a_unit_of_its_thirds(by: int, straight: bool, axis: int, point: int) -> None:
     curves = np.stack([moved(0, 0), moved(by, axis, point), moved(0, 0)])
-    assert are_straight(curves, np.array([1, 0, 2])).tolist() == [True, False, straight]
+    assert are_straight(curves, [1, 0, 2]) == [True, False, straight]
 
 
 def test_curves_of_leaves_read_back() -> None:
     line, bent = np.array(LINE, np.int32), moved(900, 0)
     curves = np.stack([line, bent, line, line, line, line, bent])
     count = np.array([2, 0, 3, 1, 1])
-    straight = are_straight(curves, count)
+    straight = np.array(are_straight(curves, count.tolist()))
     assert straight.tolist() == [False, False, True, True, False]
-    texels = leaf_texels(curves, count, straight)
+    texels, end = np.zeros((texels_in(count, straight).sum(), 4), np.uint32), 0
     assert len(texels) == 2 + 2 + 1 + 1
+    for first, number, is_straight in zip((np.cumsum(count) - count).tolist(), count.tolist(), straight, strict=True):
+        end += write_leaf(curves, first, number, bool(is_straight), texels[end:])
+    assert end == len(texels)
     np.testing.assert_array_equal(texels[[0, 1, 5]], curve_texels(curves[[0, 1, 6]]))
     assert not texels[[3, 4], 2:].any()
     np.testing.assert_array_equal(leaf_points(texels, LeafCurves.of_counts(count, straight)), curves)

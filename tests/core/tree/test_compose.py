@@ -27,9 +27,11 @@ from vexture.drawing.paint import Gradient, Paint, Stop
 from vexture.tree.planar.build import build_map
 from vexture.tree.planar.compose import Operations, colour_at
 from vexture.tree.planar.faces import operations_of
-from vexture.tree.planar.layers import layers_of, rows_of
+from vexture.tree.planar.layers import layers_of
 from vexture.tree.planar.map import PlanarMap
 from vexture.tree.planar.programs import Keep, Mix, Solid
+from vexture.tree.planar.rows import rows_of
+from vexture.tree.planar.source import source_of
 
 HALF_GREY = Paint((0.5, 0.5, 0.5), 0.5)
 GREY = Solid((16384, 16384, 16384, 32768))
@@ -109,7 +111,8 @@ def test_programs_of_random_groups_are_right(seed: int) -> None:
         for k, path in zip(rng.permutation(8)[: len(of.paths)], of.paths, strict=True)
     ]
     of = replace(of, paths=tuple(replace(path, paint=paint) for path, paint in zip(of.paths, paints, strict=True)))
-    layers, stack = layers_of(rows_of(of, True), of.groups), np.arange(len(of.paths), dtype=np.int32)
+    source, stack = source_of(of, True), np.arange(len(of.paths), dtype=np.int32)
+    layers = layers_of(source, rows_of(source, 1), 1)
     count, ops, is_flat = operations_of(layers, stack)
     assert not is_flat
     points = rng.random((20, 2))

@@ -1,16 +1,36 @@
 """Bands of gradients: at each point of a box, the band that its regions say has the colour of the gradient."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 
 from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Gradient, Paint, Spread, Stop
-from vexture.tree.planar.bands import MOST_BANDS, STEEP, bands_of
-from vexture.tree.planar.shades import shade_at, shades_of
+from vexture.tree.planar.bands import BANDS, MOST_BANDS, REGIONS, STEEP, add_bands, new_bands
+from vexture.tree.planar.shades import Shades, gradient_of, shade_at, shades_of
 
 FOCI = (None, (0.0, 0.0), (0.5, 0.2), (0.3, 0.0), (1.0, 0.0), (1.5, 0.3), (0.7, 1.0), (1.8, 1.5), (0.3, 2.5))
 """Lines; nested circles; those that touch; cones, of circles that grow, stay and shrink; nested ones that shrink."""
+
+WHOLE = np.array([[0.0, 0.0], [1.0, 1.0]])
+
+
+class Bands(NamedTuple):
+    gradients: list[Gradient]
+    regions: list[np.ndarray]
+
+
+def bands_of(gradient: Gradient, box: np.ndarray, at_all_stops: bool = False) -> Bands:
+    """Bands of one gradient, as objects."""
+    (row,), stops = shades_of([gradient])
+    found = add_bands(new_bands(4), row, stops, box, int(at_all_stops))
+    shades = Shades(found.rows, found.stops)
+    gradients = [gradient_of(shades, number) for number in found.bands[: found.counts[BANDS]].tolist()]
+    ends = np.cumsum(found.lengths[: found.counts[REGIONS]])
+    return Bands(gradients, np.split(found.cubics, ends)[:-1])
+
 
 T = np.linspace(0.0, 1.0, 33)[:-1, None]
 BERNSTEIN = np.hstack([(1 - T) ** 3, 3 * T * (1 - T) ** 2, 3 * T**2 * (1 - T), T**3])
@@ -72,11 +92,11 @@ def test_stripes_need_no_program() -> None:
 def test_a_cone_that_repeats_is_cut_in_each_period() -> None:
     stops = Stop(0.0, (0.0, 0.0, 0.0)), Stop(1.0, (1.0, 1.0, 1.0))
     cone = Gradient(((10.0, 0.0, 0.0), (0.0, 10.0, -5.0)), stops, Spread.REPEAT, (1.6, 0.0))
-    assert len(bands_of(cone, np.array([[0.0, 0.0], [1.0, 1.0]])).regions) > 5
+    assert len(bands_of(cone, WHOLE).regions) > 5
 
 
 def test_a_steep_ramp_is_cut_at_its_stops() -> None:
-    box, black, white = np.array([[0.0, 0.0], [1.0, 1.0]]), (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+    box, black, white = WHOLE, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
     for focus in (None, (0.0, 0.0)):
         for wide, parts in ((0.5 * STEEP, 3), (2.0 * STEEP, 1)):
             ramp = Gradient(
@@ -91,12 +111,34 @@ def test_a_steep_ramp_is_cut_at_its_stops() -> None:
 def test_a_jump_at_the_side_of_the_box_is_left_out() -> None:
     stops = tuple(Stop(offset, (shade,) * 3) for offset, shade in ((0.0, 0.0), (0.0, 0.2), (1.0, 0.8), (1.0, 1.0)))
     along = Gradient(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), stops)
-    bands = bands_of(along, np.array([[0.0, 0.0], [1.0, 1.0]]))
-    assert bands.regions == ()
+    bands = bands_of(along, WHOLE)
+    assert bands.regions == []
     assert [stop.color[0] for stop in bands.gradients[0].stops] == [0.2, 0.8]
 
 
 def test_a_ramp_of_very_many_periods_stays_whole() -> None:
     stops = Stop(0.0, (0.0, 0.0, 0.0)), Stop(1.0, (1.0, 1.0, 1.0))
     fine = Gradient(((2.0 * MOST_BANDS, 0.0, 0.0), (0.0, 1.0, 0.0)), stops, Spread.REPEAT)
-    assert bands_of(fine, np.array([[0.0, 0.0], [1.0, 1.0]])).regions == ()
+    assert bands_of(fine, WHOLE).regions == []
+
+
+def test_equal_gradients_are_one_and_many_find_their_way() -> None:
+    """Ramps of as many colours as need a larger table, each met twice."""
+    ramps = [
+        Gradient(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), (Stop(0.0, (k / 99, 0.0, 0.0)), Stop(1.0, (0.0, 0.0, 0.0))))
+        for k in range(99)
+    ]
+    found = new_bands(4)
+    for ramp in 2 * ramps:
+        (row,), stops = shades_of([ramp])
+        found = add_bands(found, row, stops, WHOLE, 0)
+    assert found.counts.tolist() == [99, 198, 198, 0, 0]
+    assert found.bands[:198].tolist() == 2 * [*range(99)]
+    shades = Shades(found.rows, found.stops)
+    assert [gradient_of(shades, number) for number in range(99)] == ramps
+
+
+def test_equal_circles_of_one_place_paint_nothing() -> None:
+    stops = Stop(0.0, (0.0, 0.0, 0.0)), Stop(1.0, (1.0, 1.0, 1.0))
+    ring = Gradient(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), stops, Spread.REPEAT, (0.0, 1.0))
+    assert bands_of(ring, WHOLE) == ([ring], [])

@@ -10,11 +10,7 @@ from math import acos, atan2, ceil, cos, hypot, pi, radians, sin, sqrt, tan
 import numpy as np
 from numpy.typing import NDArray
 
-QUARTER_ERROR = 2.7253e-4
-"""Largest distance between a cubic and a quarter of the unit circle."""
-
-FINEST = 1e-3
-"""Shortest cubic, as a part of a quarter turn; it limits huge circles to 4,000 cubics per turn."""
+from vexture.bezier.trigonometry import FINEST, QUARTER_ERROR
 
 FLAT = 1e-7
 """Ratio of half the chord to the radius. A short arc below it becomes a line, with an error of 1e-7 of its length."""

@@ -69,27 +69,6 @@ def texels_in(count: NDArray[np.int64], is_straight: NDArray[np.bool_]) -> NDArr
     return np.where(is_straight, (count + 1) >> 1, count)
 
 
-def are_straight(curves: NDArray[np.int32], count: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Return which leaves have curves that are all straight, except for rounding; `count` (leaves,) is their number."""
-    off = abs(curves - _straight(curves[:, [0, 3]])).max(axis=(1, 2), initial=0)
-    bent = np.append(0, np.cumsum(off > NEAR))
-    last = np.cumsum(count)
-    straight: NDArray[np.bool_] = (count > 0) & (bent[last] == bent[last - count])
-    return straight
-
-
-def leaf_texels(
-    curves: NDArray[np.int32], count: NDArray[np.int64], is_straight: NDArray[np.bool_]
-) -> NDArray[np.uint32]:
-    """Encode the curves (n, 4, 2) of leaves with `count` (leaves,) curves; see `LeafCurves.of_counts`."""
-    at = LeafCurves.of_counts(count, is_straight)
-    texels, full = np.zeros((texels_in(count, is_straight).sum(), 4), np.uint32), curve_texels(curves)
-    texels[at.texel[~at.is_straight]] = full[~at.is_straight]
-    pairs = texels.reshape(-1, 2, 2)
-    pairs[at.texel[at.is_straight], at.half[at.is_straight]] = full[at.is_straight][:, [0, 3]]
-    return texels
-
-
 def leaf_points(texels: NDArray[np.uint32], at: LeafCurves) -> NDArray[np.int32]:
     """Decode the curves of leaves, (n, 4, 2), at their positions in the joint texels of these leaves."""
     points = curve_points(texels[at.texel])

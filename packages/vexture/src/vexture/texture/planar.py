@@ -6,56 +6,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base import layout
-from vexture.base.errors import FormatError
-from vexture.texture.curves import LeafCurves, are_straight, leaf_points, leaf_texels, texels_in
-from vexture.texture.programs import NO_PROGRAMS, ProgramTexels, halves, program_texels, read_programs
+from vexture.base.errors import FormatError, LimitError
+from vexture.texture.curves import LeafCurves, leaf_points, texels_in
+from vexture.texture.map_texels import encode_map
+from vexture.texture.program_texels import count_operations, stop_runs
+from vexture.texture.programs import halves, read_programs
 from vexture.texture.walk import REMEDY, WalkLevel, walk
 from vexture.tree.planar.map import PlanarMap
-from vexture.tree.planar.programs import Program
+from vexture.tree.planar.programs import ProgramTable
+from vexture.tree.planar.shades import Shades
 
 
 def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
     """Encode a map as texels (n, 4), in the order of `PARTS`; `at` is the index of the first texel."""
-    quads = len(planar.count)
-    count = planar.count.ravel().astype(np.int64)
-    straight = are_straight(planar.curves, count)
-    curves = leaf_texels(planar.curves, count, straight)
-    first_quad = at + layout.MAP_HEAD
-    first_curve = first_quad + quads
-    first_cells = first_curve + len(curves)
-    sides = side_texels(planar.sides, len(planar.paints))
-    cells = cell_texels(planar)
-    first_sides = first_cells + len(cells)
-    first_paint = first_sides + len(sides)
-    programs = program_texels(planar.programs)
-    paints = paint_texels(planar.paints, programs, first_paint)
-    some = [first_paint + len(paints), len(programs.operations), len(programs.stops)] if planar.programs else [0, 0, 0]
-    head = [[*some, 0], [len(planar.paints), first_cells, first_sides, first_paint]]
-    texels = [
-        np.array(head, np.uint32),
-        _quad_texels(planar, straight.reshape(-1, 4), first_quad, first_curve),
-        curves,
-        cells,
-        sides,
-        paints,
-        programs.operations,
-        programs.stops,
-    ]
-    return np.concatenate(texels)
-
-
-def _quad_texels(
-    planar: PlanarMap, straight: NDArray[np.bool_], first_quad: int, first_curve: int
-) -> NDArray[np.uint32]:
-    count = planar.count.astype(np.int64)
-    cells = (count << layout.COUNT_SHIFT) + np.where(straight, layout.STRAIGHT, 0)
-    cells += np.where(_holds_program(planar), layout.HOLDS_PROGRAM, 0)
-    cells = np.where(planar.is_quad, layout.QUAD_FLAG, np.where(planar.is_mean, layout.IS_MEAN, cells))
-    texels = np.zeros((len(cells), 4), np.uint32)
-    texels[:, 0] = first_quad + planar.first_quad
-    texels[:, 1] = first_curve + _before(texels_in(count, straight).sum(axis=1))
-    texels[:, 2] = (cells << layout.CELL_BITS * np.arange(4)).sum(axis=1)
-    texels[:, 3] = _before(count.sum(axis=1))
+    texels: NDArray[np.uint32] = encode_map(planar.arrays, at)
+    if len(texels) == 0:
+        count = count_operations(planar.table, planar.shades) + stop_runs(planar.table, planar.shades).texels
+        most = (1 << layout.STOP_BITS) - 1
+        raise LimitError(f"a map: {count} texels of gradients; the limit is {most}; divide it")
     return texels
 
 
@@ -63,32 +31,6 @@ def _before(count: NDArray[np.int64]) -> NDArray[np.int64]:
     """Exclusive cumulative sum: for each element, the sum of the elements before it."""
     before: NDArray[np.int64] = np.cumsum(count) - count
     return before
-
-
-def _holds_program(planar: PlanarMap) -> NDArray[np.bool_]:
-    """Return whether a cell's base paint, or a paint beside one of its curves, is a program; (quads, 4)."""
-    is_program = np.zeros(len(planar.paints), np.bool_)
-    is_program[list(planar.programs)] = True
-    beside = np.append(0, np.cumsum(is_program[planar.sides].any(axis=1)))
-    last = planar.first_curve[:, None] + np.cumsum(planar.count, axis=1, dtype=np.int64)
-    holds: NDArray[np.bool_] = is_program[planar.base] | (beside[last] > beside[last - planar.count])
-    return holds
-
-
-def cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
-    """Encode cells in blocks of quads: a texel with all base paints, then for each quad a texel with its means."""
-    shift = np.arange(4, dtype=np.int64) * layout.CELL_BITS
-    means = np.rint(planar.mean.clip(0.0, 1.0) * layout.COVERAGE_ONE).astype(np.int64)
-    means = np.minimum(means, means[..., 3:])  # rounding in the sums of areas could lift a colour above its opacity
-    quads, inside = len(means), quads_in_block(len(planar.paints))
-    blocks = np.zeros((-(-quads // inside), 1 + inside, 4), np.uint32)
-    base = np.zeros((inside * len(blocks), 4), _number(len(planar.paints)))
-    base[:quads] = planar.base
-    blocks[:, 0] = base.ravel().view("<u4").reshape(-1, 4)
-    texels = np.zeros((inside * len(blocks), 4), np.uint32)
-    texels[:quads] = (means << shift).sum(axis=2)
-    blocks[:, 1:] = texels.reshape(len(blocks), inside, 4)
-    return blocks.reshape(-1, 4)[: quads + len(blocks)]
 
 
 def _number(paints: int) -> np.dtype[np.unsignedinteger]:
@@ -106,29 +48,6 @@ def quads_in_block(paints: int) -> int:
 def sides_in_texel(paints: int) -> int:
     """Number of curves whose left and right paints fit in one texel of a map with `paints` paints."""
     return np.dtype("4<u4").itemsize // (2 * _number(paints).itemsize)
-
-
-def side_texels(sides: NDArray[np.int32], paints: int) -> NDArray[np.uint32]:
-    """Encode the paints on the left and right of curves, (n, 2), as texels of a map with `paints` paints."""
-    room = np.zeros((-(-len(sides) // sides_in_texel(paints)) * sides_in_texel(paints), 2), _number(paints))
-    room[: len(sides)] = sides
-    return room.ravel().view("<u4").astype(np.uint32).reshape(-1, 4)
-
-
-def paint_texels(
-    paints: NDArray[np.uint16], programs: ProgramTexels = NO_PROGRAMS, after: int = 0
-) -> NDArray[np.uint32]:
-    """Encode two paints per texel, each as red and green, blue and opacity, or as a program's first texel and length.
-
-    The paints begin at texel `after`, and the programs follow them.
-    """
-    size = -(-len(paints) // 2)
-    halves = np.zeros((2 * size, 4), np.int64)
-    halves[: len(paints)] = paints
-    words = halves[:, 0::2] | (halves[:, 1::2] << layout.COORDINATE_BITS)
-    for paint, (start, count) in programs.starts.items():
-        words[paint] = after + size + start, count
-    return words.astype(np.uint32).reshape(-1, 4)
 
 
 class MapHead(NamedTuple):
@@ -291,7 +210,7 @@ def _paints(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.uint16]:
     return np.where(is_program[:, None], 0, halves(words)).astype(np.uint16)
 
 
-def _programs(flat: NDArray[np.uint32], found: MapTexels) -> dict[int, Program]:
+def _programs(flat: NDArray[np.uint32], found: MapTexels) -> tuple[ProgramTable, Shades]:
     """Decode the programs of paints."""
     words, is_program = _paint_words(flat, found)
     starts = {int(j): (int(words[j, 0]) - found.programs, int(words[j, 1])) for j in np.flatnonzero(is_program)}
@@ -320,8 +239,7 @@ def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
         found.points,
         _sides(flat, found)[number].astype(np.int32),
         _paints(flat, found),
-        _programs(flat, found),
-        (),
-        0,
-        0.0,
+        *_programs(flat, found),
+        np.zeros(1, np.int64),
+        np.zeros(0, np.int32),
     )

@@ -1,39 +1,28 @@
-"""Encode the programs of a planar map as texels, and decode them (FORMAT.md, D.6)."""
+"""Decode the programs of a planar map from its texels (FORMAT.md, D.6)."""
 
-from collections.abc import Sequence
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base import layout
-from vexture.base.errors import FormatError, LimitError
+from vexture.base.errors import FormatError
 from vexture.drawing.group import Blend, Mask
-from vexture.drawing.paint import Gradient, Spread, Stop
+from vexture.drawing.paint import Spread
+from vexture.texture.program_texels import SPREAD_SHIFT
 from vexture.texture.walk import REMEDY
-from vexture.tree.planar.programs import Keep, Mix, Operation, Program, Solid, ending_of, number_of_ending
+from vexture.tree.planar.compose import KEEP, MIX, SHADE, SOLID
+from vexture.tree.planar.programs import ProgramTable, number_of_ending
+from vexture.tree.planar.shades import COUNT, FIRST, FOCUS, RADIUS, SPREAD, Shades
 
 ENDS: Final = [*map(number_of_ending, Blend), *(number_of_ending(mask) for mask in Mask if mask)]
 """Numbers of the allowed endings of a group."""
 
+CODES: Final = np.array([0, SOLID, SHADE, SHADE, SHADE, KEEP, MIX, 0])
+"""Code of an operation, by its kind."""
+
 FOLLOWING: Final = np.array([0, 0, 0, 1, 2, 0, 0, 0])
 """Number of texels of the kind `FOLLOWS` after the first texel of an operation, by its kind."""
-
-STOP_BYTES: Final = 16
-"""Size of the texel of a stop."""
-
-SPREAD_SHIFT: Final = layout.STOP_BITS + layout.STOP_COUNT_BITS
-
-
-class ProgramTexels(NamedTuple):
-    """The texels of a map's programs."""
-
-    operations: NDArray[np.uint32]  # (n, 4)
-    stops: NDArray[np.uint32]  # (m, 4): they follow the operations
-    starts: dict[int, tuple[int, int]]  # for each paint that is a program: its first operation texel and their number
-
-
-NO_PROGRAMS: Final = ProgramTexels(np.zeros((0, 4), np.uint32), np.zeros((0, 4), np.uint32), {})
 
 
 def halves(words: NDArray[np.uint32]) -> NDArray[np.uint32]:
@@ -42,72 +31,47 @@ def halves(words: NDArray[np.uint32]) -> NDArray[np.uint32]:
     return both.reshape(-1, 4)
 
 
-def program_texels(programs: dict[int, Program], name: str = "a map") -> ProgramTexels:
-    """Encode programs as texels; gradients with equal stops share them."""
-    rows: list[list[int]] = []
-    runs: dict[bytes, int] = {}
-    of_row: dict[int, bytes] = {}
-    starts = {}
-    for paint, program in programs.items():
-        start = len(rows)
-        for operation in program:
-            if isinstance(operation, Gradient):
-                of_row[len(rows)] = _stop_texels(operation.stops).tobytes()
-            rows += _rows(operation)
-        starts[paint] = start, len(rows) - start
-    after = len(rows)
-    for run in dict.fromkeys(of_row.values()):
-        runs[run], after = after, after + len(run) // STOP_BYTES
-    if after >> layout.STOP_BITS:
-        raise LimitError(f"{name}: {after} texels of gradients; the limit is {(1 << layout.STOP_BITS) - 1}; divide it")
-    for row, run in of_row.items():
-        rows[row][3] |= runs[run] - row
-    stops = np.frombuffer(b"".join(runs), np.uint32).reshape(-1, 4)
-    return ProgramTexels(np.array(rows, np.uint32).reshape(-1, 4), stops, starts)
-
-
-def _rows(operation: Operation) -> list[list[int]]:
-    """Texels of an operation, without the position of its stops."""
-    if isinstance(operation, Keep):
-        return [[0, 0, 0, layout.KIND_KEEP << layout.KIND_SHIFT]]
-    if isinstance(operation, Mix):
-        return [[operation.opacity, number_of_ending(operation.how), 0, layout.KIND_MIX << layout.KIND_SHIFT]]
-    if isinstance(operation, Solid):
-        red, green, blue, alpha = operation.rgba
-        word, other = red | green << layout.COORDINATE_BITS, blue | alpha << layout.COORDINATE_BITS
-        return [[word, other, 0, layout.KIND_SOLID << layout.KIND_SHIFT]]
-    across, up = (np.array(row, np.float32).view(np.uint32).tolist() for row in operation.to_ramp)
-    focus, follows = operation.focus, layout.KIND_FOLLOWS << layout.KIND_SHIFT
-    kind = layout.KIND_LINEAR if focus is None else layout.KIND_RADIAL if focus == (0.0, 0.0) else layout.KIND_FOCAL
-    word = kind << layout.KIND_SHIFT | operation.spread << SPREAD_SHIFT | len(operation.stops) << layout.STOP_BITS
-    rows = [[*across, word], [*up, follows]]
-    rows += [[*np.array(focus, np.float32).view(np.uint32).tolist(), 0, follows]] if kind == layout.KIND_FOCAL else []
-    return rows[: 1 + FOLLOWING[kind]]
-
-
-def _stop_texels(stops: Sequence[Stop]) -> NDArray[np.uint32]:
-    texels = np.zeros((len(stops), 4), np.uint32)
-    texels[:, 0] = np.array([stop.offset for stop in stops], np.float32).view(np.uint32)
-    colours = np.array([(*stop.color, stop.opacity) for stop in stops]).reshape(-1, 4)
-    whole = np.rint(layout.PAINT_ONE * colours).astype(np.uint32)
-    texels[:, 1:3] = whole[:, 0::2] | whole[:, 1::2] << layout.COORDINATE_BITS
-    return texels
-
-
 def read_programs(
     operations: NDArray[np.uint32], stops: NDArray[np.uint32], starts: dict[int, tuple[int, int]]
-) -> dict[int, Program]:
-    """Decode the programs of paints from the parts of `ProgramTexels`; raise a `FormatError` for invalid texels."""
+) -> tuple[ProgramTable, Shades]:
+    """Decode the programs of a map; raise a `FormatError` for invalid texels.
+
+    `starts` holds the first operation texel of each paint that is a program, and the number of its texels.
+    """
     _check(operations, stops, np.array([*starts.values()], np.int64).reshape(-1, 2))
-    listed = _stops(stops)
-    return {
-        paint: tuple(
-            _operation(operations, row, listed)
-            for row in range(start, start + count)
-            if operations[row, 3] >> layout.KIND_SHIFT != layout.KIND_FOLLOWS
-        )
-        for paint, (start, count) in starts.items()
-    }
+    kind = (operations[:, 3] >> layout.KIND_SHIFT).astype(np.int64)
+    rows = np.flatnonzero(kind != layout.KIND_FOLLOWS)
+    kind = kind[rows]
+    is_gradient = (kind >= layout.KIND_LINEAR) & (kind <= layout.KIND_FOCAL)
+    number = np.zeros(len(rows), np.int64)
+    number[is_gradient] = np.arange(is_gradient.sum())
+    mixes = operations[rows[kind == layout.KIND_MIX]].astype(np.int64)
+    number[kind == layout.KIND_MIX] = mixes[:, 1] << 16 | mixes[:, 0]
+    rgba = np.zeros((len(rows), 4))
+    rgba[kind == layout.KIND_SOLID] = halves(operations[rows[kind == layout.KIND_SOLID], :2]) / layout.PAINT_ONE
+    begin = np.searchsorted(rows, [start for start, _ in starts.values()])
+    table = ProgramTable(
+        np.array([*starts], np.int64), np.append(begin, len(rows)).astype(np.int64), CODES[kind], number, rgba
+    )
+    return table, _read_shades(operations, stops, rows[is_gradient])
+
+
+def _read_shades(operations: NDArray[np.uint32], stops: NDArray[np.uint32], rows: NDArray[np.int64]) -> Shades:
+    """Gradients whose first texels are rows of checked texels."""
+    words = operations[rows, 3].astype(np.int64)
+    kind = words >> layout.KIND_SHIFT
+    shades = np.full((len(rows), 11), -1.0)
+    for part, of_kinds in enumerate((0, layout.KIND_RADIAL, layout.KIND_FOCAL)):
+        some = kind >= of_kinds
+        floats = np.ascontiguousarray(operations[rows[some] + part, :3]).view(np.float32)
+        shades[some, 3 * part : 3 * part + 3] = floats
+    shades[kind == layout.KIND_LINEAR, 3:FOCUS] = 0.0
+    shades[kind == layout.KIND_RADIAL, FOCUS : RADIUS + 1] = 0.0
+    shades[:, SPREAD] = words >> SPREAD_SHIFT & 3
+    shades[:, FIRST] = rows + (words & (1 << layout.STOP_BITS) - 1) - len(operations)
+    shades[:, COUNT] = words >> layout.STOP_BITS & layout.MOST_STOPS
+    offsets = np.ascontiguousarray(stops[:, 0]).view(np.float32).astype(np.float64)
+    return Shades(shades, np.column_stack([halves(stops[:, 1:3]) / layout.PAINT_ONE, offsets]))
 
 
 def _need(holds: bool, message: str) -> None:
@@ -160,33 +124,3 @@ def _check_gradients(
     _need(bool(((offsets >= 0.0) & (offsets <= 1.0)).all()), "a stop that is not in 0..1")
     falls = np.append(0, np.cumsum(offsets[1:] < offsets[:-1])) if len(stops) else np.zeros(0, np.int64)
     _need(bool((falls[first] == falls[first + number - 1]).all()), "stops that are not in order")
-
-
-def _stops(stops: NDArray[np.uint32]) -> list[Stop]:
-    offsets = np.ascontiguousarray(stops[:, 0]).view(np.float32).tolist()
-    halves = np.stack([stops[:, 1:3] & layout.PAINT_ONE, stops[:, 1:3] >> layout.COORDINATE_BITS], axis=2).reshape(
-        -1, 4
-    )
-    colours = (halves / layout.PAINT_ONE).tolist()
-    return [Stop(offset, (r, g, b), a) for offset, (r, g, b, a) in zip(offsets, colours, strict=True)]
-
-
-def _operation(operations: NDArray[np.uint32], row: int, stops: list[Stop]) -> Operation:
-    """Decode the operation at a row of checked texels."""
-    words, kind = operations[row].tolist(), int(operations[row, 3] >> layout.KIND_SHIFT)
-    if kind == layout.KIND_KEEP:
-        return Keep()
-    if kind == layout.KIND_MIX:
-        return Mix(words[0], ending_of(words[1]))
-    if kind == layout.KIND_SOLID:
-        red, green, blue, alpha = (word >> shift & layout.PAINT_ONE for word in words[:2] for shift in (0, 16))
-        return Solid((red, green, blue, alpha))
-    floats = operations[row : row + 3].view(np.float32).tolist()
-    linear = kind == layout.KIND_LINEAR
-    across, up = floats[0][:3], [0.0, 0.0, 0.0] if linear else floats[1][:3]
-    focus = None if linear else (floats[2][0], floats[2][1]) if kind == layout.KIND_FOCAL else (0.0, 0.0)
-    first = row + (words[3] & (1 << layout.STOP_BITS) - 1) - len(operations)
-    number = words[3] >> layout.STOP_BITS & layout.MOST_STOPS
-    spread = Spread(words[3] >> SPREAD_SHIFT & 3)
-    rows = (across[0], across[1], across[2]), (up[0], up[1], up[2])
-    return Gradient(rows, tuple(stops[first : first + number]), spread, focus)

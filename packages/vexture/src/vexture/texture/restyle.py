@@ -23,12 +23,13 @@ from vexture.base.layout import (
 from vexture.bezier.area import integral_x_dy
 from vexture.drawing.paint import Paint
 from vexture.texture.curves import read_leaf_curve, texels_of_cell
+from vexture.texture.map_texels import write_paints
 from vexture.texture.numbers import means_place, read_base, read_sides
 from vexture.texture.pick import style_of_root
-from vexture.texture.planar import head_of, paint_texels, paints_from
+from vexture.texture.planar import head_of, paints_from
 from vexture.texture.root import Root
 from vexture.tree.planar.faces import composite_stacks
-from vexture.tree.planar.layers import solid_layers
+from vexture.tree.planar.source import group_arrays
 from vexture.tree.planar.style import PlanarStyle, round_colours
 
 Colour: TypeAlias = str | Sequence[float] | Paint | None
@@ -132,13 +133,13 @@ def _check_names(names: Mapping[str, int], known: set[str], texture: str) -> Non
 def _repaint(flat: NDArray[np.uint32], quad: int, style: PlanarStyle, changed: NDArray[np.bool_]) -> None:
     """Write the colours of all paints that contain a changed element, and all means."""
     head = head_of(flat, quad)
-    colours = np.zeros((head.used, 4))
-    composite_stacks(solid_layers(style.rgba, style.group, style.groups), style.starts, style.members, colours)
+    groups = group_arrays(style.groups)
+    colours = composite_stacks(style.rgba, style.group, *groups, style.starts, style.members)
     times = np.append(0, np.cumsum(changed[style.members]))
     anew = times[style.starts[1:]] > times[style.starts[:-1]]
     table = paints_from(flat[head.paint_texels], head.used)
     table[anew] = np.rint(PAINT_ONE * np.clip(colours[anew], 0.0, 1.0))
-    flat[head.paint_texels] = paint_texels(table)
+    write_paints(table, flat[head.paint_texels])
     renew_means(flat, quad, head.cells, table / PAINT_ONE)
 
 

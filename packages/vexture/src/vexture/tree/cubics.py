@@ -1,6 +1,5 @@
 """The cubics of a drawing in one array, without copies of contours that change nothing."""
 
-from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -51,14 +50,6 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
     """Cubics of a drawing (n, 4, 2) without needless copies, the path of each (n,), and the fill rules (paths,)."""
     outlines = outlines_of(drawing)
     return (*leave_out_copies(*outlines), outlines.rules)
-
-
-def cubics_and_paths(
-    of_paths: Sequence[Sequence[NDArray[np.float64]]],
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Cubics of some paths, and the number of each cubic's path."""
-    lengths = [sum(map(len, contours)) for contours in of_paths]
-    return join_contours(together(of_paths)), np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
 
 
 @kernel

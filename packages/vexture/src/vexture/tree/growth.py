@@ -160,37 +160,3 @@ def tree_of(tree: Growth) -> Tree:
     """Make the final tree when all cells are done."""
     arrays = arrange_tree(tree.cells, tree.first, tree.curves, tree.counts)
     return Tree(*arrays, deviation=float(tree.deviation[0]), unresolved=int(tree.counts[UNRESOLVED]))
-
-
-def first_of(lengths: NDArray[np.int64], start: int) -> NDArray[np.int32]:
-    """First number of each run, if runs of these lengths follow one another; 0 for empty runs compresses better."""
-    firsts = start + np.cumsum(lengths) - lengths
-    return np.where(lengths > 0, firsts, 0).astype(np.int32)
-
-
-def with_needed_room(tree: Growth) -> Growth:
-    """Return the tree with larger arrays where the next cell has no room."""
-    pieces, numbers, paths, quads, curves = tree.needed.tolist()
-    points, path, listed, child, part, boxes, spans, cubics = tree.pool
-    listed, child, part = (roomy(rows, numbers) for rows in (listed, child, part))
-    return Growth(
-        PiecePool(roomy(points, pieces), roomy(path, pieces), listed, child, part, boxes, spans, cubics),
-        roomy(tree.present, paths),
-        tree.stack,
-        tree.corner,
-        roomy(tree.cells, quads),
-        roomy(tree.first, quads),
-        roomy(tree.curves, curves),
-        tree.counts,
-        tree.deviation,
-        tree.needed,
-    )
-
-
-def roomy(rows: NDArray[Any], needed: int) -> NDArray[Any]:
-    """Return the array itself, or a longer copy if it has fewer rows than `needed`."""
-    if needed <= len(rows):
-        return rows
-    out = np.empty((len(rows) + needed, *rows.shape[1:]), rows.dtype)
-    out[: len(rows)] = rows
-    return out

@@ -4,18 +4,27 @@ A hard stop is an edge, and so is the place where a ramp repeats. A path with su
 when the map is built. They are stored like outlines, and are exact at every scale. Between them the ramp is smooth.
 """
 
-from enum import IntEnum
-from itertools import groupby, pairwise
-from math import ceil, floor
-from operator import itemgetter
 from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.convert import ellipse_cubics, line_cubics, turn_steps
-from vexture.drawing.paint import Affine, Gradient, Spread, Stop
-from vexture.drawing.unit_square import clip_contours
+from vexture.base.kernels import kernel
+from vexture.drawing.paint import Spread
+from vexture.tree.growth import longer
+from vexture.tree.planar.knots import Knots, differ, is_beside_ramp, jumps, knots_of, stops_of_period
+from vexture.tree.planar.ramps import (
+    CLOSE,
+    FLAT,
+    NESTED,
+    TOUCHING,
+    reach_of_ramp,
+    scale_of_ramp,
+    shape_of_ramp,
+    turn_outwards,
+)
+from vexture.tree.planar.regions import region_of, swept_region
+from vexture.tree.planar.shades import COUNT, FIRST, FOCUS, OFFSET, RADIUS, SPREAD
 
 MOST_BANDS: Final = 1024
 """Most bands. More are finer than the pixels of most pictures, and a shader averages the ramp across its jumps
@@ -25,305 +34,323 @@ STEEP: Final = 1 / 64
 """Unit-square units. A ramp that changes within a shorter length is cut at its stops, because a pixel may hold the
 whole change, and only edges are exact there."""
 
-ROUND: Final = 1e-8
-"""Largest distance of a cubic from its arc, in unit-square units."""
+PAD = int(Spread.PAD)
 
-CLOSE: Final = 1e-9
-"""Radii. Focal circles within this distance of touching the outer circle touch it, and places on a ramp within this
-distance are one."""
-
-Box = NDArray[np.float64]
-"""Least and greatest coordinates, (2, 2)."""
+GRADIENTS, STOPS, BANDS, REGIONS, CUBICS = range(5)
+"""Counts of a list of bands."""
 
 
-class Bands(NamedTuple):
-    """The bands of a gradient in a box. Band k applies where k of the regions contain the point."""
+class BandList(NamedTuple):
+    """Bands of gradients, and the regions that separate them. Rows beyond the counts are free.
 
-    gradients: tuple[Gradient, ...]
-    regions: tuple[NDArray[np.float64], ...]  # closed contours, each with the next one inside
-
-
-class Knot(NamedTuple):
-    """A place on an unrolled ramp, the stop that ends the part before it and the stop that begins the part after."""
-
-    place: float
-    before: Stop
-    after: Stop
-
-
-def bands_of(gradient: Gradient, box: Box, at_all_stops: bool = False) -> Bands:
-    """Bands of a gradient in a box; one band without regions if the ramp does not jump there, or jumps too often.
-
-    With `at_all_stops` soft stops separate bands, too, because the blended ramp may jump there.
-
-    Examples
-    --------
-    >>> black, white = Stop(0.5, (0, 0, 0)), Stop(0.5, (1, 1, 1))
-    >>> halves = Gradient(((1, 0, 0), (0, 1, 0)), (black, white))
-    >>> [len(part.stops) for part in bands_of(halves, np.array([[0, 0], [1, 1]])).gradients]
-    [1, 1]
+    Band k of a gradient applies where k of its regions contain the point; each region contains the next one, or lies in
+    it. Equal gradients are one.
     """
-    kind = _kind(gradient)
-    if kind is RampShape.FLAT:
-        return Bands((gradient,), ())
-    if kind is RampShape.NESTED:
-        gradient = _outwards(gradient)
-    nothing = Gradient(gradient.to_ramp, (Stop(0.0, (0.0, 0.0, 0.0), 0.0),))
-    around = Bands((nothing,), (_cone(gradient, box),)) if kind >= RampShape.TOUCHING else Bands((), ())
-    grows = gradient.focus is None or gradient.focus[1] < 1.0
-    found = _within(gradient, kind, box, at_all_stops) if grows else Bands((gradient,), ())
-    return Bands(around.gradients + found.gradients, around.regions + found.regions)
+
+    rows: NDArray[np.float64]  # (room, 11): different gradients, as in `Shades`
+    stops: NDArray[np.float64]  # (room, 5)
+    slots: NDArray[np.int64]  # number of a gradient + 1 in each slot of a hash table, or 0
+    hashes: NDArray[np.int64]  # (room,): of the gradients
+    bands: NDArray[np.int64]  # (room,): numbers of gradients
+    lengths: NDArray[np.int64]  # (room,): cubics of each region's contour
+    cubics: NDArray[np.float64]  # (room, 4, 2): of all regions
+    counts: NDArray[np.int64]  # (5,): `GRADIENTS` to `CUBICS`
+    reach: NDArray[np.float64]  # (1,): largest coordinate of a region before it was clipped
 
 
-class RampShape(IntEnum):
-    """Shape of the lines of equal colour: a point, lines, nested circles, touching circles, or circles of a cone."""
-
-    FLAT = 0
-    LINES = 1
-    NESTED = 2
-    TOUCHING = 3
-    CONE = 4
-
-
-def _kind(gradient: Gradient) -> RampShape:
-    (a, b, _), (d, e, _) = gradient.to_ramp
-    if gradient.focus is None:
-        return RampShape.LINES if a != 0.0 or b != 0.0 else RampShape.FLAT
-    if a * e - b * d == 0.0:
-        return RampShape.FLAT
-    focus, radius = gradient.focus
-    beyond = focus - abs(1.0 - radius)
-    return (
-        RampShape.NESTED
-        if beyond < -CLOSE
-        else RampShape.TOUCHING
-        if beyond <= CLOSE and radius != 1.0
-        else RampShape.CONE
+@kernel
+def new_bands(room: int) -> BandList:
+    """Make an empty list; `room` must be a power of two."""
+    return BandList(
+        np.empty((room, 11)),
+        np.empty((room, 5)),
+        np.zeros(2 * room, np.int64),
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
+        np.empty((room, 4, 2)),
+        np.zeros(5, np.int64),
+        np.zeros(1),
     )
 
 
-def _outwards(gradient: Gradient) -> Gradient:
-    """Rewrite a gradient of nested circles so that its last circle is the largest."""
-    if gradient.focus is None or gradient.focus[1] < 1.0:
-        return gradient
-    (a, b, c), (d, e, f), (focus, radius) = *gradient.to_ramp, gradient.focus
-    rows = (-a / radius, -b / radius, (focus - c) / radius), (d / radius, e / radius, f / radius)
-    stops = tuple(Stop(1.0 - stop.offset, stop.color, stop.opacity) for stop in gradient.stops[::-1])
-    return Gradient(rows, stops, gradient.spread, (focus / radius, 1.0 / radius))
+@kernel
+def _with_room(found: BandList, stops: int, cubics: int) -> BandList:
+    """Make room for another gradient with so many stops, another band and another region."""
+    counts, slots, hashes = found.counts, found.slots, longer(found.hashes, found.counts[GRADIENTS] + 1)
+    if 2 * counts[GRADIENTS] >= len(slots):
+        slots = np.zeros(4 * len(slots), np.int64)
+        for number in range(counts[GRADIENTS]):
+            slot = hashes[number] & (len(slots) - 1)
+            while slots[slot] != 0:
+                slot = (slot + 1) & (len(slots) - 1)
+            slots[slot] = number + 1
+    return BandList(
+        longer(found.rows, counts[GRADIENTS] + 1),
+        longer(found.stops, counts[STOPS] + stops),
+        slots,
+        hashes,
+        longer(found.bands, counts[BANDS] + 1),
+        longer(found.lengths, counts[REGIONS] + 1),
+        longer(found.cubics, counts[CUBICS] + cubics),
+        counts,
+        found.reach,
+    )
 
 
-def _within(gradient: Gradient, kind: RampShape, box: Box, at_all_stops: bool) -> Bands:
-    """Bands of a gradient in the part of a box that it paints."""
-    whole = Bands((gradient,), ())
-    low, high = _reach(gradient, kind, box)
-    if gradient.spread is not Spread.PAD and high - low > MOST_BANDS:
-        return whole
-    knots = _between(_going_on(gradient, low, high), low, high)
-    steep = np.inf if at_all_stops else _places_in(gradient, kind, STEEP)
-    parts = [k for k, knot in enumerate(knots) if _jumps(knot) or _is_beside_ramp(knots, k, steep)]
-    parts = [k for k in parts if low < knots[k].place < high]
-    at_side = [knot for knot in knots if 0.0 <= max(low - knot.place, knot.place - high) < CLOSE]
-    is_cut = len(parts) > 0 or (gradient.spread is Spread.PAD and any(map(_jumps, at_side)))
-    if not is_cut or len(parts) >= MOST_BANDS:
-        return whole
-    bands = [
-        _band(gradient, knots[a : b + 1], k > 0 or knots[a].place <= low, k < len(parts) or knots[b].place >= high)
-        for k, (a, b) in enumerate(pairwise([0, *parts, len(knots) - 1]))
-    ]
-    regions = [_region(gradient, kind, knots[k].place, box) for k in parts]
-    if kind is not RampShape.LINES:  # each lies in the next one
-        bands, regions = bands[::-1], regions[::-1]
-        regions = regions[: next((k for k, one in enumerate(regions) if len(one) == 0), len(regions))]
-    return Bands(tuple(bands[: len(regions) + 1]), tuple(regions))
+@kernel(allocates=False)
+def _hash_of(values: NDArray[np.float64], count: int, key: int) -> int:
+    """Mix numbers into a hash; 0 and -0 are equal."""
+    for k in range(count):
+        part, low = values[k] * 0.7548776662466927, 0
+        while abs(part) >= 9.0e15:
+            part *= 2.0**-40
+        low = int(np.floor(part))
+        for word in (low, int((part - low) * 9.0e15)):
+            key = (key ^ word) * 0x5851F42D4C957F2D
+            key ^= key >> 29
+    return key
 
 
-def _differ(one: Stop, other: Stop) -> bool:
-    """Whether two stops differ visibly."""
-    return (one.color, one.opacity) != (other.color, other.opacity) and max(one.opacity, other.opacity) > 0.0
+@kernel(allocates=False)
+def _is_equal(found: BandList, number: int, row: NDArray[np.float64], stops: NDArray[np.float64]) -> bool:
+    """Whether a listed gradient equals another one."""
+    known = found.rows[number]
+    if known[COUNT] != len(stops):
+        return False
+    for c in range(FIRST):
+        if known[c] != row[c]:
+            return False
+    first = int(known[FIRST])
+    for k in range(len(stops)):
+        for c in range(5):
+            if found.stops[first + k, c] != stops[k, c]:
+                return False
+    return True
 
 
-def _jumps(knot: Knot) -> bool:
-    """Whether the colour jumps at a knot."""
-    return _differ(knot.before, knot.after)
+@kernel
+def add_band(found: BandList, row: NDArray[np.float64], stops: NDArray[np.float64]) -> BandList:
+    """Append a band; its gradient is new, or one that is listed already."""
+    found = _with_room(found, len(stops), 0)
+    counts, slots = found.counts, found.slots
+    key = _hash_of(row, FIRST, len(stops))
+    for k in range(len(stops)):
+        key = _hash_of(stops[k], 5, key)
+    slot = key & (len(slots) - 1)
+    while slots[slot] != 0 and not _is_equal(found, slots[slot] - 1, row, stops):
+        slot = (slot + 1) & (len(slots) - 1)
+    if slots[slot] == 0:
+        number = counts[GRADIENTS]
+        for c in range(FIRST):
+            found.rows[number, c] = row[c]
+        found.rows[number, FIRST], found.rows[number, COUNT] = counts[STOPS], len(stops)
+        for k in range(len(stops)):
+            for c in range(5):
+                found.stops[counts[STOPS] + k, c] = stops[k, c]
+        found.hashes[number], slots[slot] = key, number + 1
+        counts[GRADIENTS], counts[STOPS] = number + 1, counts[STOPS] + len(stops)
+    found.bands[counts[BANDS]] = slots[slot] - 1
+    counts[BANDS] += 1
+    return found
 
 
-def _is_beside_ramp(knots: list[Knot], k: int, most: float) -> bool:
-    """Whether the colour changes between a knot and the one before or after, less than `most` places away."""
-    beside = pairwise(knots[max(k - 1, 0) : k + 2])
-    return any(_differ(one.after, other.before) and other.place - one.place < most for one, other in beside)
+@kernel
+def _add_region(found: BandList, contour: NDArray[np.float64]) -> BandList:
+    """Append a region."""
+    found = _with_room(found, 0, len(contour))
+    counts = found.counts
+    for k in range(len(contour)):
+        for p in range(4):
+            for axis in range(2):
+                found.cubics[counts[CUBICS] + k, p, axis] = contour[k, p, axis]
+    found.lengths[counts[REGIONS]] = len(contour)
+    counts[REGIONS], counts[CUBICS] = counts[REGIONS] + 1, counts[CUBICS] + len(contour)
+    return found
 
 
-def _places_in(gradient: Gradient, kind: RampShape, length: float) -> float:
-    """Length of a ramp that a length of the unit square spans; approximate for circles with several centres."""
-    rows = np.array(gradient.to_ramp)[: 1 if kind is RampShape.LINES else 2, :2]
-    grows = 1.0 if gradient.focus is None else 1.0 - gradient.focus[1]
-    return length * float(np.linalg.norm(rows, 2)) / grows
+@kernel
+def add_bands(
+    found: BandList, row: NDArray[np.float64], stops: NDArray[np.float64], box: NDArray[np.float64], at_all_stops: int
+) -> BandList:
+    """Append the bands of a gradient in a box, and the regions that separate them.
+
+    It is one band without regions if the ramp does not jump there, or jumps too often. If `at_all_stops` is 1, soft
+    stops separate bands, too, because the blended ramp may jump there. `row` and `stops` may be written to.
+    """
+    shape = shape_of_ramp(row)
+    if shape == FLAT or (row[FOCUS] == 0.0 and row[RADIUS] == 1.0):  # one circle for all places paints nothing
+        return add_band(found, row, stops)
+    if shape == NESTED:
+        turn_outwards(row, stops)
+    if shape >= TOUCHING:
+        nothing, flat = row.copy(), np.zeros((1, 5))
+        nothing[SPREAD], nothing[FOCUS], nothing[RADIUS] = PAD, -1.0, -1.0
+        found = add_band(found, nothing, flat)
+        found = _add_region(found, swept_region(row, box, found.reach))
+    if row[FOCUS] >= 0.0 and row[RADIUS] >= 1.0:
+        return add_band(found, row, stops)
+    low, high = reach_of_ramp(row, shape, box)
+    if row[SPREAD] != PAD and not high - low <= MOST_BANDS:
+        return add_band(found, row, stops)
+    own = stops_of_period(stops, int(row[SPREAD]))
+    knots = knots_of(own, int(row[SPREAD]), low, high)
+    parts = _parts_of(row, own, knots, shape, (low, high), at_all_stops)
+    if len(parts) == 0:
+        return add_band(found, row, stops)
+    return _add_parts(found, row, own, knots, parts, (low, high), box, shape)
 
 
-def _reach(gradient: Gradient, kind: RampShape, box: Box) -> tuple[float, float]:
-    """Lower and upper bound of the places on the ramp in a box; for circles, the lower is where the radius is 0."""
-    corners = np.array([(x, y, 1.0) for x in box[:, 0] for y in box[:, 1]]) @ np.array(gradient.to_ramp).T
-    if gradient.focus is None:
-        return float(corners[:, 0].min()), float(corners[:, 0].max())
-    focus, radius = gradient.focus
-    grows = 1.0 - radius
-    if kind is RampShape.TOUCHING:
-        return -np.inf, np.inf
-    if kind is RampShape.NESTED:
-        return -radius / grows, max(_place(focus, radius, x, y) for x, y in corners.tolist())
-    # the distance of a circle of radius r from the tip is r (focus / grows - 1)
-    away = float(np.linalg.norm(corners - (focus / grows, 0.0), axis=1).max())
-    return -radius / grows, (away / (focus / grows - 1.0) - radius) / grows
+@kernel
+def _parts_of(
+    row: NDArray[np.float64],
+    own: NDArray[np.float64],
+    knots: Knots,
+    shape: int,
+    within: tuple[float, float],
+    at_all_stops: int,
+) -> NDArray[np.int64]:
+    """First knot, the knots that separate bands, and the last knot; none if the ramp is one band."""
+    low, high = within
+    count = len(knots.place)
+    grows = 1.0 if row[FOCUS] < 0.0 else 1.0 - row[RADIUS]
+    steep = np.inf if at_all_stops == 1 else STEEP * scale_of_ramp(row)[0] / grows
+    parts, n, is_cut = np.zeros(count + 2, np.int64), 1, False
+    for k in range(count):
+        place = knots.place[k]
+        if low < place < high and (jumps(knots, own, k) or is_beside_ramp(knots, own, k, steep)):
+            parts[n], is_cut = k, True
+            n += 1
+        if row[SPREAD] == PAD and 0.0 <= max(low - place, place - high) < CLOSE and jumps(knots, own, k):
+            is_cut = True
+    parts[n] = count - 1
+    return parts[: n + 1 if is_cut and n <= MOST_BANDS else 0]
 
 
-def _place(focus: float, radius: float, x: float, y: float) -> float:
-    """Place of a point on the ramp of nested circles: the greatest root, as in FORMAT.md, D.6."""
-    grows = 1.0 - radius
-    a = focus * focus - grows * grows
-    b = radius * grows - (x - focus) * focus
-    c = (x - focus) ** 2 + y * y - radius * radius
-    return float((b - np.sqrt(max(b * b - a * c, 0.0))) / a)
+@kernel
+def _add_parts(
+    found: BandList,
+    row: NDArray[np.float64],
+    own: NDArray[np.float64],
+    knots: Knots,
+    parts: NDArray[np.int64],
+    within: tuple[float, float],
+    box: NDArray[np.float64],
+    shape: int,
+) -> BandList:
+    """Append the bands between the knots that separate them; of circles, each region lies in the one before it."""
+    count, is_linear = len(parts) - 1, row[FOCUS] < 0.0
+    low, high = within
+    for n in range(count):
+        k = n if is_linear else count - 1 - n
+        a, b = parts[k], parts[k + 1]
+        is_begun = k > 0 or knots.place[a] <= low
+        is_ended = k < count - 1 or knots.place[b] >= high
+        found = _add_part(found, row, own, knots, (a, b), is_begun, is_ended)
+        if n == count - 1:
+            break
+        contour = region_of(row, shape, knots.place[b if is_linear else a], box, found.reach)
+        if not is_linear and len(contour) == 0:
+            break
+        found = _add_region(found, contour)
+    return found
 
 
-def _going_on(gradient: Gradient, low: float, high: float) -> list[Knot]:
-    """Knots of a ramp in order, including those of all repetitions that meet an interval."""
-    own = list(gradient.stops)
-    if gradient.spread is Spread.PAD:
-        return _knots([(stop.offset, stop) for stop in own])
-    own = [Stop(0.0, own[0].color, own[0].opacity), *own, Stop(1.0, own[-1].color, own[-1].opacity)]
-    placed: list[tuple[float, Stop]] = []
-    for period in range(floor(low), ceil(high) + 1):
-        if gradient.spread is Spread.REFLECT and period % 2 == 1:
-            placed += [(period + 1.0 - stop.offset, stop) for stop in own[::-1]]
-        else:
-            placed += [(period + stop.offset, stop) for stop in own]
-    return _knots(placed)
-
-
-def _between(knots: list[Knot], low: float, high: float) -> list[Knot]:
-    """The knots in an interval, and the next one on each side."""
-    first = max((k for k, knot in enumerate(knots) if knot.place <= low), default=0)
-    last = min((k for k, knot in enumerate(knots) if knot.place >= high), default=len(knots) - 1)
-    return knots[first : last + 1]
-
-
-def _knots(placed: list[tuple[float, Stop]]) -> list[Knot]:
-    """The knots of stops at their places, in order."""
-    alike = [[*group] for _, group in groupby(placed, key=itemgetter(0))]
-    return [Knot(group[0][0], group[0][1], group[-1][1]) for group in alike]
-
-
-def _band(gradient: Gradient, knots: list[Knot], is_begun: bool, is_ended: bool) -> Gradient:
-    """Gradient of the part of a ramp between two knots, padded, with places from 0 to 1.
+@kernel
+def _add_part(
+    found: BandList,
+    row: NDArray[np.float64],
+    own: NDArray[np.float64],
+    knots: Knots,
+    ends: tuple[int, int],
+    is_begun: bool,
+    is_ended: bool,
+) -> BandList:
+    """Append the gradient of the part of a ramp between two knots, padded, with places from 0 to 1.
 
     If `is_begun`, only the later side of the first knot belongs to the part; if `is_ended`, only the earlier side of
     the last knot does.
     """
-    placed = [(knot.place, stop) for knot in knots for stop in (knot.before, knot.after)]
-    placed = placed[1 if is_begun else 0 : -1 if is_ended else len(placed)]
-    stops = [stop for _, stop in placed]
-    if all(not _differ(stops[0], stop) for stop in stops):
-        return Gradient(gradient.to_ramp, (Stop(0.0, stops[0].color, stops[0].opacity),), focus=gradient.focus)
-    placed = [one for k, one in enumerate(placed) if k == 0 or one != placed[k - 1]]
-    if gradient.spread is Spread.PAD and _kind(gradient) is RampShape.TOUCHING:  # float32 would part circles that touch
-        return Gradient(gradient.to_ramp, tuple(stop for _, stop in placed), focus=gradient.focus)
-    if gradient.focus is not None:
-        placed = _from(placed, -gradient.focus[1] / (1.0 - gradient.focus[1]))
-    start, end = placed[0][0], placed[-1][0]
-    to_ramp, focus = _stretch_ramp(gradient, start, end)
-    shares = [min(max((place - start) / (end - start), 0.0), 1.0) for place, _ in placed]
-    moved = tuple(Stop(at, stop.color, stop.opacity) for at, (_, stop) in zip(shares, placed, strict=True))
-    return Gradient(to_ramp, moved, focus=focus)
+    part = row.copy()
+    part[SPREAD] = PAD
+    places, stops = _placed_stops(own, knots, ends, is_begun, is_ended)
+    count, is_flat = len(places), True
+    for k in range(1, count):
+        is_flat = is_flat and not differ(stops, 0, k)
+    if is_flat:
+        stops[0, OFFSET] = 0.0
+        return add_band(found, part, stops[:1])
+    count = _drop_repeated(places, stops)
+    if row[SPREAD] == PAD and shape_of_ramp(row) == TOUCHING:  # float32 would part circles that touch
+        return add_band(found, part, stops[:count])
+    first = 0
+    if row[FOCUS] >= 0.0:
+        first = _cut_start(places, stops, count, -row[RADIUS] / (1.0 - row[RADIUS]))
+    start, end = places[first], places[count - 1]
+    _stretch(part, start, end)
+    for k in range(first, count):
+        stops[k, OFFSET] = min(max((places[k] - start) / (end - start), 0.0), 1.0)
+    return add_band(found, part, stops[first:count])
 
 
-def _from(placed: list[tuple[float, Stop]], start: float) -> list[tuple[float, Stop]]:
-    """Stops of a ramp from a place on, at which the radius of the circle is 0."""
-    first = next(k for k, (place, _) in enumerate(placed) if place > start)
+@kernel
+def _placed_stops(
+    own: NDArray[np.float64], knots: Knots, ends: tuple[int, int], is_begun: bool, is_ended: bool
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Stops of a part of a ramp, and the places of these stops."""
+    first, last = 2 * ends[0] + (1 if is_begun else 0), 2 * ends[1] + (1 if is_ended else 2)
+    places, stops = np.empty(last - first), np.empty((last - first, 5))
+    for at in range(first, last):
+        knot = at >> 1
+        stop = knots.before[knot] if at & 1 == 0 else knots.after[knot]
+        places[at - first] = knots.place[knot]
+        for c in range(5):
+            stops[at - first, c] = own[stop, c]
+    return places, stops
+
+
+@kernel(allocates=False)
+def _drop_repeated(places: NDArray[np.float64], stops: NDArray[np.float64]) -> int:
+    """Leave out stops that equal the one before at the same place; return the number of the others."""
+    count = 1
+    for k in range(1, len(places)):
+        is_same = places[k] == places[count - 1]
+        for c in range(5):
+            is_same = is_same and stops[k, c] == stops[count - 1, c]
+        if not is_same:
+            places[count] = places[k]
+            for c in range(5):
+                stops[count, c] = stops[k, c]
+            count += 1
+    return count
+
+
+@kernel(allocates=False)
+def _cut_start(places: NDArray[np.float64], stops: NDArray[np.float64], count: int, start: float) -> int:
+    """Begin a ramp at a place, at which the radius of the circle is 0; return the first of the stops that are left."""
+    first = 0
+    while first < count - 1 and places[first] <= start:
+        first += 1
     if first == 0:
-        return placed
-    (low, one), (high, other) = placed[first - 1 : first + 1]
-    share = (start - low) / (high - low)
-    red, green, blue = ((1.0 - share) * a + share * b for a, b in zip(one.color, other.color, strict=True))
-    opacity = (1.0 - share) * one.opacity + share * other.opacity
-    return [(start, Stop(0.0, (red, green, blue), opacity)), *placed[first:]]
+        return 0
+    low = first - 1
+    share = (start - places[low]) / (places[first] - places[low])
+    for c in range(4):
+        stops[low, c] = (1.0 - share) * stops[low, c] + share * stops[first, c]
+    places[low] = start
+    return low
 
 
-def _stretch_ramp(gradient: Gradient, start: float, end: float) -> tuple[Affine, tuple[float, float] | None]:
-    """Compute the map and focus of a gradient that spans the part from `start` to `end` of another gradient."""
-    (a, b, c), (d, e, f) = gradient.to_ramp
+@kernel(allocates=False)
+def _stretch(row: NDArray[np.float64], start: float, end: float) -> None:
+    """Let a gradient span the part of its ramp from `start` to `end`."""
     size = end - start
-    if gradient.focus is None:
-        return ((a / size, b / size, (c - start) / size), (d, e, f)), None
-    focus, radius = gradient.focus
+    if row[FOCUS] < 0.0:
+        row[0], row[1], row[2] = row[0] / size, row[1] / size, (row[2] - start) / size
+        return
+    focus, radius = row[FOCUS], row[RADIUS]
     inner, outer = radius + (1.0 - radius) * start, radius + (1.0 - radius) * end
     move = focus * (1.0 - end)  # middle of the outer circle
-    rows = (a / outer, b / outer, (c - move) / outer), (d / outer, e / outer, f / outer)
-    return rows, (focus * size / outer, max(inner / outer, 0.0))
-
-
-def _region(gradient: Gradient, kind: RampShape, place: float, box: Box) -> NDArray[np.float64]:
-    """Contour of the part of a box that is beyond a place on a linear ramp, or before a place on a radial one."""
-    (a, b, c), (d, e, _) = gradient.to_ramp
-    if gradient.focus is None:
-        return _beyond(np.array([a, b]), place - c, box)
-    focus, radius = gradient.focus
-    middle, size = focus * (1.0 - place), radius + (1.0 - radius) * place
-    if size <= 0.0:
-        return np.zeros((0, 4, 2))
-    tolerance = ROUND * float(np.linalg.norm([[a, b], [d, e]], -2))
-    if kind is not RampShape.CONE:
-        return _from_ramp(gradient, ellipse_cubics((middle, 0.0), (size, size), tolerance), box)
-    # in a cone, the places before one lie between its tip and the arc of the circle that faces it
-    tip, turn = focus / (1.0 - radius), np.arccos((1.0 - radius) / focus)
-    steps = turn_steps(2.0 * turn, size, tolerance)
-    angles = np.linspace(-turn, turn, steps + 1)
-    ends = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    handles = 4.0 / 3.0 * np.tan(turn / (2.0 * steps)) * np.stack([-ends[:, 1], ends[:, 0]], axis=1)
-    arc = np.stack([ends[:-1], ends[:-1] + handles[:-1], ends[1:] - handles[1:], ends[1:]], axis=1)
-    arc = size * arc + (middle, 0.0)
-    corner = np.array([[tip, 0.0]])
-    sides = line_cubics(np.stack([arc[-1, 3], corner[0]]), np.stack([corner[0], arc[0, 0]]))
-    return _from_ramp(gradient, np.concatenate([arc, sides]), box)
-
-
-def _cone(gradient: Gradient, box: Box) -> NDArray[np.float64]:
-    """Part of a box that the circles sweep: a half-plane if they touch, a strip if they are equal, else a cone."""
-    assert gradient.focus is not None
-    focus, radius = gradient.focus
-    grows = 1.0 - radius
-    sine = min(abs(grows) / focus, 1.0)
-    corners = np.array([(x, y, 1.0) for x in box[:, 0] for y in box[:, 1]]) @ np.array(gradient.to_ramp).T
-    tip = np.array([focus / grows if grows != 0.0 else 0.0, 0.0])
-    far = 4.0 * float(np.abs(corners - tip).max())
-    away = np.array([-far if grows > 0.0 else far, 0.0])  # the circles are larger there
-    if grows == 0.0:
-        points = np.array([(-far, 1.0), (far, 1.0), (far, -1.0), (-far, -1.0)])
-    else:
-        up = (1.0 - sine * sine) ** 0.5 * away + (0.0, sine * far)
-        down = up * (1.0, -1.0)
-        points = tip + np.array([0.0 * up, up, up + away, down + away, down])
-    return _from_ramp(gradient, line_cubics(points, np.roll(points, -1, axis=0)), box)
-
-
-def _from_ramp(gradient: Gradient, contour: NDArray[np.float64], box: Box) -> NDArray[np.float64]:
-    """Map a contour from the ramp's plane to the unit square and clip it to a box; empty if it lies outside."""
-    (a, b, c), (d, e, f) = gradient.to_ramp
-    contour = (contour - (c, f)) @ np.linalg.inv([[a, b], [d, e]]).T
-    if (contour.min(axis=(0, 1)) >= box[1]).any() or (contour.max(axis=(0, 1)) <= box[0]).any():
-        return contour[:0]
-    contour, _ = clip_contours(contour, np.array([len(contour)]), box[0], box[1])
-    contour[:, 3] = np.roll(contour[:, 0], -1, axis=0)
-    return contour
-
-
-def _beyond(normal: NDArray[np.float64], level: float, box: Box) -> NDArray[np.float64]:
-    """Contour of the part of a box in which a linear function is at least `level` (Sutherland and Hodgman, 1974)."""
-    (x0, y0), (x1, y1) = box.tolist()
-    corners = [np.array(corner) for corner in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
-    found: list[NDArray[np.float64]] = []
-    for one, other in pairwise([*corners, corners[0]]):
-        p, q = float(normal @ one) - level, float(normal @ other) - level
-        found += [one] if p >= 0.0 else []
-        found += [np.clip(one + (other - one) * (p / (p - q)), box[0], box[1])] if (p >= 0.0) != (q >= 0.0) else []
-    points = np.array(found).reshape(-1, 2)
-    return line_cubics(points, np.roll(points, -1, axis=0))
+    row[0], row[1], row[2] = row[0] / outer, row[1] / outer, (row[2] - move) / outer
+    row[3], row[4], row[5] = row[3] / outer, row[4] / outer, row[5] / outer
+    row[FOCUS], row[RADIUS] = focus * size / outer, max(inner / outer, 0.0)

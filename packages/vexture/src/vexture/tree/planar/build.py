@@ -6,7 +6,7 @@ paths becomes part of the cell's *ground*, the face on which the listed paths ar
 list even under hundreds of layers.
 """
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +14,12 @@ from numpy.typing import NDArray
 from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError, SourceError
 from vexture.base.kernels import kernel
-from vexture.base.layout import LATTICE, MOST_PAINTS, PAINT_ONE
+from vexture.base.layout import LATTICE, MOST_PAINTS
 from vexture.base.tolerance import CLOSED
 from vexture.drawing.drawing import Drawing
-from vexture.drawing.paint import Gradient
+from vexture.drawing.unit_square import FARTHEST
 from vexture.tree.bounds import DEFAULT_DEPTH, Bounds, bounds_of, check_growth
 from vexture.tree.build import CELL, SLICE, new_growth
-from vexture.tree.cubics import cubics_and_paths
 from vexture.tree.divide import PARTS, Cell, divide
 from vexture.tree.growth import (
     COUNT,
@@ -37,21 +36,29 @@ from vexture.tree.growth import (
     UNRESOLVED,
     WAITING,
     WHOLE,
-    first_of,
     has_room,
 )
 from vexture.tree.leaf import DIVIDE
 from vexture.tree.parts import LARGE, usual_threads
 from vexture.tree.planar.borders import key_of
-from vexture.tree.planar.faces import CellFaces, FaceTable, face_of, new_faces, roomier_faces
-from vexture.tree.planar.growth import BASE, IS_MEAN, PlanarGrowth, State, growth_from_tuples, with_room
-from vexture.tree.planar.layers import PlanarLayers, Rows, layers_of, looks_of, rows_of
+from vexture.tree.planar.faces import FIRST_ROOM, CellFaces, FaceTable, face_of, new_faces, roomier_faces
+from vexture.tree.planar.growth import (
+    BASE,
+    IS_MEAN,
+    PlanarGrowth,
+    State,
+    planar_growth_from,
+    state_from,
+    with_map_room,
+)
+from vexture.tree.planar.layers import PlanarLayers, layers_of
 from vexture.tree.planar.leaf import PlanarLeaf, PlanarWorkspace, new_workspace, planar_leaf
-from vexture.tree.planar.map import PlanarMap, texels_of
+from vexture.tree.planar.map import PlanarMap, arrange_map, map_arrays_from, texels_of
 from vexture.tree.planar.means import add_programs, set_flat_mean
 from vexture.tree.planar.parts import grow_map_parts
-from vexture.tree.planar.programs import programs_of
-from vexture.tree.tree import MOST_QUADS, levels, runs
+from vexture.tree.planar.rows import rows_of
+from vexture.tree.planar.source import MapSource, source_of
+from vexture.tree.tree import MOST_QUADS
 from vexture.tree.winding import child_windings, inside
 
 
@@ -65,8 +72,8 @@ class PlanarWork(NamedTuple):
     leaf: PlanarWorkspace
 
 
-SHORT_SLICE = SLICE // 8
-"""Work between two checks of the number of texels, where it is limited."""
+MOST_WORDS: Final = 1 << 40
+"""More texels than any map has, where their number is not limited."""
 
 DEFAULT_MAP_CAPACITY = 12
 """Pieces in a leaf of a map, in which more cells cut a border than in a silhouette. With 14, maps take 4 to 7 % fewer
@@ -222,50 +229,61 @@ def _means(growth: PlanarGrowth) -> None:
                 below += 1
 
 
+@kernel(ahead=True)
+def plant_map(
+    source: MapSource, max_depth: int, restyle: int
+) -> tuple[PlanarGrowth, PlanarLayers, FaceTable, float, float]:
+    """Make the undivided unit square, its layers and faces.
+
+    Also return how far the outline lies outside it, and the largest coordinate of a band of a gradient.
+    """
+    rows = rows_of(source, restyle)
+    layers = layers_of(source, rows, restyle)
+    tree, outside = new_growth(rows.cubics, rows.owner, max_depth, False)
+    growth = PlanarGrowth(
+        tree,
+        np.zeros(len(tree.stack), np.int64),
+        np.zeros((len(tree.cells), 4, 4)),
+        np.zeros((len(tree.curves), 2), np.int64),
+    )
+    return growth, layers, new_faces(FIRST_ROOM, FIRST_ROOM), outside, rows.reach
+
+
 @kernel(ahead=True, shares=True)
 def grow_map(
-    growth: PlanarGrowth, layers: PlanarLayers, faces: FaceTable, bounds: Bounds, most_work: int, aside: int
-) -> None:
-    """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done.
+    growth: PlanarGrowth,
+    layers: PlanarLayers,
+    faces: FaceTable,
+    bounds: Bounds,
+    most_texels: int,
+    most_work: int,
+    aside: int,
+) -> tuple[PlanarGrowth, FaceTable]:
+    """Divide cells, depth first, until none waits, quads or texels are too many, or `most_work` is done.
 
-    Unless `aside` is 0, also stop before a cell whose list is no longer than `aside`.
+    Unless `aside` is 0, also stop before a cell whose list is no longer than `aside`. Returns the map and its faces.
+    The given ones are no longer valid: some of their arrays may be those of the new ones.
     """
-    tree = growth.tree
-    stack, counts, paths, in_cell = tree.stack, tree.counts, len(layers.rules), 0
+    stack, counts, paths, in_cell = growth.tree.stack, growth.tree.counts, len(layers.rules), 0
     for k in range(counts[WAITING]):
         in_cell = max(in_cell, PARTS * (stack[k, LAST] - stack[k, FIRST]))
     row = np.empty(stack.shape[1], np.int64)
     child_at, windings = np.empty(9, np.int64), np.empty((paths, 8), np.int64)
     work = PlanarWork(np.empty(len(counts), np.int64), row, child_at, windings, new_workspace(paths, in_cell))
-    while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
+    while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0:
         top = counts[WAITING] - 1
         listed = stack[top, LAST] - stack[top, FIRST]
-        if aside > 0 and listed <= aside:
-            return
+        if (aside > 0 and listed <= aside) or texels_of(counts[QUADS], counts[CURVES]) > most_texels:
+            return growth, faces
+        if not has_room(growth.tree):
+            growth = with_map_room(growth)
         most_work -= CELL + listed
         _grow_quad(growth, layers, faces, bounds, work)
         if faces.counts[1] != 0:
-            break
+            faces = roomier_faces(faces)
     if counts[WAITING] == 0:
         _means(growth)
-
-
-@kernel(ahead=True)
-def plant_map(cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: int) -> tuple[PlanarGrowth, float]:
-    """Make the undivided unit square; also return how far the outline lies outside it."""
-    tree, outside = new_growth(cubics, owner, max_depth, False)
-    has_room(tree)  # writes the rows that the first cell needs
-    return PlanarGrowth(
-        tree,
-        np.zeros(len(tree.stack), np.int64),
-        np.zeros((len(tree.cells), 4, 4)),
-        np.zeros((len(tree.curves), 2), np.int64),
-    ), outside
-
-
-def row_cubics(rows: Rows) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Cubics of rows, (n, 4, 2), and the number of each cubic's row, (n,)."""
-    return cubics_and_paths([path.contours for path in rows.paths])
+    return growth, faces
 
 
 def build_map(
@@ -299,67 +317,50 @@ def build_map(
     (1, array([1., 0., 0., 1.]), array([0., 0., 0., 1.]))
     """
     bounds = bounds_of(tolerance, max_depth, capacity, precision, most_quads, DEFAULT_MAP_CAPACITY)
-    rows = rows_of(drawing, restyle)
-    layers = layers_of(rows, drawing.groups, looks_of(drawing) if restyle else None)
+    source = source_of(drawing, restyle)
     check_time(drawing.name)
-    root, outside = plant_map(*row_cubics(rows), max_depth)
+    *root, outside, reach = plant_map(source, max_depth, int(restyle))
+    check_reach(reach)
     if not outside <= CLOSED:  # NaN counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
+    most = MOST_WORDS if most_texels is None else most_texels
 
     def step(state: State, aside: int) -> State:
-        growth, layers, faces = state
-        check_growth(int(growth.tree.counts[QUADS]), most_quads, drawing.name)
-        growth, faces = with_room(growth), roomier_faces(faces) if faces.counts[1] else faces
-        grow_map(growth, layers, faces, bounds, SLICE if most_texels is None else SHORT_SLICE, aside)
-        return State(growth, layers, faces)
+        check_growth(int(state.growth.tree.counts[QUADS]), most_quads, drawing.name)
+        growth, faces = grow_map(*state, bounds, most, SLICE, aside)
+        return State(planar_growth_from(growth), state.layers, FaceTable(*faces))
 
     def check(quads: int, curves: int) -> bool:
         check_growth(quads, most_quads, drawing.name)
-        return most_texels is None or texels_of(quads, curves) <= most_texels
+        return texels_of(quads, curves) <= most
 
-    state = State(growth_from_tuples(*root), layers, new_faces())
+    state = state_from(*root)
     # only drawings with hidden paths: parts number paints in another order, and other drawings must keep their bytes
-    if restyle and layers.hides.any() and state.growth.tree.stack[0, LAST] > LARGE:
+    if restyle and state.layers.hides.any() and state.growth.tree.stack[0, LAST] > LARGE:
         grown = grow_map_parts(state, step, usual_threads() if threads is None else threads, check)
-        return None if grown is None else _map_of(drawing.name, rows.gradients, grown)
+        return None if grown is None else map_of(drawing.name, grown)
     while state.growth.tree.counts[WAITING] > 0:
         state = step(state, 0)
-        if most_texels is not None and not check(*state.growth.tree.counts[[QUADS, CURVES]].tolist()):
+        if not check(*state.growth.tree.counts[[QUADS, CURVES]].tolist()):
             return None
-    return _map_of(drawing.name, rows.gradients, state)
+    return map_of(drawing.name, state)
 
 
-def _map_of(name: str, gradients: tuple[Gradient, ...], state: State) -> PlanarMap:
-    """Make the final map, numbered as a `Tree`; paints are numbered in the order in which they were met."""
-    growth, layers, faces = state
-    tree, quads = growth.tree, growth.tree.counts[QUADS]
-    order = np.concatenate([*levels(tree.cells[:quads, :, IS_QUAD] == 1.0, tree.first[:, 0])])
-    cells = tree.cells[order]
-    is_quad, is_mean = cells[:, :, IS_QUAD] == 1.0, cells[:, :, IS_MEAN] == 1.0
-    below, pieces = is_quad.sum(axis=1), cells[:, :, COUNT].sum(axis=1).astype(np.int64)
-    curves = runs(tree.first[order, 1], pieces)
-    base = np.where(is_quad | is_mean, 0, cells[:, :, BASE]).astype(np.int64)
-    used, number = np.unique(np.concatenate([[0], base.ravel(), growth.sides[curves].ravel()]), return_inverse=True)
-    if len(used) > MOST_PAINTS:
-        raise LimitError(f"{name}: {len(used)} colours; the limit is {MOST_PAINTS}; use `split` paint")
-    begins, ends = faces.starts[used].tolist(), faces.starts[used + 1].tolist()
-    stacks = tuple(faces.paths[begin:end] for begin, end in zip(begins, ends, strict=True))
-    programs, flattened = programs_of(gradients, layers, stacks)
-    numbers: NDArray[np.int32] = number[1:].astype(np.int32)
-    return PlanarMap(
-        is_quad,
-        is_mean,
-        cells[:, :, COUNT].astype(np.uint8),
-        numbers[: base.size].reshape(base.shape),
-        first_of(below, 1),
-        first_of(pieces, 0),
-        growth.mean[order],
-        tree.curves[curves].astype(np.int32),
-        numbers[base.size :].reshape(-1, 2),
-        np.rint(PAINT_ONE * np.clip(faces.rgba[used], 0.0, 1.0)).astype(np.uint16),
-        programs,
-        stacks,
-        flattened,
-        float(tree.deviation[0]),
-        frozenset(np.flatnonzero(layers.hides).tolist()),
-    )
+def check_reach(reach: float) -> None:
+    """Raise a `SourceError` if a band of a gradient has a coordinate that is too far away."""
+    if not reach <= FARTHEST:
+        raise SourceError(
+            f"a coordinate is {reach:.3g} times the size of the drawing away; the limit is {FARTHEST:g}; "
+            "correct the coordinate or the view box"
+        )
+
+
+def map_of(name: str, state: State) -> PlanarMap:
+    """Make the final map; raise a `LimitError` if it has too many paints."""
+    arrays, starts, members, flattened = arrange_map(*state)
+    parts = map_arrays_from(arrays)
+    if len(parts.paints) > MOST_PAINTS:
+        raise LimitError(f"{name}: {len(parts.paints)} colours; the limit is {MOST_PAINTS}; use `split` paint")
+    deviation = float(state.growth.tree.deviation[0])
+    hiding = frozenset(np.flatnonzero(state.layers.hides).tolist())
+    return PlanarMap(*parts, starts, members, flattened, deviation, hiding)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
 from vexture.tree.planar.compose import ONE, Operations, compose, key_of_operations, new_operations
-from vexture.tree.planar.layers import PlanarLayers
+from vexture.tree.planar.layers import PlanarLayers, solid_layers
 from vexture.tree.winding import inside
 
 FIRST_ROOM = 1024
@@ -44,15 +44,29 @@ class CellFaces(NamedTuple):
     windings: NDArray[np.int64]  # (n or more,), scratch: windings of these paths at a point
 
 
-def new_faces(room: int = FIRST_ROOM, paths: int = FIRST_ROOM) -> FaceTable:
-    """Make a table that holds face 0; `room` must be a power of two."""
-    return _faces(room, paths)
+@kernel(ahead=True)
+def new_faces(room: int, paths: int) -> FaceTable:
+    """Make a table that holds face 0, with room for faces, a power of two, and for paths in their stacks."""
+    faces = FaceTable(
+        np.zeros(4 * room, np.int64),
+        np.zeros(4 * room, np.int64),
+        np.zeros(room, np.int64),
+        np.zeros((room, 4)),
+        np.zeros(room, np.int64),
+        np.zeros(room, np.int64),
+        np.zeros(room, np.int64),
+        np.zeros(room + 1, np.int64),
+        np.zeros(paths, np.int32),
+        np.zeros(2, np.int64),
+    )
+    faces.slots[0] = faces.paint_slots[0] = faces.counts[0] = 1
+    return faces
 
 
 def faces_with(faces: FaceTable, face: int) -> FaceTable:
     """Make a table of face 0 and, as face 1, a face of another table, unless that is face 0 itself."""
     start, end = faces.starts[face : face + 2]
-    out = new_faces(paths=max(FIRST_ROOM, int(end - start)))
+    out = FaceTable(*new_faces(FIRST_ROOM, max(FIRST_ROOM, int(end - start))))
     if face:
         for rows, given in zip(out[2:6], faces[2:6], strict=True):
             rows[1] = given[face]
@@ -83,31 +97,18 @@ def trim_faces(faces: FaceTable) -> FaceTable:
     )
 
 
-def _faces(room: int, paths: int) -> FaceTable:
-    faces = FaceTable(
-        np.zeros(4 * room, np.int64),
-        np.zeros(4 * room, np.int64),
-        np.zeros(room, np.int64),
-        np.zeros((room, 4)),
-        np.zeros(room, np.int64),
-        np.zeros(room, np.int64),
-        np.zeros(room, np.int64),
-        np.zeros(room + 1, np.int64),
-        np.zeros(paths, np.int32),
-        np.array([1, 0]),
-    )
-    faces.slots[0] = faces.paint_slots[0] = 1
-    return faces
-
-
+@kernel
 def roomier_faces(faces: FaceTable) -> FaceTable:
     """Copy a full table with twice the room for faces or for paths, whichever is full."""
-    count, room = int(faces.counts[0]), len(faces.keys)
-    out = _faces(2 * room, len(faces.paths)) if count == room else _faces(room, 2 * len(faces.paths))
-    for rows, old in zip(out[2:7], faces[2:7], strict=True):
-        rows[:count] = old[:count]
-    out.starts[: count + 1] = faces.starts[: count + 1]
-    out.paths[: faces.starts[count]] = faces.paths[: faces.starts[count]]
+    count, room, paths = faces.counts[0], len(faces.keys), len(faces.paths)
+    out = new_faces(2 * room, paths) if count == room else new_faces(room, 2 * paths)
+    for k in range(count):
+        out.keys[k], out.program[k], out.look[k] = faces.keys[k], faces.program[k], faces.look[k]
+        out.paint[k], out.starts[k + 1] = faces.paint[k], faces.starts[k + 1]
+        for c in range(4):
+            out.rgba[k, c] = faces.rgba[k, c]
+    for k in range(faces.starts[count]):
+        out.paths[k] = faces.paths[k]
     out.counts[0] = count
     refill(out)
     return out
@@ -179,7 +180,7 @@ def stack_of(faces: FaceTable, face: int) -> NDArray[np.int32]:
     return faces.paths[faces.starts[face] : faces.starts[face + 1]]
 
 
-@kernel(ahead=True)
+@kernel
 def operations_of(layers: PlanarLayers, stack: NDArray[np.int32]) -> tuple[int, Operations, int]:
     """Compose a stack; return the number of operations, the operations, and whether gradients became their means.
 
@@ -232,15 +233,26 @@ def _look_of(layers: PlanarLayers, stack: NDArray[np.int32]) -> int:
 
 @kernel
 def composite_stacks(
-    layers: PlanarLayers, starts: NDArray[np.int64], paths: NDArray[np.int32], out: NDArray[np.float64]
-) -> None:
-    """Write the colours (n, 4) of stacks, of which number k is `paths[starts[k] : starts[k + 1]]`."""
+    rgba: NDArray[np.float64],
+    group: NDArray[np.int64],
+    groups: NDArray[np.int64],
+    opacities: NDArray[np.float64],
+    starts: NDArray[np.int64],
+    members: NDArray[np.int32],
+) -> NDArray[np.float64]:
+    """Colours (n, 4) of stacks of flat colours, of which number k is `members[starts[k] : starts[k + 1]]`.
+
+    The first four arguments are those of `solid_layers`.
+    """
+    layers = solid_layers(rgba, group, groups, opacities)
+    out = np.zeros((len(starts) - 1, 4))
     for k in range(len(out)):
-        stack = paths[starts[k] : starts[k + 1]]
+        stack = members[starts[k] : starts[k + 1]]
         ops = new_operations(layers, stack)
-        count = compose(layers, stack, True, ops)
-        for c in range(4):
-            out[k, c] = ops.rgba[0, c] if count > 0 else 0.0
+        if compose(layers, stack, True, ops) > 0:
+            for c in range(4):
+                out[k, c] = ops.rgba[0, c]
+    return out
 
 
 @kernel(allocates=False)

@@ -5,9 +5,11 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.tree.growth import COVERAGE, WINDING, Growth, roomy, with_needed_room
+from vexture.base.kernels import kernel
+from vexture.tree.growth import COVERAGE, WINDING, Growth, growth_from, longer, with_room
 from vexture.tree.planar.faces import FaceTable
 from vexture.tree.planar.layers import PlanarLayers
+from vexture.tree.planar.shades import Shades
 
 BASE: Final = WINDING
 IS_MEAN: Final = COVERAGE
@@ -31,12 +33,20 @@ class State(NamedTuple):
     faces: FaceTable
 
 
-def growth_from_tuples(tree: tuple[Any, ...], *others: Any) -> PlanarGrowth:
-    """Make a `PlanarGrowth` from the plain tuples that `plant_map` returns."""
-    return PlanarGrowth(Growth(*tree), *others)
+def state_from(growth: Any, layers: Any, faces: Any) -> State:
+    """Make a `State` from the plain tuples that code compiled ahead of time returns."""
+    return State(planar_growth_from(growth), PlanarLayers(*(*layers[:-1], Shades(*layers[-1]))), FaceTable(*faces))
 
 
-def with_room(growth: PlanarGrowth) -> PlanarGrowth:
-    """Return the map with larger arrays where the next cell has no room."""
-    tree = with_needed_room(growth.tree)
-    return PlanarGrowth(tree, growth.ground, roomy(growth.mean, len(tree.cells)), roomy(growth.sides, len(tree.curves)))
+def planar_growth_from(values: Any) -> PlanarGrowth:
+    """Make a `PlanarGrowth` from plain tuples."""
+    return PlanarGrowth(growth_from(values[0]), *values[1:])
+
+
+@kernel
+def with_map_room(growth: PlanarGrowth) -> PlanarGrowth:
+    """Return the map with larger arrays where the next cell has no room, as `has_room` wrote."""
+    tree = with_room(growth.tree)
+    return PlanarGrowth(
+        tree, growth.ground, longer(growth.mean, len(tree.cells)), longer(growth.sides, len(tree.curves))
+    )

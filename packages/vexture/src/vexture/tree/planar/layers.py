@@ -1,33 +1,14 @@
 """The layers of a drawing, of which its faces are composited, as arrays."""
 
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing.drawing import Drawing, Path
-from vexture.drawing.group import Blend, Group, groups_around
-from vexture.drawing.paint import Gradient
-from vexture.tree.planar.bands import Bands, bands_of
-from vexture.tree.planar.shades import Shades, shades_of
-from vexture.tree.planar.style import elements_of
-
-MARGIN: Final = 2.0**-10
-"""Width by which the box for cutting a gradient exceeds its path, because their sides would coincide otherwise."""
-
-
-JUMPING: Final = {Blend.COLOR_DODGE, Blend.COLOR_BURN, Blend.HUE, Blend.SATURATION, Blend.COLOR, Blend.LUMINOSITY}
-"""Blend modes that jump where a component of a colour is 0 or 1, or where the colour is grey, mostly at stops."""
-
-
-class Rows(NamedTuple):
-    """The paths of a drawing, each followed by the regions that cut its gradient into bands."""
-
-    paths: tuple[Path, ...]
-    cut: NDArray[np.int64]  # row of the path that a region cuts; -1 for a path
-    shade: NDArray[np.int64]  # first of each path's `bands`, or -1
-    bands: NDArray[np.int64]  # numbers of gradients; the bands of one path are consecutive
-    gradients: tuple[Gradient, ...]
+from vexture.base.kernels import kernel
+from vexture.tree.planar.rows import Rows
+from vexture.tree.planar.shades import COUNT, FIRST, FOCUS, RADIUS, Shades
+from vexture.tree.planar.source import BLEND, ELEMENT, GRADIENT, GROUP, HIDES, MASK, OUTER, MapSource
 
 
 class PlanarLayers(NamedTuple):
@@ -53,86 +34,110 @@ class PlanarLayers(NamedTuple):
     shades: Shades
 
 
-def rows_of(drawing: Drawing, restyle: bool = False) -> Rows:
-    """Rows of a drawing; with `restyle` they are just its paths, because colours that can be changed are flat."""
-    numbers: dict[Gradient, int] = {}
-    at_all_stops = any(group.blend in JUMPING for group in drawing.groups)
-    paths: list[Path] = []
-    cut: list[int] = []
-    shade: list[int] = []
-    bands: list[int] = []
-    for path in drawing.paths:
-        gradient, row = path.paint.gradient, len(paths)
-        has_gradient = gradient is not None and len(path.contours) > 0
-        paths.append(path)
-        cut.append(-1)
-        shade.append(len(bands) if has_gradient else -1)
-        if gradient is None or not has_gradient:
+@kernel
+def layers_of(source: MapSource, rows: Rows, restyle: int) -> PlanarLayers:
+    """Make the arrays of rows; if `restyle` is 1, faces are compared by their elements, not by their colours."""
+    count = len(rows.path)
+    rgba, group = np.zeros((count, 4)), np.empty(count, np.int64)
+    for row in range(count):
+        path = rows.path[row]
+        group[row] = source.paths[path, GROUP]
+        for c in range(4):
+            # a region paints nothing
+            rgba[row, c] = source.rgba[path, c] if rows.cut[row] < 0 else (1.0 if c == 3 else 0.0)
+    flat = solid_layers(rgba, group, source.groups, source.opacities)
+    rules, look = np.zeros(count, np.int64), np.zeros(count, np.int64)
+    opaque, covers, hides = np.zeros(count, np.bool_), np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+    for row in range(count):
+        path = rows.path[row]
+        if rows.cut[row] >= 0:
             continue
-        box = np.clip(path.box + np.array([[-MARGIN], [MARGIN]]), 0.0, 1.0)
-        found = Bands((gradient,), ()) if restyle else bands_of(gradient, box, at_all_stops)
-        bands += [numbers.setdefault(each, len(numbers)) for each in found.gradients]
-        paths += [Path((region,) if len(region) else (), group=path.group) for region in found.regions]
-        cut += [row] * len(found.regions)
-        shade += [-1] * len(found.regions)
-    return Rows(
-        tuple(paths), np.array(cut, np.int64), np.array(shade, np.int64), np.array(bands, np.int64), tuple(numbers)
+        rules[row] = source.rules[path]
+        opaque[row] = _is_opaque(source, path)
+        covers[row] = opaque[row] and group[row] < 0
+        hides[row] = source.paths[path, HIDES] == 1
+        look[row] = key_of_number(source.paths[path, ELEMENT]) if restyle == 1 else 0
+    return PlanarLayers(
+        rules,
+        flat.rgba,
+        opaque,
+        covers,
+        hides,
+        rows.shade,
+        rows.cut,
+        flat.keys,
+        look,
+        group,
+        flat.outer,
+        flat.depth,
+        flat.opacity,
+        flat.blend,
+        flat.mask,
+        flat.masked,
+        rows.bands,
+        rows.shades,
     )
 
 
-def layers_of(rows: Rows, groups: tuple[Group, ...], looks: NDArray[np.int64] | None = None) -> PlanarLayers:
-    """Make the arrays of rows; with `looks`, a key for each row, faces are compared by these keys, not by colours."""
-    paints = [path.paint for path in rows.paths]
-    rgba = np.array([(*paint.color, paint.opacity) for paint in paints]).reshape(-1, 4)
-    group = np.array([path.group for path in rows.paths], np.int64)
-    opaque = np.array([paint.is_opaque for paint in paints], np.bool_) & (rows.cut < 0)
-    return solid_layers(rgba, group, groups)._replace(
-        rules=np.array([int(path.fill_rule) for path in rows.paths], np.int64),
-        opaque=opaque,
-        covers=opaque & (group < 0),
-        hides=np.array([path.hides for path in rows.paths], np.bool_),
-        shade=rows.shade,
-        cut=rows.cut,
-        look=np.zeros(len(paints), np.int64) if looks is None else looks,
-        bands=rows.bands,
-        shades=shades_of(rows.gradients),
-    )
+@kernel(allocates=False)
+def _is_opaque(source: MapSource, path: int) -> bool:
+    """Whether nothing below shows through any part of a path's paint, as `Paint.is_opaque` says."""
+    gradient = source.paths[path, GRADIENT]
+    if gradient < 0:
+        return source.rgba[path, 3] >= 1.0
+    row = source.gradients[gradient]
+    for k in range(int(row[FIRST]), int(row[FIRST] + row[COUNT])):
+        if source.stops[k, 3] < 1.0:
+            return False
+    return row[FOCUS] < 0.0 or row[FOCUS] + row[RADIUS] < 1.0  # otherwise it is a cone with nothing beside it
 
 
-def solid_layers(rgba: NDArray[np.float64], group: NDArray[np.int64], groups: tuple[Group, ...]) -> PlanarLayers:
-    """Make the arrays of flat colours, (n, 4), not premultiplied, in their groups."""
-    zeros, false = np.zeros(len(rgba), np.int64), np.zeros(len(rgba), np.bool_)
+@kernel
+def solid_layers(
+    rgba: NDArray[np.float64], group: NDArray[np.int64], groups: NDArray[np.int64], opacities: NDArray[np.float64]
+) -> PlanarLayers:
+    """Make the arrays of flat colours, (n, 4), not premultiplied, in groups as in `MapSource`."""
+    count = len(rgba)
+    zeros, none, false = np.zeros(count, np.int64), np.full(count, -1), np.zeros(count, np.bool_)
+    colours, keys = np.empty((count, 4)), np.empty(count, np.int64)
+    for k in range(count):
+        keys[k], colours[k, 3] = key_of_number(k), rgba[k, 3]
+        for c in range(3):
+            colours[k, c] = rgba[k, c] * rgba[k, 3]
+    depth, masked = np.zeros(len(groups), np.int64), np.zeros(len(groups), np.int64)
+    outer, blend, mask = np.empty(len(groups), np.int64), np.empty(len(groups), np.int64), np.empty_like(depth)
+    for g in range(len(groups)):
+        outer[g], blend[g], mask[g] = groups[g, OUTER], groups[g, BLEND], groups[g, MASK]
+        depth[g] = depth[outer[g]] + 1 if outer[g] >= 0 else 0
+        if mask[g] != 0:
+            masked[outer[g]] += 1
+    shades = Shades(np.zeros((0, 11)), np.zeros((0, 5)))
     return PlanarLayers(
         zeros,
-        np.hstack([rgba[:, :3] * rgba[:, 3:], rgba[:, 3:]]),
+        colours,
         false,
         false,
-        np.zeros(len(rgba), np.bool_),
-        zeros - 1,
-        zeros - 1,
-        _keys(len(rgba)),
+        false,
+        none,
+        none,
+        keys,
         zeros,
         group,
-        np.array([each.outer for each in groups], np.int64),
-        np.array([len(groups_around(groups, place)) - 1 for place in range(len(groups))], np.int64),
-        np.array([each.opacity for each in groups], np.float64),
-        np.array([int(each.blend) for each in groups], np.int64),
-        np.array([int(each.mask) for each in groups], np.int64),
-        np.bincount([each.outer for each in groups if each.mask], minlength=len(groups)).astype(np.int64),
-        np.zeros(0, np.int64),
-        shades_of(()),
+        outer,
+        depth,
+        opacities,
+        blend,
+        mask,
+        masked,
+        zeros[:0],
+        shades,
     )
 
 
-def looks_of(drawing: Drawing) -> NDArray[np.int64]:
-    """Key of each path's element."""
-    elements, number = elements_of(drawing)
-    return _keys(len(elements))[number]
-
-
-def _keys(count: int) -> NDArray[np.int64]:
-    """Pseudorandom numbers, by SplitMix64 (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators")."""
-    z = np.arange(1, count + 1, dtype=np.uint64) * np.uint64(0x9E3779B97F4A7C15)
+@kernel(allocates=False)
+def key_of_number(number: int) -> int:
+    """Pseudorandom number, by SplitMix64 (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators")."""
+    z = np.uint64(number + 1) * np.uint64(0x9E3779B97F4A7C15)
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    return (z ^ (z >> np.uint64(31))).view(np.int64)
+    return int(np.int64(z ^ (z >> np.uint64(31))))

@@ -114,7 +114,8 @@ def add_programs(
     for at in range(n):
         operations, ops, _ = operations_of(layers, stack_of(faces, found[at]))
         work, met = np.empty((operations + 1, 4)), 0
-        total[:] = 0.0
+        for c in range(4):  # a slice would bring much of Numba's run time
+            total[c] = 0.0
         for k in range(points):
             is_last_chance = k == points - 1 and met == 0  # a face that holds no sample point
             if inside_of[k] == found[at] or is_last_chance:
@@ -150,7 +151,8 @@ def set_crowded_mean(pool: PiecePool, cell: Cell, cell_faces: CellFaces, mean: N
         while present[k, 0] != pool.path[pool.numbers[cell.first + i]]:
             k += 1
         owner[i] = k
-    mean[:4] = 0.0
+    for c in range(4):
+        mean[c] = 0.0
     for line in range(SCANLINES):
         y, count = cell.y + cell.size * (line + 0.5) / SCANLINES, 0
         for k in range(len(present)):

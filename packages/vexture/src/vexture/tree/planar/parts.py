@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.tree.growth import CURVES, FIRST, FIRST_PATH, LAST, LAST_PATH, QUADS, UNRESOLVED, WAITING, roomy
+from vexture.tree.growth import CURVES, FIRST, FIRST_PATH, LAST, LAST_PATH, QUADS, UNRESOLVED, WAITING
 from vexture.tree.parts import PART, TreePart, grow_in_threads, joined_cells, new_part, set_aside
 from vexture.tree.planar.faces import FaceTable, add_faces, faces_with, new_faces, trim_faces
 from vexture.tree.planar.growth import BASE, PlanarGrowth, State
@@ -40,7 +40,9 @@ class _Arrays:
         tree = whole.growth.tree
         top = tree.stack[tree.counts[WAITING] - 1]
         paths = int(top[LAST_PATH] - top[FIRST_PATH])
-        growth = growth._replace(tree=growth.tree._replace(present=roomy(growth.tree.present, paths)))
+        present = growth.tree.present
+        if paths > len(present):
+            growth = growth._replace(tree=growth.tree._replace(present=np.empty((2 * paths, 2), np.int64)))
         ground = int(whole.growth.ground[tree.counts[WAITING] - 1])
         growth.ground[0], self.met = 1 if ground else 0, int(whole.faces.counts[0])
         self.state = State(growth, layers, faces_with(whole.faces, ground))
@@ -67,7 +69,7 @@ def _grown(arrays: _Arrays, quad: int, step: Step, stopped: Event) -> tuple[_Map
         quad,
         tree.cells[:quads].copy(),
         tree.first[:quads].copy(),
-        tree.curves[:curves].astype(np.int32),
+        tree.curves[:curves].copy(),
         float(tree.deviation[0]),
         int(tree.counts[UNRESOLVED]),
     )
@@ -77,7 +79,7 @@ def _grown(arrays: _Arrays, quad: int, step: Step, stopped: Event) -> tuple[_Map
 
 
 def grow_map_parts(state: State, step: Step, threads: int, check: Callable[[int, int], bool]) -> State | None:
-    """Grow a map in parts; return it with integer curves, or None if `check` returns False.
+    """Grow a map in parts; return it, or None if `check` returns False.
 
     `check` is called with the numbers of quads and curves so far, and may raise an error.
     """
@@ -148,7 +150,7 @@ def _one_table(
     tables = [top, *(part.faces for part in parts)]
     counts = [int(table.counts[0]) for table in tables]
     paths = sum(int(table.starts[count]) for table, count in zip(tables, counts, strict=True))
-    faces = new_faces(1 << sum(counts).bit_length(), paths + 1)
+    faces = FaceTable(*new_faces(1 << sum(counts).bit_length(), paths + 1))
     numbers = [np.zeros(count, np.int64) for count in counts]
     done = 1
     for part, count, number in zip(parts, counts[1:], numbers[1:], strict=True):

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
-from vexture.drawing.paint import Gradient, Spread
+from vexture.drawing.paint import Gradient, Spread, Stop
 
 REFLECT, REPEAT = int(Spread.REFLECT), int(Spread.REPEAT)
 
@@ -19,10 +19,11 @@ class Shades(NamedTuple):
     stops: NDArray[np.float64]  # (stops, 5): colours, not premultiplied, and `OFFSET`
 
 
-FOCUS, SPREAD, FIRST, COUNT = 6, 8, 9, 10
+FOCUS, RADIUS, SPREAD, FIRST, COUNT = range(6, 11)
 """Columns of a gradient: focal point and radius, -1 if it is linear; spread; first stop; number of stops."""
 
 OFFSET = 4
+"""Column of a stop; the others are its colour and opacity."""
 
 
 def shades_of(gradients: Sequence[Gradient]) -> Shades:
@@ -34,6 +35,15 @@ def shades_of(gradients: Sequence[Gradient]) -> Shades:
         rows.append([*one.to_ramp[0], *one.to_ramp[1], *focus, one.spread, len(stops), len(one.stops)])
         stops += [(*stop.color, stop.opacity, stop.offset) for stop in one.stops]
     return Shades(np.array(rows, np.float64).reshape(-1, 11), np.array(stops, np.float64).reshape(-1, 5))
+
+
+def gradient_of(shades: Shades, number: int) -> Gradient:
+    """Gradient with a number."""
+    row = shades.rows[number].tolist()
+    first, count = int(row[FIRST]), int(row[COUNT])
+    stops = [Stop(t, (r, g, b), a) for r, g, b, a, t in shades.stops[first : first + count].tolist()]
+    focus = None if row[FOCUS] < 0.0 else (row[FOCUS], row[RADIUS])
+    return Gradient((tuple(row[:3]), tuple(row[3:6])), tuple(stops), Spread(int(row[SPREAD])), focus)
 
 
 @kernel(allocates=False)
@@ -72,7 +82,7 @@ def _spread(spread: int, t: float) -> float:
 def flat_shade(shades: Shades, number: int, out: NDArray[np.float64]) -> bool:
     """Write the premultiplied colour (4,) of a gradient and return True, if it has one colour everywhere."""
     row = shades.rows[number]
-    if row[COUNT] != 1.0 or row[FOCUS] + row[FOCUS + 1] >= 1.0:
+    if row[COUNT] != 1.0 or row[FOCUS] + row[RADIUS] >= 1.0:
         return False
     stop = shades.stops[int(row[FIRST])]
     for c in range(3):
@@ -87,7 +97,7 @@ def shade_at(shades: Shades, number: int, x: float, y: float, out: NDArray[np.fl
     row, stops = shades.rows[number], shades.stops
     t = row[0] * x + row[1] * y + row[2]
     if row[FOCUS] >= 0.0:
-        t = _ramp_place(row[FOCUS], row[FOCUS + 1], t, row[3] * x + row[4] * y + row[5])
+        t = _ramp_place(row[FOCUS], row[RADIUS], t, row[3] * x + row[4] * y + row[5])
     for c in range(4):
         out[c] = 0.0
     if np.isnan(t):

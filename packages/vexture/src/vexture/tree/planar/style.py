@@ -1,7 +1,7 @@
 """Restyling data of a planar map: the elements of its drawing, and the elements of which each paint is composited."""
 
 from dataclasses import dataclass, replace
-from itertools import chain, pairwise
+from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
@@ -132,8 +132,8 @@ def style_of(drawing: Drawing, planar: Any) -> PlanarStyle:
         np.array([path.group for path in first], np.int64),
         hides,
         drawing.groups,
-        np.append(0, np.cumsum([len(stack) for stack in planar.stacks], dtype=np.int64)),
-        number[np.fromiter(chain.from_iterable(planar.stacks), np.int64)].astype(np.int32),
+        planar.starts,
+        number[planar.members].astype(np.int32),
     )
     style.check_groups()
     return style
