@@ -14,8 +14,8 @@ from vexture.bezier.cover import DIRECTIONS, cover_cells, cut_outlines, find_rea
 from vexture.bezier.stroke import stroke_path
 from vexture.renderers.colour import draw_colours
 from vexture.renderers.cpu import draw
-from vexture.texture.coloured import coloured_texels
 from vexture.texture.encode import texel_rows, tree_texels
+from vexture.texture.map_entry import coloured_texels
 from vexture.texture.map_texels import encode_map
 from vexture.texture.planar import map_texels
 from vexture.texture.silhouette import silhouette_texels

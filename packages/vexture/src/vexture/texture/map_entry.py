@@ -33,11 +33,13 @@ def coloured_texels(
     """Texels of a planar map from the arrays of a drawing, its stacks for restyling, and numbers about it.
 
     `first` is the index of the first texel. There are no texels if the outline leaves the square by more than `CLOSED`,
-    if a band of a gradient goes beyond `FARTHEST`, or if there would be more than `bounds.most_quads` quads,
-    `most_texels` texels of quads and curves, or `MOST_PAINTS` paints. The numbers tell which. There are none either if
-    the map takes more than `most_work`, in units of `grow_map`, which leaves 0 paints, or if its programs do not fit.
+    which is NaN if a coordinate is not finite, if a band of a gradient goes beyond `FARTHEST`, or if there would be
+    more than `bounds.most_quads` quads, `most_texels` texels of quads and curves, or `MOST_PAINTS` paints. The numbers
+    tell which. There are none either if the map takes more than `most_work`, in units of `grow_map`, which leaves 0
+    paints, or if its programs do not fit.
     """
     growth, layers, faces, outside, reach = plant_map(source, bounds.max_depth, restyle)
+    outside = outside if _are_finite(source.cubics) else np.nan
     texels, starts, members = np.zeros((0, 4), np.uint32), np.zeros(1, np.int64), np.zeros(0, np.int32)
     paints, flattened = 0, 0
     if outside <= CLOSED and reach <= FARTHEST:
@@ -53,3 +55,14 @@ def coloured_texels(
     counts, deviation = growth.tree.counts, growth.tree.deviation[0]
     numbers = (outside, reach, deviation, counts[UNRESOLVED], counts[QUADS], counts[CURVES], paints, flattened)
     return texels, starts, members, hides, *numbers
+
+
+@kernel(allocates=False)
+def _are_finite(cubics: NDArray[np.float64]) -> bool:
+    """Whether all coordinates are finite numbers."""
+    for i in range(len(cubics)):
+        for k in range(4):
+            for axis in range(2):
+                if not np.isfinite(cubics[i, k, axis]):
+                    return False
+    return True

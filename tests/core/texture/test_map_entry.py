@@ -13,9 +13,9 @@ from vexture.base.errors import SourceError
 from vexture.base.layout import MAP_HEAD
 from vexture.base.tolerance import UNSEEN
 from vexture.drawing.drawing import Path as Outline
-from vexture.drawing.paint import Spread
+from vexture.drawing.paint import Paint, Spread
 from vexture.drawing.unit_square import FARTHEST
-from vexture.texture.coloured import coloured_texels
+from vexture.texture.map_entry import coloured_texels
 from vexture.tree.bounds import DEFAULT_DEPTH, bounds_of
 from vexture.tree.planar.build import DEFAULT_MAP_CAPACITY, build_map
 from vexture.tree.planar.source import source_of
@@ -52,9 +52,10 @@ def test_texels_of_one_kernel_are_those_of_a_texture(name: str) -> None:
 
 @pytest.mark.parametrize("restyle", [False, True])
 def test_texels_of_examples(restyle: bool) -> None:
+    ground = painted_path(SQUARE, Paint((1.0, 0.0, 0.0)))
     for drawing in map(vexture.read, SHAPES):
-        flat = (replace(path, element=str(k), hides=k == 0) for k, path in enumerate(drawing.paths))
-        check(replace(drawing, paths=tuple(flat)), restyle)
+        named = (replace(path, element=str(k), hides=k == 0) for k, path in enumerate(drawing.paths))
+        check(replace(drawing, paths=(ground, *named)), restyle)
 
 
 def test_texels_of_the_second_shape_of_a_texture() -> None:
@@ -66,7 +67,9 @@ def test_texels_of_the_second_shape_of_a_texture() -> None:
 
 
 def test_no_texels_where_a_limit_is_passed() -> None:
-    source = source_of(DRAWINGS["reflected"])
+    corners = np.random.default_rng(1).random((60, 2))
+    star, ground = Drawing.polygon(corners).paths[0], painted_path(SQUARE, Paint((1.0, 0.0, 0.0)))
+    source = source_of(Drawing((ground, star)))
     *_, quads, curves, paints, _ = coloured_texels(source, BOUNDS, 0, 0, ENDLESS, ENDLESS)
     assert paints > 0
     size = 3 * quads + curves + curves // 4
