@@ -15,17 +15,25 @@ from vexture.svg.read import svg_drawing
 
 FIXTURES = Path(__file__).parents[1] / "core" / "svg" / "fixtures"
 
-FOLDERS = ("shapes", "paths", "gradients", "masks", "patterns", "structure", "transform", "viewport")
-"""Folders whose fixtures are read in each run; the others are read in a slow test."""
-
 KNOWN = {
-    "transform/css-all-four.svg": "`rotate` about an axis",
-    "transform/css-axes-together.svg": "`rotate` about an axis",
+    "transform/css-axes-together.svg": "two turns about axes in space",
     "transform/css-origin-in-depth.svg": "depth of `transform-origin`",
-    "transform/css-rotate-axis.svg": "`rotate` about an axis",
-    "transform/css-rotate-x.svg": "`rotate` about an axis",
+    "style/media-of-people.svg": "the browser's own answers to media queries",
+    "unsupported/flowed-text.svg": "text",
 }
 """Fixtures that the page reads in another way, with the reason."""
+
+LOGO_IN_PAGE = """
+<style>.logo { color: #f00; --wing: #00f; width: 50px } .logo .c { fill: #0f0; opacity: 0.5 }</style>
+<svg hidden>
+  <symbol id="leaf" viewBox="0 0 10 10"><rect width="10" height="5" fill="var(--wing)"/></symbol>
+</svg>
+<svg class="logo" viewBox="0 0 40 10">
+  <rect width="10" height="10" fill="currentColor"/>
+  <rect x="10" width="10" height="10" fill="var(--wing)"/>
+  <rect class="c" x="20" width="10" height="10"/>
+  <use href="#leaf" x="30" width="10" height="10"/>
+</svg>"""
 
 Read = Callable[[str], dict[str, Any]]
 
@@ -71,10 +79,24 @@ def names(files: list[str]) -> set[str]:
     return {Path(file).relative_to(FIXTURES).as_posix() for file in files}
 
 
-def test_fixtures_are_drawn_as_by_python(read: Read) -> None:
-    files = [file for folder in FOLDERS for file in sorted((FIXTURES / folder).glob("*.svg"))]
-    assert len(files) > 200
-    assert names(wrong(files, read)) == {name for name in KNOWN if name.split("/")[0] in FOLDERS}
+FOLDERS = {
+    *("bad", "errors", "filters", "gradients", "groups", "markers", "masks", "paths", "patterns", "shapes"),
+    *("strokes", "structure", "style", "transform", "unsupported", "viewport"),
+}
+"""Folders of fixtures that the page reads. It names animations, images, texts and gradients of backgrounds."""
+
+FIXTURES_READ = sorted(file for folder in FOLDERS for file in (FIXTURES / folder).glob("*.svg"))
+
+
+def test_some_fixtures_are_drawn_as_by_python(read: Read) -> None:
+    files = [file for file in FIXTURES_READ[::8] if file.parent.name != "bad"]
+    assert len(files) > 50
+    assert names(wrong(files, read)) <= KNOWN.keys()
+
+
+@pytest.mark.slow
+def test_all_fixtures_are_drawn_as_by_python(read: Read) -> None:
+    assert names(wrong(FIXTURES_READ, read)) == {*KNOWN}
 
 
 @pytest.mark.slow
@@ -92,7 +114,8 @@ def test_icons_logos_and_flags_are_drawn_as_by_python(read: Read) -> None:
 @pytest.mark.parametrize(
     "body",
     [
-        '<filter id="f"><feGaussianBlur stdDeviation="3"/><feOffset/></filter><rect width="9" height="9" filter="url(#f)"/>',
+        '<filter id="f"><feGaussianBlur stdDeviation="3"/><feOffset/></filter>'
+        '<rect width="9" height="9" filter="url(#f)"/>',
         '<rect width="9" height="9" style="filter: blur(3px) drop-shadow(1px 1px red)"/>',
         '<foreignObject width="9" height="9"/>',
         '<unknown/><rect width="9" height="9"/>',
@@ -121,16 +144,16 @@ def test_nothing_is_fetched_and_no_script_runs(reader: tuple[Any, list[str]], re
             f'<style>@import "{url}2"; @import url({url}3); @font-face {{ font-family: a; src: url({url}4) }}'
             f" .a {{ fill: url({url}5#a); background: url({url}6); cursor: url({url}7), auto }}</style>"
             f'<image href="{url}8" width="9" height="9"/><image xlink:href="{url}9" width="9" height="9"/>'
-            f'<use href="{url}10#a"/><rect class="a" width="9" height="9" mask="url({url}11#a)" filter="url({url}12#a)"/>'
+            f'<use href="{url}10#a"/><rect class="a" width="9" height="9" mask="url({url}11#a)"/>'
+            f'<rect width="9" height="9" filter="url({url}12#a)"/>'
             f'<rect width="9" height="9" style="clip-path: url({url}13#a); mask-image: url({url}14)"/>'
-            f'<foreignObject width="9" height="9"><img xmlns="http://www.w3.org/1999/xhtml" src="{url}15" onerror="x = 1"/>'
-            f'<iframe xmlns="http://www.w3.org/1999/xhtml" src="{url}16"/></foreignObject>'
-            f'<link xmlns="http://www.w3.org/1999/xhtml" rel="stylesheet" href="{url}17"/>'
+            f'<foreignObject width="9" height="9"><h:img src="{url}15" onerror="top.ran = 1"/>'
+            f'<h:iframe src="{url}16"/></foreignObject><h:link rel="stylesheet" href="{url}17"/>'
             f'<script href="{url}18"/><script>window.top.ran = 1; fetch("{url}19")</script>'
             f'<filter id="f"><feImage href="{url}20"/></filter><rect width="9" height="9" filter="url(#f)"/>'
             f'<text font-family="a">text</text><a href="{url}21"><rect width="5" height="5" onload="top.ran = 1"/></a>'
             f'<svg onload="top.ran = 1"/><animate onbegin="top.ran = 1" attributeName="x" to="1"/>',
-            'viewBox="0 0 100 100" onload="top.ran = 1"',
+            'viewBox="0 0 100 100" onload="top.ran = 1" xmlns:h="http://www.w3.org/1999/xhtml"',
         )
     )
     assert "error" not in value
@@ -173,15 +196,7 @@ def test_huge_files_are_refused_at_once(reader: tuple[Any, list[str]]) -> None:
 
 def test_an_element_of_the_page_keeps_what_the_page_gives_it(reader: tuple[Any, list[str]]) -> None:
     page = reader[0]
-    page.evaluate(
-        """() => {
-          document.body.innerHTML = `<style>.logo { color: #f00; --wing: #00f; width: 50px } .logo .c { fill: #0f0; opacity: 0.5 }</style>
-            <svg hidden><symbol id="leaf" viewBox="0 0 10 10"><rect width="10" height="5" fill="var(--wing)"/></symbol></svg>
-            <svg class="logo" viewBox="0 0 40 10"><rect width="10" height="10" fill="currentColor"/>
-            <rect x="10" width="10" height="10" fill="var(--wing)"/><rect class="c" x="20" width="10" height="10"/>
-            <use href="#leaf" x="30" width="10" height="10"/></svg>`;
-        }"""
-    )
+    page.evaluate("text => { document.body.innerHTML = text; }", LOGO_IN_PAGE)
     value = page.evaluate("async () => readSource(document.querySelector('.logo'))")
     assert [(path["paint"]["color"], path["paint"]["opacity"]) for path in value["paths"]] == [
         ([1, 0, 0], 1),

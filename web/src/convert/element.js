@@ -2,12 +2,14 @@
 import { VextureError, line } from '../errors.js';
 import { SVG } from './parse.js';
 
-/** Properties that the page may set by its style sheets, inherited ones first. */
-const INHERITED = [
+/** Inherited properties that a reader asks for. */
+export const INHERITED = [
   'color', 'fill', 'fill-opacity', 'fill-rule', 'clip-rule', 'stroke', 'stroke-width', 'stroke-opacity', 'stroke-linecap',
   'stroke-linejoin', 'stroke-miterlimit', 'stroke-dasharray', 'stroke-dashoffset', 'paint-order', 'visibility', 'marker-start',
   'marker-mid', 'marker-end', 'font-size',
 ];
+
+/** Others that the page may set by its style sheets. */
 const OWN = [
   'opacity', 'display', 'clip-path', 'mask-image', 'filter', 'mix-blend-mode', 'isolation', 'stop-color', 'stop-opacity',
   'transform', 'transform-origin', 'vector-effect', 'd', 'cx', 'cy', 'r', 'x', 'y', 'width', 'height',
@@ -44,6 +46,7 @@ export function copyElement(element) {
     }
   }
   sizeRoot(element, root);
+  copyVariables(element, root);
   return { root, pairs };
 }
 
@@ -67,6 +70,15 @@ function sizeRoot(live, copy) {
   }
 }
 
+/** Give the copy the values of the custom properties to which it refers. @param {Element} live @param {Element} copy */
+function copyVariables(live, copy) {
+  const style = getComputedStyle(live);
+  for (const [, name] of copy.outerHTML.matchAll(/var\(\s*(--[^\s,()]+)/g)) {
+    const value = style.getPropertyValue(name);
+    if (value) /** @type {SVGElement} */ (copy).style.setProperty(name, value);
+  }
+}
+
 /**
  * Write the styles that the page gives elements, where they differ from those of their copies.
  *
@@ -81,8 +93,10 @@ export function copyStyles(pairs, window) {
   pairs.forEach(({ copy }, k) => {
     if (!copy.isConnected) return;
     const computed = window.getComputedStyle(copy);
+    const hasVariables = (/** @type {string} */ name) => `${copy.getAttribute(name)} ${copy.getAttribute('style')}`.includes('var(');
     for (const [name, value] of values[k]) {
-      if (value && computed.getPropertyValue(name) !== value) /** @type {SVGElement} */ (copy).style.setProperty(name, value, 'important');
+      const isSame = !value || computed.getPropertyValue(name) === value || hasVariables(name);
+      if (!isSame) /** @type {SVGElement} */ (copy).style.setProperty(name, value, 'important');
     }
   });
 }

@@ -1,7 +1,7 @@
 // The document and its styles, by the browser's own engine: in a frame without scripts and network.
 import { VextureError } from '../errors.js';
 import { hasUnits } from './affine.js';
-import { copyElement, copyStyles } from './element.js';
+import { INHERITED, copyElement, copyStyles } from './element.js';
 import { closeFrame, openFrame } from './frame.js';
 import { SVG, parseSvg } from './parse.js';
 import { strip } from './strip.js';
@@ -16,6 +16,7 @@ import { strip } from './strip.js';
  * @typedef {object} Engine what a reader needs of a document; elements are opaque to it
  * @property {any} root the outermost `<svg>`
  * @property {ReadonlyMap<string, number>} stripped messages on parts that were left out, with their numbers
+ * @property {readonly { name: string, value: string, element: any }[]} invalid attributes with values that are not valid
  * @property {(element: any) => string | null} name of an SVG element; null for other namespaces
  * @property {(element: any) => string} tag local name in any namespace
  * @property {(element: any) => boolean} isHtml
@@ -44,7 +45,7 @@ const CSS_ONLY = new Set(['translate', 'rotate', 'scale', 'offset-path']);
 const NUMERIC = new Set(['stroke-width', 'stroke-dasharray', 'stroke-dashoffset', 'stroke-miterlimit']);
 
 /** Values that only the browser computes. */
-const COMPUTED = /\b(?:calc|var|env|min|max|clamp|attr)\(|^(?:inherit|initial|unset|revert(?:-layer)?)$/i;
+const KEYWORD = /^(?:inherit|initial|unset|revert(?:-layer)?)$/i;
 const PLANE = /^(?:\s*(?:matrix|translate[xy]?|scale[xy]?|rotate|skew[xy]?)\([^()]*\))+\s*$/i;
 
 const COLOR = /^(?:rgba?\(|color\(srgb )([^)]*)\)$/;
@@ -71,10 +72,11 @@ export function openSvg(source) {
 class PageEngine {
   /** @param {Element} parsed root of a document that is not shown */
   constructor(parsed) {
-    const { links, sheets, stripped } = strip(parsed);
+    const { links, sheets, stripped, invalid } = strip(parsed);
     this.links = links;
     this.sheets = sheets;
     this.stripped = stripped;
+    this.invalid = invalid.map(({ localName, value, ownerElement }) => ({ name: localName, value, element: ownerElement }));
     this.frame = openFrame(parsed);
     this.root = parsed;
     this.window = /** @type {Window} */ (this.frame.contentWindow);
@@ -84,8 +86,10 @@ class PageEngine {
     this.styles = new Map();
     /** @type {Map<Element, Element>} */
     this.originals = new Map();
-    /** @type {Map<Element, Element>} */
+    /** Copies of an element, by what they inherit. @type {Map<Element, Map<Element | string, Element>>} */
     this.instances = new Map();
+    /** Custom properties may differ at uses that are alike otherwise. */
+    this.hasVariables = /var\(/i.test(parsed.outerHTML);
     /** @type {Set<Element>} */
     this.wrappers = new Set();
     /** @type {Map<string, [number, number, number, number] | null>} */
@@ -164,15 +168,26 @@ class PageEngine {
   }
 
   /**
-   * The copy stands inside a copy of the `use`, so that it inherits what it inherits there.
+   * The copy stands inside a copy of the `use`, so that it inherits what it inherits there. Uses that pass on the same
+   * share a copy.
    *
    * @param {Element} use
    * @param {Element} target
    * @returns {Element}
    */
   instance(use, target) {
-    const known = this.instances.get(use);
-    if (known) return known;
+    const style = this.style(use);
+    const values = INHERITED.map((name) => style.get(name));
+    const key = this.hasVariables ? use : JSON.stringify(values);
+    const copies = this.instances.get(target) ?? new Map();
+    this.instances.set(target, copies);
+    let copy = copies.get(key);
+    if (!copy) copies.set(key, (copy = this.copyInto(use, target)));
+    return copy;
+  }
+
+  /** @param {Element} use @param {Element} target @returns {Element} */
+  copyInto(use, target) {
     const wrapper = use.ownerDocument.createElementNS(SVG, 'g');
     for (const { name, value } of use.attributes) if (/^[a-z-]+$/i.test(name)) wrapper.setAttribute(name, value);
     const copy = /** @type {Element} */ (target.cloneNode(true));
@@ -180,7 +195,6 @@ class PageEngine {
     wrapper.append(copy);
     this.wrappers.add(wrapper);
     use.parentNode?.append(wrapper); // at the end, where it changes the numbers of no siblings before it
-    this.instances.set(use, copy);
     return copy;
   }
 
@@ -265,7 +279,8 @@ class PageStyle {
   /** @param {string} name @returns {string} */
   read(name) {
     if (WRITTEN.has(name)) return this.declared(name) || (CSS_ONLY.has(name) ? '' : this.attribute(name));
-    const value = this.computed.getPropertyValue(name === 'mask' ? 'mask-image' : name) || 'none';
+    const found = this.computed.getPropertyValue(name === 'mask' ? 'mask-image' : name) || 'none';
+    const value = found.includes('url(') ? found.replaceAll(new URL('.', document.baseURI).href, '') : found; // as written
     return NUMERIC.has(name) && value.replace(/\D/g, '').length > 5 ? this.exact(name, value) : value;
   }
 
@@ -275,7 +290,8 @@ class PageStyle {
    */
   attribute(name) {
     const text = this.element.getAttribute(name)?.trim() ?? '';
-    return name === 'transform' && hasUnits(text) ? this.computed.getPropertyValue(name) : text;
+    const isComputed = name === 'transform' ? hasUnits(text) : name !== 'd' && text.includes('(');
+    return isComputed ? this.computed.getPropertyValue(name) : text;
   }
 
   /** @param {string} name @returns {number} */
@@ -287,7 +303,7 @@ class PageStyle {
   /** @param {string} name @returns {string} */
   declared(name) {
     const inline = inlineText(this.element, name);
-    if (inline && !this.engine.mentions(name) && !COMPUTED.test(inline) && (name !== 'transform' || PLANE.test(inline))) return inline;
+    if (inline && !this.engine.mentions(name) && isPlain(name, inline)) return inline;
     if (!inline && !this.engine.mentions(name)) return '';
     const value = this.computed.getPropertyValue(name);
     const attribute = this.element.getAttribute(name);
@@ -307,6 +323,16 @@ class PageStyle {
     }
     return value;
   }
+}
+
+/**
+ * @param {string} name
+ * @param {string} text
+ * @returns {boolean} whether a value of a declaration needs no computation by the browser
+ */
+function isPlain(name, text) {
+  if (name === 'transform') return PLANE.test(text) || text === 'none';
+  return !KEYWORD.test(text) && (name === 'd' || !text.includes('('));
 }
 
 /**

@@ -9,6 +9,8 @@ import { ANONYMOUS, THINNEST } from './viewport.js';
 
 /** @typedef {import('./drawing.js').Drawing} Drawing */
 
+const UNPAINTED = 'nothing in it is painted';
+
 /**
  * @typedef {object} SvgOptions
  * @property {string} [name] of the drawing
@@ -31,12 +33,14 @@ import { ANONYMOUS, THINNEST } from './viewport.js';
 export function readSvg(engine, { name = 'drawing', strokeOutline } = {}) {
   const scene = new Scene(engine, strokeOutline);
   for (const [message, count] of engine.stripped) scene.report.count('left out', message, count);
+  for (const { name: attribute, value, element } of engine.invalid) scene.report.invalid(attribute, value, element);
   const frame = frameOf(scene);
+  if (!frame) scene.report.remark(UNPAINTED);
   if (!frame) return { name, paths: [], groups: [], toSource: IDENTITY, sides: [1, 1], notes: scene.report.inOrder };
   const painted = scene.paint(frame.view, frame.content, frame.size, fadePaint);
   const normal = inUnitSquare(painted.paths, frame.size);
   const { paths, groups } = dropEmptyGroups(normal.paths, painted.groups);
-  if (!paths.length) scene.report.remark('nothing in it is painted');
+  if (!paths.length) scene.report.remark(UNPAINTED);
   const toSource = toUserUnits(normal.toSource, frame.content);
   return { name, paths, groups, toSource, sides: normal.sides, notes: scene.report.inOrder };
 }

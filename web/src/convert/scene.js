@@ -167,7 +167,7 @@ export class Scene {
     const isSeen = place.isClip || isMeasured || style.opacity('opacity') > 0;
     const isHidden = style.get('display') === 'none' && !(name === 'symbol' && place.use);
     if (isHidden || !isSeen || (place.isClip && CONTAINERS.includes(name))) return [];
-    if (style.get('display') === 'contents') return this.contentsOf(element, name, place);
+    if (style.get('display') === 'contents') return this.contentsOf(element, name, style, place);
     if (!DRAWN.includes(name) || name === 'text') {
       if (!isMeasured) this.report.leftOut(`<${name.slice(0, 40)}>`);
       return [];
@@ -185,17 +185,18 @@ export class Scene {
   }
 
   /**
-   * The content of a group that has no box, and so no effects (CSS Display 3, B).
+   * The content of an element that has no box, and so no effects (CSS Display 3, B).
    *
    * @param {any} element
    * @param {string} name
+   * @param {Style} style
    * @param {Place} place
    * @returns {Placed[]}
    */
-  contentsOf(element, name, place) {
-    if (name !== 'g') return [];
-    const inner = { ...place, element, outer: place, depth: place.depth + 1 };
-    return this.engine.children(element).map((child) => [child, inner]);
+  contentsOf(element, name, style, place) {
+    const inner = { ...place, style, element, outer: place, depth: place.depth + 1, use: null };
+    if (name === 'use') return this.useTarget(element, inner);
+    return name === 'g' || name === 'svg' ? this.engine.children(element).map((child) => [child, inner]) : [];
   }
 
   /**

@@ -1,9 +1,16 @@
 // Removal of everything that runs, moves or is fetched, with notes of what a drawing loses.
 import { ANIMATIONS } from '../../generated/svg-reader.js';
 import { SVG } from './parse.js';
+import { shortenText } from './report.js';
 
 /** Attributes with links. */
 const LINKS = ['href', 'xlink:href'];
+
+/** Presentation attributes of which the browser says whether a value is valid. */
+const CHECKED = new Set([
+  'clip-rule', 'color', 'fill', 'fill-opacity', 'fill-rule', 'opacity', 'paint-order', 'stop-color', 'stop-opacity', 'stroke',
+  'stroke-linecap', 'stroke-linejoin', 'stroke-opacity', 'visibility',
+]);
 
 const HTML = 'http://www.w3.org/1999/xhtml';
 
@@ -11,23 +18,28 @@ const HTML = 'http://www.w3.org/1999/xhtml';
  * Remove scripts, animations, HTML, links and imports of a document.
  *
  * @param {Element} root
- * @returns {{ links: Map<Element, string>, sheets: string, stripped: Map<string, number> }} links by element, the text of
- *   its style sheets, and messages on what is left out
+ * @returns {{ links: Map<Element, string>, sheets: string, stripped: Map<string, number>, invalid: Attr[] }} links by
+ *   element, the text of its style sheets, messages on what is left out, and attributes with values that are not valid
  */
 export function strip(root) {
   /** @type {Map<Element, string>} */
   const links = new Map();
   /** @type {Map<string, number>} */
   const stripped = new Map();
+  /** @type {string[]} */
   const sheets = [];
+  /** @type {Attr[]} */
+  const invalid = [];
   const note = (/** @type {string} */ message) => stripped.set(message, (stripped.get(message) ?? 0) + 1);
   for (const element of [root, ...root.getElementsByTagName('*')]) {
     const name = element.localName;
     const link = LINKS.map((one) => element.getAttribute(one)).find(Boolean);
     if (link) links.set(element, link);
     for (const attribute of [...element.attributes]) {
-      if (attribute.localName.startsWith('on')) note('script');
-      if (attribute.localName.startsWith('on') || attribute.localName === 'href' || attribute.localName === 'src') element.removeAttributeNode(attribute);
+      const own = attribute.localName;
+      if (own.startsWith('on')) note('script');
+      if (own.startsWith('on') || own === 'href' || own === 'src') element.removeAttributeNode(attribute);
+      else if (CHECKED.has(own) && attribute.value.trim() && !CSS.supports(own, attribute.value)) invalid.push(attribute);
     }
     if (element.namespaceURI === HTML) {
       if (!element.closest('foreignObject')) note(`<${name.slice(0, 40)}>, of another namespace`);
@@ -40,9 +52,13 @@ export function strip(root) {
       element.remove();
     } else if (name === 'style') sheets.push(withoutImports(element, note));
   }
+  for (let one = root.previousSibling; one; one = one.previousSibling) {
+    const sheet = one.nodeName === 'xml-stylesheet' ? /\bhref\s*=\s*(['"])(.*?)\1/s.exec(one.nodeValue ?? '') : null;
+    if (sheet) note(`style sheet '${shortenText(sheet[2], 40)}'`);
+  }
   const text = sheets.join('\n');
   if (/@(?:-webkit-)?keyframes\b/i.test(text) && /[\s;{]animation(?:-name)?\s*:/i.test(text)) note('animation');
-  return { links, sheets: text, stripped };
+  return { links, sheets: text, stripped, invalid };
 }
 
 /** @param {Element} sheet @param {(message: string) => void} note @returns {string} its text */
