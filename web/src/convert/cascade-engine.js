@@ -63,6 +63,8 @@ export function openSvg(text) {
 class CascadeEngine {
   /** @type {Map<string, number>} */
   stripped = new Map();
+  /** @type {{ name: string, value: string, element: any }[]} */
+  invalid = [];
   /** @type {Map<Instance, CascadeStyle>} */
   #styles = new Map();
   /** @type {Map<Instance, Instance>} */
