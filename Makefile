@@ -34,7 +34,7 @@ unexport PYTHONDONTWRITEBYTECODE
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo counties docs gallery report viewer test test-core sweep checks checks-web lint kernels test-web bench conformance fuzz dist dist-check clean
+.PHONY: help demo counties docs gallery report viewer wasm test test-core sweep checks checks-web lint kernels test-web bench conformance fuzz dist dist-check clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
@@ -67,7 +67,7 @@ help:
 .venv/for-test: $(PROJECTS) | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
 	@$(INSTALL) --editable $(CORE) --editable $(GEO) --editable '$(EVIDENCE)[docs,test]'
-	@touch .venv/for-demo .venv/for-docs .venv/for-report $@
+	@touch .venv/for-demo .venv/for-docs .venv/for-report .venv/for-wasm $@
 
 .venv/for-report: $(PROJECTS) | .venv/made
 	@echo 'installing vexture and what its report draws and compares with into .venv (a minute or less) ...'
@@ -77,6 +77,11 @@ help:
 .venv/for-dist: $(PROJECTS) | .venv/made
 	@echo 'installing what builds a release into .venv (a minute or less) ...'
 	@$(INSTALL) --editable $(CORE) --editable $(GEO) --editable '$(EVIDENCE)[dist]'
+	@touch .venv/for-wasm $@
+
+.venv/for-wasm: $(PROJECTS) | .venv/made
+	@echo 'installing what compiles kernels to WebAssembly into .venv (a minute or less) ...'
+	@$(INSTALL) --editable $(CORE) --editable $(GEO) --editable '$(EVIDENCE)[wasm]'
 	@touch $@
 
 .venv/for-docs: $(PROJECTS) | .venv/made
@@ -95,7 +100,11 @@ $(VIEWER): web/node_modules/made tools/notices.py $(WEB_SOURCES)
 	@for page in viewer flood notebook; do npm run --silent $$page --prefix web || exit 1; done
 	@$(PYTHON) tools/notices.py $(@D) $(FLOOD_PAGE)
 
-viewer: $(VIEWER)
+viewer: $(VIEWER) wasm
+
+# does nothing where the kernels and the tools have not changed; takes some minutes else
+wasm: .venv/for-wasm
+	@$(BIN)/python tools/build_wasm.py
 
 demo: .venv/for-demo
 	@mkdir -p demo/pictures
@@ -114,7 +123,7 @@ demo: .venv/for-demo
 		echo 'so there is no picture by the GPU this time; all the others are there'
 	@if ! command -v node >/dev/null || ! command -v npm >/dev/null; then \
 		echo 'node or npm is missing, so the viewer cannot be built, and there are no pages demo/duck.html and demo/05/flood.html this time'; \
-	elif $(MAKE) --no-print-directory viewer; then \
+	elif $(MAKE) --no-print-directory $(VIEWER); then \
 		$(BIN)/vexture export $(SHAPES)/duck.svg -o demo/duck.html && \
 		$(BIN)/python examples/05_santa_cruz_flood.py demo/05 >demo/05.log && \
 		$(BIN)/vexture flood --extent demo/05/flood.nc --time-dim time --ground demo/05/ground.jpg -o demo/05/flood.html && \
@@ -205,9 +214,9 @@ kernels: .venv/for-test
 	$(BIN)/vexture render "$$scratch/packed/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu; \
 	$(BIN)/vexture render $(COLOURS) -o "$$scratch/colours.png" --size 16; \
 	$(BIN)/vexture render $(COLOURS) -o "$$scratch/colours.png" --size 16 --renderer exact; \
-	wait $$thesis
+	wait $$thesis; $(BIN)/python tools/build_wasm.py
 
-test-web: viewer
+test-web: $(VIEWER)
 	npm run --silent check --prefix web
 	npm run --silent test --prefix web
 
@@ -228,7 +237,7 @@ fuzz: .venv/for-test
 # of RELEASED, the folders of projects; with REPOSITORY=https://..., a registry's pages can link to the sources.
 # pip takes the wheel of the platform where it can: its kernels are compiled, for Linux with any C library of the last
 # ten years; the wheel for any platform compiles them when they are first used
-dist: $(VIEWER) .venv/for-dist
+dist: $(VIEWER) .venv/for-dist wasm
 	@$(BIN)/python tools/release.py
 	@rm -rf dist
 	$(BIN)/python tools/compile_kernels.py
@@ -243,4 +252,4 @@ dist-check: dist .venv/for-test
 clean:
 	rm -rf .venv demo build dist $(CORE)/src/vexture/compiled packages/*/src/*.egg-info $(EVIDENCE)/benchmarks/results \
 		.cache .hypothesis .mypy_cache .pytest_cache .ruff_cache fuzz-findings \
-		web/node_modules examples/counties/node_modules web/types $(CORE)/src/vexture/pages/built $(FLOOD_PAGE) tests/web/screenshots site gallery/built
+		web/kernels web/node_modules examples/counties/node_modules web/types $(CORE)/src/vexture/pages/built $(FLOOD_PAGE) tests/web/screenshots site gallery/built

@@ -22,7 +22,7 @@ import llvmlite.binding as llvm
 import numpy as np
 
 from kernel_calls import ahead_calls
-from kernel_code import module_of, object_file
+from kernel_code import RUN_TIME, join_modules, object_file
 from vexture.base.kernels import Kernel, text_digest
 from vexture.base.machine_code import RELEASE, SHIPPED, Code, argument_type, host, load
 from vexture.tree.growth import WAITING, Growth, tree_of
@@ -67,7 +67,7 @@ def code_of(text: str, entry: str, processor: Processor) -> tuple[bytes, list[st
         codemodel="jitdefault",
         jit=True,
     )
-    module = module_of(text, (entry, RELEASE))
+    module = join_modules([text, RUN_TIME], {entry: entry, RELEASE: RELEASE})
     machine_code = object_file(module, machine)
     own = {function.name for function in module.functions if not function.is_declaration}
     words = set(re.findall(r"[A-Za-z_]\w+", machine.emit_assembly(module))) - own

@@ -8,7 +8,7 @@ import numpy as np
 
 from vexture import Drawing, convert, read_svg
 from vexture.base.layout import MAP_HEAD
-from vexture.base.tolerance import ROUND, UNSEEN
+from vexture.base.tolerance import CLOSED, ROUND, UNSEEN
 from vexture.bezier.arc_length import path_length
 from vexture.bezier.cover import DIRECTIONS, cover_cells, cut_outlines, find_reach
 from vexture.bezier.stroke import stroke_path
@@ -19,7 +19,7 @@ from vexture.texture.map_entry import coloured_texels
 from vexture.texture.map_texels import encode_map
 from vexture.texture.planar import map_texels
 from vexture.texture.silhouette import silhouette_texels
-from vexture.tree.bounds import DEFAULT_CAPACITY, DEFAULT_DEPTH, Bounds, bounds_of
+from vexture.tree.bounds import COINCIDENT, DEFAULT_CAPACITY, DEFAULT_DEPTH, Bounds, bounds_of, largest_shift
 from vexture.tree.build import SLICE, grow, grow_on
 from vexture.tree.cubics import outlines_of
 from vexture.tree.growth import arrange_tree
@@ -127,3 +127,18 @@ def wasm_entries() -> list[Entry]:
         ),
         Entry(stroke_path, (outlines.cubics, ends, closed, style, np.zeros(0)), ("contours", "lengths")),
     ]
+
+
+def wasm_constants() -> dict[str, float]:
+    """Numbers that JavaScript needs to call the kernels: defaults of a conversion, and limits."""
+    return {
+        "CLOSED": CLOSED,
+        "TOLERANCE": UNSEEN,
+        "CAPACITY": DEFAULT_CAPACITY,
+        "MAP_CAPACITY": DEFAULT_MAP_CAPACITY,
+        "MAX_DEPTH": DEFAULT_DEPTH,
+        "MOST_QUADS": MOST_QUADS,
+        "NEAR": COINCIDENT * largest_shift(None),
+        "ROUND": ROUND,
+        "ENDLESS": ENDLESS,
+    }

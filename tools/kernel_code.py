@@ -1,6 +1,6 @@
 """Code of kernels for another machine, from the text that Numba compiles them to."""
 
-from collections.abc import Collection
+from collections.abc import Mapping, Sequence
 
 import llvmlite.binding as llvm
 
@@ -61,31 +61,38 @@ other:
 first is the number of arrays that use it; it is given up when that is 0."""
 
 
-def module_of(text: str, entries: Collection[str], run_time: str = RUN_TIME) -> llvm.ModuleRef:
-    """The code of a kernel, complete but for the C library; only `entries` can be called from outside.
+def join_modules(texts: Sequence[str], exported: Mapping[str, str]) -> llvm.ModuleRef:
+    """One module of several texts of LLVM; only functions that are exported can be called from outside.
 
     Parameters
     ----------
-    text : str
-        What Numba's `inspect_llvm` says of the kernel.
-    entries : collection of str
-        Names of functions in there, or in `run_time`.
-    run_time : str
-        What the kernel asks of Numba.
+    texts : sequence of str
+        What Numba's `inspect_llvm` says of kernels, and a run time for them.
+    exported : mapping of str to str
+        New names of functions in there, by their names.
     """
-    module = llvm.parse_assembly(text)
-    module.link_in(llvm.parse_assembly(run_time))
+    module = llvm.parse_assembly(texts[0])
+    for text in texts[1:]:
+        module.link_in(llvm.parse_assembly(text))
     for function in module.functions:
         if not function.is_declaration:
-            linkage = llvm.Linkage.external if function.name in entries else llvm.Linkage.internal
-            function.linkage = linkage
+            function.linkage = llvm.Linkage.external if function.name in exported else llvm.Linkage.internal
+            function.name = exported.get(function.name, function.name)
     return module
 
 
-def object_file(module: llvm.ModuleRef, machine: llvm.TargetMachine) -> bytes:
-    """Machine code of a module, without what no entry of it calls: the way in from Python is left out so."""
+def object_file(
+    module: llvm.ModuleRef, machine: llvm.TargetMachine, optimiser: llvm.PassBuilder | None = None
+) -> bytes:
+    """Machine code of a module, without what no entry of it calls: the way in from Python is left out so.
+
+    Numba has optimised the code for its own machine; an `optimiser` does so once more.
+    """
+    builder = optimiser or llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options())
     passes = llvm.create_new_module_pass_manager()
     passes.add_global_dead_code_eliminate_pass()
-    passes.run(module, llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options()))
+    passes.run(module, builder)
+    if optimiser:
+        optimiser.getModulePassManager().run(module, optimiser)
     code: bytes = machine.emit_object(module)
     return code

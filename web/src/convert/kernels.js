@@ -120,6 +120,11 @@ export class Kernels {
     }
   }
 
+  /** Bytes of memory that the kernels hold between calls. */
+  get bytes() {
+    return /** @type {number} */ (this.#exports.memory.buffer.byteLength);
+  }
+
   /**
    * Call a kernel. The results are copies, arrays without their shape.
    *

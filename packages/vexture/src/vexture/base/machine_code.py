@@ -33,7 +33,8 @@ RELEASE = "NRT_decref"
 """Name of the function that releases an array of a kernel."""
 
 TypeDescription = Any
-"""Type of a value: "int", "float", [dtype, dimensions, writable] for an array, ["tuple", ...] for a tuple, or None."""
+"""Type of a value: "int", "float", "bool", [dtype, dimensions, writable] for an array, ["tuple", ...] for a tuple, or
+None."""
 
 
 class Code(NamedTuple):
@@ -58,8 +59,8 @@ def argument_type(value: Any) -> TypeDescription:
         return None
     if type(value) is int:
         return "int" if -LARGEST <= value <= LARGEST else ""
-    if type(value) is float:
-        return "float"
+    if type(value) in (float, bool):
+        return type(value).__name__
     if isinstance(value, tuple):
         parts = [argument_type(part) for part in value]
         return "" if "" in parts else ["tuple", *parts]
@@ -75,6 +76,8 @@ def _words(value: Any) -> list[Any]:
     if isinstance(value, np.ndarray):
         numbers = [0, 0, value.size, value.itemsize, value.ctypes.data, *value.shape, *value.strides]
         return [ctypes.c_int64(number) for number in numbers]
+    if isinstance(value, bool):
+        return [ctypes.c_uint8(value)]
     return [ctypes.c_double(value) if isinstance(value, float) else ctypes.c_int64(value)]
 
 
@@ -83,7 +86,7 @@ def _layout(result: TypeDescription) -> Any:
     if result is None:
         return ctypes.c_void_p
     if isinstance(result, str):
-        return {"int": ctypes.c_int64, "float": ctypes.c_double}[result]
+        return {"int": ctypes.c_int64, "float": ctypes.c_double, "bool": ctypes.c_bool}[result]
     if result[0] == "tuple":
         fields = [(f"part_{k}", _layout(part)) for k, part in enumerate(result[1:])]
         return type("Parts", (ctypes.Structure,), {"_fields_": fields})

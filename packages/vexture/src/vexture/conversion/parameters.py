@@ -98,7 +98,10 @@ class Parameters:
         """
         if self.split != "auto":
             return self.split
-        return "faces" if self.restyle or drawing.is_coloured or len(drawing.layers()) > 1 else None
+        if self.restyle or drawing.is_coloured:
+            return "faces"
+        is_opaque = all(path.paint.opacity >= 1.0 for path in drawing.paths)  # then it is one layer
+        return None if is_opaque or len(drawing.layers()) == 1 else "faces"
 
 
 DEFAULTS: Final = Parameters()
