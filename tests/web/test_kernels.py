@@ -6,7 +6,6 @@ import shutil
 import subprocess
 import warnings
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ from walk_node import by_node
 
 import corpora
 import vexture
-from build_wasm import OUTPUT, is_current
+from build_wasm import OUTPUT, is_current, retarget
 from chromium import ROOT
 from vexture.base.errors import SourceWarning, VextureError
 from vexture.base.tolerance import UNSEEN
@@ -73,15 +72,20 @@ def compare(module: Path, cases: Iterable[Case], folder: Path) -> int:
     return count
 
 
-def glyphs(font: Path) -> Iterator[Drawing]:
-    for character in GLYPHS:
-        yield replace(vexture.read_text(character, font=font), name=character)
-
-
 def test_texels_of_examples_and_glyphs_are_those_of_python(module: Path, tmp_path: Path) -> None:
-    drawings = [*(vexture.read(file) for file in SHAPES), *glyphs(corpora.dejavu_sans())]
+    drawings = [*(vexture.read(file) for file in SHAPES), *corpora.glyphs(corpora.dejavu_sans(), GLYPHS)]
     cases = [silhouette(drawing, 7 * place) for place, drawing in enumerate(drawings)]
     assert compare(module, cases, tmp_path) == len(SHAPES) + len(GLYPHS)
+
+
+def test_room_on_the_stack_is_that_of_addresses_of_8_bytes() -> None:
+    text = """%x = alloca { ptr, i64, ptr }, align 8
+  store ptr @.const.picklebuf.1f.2, ptr %excinfo, align 8
+@.const.picklebuf.1f.2 = internal constant { ptr, i32 } zeroinitializer"""
+    first, second, third = retarget(text, "").splitlines()
+    assert first == "%x = alloca { i64, i64, i64 }, align 8"
+    assert second == "  store ptr null, ptr %excinfo, align 8"
+    assert third == text.splitlines()[2]
 
 
 def test_limits_are_reported_as_in_python(module: Path, tmp_path: Path) -> None:
