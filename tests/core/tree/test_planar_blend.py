@@ -12,8 +12,10 @@ from planar import gradient_colours
 from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import run
 from vexture.drawing.group import Blend
-from vexture.tree.planar.layers import JUMPING
 from vexture.tree.planar.programs import Keep, Mix
+
+JUMPING = {Blend.COLOR_DODGE, Blend.COLOR_BURN, Blend.HUE, Blend.SATURATION, Blend.COLOR, Blend.LUMINOSITY}
+"""Modes that jump where a component of a colour is 0 or 1, or where the colour is grey."""
 
 
 @pytest.mark.parametrize("blend", Blend)
