@@ -15,7 +15,9 @@ from vexture.bezier.joins import StrokeStyle
 from vexture.bezier.outlines import Outlines, append_stroke
 
 FITTED: Final = 0.1
-"""Share of the tolerance for parallel curves and arcs; the rest is for the few cubics that replace them."""
+REDUCED: Final = 0.86
+"""Shares of the tolerance for parallel curves and arcs, and for the few cubics that replace them. The rest is for what
+both miss between the points at which they measure."""
 
 SHORTEST: Final = 1 / 64
 """Share of the tolerance. Shorter steps have no direction that means something."""
@@ -55,7 +57,7 @@ def stroke_path(
             size = max(size, max(abs(cubics[i, k, 0]), abs(cubics[i, k, 1])))
     tolerance = max(style[4], size * FLOATS)
     kind = StrokeStyle(style[0] / 2.0, int(style[1]), int(style[2]), style[3], FITTED * tolerance, SHORTEST * tolerance)
-    tolerance *= 1.0 - FITTED
+    tolerance *= REDUCED
     outlines = Outlines(empty_chain(4 * len(cubics) + 16), np.empty(2 * len(ends), np.int64), np.zeros(1, np.int64))
     first = 0
     for i in range(len(ends)):
