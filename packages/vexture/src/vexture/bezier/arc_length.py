@@ -24,12 +24,12 @@ STEPS: Final = 60
 
 
 class ArcLengths(NamedTuple):
-    """Pieces of a path whose lengths are known, in their order; `count` of them."""
+    """Pieces of a path whose lengths are known, in their order; `number` of them."""
 
     owner: NDArray[np.int64]  # (room,): cubic of each piece
     span: NDArray[np.float64]  # (room, 2): its parameters
     end: NDArray[np.float64]  # (room,): length of the path up to its end
-    count: NDArray[np.int64]  # (1,)
+    number: NDArray[np.int64]  # (1,)
 
 
 @kernel(allocates=False)
@@ -47,10 +47,10 @@ def _piece_length(curve: NDArray[np.float64], t0: float, t1: float) -> float:
 @kernel
 def _append_piece(lengths: ArcLengths, owner: int, t0: float, t1: float, length: float) -> ArcLengths:
     """Add a piece."""
-    count = lengths.count[0]
+    count = lengths.number[0]
     if count == len(lengths.owner):
         more = ArcLengths(
-            np.empty(2 * count + 4, np.int64), np.empty((2 * count + 4, 2)), np.empty(2 * count + 4), lengths.count
+            np.empty(2 * count + 4, np.int64), np.empty((2 * count + 4, 2)), np.empty(2 * count + 4), lengths.number
         )
         for i in range(count):
             more.owner[i], more.end[i] = lengths.owner[i], lengths.end[i]
@@ -58,7 +58,7 @@ def _append_piece(lengths: ArcLengths, owner: int, t0: float, t1: float, length:
         lengths = more
     lengths.owner[count], lengths.span[count, 0], lengths.span[count, 1] = owner, t0, t1
     lengths.end[count] = (lengths.end[count - 1] if count > 0 else 0.0) + length
-    lengths.count[0] = count + 1
+    lengths.number[0] = count + 1
     return lengths
 
 
@@ -103,13 +103,13 @@ def path_length(cubics: NDArray[np.float64]) -> float:
 @kernel(allocates=False)
 def total_length(lengths: ArcLengths) -> float:
     """Length of a path that was measured."""
-    return lengths.end[lengths.count[0] - 1] if lengths.count[0] > 0 else 0.0
+    return lengths.end[lengths.number[0] - 1] if lengths.number[0] > 0 else 0.0
 
 
 @kernel(allocates=False)
 def find_place(cubics: NDArray[np.float64], lengths: ArcLengths, length: float) -> tuple[int, float]:
     """Cubic and parameter at a length from the start of a path, which is not empty."""
-    low, high = 0, lengths.count[0] - 1
+    low, high = 0, lengths.number[0] - 1
     while low < high:
         middle = (low + high) // 2
         if lengths.end[middle] < length:

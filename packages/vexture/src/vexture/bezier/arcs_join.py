@@ -17,7 +17,7 @@ TERMS: Final = 8
 
 
 @kernel(allocates=False)
-def _turned(x: float, y: float, angle: float) -> tuple[float, float]:
+def _turn_vector(x: float, y: float, angle: float) -> tuple[float, float]:
     """Vector turned by an angle of at most half a turn, by series and doubling: libraries differ in the last bit."""
     part = angle / 16.0
     sine, cosine, term = 0.0, 0.0, 1.0
@@ -134,7 +134,7 @@ def _is_ahead(end: NDArray[np.float64], x: float, y: float, forth: float) -> boo
 
 @kernel(allocates=False)
 def _nearest(found: NDArray[np.float64], ends: NDArray[np.float64], x: float, y: float) -> int:
-    """Which of two points is the nearest one to (x, y) that both sides reach; -1 if none is."""
+    """Index of the one of two points, nearest to (x, y), that both sides reach; -1 if there is none."""
     best, least = -1, np.inf
     for k in range(2):
         px, py = found[k, 0], found[k, 1]
@@ -183,8 +183,8 @@ def _clip(
         angle = longest / radius
         if abs(angle) >= 3.0:
             return 0
-        tx, ty = _turned(mx, my, angle)
-        sx, sy = _turned(my, -mx, angle)
+        tx, ty = _turn_vector(mx, my, angle)
+        sx, sy = _turn_vector(my, -mx, angle)
         qx, qy = corner[0] + radius * (sx - my), corner[1] + radius * (sy + mx)
         chord_x, chord_y = qx - corner[0], qy - corner[1]
         if chord_x * chord_x + chord_y * chord_y >= square:

@@ -27,7 +27,7 @@ class Outlines(NamedTuple):
 
     chain: CubicChain
     lengths: NDArray[np.int64]  # (room,): cubics of each contour
-    count: NDArray[np.int64]  # (1,)
+    number: NDArray[np.int64]  # (1,)
 
 
 @kernel
@@ -37,7 +37,7 @@ def append_contour(outlines: Outlines, chain: CubicChain, shortest: float, toler
     if len(contour) == 0:
         return outlines
     contour = reduce_contour(contour, tolerance)
-    lengths, count, more = outlines.lengths, outlines.count[0], outlines.chain
+    lengths, count, more = outlines.lengths, outlines.number[0], outlines.chain
     if count == len(lengths):
         lengths = np.empty(2 * count + 2, np.int64)
         for i in range(count):
@@ -51,8 +51,8 @@ def append_contour(outlines: Outlines, chain: CubicChain, shortest: float, toler
         copy_curve(contour[i], more.cubics[more.length[0] + i])
     more.length[0] = needed
     lengths[count] = len(contour)
-    outlines.count[0] = count + 1
-    return Outlines(more, lengths, outlines.count)
+    outlines.number[0] = count + 1
+    return Outlines(more, lengths, outlines.number)
 
 
 @kernel

@@ -67,4 +67,4 @@ def stroke_path(
         else:
             outlines = append_stroke(outlines, path, closed[i], kind, tolerance)
         first = ends[i]
-    return outlines.chain.cubics[: outlines.chain.length[0]], outlines.lengths[: outlines.count[0]]
+    return outlines.chain.cubics[: outlines.chain.length[0]], outlines.lengths[: outlines.number[0]]
