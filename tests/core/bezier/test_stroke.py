@@ -111,7 +111,7 @@ def odd_curve(kind, random):
 @pytest.mark.parametrize("half", [0.05, 0.7, 9.0])
 def test_odd_curves_have_round_strokes(kind, half):
     """No place further outside than the tolerance is covered, and none further inside is not."""
-    for seed in range(5):
+    for seed in range(4):
         random = np.random.default_rng(seed)
         check_round(odd_curve(kind, random)[None], seed % 2 == 1, half, seed, 40)
 
