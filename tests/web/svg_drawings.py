@@ -49,10 +49,14 @@ def stroke(request: dict[str, Any]) -> list[list[float]]:
 
 @contextmanager
 def served_reader(folder: Path) -> Iterator[tuple[str, list[str]]]:
-    """Serve the page with the reader, and outlines of strokes; yield its address and the list of paths asked for."""
+    """Serve the page with the reader, and outlines of strokes; yield its address and the list of paths asked for.
+
+    The page "strict" has a policy that forbids styles in its markup.
+    """
     bundle(ENTRY, folder / "reader.js")
     files = {"/": (b"<!doctype html><meta charset=utf-8><script type=module src=/reader.js></script>", "text/html")}
     files["/reader.js"] = ((folder / "reader.js").read_bytes(), "text/javascript")
+    files["/strict"] = files["/"]
     asked: list[str] = []
 
     class Handler(http.server.BaseHTTPRequestHandler):
@@ -72,6 +76,8 @@ def served_reader(folder: Path) -> Iterator[tuple[str, list[str]]]:
             self.send_response(200)
             self.send_header("Content-Type", kind)
             self.send_header("Content-Length", str(len(content)))
+            if self.path == "/strict":
+                self.send_header("Content-Security-Policy", "default-src 'none'; script-src 'self'; connect-src 'self'")
             self.end_headers()
             self.wfile.write(content)
 

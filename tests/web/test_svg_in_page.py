@@ -234,3 +234,15 @@ def test_a_source_that_is_none_is_refused(reader: tuple[Any, list[str]]) -> None
     ):
         with pytest.raises(Exception, match=message):
             reader[0].evaluate(f"async () => readSource({source})")
+
+
+def test_styles_count_in_a_page_whose_policy_forbids_them(chromium: Any, reader: tuple[Any, list[str]]) -> None:
+    page = chromium.new_page()
+    page.goto(reader[0].url + "strict")
+    page.wait_for_function("window.readText")
+    style = "<style media='all'>.a { fill: #f00 }</style><style>.b { fill: #0f0 }</style>"
+    shapes = '<rect class="{}" width="9" height="9" style="fill-opacity: 0.5"/>'
+    value = page.evaluate("text => readText(text)", svg(style + shapes.format("a") + shapes.format("b")))
+    page.close()
+    found = [(path["paint"]["color"], path["paint"]["opacity"]) for path in value["paths"]]
+    assert found == [([1, 0, 0], 0.5), ([0, 1, 0], 0.5)]

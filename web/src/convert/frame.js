@@ -15,15 +15,44 @@ export function openFrame(root) {
   style.cssText = 'position:fixed;left:-99999px;top:0;border:0;visibility:hidden;color-scheme:light';
   [style.width, style.height] = [width, height].map((side) => `${Math.min(Math.max(side, 1), 16384)}px`);
   document.documentElement.append(frame);
-  const inner = /** @type {Document} */ (frame.contentDocument);
+  try {
+    fill(/** @type {Document} */ (frame.contentDocument), root);
+  } catch (error) {
+    frame.remove();
+    throw error;
+  }
+  return frame;
+}
+
+/** @param {Document} inner @param {Element} root */
+function fill(inner, root) {
   inner.open();
   inner.write(`<!doctype html><meta http-equiv="Content-Security-Policy" content="${POLICY}">`);
   inner.close();
   inner.replaceChild(inner.adoptNode(root), inner.documentElement);
-  const sheet = new /** @type {Window & typeof globalThis} */ (inner.defaultView).CSSStyleSheet();
-  sheet.replaceSync(STILL);
-  inner.adoptedStyleSheets = [sheet];
-  return frame;
+  const { CSSStyleSheet } = /** @type {Window & typeof globalThis} */ (inner.defaultView);
+  const texts = [STILL, ...forbiddenStyles(root)];
+  inner.adoptedStyleSheets = texts.map((text) => {
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(text);
+    return sheet;
+  });
+}
+
+/**
+ * Apply styles that the page's policy forbids in markup: scripts may still set them.
+ *
+ * @param {Element} root
+ * @returns {string[]} texts of style sheets
+ */
+function forbiddenStyles(root) {
+  for (const element of [root, ...root.querySelectorAll('[style]')]) {
+    const text = element.getAttribute('style');
+    const { style } = /** @type {SVGElement} */ (element);
+    if (text && style?.length === 0) style.cssText = text;
+  }
+  const sheets = [...root.getElementsByTagName('style')].filter((one) => !one.sheet && one.textContent?.trim());
+  return sheets.map(({ media, textContent }) => (media ? `@media ${media} {${textContent}}` : textContent ?? ''));
 }
 
 /** @param {HTMLIFrameElement} frame */
