@@ -80,10 +80,10 @@ def names(files: list[str]) -> set[str]:
 
 
 FOLDERS = {
-    *("bad", "errors", "filters", "gradients", "groups", "markers", "masks", "paths", "patterns", "shapes"),
+    *("bad", "errors", "filters", "gradients", "groups", "images", "markers", "masks", "paths", "patterns", "shapes"),
     *("strokes", "structure", "style", "transform", "unsupported", "viewport"),
 }
-"""Folders of fixtures that the page reads. It names animations, images, texts and gradients of backgrounds."""
+"""Folders of fixtures that the page reads. It names animations, texts and gradients of backgrounds."""
 
 FIXTURES_READ = sorted(file for folder in FOLDERS for file in (FIXTURES / folder).glob("*.svg"))
 

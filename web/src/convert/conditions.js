@@ -15,8 +15,23 @@ const BOX = {
   padding: { property: 'padding-left', shows: /[1-9]/ },
 };
 
-/** Note what the outermost element shows as a CSS box. @param {import('./page-engine.js').Style} style @param {import('./report.js').Report} report */
-export function noteBox(style, report) {
+/** Remarks on elements that do not change the picture. */
+const REMARKS = {
+  cursor: 'its cursors are left out, which no picture shows',
+  view: 'its views are not followed; all of it is shown',
+};
+
+/**
+ * Note what is left out of a document, and what the outermost element shows as a CSS box.
+ *
+ * @param {import('./page-engine.js').Engine} engine
+ * @param {import('./report.js').Report} report
+ * @param {import('./page-engine.js').Style} style of the outermost element
+ */
+export function noteParts(engine, report, style) {
+  for (const [message, count] of engine.stripped) report.count('left out', message, count);
+  for (const { name, value, element } of engine.invalid) report.invalid(name, value, element);
+  for (const [name, message] of Object.entries(REMARKS)) if (engine.has(name)) report.remark(message);
   for (const [name, { property, shows }] of Object.entries(BOX)) {
     if (shows.test(style.get(property))) report.leftOut(`${name} of the outermost <svg>`);
   }

@@ -1,16 +1,124 @@
-// Images in an SVG, which notes list: nothing is fetched, and pictures are not traced.
-import { isFlat } from './space.js';
+// Images in an SVG (SVG 2, 12.3): embedded drawings are drawn; nothing is fetched, and pictures are not traced.
+import { VextureError } from '../errors.js';
+import { IDENTITY, multiply, translate } from './affine.js';
+import { lengthOf } from './lengths.js';
 import { shortenText } from './report.js';
+import { isFlat, within } from './space.js';
+import { THINNEST, ownSize } from './viewport.js';
+
+/** @typedef {import('./space.js').Place} Place */
+/** @typedef {import('./scene.js').Scene} Scene */
 
 /** Longest file name in a note. */
 const SHOWN = 40;
 
-/** @param {any} element @param {import('./space.js').Place} place @param {import('./report.js').Report} report */
-export function noteImage(element, place, report) {
-  const link = (report.engine.link(element) ?? '').trim();
+/** Deepest nesting of drawings in images. */
+const DEEPEST = 4;
+
+/** Most different images of a drawing. */
+const MOST_IMAGES = 256;
+
+/**
+ * Paint an image at a place with its own style, or note why not.
+ *
+ * @param {Scene} scene
+ * @param {any} element
+ * @param {Place} place
+ * @param {import('./painter.js').Painter} painter
+ */
+export function paintImage(scene, element, place, painter) {
+  const link = (scene.engine.link(element) ?? '').trim();
   if (!link || place.style.get('visibility') !== 'visible' || isFlat(place.space)) return;
-  const isEmbedded = link.slice(0, 5).toLowerCase() === 'data:';
-  report.leftOut(isEmbedded ? 'an embedded image' : `image '${nameOf(link)}' (nothing is fetched from an address)`);
+  const inner = embeddedScene(scene, link);
+  if (typeof inner === 'string') return scene.report.leftOut(inner);
+  const [width, height] = ownSize((name) => inner.engine.attribute(inner.root, name));
+  const sides = imageSides(place, [width, height]);
+  if (Math.min(sides[2], sides[3], width, height) < THINNEST) return;
+  const content = multiply(translate(IDENTITY, sides[0], sides[1]), scene.fit(element, [0, 0, width, height], sides[2], sides[3]));
+  const visible = ['visible', 'auto'].includes(place.style.get('overflow')) ? null : sides;
+  paintEmbedded(scene, inner, within({ visible, content, size: [width, height] }, place), painter);
+}
+
+/**
+ * Position and size of an image; missing sides follow from the size of its content.
+ *
+ * @param {Place} place
+ * @param {readonly [number, number]} size
+ * @returns {import('./contours.js').Rectangle}
+ */
+export function imageSides({ style, view }, size) {
+  const [x, y, own, tall] = ['x', 'y', 'width', 'height'].map((name, k) => {
+    return lengthOf(view, style.get(name), k % 2 ? view.height : view.width, style.fontSize);
+  });
+  const ratio = Math.min(...size) >= THINNEST ? size[0] / size[1] : 1;
+  const width = own ?? (tall === null ? size[0] : tall * ratio);
+  return [x ?? 0, y ?? 0, width, tall ?? width / ratio];
+}
+
+/** @param {Scene} scene @param {string} link @returns {Scene | string} the scene of a drawing, or the text of a note */
+function embeddedScene(scene, link) {
+  let found = scene.images.get(link);
+  if (found === undefined) scene.images.set(link, (found = openImage(scene, link)));
+  return found;
+}
+
+/** @param {Scene} scene @param {string} link @returns {Scene | string} */
+function openImage(scene, link) {
+  if (link.slice(0, 5).toLowerCase() !== 'data:') return `image '${nameOf(link)}' (nothing is fetched from an address)`;
+  if (scene.images.size >= MOST_IMAGES) return `an embedded image (the drawing has more than ${MOST_IMAGES} images)`;
+  if (!/^data:image\/svg\+xml[;,]/i.test(link)) return 'an embedded image';
+  if (scene.depth >= DEEPEST) return `an embedded image (drawings in it are nested more than ${DEEPEST} deep)`;
+  try {
+    return scene.inside(scene.engine.open(decodeData(link)));
+  } catch (error) {
+    if (error instanceof VextureError) return `an embedded image (${error.message})`;
+    throw error;
+  }
+}
+
+/** @param {string} link a data: URL @returns {string} its text */
+function decodeData(link) {
+  const [, head, body] = /^([^,]*),([^#]*)/s.exec(link) ?? [];
+  if (body === undefined) throw new VextureError('its data: URL has no data', 'href');
+  const latin = body.replace(/%([\da-f]{2})/gi, (_, code) => String.fromCharCode(parseInt(code, 16)));
+  try {
+    const bytes = head.toLowerCase().endsWith(';base64') ? atob(latin.replace(/\s/g, '')) : unescapedBytes(latin);
+    return new TextDecoder().decode(Uint8Array.from(bytes, (letter) => letter.charCodeAt(0)));
+  } catch {
+    throw new VextureError('its data is no base64', 'href');
+  }
+}
+
+/** @param {string} text @returns {string} one letter for each byte, those of other letters as UTF-8 */
+function unescapedBytes(text) {
+  return text.replace(/[^\0-\xff]/gu, (letter) => String.fromCharCode(...new TextEncoder().encode(letter)));
+}
+
+/**
+ * Paint another document at a place inside its viewport; nothing of this document applies to it.
+ *
+ * @param {Scene} scene
+ * @param {Scene} inner
+ * @param {Place} around
+ * @param {import('./painter.js').Painter} painter
+ */
+function paintEmbedded(scene, inner, around, painter) {
+  const { width, height } = around.view;
+  const box = inner.view(inner.root);
+  if (box && Math.min(box[2], box[3]) < THINNEST) return;
+  const content = box ? inner.fit(inner.root, box, width, height) : IDENTITY;
+  /** @type {[number, number]} */
+  const outermost = [width, height];
+  const [across, down] = box ? [box[2], box[3]] : outermost;
+  const view = { width: across, height: down, rem: inner.style.fontSize, outermost };
+  const place = {
+    ...around, view, style: inner.style, element: inner.root, outer: around, depth: around.depth + 1, isInstance: true, context: null,
+  };
+  const own = painter.forScene(inner);
+  inner.used = scene.used;
+  inner.size = scene.size;
+  inner.walk(inner.insideRoot(place, own, content, [0, 0, width, height]), own);
+  [painter.segments, scene.used] = [own.segments, inner.used];
 }
 
 /** @param {string} link @returns {string} the name of its file */

@@ -22,6 +22,7 @@ import { strip } from './strip.js';
  * @property {(element: any) => boolean} isHtml
  * @property {(element: any) => any[]} children a new list of elements
  * @property {(element: any) => number} count number of elements inside
+ * @property {(name: string) => boolean} has whether the document has elements of a name
  * @property {(element: any, name: string) => string | null} attribute
  * @property {(element: any) => string | null} link value of `href`
  * @property {(link: string) => any} target the element that "#name" refers to, or null
@@ -29,6 +30,7 @@ import { strip } from './strip.js';
  * @property {(use: any, target: any) => any} instance a copy of an element, whose style is that inside a `use`
  * @property {(element: any) => any} original the element of which another one is a copy, or itself
  * @property {(text: string) => [number, number, number, number] | null} color sRGB and opacity, 0..1
+ * @property {(text: string) => Engine} open another document, which closes with this one
  * @property {() => void} close
  */
 
@@ -96,6 +98,8 @@ class PageEngine {
     this.colors = new Map();
     /** @type {Map<string, boolean>} */
     this.mentioned = new Map();
+    /** @type {Engine[]} */
+    this.opened = [];
     /** @type {CSSStyleDeclaration | null} */
     this.probe = null;
     this.original = (/** @type {Element} */ element) => this.originals.get(element) ?? element;
@@ -124,6 +128,11 @@ class PageEngine {
   /** @param {Element} element */
   count(element) {
     return element.getElementsByTagName('*').length;
+  }
+
+  /** @param {string} name */
+  has(name) {
+    return this.root.getElementsByTagName(name).length > 0;
   }
 
   /** @param {Element} element @param {string} name */
@@ -228,8 +237,16 @@ class PageEngine {
     return this.probe.color ? this.probeStyle?.color ?? '' : '';
   }
 
+  /** @param {string} text @returns {Engine} */
+  open(text) {
+    const engine = new PageEngine(parseSvg(text));
+    this.opened.push(engine);
+    return engine;
+  }
+
   close() {
     closeFrame(this.frame);
+    for (const engine of this.opened) engine.close();
   }
 }
 

@@ -70,6 +70,11 @@ export class Painter {
     }
   }
 
+  /** @param {import('./scene.js').Scene} scene @returns {Painter} that of another document onto the same drawing */
+  forScene(scene) {
+    return Object.assign(new Painter(scene, this.canvas), { paths: this.paths, veils: this.veils, segments: this.segments });
+  }
+
   /**
    * Paint along the outlines.
    *

@@ -32,8 +32,6 @@ const UNPAINTED = 'nothing in it is painted';
  */
 export function readSvg(engine, { name = 'drawing', strokeOutline } = {}) {
   const scene = new Scene(engine, strokeOutline);
-  for (const [message, count] of engine.stripped) scene.report.count('left out', message, count);
-  for (const { name: attribute, value, element } of engine.invalid) scene.report.invalid(attribute, value, element);
   const frame = frameOf(scene);
   if (!frame) scene.report.remark(UNPAINTED);
   if (!frame) return { name, paths: [], groups: [], toSource: IDENTITY, sides: [1, 1], notes: scene.report.inOrder };

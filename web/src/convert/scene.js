@@ -3,11 +3,11 @@ import { CONTAINERS, DEEPEST, MOST_USED, UNPAINTED } from '../../generated/svg-r
 import { VextureError } from '../errors.js';
 import { IDENTITY, aboutOrigin, isIdentity, multiply, translate } from './affine.js';
 import { ClipShape } from './clip-shapes.js';
-import { DRAWN, applies, noteBox, switchChildren } from './conditions.js';
+import { DRAWN, applies, noteParts, switchChildren } from './conditions.js';
 import { boundsOf, loopOf, rectangle, rectangleOf } from './contours.js';
 import { elementTransform, ownTransform } from './element-transform.js';
 import { HIDING, filterLabel } from './filters.js';
-import { noteImage } from './images.js';
+import { imageSides, paintImage } from './images.js';
 import { TooLargeError, along, lengthOf } from './lengths.js';
 import { hasMarkers, markersOf } from './markers.js';
 import { MASKING, addMasks } from './masks.js';
@@ -48,6 +48,18 @@ export class Scene {
     this.shown = new Map();
     /** Larger side of the drawing. */
     this.size = 1;
+    /** Scenes of its images, or the texts of notes, by link. @type {Map<string, Scene | string>} */
+    this.images = new Map();
+    /** Number of drawings in whose images it is. */
+    this.depth = 0;
+  }
+
+  /** @param {import('./page-engine.js').Engine} engine of a drawing in an image @returns {Scene} with the same notes */
+  inside(engine) {
+    const scene = new Scene(engine, this.strokeOutline);
+    scene.report.counts = this.report.counts;
+    scene.depth = this.depth + 1;
+    return scene;
   }
 
   /**
@@ -80,11 +92,12 @@ export class Scene {
    * @returns {Placed[]}
    */
   insideRoot(around, painter, content, frame) {
+    noteParts(this.engine, this.report, this.style);
     const opacity = this.style.opacity('opacity');
     if (this.style.get('display') === 'none' || opacity === 0 || !this.noteEffects(this.root, this.style)) return [];
-    noteBox(this.style, this.report);
     let place = { ...around, space: this.spaceInside(around.space, content, frame) };
-    if (opacity < 1 || Object.keys(MASKING).some((name) => this.style.get(name) !== 'none')) place.veil = new Veil(null, opacity);
+    const isMasked = Object.keys(MASKING).some((name) => this.style.get(name) !== 'none');
+    if (opacity < 1 || around.outer || isMasked) place.veil = new Veil(around.veil, opacity); // there is nothing to blend with
     const inner = addMasks(this, this.root, place);
     place = inner.place;
     const color = this.engine.color(this.style.get('background-color'));
@@ -240,7 +253,8 @@ export class Scene {
       return [];
     }
     if (name === 'image') {
-      if (!inner.isClip && !(painter instanceof Ruler)) noteImage(element, inner, this.report);
+      if (painter instanceof Ruler) painter.measure(rectangle(...imageSides(inner, [0, 0])).cubics, inner);
+      else if (!inner.isClip) paintImage(this, element, inner, painter);
       return [];
     }
     if (name === 'use') return this.useTarget(element, inner);
