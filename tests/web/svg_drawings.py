@@ -123,30 +123,31 @@ def to_paint(value: dict[str, Any]) -> Paint:
 
 
 def share_off(ours: Drawing, theirs: Drawing) -> float:
-    """Share of the pixels by which the pictures of two drawings differ; 0 if their parts hardly do."""
-    if is_same(ours, theirs):
-        return 0.0
+    """Share of the pixels by which the pictures of two drawings differ; of parts that hardly differ, none is drawn."""
+    is_alike = len(ours.paths) == len(theirs.paths) and len(ours.groups) == len(theirs.groups)
+    pairs = [*zip(ours.paths, theirs.paths, strict=is_alike)]
+    if is_alike and all(map(is_same_group, ours.groups, theirs.groups)) and all(has_same_role(*pair) for pair in pairs):
+        pairs = [pair for pair in pairs if not is_same_path(*pair)]
+        ours, theirs = (
+            replace(ours, paths=tuple(replace(pair[k], group=-1) for pair in pairs), groups=()) for k in (0, 1)
+        )
+        if not pairs:
+            return 0.0
     first, second = (render_exact_colours(drawing, SIDE) for drawing in (ours, theirs))
     return float((np.abs(first - second).max(axis=-1) > VISIBLE).mean())
-
-
-def is_same(ours: Drawing, theirs: Drawing) -> bool:
-    """Whether two drawings have the same parts, except for rounding; this is faster than pictures."""
-    return (
-        len(ours.paths) == len(theirs.paths)
-        and len(ours.groups) == len(theirs.groups)
-        and all(map(is_same_path, ours.paths, theirs.paths))
-        and all(map(is_same_group, ours.groups, theirs.groups))
-    )
 
 
 def is_same_group(ours: Group, theirs: Group) -> bool:
     return abs(ours.opacity - theirs.opacity) < NEAR and replace(ours, opacity=1.0) == replace(theirs, opacity=1.0)
 
 
+def has_same_role(ours: DrawnPath, theirs: DrawnPath) -> bool:
+    return (ours.fill_rule, ours.group, ours.element) == (theirs.fill_rule, theirs.group, theirs.element)
+
+
 def is_same_path(ours: DrawnPath, theirs: DrawnPath) -> bool:
     return (
-        (ours.fill_rule, ours.group, ours.element) == (theirs.fill_rule, theirs.group, theirs.element)
+        has_same_role(ours, theirs)
         and [len(contour) for contour in ours.contours] == [len(contour) for contour in theirs.contours]
         and all(np.abs(a - b).max() < CLOSE for a, b in zip(ours.contours, theirs.contours, strict=True))
         and np.allclose(numbers_of(ours.paint), numbers_of(theirs.paint), rtol=1e-3, atol=NEAR)

@@ -39,7 +39,7 @@ export function strip(root) {
       const own = attribute.localName;
       if (own.startsWith('on')) note('script');
       if (own.startsWith('on') || own === 'href' || own === 'src') element.removeAttributeNode(attribute);
-      else if (CHECKED.has(own) && attribute.value.trim() && !CSS.supports(own, attribute.value)) invalid.push(attribute);
+      else if (CHECKED.has(own) && !ANIMATIONS.includes(name) && attribute.value.trim() && !CSS.supports(own, attribute.value)) invalid.push(attribute);
     }
     if (element.namespaceURI === HTML) {
       if (!element.closest('foreignObject')) note(`<${name.slice(0, 40)}>, of another namespace`);
