@@ -91,9 +91,13 @@ SET_CONTROLS: Final = """(values) => {
     input[input.type === 'checkbox' ? 'checked' : 'value'] = values[label];
     input.dispatchEvent(new Event('input'));
   }
+  dispatchEvent(new Event('resize')); // so that the picture fills the place of the panel
   return Object.keys(values).filter(isMissing);
 }"""
 """Hides the panel of an example and sets its controls; returns the labels of those that it does not have."""
+
+HALT: Final = "globalThis.requestAnimationFrame = () => 0"
+"""Lets the last frame of an example stay: without a graphics card, a screenshot waits long between frames."""
 
 LUCIDE_OF_GLYPH: Final = (1_594, 3 * 2**20, 998_000)
 """What pmndrs/glyph says of its baked Lucide icons: number, bytes, bytes compressed."""
@@ -298,6 +302,7 @@ def take_picture(page: Any, entry: Entry) -> bytes:
         if missing:
             sys.exit(f"{entry.name} has no control {missing[0]!r}, which its picture sets; see gallery.toml")
     page.wait_for_timeout(6_000 if entry.page else 2_500)
+    page.frames[-1].evaluate(HALT)
     return bytes(page.locator("#stage").screenshot(timeout=120_000))
 
 
