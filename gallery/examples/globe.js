@@ -29,7 +29,7 @@ Object.assign(controls, { enableDamping: true, enablePan: false, minDistance: 1.
 const panel = addPanel();
 const line = panel.text('Point at a country');
 const show = (log) => `${Number((6371 * 10 ** log).toPrecision(2)).toLocaleString('en')} km`;
-const height = panel.slider('Height', { min: -1.7, max: 0.8, value: innerWidth > 480 ? 0.4 : 0.66, show }, (log) =>
+const height = panel.slider('Height', { min: -1.7, max: 0.8, value: innerWidth > 480 ? 0.45 : 0.66, show }, (log) =>
   camera.position.setLength(1 + 10 ** log));
 panel.color('Sea', '#1f4a6b', (color) => sea.material.color.set(color));
 const turn = panel.toggle('Turn', moves, (isOn) => (controls.autoRotate = isOn));

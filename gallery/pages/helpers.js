@@ -14,15 +14,15 @@ const STYLE = `
 .controls > div { display: flex; flex-wrap: wrap; align-items: center; gap: 0 1.4rem; padding-bottom: .3rem; }
 .controls label { flex: 1 1 15rem; display: flex; gap: .6rem; align-items: center; min-height: 38px; }
 .controls label:has(input[type=checkbox], input[type=color]) { flex: 0 1 auto; }
-.controls label > span { flex: none; min-width: 3.4rem; }
-.controls label:has(input[type=checkbox], input[type=color]) > span { min-width: 0; }
+.controls label > span:first-child { flex: none; min-width: 3.4rem; }
+.controls label:has(input[type=checkbox], input[type=color]) > span:first-child { min-width: 0; }
 .controls p { flex: 1 0 100%; margin: 0; min-height: 1.5em; }
 .controls input[type=range], .controls select { flex: 1; min-width: 0; margin: 0; font: inherit; }
 .controls select { padding: .2rem; }
 .controls input[type=checkbox] { width: 1.3rem; height: 1.3rem; margin: 0; }
 .controls input[type=color] { width: 2.6rem; height: 1.7rem; padding: 0; border: 1px solid #0003; border-radius: .3rem; background: none; }
 .controls button { padding: .35rem .9rem; font: inherit; color: inherit; background: #fff; border: 1px solid #0004; border-radius: .4rem; cursor: pointer; }
-.controls output { flex: none; min-width: 3.3rem; text-align: right; font-variant-numeric: tabular-nums; }
+.controls label > .value { flex: none; min-width: 3.3rem; text-align: right; font-variant-numeric: tabular-nums; }
 .controls .legend { display: flex; flex-wrap: wrap; gap: .1rem .8rem; }
 .controls .legend i { display: inline-block; width: .9rem; height: .9rem; margin-right: .3rem; vertical-align: -.1rem; border-radius: .15rem; border: 1px solid #0003; }`;
 document.head.append(Object.assign(document.createElement('style'), { textContent: STYLE }));
@@ -56,11 +56,11 @@ export function addPanel(title = 'Controls') {
 
   /** A labelled input: `read` gets its value, `write` shows one, `change` takes it; and what shows it in words, if anything. */
   function add(label, input, { read, write, show }, change) {
-    const output = element('output');
+    const output = element('span', { className: 'value', ariaHidden: 'true' }); // it is told by aria-valuetext
     input.ariaLabel = label;
     panel.append(element('label', {}, element('span', { textContent: label }), input, ...(show ? [output] : [])));
     function tell() {
-      if (show) input.ariaValueText = output.value = show(read());
+      if (show) input.ariaValueText = output.textContent = show(read());
     }
     input.addEventListener('input', () => {
       tell();
