@@ -41,7 +41,7 @@ const panel = addPanel();
 const show = (log) => `${Number((6371 * 10 ** log).toPrecision(2)).toLocaleString('en')} km`;
 const height = panel.slider('Height', { min: -1.7, max: 0.8, value: innerWidth > 480 ? 0.48 : 0.66, show }, (log) =>
   camera.position.setLength(1 + 10 ** log));
-const east = panel.slider('Sun', { min: -180, max: 180, value: -35, step: 1, unit: '°' });
+const east = panel.slider('Sun', { min: -180, max: 180, value: -20, step: 1, unit: '°' });
 panel.color('Land', '#8aa05a', (color) => (mask.color = color));
 panel.color('Sea', '#1d5c86', (color) => sea.color.set(color));
 panel.toggle('Turn', moves, (isOn) => (controls.autoRotate = isOn));

@@ -23,7 +23,7 @@ const loader = new VectorTextureLoader();
 const names = ['Wales', 'Bhutan', 'Brazil'];
 const flags = await Promise.all(['gb-wls', 'bt', 'br'].map((code) => loader.loadAsync(`${code}.ktx2`)));
 const place = uv().mul(vec3(1, 0.75, 0).xy).add(vec3(0, 0.125, 0).xy); // a flag is 4 to 3, in the middle of its square
-const [wind, threads] = [uniform(1), uniform(0.2)];
+const [wind, threads] = [uniform(1), uniform(0)];
 const weave = sin(uv().x.mul(320)).mul(sin(uv().y.mul(240))).mul(threads).add(1);
 const phase = positionLocal.x.mul(3.5).sub(moves ? time.mul(wind).mul(3) : 1);
 const wave = sin(phase).add(sin(phase.mul(0.6).add(positionLocal.y)).mul(0.6)).mul(uv().x).mul(wind).mul(0.14);
@@ -41,7 +41,7 @@ scene.add(flag, pole);
 
 panel.choice('Flag', names, (name) => (flag.material = cloth(flags[names.indexOf(name)])));
 panel.slider('Wind', { min: 0, max: 2, value: 1 }, (speed) => (wind.value = speed));
-panel.slider('Threads', { min: 0, max: 0.6, value: 0.2 }, (depth) => (threads.value = depth));
+panel.slider('Threads', { min: 0, max: 0.5, value: 0.08 }, (depth) => (threads.value = depth));
 
 const controls = new OrbitControls(camera, renderer.domElement);
 Object.assign(controls, { enableDamping: true, minDistance: 0.3, maxDistance: 9 });
