@@ -123,6 +123,9 @@ class CascadeEngine {
   /** @param {Instance} element */
   count = ({ base }) => countInside(base);
 
+  /** @param {string} name @returns {boolean} */
+  has = (name) => holds(this.root.base, name);
+
   /** @param {Instance} element @param {string} name */
   attribute = ({ base }, name) => base.attributes.get(name) ?? null;
 
@@ -158,6 +161,9 @@ class CascadeEngine {
     if (found === undefined) this.#colors.set(text, (found = colorOf(text)));
     return found;
   }
+
+  /** @param {string} text @returns {Engine} */
+  open = (text) => new CascadeEngine(parseXml(text));
 
   close() {}
 }
@@ -271,6 +277,11 @@ const isSvg = (namespace) => namespace === SVG || namespace === null;
 
 /** @param {XmlElement} element */
 const isAnimation = ({ local, namespace }) => ANIMATIONS.includes(local) && isSvg(namespace);
+
+/** @param {XmlElement} element @param {string} name @returns {boolean} whether an element of a name is inside */
+function holds({ children }, name) {
+  return children.some((child) => child.local === name || holds(child, name));
+}
 
 /** @param {XmlElement} element @returns {number} */
 function countInside({ children }) {

@@ -10,15 +10,15 @@ const KINDS = ['left out', 'simplified', 'invalid', 'remark'];
 /** Collects notes and counts repeated ones. */
 export class Notes {
   /** @type {Map<string, Note>} */
-  #counts = new Map();
+  counts = new Map();
 
   /** @param {Kind} kind @param {string} message @param {number} [times] */
   count(kind, message, times = 1) {
     const text = message.replace(/(?! )[\p{C}\p{Z}]/gu, '\ufffd');
     const key = `${kind}\n${text}`;
-    const note = this.#counts.get(key);
+    const note = this.counts.get(key);
     if (note) note.count += times;
-    else this.#counts.set(key, { kind, message: text, count: times });
+    else this.counts.set(key, { kind, message: text, count: times });
   }
 
   /** Note an unsupported feature, which paints nothing or has no effect. @param {string} message */
@@ -38,7 +38,7 @@ export class Notes {
 
   /** All notes by kind; within a kind, by first occurrence. @returns {Note[]} */
   get inOrder() {
-    const notes = [...this.#counts.values()];
+    const notes = [...this.counts.values()];
     return KINDS.flatMap((kind) => notes.filter((note) => note.kind === kind));
   }
 }
