@@ -18,6 +18,7 @@ import { layersOf, splitOf, withoutGradients, withoutMasks } from './split.js';
  * @property {number} [capacity]
  * @property {number} [precision]
  * @property {boolean} [restyle]
+ * @property {number} [maxSeconds]
  *
  * @typedef {object} Converted
  * @property {string} name
@@ -33,6 +34,7 @@ import { layersOf, splitOf, withoutGradients, withoutMasks } from './split.js';
  * @property {number} near
  * @property {number} leastDepth
  * @property {number} maxDepth
+ * @property {number} maxSeconds
  *
  * @typedef {object} Sheet A shape of the texture: its part of the drawing, and its texels.
  * @property {Drawing} drawing
@@ -42,10 +44,8 @@ import { layersOf, splitOf, withoutGradients, withoutMasks } from './split.js';
  * @property {import('../style.js').Style | null} [style]
  */
 
-const DEFAULT_DEPTH = 16;
-
-/** Default tolerance, which cannot be seen at sizes up to 2,000 pixels. */
-const UNSEEN = 2e-5;
+/** Time limit without an option. */
+export const MAX_SECONDS = 60;
 
 /** Lattice units by which a curve may move, because its points are rounded when it is cut, and again in its leaf. */
 const DISPLACEMENT = 2;
@@ -83,13 +83,13 @@ export class Conversion {
    * @throws {VextureError} if an option is out of range, or the drawing exceeds a limit
    */
   convert(drawing, { split = 'auto', restyle = false, ...limits } = {}) {
-    const bounds = boundsOf(limits);
+    const bounds = boundsOf(this.kernels, limits);
     const { tolerance } = bounds;
     const way = splitOf(drawing, split, restyle);
     const shown = restyle ? withoutGradients(drawing) : way ? drawing : withoutMasks(drawing);
     const layers = way === 'paint' ? layersOf(drawing) : [];
     const sheets = way === 'faces' && drawing.paths.length
-      ? sheetsOf(this.kernels, shown, { usual: boundsOf({ ...limits, precision: undefined, tolerance }), precise: limits.precision === undefined ? null : bounds }, restyle)
+      ? sheetsOf(this.kernels, shown, { usual: boundsOf(this.kernels, { ...limits, precision: undefined, tolerance }), precise: limits.precision === undefined ? null : bounds }, restyle)
       : silhouettesOf(this.kernels, layers.length ? layers : [shown], bounds);
     const count = sheets.reduce((sum, { texels }) => sum + texels.length / 4, 0);
     if (count > MOST_ROWS << ROW_BITS) {
@@ -118,11 +118,13 @@ function silhouettesOf(kernels, drawings, bounds) {
 /**
  * Limits of a tree from the options.
  *
- * @param {Pick<ConversionOptions, 'tolerance' | 'maxDepth' | 'capacity' | 'precision'>} options
+ * @param {Kernels} kernels
+ * @param {Pick<ConversionOptions, 'tolerance' | 'maxDepth' | 'capacity' | 'precision' | 'maxSeconds'>} options
  * @returns {Bounds}
  * @throws {VextureError} if one is out of range
  */
-function boundsOf({ precision, tolerance = precision === undefined ? UNSEEN : 0, maxDepth = DEFAULT_DEPTH, capacity }) {
+function boundsOf({ constants }, { precision, tolerance, maxDepth = constants.MAX_DEPTH, capacity, maxSeconds = MAX_SECONDS }) {
+  const allowed = tolerance ?? (precision === undefined ? constants.TOLERANCE : 0);
   const whole = (/** @type {string} */ name, /** @type {number} */ value, /** @type {number} */ most) => {
     if (Number.isInteger(value) && value >= 1 && value <= most) return;
     throw new VextureError(`\`${name}\` ${line(value)} is no whole number in 1..${most}; leave it out`, name);
@@ -133,12 +135,13 @@ function boundsOf({ precision, tolerance = precision === undefined ? UNSEEN : 0,
   if (precision !== undefined && !(precision >= finest && precision <= 1)) {
     throw new VextureError(`\`precision\` ${line(precision)} is no number in ${finest}..1 (unit-square units); leave it out`, 'precision');
   }
-  if (!(tolerance >= 0 && tolerance < 1)) {
-    throw new VextureError(`\`tolerance\` ${line(tolerance)} is no number from 0 to below 1 (unit-square units); 0 keeps every piece`, 'tolerance');
+  if (!(allowed >= 0 && allowed < 1)) {
+    throw new VextureError(`\`tolerance\` ${line(allowed)} is no number from 0 to below 1 (unit-square units); 0 keeps every piece`, 'tolerance');
   }
   const leastDepth = precision === undefined ? 1 : Math.max(Math.ceil(Math.log2(DISPLACEMENT / (precision * LATTICE))), 1);
   const near = COINCIDENT * (precision ?? (0.5 * DISPLACEMENT) / LATTICE);
-  return { capacity, tolerance, near, leastDepth, maxDepth };
+  if (!(maxSeconds > 0)) throw new VextureError(`\`maxSeconds\` ${line(maxSeconds)} is no number above 0; leave it out`, 'maxSeconds');
+  return { capacity, tolerance: allowed, near, leastDepth, maxDepth, maxSeconds };
 }
 
 /**

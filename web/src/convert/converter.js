@@ -1,6 +1,7 @@
 // Runs conversions: in one worker, one after another, or in this thread where there are no workers.
 import { VextureError, line } from '../errors.js';
-import { Conversion } from './conversion.js';
+import { Conversion, MAX_SECONDS } from './conversion.js';
+import { overtime } from './silhouette.js';
 import { outlineStroke } from './stroke-outline.js';
 
 /** @import { Converted, ConversionOptions } from './conversion.js' */
@@ -16,7 +17,6 @@ import { outlineStroke } from './stroke-outline.js';
  * @property {Drawing} drawing
  * @property {ConversionOptions} options
  * @property {AbortSignal} [signal] stops it
- * @property {number} maxSeconds
  *
  * @typedef {object} Waiting A job that waits for the worker.
  * @property {Job} job
@@ -115,9 +115,10 @@ export class Converter {
    * @param {Job} job
    * @returns {Promise<Converted>}
    */
-  #convertInWorker({ drawing, options, signal, maxSeconds }) {
+  #convertInWorker({ drawing, options, signal }) {
     signal?.throwIfAborted();
     const worker = (this.#worker ??= this.#begin());
+    const { maxSeconds = MAX_SECONDS } = options;
     return new Promise((resolve, reject) => {
       const end = (/** @type {unknown} */ error) => {
         done();
@@ -125,10 +126,7 @@ export class Converter {
         reject(error);
       };
       const timer = setTimeout(() => {
-        end(new VextureError(
-          `${drawing.name}: converting took longer than ${maxSeconds} s; give a larger \`maxSeconds\`, or a simpler drawing`,
-          'maxSeconds',
-        ));
+        end(overtime(drawing.name, { maxSeconds }));
       }, 1000 * maxSeconds);
       const onAbort = () => end(signal?.reason);
       const done = () => {

@@ -5,6 +5,7 @@
  */
 import { VextureError, givenOptions, line, unfit } from '../errors.js';
 import { loadMaps, mapParts } from '../maps.js';
+import { MAX_SECONDS } from './conversion.js';
 import { Converter } from './converter.js';
 import { readGeojson } from './read-geojson.js';
 import { loadMarkup } from './source.js';
@@ -49,8 +50,6 @@ export { writePacked } from './write-packed.js';
 const OPTIONS = new Set(['name', 'split', 'tolerance', 'maxDepth', 'capacity', 'precision', 'restyle', 'names', 'signal', 'maxSeconds',
   'onProgress', 'converter']);
 
-const MAX_SECONDS = 60;
-
 /** @type {Converter | null} */
 let own = null;
 
@@ -81,7 +80,7 @@ export async function convertData(source, options) {
   onProgress?.({ stage: 'read' });
   const drawing = await read(source, { name, names, signal, converter });
   onProgress?.({ stage: 'convert' });
-  const converted = await converter.convert({ drawing, options: others, signal, maxSeconds });
+  const converted = await converter.convert({ drawing, options: { ...others, maxSeconds }, signal });
   if (converted.roots.some(({ isMap }) => isMap)) {
     await loadMaps();
     for (const root of converted.roots) if (root.isMap) mapParts().checkPaintsOf(root, converted.texels);

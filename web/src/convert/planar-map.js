@@ -2,19 +2,13 @@
 import { FARTHEST } from '../../generated/svg-reader.js';
 import { MOST_PAINTS } from '../../generated/layout.js';
 import { VextureError } from '../errors.js';
-import { checkOutcome, limitsOf, outlinesOf } from './silhouette.js';
+import { checkOutcome, limitsOf, outlinesOf, overtime, workOf } from './silhouette.js';
 
 /** @import { Bounds, Sheet } from './conversion.js' */
 /** @import { Drawing, Group, Paint, Path } from './drawing.js' */
 /** @import { Kernels } from './kernels.js' */
 /** @import { Gradient } from './paints.js' */
 /** @import { Style } from '../style.js' */
-
-/** Pieces in a leaf of a map. */
-const MAP_CAPACITY = 12;
-
-/** A limit that nothing reaches. */
-const ENDLESS = 2 ** 52;
 
 /** Decimals of the colours of a style. */
 const DIGITS = 1e6;
@@ -37,15 +31,17 @@ const MASKS = ['none', 'opacity', 'luminance'];
  */
 export function mapOf(kernels, drawing, bounds, { restyle, first, mostTexels }) {
   const elements = restyle ? elementsOf(drawing.paths) : null;
-  const limits = limitsOf(bounds, MAP_CAPACITY);
-  const most = Math.min(mostTexels, ENDLESS);
+  const { constants } = kernels;
+  const limits = limitsOf(bounds, constants.MAP_CAPACITY, constants);
+  const most = Math.min(mostTexels, constants.ENDLESS);
   const source = sourceOf(drawing, elements?.numbers);
-  const found = kernels.call('coloured_texels', [...source, limits, Number(restyle), first, most, ENDLESS]);
+  const found = kernels.call('coloured_texels', [...source, limits, Number(restyle), first, most, workOf(bounds)]);
   const { texels, quads, curves, flattened } = found;
   if (!texels.length) {
     checkReach(drawing.name, found.reach);
-    checkOutcome(drawing.name, found.outside, quads);
+    checkOutcome(drawing.name, found.outside, quads, constants);
     if (3 * quads + curves + (curves >> 2) > most) return null;
+    if (!found.paints) throw overtime(drawing.name, bounds);
     throw new VextureError(`${drawing.name}: ${found.paints > MOST_PAINTS ? 'too many colours' : 'too many gradients'}; divide the drawing`, 'paints');
   }
   return { drawing, texels, isMap: true, flattened, style: elements && styleOf(drawing, elements, found) };

@@ -5,15 +5,8 @@ import { VextureError } from '../errors.js';
 /** @import { Drawing, Path } from './drawing.js' */
 /** @import { Kernels } from './kernels.js' */
 
-/** Most quads of a tree, and a limit of work that no drawing within that reaches. */
-const MOST_QUADS = 2_000_000;
-const UNLIMITED = 2 ** 52;
-
-/** Pieces in a leaf. */
-const DEFAULT_CAPACITY = 8;
-
-/** Distance outside the unit square that is mere rounding. */
-const CLOSED = 1e-9;
+/** Work that a kernel does in a second, in the units of its limit, on a slow machine. */
+const WORK = 1e6;
 
 /**
  * Make the texels of a drawing's silhouette.
@@ -27,9 +20,11 @@ const CLOSED = 1e-9;
  */
 export function silhouetteOf(kernels, drawing, bounds, first) {
   const { cubics, lengths, path, rules } = outlinesOf(drawing.paths);
-  const limits = limitsOf(bounds, DEFAULT_CAPACITY);
-  const { texels, outside, quads } = kernels.call('silhouette_texels', [cubics, lengths, path, rules, limits, first, UNLIMITED]);
-  checkOutcome(drawing.name, outside, quads);
+  const { constants } = kernels;
+  const limits = limitsOf(bounds, constants.CAPACITY, constants);
+  const { texels, outside, quads } = kernels.call('silhouette_texels', [cubics, lengths, path, rules, limits, first, workOf(bounds)]);
+  checkOutcome(drawing.name, outside, quads, constants);
+  if (!texels.length) throw overtime(drawing.name, bounds);
   return texels;
 }
 
@@ -54,23 +49,44 @@ export function outlinesOf(paths) {
   };
 }
 
+/** @typedef {Kernels['constants']} Constants */
+
 /**
  * The limits in the order of Python's `Bounds`.
  *
  * @param {Bounds} bounds
  * @param {number} usual capacity
+ * @param {Constants} constants
  */
-export function limitsOf({ capacity, tolerance, near, leastDepth, maxDepth }, usual) {
+export function limitsOf({ capacity, tolerance, near, leastDepth, maxDepth }, usual, { MOST_QUADS }) {
   return [capacity ?? usual, tolerance, near, leastDepth, maxDepth, MOST_QUADS];
+}
+
+/**
+ * The limit of work of a kernel, which has no clock.
+ *
+ * @param {Bounds} bounds
+ */
+export const workOf = ({ maxSeconds }) => Math.ceil(Math.min(WORK * maxSeconds, Number.MAX_SAFE_INTEGER));
+
+/**
+ * The error of a kernel that has reached its limit of work.
+ *
+ * @param {string} name
+ * @param {Pick<Bounds, 'maxSeconds'>} bounds
+ */
+export function overtime(name, { maxSeconds }) {
+  return new VextureError(`${name}: converting takes longer than ${maxSeconds} s; give a larger \`maxSeconds\`, or a simpler drawing`, 'maxSeconds');
 }
 
 /**
  * @param {string} name
  * @param {number} outside distance
  * @param {number} quads
+ * @param {Constants} constants
  * @throws {VextureError} if a kernel has given up
  */
-export function checkOutcome(name, outside, quads) {
+export function checkOutcome(name, outside, quads, { CLOSED, MOST_QUADS }) {
   if (!(outside <= CLOSED)) { // NaN counts as outside
     throw new VextureError(`${name}: a curve leaves the unit square by ${outside}; clip or scale it first`, 'contours');
   }
