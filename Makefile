@@ -41,6 +41,7 @@ help:
 	@echo 'make viewer  build the pages of `vexture view` and `export`, of floods and of notebooks, with node and npm'
 	@echo 'make gallery  build a site of live, editable examples, with node and npm; it opens from the disk, too'
 	@echo 'make counties  build a page with a map of all counties of the United States, with node and npm'
+	@echo 'make wasm    compile the kernels that JavaScript calls to WebAssembly; make viewer does it, too'
 	@echo 'make test    lint, types and all tests but the slow ones, with all that they need'
 	@echo 'make lint    the checks of style and types, with the tools that they need'
 	@echo 'make test-core  the tests of the core, without vexture-geo and vexture-evidence'

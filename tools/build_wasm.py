@@ -145,7 +145,8 @@ def describe_value(name: str, value: Any) -> dict[str, Any]:
 def describe(entry: Any, result: Any) -> dict[str, Any]:
     """Describe an entry for JavaScript: its arguments, and the parts of its result."""
     names = inspect.signature(entry.kernel.py_func).parameters
-    listed = {"arguments": zip(names, entry.arguments, strict=True), "result": zip(entry.results, result, strict=True)}
+    parts = result if isinstance(result, tuple) else (result,)
+    listed = {"arguments": zip(names, entry.arguments, strict=True), "result": zip(entry.results, parts, strict=True)}
     return {kind: [describe_value(*value) for value in values] for kind, values in listed.items()}
 
 
