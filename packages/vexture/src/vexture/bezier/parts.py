@@ -15,8 +15,11 @@ from vexture.bezier.split import subcubic
 STRAIGHT: Final = 1e-9
 """Sine of the angle between the arms of a cubic that counts as a line."""
 
+TINY: Final = 8.0
+"""Shortest steps. An arm shorter than one is set to zero in a longer part only, where a cusp is the reason."""
+
 NOISE: Final = 1e-6
-"""Length of an arm at a cusp, as a share of the extent of the part that ends there: it has no direction."""
+"""Length of an arm, as a share of the extent of a tiny part, that has no direction."""
 
 SMOOTH: Final = -1
 """Kind of a join between parts of one cubic, which need none."""
@@ -146,7 +149,8 @@ def cut_path(cubics: NDArray[np.float64], style: StrokeStyle) -> Parts:
             t1 = cuts[k] if k < count else 1.0
             if k < count and not _is_cut(curve, t0, cuts, k, count, style.shortest):
                 continue
-            _write_part(curve, t0, t1, NOISE * _extent(curve, t0, t1), part)
+            size = _extent(curve, t0, t1)
+            _write_part(curve, t0, t1, style.shortest if size > TINY * style.shortest else NOISE * size, part)
             ends = part[1, 0] == part[0, 0] and part[1, 1] == part[0, 1]
             parts = append_part(parts, part, ROUND_JOIN if ends and kind == SMOOTH else kind)
             kind, t0 = SMOOTH, t1
