@@ -94,7 +94,7 @@ def path_length(cubics: NDArray[np.float64]) -> float:
     --------
     >>> import numpy as np
     >>> from vexture.bezier.convert import line_cubics
-    >>> path_length(line_cubics(np.array([[0.0, 0.0]]), np.array([[3.0, 4.0]])))
+    >>> round(path_length(line_cubics(np.array([[0.0, 0.0]]), np.array([[3.0, 4.0]]))), 9)
     5.0
     """
     return total_length(measure_path(cubics))

@@ -16,7 +16,7 @@ STRAIGHT: Final = 1e-9
 """Sine of the angle between the arms of a cubic that counts as a line."""
 
 TINY: Final = 8.0
-"""Shortest steps. An arm shorter than one is set to zero in a longer part only, where a cusp is the reason."""
+"""Shortest steps. Cuts nearer to each other are one; a part that is longer may have an arm of zero, at a cusp."""
 
 NOISE: Final = 1e-6
 """Length of an arm, as a share of the extent of a tiny part, that has no direction."""
@@ -147,7 +147,7 @@ def cut_path(cubics: NDArray[np.float64], style: StrokeStyle) -> Parts:
         count, t0, kind = find_cuts(curve, style.half, cuts), 0.0, STYLED
         for k in range(count + 1):
             t1 = cuts[k] if k < count else 1.0
-            if k < count and not _is_cut(curve, t0, cuts, k, count, style.shortest):
+            if k < count and not _is_cut(curve, t0, cuts, k, count, TINY * style.shortest):
                 continue
             size = _extent(curve, t0, t1)
             _write_part(curve, t0, t1, style.shortest if size > TINY * style.shortest else NOISE * size, part)
