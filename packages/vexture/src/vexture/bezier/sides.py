@@ -225,7 +225,13 @@ def _follow_bend(side: Side, first: int, count: int, slack: float) -> Side:
         i = (first + m) % n
         to_x, to_y = side.points[i, 1, 0], side.points[i, 1, 1]
         begin, end = side.begin[i], side.end[i]
+        start_x, start_y = side.points[i, 0, 0], side.points[i, 0, 1]
         side.begin[i] = chain.length[0]
+        if max(abs(start_x - at_x), abs(start_y - at_y)) > slack:  # after a tiny part that is tight only in part
+            chain = append_line(chain, x, y, at_x, at_y)
+            chain = append_line(chain, at_x, at_y, start_x, start_y)
+            x, y = start_x, start_y
+            at_x, at_y = x, y
         moves = not side.tight[i] and _extent(chain, begin, end, side.points[i, 0]) > slack
         side.points[i, 0, 0], side.points[i, 0, 1] = x, y
         if moves or max(abs(to_x - x), abs(to_y - y)) > slack:
