@@ -39,7 +39,8 @@ export function calculate(text, factor) {
       at++;
       const right = atom();
       if (right.isLength && (left.isLength || sign === '/')) throw new SyntaxError();
-      left = { value: sign === '*' ? left.value * right.value : left.value / right.value, isLength: left.isLength || right.isLength };
+      const value = sign === '*' ? left.value * right.value : left.value / right.value;
+      left = { value, isLength: left.isLength || right.isLength };
     }
     return left;
   };

@@ -1,6 +1,6 @@
 // A copy of an `<svg>` of the page, with the styles that the page gives it.
 import { VextureError, line } from '../errors.js';
-import { SVG } from './parse.js';
+import { SVG, checkCount } from './parse.js';
 
 /** Inherited properties that a reader asks for. */
 export const INHERITED = [
@@ -29,6 +29,7 @@ export function copyElement(element) {
   if (element.namespaceURI !== SVG || element.localName !== 'svg') {
     throw new VextureError(`the element is <${line(element.localName)}>; give an <svg> of the page`, 'element');
   }
+  checkCount(element.getElementsByTagName('*').length);
   const root = /** @type {Element} */ (element.cloneNode(true));
   const pairs = pairUp(element, root);
   const ids = new Set(pairs.map(({ copy }) => copy.id));
@@ -88,12 +89,15 @@ function copyVariables(live, copy) {
 export function copyStyles(pairs, window) {
   const values = pairs.map(({ live }, k) => {
     const style = getComputedStyle(live);
-    return (k ? [...INHERITED, ...OWN] : INHERITED).map((name) => /** @type {[string, string]} */ ([name, style.getPropertyValue(name)]));
+    const names = k ? [...INHERITED, ...OWN] : INHERITED;
+    return new Map(names.map((name) => [name, style.getPropertyValue(name)]));
   });
   pairs.forEach(({ copy }, k) => {
     if (!copy.isConnected) return;
     const computed = window.getComputedStyle(copy);
-    const hasVariables = (/** @type {string} */ name) => `${copy.getAttribute(name)} ${copy.getAttribute('style')}`.includes('var(');
+    const hasVariables = (/** @type {string} */ name) => {
+      return `${copy.getAttribute(name)} ${copy.getAttribute('style')}`.includes('var(');
+    };
     for (const [name, value] of values[k]) {
       const isSame = !value || computed.getPropertyValue(name) === value || hasVariables(name);
       if (!isSame) /** @type {SVGElement} */ (copy).style.setProperty(name, value, 'important');

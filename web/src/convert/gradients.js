@@ -196,7 +196,8 @@ export function readStops(gradient, report) {
     least = Math.max(least, offset ?? 0);
     const style = engine.style(child);
     const [red, green, blue, alpha] = engine.color(style.get('stop-color')) ?? [0, 0, 0, 1];
-    return { offset: least, color: /** @type {import('./paints.js').Color} */ ([red, green, blue]), opacity: alpha * style.opacity('stop-opacity') };
+    const color = /** @type {import('./paints.js').Color} */ ([red, green, blue]);
+    return { offset: least, color, opacity: alpha * style.opacity('stop-opacity') };
   });
   if (stops.length <= MOST_STOPS) return stops;
   report.simplified(`gradient of more than ${MOST_STOPS} stops, of which as many are kept`);

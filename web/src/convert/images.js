@@ -34,7 +34,8 @@ export function paintImage(scene, element, place, painter) {
   const [width, height] = ownSize((name) => inner.engine.attribute(inner.root, name));
   const sides = imageSides(place, [width, height]);
   if (Math.min(sides[2], sides[3], width, height) < THINNEST) return;
-  const content = multiply(translate(IDENTITY, sides[0], sides[1]), scene.fit(element, [0, 0, width, height], sides[2], sides[3]));
+  const fit = scene.fit(element, [0, 0, width, height], sides[2], sides[3]);
+  const content = multiply(translate(IDENTITY, sides[0], sides[1]), fit);
   const visible = ['visible', 'auto'].includes(place.style.get('overflow')) ? null : sides;
   paintEmbedded(scene, inner, within({ visible, content, size: [width, height] }, place), painter);
 }
@@ -112,7 +113,8 @@ function paintEmbedded(scene, inner, around, painter) {
   const [across, down] = box ? [box[2], box[3]] : outermost;
   const view = { width: across, height: down, rem: inner.style.fontSize, outermost };
   const place = {
-    ...around, view, style: inner.style, element: inner.root, outer: around, depth: around.depth + 1, isInstance: true, context: null,
+    ...around, view, style: inner.style, element: inner.root, outer: around, depth: around.depth + 1,
+    isInstance: true, context: null,
   };
   const own = painter.forScene(inner);
   inner.used = scene.used;

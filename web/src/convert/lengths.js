@@ -21,7 +21,10 @@ const RELATIVE = /%|\d\.?[sld]?v[whibm]/i;
 function bounded(text) {
   const value = Number(text);
   if (Math.abs(value) <= LARGEST) return value;
-  throw new TooLargeError(`the number ${text.slice(0, 40)} is too large; the limit is ${exponential(LARGEST)}`, 'number');
+  throw new TooLargeError(
+    `the number ${text.slice(0, 40)} is too large; the limit is ${exponential(LARGEST)}`,
+    'number',
+  );
 }
 
 /** @param {number} value @returns {string} as "%g" formats it in messages */

@@ -83,7 +83,8 @@ function contentOf(scene, marker, point, direction, place, context) {
   const turned = scale(rotate(translate(IDENTITY, ...point), turn), marker.scale);
   const matrix = translate(turned, -marker.anchor[0], -marker.anchor[1]);
   const outer = contentPlace(place, marker.element, {
-    space: withTransform(place.space, matrix), style: marker.style, veil: veilOf(marker.style, place.veil), name: place.name, context,
+    space: withTransform(place.space, matrix), style: marker.style, veil: veilOf(marker.style, place.veil),
+    name: place.name, context,
   });
   const { place: inner, shown } = addMasks(scene, marker.element, within(marker.window, outer));
   const content = scene.engine.children(marker.element).reverse().map((child) => /** @type {Placed} */ ([child, inner]));
@@ -110,7 +111,8 @@ function readMarker(scene, name, shape, place) {
   const turn = follows ? (text === REVERSED && name === MARKERS[0] ? Math.PI : 0) : angle(text);
   if (turn === null) report.invalid('orient', text, element);
   return {
-    element, style, window, anchor: [content[0] * x + content[4], content[3] * y + content[5]], scale: unit, angle: turn ?? 0, follows,
+    element, style, window, scale: unit, angle: turn ?? 0, follows,
+    anchor: [content[0] * x + content[4], content[3] * y + content[5]],
   };
 }
 

@@ -61,7 +61,10 @@ const COLOR = /^(?:rgba?\(|color\(srgb )([^)]*)\)$/;
  */
 export function openSvg(source) {
   if (typeof document === 'undefined') {
-    throw new VextureError('SVG is read in a page, and there is no document here; read it there, or give contours', 'document');
+    throw new VextureError(
+      'SVG is read in a page, and there is no document here; read it there, or give contours',
+      'document',
+    );
   }
   if (typeof source === 'string') return new PageEngine(parseSvg(source));
   const { root, pairs } = copyElement(source);
@@ -271,7 +274,9 @@ function decoded(name) {
 
 /** @param {string} name @returns {string} it without the escapes of CSS */
 function unescaped(name) {
-  return name.replace(/\\(?:([\da-f]{1,6})\s?|(.))/gis, (_, code, letter) => letter ?? String.fromCodePoint(Math.min(parseInt(code, 16) || 0xfffd, 0x10ffff)));
+  return name.replace(/\\(?:([\da-f]{1,6})\s?|(.))/gis, (_, code, letter) => {
+    return letter ?? String.fromCodePoint(Math.min(parseInt(code, 16) || 0xfffd, 0x10ffff));
+  });
 }
 
 /** @implements {Style} */

@@ -120,7 +120,8 @@ export class Painter {
     const clipped = contours.map((contour) => toDrawing(place.space, contour)).filter((contour) => contour.length);
     if (!clipped.length) return;
     if (isTiling(paint) && this.tile(clipped, place, rule, paint, element)) return;
-    this.push({ contours: clipped, fillRule: rule, paint: isTiling(paint) ? paint.solid : paint, group: -1, element }, place.veil);
+    const flat = isTiling(paint) ? paint.solid : paint;
+    this.push({ contours: clipped, fillRule: rule, paint: flat, group: -1, element }, place.veil);
     place.veil?.add(boxOf(clipped));
   }
 

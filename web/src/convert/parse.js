@@ -80,17 +80,25 @@ function errorText(source, message) {
 export function checkSize(text) {
   const most = (/** @type {number} */ limit) => limit.toLocaleString('en-US');
   if (text.length > LONGEST) {
-    throw new VextureError(`the file has ${most(text.length)} letters; a page reads ${most(LONGEST)}; simplify or split it, ${PROGRAM}`, 'size');
+    throw new VextureError(
+      `the file has ${most(text.length)} letters; a page reads ${most(LONGEST)}; simplify or split it, ${PROGRAM}`,
+      'size',
+    );
   }
   let count = 0;
   for (let at = text.indexOf('<'); at >= 0; at = text.indexOf('<', at + 1)) {
     const code = text.charCodeAt(at + 1) | 32; // in lower case
     if (code >= 97 && code <= 122) count++;
   }
-  if (count > MOST_ELEMENTS) {
-    throw new VextureError(`it has ${most(count)} elements; a page reads ${most(MOST_ELEMENTS)}; simplify it, ${PROGRAM}`, 'elements');
-  }
+  checkCount(count);
   if (text.includes('<!ENTITY')) checkEntities(text);
+}
+
+/** @param {number} count of elements @throws {VextureError} if there are too many */
+export function checkCount(count) {
+  if (count <= MOST_ELEMENTS) return;
+  const [here, most] = [count, MOST_ELEMENTS].map((value) => value.toLocaleString('en-US'));
+  throw new VextureError(`it has ${here} elements; a page reads ${most}; simplify it, ${PROGRAM}`, 'elements');
 }
 
 /** @param {string} text @throws {VextureError} if the entities that it defines are external, or expand to too much */
@@ -104,12 +112,21 @@ function checkEntities(text) {
   };
   let end = 0;
   for (const match of text.matchAll(/<!ENTITY\s+(%\s+)?([^\s"']+)\s+(?:(["'])(.*?)\3|(SYSTEM|PUBLIC))/gs)) {
-    if (match[5]) throw new VextureError(`Entity '${shortenText(match[2], 40)}' is external; only entities that the file itself defines are read, external ones never`, 'entity');
+    if (match[5]) {
+      throw new VextureError(
+        `Entity '${shortenText(match[2], 40)}' is external; only entities that the file itself defines are read, `
+          + 'external ones never',
+        'entity',
+      );
+    }
     if (!sizes.has(match[2])) sizes.set(match[2], sizeOf(match[4]));
     end = match.index + match[0].length;
   }
   if (sizeOf(text.slice(end)) - (text.length - end) > LONGEST_ENTITY || Math.max(...sizes.values()) > LONGEST_ENTITY) {
-    throw new VextureError('its entities expand to too much text (an entity bomb?); write the drawing without entities', 'entity');
+    throw new VextureError(
+      'its entities expand to too much text (an entity bomb?); write the drawing without entities',
+      'entity',
+    );
   }
 }
 
@@ -138,7 +155,9 @@ export function checkName(name, namespace) {
 
 /** @param {string} name @param {number} attributes their number @param {number} depth @throws {VextureError} if an element exceeds a limit */
 export function checkElement(name, attributes, depth) {
-  if (depth > DEEPEST) throw new VextureError(`its elements are nested more than ${DEEPEST} deep; flatten its groups`, 'depth');
+  if (depth > DEEPEST) {
+    throw new VextureError(`its elements are nested more than ${DEEPEST} deep; flatten its groups`, 'depth');
+  }
   if (attributes > MOST_ATTRIBUTES) {
     const [count, most] = [attributes, MOST_ATTRIBUTES].map((value) => value.toLocaleString('en-US'));
     throw new VextureError(`<${name.slice(0, 40)}> has ${count} attributes; the limit is ${most}; remove those that draw nothing`, 'attributes');

@@ -188,7 +188,10 @@ export class Scene {
     if (!place.isClip && !isMeasured && !this.noteEffects(element, style)) return [];
     const matrix = elementTransform(this, element, style, place);
     if (place.depth >= DEEPEST) {
-      throw new VextureError(`it stands inside ${DEEPEST.toLocaleString('en-US')} others; flatten the groups or the uses`, 'depth');
+      throw new VextureError(
+        `it stands inside ${DEEPEST.toLocaleString('en-US')} others; flatten the groups or the uses`,
+        'depth',
+      );
     }
     const inner = this.placeInside(element, name, style, place, matrix);
     if (!inner) return [];
@@ -228,7 +231,8 @@ export class Scene {
     const isKept = place.isInstance || !own;
     /** @type {Place} */
     const inner = {
-      ...place, space, style, element, outer: place, depth: place.depth + 1, use: null, veil: veilOf(style, place.veil, place.isClip),
+      ...place, space, style, element, outer: place, depth: place.depth + 1, use: null,
+      veil: veilOf(style, place.veil, place.isClip),
       name: isKept ? place.name : own, isInstance: isKept ? place.isInstance : name === 'use',
     };
     if (name === 'use') return { ...inner, space: withTransform(space, translate(IDENTITY, ...positionOf(inner))) };

@@ -57,7 +57,10 @@ export function checkSize(coordinates) {
   const largest = reachOf(coordinates);
   if (largest <= LARGEST) return;
   const limit = exponential(LARGEST);
-  throw new TooLargeError(`it has a coordinate of ${exponential(largest)}; the limit is ${limit}; correct it`, 'coordinate');
+  throw new TooLargeError(
+    `it has a coordinate of ${exponential(largest)}; the limit is ${limit}; correct it`,
+    'coordinate',
+  );
 }
 
 /** @param {Shape} shape @returns {string} the path data of `<path>` */

@@ -33,7 +33,10 @@ async function load(url, signal) {
     return await fetch(url, { signal });
   } catch (error) {
     if (signal?.aborted) throw error;
-    throw new VextureError(`${line(url.href)} cannot be loaded (${line(error)}); check the address`, 'source', { cause: error });
+    throw new VextureError(
+      `${line(url.href)} cannot be loaded (${line(error)}); check the address`,
+      'source', { cause: error },
+    );
   }
 }
 
@@ -55,7 +58,10 @@ async function collect(stream) {
       const part = /** @type {Uint8Array<ArrayBuffer>} */ (value);
       size += part.length;
       if (size > LONGEST) {
-        throw new VextureError(`the file is larger than ${LONGEST.toLocaleString('en-US')} bytes; simplify or split the drawing`, 'size');
+        throw new VextureError(
+          `the file is larger than ${LONGEST.toLocaleString('en-US')} bytes; simplify or split the drawing`,
+          'size',
+        );
       }
       parts.push(part);
     }

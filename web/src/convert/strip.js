@@ -39,7 +39,7 @@ export function strip(root) {
       const own = attribute.localName;
       if (own.startsWith('on')) note('script');
       if (own.startsWith('on') || own === 'href' || own === 'src') element.removeAttributeNode(attribute);
-      else if (CHECKED.has(own) && !ANIMATIONS.includes(name) && attribute.value.trim() && !CSS.supports(own, attribute.value)) invalid.push(attribute);
+      else if (isInvalid(attribute, name)) invalid.push(attribute);
     }
     if (element.namespaceURI === HTML) {
       if (!element.closest('foreignObject')) note(`<${name.slice(0, 40)}>, of another namespace`);
@@ -59,6 +59,15 @@ export function strip(root) {
   const text = sheets.join('\n');
   if (/@(?:-webkit-)?keyframes\b/i.test(text) && /[\s;{]animation(?:-name)?\s*:/i.test(text)) note('animation');
   return { links, sheets: text, stripped, invalid };
+}
+
+/**
+ * @param {Attr} attribute
+ * @param {string} element name of its element; attributes of animations have other meanings
+ * @returns {boolean} whether the browser ignores its value
+ */
+function isInvalid({ localName, value }, element) {
+  return CHECKED.has(localName) && !ANIMATIONS.includes(element) && value.trim() !== '' && !CSS.supports(localName, value);
 }
 
 /** @param {Element} sheet @param {(message: string) => void} note @returns {string} its text */
