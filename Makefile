@@ -147,7 +147,7 @@ counties: .venv/for-demo examples/counties/node_modules/made
 	@PATH="$(CURDIR)/$(BIN):$$PATH" npm run --silent build --prefix examples/counties
 
 # the icons and maps come from npm; the index has screenshots where Chromium and Playwright are, else drawn pictures
-gallery: .venv/for-demo $(VIEWER)
+gallery: .venv/for-demo $(VIEWER) wasm
 	$(BIN)/python tools/make_gallery.py
 
 report: .venv/for-report

@@ -1,8 +1,9 @@
 """Compile the kernels that JavaScript calls to WebAssembly: Numba's code for this machine, for another one.
 
-`make viewer` and `make dist` run it; by hand: python tools/build_wasm.py [FILE]. A section of the module describes what
-it exports: names, types of arguments and results, constants, and the digest of the kernels' text, which is that of the
-compiled kernels in wheels. `web/src/convert/kernels.js` reads it. Nothing is done where the module is up to date.
+`make viewer` and `make dist` run it; by hand: python tools/build_wasm.py [FOLDER]. There is a module for silhouettes,
+one for planar maps and one for strokes, because pages load what they need. A section of a module describes what it
+exports: names, types of arguments and results, constants, and the digest of the kernels' text, which is that of the
+compiled kernels in wheels. `web/src/convert/kernels.js` reads it. A module that is up to date is left alone.
 
 Numba's code addresses structures by byte offsets, with 8 bytes for each pointer. WebAssembly has 32-bit addresses, so
 callers write each pointer into a place of 8 bytes. The rest of the calling convention is that of
@@ -24,13 +25,13 @@ from typing import Any, Final
 import llvmlite.binding as llvm
 import numpy as np
 
-from kernel_calls import wasm_constants, wasm_entries
+from kernel_calls import Entry, wasm_constants, wasm_modules
 from kernel_code import RUN_TIME, join_modules, object_file
 from vexture.base.kernels import text_digest
 from vexture.base.machine_code import argument_type
 
 ROOT: Final = Path(__file__).resolve().parents[1]
-OUTPUT: Final = ROOT / "web" / "kernels" / "kernels.wasm"
+OUTPUT: Final = ROOT / "web" / "kernels"
 TOOLS: Final = ROOT / "tools"
 RUN_TIME_C: Final = TOOLS / "wasm" / "run_time.c"
 SOURCES: Final = (Path(__file__), RUN_TIME_C, TOOLS / "kernel_calls.py", TOOLS / "kernel_code.py")
@@ -87,6 +88,11 @@ def retarget(text: str, layout: str) -> str:
     text = re.sub(r'target triple = "[^"]*"', f'target triple = "{TRIPLE}"', text)
     text = re.sub(r'"target-cpu"="[^"]*"|"target-features"="[^"]*"', "", text)
     text = text.replace("= common ", "= internal ").replace("@llvm.x86.atomic.sub.cc.i64", "@subtract_and_test")
+    for line in re.findall(r"(?m)^ *(?:store|%\S+ = load) \{[^@\n]*", text):
+        if "ptr, i64" in line:
+            sys.exit(
+                f"a kernel copies a structure with addresses as one value, which WebAssembly places otherwise: {line}"
+            )
     text = re.sub(r"(?m)^(?!@).*@\.const\.picklebuf\..*$", lambda found: ERROR_TEXT.sub("null", found[0]), text)
     return re.sub(r"= alloca .*", lambda found: re.sub(r"\bptr\b", "i64", found[0]), text)
 
@@ -171,28 +177,37 @@ def is_current(file: Path) -> bool:
     return file.is_file() and SECTION + stamp.encode() in file.read_bytes()
 
 
-def main() -> None:
-    """Build the module if it is not current."""
-    output = Path(sys.argv[1]) if len(sys.argv) > 1 else OUTPUT
-    if is_current(output):
-        return
-    output.parent.mkdir(parents=True, exist_ok=True)
+def compiled(entry: Entry) -> tuple[str, str, dict[str, Any]]:
+    """Compile an entry: LLVM's text, its name in there, and its description."""
+    result = entry.kernel.dispatcher(*entry.arguments)
+    (overload,) = entry.kernel.dispatcher.overloads.values()
+    (text,) = entry.kernel.dispatcher.inspect_llvm().values()
+    return text, overload.fndesc.llvm_func_name, describe(entry, result)
+
+
+def build(output: Path, entries: list[Entry]) -> None:
+    """Write the module of some entries."""
     output.unlink(missing_ok=True)
-    texts, entries = {}, {}
+    found = {entry.kernel.__name__: compiled(entry) for entry in entries}
+    described = {name: description for name, (_, _, description) in found.items()}
+    stamp = {"digest": text_digest(), "tools": digest_of_tools()}
+    section = json.dumps(stamp | {"constants": wasm_constants(), "entries": described})
+    link(object_of({name: (text, own) for name, (text, own, _) in found.items()}), [*found], output)
+    output.write_bytes(with_section(output.read_bytes(), section.encode()))
+    size, packed = output.stat().st_size, len(gzip.compress(output.read_bytes()))
+    print(f"{output}: {size} bytes, {packed} with gzip", flush=True)
+
+
+def main() -> None:
+    """Build the modules that are not current."""
+    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else OUTPUT
+    folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as cache:  # Numba shows no code that it finds in a cache
         os.environ |= COMPILER | {"VEXTURE_CACHE": cache}
-        for entry in wasm_entries():
-            result = entry.kernel.dispatcher(*entry.arguments)
-            (overload,) = entry.kernel.dispatcher.overloads.values()
-            (text,) = entry.kernel.dispatcher.inspect_llvm().values()
-            texts[entry.kernel.__name__] = text, overload.fndesc.llvm_func_name
-            entries[entry.kernel.__name__] = describe(entry, result)
-    stamp = {"digest": text_digest(), "tools": digest_of_tools()}
-    description = json.dumps(stamp | {"constants": wasm_constants(), "entries": entries})
-    link(object_of(texts), [*texts], output)
-    output.write_bytes(with_section(output.read_bytes(), description.encode()))
-    size, packed = output.stat().st_size, len(gzip.compress(output.read_bytes()))
-    print(f"{output}: {size} bytes, {packed} with gzip")
+        for name, entries in wasm_modules().items():
+            output = folder / f"{name}.wasm"
+            if not is_current(output):
+                build(output, entries)
 
 
 if __name__ == "__main__":

@@ -46,12 +46,7 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class OwnPage(Entry):
-    """A page of its own, all files of its folder in gallery/, which stands before the examples."""
-
-    @property
-    def path(self) -> Path:
-        """Its folder."""
-        return GALLERY / self.name
+    """A page of its own, which stands before the examples; tools/make_NAME.py builds it."""
 
 
 @dataclass(frozen=True, slots=True)

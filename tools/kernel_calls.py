@@ -1,4 +1,4 @@
-"""The kernels that are compiled ahead of time, and arguments for each: for wheels, and for `kernels.wasm`."""
+"""The kernels that are compiled ahead of time, and arguments for each: for wheels, and for WebAssembly."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -98,35 +98,39 @@ def map_calls(drawing: Drawing) -> Iterator[tuple[Any, tuple[Any, ...]]]:
 
 
 class Entry(NamedTuple):
-    """A function that `kernels.wasm` exports under the name of its kernel."""
+    """A function that a module of WebAssembly exports under the name of its kernel."""
 
     kernel: Any
     arguments: tuple[Any, ...]  # a sample, for whose types it is compiled
     results: tuple[str, ...]  # names of the parts of its result
 
 
-def wasm_entries() -> list[Entry]:
-    """The kernels that JavaScript calls."""
+def wasm_modules() -> dict[str, list[Entry]]:
+    """The kernels that JavaScript calls, by the module that holds them."""
     triangle = Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.5, 0.9)])
     outlines = outlines_of(triangle)
     bounds = bounds_of(UNSEEN, DEFAULT_DEPTH, DEFAULT_CAPACITY, None, MOST_QUADS)
     ends, closed, style = np.array([3]), np.array([True]), np.array([0.05, 0.0, 0.0, 4.0, ROUND, 0.0])
-    return [
-        Entry(
-            silhouette_texels,
-            (*outlines, bounds, 0, ENDLESS),
-            ("texels", "outside", "deviation", "unresolved", "quads"),
-        ),
-        Entry(
-            coloured_texels,
-            (source_of(triangle), bounds._replace(capacity=DEFAULT_MAP_CAPACITY), 0, 0, ENDLESS, ENDLESS),
-            (
-                *("texels", "starts", "members", "hides", "outside", "reach", "deviation"),
-                *("unresolved", "quads", "curves", "paints", "flattened"),
-            ),
-        ),
-        Entry(stroke_path, (outlines.cubics, ends, closed, style, np.zeros(0)), ("contours", "lengths")),
-    ]
+    numbers = ("outside", "reach", "deviation", "unresolved", "quads", "curves", "paints", "flattened")
+    return {
+        "silhouettes": [
+            Entry(
+                silhouette_texels,
+                (*outlines, bounds, 0, ENDLESS),
+                ("texels", "outside", "deviation", "unresolved", "quads"),
+            )
+        ],
+        "maps": [
+            Entry(
+                coloured_texels,
+                (source_of(triangle), bounds._replace(capacity=DEFAULT_MAP_CAPACITY), 0, 0, ENDLESS, ENDLESS),
+                ("texels", "starts", "members", "hides", *numbers),
+            )
+        ],
+        "strokes": [
+            Entry(stroke_path, (outlines.cubics, ends, closed, style, np.zeros(0)), ("contours", "lengths")),
+        ],
+    }
 
 
 def wasm_constants() -> dict[str, float]:

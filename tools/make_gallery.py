@@ -10,6 +10,7 @@ import base64
 import contextlib
 import functools
 import hashlib
+import importlib
 import io
 import json
 import os
@@ -59,6 +60,9 @@ LICENSED: Final = (
     "its-fine",
     "maplibre-gl",
     "pmtiles",
+    "@fontsource/pacifico",
+    "opentype.js",
+    "topojson-client",
 )
 """Packages in the bundles."""
 
@@ -339,11 +343,12 @@ def write_licences(folder: Path, examples: Sequence[Example]) -> None:
     (folder / "lib" / "LICENSES.txt").write_text("\n".join(parts), encoding="utf-8")
 
 
-def copy_own_pages(folder: Path, pages: Sequence[OwnPage]) -> None:
-    """Copy the folders of pages of their own into the site."""
+def build_own_pages(folder: Path, pages: Sequence[OwnPage]) -> None:
+    """Build the pages of their own, each with a link to the index."""
     for page in pages:
-        report(f"{page.name}: copying its page")
-        shutil.copytree(page.path, folder / page.name)
+        report(f"{page.name}: building its page")
+        target = folder / page.name / "index.html"
+        importlib.import_module(f"make_{page.name}").build_page(target, '<a href="../index.html">Gallery</a>')
 
 
 def build(folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), pictures: bool = True) -> None:
@@ -360,7 +365,7 @@ def build(folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), pict
         bundle(folder / "lib", name)
     for name in ("gallery.css", "page.js", "frame.js", "jsx.js", "helpers.js"):
         shutil.copyfile(GALLERY / "pages" / name, folder / name)
-    copy_own_pages(folder, own)
+    build_own_pages(folder, own)
     for example in shown:
         make_files(folder, example, quick=quick)
     write_licences(folder, shown)

@@ -1,6 +1,7 @@
 """Build the playground: one HTML file that converts drawings, works from the disk, and fetches nothing.
 
-`make gallery` runs it; by hand: python tools/make_playground.py FILE.html. Needs the packages of web/ and kernels.wasm.
+`make gallery` runs it; by hand: python tools/make_playground.py FILE.html. Needs the packages of web/ and the kernels
+of `make wasm`.
 """
 
 import json
@@ -15,7 +16,8 @@ from gallery_data import WORLD
 
 WEB: Final = Path(__file__).resolve().parents[1] / "web"
 PLAYGROUND: Final = WEB / "playground"
-KERNELS: Final = WEB / "kernels" / "kernels.wasm"
+KERNELS: Final = WEB / "kernels"
+MODULES: Final = ("silhouettes", "maps", "strokes")
 
 ESBUILD: Final = [str(WEB / "node_modules" / ".bin" / "esbuild"), "--bundle", "--minify", "--legal-comments=none"]
 
@@ -40,16 +42,18 @@ def coloured_world() -> str:
     return json.dumps(topology | {"objects": {"countries": countries}}, separators=(",", ":"))
 
 
-def build_playground(target: Path, links: str = "") -> None:
+def build_page(target: Path, links: str = "") -> None:
     """Write the page, with `links` as HTML in its head."""
-    if not KERNELS.is_file():
-        sys.exit(f"{KERNELS} is missing; type: make viewer")
+    modules = {f"playground-{name}": KERNELS / f"{name}.wasm" for name in MODULES}
+    for module in modules.values():
+        if not module.is_file():
+            sys.exit(f"{module} is missing; type: make wasm")
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         worker, script, style, world = (folder / name for name in ("worker.txt", "main.js", "style.css", "world.json"))
         world.write_text(coloured_world(), encoding="utf-8")
         bundle(WEB / "src" / "convert" / "worker.js", worker)
-        aliases = {"playground-map": world, "playground-worker": worker, "playground-kernels": KERNELS}
+        aliases = {"playground-map": world, "playground-worker": worker, **modules}
         loaders = {".svg": "text", ".json": "text", ".txt": "text", ".wasm": "binary", ".woff": "binary"}
         bundle(
             PLAYGROUND / "main.js",
@@ -69,4 +73,4 @@ def build_playground(target: Path, links: str = "") -> None:
 
 
 if __name__ == "__main__":
-    build_playground(Path(sys.argv[1]))
+    build_page(Path(sys.argv[1]))

@@ -3,6 +3,7 @@
 import runpy
 import shutil
 import sys
+import types
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -54,17 +55,19 @@ def test_building_says_what_it_fetches(
         assert capsys.readouterr().out == ""
 
 
-def test_a_page_of_its_own_is_copied_and_comes_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    source, site = tmp_path / "gallery", tmp_path / "site"
-    shutil.copytree(gallery_pages.GALLERY / "pages", source / "pages")
-    (source / "play").mkdir()
-    (source / "play" / "index.html").write_text("a page")
+def test_a_page_of_its_own_is_built_and_comes_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    site = tmp_path / "site"
     site.mkdir()
-    monkeypatch.setattr(gallery_pages, "GALLERY", source)
+
+    def build_page(target: Path, links: str) -> None:
+        target.parent.mkdir()
+        target.write_text(f"a page, {links}")
+
+    monkeypatch.setitem(sys.modules, "make_play", types.SimpleNamespace(build_page=build_page))
     page = gallery_pages.OwnPage("play", "Play <here>", "One's own drawing.", "all")
     tool = runpy.run_path(str(ROOT / "tools" / "make_gallery.py"))
-    tool["copy_own_pages"](site, [page])
-    assert (site / "play" / "index.html").read_text() == "a page"
+    tool["build_own_pages"](site, [page])
+    assert (site / "play" / "index.html").read_text() == 'a page, <a href="../index.html">Gallery</a>'
     tool["drawn_thumbnail"](site, page)
     gallery_pages.write_index(site, [page, EXAMPLES["logo"]], "")
     index = (site / "index.html").read_text(encoding="utf-8")

@@ -35,11 +35,17 @@ Case = dict[str, Any]
 
 @pytest.fixture(scope="module")
 def module() -> Path:
-    """The module that is built."""
-    if not OUTPUT.is_file():
-        pytest.skip(f"no {OUTPUT.relative_to(ROOT)} (python tools/build_wasm.py)")
-    assert is_current(OUTPUT), f"{OUTPUT.relative_to(ROOT)} is of other kernels: python tools/build_wasm.py"
-    return OUTPUT
+    """The module of silhouettes."""
+    return built("silhouettes")
+
+
+def built(name: str) -> Path:
+    """A module that is built."""
+    file = OUTPUT / f"{name}.wasm"
+    if not file.is_file():
+        pytest.skip(f"no {file.relative_to(ROOT)} (make wasm)")
+    assert is_current(file), f"{file.relative_to(ROOT)} is of other kernels: make wasm"
+    return file
 
 
 def encoded(value: Any) -> Any:

@@ -11,7 +11,15 @@ declare module 'playground-map' {
   const text: string;
   export default text;
 }
-declare module 'playground-kernels' {
+declare module 'playground-maps' {
+  const bytes: Uint8Array<ArrayBuffer>;
+  export default bytes;
+}
+declare module 'playground-silhouettes' {
+  const bytes: Uint8Array<ArrayBuffer>;
+  export default bytes;
+}
+declare module 'playground-strokes' {
   const bytes: Uint8Array<ArrayBuffer>;
   export default bytes;
 }

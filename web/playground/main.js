@@ -1,6 +1,8 @@
 /** Entry of the page: reads what is dropped, pasted or typed, converts it, and shows it with its sizes. */
 import fontBytes from '@fontsource/pacifico/files/pacifico-latin-400-normal.woff';
-import kernels from 'playground-kernels';
+import maps from 'playground-maps';
+import silhouettes from 'playground-silhouettes';
+import strokes from 'playground-strokes';
 import workerText from 'playground-worker';
 import samples from './samples/index.js';
 import { VectorTexture } from '../src/index.js';
@@ -25,6 +27,7 @@ const LIGHT = 0.75;
 
 const stage = new Stage(canvas);
 const words = new Words(fontBytes.buffer);
+const kernels = { silhouettes, maps, strokes };
 const converter = new Converter({ kernels, worker: () => new Worker(URL.createObjectURL(new Blob([workerText], { type: 'text/javascript' }))) });
 
 let latest = new AbortController();

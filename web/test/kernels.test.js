@@ -4,9 +4,9 @@ import { createServer } from 'node:http';
 import { describe, expect, it } from 'vitest';
 import { Kernels } from '../src/convert/kernels.js';
 
-const FILE = new URL('../kernels/kernels.wasm', import.meta.url);
+const FILE = new URL('../kernels/silhouettes.wasm', import.meta.url);
 const isBuilt = existsSync(FILE);
-if (!isBuilt) console.warn('no web/kernels/kernels.wasm (python tools/build_wasm.py): its tests are skipped');
+if (!isBuilt) console.warn('no web/kernels/silhouettes.wasm (make wasm): its tests are skipped');
 
 /** @param {[number, number][]} corners */
 const polygon = (corners) =>
@@ -52,7 +52,7 @@ const silhouette = (kernels, cubics, contours = 1) => {
 
 describe.skipIf(!isBuilt)('kernels', () => {
   it('are loaded from the package, from bytes, and from a response of any type', async () => {
-    const kernels = await Kernels.load();
+    const kernels = await Kernels.load(FILE);
     expect(kernels.digest).toMatch(/^[0-9a-f]{12}$/);
     expect(Object.keys(kernels.entries)).toContain('silhouette_texels');
     const bytes = readFileSync(FILE);
@@ -64,7 +64,7 @@ describe.skipIf(!isBuilt)('kernels', () => {
       new Uint8Array(bytes).buffer,
       ...responses,
       Promise.resolve(bytes),
-      String(new URL('../kernels/kernels.wasm', import.meta.url)),
+      String(FILE),
     ]) {
       expect((await Kernels.load(source)).digest).toBe(kernels.digest);
     }
@@ -90,7 +90,7 @@ describe.skipIf(!isBuilt)('kernels', () => {
     );
     const empty = Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0);
     await expect(Kernels.load(empty)).rejects.toThrow(
-      'the WebAssembly holds no kernels of vexture; give kernels.wasm of the package',
+      'the WebAssembly holds no kernels of vexture; give a module of the package',
     );
   });
 
@@ -105,7 +105,7 @@ describe.skipIf(!isBuilt)('kernels', () => {
   });
 
   it('return copies by name, the same in every call', async () => {
-    const kernels = await Kernels.load();
+    const kernels = await Kernels.load(FILE);
     const first = silhouette(kernels, TRIANGLE),
       kept = first.texels.slice();
     const star = polygon(
@@ -119,7 +119,7 @@ describe.skipIf(!isBuilt)('kernels', () => {
   });
 
   it('give memory back after a large drawing, and return the same as before', async () => {
-    const kernels = await Kernels.load(),
+    const kernels = await Kernels.load(FILE),
       before = silhouette(kernels, TRIANGLE).texels;
     const count = 60_000;
     const ring = polygon(
@@ -138,7 +138,7 @@ describe.skipIf(!isBuilt)('kernels', () => {
   });
 
   it('name the argument that is wrong', async () => {
-    const kernels = await Kernels.load(),
+    const kernels = await Kernels.load(FILE),
       zero = [0];
     const call =
       (/** @type {unknown[]} */ ...given) =>

@@ -1,13 +1,14 @@
 // Conversion of a drawing into the texels of a texture, by the kernels; runs in a worker, in a page and in Node.js.
 import { LATTICE, MAP_HEAD, MOST_CURVES, MOST_DEPTH, MOST_ROWS, ROW_BITS } from '../../generated/layout.js';
 import { VextureError, line } from '../errors.js';
-import { Kernels } from './kernels.js';
+import { KernelModules } from './kernel-modules.js';
 import { sheetsOf } from './sheets.js';
 import { silhouetteOf } from './silhouette.js';
 import { layersOf, splitOf, withoutGradients, withoutMasks } from './split.js';
 
 /** @import { Root } from '../data.js' */
 /** @import { Drawing, Note } from './drawing.js' */
+/** @import { Kernels } from './kernels.js' */
 /** @import { Split } from './split.js' */
 
 /**
@@ -58,20 +59,11 @@ const FLATTENED = 'gradients by their mean colours: too many on one another, or 
 const several = (/** @type {number} */ count) =>
   `so many crossing shapes are ${count} maps on one another; what is below shows through where they touch`;
 
-/** The conversions by one instance of the kernels. */
+/** The conversions by one set of kernels. */
 export class Conversion {
-  /** @param {Kernels} kernels */
-  constructor(kernels) {
-    this.kernels = kernels;
-  }
-
-  /**
-   * Load the kernels.
-   *
-   * @param {import('./kernels.js').Source} [source]
-   */
-  static async load(source) {
-    return new Conversion(await Kernels.load(source));
+  /** @param {import('./kernel-modules.js').KernelSources} [sources] of the kernels */
+  constructor(sources) {
+    this.modules = new KernelModules(sources);
   }
 
   /**
@@ -79,18 +71,21 @@ export class Conversion {
    *
    * @param {Drawing} drawing
    * @param {ConversionOptions} [options]
-   * @returns {Converted}
+   * @returns {Promise<Converted>}
    * @throws {VextureError} if an option is out of range, or the drawing exceeds a limit
    */
-  convert(drawing, { split = 'auto', restyle = false, ...limits } = {}) {
-    const bounds = boundsOf(this.kernels, limits);
-    const { tolerance } = bounds;
+  async convert(drawing, { split = 'auto', restyle = false, ...limits } = {}) {
     const way = splitOf(drawing, split, restyle);
     const shown = restyle ? withoutGradients(drawing) : way ? drawing : withoutMasks(drawing);
     const layers = way === 'paint' ? layersOf(drawing) : [];
-    const sheets = way === 'faces' && drawing.paths.length
-      ? sheetsOf(this.kernels, shown, { usual: boundsOf(this.kernels, { ...limits, precision: undefined, tolerance }), precise: limits.precision === undefined ? null : bounds }, restyle)
-      : silhouettesOf(this.kernels, layers.length ? layers : [shown], bounds);
+    const isMap = way === 'faces' && drawing.paths.length > 0;
+    const kernels = await this.modules.load(isMap ? 'maps' : 'silhouettes');
+    const bounds = boundsOf(kernels, limits);
+    const { tolerance } = bounds;
+    const usual = boundsOf(kernels, { ...limits, precision: undefined, tolerance });
+    const sheets = isMap
+      ? await sheetsOf(this.modules, shown, { usual, precise: limits.precision === undefined ? null : bounds }, restyle)
+      : silhouettesOf(kernels, layers.length ? layers : [shown], bounds);
     const count = sheets.reduce((sum, { texels }) => sum + texels.length / 4, 0);
     if (count > MOST_ROWS << ROW_BITS) {
       throw new VextureError(`${drawing.name}: ${count} texels; the limit is ${MOST_ROWS << ROW_BITS}; use a larger \`tolerance\``, 'texels');

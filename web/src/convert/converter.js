@@ -9,7 +9,8 @@ import { outlineStroke } from './stroke-outline.js';
 
 /**
  * @typedef {object} ConverterOptions
- * @property {string | URL | BufferSource} [kernels] address of `kernels.wasm`, or its content; by default that of this package
+ * @property {import('./kernel-modules.js').KernelSources} [kernels] addresses or contents of the modules `silhouettes`, `maps` and
+ *   `strokes`; by default those of this package
  * @property {(() => Worker) | false} [worker] starts the worker, for pages with their own way to load one; false converts in
  *   this thread
  *
@@ -38,12 +39,13 @@ export class Converter {
   /** @type {Waiting[]} */
   #waiting = [];
   #busy = false;
-  /** @type {Promise<Conversion> | null} */
-  #here = null;
+  /** @type {Conversion} */
+  #here;
 
   /** @param {ConverterOptions} [options] */
   constructor({ kernels, worker = startWorker } = {}) {
     this.#kernels = kernels;
+    this.#here = new Conversion(kernels);
     this.#start = worker && typeof Worker === 'function' ? worker : null;
   }
 
@@ -69,15 +71,13 @@ export class Converter {
    * @returns {Promise<import('./strokes.js').StrokeOutline>}
    */
   async strokeOutline() {
-    this.#here ??= Conversion.load(this.#kernels);
-    const { kernels } = await this.#here;
+    const kernels = await this.#here.modules.load('strokes');
     return (cubics, closed, style) => outlineStroke(kernels, cubics, closed, style);
   }
 
   /** Digest of the text of the kernels. */
   async digest() {
-    this.#here ??= Conversion.load(this.#kernels);
-    return (await this.#here).kernels.digest;
+    return (await this.#here.modules.load('silhouettes')).digest;
   }
 
   /** End the worker; a later conversion starts another one. */
@@ -88,8 +88,7 @@ export class Converter {
 
   /** @param {Job} job */
   async #convertHere({ drawing, options, signal }) {
-    this.#here ??= Conversion.load(this.#kernels);
-    const converted = (await this.#here).convert(drawing, options);
+    const converted = await this.#here.convert(drawing, options);
     signal?.throwIfAborted();
     return converted;
   }
@@ -155,7 +154,11 @@ export class Converter {
 
   #begin() {
     const worker = /** @type {() => Worker} */ (this.#start)();
-    worker.postMessage({ kernels: this.#kernels instanceof URL ? this.#kernels.href : this.#kernels });
+    const sources = Object.entries(this.#kernels ?? {}).map(([name, source]) => {
+      const isAddress = typeof source === 'string' || source instanceof URL; // a worker resolves it against its own address
+      return [name, isAddress ? new URL(source, globalThis.document?.baseURI).href : source];
+    });
+    worker.postMessage({ kernels: Object.fromEntries(sources) });
     return worker;
   }
 }

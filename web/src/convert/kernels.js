@@ -70,9 +70,6 @@ export const ARRAYS = Object.freeze({
 
 /** @typedef {BufferSource | Response | URL | string} Source */
 
-/** The module of this package; bundlers recognise this form. A bundle without modules has no address, and must be given one. */
-const ownSource = () => new URL('../../kernels/kernels.wasm', import.meta.url);
-
 export class Kernels {
   /** @type {WebAssembly.Module} */
   #module;
@@ -85,7 +82,7 @@ export class Kernels {
     const [section] = WebAssembly.Module.customSections(module, SECTION);
     if (!section)
       throw new VextureError(
-        'the WebAssembly holds no kernels of vexture; give kernels.wasm of the package',
+        'the WebAssembly holds no kernels of vexture; give a module of the package',
         'kernels',
       );
     /** @type {Description} */
@@ -101,13 +98,13 @@ export class Kernels {
   }
 
   /**
-   * Load the kernels: from bytes, a response or an address, by default those of this package.
+   * Load a module of kernels from bytes, a response or an address.
    *
-   * @param {Source | Promise<Source>} [source]
+   * @param {Source | Promise<Source>} source
    * @param {{ signal?: AbortSignal }} [options]
    * @returns {Promise<Kernels>}
    */
-  static async load(source = ownSource(), { signal = new AbortController().signal } = {}) {
+  static async load(source, { signal = new AbortController().signal } = {}) {
     if (typeof WebAssembly !== 'object') {
       throw new VextureError('this browser has no WebAssembly; convert the drawing with the Python program', 'kernels');
     }
@@ -232,7 +229,7 @@ function refused(error) {
   const about = line(error),
     remedy = /unsafe-eval|CSP|Content.Security/i.test(String(error))
       ? "allow it by the policy script-src 'wasm-unsafe-eval'"
-      : 'give kernels.wasm of the package';
+      : 'give a module of the package';
   return new VextureError(`kernels cannot be compiled (${about}); ${remedy}`, 'kernels', { cause: error });
 }
 

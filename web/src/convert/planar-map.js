@@ -35,7 +35,7 @@ export function mapOf(kernels, drawing, bounds, { restyle, first, mostTexels }) 
   const limits = limitsOf(bounds, constants.MAP_CAPACITY, constants);
   const most = Math.min(mostTexels, constants.ENDLESS);
   const source = sourceOf(drawing, elements?.numbers);
-  const found = kernels.call('coloured_texels', [...source, limits, Number(restyle), first, most, workOf(bounds)]);
+  const found = kernels.call('coloured_texels', [source, limits, Number(restyle), first, most, workOf(bounds)]);
   const { texels, quads, curves, flattened } = found;
   if (!texels.length) {
     checkReach(drawing.name, found.reach);

@@ -5,6 +5,7 @@ import { mapOf } from './planar-map.js';
 
 /** @import { Bounds, Sheet } from './conversion.js' */
 /** @import { Drawing, Path } from './drawing.js' */
+/** @import { KernelModules } from './kernel-modules.js' */
 /** @import { Kernels } from './kernels.js' */
 
 /** Texels that any drawing may have; a coat of arms in a flag needs half of them, and is exact only as one sheet. */
@@ -25,49 +26,70 @@ const STEPS = 4;
  * A precision does not affect the cutting: the texels that it adds grow with the length of outlines, as those of layers do,
  * not with their crossings.
  *
- * @param {Kernels} kernels
+ * @param {KernelModules} modules
  * @param {Drawing} drawing
- * @param {{ usual: Bounds, precise: Bounds | null }} bounds without and with the precision that was asked for
+ * @param {{ usual: Bounds, precise: Bounds | null }} bounds without and with the precision of the options
  * @param {boolean} restyle
- * @returns {Sheet[]}
+ * @returns {Promise<Sheet[]>}
  */
-export function sheetsOf(kernels, drawing, { usual, precise }, restyle) {
-  const sheets = withinBudget(kernels, drawing, usual, restyle);
+export async function sheetsOf(modules, drawing, { usual, precise }, restyle) {
+  const maps = await modules.load('maps');
+  const whole = isColoured(drawing) || restyle ? wholeMap(maps, drawing, usual, restyle) : null;
+  if (whole && !precise) return [whole];
+  const silhouettes = await modules.load('silhouettes');
+  const sheets = whole ? [whole] : withinBudget({ maps, silhouettes }, drawing, usual, restyle);
   if (!precise) return sheets;
   let first = 0;
   return sheets.map((sheet) => {
     const rebuilt = sheet.isMap
-      ? /** @type {Sheet} */ (mapOf(kernels, sheet.drawing, precise, { restyle, first, mostTexels: Infinity }))
-      : { ...sheet, texels: silhouetteOf(kernels, sheet.drawing, precise, first) };
+      ? /** @type {Sheet} */ (mapOf(maps, sheet.drawing, precise, { restyle, first, mostTexels: Infinity }))
+      : { ...sheet, texels: silhouetteOf(silhouettes, sheet.drawing, precise, first) };
     first += rebuilt.texels.length / 4;
     return rebuilt;
   });
 }
 
+/** @param {Drawing} drawing @returns {number} texels that it may have */
+function budgetOf({ paths }) {
+  const segments = paths.reduce((sum, { contours }) => sum + contours.reduce((more, { length }) => more + length / 8, 0), 0);
+  return Math.max(BUDGET * (segments + paths.length), LEAST_BUDGET);
+}
+
 /**
- * Sheets of a drawing, each within its share of the budget.
+ * The map of a whole drawing; null if it needs too many texels.
  *
- * @param {Kernels} kernels
+ * @param {Kernels} maps
+ * @param {Drawing} drawing
+ * @param {Bounds} bounds
+ * @param {boolean} restyle
+ */
+const wholeMap = (maps, drawing, bounds, restyle) => mapOf(maps, drawing, bounds, { restyle, first: 0, mostTexels: budgetOf(drawing) });
+
+/**
+ * Sheets of a drawing of which one map would need too many texels, or which may be one layer of one colour.
+ *
+ * @param {{ maps: Kernels, silhouettes: Kernels }} kernels
  * @param {Drawing} drawing
  * @param {Bounds} bounds
  * @param {boolean} restyle
  * @returns {Sheet[]}
  */
-function withinBudget(kernels, drawing, bounds, restyle) {
-  const layers = restyle || isColoured(drawing) ? [] : layersOf(drawing);
-  if (layers.length === 1) return [{ drawing: layers[0], texels: silhouetteOf(kernels, layers[0], bounds, 0), isMap: false }];
-  const segments = drawing.paths.reduce((sum, { contours }) => sum + contours.reduce((more, { length }) => more + length / 8, 0), 0);
-  const budget = Math.max(BUDGET * (segments + drawing.paths.length), LEAST_BUDGET);
-  const whole = mapOf(kernels, drawing, bounds, { restyle, first: 0, mostTexels: budget });
-  if (whole) return [whole];
+function withinBudget({ maps, silhouettes }, drawing, bounds, restyle) {
+  if (!restyle && !isColoured(drawing)) {
+    const layers = layersOf(drawing);
+    if (layers.length === 1) return [{ drawing: layers[0], texels: silhouetteOf(silhouettes, layers[0], bounds, 0), isMap: false }];
+    const whole = wholeMap(maps, drawing, bounds, restyle);
+    if (whole) return [whole];
+  }
+  const budget = budgetOf(drawing);
   const items = itemsOf(drawing);
   const attempt = (/** @type {number} */ start, /** @type {number} */ end, /** @type {number} */ first) => {
     const part = items.length === end - start ? drawing : { ...drawing, paths: items.slice(start, end).flat() };
     const [path] = part.paths;
     const isLayer = end === start + 1 && part.paths.length === 1 && path.group < 0 && path.paint.gradient === null;
-    if (isLayer && !restyle) return { drawing: part, texels: silhouetteOf(kernels, part, bounds, first), isMap: false };
+    if (isLayer && !restyle) return { drawing: part, texels: silhouetteOf(silhouettes, part, bounds, first), isMap: false };
     const share = end > start + 1 ? Math.floor((budget * (end - start)) / items.length) : Infinity;
-    return mapOf(kernels, part, bounds, { restyle, first, mostTexels: share });
+    return mapOf(maps, part, bounds, { restyle, first, mostTexels: share });
   };
   return greedy(items.length, budget / items.length, attempt).map((sheet, k) => named(sheet, drawing.name, k + 1));
 }

@@ -2,19 +2,17 @@
 import { VextureError, line } from '../errors.js';
 import { Conversion } from './conversion.js';
 
-/** @type {Promise<Conversion> | null} */
-let loading = null;
+let conversion = new Conversion();
 
 const scope = /** @type {Worker} */ (/** @type {unknown} */ (globalThis)); // what it has of a worker's side is the same
 
 scope.onmessage = async (/** @type {MessageEvent} */ { data }) => {
   if (!('drawing' in data)) {
-    loading = Conversion.load(data.kernels);
-    loading.catch(() => {}); // the first conversion reports it
+    conversion = new Conversion(data.kernels);
     return;
   }
   try {
-    const converted = (await /** @type {Promise<Conversion>} */ (loading)).convert(data.drawing, data.options);
+    const converted = await conversion.convert(data.drawing, data.options);
     scope.postMessage({ converted }, [converted.texels.buffer]);
   } catch (error) {
     const { message, field } = error instanceof VextureError ? error : { message: line(error), field: 'source' };

@@ -44,7 +44,7 @@ def encode_map(planar: MapArrays, first: int) -> NDArray[np.uint32]:
     runs = stop_runs(planar.table, planar.shades)
     operations = count_operations(planar.table, planar.shades)
     at = _places(planar, curves, operations, runs, first)
-    if not runs.fit:
+    if runs.fit == 0:
         return np.zeros((0, 4), np.uint32)
     texels = np.zeros((at.end - first, 4), np.uint32)
     if len(planar.table.code) > 0:

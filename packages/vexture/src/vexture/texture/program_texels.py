@@ -34,7 +34,9 @@ class StopRuns(NamedTuple):
     first: NDArray[np.int64]  # (gradients,): texel of each gradient's first stop, from the first operation; or -1
     words: NDArray[np.int64]  # (stops, 3): the texels of all stops
     texels: int  # number of texels of the runs
-    fit: bool  # whether all distances between gradients and stops can be encoded
+    # 1 if all distances between gradients and stops can be encoded, else 0: with a bool at its end, LLVM copies a
+    # structure as one value, whose addresses WebAssembly places otherwise
+    fit: int
 
 
 @kernel(allocates=False)
@@ -77,7 +79,7 @@ def stop_runs(table: ProgramTable, shades: Shades) -> StopRuns:
             slots[slot], first[number] = number + 1, after
             after += int(shades.rows[number, COUNT])
         first[number] = first[slots[slot] - 1]
-    return StopRuns(first, words, after - start, after >> STOP_BITS == 0)
+    return StopRuns(first, words, after - start, 1 if after >> STOP_BITS == 0 else 0)
 
 
 @kernel
