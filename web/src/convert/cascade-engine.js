@@ -13,6 +13,7 @@ import { parseXml } from './parse-xml.js';
  * @property {XmlElement} base
  * @property {Instance | null} parent from which it inherits
  * @property {Instance[] | null} children
+ * @property {Instance | null} original of which it is a copy
  */
 
 /** Initial values of properties (SVG 2, CSS), with what is inherited marked by +. */
@@ -78,7 +79,7 @@ class CascadeEngine {
   constructor(root) {
     this.cascade = new Cascade(root, (message) => this.#note(message));
     /** @type {Instance} */
-    this.root = { base: root, parent: null, children: null };
+    this.root = { base: root, parent: null, children: null, original: null };
     this.#prepare(this.root);
   }
 
@@ -114,9 +115,11 @@ class CascadeEngine {
 
   /** @param {Instance} element @returns {Instance[]} */
   children(element) {
-    element.children ??= element.base.children
-      .filter((child) => child.local !== 'script' && !isAnimation(child))
-      .map((base) => ({ base, parent: element, children: null }));
+    element.children ??= element.original
+      ? this.children(element.original).map((original) => ({ base: original.base, parent: element, children: null, original: this.original(original) }))
+      : element.base.children
+          .filter((child) => child.local !== 'script' && !isAnimation(child))
+          .map((base) => ({ base, parent: element, children: null, original: null }));
     return [...element.children];
   }
 
@@ -148,12 +151,12 @@ class CascadeEngine {
   /** @param {Instance} use @param {Instance} target @returns {Instance} */
   instance(use, target) {
     let copy = this.#instances.get(use);
-    if (!copy) this.#instances.set(use, (copy = { base: target.base, parent: use, children: null }));
+    if (!copy) this.#instances.set(use, (copy = { base: target.base, parent: use, children: null, original: this.original(target) }));
     return copy;
   }
 
-  /** @param {Instance} element */
-  original = (element) => element.base;
+  /** @param {Instance} element @returns {Instance} */
+  original = (element) => element.original ?? element;
 
   /** @param {string} text @returns {[number, number, number, number] | null} */
   color(text) {

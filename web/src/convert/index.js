@@ -100,8 +100,7 @@ export async function convertData(source, options) {
  * @throws {VextureError} if it is no SVG, or exceeds a limit
  */
 export async function readSvg(source, { name = 'drawing', converter = usual() } = {}) {
-  const strokeOutline = await converter.strokeOutline();
-  return svgDrawing(source, { name, strokeOutline }).catch((error) => {
+  return svgDrawing(source, { name, loadStrokes: () => converter.strokeOutline() }).catch((error) => {
     throw error instanceof VextureError ? error.in(name) : error;
   });
 }

@@ -2,12 +2,15 @@
 import { readSvg } from './read-svg.js';
 import { loadMarkup } from './source.js';
 
+/** @import { StrokeOutline } from './strokes.js' */
+
 /**
  * Read an SVG. Only its own address is fetched, nothing that it refers to.
  *
  * @param {string | Blob | ArrayBuffer | Uint8Array | URL | Response | Element} source markup or its place, or an `<svg>` of
  *   the page, which keeps the colours and variables that it has there
- * @param {import('./read-svg.js').SvgOptions & { signal?: AbortSignal }} [options]
+ * @param {import('./read-svg.js').SvgOptions & { signal?: AbortSignal, loadStrokes?: () => Promise<StrokeOutline> }} [options]
+ *   `loadStrokes` is called for a document that may have strokes
  * @returns {Promise<import('./drawing.js').Drawing>}
  * @throws {VextureError} if it is no SVG, or exceeds a limit
  */
@@ -15,9 +18,11 @@ export async function svgDrawing(source, options = {}) {
   const isElement = typeof Element !== 'undefined' && source instanceof Element;
   const opened = isElement ? source : await loadMarkup(/** @type {Exclude<typeof source, Element>} */ (source), options);
   const { openSvg } = await import('#svg-engine'); // the browser's own engine, or ours where there is no page
+  const hasStrokes = typeof opened !== 'string' || /stroke/i.test(opened);
+  const strokeOutline = options.strokeOutline ?? (hasStrokes ? await options.loadStrokes?.() : undefined);
   const engine = openSvg(/** @type {string} */ (opened));
   try {
-    return readSvg(engine, options);
+    return readSvg(engine, { ...options, strokeOutline });
   } finally {
     engine.close();
   }
