@@ -8,7 +8,7 @@ from vexture.bezier.arc_length import ArcLengths, cut_between, find_place, measu
 from vexture.bezier.bends import tangent_at
 from vexture.bezier.chain import append_line, empty_chain
 from vexture.bezier.joins import StrokeStyle
-from vexture.bezier.outlines import Outlines, append_dot, append_stroke
+from vexture.bezier.outlines import StrokeOutlines, append_dot, append_stroke
 from vexture.bezier.roots import cubic_at
 from vexture.bezier.split import copy_curve
 
@@ -44,14 +44,14 @@ def _find_phase(dashes: NDArray[np.float64], offset: float) -> tuple[int, float]
 
 @kernel
 def _append_dash(
-    outlines: Outlines,
+    outlines: StrokeOutlines,
     cubics: NDArray[np.float64],
     lengths: ArcLengths,
     begin: float,
     end: float,
     style: StrokeStyle,
     tolerance: float,
-) -> Outlines:
+) -> StrokeOutlines:
     """Add the stroke of a path between two lengths; beyond the end of a closed path, it goes on at its start."""
     whole = total_length(lengths)
     first, t0 = find_place(cubics, lengths, begin)
@@ -78,14 +78,14 @@ def _append_dash(
 
 @kernel
 def append_dashes(
-    outlines: Outlines,
+    outlines: StrokeOutlines,
     cubics: NDArray[np.float64],
     closed: bool,
     dashes: NDArray[np.float64],
     offset: float,
     style: StrokeStyle,
     tolerance: float,
-) -> Outlines:
+) -> StrokeOutlines:
     """Add the strokes of the dashes of consecutive cubics (n, 4, 2); `dashes` (2 m,) are lengths of dashes and gaps.
 
     A dash of no length is a dot: its caps, along the path. On a closed path, a dash that ends at its end and one that

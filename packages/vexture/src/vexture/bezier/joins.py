@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
 from vexture.bezier.chain import CubicChain, append_cubic, append_line, unit
+from vexture.bezier.trigonometry import QUARTER_ERROR
 
 MITER: Final = 0
 ROUND_JOIN: Final = 1
@@ -21,9 +22,6 @@ BUTT: Final = 0
 ROUND_CAP: Final = 1
 SQUARE: Final = 2
 
-
-QUARTER_ERROR: Final = 2.7253e-4
-"""Largest distance of one cubic from a quarter of the unit circle (Goldapp 1991)."""
 
 SHORT_ARC: Final = 1e-7
 """One minus the cosine of the angle of an arc that is not halved further."""

@@ -22,7 +22,7 @@ from vexture.bezier.sides import Side, clear_side, join_side, offset_side, tange
 from vexture.bezier.split import copy_curve
 
 
-class Outlines(NamedTuple):
+class StrokeOutlines(NamedTuple):
     """Closed contours, one after the other."""
 
     chain: CubicChain
@@ -31,7 +31,7 @@ class Outlines(NamedTuple):
 
 
 @kernel
-def append_contour(outlines: Outlines, chain: CubicChain, shortest: float, tolerance: float) -> Outlines:
+def append_contour(outlines: StrokeOutlines, chain: CubicChain, shortest: float, tolerance: float) -> StrokeOutlines:
     """Add a closed chain of cubics as a contour of few cubics, unless it is a point."""
     contour = close_chain(chain, shortest)
     if len(contour) == 0:
@@ -52,7 +52,7 @@ def append_contour(outlines: Outlines, chain: CubicChain, shortest: float, toler
     more.length[0] = needed
     lengths[count] = len(contour)
     outlines.number[0] = count + 1
-    return Outlines(more, lengths, outlines.number)
+    return StrokeOutlines(more, lengths, outlines.number)
 
 
 @kernel
@@ -79,8 +79,8 @@ def _cap_start(
 
 @kernel
 def append_dot(
-    outlines: Outlines, x: float, y: float, tx: float, ty: float, style: StrokeStyle, tolerance: float
-) -> Outlines:
+    outlines: StrokeOutlines, x: float, y: float, tx: float, ty: float, style: StrokeStyle, tolerance: float
+) -> StrokeOutlines:
     """Add the two caps of a line of no length in a direction; nothing for butt caps."""
     if style.cap == BUTT:
         return outlines
@@ -90,8 +90,8 @@ def append_dot(
 
 @kernel
 def append_stroke(
-    outlines: Outlines, cubics: NDArray[np.float64], closed: bool, style: StrokeStyle, tolerance: float
-) -> Outlines:
+    outlines: StrokeOutlines, cubics: NDArray[np.float64], closed: bool, style: StrokeStyle, tolerance: float
+) -> StrokeOutlines:
     """Add the contours of the stroke of consecutive cubics (n, 4, 2), each of which starts where the last one ends."""
     parts = cut_path(cubics, style)
     n = parts.chain.length[0]

@@ -12,7 +12,7 @@ from vexture.base.kernels import kernel
 from vexture.bezier.chain import empty_chain
 from vexture.bezier.dashes import append_dashes
 from vexture.bezier.joins import StrokeStyle
-from vexture.bezier.outlines import Outlines, append_stroke
+from vexture.bezier.outlines import StrokeOutlines, append_stroke
 
 FITTED: Final = 0.1
 REDUCED: Final = 0.86
@@ -58,7 +58,9 @@ def stroke_path(
     tolerance = max(style[4], size * FLOATS)
     kind = StrokeStyle(style[0] / 2.0, int(style[1]), int(style[2]), style[3], FITTED * tolerance, SHORTEST * tolerance)
     tolerance *= REDUCED
-    outlines = Outlines(empty_chain(4 * len(cubics) + 16), np.empty(2 * len(ends), np.int64), np.zeros(1, np.int64))
+    outlines = StrokeOutlines(
+        empty_chain(4 * len(cubics) + 16), np.empty(2 * len(ends), np.int64), np.zeros(1, np.int64)
+    )
     first = 0
     for i in range(len(ends)):
         path = cubics[first : ends[i]]

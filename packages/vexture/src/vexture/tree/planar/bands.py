@@ -193,18 +193,18 @@ def add_bands(
     low, high = reach_of_ramp(row, shape, box)
     if row[SPREAD] != PAD and not high - low <= MOST_BANDS:
         return add_band(found, row, stops)
-    own = stops_of_period(stops, int(row[SPREAD]))
-    knots = knots_of(own, int(row[SPREAD]), low, high)
-    parts = _parts_of(row, own, knots, shape, (low, high), at_all_stops)
+    ramp = stops_of_period(stops, int(row[SPREAD]))
+    knots = knots_of(ramp, int(row[SPREAD]), low, high)
+    parts = _parts_of(row, ramp, knots, shape, (low, high), at_all_stops)
     if len(parts) == 0:
         return add_band(found, row, stops)
-    return _add_parts(found, row, own, knots, parts, (low, high), box, shape)
+    return _add_parts(found, row, ramp, knots, parts, (low, high), box, shape)
 
 
 @kernel
 def _parts_of(
     row: NDArray[np.float64],
-    own: NDArray[np.float64],
+    ramp: NDArray[np.float64],
     knots: Knots,
     shape: int,
     within: tuple[float, float],
@@ -218,10 +218,10 @@ def _parts_of(
     parts, n, is_cut = np.zeros(count + 2, np.int64), 1, False
     for k in range(count):
         place = knots.place[k]
-        if low < place < high and (jumps(knots, own, k) or is_beside_ramp(knots, own, k, steep)):
+        if low < place < high and (jumps(knots, ramp, k) or is_beside_ramp(knots, ramp, k, steep)):
             parts[n], is_cut = k, True
             n += 1
-        if row[SPREAD] == PAD and 0.0 <= max(low - place, place - high) < CLOSE and jumps(knots, own, k):
+        if row[SPREAD] == PAD and 0.0 <= max(low - place, place - high) < CLOSE and jumps(knots, ramp, k):
             is_cut = True
     parts[n] = count - 1
     return parts[: n + 1 if is_cut and n <= MOST_BANDS else 0]
@@ -231,7 +231,7 @@ def _parts_of(
 def _add_parts(
     found: BandList,
     row: NDArray[np.float64],
-    own: NDArray[np.float64],
+    ramp: NDArray[np.float64],
     knots: Knots,
     parts: NDArray[np.int64],
     within: tuple[float, float],
@@ -246,7 +246,7 @@ def _add_parts(
         a, b = parts[k], parts[k + 1]
         is_begun = k > 0 or knots.place[a] <= low
         is_ended = k < count - 1 or knots.place[b] >= high
-        found = _add_part(found, row, own, knots, (a, b), is_begun, is_ended)
+        found = _add_part(found, row, ramp, knots, (a, b), is_begun, is_ended)
         if n == count - 1:
             break
         contour = region_of(row, shape, knots.place[b if is_linear else a], box, found.reach)
@@ -260,7 +260,7 @@ def _add_parts(
 def _add_part(
     found: BandList,
     row: NDArray[np.float64],
-    own: NDArray[np.float64],
+    ramp: NDArray[np.float64],
     knots: Knots,
     ends: tuple[int, int],
     is_begun: bool,
@@ -273,7 +273,7 @@ def _add_part(
     """
     part = row.copy()
     part[SPREAD] = PAD
-    places, stops = _placed_stops(own, knots, ends, is_begun, is_ended)
+    places, stops = _placed_stops(ramp, knots, ends, is_begun, is_ended)
     count, is_flat = len(places), True
     for k in range(1, count):
         is_flat = is_flat and not differ(stops, 0, k)
@@ -295,7 +295,7 @@ def _add_part(
 
 @kernel
 def _placed_stops(
-    own: NDArray[np.float64], knots: Knots, ends: tuple[int, int], is_begun: bool, is_ended: bool
+    ramp: NDArray[np.float64], knots: Knots, ends: tuple[int, int], is_begun: bool, is_ended: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Stops of a part of a ramp, and the places of these stops."""
     first, last = 2 * ends[0] + (1 if is_begun else 0), 2 * ends[1] + (1 if is_ended else 2)
@@ -305,7 +305,7 @@ def _placed_stops(
         stop = knots.before[knot] if at & 1 == 0 else knots.after[knot]
         places[at - first] = knots.place[knot]
         for c in range(5):
-            stops[at - first, c] = own[stop, c]
+            stops[at - first, c] = ramp[stop, c]
     return places, stops
 
 

@@ -26,25 +26,25 @@ def stops_of_period(stops: NDArray[np.float64], spread: int) -> NDArray[np.float
     if spread == PAD:
         return stops
     count = len(stops)
-    own = np.empty((count + 2, stops.shape[1]))
+    ramp = np.empty((count + 2, stops.shape[1]))
     for k in range(count + 2):
         for c in range(stops.shape[1]):
-            own[k, c] = stops[min(max(k - 1, 0), count - 1), c]
-    own[0, OFFSET], own[count + 1, OFFSET] = 0.0, 1.0
-    return own
+            ramp[k, c] = stops[min(max(k - 1, 0), count - 1), c]
+    ramp[0, OFFSET], ramp[count + 1, OFFSET] = 0.0, 1.0
+    return ramp
 
 
 @kernel
-def knots_of(own: NDArray[np.float64], spread: int, low: float, high: float) -> Knots:
-    """Knots of a ramp with the stops `own` in an interval of places, and the next knot on each side."""
+def knots_of(ramp: NDArray[np.float64], spread: int, low: float, high: float) -> Knots:
+    """Knots of a ramp with the stops `ramp` in an interval of places, and the next knot on each side."""
     first, last = (0, 0) if spread == PAD else (int(np.floor(low)), int(np.ceil(high)))
-    count, room = 0, len(own) * (last - first + 1)
+    count, room = 0, len(ramp) * (last - first + 1)
     knots = Knots(np.empty(room), np.empty(room, np.int64), np.empty(room, np.int64))
     for period in range(first, last + 1):
-        for k in range(len(own)):
+        for k in range(len(ramp)):
             is_turned = spread == REFLECT and period % 2 == 1
-            stop = len(own) - 1 - k if is_turned else k
-            place = period + 1.0 - own[stop, OFFSET] if is_turned else period + own[stop, OFFSET]
+            stop = len(ramp) - 1 - k if is_turned else k
+            place = period + 1.0 - ramp[stop, OFFSET] if is_turned else period + ramp[stop, OFFSET]
             if count > 0 and knots.place[count - 1] == place:
                 knots.after[count - 1] = stop
                 continue
@@ -68,16 +68,16 @@ def differ(stops: NDArray[np.float64], one: int, other: int) -> bool:
 
 
 @kernel(allocates=False)
-def jumps(knots: Knots, own: NDArray[np.float64], k: int) -> bool:
+def jumps(knots: Knots, ramp: NDArray[np.float64], k: int) -> bool:
     """Whether the colour jumps at a knot."""
-    return differ(own, knots.before[k], knots.after[k])
+    return differ(ramp, knots.before[k], knots.after[k])
 
 
 @kernel(allocates=False)
-def is_beside_ramp(knots: Knots, own: NDArray[np.float64], k: int, most: float) -> bool:
+def is_beside_ramp(knots: Knots, ramp: NDArray[np.float64], k: int, most: float) -> bool:
     """Whether the colour changes between a knot and the one before or after, less than `most` places away."""
     for one in range(max(k - 1, 0), min(k + 1, len(knots.place) - 1)):
         is_near = knots.place[one + 1] - knots.place[one] < most
-        if is_near and differ(own, knots.after[one], knots.before[one + 1]):
+        if is_near and differ(ramp, knots.after[one], knots.before[one + 1]):
             return True
     return False
