@@ -12,22 +12,22 @@ import { layersOf, splitOf, withoutGradients, withoutMasks } from './split.js';
 /** @import { Split } from './split.js' */
 
 /**
- * @typedef {object} ConversionOptions As in `ConvertOptions`.
- * @property {Split} [split]
- * @property {number} [tolerance]
- * @property {number} [maxDepth]
- * @property {number} [capacity]
- * @property {number} [precision]
- * @property {boolean} [restyle]
- * @property {number} [maxSeconds]
+ * @typedef {object} ConversionOptions Options of a conversion of a drawing; see `ConvertOptions`.
+ * @property {Split} [split] how the drawing becomes shapes
+ * @property {number} [tolerance] largest distance between the outlines, in unit-square units
+ * @property {number} [maxDepth] depth at which cells are not divided
+ * @property {number} [capacity] most pieces in a leaf
+ * @property {number} [precision] largest shift by rounding, in unit-square units
+ * @property {boolean} [restyle] keep elements apart
+ * @property {number} [maxSeconds] time limit
  *
- * @typedef {object} Converted
- * @property {string} name
+ * @typedef {object} Converted A texture, as a worker sends it.
+ * @property {string} name of the texture
  * @property {number} width texels in a row
  * @property {number} height rows
- * @property {Uint32Array} texels
- * @property {Root[]} roots
- * @property {Note[]} notes
+ * @property {Uint32Array} texels four words each, row by row
+ * @property {Root[]} roots its shapes
+ * @property {Note[]} notes what was left out, simplified or chosen
  *
  * @typedef {object} Bounds Limits of a tree, as `vexture.tree.bounds` in Python.
  * @property {number | undefined} capacity

@@ -8,15 +8,15 @@ import { outlineStroke } from './stroke-outline.js';
 /** @import { Drawing } from './drawing.js' */
 
 /**
- * @typedef {object} ConverterOptions
+ * @typedef {object} ConverterOptions Where a converter finds the kernels and its worker.
  * @property {import('./kernel-modules.js').KernelSources} [kernels] addresses or contents of the modules `silhouettes`, `maps` and
  *   `strokes`; by default those of this package
  * @property {(() => Worker) | false} [worker] starts the worker, for pages with their own way to load one; false converts in
  *   this thread
  *
- * @typedef {object} Job
- * @property {Drawing} drawing
- * @property {ConversionOptions} options
+ * @typedef {object} Job A drawing to convert.
+ * @property {Drawing} drawing what `readSvg`, `readGeojson` or `fromContours` has made
+ * @property {ConversionOptions} options of the conversion
  * @property {AbortSignal} [signal] stops it
  *
  * @typedef {object} Waiting A job that waits for the worker.

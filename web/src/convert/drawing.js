@@ -14,8 +14,8 @@ import { inUnitSquare } from './unit-square.js';
 
 /**
  * @typedef {object} Drawing Painted paths in the unit square, y up, in painting order.
- * @property {string} name
- * @property {Path[]} paths
+ * @property {string} name of the shape
+ * @property {Path[]} paths each with one paint
  * @property {Group[]} groups each after the group around it
  * @property {Affine} toSource from the unit square to the units of the source
  * @property {[number, number]} sides width and height of the box, which is centred; the longer side is 1

@@ -19,9 +19,30 @@ export { writePacked } from './write-packed.js';
 
 /** @import { PackedData } from '../data.js' */
 /** @import { VectorTexture } from '../vector-texture.js' */
-/** @import { Split } from './split.js' */
+/** @typedef {import('./affine.js').Affine} Affine */
+/** @typedef {import('./converter.js').ConverterOptions} ConverterOptions */
+/** @typedef {import('./converter.js').Job} Job */
+/** @typedef {import('./conversion.js').ConversionOptions} ConversionOptions */
+/** @typedef {import('./conversion.js').Converted} Converted */
+/** @typedef {import('./drawing.js').Box} Box */
 /** @typedef {import('./drawing.js').Drawing} Drawing */
+/** @typedef {import('./drawing.js').Shape} Shape */
+/** @typedef {import('./kernel-modules.js').KernelSource} KernelSource */
+/** @typedef {import('./kernel-modules.js').KernelSources} KernelSources */
+/** @typedef {import('./kernel-modules.js').ModuleName} ModuleName */
+/** @typedef {import('./notes.js').Kind} Kind */
 /** @typedef {import('./notes.js').Note} Note */
+/** @typedef {import('./painter.js').Path} Path */
+/** @typedef {import('./paints.js').Color} Color */
+/** @typedef {import('./paints.js').Gradient} Gradient */
+/** @typedef {import('./paints.js').Paint} Paint */
+/** @typedef {import('./paints.js').Rows} Rows */
+/** @typedef {import('./paints.js').Stop} Stop */
+/** @typedef {import('./read-geojson.js').GeojsonOptions} GeojsonOptions */
+/** @typedef {import('./split.js').Split} Split */
+/** @typedef {import('./strokes.js').StrokeOutline} StrokeOutline */
+/** @typedef {import('./strokes.js').StrokeStyle} StrokeStyle */
+/** @typedef {import('./veils.js').Group} Group */
 
 /**
  * @typedef {string | URL | Blob | ArrayBuffer | Uint8Array | SVGElement | Drawing | object} Source What can be converted: the

@@ -1,9 +1,9 @@
 // The modules of kernels, of which each is loaded when a conversion first needs it.
 import { Kernels } from './kernels.js';
 
-/** @typedef {string | URL | BufferSource} KernelSource */
+/** @typedef {string | URL | BufferSource} KernelSource address or content of a module of kernels */
 
-/** @typedef {'silhouettes' | 'maps' | 'strokes'} ModuleName */
+/** @typedef {'silhouettes' | 'maps' | 'strokes'} ModuleName name of a module of kernels */
 
 /** @typedef {Partial<Record<ModuleName, KernelSource>>} KernelSources addresses or contents of the modules */
 

@@ -17,7 +17,7 @@ const FONT_UNITS = { em: 1, ex: 0.5, ch: 0.5 };
 const WRITTEN = /^\s*([+-]?(?:\d*\.\d+|\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*|%)\s*$/;
 const RELATIVE = /%|\d\.?[sld]?v[whibm]/i;
 
-/** @param {string} text @returns {number} @throws {TooLargeError} if it exceeds `LARGEST` */
+/** @param {string} text @returns {number} @throws {VextureError} if it exceeds `LARGEST` */
 function bounded(text) {
   const value = Number(text);
   if (Math.abs(value) <= LARGEST) return value;

@@ -1,8 +1,14 @@
 // Notes of a reader: everything left out, simplified or invalid, with the words of Python's readers.
 
-/** @typedef {'left out' | 'simplified' | 'invalid' | 'remark'} Kind */
+/** @typedef {'left out' | 'simplified' | 'invalid' | 'remark'} Kind kind of a note */
 
-/** @typedef {{ kind: Kind, message: string, count: number }} Note */
+/**
+ * @typedef {object} Note One observation about a source.
+ * @property {Kind} kind `left out`: not in the result. `simplified`: not as it should be. `invalid`: against the standard and
+ *   ignored. `remark`: a sentence about the whole
+ * @property {string} message such as `<text>`
+ * @property {number} count of occurrences
+ */
 
 /** @type {readonly Kind[]} */
 const KINDS = ['left out', 'simplified', 'invalid', 'remark'];

@@ -5,16 +5,16 @@ import { determinant, inverse } from './affine.js';
 
 /** @typedef {[[number, number, number], [number, number, number]]} Rows rows of an affine map of (x, y, 1) */
 
-/** @typedef {{ offset: number, color: Color, opacity: number }} Stop */
+/** @typedef {{ offset: number, color: Color, opacity: number }} Stop a colour at an offset of a ramp, 0..1 */
 
 /**
- * @typedef {object} Gradient
+ * @typedef {object} Gradient Colours along a ramp (SVG 2, 14.2).
  * @property {Rows} toRamp from the drawing's coordinates to those of the ramp
- * @property {Stop[]} stops
+ * @property {Stop[]} stops one or more, with offsets that do not decrease
  * @property {number} spread 0 pads, 1 reflects, 2 repeats
  * @property {[number, number] | null} focus x of the focal point and focal radius of a radial gradient
  *
- * @typedef {{ color: Color, opacity: number, gradient: Gradient | null }} Paint
+ * @typedef {{ color: Color, opacity: number, gradient: Gradient | null }} Paint a flat colour, or a gradient with its mean
  */
 
 /** @type {Paint} */

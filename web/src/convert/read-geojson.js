@@ -7,7 +7,7 @@ import { Notes } from './notes.js';
 /** @import { Drawing, Path, Paint } from './drawing.js' */
 
 /**
- * @typedef {object} GeojsonOptions
+ * @typedef {object} GeojsonOptions Options of `readGeojson`.
  * @property {string} [name] name of the shape; `drawing` by default
  * @property {string} [names] property of the features that names the paths, in place of `id`
  *

@@ -44,7 +44,7 @@ function attributeLength(shape, name) {
 /**
  * @param {Shape} shape
  * @returns {Outline[]} in its user units
- * @throws {TooLargeError} if a coordinate exceeds `LARGEST`
+ * @throws {VextureError} if a coordinate exceeds `LARGEST`
  */
 export function shapeOutlines(shape) {
   const outlines = SHAPES[shape.report.engine.name(shape.element) ?? ''](shape);
@@ -52,7 +52,7 @@ export function shapeOutlines(shape) {
   return outlines;
 }
 
-/** @param {Float64Array} coordinates @throws {TooLargeError} if they are too large to compute with */
+/** @param {Float64Array} coordinates @throws {VextureError} if they are too large to compute with */
 export function checkSize(coordinates) {
   const largest = reachOf(coordinates);
   if (largest <= LARGEST) return;

@@ -9,7 +9,7 @@ import { propertyLength, readLength } from './shapes.js';
 
 /**
  * @typedef {object} StrokeStyle in the units of the path
- * @property {number} width
+ * @property {number} width of the line
  * @property {string} cap "butt", "round" or "square"
  * @property {string} join "miter", "round" or "bevel"
  * @property {number} miterLimit longest miter, in stroke widths
