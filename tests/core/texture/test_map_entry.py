@@ -21,6 +21,8 @@ from vexture.tree.planar.build import DEFAULT_MAP_CAPACITY, build_map
 from vexture.tree.planar.source import source_of
 from vexture.tree.tree import MOST_QUADS
 
+pytestmark = pytest.mark.slow  # compiling takes minutes; tests/web/test_conversions.py has its WebAssembly
+
 SHAPES = sorted((Path(__file__).parents[3] / "examples" / "shapes").glob("*.svg"))
 BOUNDS = bounds_of(UNSEEN, DEFAULT_DEPTH, DEFAULT_MAP_CAPACITY, None, MOST_QUADS)
 ENDLESS = 2**62
