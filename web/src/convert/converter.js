@@ -1,5 +1,5 @@
 // Runs conversions: in one worker, one after another, or in this thread where there are no workers.
-import { VextureError, line } from '../errors.js';
+import { VextureError, line, shortened } from '../errors.js';
 import { Conversion, MAX_SECONDS } from './conversion.js';
 import { overtime } from './silhouette.js';
 import { outlineStroke } from './stroke-outline.js';
@@ -26,6 +26,20 @@ import { outlineStroke } from './stroke-outline.js';
  *
  * @typedef {{ converted: Converted } | { message: string, field: string }} Answer What the worker sends.
  */
+
+/** Longest delay of a timer, in ms; a longer one would end at once. */
+const LONGEST_DELAY = 2 ** 31 - 1;
+
+/**
+ * @param {string} cause
+ * @returns {VextureError} for a worker that does not run
+ */
+const withoutWorker = (cause) =>
+  new VextureError(
+    `the worker of conversions does not run (${shortened(cause)}); check the site's files and ` +
+      'its Content-Security-Policy (worker-src), or convert with `worker: false`',
+    'worker',
+  );
 
 /** Start the package's own worker; bundlers recognise this form. */
 const startWorker = () => new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'vexture' });
@@ -60,7 +74,9 @@ export class Converter {
     job.signal?.throwIfAborted();
     if (!this.#start) return this.#convertHere(job);
     return new Promise((resolve, reject) => {
-      this.#waiting.push({ job, resolve, reject });
+      const waiting = { job, resolve, reject };
+      this.#waiting.push(waiting);
+      job.signal?.addEventListener('abort', () => this.#drop(waiting), { once: true });
       this.#next();
     });
   }
@@ -91,6 +107,14 @@ export class Converter {
     const converted = await this.#here.convert(drawing, options);
     signal?.throwIfAborted();
     return converted;
+  }
+
+  /** Reject a job that is stopped before its turn. @param {Waiting} waiting */
+  #drop(waiting) {
+    const place = this.#waiting.indexOf(waiting);
+    if (place < 0) return; // it runs, or has ended
+    this.#waiting.splice(place, 1);
+    waiting.reject(waiting.job.signal?.reason);
   }
 
   async #next() {
@@ -126,7 +150,7 @@ export class Converter {
       };
       const timer = setTimeout(() => {
         end(overtime(drawing.name, { maxSeconds }));
-      }, 1000 * maxSeconds);
+      }, Math.min(1000 * (maxSeconds > 0 ? maxSeconds : MAX_SECONDS), LONGEST_DELAY)); // the worker refuses a wrong number
       const onAbort = () => end(signal?.reason);
       const done = () => {
         clearTimeout(timer);
@@ -141,19 +165,29 @@ export class Converter {
       };
       worker.onerror = (event) => {
         event.preventDefault?.();
-        end(new VextureError(
-          `the worker of conversions does not run (${line(event.message || 'it cannot be loaded')}); check the site's files and ` +
-            'its Content-Security-Policy (worker-src), or convert with `worker: false`',
-          'worker',
-        ));
+        end(withoutWorker(event.message || 'it cannot be loaded'));
       };
       worker.onmessageerror = () => end(new VextureError('the worker of conversions sent damaged data; try again', 'worker'));
-      worker.postMessage({ drawing, options });
+      try {
+        worker.postMessage({ drawing, options });
+      } catch (error) {
+        done();
+        reject(new VextureError(`the drawing or an option cannot be sent to the worker (${line(error)}); give plain data`, 'source', { cause: error }));
+      }
     });
   }
 
+  /** @returns {Worker} @throws {VextureError} if the page may start none */
+  #open() {
+    try {
+      return /** @type {() => Worker} */ (this.#start)();
+    } catch (error) {
+      throw withoutWorker(error instanceof Error ? error.message : String(error));
+    }
+  }
+
   #begin() {
-    const worker = /** @type {() => Worker} */ (this.#start)();
+    const worker = this.#open();
     const sources = Object.entries(this.#kernels ?? {}).map(([name, source]) => {
       const isAddress = typeof source === 'string' || source instanceof URL; // a worker resolves it against its own address
       return [name, isAddress ? new URL(source, globalThis.document?.baseURI).href : source];

@@ -160,13 +160,22 @@ async function read(source, options) {
     if (typeof source === 'object' && source !== null) return readGeojson(source, options);
     throw unfit('source', source, 'give an SVG or GeoJSON as a text, address, file or element');
   }
-  const text = isMarkup ? source : await loadMarkup(isPlace ? new URL(source, globalThis.document?.baseURI) : source, options);
+  const text = isMarkup ? source : await loadMarkup(isPlace ? placeOf(source) : source, options);
   const stem = isPlace ? stemOf(String(source)) : typeof File === 'function' && source instanceof File ? stemOf(source.name) : undefined;
   const start = text.replace(/^\ufeff/, '').trimStart()[0];
   const named = { ...options, name: name ?? stem };
   if (start === '<') return readSvg(text, named);
   if (start === '{') return readGeojson(text, named);
   throw new VextureError(`${stem ?? 'the source'} begins with ${line(text.slice(0, 20))}; give SVG, GeoJSON or TopoJSON`, 'source');
+}
+
+/** @param {string | URL} source @returns {URL} @throws {VextureError} if it is no address */
+function placeOf(source) {
+  try {
+    if (String(source).trim()) return new URL(source, globalThis.document?.baseURI); // a blank address is that of the page
+  } catch { // refused below
+  }
+  throw new VextureError(`the source ${line(source)} is no address; give an SVG or GeoJSON as a text, address, file or element`, 'source');
 }
 
 /** @param {string} path @returns {string | undefined} name of the file without its suffixes */

@@ -15,7 +15,12 @@ const WIDE = /^(?:utf-?(?:16|32)|(?:iso-10646-)?ucs-?[24])/i;
  */
 export async function loadMarkup(source, { signal } = {}) {
   if (typeof source === 'string') return source;
-  if (source instanceof URL) return loadMarkup(await load(source, signal));
+  if (source instanceof URL) {
+    return loadMarkup(await load(source, signal)).catch((error) => {
+      signal?.throwIfAborted(); // its reason, not that the file has no end
+      throw error;
+    });
+  }
   if (source instanceof Response) {
     if (!source.ok) throw new VextureError(`${line(source.url)} answers ${source.status}; check the address`, 'source');
     return textOf(source.body ?? new Blob().stream());
