@@ -325,7 +325,10 @@ def test_a_bad_source_is_one_error_and_the_page_goes_on(page: Any) -> None:
 def test_a_wrong_option_is_one_error(page: Any) -> None:
     for options, message in {
         "{ presision: 1 }": "`presision` is no option of a conversion; there are name, split",
-        "{ precision: 'much' }": "`precision`",
+        "{ precision: 'much' }": '`precision` "much" is no number in ',
+        "{ precision: '0.01' }": '`precision` "0.01" is no number in ',
+        "{ tolerance: '0.01' }": '`tolerance` "0.01" is no number from 0',
+        "{ maxSeconds: '9' }": '`maxSeconds` "9" is no number above 0',
         "{ split: 'colour' }": "colour",
         "{ maxDepth: 1.5 }": "`maxDepth` 1.5 is no whole number in 1..20",
         "{ split: () => 1 }": "cannot be sent to the worker",

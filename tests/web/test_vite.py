@@ -1,4 +1,4 @@
-"""The Vite plugin in projects of real Vite: builds, a development server, and what it says without a converter."""
+"""The Vite plugin in projects of real Vite: builds, a development server, with and without the Python program."""
 
 import os
 import re
@@ -13,9 +13,11 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import numpy as np
 import pytest
 
 import vexture
+from build_wasm import OUTPUT
 from chromium import ROOT, WEB, serve_folder
 from guides import free_port
 from viewing import PATIENCE, until
@@ -71,8 +73,15 @@ class Project:
             text=True,
         )
 
-    def built(self) -> list[Path]:
-        outcome = self.build()
+    def remove_python(self) -> dict[str, str]:
+        """Leave npm alone; return the environment of the builds, in which no program is found."""
+        shutil.rmtree(self.folder / ".venv")
+        empty = self.folder / "no-programs"
+        empty.mkdir()
+        return {"PATH": str(empty)}
+
+    def built(self, **environment: str) -> list[Path]:
+        outcome = self.build(**environment)
         assert outcome.returncode == 0, outcome.stdout + outcome.stderr
         return sorted((self.folder / "dist" / "assets").glob("*.ktx2"))
 
@@ -87,6 +96,12 @@ class Project:
                     yield client
             finally:
                 server.terminate()
+
+
+def need_kernels() -> None:
+    """Skip where the npm package has no kernels."""
+    if not (OUTPUT / "silhouettes.wasm").is_file():
+        pytest.skip("no kernels (make wasm)")
 
 
 @pytest.fixture
@@ -216,16 +231,99 @@ def test_what_is_wrong_is_said(project: Project, query: str, message: str) -> No
     assert message in outcome.stderr
 
 
-def test_without_a_converter_one_line_says_what_to_type(project: Project, tmp_path: Path) -> None:
+def assert_same(file: Path, drawing: Path, **options: Any) -> None:
+    """A texture has the texels, and so the picture, of Python's conversion."""
+    texture, ours = vexture.load(file), vexture.convert(drawing, **options)
+    texture.check()
+    assert np.array_equal(texture.flat, ours.flat)
+    for one, other in zip(texture.roots, ours.roots, strict=True):
+        assert (one.name, one.quad, one.is_map, one.paint) == (other.name, other.quad, other.is_map, other.paint)
+        assert np.array_equal(one.to_source, other.to_source)
+
+
+def test_npm_alone_builds_the_textures_of_python(project: Project) -> None:
+    need_kernels()
+    environment = project.remove_python()
+    drawing = Path(shutil.copy(FIXTURES / "badge.svg", project.folder / "logo.svg"))
+    project.imports("logo.svg?vexture", "logo.svg?vexture&silhouette&precision=1e-3&max-depth=12")
+    files = project.built(**environment)
+    assert len(files) == 2
+    one, other = sorted(files, key=lambda file: not vexture.load(file).roots[0].is_map)
+    assert_same(one, drawing)
+    assert_same(other, drawing, split=None, precision=1e-3, max_depth=12)
+    assert project.conversions() == 0
+    assert project.built(**environment) == files, "the cache has them"
+
+
+def test_npm_alone_has_the_choice_where_python_is_too(project: Project) -> None:
+    need_kernels()
     shutil.copy(FIXTURES / "badge.svg", project.folder / "logo.svg")
     project.imports("logo.svg?vexture")
-    shutil.rmtree(project.folder / ".venv")
-    outcome = project.build(PATH=str(tmp_path))
+    project.configure("{ converter: false }")
+    (file,) = project.built()
+    assert vexture.load(file).roots[0].is_map
+    assert not project.calls.exists(), "the program is not run"
+
+
+def test_npm_alone_tells_what_a_drawing_loses(project: Project) -> None:
+    need_kernels()
+    environment = project.remove_python()
+    blurred = '<rect width="4" height="4" filter="blur(1px)"/><path d="M5 5h2v2z" fill="red"/>'
+    (project.folder / "logo.svg").write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8">{blurred}</svg>', encoding="utf-8"
+    )
+    project.imports("logo.svg?vexture")
+    for _ in range(2):
+        outcome = project.build(**environment)
+        assert outcome.returncode == 0
+        assert "logo.svg: left out: filter of blur" in outcome.stderr
+    project.imports("logo.svg?vexture&strict")
+    outcome = project.build(**environment)
     assert outcome.returncode == 1
-    (line,) = {line for line in outcome.stderr.splitlines() if "pip install" in line}
-    assert "logo.svg: no converter is in .venv, on the PATH or in Python; type: pip install vexture (or" in line
+    assert re.search("logo.svg: left out: filter of blur.*; leave out `strict`, or change the drawing", outcome.stderr)
+
+
+@pytest.mark.parametrize(
+    ("query", "message"),
+    [
+        ("select=.a", "logo.svg: select needs the Python program, which is not installed: pip install vexture"),
+        ("trace-images", "logo.svg: traceImages needs the Python program, which is not installed: pip install vexture"),
+        ("snap=0.1", "logo.svg: snap needs the Python program, which is not installed: pip install vexture"),
+        ("presision=1", "logo.svg: no option is named presision; there are silhouette, restyle"),
+        ("precision=much", 'logo.svg: `precision` "much" is no number in '),
+        ("tolerance=", 'logo.svg: `tolerance` "" is no number from 0'),
+    ],
+)
+def test_npm_alone_refuses_what_it_cannot_do(project: Project, query: str, message: str) -> None:
+    need_kernels()
+    environment = project.remove_python()
+    shutil.copy(FIXTURES / "badge.svg", project.folder / "logo.svg")
+    project.imports(f"logo.svg?vexture&{query}")
+    outcome = project.build(**environment)
+    assert outcome.returncode == 1
+    assert message in outcome.stderr
+
+
+def test_a_python_without_vexture_is_no_converter(project: Project, tmp_path: Path) -> None:
+    need_kernels()
+    project.remove_python()
+    shutil.copy(FIXTURES / "badge.svg", project.folder / "logo.svg")
+    project.imports("logo.svg?vexture")
+    for name in ("python3", "python"):
+        project.program(tmp_path / "bin" / name, "-I -S")  # it has no packages
+    (file,) = project.built(PATH=f"{tmp_path / 'bin'}:/nowhere")
+    assert vexture.load(file).roots[0].is_map
+    assert len(project.calls.read_text().splitlines()) == 2, "both were tried"
+    assert project.conversions() == 0
+
+
+def test_a_chosen_converter_that_does_not_run_is_one_line(project: Project) -> None:
+    shutil.copy(FIXTURES / "badge.svg", project.folder / "logo.svg")
+    project.imports("logo.svg?vexture")
     project.configure("{ converter: 'vexturn' }")
-    assert "the converter vexturn does not run; correct the option, or type: pip install" in project.build().stderr
+    outcome = project.build()
+    assert outcome.returncode == 1
+    assert "the converter vexturn does not run; correct the option, or leave it out" in outcome.stderr
 
 
 def test_a_converter_is_found_in_python(project: Project, tmp_path: Path) -> None:

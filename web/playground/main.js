@@ -153,15 +153,18 @@ const fileName = () => `${name.replace(/[^\p{L}\p{N} ._-]/gu, '_')}.ktx2`;
 /** @param {File} dropped */
 async function open(dropped) {
   if (!Words.isFont(dropped)) return show(givenOf(dropped));
-  return show(words.use(dropped).then(() => words.svgOf(word.value || 'Harbour')));
+  return show(words.use(dropped).then(() => outlined(word.value || 'Harbour')));
 }
+
+/** The SVG of a word; a font without its letters is an error of the page, not of the event. @param {string} letters */
+const outlined = async (letters) => words.svgOf(letters);
 
 byId('open').addEventListener('click', () => input.click());
 input.addEventListener('change', () => {
   if (input.files[0]) open(input.files[0]);
   input.value = '';
 });
-word.addEventListener('input', () => word.value.trim() && show(words.svgOf(word.value)));
+word.addEventListener('input', () => word.value.trim() && show(outlined(word.value)));
 text.addEventListener('input', () => text.value.trim() && show({ name: 'pasted', text: text.value }));
 byId('input').addEventListener('submit', (event) => event.preventDefault());
 split.addEventListener('input', () => {

@@ -110,6 +110,9 @@ function silhouettesOf(kernels, drawings, bounds) {
   });
 }
 
+/** @param {unknown} value @returns {value is number} texts compare like numbers, but are none */
+const isNumber = (value) => typeof value === 'number';
+
 /**
  * Limits of a tree from the options.
  *
@@ -127,15 +130,15 @@ function boundsOf({ constants }, { precision, tolerance, maxDepth = constants.MA
   whole('maxDepth', maxDepth, MOST_DEPTH);
   if (capacity !== undefined) whole('capacity', capacity, MOST_CURVES);
   const finest = DISPLACEMENT * 0.5 ** maxDepth / LATTICE;
-  if (precision !== undefined && !(precision >= finest && precision <= 1)) {
+  if (precision !== undefined && !(isNumber(precision) && precision >= finest && precision <= 1)) {
     throw new VextureError(`\`precision\` ${line(precision)} is no number in ${finest}..1 (unit-square units); leave it out`, 'precision');
   }
-  if (!(allowed >= 0 && allowed < 1)) {
+  if (!(isNumber(allowed) && allowed >= 0 && allowed < 1)) {
     throw new VextureError(`\`tolerance\` ${line(allowed)} is no number from 0 to below 1 (unit-square units); 0 keeps every piece`, 'tolerance');
   }
   const leastDepth = precision === undefined ? 1 : Math.max(Math.ceil(Math.log2(DISPLACEMENT / (precision * LATTICE))), 1);
   const near = COINCIDENT * (precision ?? (0.5 * DISPLACEMENT) / LATTICE);
-  if (!(maxSeconds > 0)) throw new VextureError(`\`maxSeconds\` ${line(maxSeconds)} is no number above 0; leave it out`, 'maxSeconds');
+  if (!(isNumber(maxSeconds) && maxSeconds > 0)) throw new VextureError(`\`maxSeconds\` ${line(maxSeconds)} is no number above 0; leave it out`, 'maxSeconds');
   return { capacity, tolerance: allowed, near, leastDepth, maxDepth, maxSeconds };
 }
 

@@ -63,6 +63,9 @@ const OF_THE_PROGRAM = Object.freeze(['select', 'snap', 'traceImages']);
 
 const NUMBERS = Object.freeze(['tolerance', 'maxDepth', 'capacity', 'precision', 'maxSeconds']);
 
+/** @param {any} value @returns {any} a text as a number if it is one; other texts are refused later, as they are */
+const numberOf = (value) => (String(value).trim() === '' || Number.isNaN(Number(value)) ? value : Number(value));
+
 /**
  * The options of `convertData` of this package.
  *
@@ -75,6 +78,6 @@ export function ownOptions({ silhouette, ...options }) {
   for (const [name] of entries) {
     if (OF_THE_PROGRAM.includes(name)) throw new Error(`${name} needs the Python program, which is not installed: pip install vexture`);
   }
-  const own = Object.fromEntries(entries.map(([name, value]) => [name, NUMBERS.includes(name) ? Number(value) : value]));
+  const own = Object.fromEntries(entries.map(([name, value]) => [name, NUMBERS.includes(name) ? numberOf(value) : value]));
   return silhouette ? { ...own, split: null } : own;
 }
