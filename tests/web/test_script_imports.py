@@ -15,7 +15,7 @@ SCRIPTS_MAY_IMPORT = {
     "src/react": {"src"},
     "src/thesis": {"generated", "src"},
     "src/tiles": {"generated", "src"},
-    "src/vite": {"src"},
+    "src/vite": {"src", "src/convert"},
     "src/water": {"generated", "src"},
     "src/webgpu": {"generated", "src"},
     "viewer": {"generated", "src", "src/thesis"},
