@@ -328,6 +328,7 @@ def test_a_wrong_option_is_one_error(page: Any) -> None:
         "{ precision: 'much' }": '`precision` "much" is no number in ',
         "{ precision: '0.01' }": '`precision` "0.01" is no number in ',
         "{ tolerance: '0.01' }": '`tolerance` "0.01" is no number from 0',
+        "{ names: 'class' }": '`names` "class" of an SVG needs the Python program',
         "{ maxSeconds: '9' }": '`maxSeconds` "9" is no number above 0',
         "{ split: 'colour' }": "colour",
         "{ maxDepth: 1.5 }": "`maxDepth` 1.5 is no whole number in 1..20",

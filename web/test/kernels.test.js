@@ -86,7 +86,7 @@ describe.skipIf(!isBuilt)('kernels', () => {
 
   it('refuse what is no module, and modules of others', async () => {
     await expect(Kernels.load(new TextEncoder().encode('<!doctype html>'))).rejects.toThrow(
-      /cannot be compiled .*; give a module/,
+      /cannot be compiled .*; give a module of the package/,
     );
     const empty = Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0);
     await expect(Kernels.load(empty)).rejects.toThrow(

@@ -59,7 +59,7 @@ export { writePacked } from './write-packed.js';
  * @property {number} [capacity] most pieces in a leaf, 1..15; 8 by default, 12 in a planar map
  * @property {number} [precision] largest shift of the outline by rounding, in unit-square units
  * @property {boolean} [restyle] keep elements apart, so that `setPaints` can change their colours
- * @property {string} [names] property of GeoJSON, or attribute of SVG, that names the elements
+ * @property {string} [names] property of GeoJSON that names the elements; those of an SVG have their `id`
  * @property {AbortSignal} [signal] stops the conversion, which rejects with its reason
  * @property {number} [maxSeconds] time limit of the conversion in the worker; 60 by default
  * @property {(progress: { stage: 'read' | 'convert' | 'done' }) => void} [onProgress] called at the start of each stage
@@ -152,7 +152,7 @@ function checked(options) {
 async function read(source, options) {
   const { name } = options;
   if (Array.isArray(source?.paths) && Array.isArray(source.groups)) return name === undefined ? source : { ...source, name };
-  if (typeof Element === 'function' && source instanceof Element) return readSvg(source, { ...options, name: name ?? (source.id || undefined) });
+  if (typeof Element === 'function' && source instanceof Element) return readNamed(source, { ...options, name: name ?? (source.id || undefined) });
   const isMarkup = typeof source === 'string' && /^\ufeff?\s*[<{]/.test(source);
   const isPlace = source instanceof URL || (typeof source === 'string' && !isMarkup);
   const isFile = isPlace || source instanceof Response || source instanceof Blob || source instanceof ArrayBuffer || source instanceof Uint8Array;
@@ -164,9 +164,20 @@ async function read(source, options) {
   const stem = isPlace ? stemOf(String(source)) : typeof File === 'function' && source instanceof File ? stemOf(source.name) : undefined;
   const start = text.replace(/^\ufeff/, '').trimStart()[0];
   const named = { ...options, name: name ?? stem };
-  if (start === '<') return readSvg(text, named);
+  if (start === '<') return readNamed(text, named);
   if (start === '{') return readGeojson(text, named);
   throw new VextureError(`${stem ?? 'the source'} begins with ${line(text.slice(0, 20))}; give SVG, GeoJSON or TopoJSON`, 'source');
+}
+
+/**
+ * Read an SVG, whose elements have the names of their `id`.
+ *
+ * @param {string | Element} source
+ * @param {{ name?: string, names?: string, converter?: Converter }} options
+ */
+function readNamed(source, { names = 'id', ...options }) {
+  if (names === 'id') return readSvg(source, options);
+  throw new VextureError(`\`names\` ${line(names)} of an SVG needs the Python program; elements have the names of their \`id\` here`, 'names');
 }
 
 /** @param {string | URL} source @returns {URL} @throws {VextureError} if it is no address */
