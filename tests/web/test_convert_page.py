@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bad_sources import BAD
 
 import vexture
 from build_wasm import OUTPUT
@@ -282,32 +283,6 @@ def test_what_takes_too_long_is_one_error(page: Any) -> None:
     for limit in ("NaN", "-1", "'much'"):
         value = converted(page, "text", f"{{ maxSeconds: {limit} }}", RED)
         assert "is no number above 0; leave it out" in value["error"], limit
-
-
-BAD = {
-    "''": 'the source "" is no address; give an SVG or GeoJSON',
-    "' '": 'the source " " is no address; give an SVG or GeoJSON',
-    "'http://'": 'the source "http://" is no address',
-    "'PNG'": '/usual/PNG" answers 404; check the address',
-    "'none.svg'": "answers 404; check the address",
-    "'http://127.0.0.1:9/a.svg'": '"http://127.0.0.1:9/a.svg" cannot be loaded',
-    "new Blob(['PNG'])": 'the source begins with "PNG"; give SVG, GeoJSON or TopoJSON',
-    "new File([new Uint8Array([137, 80, 78, 71, 13, 10, 26, 10, 0])], 'a')": "a begins with",
-    "new Blob([])": "give SVG, GeoJSON or TopoJSON",
-    "new Blob([new Uint8Array([31, 139, 8, 0, 1, 2, 3])])": "the file cannot be read",
-    "new Blob([new Uint8Array(5e7)])": "the file is larger than 33,554,432 bytes; simplify or split the drawing",
-    "'<svg xmlns=\"http://www.w3.org/2000/svg\">' + ' '.repeat(5e7)": "33,554,432",
-    "'{' + ' '.repeat(5e7)": "not JSON",
-    "'<svg xmlns=\"http://www.w3.org/2000/svg\"><path'": "not well-formed XML",
-    "'<!doctype html><html><p>text</html>'": "not well-formed XML|not <svg>",
-    "'<html xmlns=\"http://www.w3.org/1999/xhtml\"><body/></html>'": "the root element is <html>, not <svg>",
-    "'{'": "JSON",
-    "'{}'": "type",
-    "document.body": "give an <svg> of the page",
-    "null": "the source is null; give an SVG or GeoJSON",
-    "5": "the source is 5; give an SVG or GeoJSON",
-    "undefined": "the source is undefined; give an SVG or GeoJSON",
-}
 
 
 def test_a_bad_source_is_one_error_and_the_page_goes_on(page: Any) -> None:
