@@ -26,6 +26,7 @@ import { CENTRED, THINNEST, parseFit, viewBox, viewTransform } from './viewport.
 /** @typedef {import('./contours.js').Rectangle} Rectangle */
 /** @typedef {import('./page-engine.js').Style} Style */
 /** @typedef {import('./affine.js').Affine} Affine */
+/** @typedef {import('./veils.js').Group} Group */
 
 /** An error that names an element. */
 class LocatedError extends VextureError {}
