@@ -42,7 +42,7 @@ export async function drawEqualPng(text, bytes) {
  */
 async function drawPng(picture, size) {
   const canvas = Object.assign(document.createElement('canvas'), { width: size, height: size });
-  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d', { willReadFrequently: true }));
   context.drawImage(picture, 0, 0, size, size);
   const blob = await new Promise((/** @type {(blob: Blob | null) => void} */ done) => canvas.toBlob(done));
   return { canvas, size, bytes: blob?.size ?? 0 };

@@ -21,7 +21,7 @@ from vexture.tree.planar.build import DEFAULT_MAP_CAPACITY, build_map
 from vexture.tree.planar.source import source_of
 from vexture.tree.tree import MOST_QUADS
 
-pytestmark = pytest.mark.slow  # compiling takes minutes; tests/web/test_conversions.py has its WebAssembly
+pytestmark = pytest.mark.slow  # compiling takes minutes; tests/web/test_conversion_in_node.py has its WebAssembly
 
 SHAPES = sorted((Path(__file__).parents[3] / "examples" / "shapes").glob("*.svg"))
 BOUNDS = bounds_of(UNSEEN, DEFAULT_DEPTH, DEFAULT_MAP_CAPACITY, None, MOST_QUADS)
@@ -87,6 +87,7 @@ def test_no_texels_where_a_limit_is_passed() -> None:
 @pytest.mark.parametrize("far", [1.25, -1e300, np.inf, np.nan])
 def test_no_texels_of_an_outline_outside_the_square(far: float) -> None:
     source = source_of(DRAWINGS["repeated"])
+    source = source._replace(cubics=source.cubics.copy())  # the drawing's own array is that of other tests, too
     source.cubics[1, 0, 1] = far
     texels, _, _, _, outside, *_ = coloured_texels(source, BOUNDS, 0, 0, ENDLESS, ENDLESS)
     assert len(texels) == 0

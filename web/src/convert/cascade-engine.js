@@ -41,6 +41,12 @@ const COLORS = new Set(['fill', 'stroke', 'stop-color', 'background-color']);
 const KEYWORD = /^(?:inherit|initial|unset|revert|revert-layer)$/i;
 const FONT_LENGTH = /([+-]?(?:\d*\.\d+|\d+)(?:e[+-]?\d+)?)(em|rem|ex|ch)\b/gi;
 
+/** Functions of CSS that only browsers compute: a value with one counts as invalid. */
+const COMPUTED = /\b(?:color-mix|light-dark|device-cmyk|round|mod|rem|sin|cos|tan|asin|acos|atan|atan2|pow|sqrt|hypot|log|exp|abs|sign|env|attr)\(|\(\s*from\s|\binfinity\b/i;
+
+/** Units that only browsers know. */
+const UNKNOWN_UNIT = /\d(?:cq[whib]|cqmin|cqmax|lh|rlh|cap|ic)\b/i;
+
 /** Levels of variables in one another. */
 const MOST_NESTED = 32;
 
@@ -96,12 +102,37 @@ class CascadeEngine {
       const id = attributes.get('id');
       if (id && !this.#ids.has(id)) this.#ids.set(id, one);
       for (const name of attributes.keys()) if (/^on/i.test(name)) this.#note('script');
+      this.#dropInvalid(one);
       for (const child of children) {
         if (child.local === 'script') this.#note('script');
         else if (isAnimation(child)) this.#note('animation');
       }
       stack.push(...this.children(one).reverse());
     }
+  }
+
+  /** Drop the declarations of an element that cannot be computed here, and list them. @param {Instance} element */
+  #dropInvalid(element) {
+    const declarations = this.cascade.declarations(element.base);
+    for (const [name, { value }] of declarations) {
+      if (!this.#isKnown(name, value)) {
+        this.invalid.push({ name, value, element });
+        declarations.delete(name);
+      }
+    }
+  }
+
+  /** @param {string} name @param {string} value @returns {boolean} whether the value of a property can be computed here */
+  #isKnown(name, value) {
+    if (COMPUTED.test(value) || UNKNOWN_UNIT.test(value)) return false;
+    if (!COLORS.has(name) || value.includes('var(') || KEYWORD.test(value)) return true;
+    return /currentcolor/i.test(value) || this.isPaint(value);
+  }
+
+  /** @param {string} value @returns {boolean} whether it is a colour, a link with or without one, or a word of SVG */
+  isPaint(value) {
+    const color = value.replace(/^url\([^)]*\)\s*/i, '').trim();
+    return /^(?:|none|context-fill|context-stroke)$/i.test(color) || this.color(color) !== null;
   }
 
   /** @param {Instance} element */
@@ -215,7 +246,10 @@ class CascadeStyle {
   #compute(name) {
     const { base } = this.#element;
     if (WRITTEN.has(name)) return this.declared(name) || (CSS_ONLY.has(name) ? '' : base.attributes.get(name)?.trim() ?? '');
-    const value = this.#specified(name);
+    let value = this.#specified(name);
+    if (COLORS.has(name) && !/currentcolor/i.test(value) && !this.#engine.isPaint(value)) {
+      value = INHERITED.has(name) && this.#outer ? this.#outer.get(name) : INITIAL.get(name) ?? ''; // invalid at computed time
+    }
     if (COLORS.has(name) && /currentcolor/i.test(value)) return value.replace(/\bcurrentcolor\b/gi, this.get('color'));
     if (name.startsWith('stroke-') && /[a-z]$/i.test(value)) return this.#inPixels(value);
     return value;

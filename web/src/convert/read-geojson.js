@@ -66,7 +66,7 @@ export async function readGeojson(source, { name = 'drawing', names } = {}) {
 /** @param {string} text */
 function parsed(text) {
   try {
-    return JSON.parse(text);
+    return JSON.parse(text.replace(/^\ufeff/, ''));
   } catch (error) {
     return refuse(`not JSON (${line(error)}); correct it`);
   }
