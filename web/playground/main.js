@@ -58,9 +58,9 @@ async function show(given) {
     signal.throwIfAborted();
     const before = texture;
     texture = new VectorTexture(data);
-    [file, name] = [packed, source.name];
     stage.show(texture, png.canvas, isLight(drawing) ? 'dark' : 'light', subjectOf(drawing));
     before?.dispose();
+    [file, name] = [packed, source.name];
     showFacts(source, data, png, { read: read - start, convert: converted - read });
     showCode();
     download.disabled = copy.disabled = false;
