@@ -202,10 +202,12 @@ checks-web:
 		echo 'skipped, as said above: the tests of web/, the viewer and the tests of its page'; \
 	fi
 
-# in two processes: the second begins with what it alone needs, and finds then what the first has compiled
+# in three processes: that of WebAssembly shares nothing; the next begins with what it alone needs, and finds then what the
+# last has compiled
 kernels: .venv/for-test
 	@echo 'compiling the kernels once, before the tests run side by side ...'
 	@set -e; scratch=$$(mktemp -d); trap 'rm -rf "$$scratch"' EXIT; exec >"$$scratch/log"; \
+	$(BIN)/python tools/build_wasm.py & wasm=$$!; \
 	( $(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact && \
 		$(BIN)/python -m pytest --quiet tests/core/bezier/test_known_curves.py && \
 		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/thesis" --encoding thesis && \
@@ -215,7 +217,7 @@ kernels: .venv/for-test
 	$(BIN)/vexture render "$$scratch/packed/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu; \
 	$(BIN)/vexture render $(COLOURS) -o "$$scratch/colours.png" --size 16; \
 	$(BIN)/vexture render $(COLOURS) -o "$$scratch/colours.png" --size 16 --renderer exact; \
-	wait $$thesis; $(BIN)/python tools/build_wasm.py
+	wait $$thesis; wait $$wasm
 
 test-web: $(VIEWER)
 	npm run --silent check --prefix web
