@@ -1,7 +1,7 @@
 """Write the licences of what is bundled into the built pages beside them: LICENSES.txt.
 
-`notices.py FOLDER...` takes them from web/node_modules: of the packages that the npm package depends on, and of
-three.js.
+`notices.py FOLDER...` takes them from web/node_modules: of the packages that the pages hold, and of those that these
+need.
 """
 
 import json
@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Final
 
 WEB: Final = Path(__file__).resolve().parents[1] / "web"
-OF_PAGES: Final = ("three",)
-"""Peers of the npm package that the pages hold."""
+OF_PAGES: Final = ("fast-png", "three")
+"""Packages that modules of the pages import; those of `vexture/convert` are in no page."""
 
 HEADING: Final = "The pages of vexture hold code of these packages, each under its own licence.\n"
 
@@ -19,14 +19,13 @@ HEADING: Final = "The pages of vexture hold code of these packages, each under i
 def bundled_packages() -> list[str]:
     """Names of the packages that the pages hold."""
     locked = json.loads((WEB / "package-lock.json").read_text(encoding="utf-8"))["packages"]
-    package = json.loads((WEB / "package.json").read_text(encoding="utf-8"))
-    peers = [name for name in package["peerDependencies"] if name in OF_PAGES]
-    needed = [
-        place.removeprefix("node_modules/")
-        for place, entry in locked.items()
-        if place and not any(entry.get(kind) for kind in ("dev", "devOptional", "optional", "peer"))
-    ]
-    return sorted({*needed, *peers})
+    found, waiting = set[str](), [*OF_PAGES]
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += locked[f"node_modules/{name}"].get("dependencies", ())
+    return sorted(found)
 
 
 def notices() -> str:
