@@ -192,8 +192,10 @@ def build(output: Path, entries: list[Entry]) -> None:
     described = {name: description for name, (_, _, description) in found.items()}
     stamp = {"digest": text_digest(), "tools": digest_of_tools()}
     section = json.dumps(stamp | {"constants": wasm_constants(), "entries": described})
-    link(object_of({name: (text, own) for name, (text, own, _) in found.items()}), [*found], output)
-    output.write_bytes(with_section(output.read_bytes(), section.encode()))
+    unfinished = output.with_suffix(".tmp")
+    link(object_of({name: (text, own) for name, (text, own, _) in found.items()}), [*found], unfinished)
+    unfinished.write_bytes(with_section(unfinished.read_bytes(), section.encode()))
+    unfinished.replace(output)  # at once: tests in JavaScript may look for it meanwhile
     size, packed = output.stat().st_size, len(gzip.compress(output.read_bytes()))
     print(f"{output}: {size} bytes, {packed} with gzip", flush=True)
 
