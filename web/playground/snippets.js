@@ -2,16 +2,21 @@
 
 /** @typedef {{ name: string, code: (file: string) => string }} Snippet */
 
-/** @type {Snippet[]} */
-export const SNIPPETS = [
-  {
-    name: 'three.js',
-    code: (file) => `// npm install three vexture
-import * as THREE from 'three';
-import { VectorMaterial, VectorTextureLoader } from 'vexture';
+/**
+ * A whole page by three.js.
+ *
+ * @param {string} file
+ * @param {'WebGL' | 'WebGPU'} kind
+ */
+function pageOf(file, kind) {
+  const isGpu = kind === 'WebGPU';
+  const [modules, material] = isGpu ? ['/webgpu', 'VectorNodeMaterial'] : ['', 'VectorMaterial'];
+  return `// npm install three vexture
+import * as THREE from 'three${modules}';
+import { ${material}, VectorTextureLoader } from 'vexture${modules}';
 
-const renderer = new THREE.WebGLRenderer({ antialias: true });
-renderer.setSize(innerWidth, innerHeight);
+const renderer = new THREE.${kind}Renderer({ antialias: true });
+${isGpu ? 'await renderer.init();\n' : ''}renderer.setSize(innerWidth, innerHeight);
 document.body.append(renderer.domElement);
 
 const scene = new THREE.Scene();
@@ -19,10 +24,14 @@ const camera = new THREE.PerspectiveCamera(40, innerWidth / innerHeight, 0.01, 1
 camera.position.z = 3;
 
 const texture = await new VectorTextureLoader().loadAsync('/${file}');
-scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), new VectorMaterial({ texture })));
+scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), new ${material}({ texture })));
 renderer.setAnimationLoop(() => renderer.render(scene, camera));
-`,
-  },
+`;
+}
+
+/** @type {Snippet[]} */
+export const SNIPPETS = [
+  { name: 'three.js', code: (file) => pageOf(file, 'WebGL') },
   {
     name: 'React',
     code: (file) => `// npm install three @react-three/fiber vexture
@@ -44,26 +53,7 @@ export default function App() {
 }
 `,
   },
-  {
-    name: 'WebGPU',
-    code: (file) => `// npm install three vexture
-import * as THREE from 'three/webgpu';
-import { VectorNodeMaterial, VectorTextureLoader } from 'vexture/webgpu';
-
-const renderer = new THREE.WebGPURenderer({ antialias: true });
-await renderer.init();
-renderer.setSize(innerWidth, innerHeight);
-document.body.append(renderer.domElement);
-
-const scene = new THREE.Scene();
-const camera = new THREE.PerspectiveCamera(40, innerWidth / innerHeight, 0.01, 100);
-camera.position.z = 3;
-
-const texture = await new VectorTextureLoader().loadAsync('/${file}');
-scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), new VectorNodeMaterial({ texture })));
-renderer.setAnimationLoop(() => renderer.render(scene, camera));
-`,
-  },
+  { name: 'WebGPU', code: (file) => pageOf(file, 'WebGPU') },
   {
     name: 'Convert in the page',
     code: () => `// npm install three vexture
