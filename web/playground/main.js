@@ -58,7 +58,7 @@ async function show(given) {
     signal.throwIfAborted();
     const before = texture;
     texture = new VectorTexture(data);
-    stage.show(texture, png.canvas, isLight(drawing) ? 'dark' : 'light', subjectOf(drawing));
+    stage.show(texture, png.canvas, isLight(drawing) ? 'dark' : 'light', subjectOf(png.canvas));
     before?.dispose();
     [file, name] = [packed, source.name];
     showFacts(source, data, png, { read: read - start, convert: converted - read });
@@ -125,13 +125,26 @@ function isLight({ paths }) {
 }
 
 /**
- * A point on the outline of the topmost path, for the magnifier.
+ * Where the colours of a picture change most, weighted towards its middle: something to see under the magnifier.
  *
- * @param {Drawing} drawing
+ * @param {HTMLCanvasElement} picture
+ * @returns {{ x: number, y: number }} in the unit square
  */
-function subjectOf({ paths }) {
-  const contour = paths.at(-1)?.contours[0] ?? [0.5, 0.5];
-  return { x: contour[0], y: contour[1] };
+function subjectOf(picture) {
+  const { width, height } = picture;
+  const { data } = /** @type {CanvasRenderingContext2D} */ (picture.getContext('2d')).getImageData(0, 0, width, height);
+  let best = { x: 0.5, y: 0.5, change: 0 };
+  for (let row = 1; row < height; row++) {
+    for (let column = 1; column < width; column++) {
+      const at = 4 * (row * width + column);
+      let change = 0;
+      for (let c = at; c < at + 4; c++) change += Math.abs(data[c] - data[c - 4]) + Math.abs(data[c] - data[c - 4 * width]);
+      const [x, y] = [column / width, 1 - row / height];
+      change *= 1 - Math.hypot(x - 0.5, y - 0.5);
+      if (change > best.change) best = { x, y, change };
+    }
+  }
+  return best;
 }
 
 function showCode() {
