@@ -214,24 +214,28 @@ def path_windings(of: Drawing, points, chords=256):
 
     By chords: the caller must keep clear of the outline by more than a chord's sagitta.
     """
-    windings = np.zeros((len(of.paths), len(points)), int)
-    distance = np.full(len(points), np.inf)
+    cubics = [np.concatenate([np.empty((0, 4, 2)), *path.contours]) for path in of.paths]
+    windings, distances = zip(*(cubic_windings(each, points, chords) for each in cubics), strict=True)
+    return np.array(windings), np.min(distances, axis=0)
+
+
+def cubic_windings(cubics, points, chords=256):
+    """Winding number of closed contours at points, and the points' distance from them; see `path_windings`."""
+    windings, distance = np.zeros(len(points), int), np.full(len(points), np.inf)
     x, y = points[:, :1], points[:, 1:]
-    for p, path in enumerate(of.paths):
-        for contour in path.contours:
-            for cubic in contour:
-                q = polyline(cubic, chords)
-                a, b = q[:-1], q[1:]
-                up, down = (a[:, 1] <= y) & (y < b[:, 1]), (b[:, 1] <= y) & (y < a[:, 1])
-                with np.errstate(all="ignore"):
-                    at = a[:, 0] + (y - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
-                left = at < x
-                windings[p] += (down & left).sum(axis=1) - (up & left).sum(axis=1)
-                step = b - a
-                length = np.maximum((step**2).sum(axis=1), 1e-300)
-                t = np.clip(((x - a[:, 0]) * step[:, 0] + (y - a[:, 1]) * step[:, 1]) / length, 0, 1)
-                off = np.hypot(x - a[:, 0] - t * step[:, 0], y - a[:, 1] - t * step[:, 1])
-                distance = np.minimum(distance, off.min(axis=1))
+    for cubic in cubics:
+        q = polyline(cubic, chords)
+        a, b = q[:-1], q[1:]
+        up, down = (a[:, 1] <= y) & (y < b[:, 1]), (b[:, 1] <= y) & (y < a[:, 1])
+        with np.errstate(all="ignore"):
+            at = a[:, 0] + (y - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
+        left = at < x
+        windings += (down & left).sum(axis=1) - (up & left).sum(axis=1)
+        step = b - a
+        length = np.maximum((step**2).sum(axis=1), 1e-300)
+        t = np.clip(((x - a[:, 0]) * step[:, 0] + (y - a[:, 1]) * step[:, 1]) / length, 0, 1)
+        off = np.hypot(x - a[:, 0] - t * step[:, 0], y - a[:, 1] - t * step[:, 1])
+        distance = np.minimum(distance, off.min(axis=1))
     return windings, distance
 
 
