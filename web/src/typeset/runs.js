@@ -1,0 +1,188 @@
+// Texts as runs of one font, script and direction.
+import bidiFactory from 'bidi-js';
+import { graphemeEnds } from './breaks.js';
+
+/** @import { TypeFont } from './font.js' */
+
+/**
+ * @typedef {object} Run
+ * @property {TypeFont} font
+ * @property {number} start UTF-16 index
+ * @property {number} end
+ * @property {number} level of embedding: odd from right to left
+ * @property {number} script
+ * @property {boolean} isUpright
+ */
+
+/** Scripts by their names in Unicode; a run has one, from which HarfBuzz chooses the rules. */
+const SCRIPTS = 'Latin|Greek|Cyrillic|Han|Hiragana|Katakana|Hangul|Arabic|Hebrew|Devanagari|Thai|Bengali|Tamil|Telugu|Gujarati|Gurmukhi|Kannada|Malayalam|Oriya|Sinhala|Lao|Tibetan|Myanmar|Georgian|Armenian|Ethiopic|Khmer|Mongolian|Syriac|Thaana|Nko|Cherokee|Bopomofo|Yi|Adlam|Ahom|Anatolian_Hieroglyphs|Avestan|Balinese|Bamum|Bassa_Vah|Batak|Bhaiksuki|Brahmi|Braille|Buginese|Buhid|Canadian_Aboriginal|Carian|Caucasian_Albanian|Chakma|Cham|Chorasmian|Coptic|Cuneiform|Cypriot|Cypro_Minoan|Deseret|Dives_Akuru|Dogra|Duployan|Egyptian_Hieroglyphs|Elbasan|Elymaic|Garay|Glagolitic|Gothic|Grantha|Gunjala_Gondi|Gurung_Khema|Hanifi_Rohingya|Hanunoo|Hatran|Imperial_Aramaic|Inscriptional_Pahlavi|Inscriptional_Parthian|Javanese|Kaithi|Kawi|Kayah_Li|Kharoshthi|Khitan_Small_Script|Khojki|Khudawadi|Kirat_Rai|Lepcha|Limbu|Linear_A|Linear_B|Lisu|Lycian|Lydian|Mahajani|Makasar|Mandaic|Manichaean|Marchen|Masaram_Gondi|Medefaidrin|Meetei_Mayek|Mende_Kikakui|Meroitic_Cursive|Meroitic_Hieroglyphs|Miao|Modi|Mro|Multani|Nabataean|Nag_Mundari|Nandinagari|Newa|New_Tai_Lue|Nushu|Nyiakeng_Puachue_Hmong|Ogham|Ol_Chiki|Ol_Onal|Old_Hungarian|Old_Italic|Old_North_Arabian|Old_Permic|Old_Persian|Old_Sogdian|Old_South_Arabian|Old_Turkic|Old_Uyghur|Osage|Osmanya|Pahawh_Hmong|Palmyrene|Pau_Cin_Hau|Phags_Pa|Phoenician|Psalter_Pahlavi|Rejang|Runic|Samaritan|Saurashtra|Sharada|Shavian|Siddham|SignWriting|Sogdian|Sora_Sompeng|Soyombo|Sundanese|Sunuwar|Syloti_Nagri|Tagalog|Tagbanwa|Tai_Le|Tai_Tham|Tai_Viet|Takri|Tangsa|Tangut|Tifinagh|Tirhuta|Todhri|Toto|Tulu_Tigalari|Ugaritic|Vai|Vithkuqi|Wancho|Warang_Citi|Yezidi|Zanabazar_Square'.split(
+  '|',
+);
+
+const LATIN = 0, KANA = SCRIPTS.indexOf('Hiragana'), KATAKANA = SCRIPTS.indexOf('Katakana');
+
+/** Scripts whose letters join, so that space between them would tear them. */
+const CURSIVE = new Set(
+  ['Arabic', 'Syriac', 'Mongolian', 'Nko', 'Adlam', 'Mandaic', 'Manichaean', 'Phags_Pa', 'Hanifi_Rohingya', 'Psalter_Pahlavi', 'Sogdian'].map(
+    (name) => SCRIPTS.indexOf(name),
+  ),
+);
+
+/** @param {number} script */
+export const isCursive = (script) => CURSIVE.has(script);
+
+/** A character that has no script of its own. */
+const SHARED = -1;
+const COMMON = /[\p{Script=Common}\p{Script=Inherited}]/u;
+
+/** Expressions of the scripts that this browser knows. @type {(RegExp | null)[]} */
+const expressions = [];
+/** @type {Map<number, number>} */
+const scripts = new Map();
+
+/**
+ * Number of a character's script; those of common characters is -1.
+ *
+ * @param {number} code
+ */
+function scriptOf(code) {
+  if (code < 0x250) return (code | 32) >= 97 && (code | 32) <= 122 ? LATIN : code < 0xc0 ? SHARED : code === 0xd7 || code === 0xf7 ? SHARED : LATIN;
+  let script = scripts.get(code);
+  if (script === undefined) {
+    const character = String.fromCodePoint(code);
+    script = COMMON.test(character) ? SHARED : SCRIPTS.findIndex((name, place) => expression(name, place)?.test(character));
+    if (script === KATAKANA) script = KANA;
+    scripts.set(code, script);
+  }
+  return script;
+}
+
+/** @param {string} name @param {number} place */
+function expression(name, place) {
+  if (expressions[place] === undefined) {
+    try {
+      expressions[place] = new RegExp(`\\p{Script=${name}}`, 'u');
+    } catch {
+      expressions[place] = null; // a script that is newer than the browser
+    }
+  }
+  return expressions[place];
+}
+
+const bidi = bidiFactory();
+
+/** Texts that have only one direction, from left to right. */
+const LEFT_TO_RIGHT = /^[\0-\u058f\u0900-\u200d\u2010-\u2029\u2030-\u2065\u2070-\ud801\ud804-\ud839\ud83c-\udfff\ue000-\ufb1c\ufe00-\ufe6f\uff00-\uffff]*$/;
+
+/** Classes of supplementary characters that bidi-js, which looks at UTF-16 units, does not see, as characters it does. */
+const STAND_INS = new Map([['R', '\u05d0'], ['AL', '\u0628'], ['AN', '\u0660'], ['EN', '0'], ['NSM', '\u0300'], ['BN', '\u200d'], ['ON', '!'], ['ET', '#'], ['ES', '+']]);
+
+/**
+ * Levels of embedding of a paragraph's units (UAX 9, before rule L1 at the ends of lines).
+ *
+ * @param {string} text
+ * @param {'auto' | 'ltr' | 'rtl'} direction
+ * @returns {{ levels: Uint8Array | null, level: number }} `levels` is null if all are 0; `level` of the paragraph
+ */
+export function levelsOf(text, direction) {
+  if (direction !== 'rtl' && LEFT_TO_RIGHT.test(text)) return { levels: null, level: 0 };
+  const seen = text.replace(/[\u{10000}-\u{10ffff}]/gu, (character) => STAND_INS.get(bidi.getBidiCharTypeName(character))?.repeat(2) ?? character);
+  const { levels, paragraphs } = bidi.getEmbeddingLevels(seen, direction === 'auto' ? undefined : direction);
+  return { levels, level: paragraphs[0]?.level ?? (direction === 'rtl' ? 1 : 0) };
+}
+
+/** Characters that show nothing, if a font lacks them. */
+const INVISIBLE = /[\p{Default_Ignorable_Code_Point}\p{Cc}]/u;
+
+const EMOJI = /^\p{Emoji}\ufe0f|^\p{Emoji_Presentation}(?!\ufe0e)|^\p{RI}{2}|^[#*0-9]\ufe0f?\u20e3/u;
+
+/** Characters that stand upright in vertical text (UAX 50: U, Tu, Tr; the font turns those that it has turned). */
+const UPRIGHT = /[\u00a7\u00a9\u00ae\u00b1\u00bc-\u00be\u00d7\u00f7\u02ea\u02eb\u1100-\u11ff\u1401-\u167f\u18b0-\u18ff\u2016\u2020\u2021\u2030\u2031\u203b\u203c\u2042\u2047-\u2049\u2051\u20dd-\u20e0\u20e2-\u20e4\u2100\u2101\u2103-\u2109\u210f\u2113\u2114\u2116\u2117\u211e-\u2123\u2125\u2127\u2129\u212e\u2135-\u213f\u2145-\u214a\u214c\u214d\u214f-\u2189\u218c-\u218f\u221e\u2234\u2235\u2300-\u2307\u230c-\u231f\u2324-\u232b\u237d-\u239a\u23be-\u23cd\u23cf\u23d1-\u23db\u23e2-\u2422\u2424-\u24ff\u25a0-\u2619\u2620-\u2767\u2776-\u2793\u2b12-\u2b2f\u2b50-\u2b59\u2b97\u2bb8-\u2bd1\u2bd3-\u2beb\u2bf0-\u2bff\u2e50\u2e51\u2e80-\ua4cf\ua960-\ua97f\uac00-\ud7ff\ue000-\ufaff\ufe10-\ufe1f\ufe30-\ufe48\ufe50-\ufe57\ufe5f-\ufe62\ufe67-\ufe6f\uff01-\uff0c\uff0e-\uff1b\uff1f-\uff60\uffe0-\uffe2\uffe4-\uffe7\u{1b000}-\u{1b2ff}\u{1d300}-\u{1d35f}\u{1f000}-\u{1faff}\u{20000}-\u{3fffd}]/u;
+
+/** Texts that one run of the first font holds, if it has their characters. */
+const PLAIN = /^[\x20-\x7e]*$/;
+
+/**
+ * Divide a paragraph into runs.
+ *
+ * @param {string} text
+ * @param {object} about
+ * @param {TypeFont[]} about.fonts in order of preference
+ * @param {Uint8Array | null} about.levels
+ * @param {boolean} about.isVertical
+ * @param {Set<TypeFont>} about.needed fonts to load first are added
+ * @param {Set<number>} about.missing characters that no font has are added
+ * @returns {Run[]} in the order of the text
+ */
+export function runsOf(text, { fonts, levels, isVertical, needed, missing }) {
+  /** @type {Run[]} */
+  const runs = [];
+  if (!text) return runs;
+  const [first] = fonts;
+  if (!levels && !isVertical && first.isLoaded && PLAIN.test(text)) {
+    let place = 0;
+    while (place < text.length && first.has(text.charCodeAt(place))) place++;
+    if (place === text.length) return [{ font: first, start: 0, end: place, level: 0, script: LATIN, isUpright: false }];
+  }
+  /** @type {Run | null} */
+  let run = null;
+  let start = 0;
+  for (const end of graphemeEnds(text)) {
+    const cluster = text.slice(start, end);
+    const font = fontOf(cluster, fonts, run, needed, missing);
+    const script = scriptOf(/** @type {number} */ (cluster.codePointAt(0)));
+    const level = levels ? levels[start] : 0, isUpright = isVertical && UPRIGHT.test(cluster);
+    const isSame = run && (script === SHARED || run.script === SHARED || run.script === script);
+    if (run && isSame && run.font === font && run.level === level && run.isUpright === isUpright) {
+      run.end = end;
+      if (script !== SHARED) run.script = script;
+    } else {
+      run = { font, start, end, level, script, isUpright };
+      runs.push(run);
+    }
+    start = end;
+  }
+  return runs;
+}
+
+/**
+ * The font of a user-perceived character: the first that has all of it, or else its first character.
+ *
+ * @param {string} cluster
+ * @param {TypeFont[]} fonts
+ * @param {Run | null} before the run before it, whose font spaces take
+ * @param {Set<TypeFont>} needed
+ * @param {Set<number>} missing
+ * @returns {TypeFont}
+ */
+function fontOf(cluster, fonts, before, needed, missing) {
+  const code = /** @type {number} */ (cluster.codePointAt(0));
+  if (cluster === ' ' && before?.font.isLoaded && before.font.has(code)) return before.font;
+  const isSingle = cluster.length === (code > 0xffff ? 2 : 1);
+  const others = isSingle ? [] : Array.from(cluster).slice(1).map((one) => /** @type {number} */ (one.codePointAt(0))).filter((one) => !isInvisible(one));
+  const isEmoji = code > 0x22 && EMOJI.test(cluster);
+  /** @type {TypeFont | null} */
+  let partial = null, plain = null;
+  for (const font of fonts) {
+    if (!font.covers(code)) continue;
+    if (!font.isLoaded) {
+      if (!font.isPending) continue;
+      needed.add(font);
+      return font;
+    }
+    if (!font.has(code)) continue;
+    if (!others.every((one) => font.has(one))) partial ??= font;
+    else if (!isEmoji || font.hasColor) return font;
+    else plain ??= font;
+  }
+  const found = plain ?? partial;
+  if (found) return found;
+  const fallback = fonts.find(({ isLoaded }) => isLoaded) ?? fonts[0];
+  if (isInvisible(code)) return before?.font ?? fallback;
+  if (fallback.isPending) needed.add(fallback);
+  missing.add(code);
+  return fallback;
+}
+
+/** @param {number} code */
+const isInvisible = (code) => (code < 0x20 || code > 0x7e) && INVISIBLE.test(String.fromCodePoint(code));

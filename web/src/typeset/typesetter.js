@@ -1,0 +1,143 @@
+// Sets texts: requests in, places of glyphs and new shapes out.
+import { VextureError, line } from '../errors.js';
+import { KernelModules } from '../convert/kernel-modules.js';
+import { TypeFont } from './font.js';
+import { layOut } from './layout.js';
+import { linesOf } from './lines.js';
+import { Shapes } from './shapes.js';
+import { Style } from './style.js';
+
+/** @import { KernelSources } from '../convert/kernel-modules.js' */
+/** @import { Result } from './layout.js' */
+/** @import { Added } from './shapes.js' */
+/** @import { Request } from './style.js' */
+
+/**
+ * @typedef {{ error: string, field: string }} Refusal
+ *
+ * @typedef {object} Message
+ * @property {KernelSources} [kernels]
+ * @property {{ id: number, source: string | ArrayBuffer, unicodeRange?: string }} [font]
+ * @property {number} [id]
+ * @property {Request[]} [texts]
+ * @property {{ fonts: number[], characters: string }} [preload]
+ * @property {{ keys: string[] }} [restart]
+ *
+ * @typedef {object} Reply
+ * @property {number} id
+ * @property {(Result | Refusal)[]} [results]
+ * @property {true} [restarted]
+ * @property {Added} [added]
+ * @property {{ message: string, field: string }} [error]
+ */
+
+/** Sets the texts of a page with its fonts. */
+export class Typesetter {
+  #modules;
+  #shapes = new Shapes();
+  /** @type {Map<number, TypeFont>} */
+  #fonts = new Map();
+  /** Errors of fonts that were named, by their ids. @type {Map<number, unknown>} */
+  #wrong = new Map();
+
+  /** @param {{ kernels?: KernelSources }} [options] */
+  constructor({ kernels } = {}) {
+    this.#modules = new KernelModules(kernels);
+  }
+
+  /**
+   * Add a font; its file is not read before a text needs it.
+   *
+   * @param {number} id
+   * @param {string | ArrayBuffer} source
+   * @param {string} [unicodeRange]
+   */
+  addFont(id, source, unicodeRange) {
+    this.#fonts.set(id, new TypeFont(id, source, unicodeRange));
+  }
+
+  /**
+   * Answer a message.
+   *
+   * @param {Message} message
+   * @returns {Promise<{ reply: Reply, transfer: Transferable[] } | null>} null for messages without an id
+   */
+  async answer(message) {
+    const { id, font } = message;
+    try {
+      if (font) this.addFont(font.id, font.source, font.unicodeRange);
+    } catch (error) {
+      this.#wrong.set(/** @type {{ id: number }} */ (font).id, error);
+    }
+    if (id === undefined) {
+      if (!font && 'kernels' in message) this.#modules = new KernelModules(message.kernels);
+      return null;
+    }
+    try {
+      this.#shapes.silhouettes ??= await this.#modules.load('silhouettes');
+      if (message.restart) return this.#reply({ id, restarted: true });
+      const requests = message.preload ? [requestOf(message.preload)] : (message.texts ?? []);
+      const results = await this.#setAll(requests);
+      return this.#reply({ id, results: message.preload ? [] : results });
+    } catch (error) {
+      return { reply: { id, error: errorOf(error) }, transfer: [] };
+    }
+  }
+
+  /** @param {Omit<Reply, 'added'>} reply */
+  #reply(reply) {
+    const added = this.#shapes.take();
+    const transfer = [added.words.buffer];
+    for (const result of reply.results ?? []) {
+      if ('shapes' in result) transfer.push(result.shapes.buffer, result.places.buffer, result.clusters.buffer, result.carets.buffer);
+    }
+    return { reply: { ...reply, added }, transfer };
+  }
+
+  /** @param {Request[]} requests */
+  async #setAll(requests) {
+    for (;;) {
+      /** @type {Set<TypeFont>} */
+      const needed = new Set();
+      const results = requests.map((request) => this.#set(request, needed));
+      if (!needed.size) return /** @type {(Result | Refusal)[]} */ (results);
+      await Promise.all([...needed].map((font) => font.load()));
+    }
+  }
+
+  /**
+   * @param {Request} request
+   * @param {Set<TypeFont>} needed fonts to load first are added
+   * @returns {Result | Refusal | null} null if fonts are needed
+   */
+  #set(request, needed) {
+    try {
+      for (const id of Array.isArray(request?.fonts) ? request.fonts : []) if (this.#wrong.has(id)) throw this.#wrong.get(id);
+      const style = new Style(request, this.#fonts), before = needed.size;
+      /** @type {Set<number>} */
+      const missing = new Set();
+      const { text } = request;
+      if (!text && style.fonts[0].isPending) needed.add(style.fonts[0]);
+      const own = new Set();
+      const lines = linesOf(text, style, own, missing);
+      own.forEach((font) => needed.add(font));
+      if (needed.size > before || own.size) return null;
+      const failed = style.fonts.filter(({ error }) => error);
+      if (!style.fonts.some(({ isLoaded }) => isLoaded)) throw failed[0]?.error ?? new VextureError('no font is loaded; name one', 'fonts');
+      const notes = failed.map(({ error }) => /** @type {VextureError} */ (error).message);
+      return { ...layOut(text, lines, style, this.#shapes), missing: [...missing], notes };
+    } catch (error) {
+      const { message, field } = errorOf(error);
+      return { error: message, field };
+    }
+  }
+}
+
+/** @param {{ fonts: number[], characters: string }} preload @returns {Request} */
+const requestOf = ({ characters, ...style }) => ({ ...style, text: characters });
+
+/** @param {unknown} error */
+function errorOf(error) {
+  if (error instanceof VextureError) return { message: error.message, field: error.field };
+  return { message: `the text cannot be set (${line(error)}); please report it`, field: 'text' };
+}
