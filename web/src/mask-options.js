@@ -30,8 +30,9 @@ import { VextureError, line, unfit } from './errors.js';
  *   mixes, or in sRGB, as browsers do. By default `true` on lit materials; without effect on a drawing of several layers
  * @property {'own' | 'none'} [background] mode `paint`: around the drawing, the material's own colour (the default), or
  *   nothing
- * @property {boolean} [instanced] each instance shows the root in its attribute `vextureRoot` (see `rootAttribute`), in
- *   mode `paint` one layer. `false` by default
+ * @property {boolean | 'glyphs'} [instanced] each instance shows the root in its attribute `vextureRoot` (see
+ *   `rootAttribute`), in mode `paint` one layer; `glyphs`: at the place of a glyph, as the parts of a `Text` do. `false` by
+ *   default
  * @property {import('./fold-texture.js').FoldTexture | null} [fold] moves the shape with time; packed textures only. By default
  *   none
  * @property {number} [time] seconds of the fold, by default 0
@@ -40,6 +41,8 @@ import { VextureError, line, unfit } from './errors.js';
 export const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
 
 export const BACKGROUNDS = Object.freeze(['own', 'none']);
+
+export const INSTANCED = Object.freeze([false, true, 'glyphs']);
 
 export const CHANNELS = Object.freeze([0, 1]);
 
@@ -171,11 +174,12 @@ export function checkNodeOptions({ wrap = 'none', fold = null, ...others }, name
  * @throws {VextureError} if an option is out of range, or options exclude each other
  */
 export function checkOptions(options, type) {
-  const { mode, wrap, background, invert, threshold, transform, fold, time, channel } = options;
+  const { mode, wrap, background, invert, threshold, transform, fold, time, channel, instanced } = options;
   if (mode !== null) choose('mode', mode, MODES);
   checkPlace({ wrap, fold });
   choose('background', background, BACKGROUNDS);
   choose('channel', channel, CHANNELS);
+  choose('instanced', instanced, INSTANCED);
   if (!(threshold >= 0 && threshold <= 1)) {
     throw new VextureError(`threshold is ${line(threshold)}; it must be a coverage, 0 to 1`, 'threshold');
   }

@@ -2,6 +2,7 @@
 import { packed, steps } from '../generated/shaders.js';
 import { WRAPS } from '../generated/wraps.js';
 import { ROOT_ATTRIBUTE } from './attributes.js';
+import { GLYPH_DECLARED, GLYPH_PLACED } from './glyph-shader.js';
 import { withMaps } from './maps.js';
 
 const planar = withMaps(async () => (await import('../generated/planar-shader.js')).planar);
@@ -20,7 +21,7 @@ const planar = withMaps(async () => (await import('../generated/planar-shader.js
  * @property {boolean} flat
  * @property {boolean} invert
  * @property {'own' | 'none'} background
- * @property {boolean} instanced
+ * @property {boolean | 'glyphs'} instanced
  * @property {boolean} hasMap
  * @property {string} uv attribute with the texture coordinates
  * @property {string} fold GLSL of the fold that moves the shape, or ''
@@ -117,14 +118,15 @@ export function texts(variant) {
   const declared = uv === 'uv' ? '' : `#ifndef USE_${uv.toUpperCase()}\nattribute vec2 ${uv};\n#endif\n`;
   const vertexDeclare = `uniform mat3 vextureTransform;\n${declared}${mapped ? 'uniform mat3 vextureMapTransform;\n' : ''}${
     instanced ? `attribute uint ${ROOT_ATTRIBUTE};\n` : ''
-  }${varyings}`;
+  }${varyings}${instanced === 'glyphs' ? GLYPH_DECLARED : ''}`;
   const vertexUv = `vextureUv = (vextureTransform * vec3(${uv}, 1.0)).xy;\n${
     mapped ? 'vextureMapUv = (vextureMapTransform * vec3(uv, 1.0)).xy;\n' : ''
   }${instanced ? `vextureInstance = ${ROOT_ATTRIBUTE};\n` : ''}`;
   const fragmentDeclare = `${varyings}${inside ? 'uniform vec3 vextureInside;\n' : ''}${
     mapped ? 'uniform sampler2D vextureInsideMap;\n' : ''
   }${mode === 'cut' ? 'uniform float vextureThreshold;\n' : ''}${steps}${reader(variant)}`;
-  const common = { vertexDeclare, vertexUv, fragmentDeclare };
+  const placed = instanced === 'glyphs' ? { vertexPlace: GLYPH_PLACED } : {};
+  const common = { vertexDeclare, vertexUv, fragmentDeclare, ...placed };
   if (mode === 'cut') {
     return { ...common, fragmentCut: `${foldLines(variant)}if (${coverage(variant)} < vextureThreshold) discard;` };
   }

@@ -1,5 +1,6 @@
 // Values of a mask's uniforms.
 import { Color } from 'three';
+import { VIEWPORT } from './glyph-shader.js';
 
 /** @typedef {import('./mask-options.js').AllOptions} Options */
 
@@ -10,13 +11,13 @@ import { Color } from 'three';
  * @param {Color} inside receives the colour inside, unless it is a `Color` itself
  * @returns {Record<string, unknown>} by the uniforms' names
  */
-export function uniformValues(texture, { transform, threshold, color, map, fold, time }, { first, count }, inside) {
+export function uniformValues(texture, { transform, threshold, color, map, fold, time, instanced }, { first, count }, inside) {
   const { roots, textures } = texture;
   return {
     vextureTexels: textures.texels ?? null,
     vexturePaints: textures.layers ?? null,
     ...texture.maskReader()?.uniforms,
-    vextureRootQuad: roots[first].quad,
+    vextureRootQuad: roots[first]?.quad ?? 0, // a texture of glyphs may have none yet
     vextureFirst: first,
     vextureCount: count,
     vextureTransform: transform,
@@ -25,6 +26,7 @@ export function uniformValues(texture, { transform, threshold, color, map, fold,
     vextureInsideMap: map,
     vextureFolding: fold?.texture ?? null,
     vextureCycle: fold?.cycle ?? 0,
+    ...(instanced === 'glyphs' && { vextureViewport: VIEWPORT }),
     vextureTime: fold?.clock(time) ?? 0,
   };
 }

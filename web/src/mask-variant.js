@@ -1,7 +1,7 @@
 // What makes the program of one mask differ from that of another.
 import { UV_ATTRIBUTES } from './attributes.js';
 import { FOOTPRINT } from './mask-shader.js';
-import { mapsAmong } from './select-root.js';
+import { mapsAmong, mapsOfGlyphs } from './select-root.js';
 
 /** @typedef {import('./mask-shader.js').Variant} Variant */
 
@@ -14,9 +14,9 @@ import { mapsAmong } from './select-root.js';
 export function variantOf(texture, options, range) {
   const { mode, wrap, flat, invert, background, instanced, map, fold, linear, channel } = options;
   const reader = texture.maskReader();
-  const isAlone = instanced || range.count === 1;
+  const isAlone = Boolean(instanced) || range.count === 1;
   const shown = instanced ? texture.roots : texture.roots.slice(range.first, range.first + range.count);
-  const maps = mapsAmong(shown, isAlone);
+  const maps = instanced === 'glyphs' ? mapsOfGlyphs(mode) : mapsAmong(shown, isAlone);
   return {
     other: reader && { declared: reader.declared, coverage: reader.coverage(FOOTPRINT) },
     mode,

@@ -128,6 +128,14 @@ export function mapsAmong(shown, isAlone) {
 }
 
 /**
+ * Which of the shapes of a mesh of glyphs are planar maps: it shows either glyphs in one colour, or those in their own.
+ *
+ * @param {string | null} mode
+ * @returns {'none' | 'all'}
+ */
+export const mapsOfGlyphs = (mode) => (mode === 'paint' ? 'all' : 'none');
+
+/**
  * What of a map can get other colours.
  *
  * @param {import('./data.js').Root} root

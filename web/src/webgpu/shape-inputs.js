@@ -1,6 +1,6 @@
 // What a node of a shape reads, as nodes that follow what they stand for.
 import { nodeObject, texture as textureNode, uniform, vec2 } from 'three/tsl';
-import { mapsAmong } from '../select-root.js';
+import { mapsAmong, mapsOfGlyphs } from '../select-root.js';
 import { ShapeNode } from './shape-node.js';
 
 /** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
@@ -13,6 +13,7 @@ import { ShapeNode } from './shape-node.js';
  * @property {Node | null} dx
  * @property {Node | null} dy
  * @property {Node | null} instance place of an instance's root
+ * @property {string | null} [glyphs] mode of a mesh of glyphs, which shows either those in one colour, or those in their own
  * @property {() => Range} range of the shape or the drawing's layers in the texture's roots
  * @property {'none' | 'clamp' | 'repeat'} [wrap]
  * @property {boolean} [flat]
@@ -56,14 +57,14 @@ function uniformNode(current, type) {
  * What makes the text of one shape differ from that of another.
  *
  * @param {VectorTexture} texture
- * @param {Pick<Shape, 'instance' | 'wrap' | 'flat' | 'linear' | 'fold'>} options
+ * @param {Pick<Shape, 'instance' | 'wrap' | 'flat' | 'linear' | 'fold' | 'glyphs'>} options
  * @param {Range} range
  * @returns {{ variant: import('./shader-text.js').NodeVariant, isSheets: boolean }}
  */
-export function nodeVariant(texture, { instance, wrap = 'none', flat = false, linear = false, fold = null }, range) {
+export function nodeVariant(texture, { instance, wrap = 'none', flat = false, linear = false, fold = null, glyphs = null }, range) {
   const isAlone = instance !== null || range.count === 1;
   const shown = instance ? texture.roots : texture.roots.slice(range.first, range.first + range.count);
-  const maps = mapsAmong(shown, isAlone);
+  const maps = glyphs ? mapsOfGlyphs(glyphs) : mapsAmong(shown, isAlone);
   const colours = maps !== 'none';
   const variant = {
     colours,
@@ -91,7 +92,7 @@ export function livingShapeNode(what, texture, shape) {
     texels: wordsNode(() => texture.textures.texels),
     paints: wordsNode(() => texture.textures.layers),
     instance,
-    quad: uniformNode(() => texture.roots[range().first].quad, 'uint'),
+    quad: uniformNode(() => texture.roots[range().first]?.quad ?? 0, 'uint'),
     first: uniformNode(() => range().first, 'int'),
     count: uniformNode(() => range().count, 'int'),
     uv: /** @type {any} */ (vec2(/** @type {any} */ (uv))).toVar(),

@@ -7,6 +7,7 @@ import { takePartIn, warnOfJSON } from '../methods.js';
 import { MaskedMeshes, RayMesh } from '../ray-mesh.js';
 import { WHITE } from '../shape-material.js';
 import { ShownShape, checkMesh, isOn } from '../shown-shape.js';
+import { glyphNodes } from './glyph-nodes.js';
 import { nodeVariant, shapeNode } from './shape-inputs.js';
 import { instancedRoot } from './vector-nodes.js';
 
@@ -17,13 +18,16 @@ import { instancedRoot } from './vector-nodes.js';
 /** @typedef {any} NodeMaterial three.js's types know node materials of some versions only */
 
 /** What a mask sets of a material. */
-const SET = Object.freeze(['transparent', 'colorNode', 'opacityNode', 'maskNode', 'maskShadowNode']);
+const SET = Object.freeze(['transparent', 'colorNode', 'opacityNode', 'maskNode', 'maskShadowNode', 'positionNode']);
 
 /** @type {WeakMap<NodeMaterial, VectorNodeMask>} */
 const MASKS = new WeakMap();
 
 /** @type {new () => import('../mask-options.js').AllOptions} */
 const WithOptions = withOptions(/** @type {any} */ (Object), NAMES, 'set');
+
+/** @param {import('../mask-options.js').AllOptions} options @returns {any} */
+const instanceOf = ({ instanced }) => (instanced ? true : null);
 
 /** @param {any} renderer */
 function refuseWebGL(renderer) {
@@ -138,8 +142,7 @@ export class VectorNodeMask extends WithOptions {
     this.#shown.follow();
     const { options, range, texture } = this.#shown;
     const { mode, invert, background, map, channel, fold } = options;
-    const instance = /** @type {any} */ (options.instanced ? true : null);
-    const { variant, isSheets } = nodeVariant(/** @type {any} */ (texture), { ...options, instance }, range);
+    const { variant, isSheets } = nodeVariant(/** @type {any} */ (texture), { ...options, instance: instanceOf(options), glyphs: options.instanced === 'glyphs' ? mode : null }, range);
     const key = JSON.stringify([variant, isSheets, mode, invert, background, channel, options.instanced, this.#takesColor]);
     const read = [texture, fold, map];
     this.#material.transparent = isTranslucent(options) || this.#before.transparent;
@@ -149,16 +152,17 @@ export class VectorNodeMask extends WithOptions {
     this.#material.needsUpdate = true;
   }
 
-  /** @param {'coverage' | 'colour'} what */
-  #node(what) {
+  /** @param {'coverage' | 'colour'} what @param {{ uv: any } | null} glyphs */
+  #node(what, glyphs) {
     const { options } = this.#shown;
-    const at = this.#uniforms.transform.mul(vec3(/** @type {any} */ (uv(options.channel)), 1)).xy;
+    const at = glyphs ? glyphs.uv : this.#uniforms.transform.mul(vec3(/** @type {any} */ (uv(options.channel)), 1)).xy;
     return shapeNode(what, /** @type {any} */ (this.#shown.texture), {
       ...options,
       uv: at,
       dx: null,
       dy: null,
       instance: options.instanced ? /** @type {any} */ (instancedRoot()) : null,
+      glyphs: glyphs && options.mode,
       range: () => this.#shown.range,
       time: () => this.#shown.options.time,
       onBuild: ({ object, geometry }) => warnOfMissing(object, geometry, this.#shown.options),
@@ -171,11 +175,13 @@ export class VectorNodeMask extends WithOptions {
     const before = this.#before;
     const opacity = float(before.opacityNode ?? materialOpacity);
     const color = vec4(before.colorNode ?? /** @type {any} */ (materialColor));
-    const paint = mode === 'paint' ? this.#node('colour') : null;
-    const shape = paint ? paint.a : this.#node('coverage');
+    const glyphs = this.#shown.options.instanced === 'glyphs' ? glyphNodes() : null;
+    const paint = mode === 'paint' ? this.#node('colour', glyphs) : null;
+    const shape = paint ? paint.a : this.#node('coverage', glyphs);
     const coverage = invert ? shape.oneMinus() : shape;
     const both = (/** @type {any} */ node) => (before.maskNode ? bool(before.maskNode).and(node) : node);
     this.restore(material);
+    if (glyphs) material.positionNode = glyphs.position;
     if (this.#shown.cuts) {
       material.maskNode = both(mode === 'cut' ? coverage.greaterThanEqual(this.#uniforms.threshold) : coverage.greaterThan(0));
       material.maskShadowNode = both(coverage.greaterThanEqual(this.#uniforms.threshold));

@@ -1,0 +1,24 @@
+/**
+ * Text in a three.js scene that may change in every frame: exact at every size and tilt, in any script.
+ *
+ * @module
+ */
+import { MeshBasicMaterial } from 'three';
+import { applyVectorMask } from '../vector-mask.js';
+import { textOf } from './text.js';
+
+export { VextureError } from '../errors.js';
+export { setDefaultFont } from './faces.js';
+export { Glyphs } from './glyphs.js';
+export { getCaretAtPoint, getSelectionRects } from './layout.js';
+
+/** @typedef {import('./faces.js').FontFace} FontFace */
+/** @typedef {import('./faces.js').FontFile} FontFile */
+/** @typedef {import('./faces.js').FontSource} FontSource */
+/** @typedef {import('./glyphs.js').GlyphsOptions} GlyphsOptions */
+/** @typedef {import('./layout.js').TextLayout} TextLayout */
+/** @typedef {import('./layout.js').TextMeasures} TextMeasures */
+/** @typedef {import('./text-options.js').TextOptions} TextOptions */
+
+/** A text that WebGLRenderer draws. Each option is a property that can be set at any time. */
+export class Text extends textOf({ makeMaterial: () => new MeshBasicMaterial(), applyMask: applyVectorMask }) {}

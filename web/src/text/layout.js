@@ -1,0 +1,107 @@
+// What a text is set by, and what has been set: carets, selections and bounds.
+
+/**
+ * @typedef {object} Request A text to set; the names and meanings are those of a `Text`.
+ * @property {string} text
+ * @property {number[]} fonts ids
+ * @property {number} fontSize
+ * @property {number} weight
+ * @property {boolean} italic
+ * @property {Record<string, number>} variations
+ * @property {string} features
+ * @property {string} language
+ * @property {number} letterSpacing
+ * @property {number | 'normal'} lineHeight
+ * @property {number} maxWidth
+ * @property {number} textIndent
+ * @property {'left' | 'right' | 'center' | 'justify' | 'start' | 'end'} textAlign
+ * @property {'normal' | 'nowrap'} whiteSpace
+ * @property {'normal' | 'break-word'} overflowWrap
+ * @property {'auto' | 'ltr' | 'rtl'} direction
+ * @property {'horizontal-tb' | 'vertical-rl'} writingMode
+ * @property {number | string} anchorX
+ * @property {number | string} anchorY
+ * @property {number} outlineWidth
+ * @property {number} strokeWidth
+ *
+ * @typedef {object} PlacedShapes Shapes and where they are.
+ * @property {Uint32Array} shapes indices of shapes
+ * @property {Float32Array} places left, bottom and side of the unit square of each
+ *
+ * @typedef {object} TextLine A line of a text.
+ * @property {number} first index of its first character, in UTF-16 units
+ * @property {number} end index after its last
+ * @property {number} baseline
+ * @property {number} left
+ * @property {number} right
+ *
+ * @typedef {[number, number, number, number]} Rectangle left, bottom, right and top
+ *
+ * @typedef {object} TextMeasures Measures of a text that has been set, in its own units, y up.
+ * @property {Uint32Array} clusters of each glyph the index of its first character
+ * @property {Float32Array} carets of each character the x of its start and its end, bottom and top
+ * @property {TextLine[]} lines
+ * @property {Rectangle} blockBounds of the lines
+ * @property {Rectangle} visibleBounds of the ink
+ * @property {number} ascender
+ * @property {number} descender
+ * @property {number} capHeight
+ * @property {number} xHeight
+ * @property {number} lineHeight
+ * @property {number[]} missing code points that no font has
+ *
+ * @typedef {PlacedShapes & TextMeasures & { outlines?: PlacedShapes, strokes?: PlacedShapes }} TextLayout
+ *
+ * @typedef {TextLayout | { error: string, field: string }} Outcome
+ */
+
+/** Numbers of a caret. */
+const CARET = 4;
+
+/**
+ * Find the caret nearest to a point: between which characters a click puts it.
+ *
+ * @param {TextMeasures} layout a text's `layout`
+ * @param {number} x
+ * @param {number} y
+ * @returns {{ x: number, y: number, height: number, charIndex: number } | null} bottom end and height of the caret; null
+ *   without characters
+ */
+export function getCaretAtPoint({ carets }, x, y) {
+  let nearest = null,
+    least = [Infinity, Infinity];
+  for (let index = 0; index < carets.length / CARET; index++) {
+    const [start, end, bottom, top] = carets.subarray(CARET * index, CARET * index + CARET);
+    const off = Math.max(bottom - y, y - top, 0);
+    for (const [place, charIndex] of [[start, index], [end, index + 1]]) {
+      const aside = Math.abs(place - x);
+      if (off > least[0] || (off === least[0] && aside >= least[1])) continue;
+      least = [off, aside];
+      nearest = { x: place, y: bottom, height: top - bottom, charIndex };
+    }
+  }
+  return nearest;
+}
+
+/**
+ * Find the rectangles behind a range of characters, one for each run in one direction.
+ *
+ * @param {TextMeasures} layout a text's `layout`
+ * @param {number} start index of the first character, in UTF-16 units
+ * @param {number} end index after the last
+ * @returns {{ left: number, right: number, bottom: number, top: number }[]}
+ */
+export function getSelectionRects({ carets }, start, end) {
+  const [first, last] = [Math.max(Math.min(start, end), 0), Math.min(Math.max(start, end), carets.length / CARET)];
+  /** @type {{ left: number, right: number, bottom: number, top: number }[]} */
+  const found = [];
+  for (let index = first; index < last; index++) {
+    const [from, to, bottom, top] = carets.subarray(CARET * index, CARET * index + CARET);
+    const [left, right] = [Math.min(from, to), Math.max(from, to)];
+    const near = found.at(-1);
+    const isBeside = near && near.bottom === bottom && near.top === top && left <= near.right + 1e-6 && right >= near.left - 1e-6;
+    if (isBeside) Object.assign(near, { left: Math.min(near.left, left), right: Math.max(near.right, right) });
+    else found.push({ left, right, bottom, top });
+  }
+  return found.filter(({ left, right }) => right > left);
+}

@@ -1,0 +1,434 @@
+// A text in a three.js scene, whatever its renderer.
+import { Color, DoubleSide, Matrix4, Mesh, Ray, Vector3, Vector4 } from 'three';
+import { VextureError, givenOptions, line } from '../errors.js';
+import { VIEWPORT } from '../glyph-shader.js';
+import { alongCurve, onCylinder } from './bends.js';
+import { weightOf } from './faces.js';
+import { GlyphGeometry } from './glyph-geometry.js';
+import { Glyphs } from './glyphs.js';
+import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, lengthOf, requestOf } from './text-options.js';
+
+/** @import { Material } from 'three' */
+/** @import { PlacedShapes, TextLayout } from './layout.js' */
+/** @import { TextOptions } from './text-options.js' */
+
+/**
+ * @typedef {object} TextMaking How the texts of a renderer are made.
+ * @property {() => Material} makeMaterial an unlit material
+ * @property {(material: Material, texture: any, options: import('../mask-options.js').MaskOptions) => any} applyMask
+ *
+ * @typedef {object} TextProperties What a text has besides its options.
+ * @property {Glyphs} glyphs the worker and the texture, by default those of the page
+ * @property {TextLayout | null} layout measures and places of what is shown; null: nothing yet
+ * @property {Error | null} error why the last change is not shown
+ * @property {() => Promise<void>} sync resolves when the text is shown as its options say
+ * @property {() => void} dispose frees the GPU memory
+ *
+ * @typedef {Mesh & TextOptions & TextProperties} AnyText
+ */
+
+/** A part of a text: its letters, what is around them, or glyphs in colours of their own. */
+class Part extends Mesh {
+  /** @param {Material} material */
+  constructor(material) {
+    super(new GlyphGeometry(), material);
+    this.raycast = () => {}; // that of the text finds its parts
+    Object.assign(this, { isTextPart: true });
+  }
+
+  /** @param {any} renderer */
+  onBeforeRender(renderer) {
+    readViewport(renderer);
+  }
+}
+
+const CORNERS = new Vector4();
+
+/** Whoever draws says how large what is drawn to is; a node asks three.js. @param {any} renderer */
+function readViewport(renderer) {
+  if (!renderer.getCurrentViewport) return;
+  renderer.getCurrentViewport(CORNERS);
+  VIEWPORT.set(CORNERS.z, CORNERS.w);
+}
+
+/** Steps between the render orders of the parts of a text. */
+const STEP = 2 ** -12;
+
+const RAY = new Ray(),
+  INVERSE = new Matrix4(),
+  HIT = new Vector3();
+
+/**
+ * The class of texts of a renderer.
+ *
+ * @param {TextMaking} making
+ * @returns {new (options?: Partial<TextOptions> & { material?: Material | null, glyphs?: Glyphs }) => AnyText}
+ */
+export function textOf({ makeMaterial, applyMask }) {
+  class Text extends Mesh {
+    /** @type {TextOptions} */
+    #options = { ...DEFAULTS };
+    /** @type {Material | null} */
+    #base = null;
+    /** @type {Map<string, Part>} parts besides the letters, by their name */
+    #parts = new Map();
+    /** @type {TextLayout | null} */
+    #layout = null;
+    /** @type {Promise<void> | null} */
+    #syncing = null;
+    #isStale = false;
+    #glyphs;
+    #unfollow;
+    /** @type {Error | null} */
+    error = null;
+
+    /** @param {Partial<TextOptions> & { material?: Material | null, glyphs?: Glyphs }} [options] */
+    constructor(options) {
+      const { material = null, glyphs = Glyphs.shared, ...others } = givenOptions(options);
+      super(new GlyphGeometry(), /** @type {any} */ (undefined));
+      this.#glyphs = glyphs;
+      this.#unfollow = glyphs.follow({
+        shapesInUse: () => this.#shapesInUse(),
+        renumber: (places) => this.#renumber(places),
+      });
+      this.#setBase(material);
+      for (const [name, value] of Object.entries(others)) {
+        if (!(name in DEFAULTS)) throw new VextureError(`a text has no option ${line(name)}; correct its name`, name);
+        /** @type {any} */ (this)[name] = value;
+      }
+    }
+
+    get isText() {
+      return true;
+    }
+
+    get glyphs() {
+      return this.#glyphs;
+    }
+
+    get layout() {
+      return this.#layout;
+    }
+
+    /** The material of the letters: a copy of the one that was given. Set another one to show them by it. */
+    // @ts-expect-error three.js has a field
+    get material() {
+      return this.#material;
+    }
+
+    set material(material) {
+      if (#glyphs in this) this.#setBase(material); // the constructor of three.js sets one before
+    }
+
+    /** @type {any} */
+    #material;
+
+    /** @param {Material | null} base */
+    #setBase(base) {
+      this.#base = base;
+      this.#material?.dispose();
+      this.#material = this.#masked('letters');
+      for (const name of this.#parts.keys()) this.#removePart(name);
+      this.#arrange();
+    }
+
+    /** @param {string} part @returns {Material} */
+    #masked(part) {
+      const material = this.#base ? this.#base.clone() : usual(makeMaterial());
+      const isColored = part === 'colored';
+      if (isColored && 'color' in material) /** @type {any} */ (material).color = new Color(0xffffff);
+      const mask = applyMask(material, this.#glyphs.texture, {
+        instanced: 'glyphs', mode: isColored ? 'paint' : 'alpha', background: isColored ? 'none' : undefined,
+      });
+      return Object.assign(material, { userData: { ...material.userData, mask } });
+    }
+
+    /** @param {string} name @returns {any} */
+    get(name) {
+      return /** @type {any} */ (this.#options)[name];
+    }
+
+    /** Change an option. @param {string} name @param {any} value */
+    change(name, value) {
+      const wanted = value === undefined ? /** @type {any} */ (DEFAULTS)[name] : value;
+      checkOption(name, wanted);
+      const options = /** @type {any} */ (this.#options);
+      if (Object.is(options[name], wanted)) return;
+      options[name] = wanted;
+      if (name in LAYOUT) this.#markStale();
+      else if (name in ARRANGEMENT || name.startsWith('outlineOffset')) this.#arrange();
+      else this.#paint();
+    }
+
+    #markStale() {
+      if (this.#isStale) return;
+      this.#isStale = true;
+      queueMicrotask(() => this.sync().catch(() => {})); // the event and `error` tell
+    }
+
+    /**
+     * Show the text as its options say. It is done by itself after a change; this tells when.
+     *
+     * @returns {Promise<void>}
+     * @throws {VextureError} if it cannot be set
+     */
+    sync() {
+      this.#syncing ??= this.#syncWhileStale().finally(() => {
+        this.#syncing = null;
+      });
+      return this.#syncing;
+    }
+
+    async #syncWhileStale() {
+      while (this.#isStale) {
+        this.#isStale = false;
+        this.dispatchEvent(/** @type {any} */ ({ type: 'syncstart' }));
+        try {
+          await this.#syncOnce();
+        } catch (error) {
+          if (this.#isStale) continue; // a later change may mend it
+          this.error = /** @type {Error} */ (error);
+          this.dispatchEvent(/** @type {any} */ ({ type: 'error', message: this.error.message }));
+          console.error(`vexture: ${this.error.message}`);
+          throw error;
+        }
+      }
+    }
+
+    async #syncOnce() {
+      const options = this.#options;
+      const layout = options.text
+        ? await this.#glyphs.typeset(requestOf(options), { font: options.font, weight: weightOf(options.fontWeight), isItalic: options.fontStyle === 'italic' })
+        : null;
+      this.#layout = layout;
+      this.error = null;
+      this.#arrange();
+      if (layout?.missing.length) warnOfMissing(layout.missing);
+      this.dispatchEvent(/** @type {any} */ ({ type: 'synccomplete' }));
+    }
+
+    *#shapesInUse() {
+      const { outlines, strokes, ...letters } = this.#layout ?? NOTHING;
+      for (const one of [letters, outlines, strokes]) if (one) yield* one.shapes;
+    }
+
+    /** @param {ReadonlyMap<number, number>} places */
+    #renumber(places) {
+      if (!this.#layout) return;
+      const { outlines, strokes } = this.#layout;
+      for (const one of [this.#layout, outlines, strokes]) {
+        if (!one) continue;
+        if (one.shapes.some((shape) => !places.has(shape))) return this.#markStale();
+        one.shapes = one.shapes.map((shape) => /** @type {number} */ (places.get(shape)));
+      }
+      this.#arrange();
+    }
+
+    /** Put the glyphs where they are. */
+    #arrange() {
+      const layout = this.#layout ?? NOTHING;
+      const { roots } = this.#glyphs.texture;
+      const { outlines, strokes } = layout;
+      const isMap = (/** @type {number} */ shape) => roots[shape].isMap;
+      const hasMaps = layout.shapes.some(isMap);
+      this.#fill(/** @type {GlyphGeometry} */ (this.geometry), hasMaps ? chosen(layout, (shape) => !isMap(shape)) : layout, 'letters');
+      this.#show('colored', hasMaps ? chosen(layout, isMap) : null);
+      this.#show('outline', outlines ?? null);
+      this.#show('stroke', strokes ?? null);
+      this.#paint();
+    }
+
+    /** @param {string} name @param {PlacedShapes | null} placed */
+    #show(name, placed) {
+      if (!placed) return this.#removePart(name);
+      let part = this.#parts.get(name);
+      if (!part) {
+        part = new Part(this.#masked(name));
+        this.#parts.set(name, part);
+        this.add(part);
+      }
+      this.#fill(/** @type {GlyphGeometry} */ (part.geometry), placed, name);
+    }
+
+    /** @param {string} name */
+    #removePart(name) {
+      const part = this.#parts.get(name);
+      if (!part) return;
+      this.remove(part);
+      part.geometry.dispose();
+      /** @type {Material} */ (part.material).dispose();
+      this.#parts.delete(name);
+    }
+
+    /**
+     * @param {GlyphGeometry} geometry
+     * @param {PlacedShapes & { clusters?: Uint32Array }} placed
+     * @param {string} part
+     */
+    #fill(geometry, placed, part) {
+      const { clipRect, colorRanges, curveRadius, curve } = this.#options;
+      const boxes = this.#glyphs.texture.boxes;
+      const colors = part === 'letters' && colorRanges && placed.clusters ? colorsOf(placed.clusters, colorRanges, this.#options.color) : null;
+      const baseline = this.#layout?.lines[0]?.baseline ?? 0;
+      const bend = curve ? alongCurve(curve, baseline) : curveRadius ? onCylinder(curveRadius) : null;
+      geometry.setGlyphs(placed, { boxOf: (shape) => boxes[shape], clip: clipRect, colors, bend, z: 0 });
+    }
+
+    /** Set the colours and opacities. */
+    #paint() {
+      const { color, fillOpacity, outlineColor, outlineOpacity, outlineOffsetX, outlineOffsetY, strokeColor, strokeOpacity, depthOffset, fontSize, colorRanges } = this.#options;
+      const base = /** @type {any} */ (this.#base);
+      const plain = colorRanges ? 0xffffff : (color ?? base?.color ?? 0xffffff);
+      paint(this.#material, colorRanges ? 0xffffff : plain, fillOpacity * (base?.opacity ?? 1), depthOffset);
+      this.#material.vertexColors = Boolean(colorRanges);
+      for (const [name, part] of this.#parts) {
+        const { material } = part;
+        if (name === 'outline') paint(material, outlineColor, outlineOpacity, depthOffset);
+        if (name === 'stroke') paint(material, strokeColor, strokeOpacity, depthOffset);
+        if (name === 'colored') paint(material, null, fillOpacity, depthOffset);
+        part.renderOrder = this.renderOrder + (name === 'outline' ? -STEP : STEP);
+        if (name === 'outline') part.position.set(lengthOf(outlineOffsetX, fontSize), -lengthOf(outlineOffsetY, fontSize), 0);
+      }
+    }
+
+    /** @param {any} renderer */
+    onBeforeRender(renderer) {
+      readViewport(renderer);
+    }
+
+    /**
+     * Meet a ray. An intersection is anywhere in the block of the text; its `instanceId` is the glyph there, and `charIndex`
+     * its first character, or -1 between glyphs.
+     *
+     * @param {import('three').Raycaster} raycaster
+     * @param {import('three').Intersection[]} hits
+     */
+    raycast(raycaster, hits) {
+      const layout = this.#layout;
+      if (!layout) return;
+      RAY.copy(raycaster.ray).applyMatrix4(INVERSE.copy(this.matrixWorld).invert());
+      if (Math.abs(RAY.direction.z) < 1e-12 * RAY.direction.length()) return;
+      const distance = -RAY.origin.z / RAY.direction.z;
+      RAY.at(distance, HIT);
+      const [left, bottom, right, top] = layout.blockBounds;
+      if (distance < 0 || HIT.x < left || HIT.x > right || HIT.y < bottom || HIT.y > top) return;
+      const glyph = glyphAt(layout, this.#glyphs.texture.boxes, HIT.x, HIT.y);
+      const local = HIT.clone();
+      const point = HIT.clone().applyMatrix4(this.matrixWorld);
+      const far = raycaster.ray.origin.distanceTo(point);
+      if (far < raycaster.near || far > raycaster.far) return;
+      hits.push(/** @type {any} */ ({ distance: far, point, object: this, local, instanceId: glyph, charIndex: glyph < 0 ? -1 : layout.clusters[glyph] }));
+    }
+
+    /** @param {any} source @param {boolean} [recursive] */
+    copy(source, recursive) {
+      const parts = source.children.filter((/** @type {any} */ { isTextPart }) => isTextPart);
+      source.remove(...parts);
+      super.copy(source, recursive);
+      if (parts.length) source.add(...parts);
+      this.geometry = new GlyphGeometry();
+      for (const name of Object.keys(DEFAULTS)) this.change(name, source.get(name));
+      return this;
+    }
+
+    /** Free the GPU memory. The texture of glyphs is that of other texts, too. */
+    dispose() {
+      this.#unfollow();
+      for (const name of [...this.#parts.keys()]) this.#removePart(name);
+      this.geometry.dispose();
+      this.#material.dispose();
+    }
+  }
+
+  for (const name of Object.keys(DEFAULTS)) {
+    Object.defineProperty(Text.prototype, name, {
+      configurable: true,
+      get() {
+        return this.get(name);
+      },
+      set(value) {
+        this.change(name, value);
+      },
+    });
+  }
+  return /** @type {any} */ (Text);
+}
+
+/** What an empty text shows. */
+const NOTHING = Object.freeze({ shapes: new Uint32Array(0), places: new Float32Array(0), clusters: new Uint32Array(0), outlines: undefined, strokes: undefined });
+
+/** The squares of neighbours overlap, so that depth is not written. @param {any} material */
+function usual(material) {
+  return Object.assign(material, { side: DoubleSide, depthWrite: false, transparent: true });
+}
+
+/**
+ * @param {any} material
+ * @param {any} color null: as it is
+ * @param {number} opacity
+ * @param {number} depthOffset
+ */
+function paint(material, color, opacity, depthOffset) {
+  if (color !== null) material.color?.set(color);
+  material.opacity = opacity;
+  material.polygonOffset = depthOffset !== 0;
+  material.polygonOffsetFactor = material.polygonOffsetUnits = depthOffset;
+}
+
+/**
+ * Some of the glyphs.
+ *
+ * @param {PlacedShapes & { clusters: Uint32Array }} layout
+ * @param {(shape: number) => boolean} isChosen
+ */
+function chosen({ shapes, places, clusters }, isChosen) {
+  const kept = [...shapes.keys()].filter((k) => isChosen(shapes[k]));
+  return {
+    shapes: Uint32Array.from(kept, (k) => shapes[k]),
+    places: Float32Array.from(kept.flatMap((k) => [...places.subarray(3 * k, 3 * k + 3)])),
+    clusters: Uint32Array.from(kept, (k) => clusters[k]),
+  };
+}
+
+/**
+ * @param {Uint32Array} clusters
+ * @param {Record<number, any>} ranges
+ * @param {any} color of what is before them
+ * @returns {Float32Array} linear
+ */
+function colorsOf(clusters, ranges, color) {
+  const starts = Object.keys(ranges).map(Number).sort((a, b) => a - b);
+  const before = new Color(color ?? 0xffffff), tones = starts.map((start) => new Color(ranges[start]));
+  const colors = new Float32Array(3 * clusters.length);
+  clusters.forEach((cluster, k) => {
+    const place = starts.findLastIndex((start) => start <= cluster);
+    (place < 0 ? before : tones[place]).toArray(colors, 3 * k);
+  });
+  return colors;
+}
+
+/**
+ * @param {TextLayout} layout
+ * @param {readonly [number, number][]} boxes
+ * @param {number} x
+ * @param {number} y
+ * @returns {number} glyph whose box has the point; -1: none
+ */
+function glyphAt({ shapes, places }, boxes, x, y) {
+  return shapes.findIndex((shape, k) => {
+    const [left, bottom, side] = places.subarray(3 * k, 3 * k + 3), [width, height] = boxes[shape];
+    return x >= left && x <= left + width * side && y >= bottom && y <= bottom + height * side;
+  });
+}
+
+/** Characters that were named already. @type {Set<number>} */
+const NAMED = new Set();
+
+/** @param {number[]} missing code points */
+function warnOfMissing(missing) {
+  const fresh = missing.filter((code) => !NAMED.has(code));
+  if (!fresh.length) return;
+  fresh.forEach((code) => NAMED.add(code));
+  const shown = fresh.slice(0, 10).map((code) => `${String.fromCodePoint(code)} (U+${code.toString(16).toUpperCase().padStart(4, '0')})`);
+  console.warn(`vexture: no font of the text has ${shown.join(', ')}${fresh.length > 10 ? ` and ${fresh.length - 10} more` : ''}; add one to \`font\``);
+}
