@@ -30,9 +30,9 @@ import { VextureError, line, unfit } from './errors.js';
  *   mixes, or in sRGB, as browsers do. By default `true` on lit materials; without effect on a drawing of several layers
  * @property {'own' | 'none'} [background] mode `paint`: around the drawing, the material's own colour (the default), or
  *   nothing
- * @property {boolean | 'glyphs'} [instanced] each instance shows the root in its attribute `vextureRoot` (see
- *   `rootAttribute`), in mode `paint` one layer; `glyphs`: at the place of a glyph, as the parts of a `Text` do. `false` by
- *   default
+ * @property {boolean | 'glyphs' | import('./glyph-shader.js').Labels} [instanced] each instance shows the root in its attribute
+ *   `vextureRoot` (see `rootAttribute`), in mode `paint` one layer. `glyphs` and labels are for the parts of texts. `false`
+ *   by default
  * @property {import('./fold-texture.js').FoldTexture | null} [fold] moves the shape with time; packed textures only. By default
  *   none
  * @property {number} [time] seconds of the fold, by default 0
@@ -43,6 +43,15 @@ export const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
 export const BACKGROUNDS = Object.freeze(['own', 'none']);
 
 export const INSTANCED = Object.freeze([false, true, 'glyphs']);
+
+/** @param {unknown} instanced an option, or what a program has */
+export const isOfLabels = (instanced) => instanced === 'labels' || instanced === 'sprites' || isLabels(instanced);
+
+/** @param {unknown} instanced an option, or what a program has */
+export const isOfGlyphs = (instanced) => instanced === 'glyphs' || isOfLabels(instanced);
+
+/** @param {any} instanced @returns {instanced is import('./glyph-shader.js').Labels} */
+export const isLabels = (instanced) => instanced?.isLabels === true;
 
 export const CHANNELS = Object.freeze([0, 1]);
 
@@ -179,7 +188,7 @@ export function checkOptions(options, type) {
   checkPlace({ wrap, fold });
   choose('background', background, BACKGROUNDS);
   choose('channel', channel, CHANNELS);
-  choose('instanced', instanced, INSTANCED);
+  if (!isLabels(instanced)) choose('instanced', instanced, INSTANCED);
   if (!(threshold >= 0 && threshold <= 1)) {
     throw new VextureError(`threshold is ${line(threshold)}; it must be a coverage, 0 to 1`, 'threshold');
   }

@@ -2,7 +2,8 @@
 import { packed, steps } from '../generated/shaders.js';
 import { WRAPS } from '../generated/wraps.js';
 import { ROOT_ATTRIBUTE } from './attributes.js';
-import { GLYPH_DECLARED, GLYPH_PLACED } from './glyph-shader.js';
+import { glyphDeclared, glyphPlaced } from './glyph-shader.js';
+import { isOfGlyphs, isOfLabels } from './mask-options.js';
 import { withMaps } from './maps.js';
 
 const planar = withMaps(async () => (await import('../generated/planar-shader.js')).planar);
@@ -21,7 +22,7 @@ const planar = withMaps(async () => (await import('../generated/planar-shader.js
  * @property {boolean} flat
  * @property {boolean} invert
  * @property {'own' | 'none'} background
- * @property {boolean | 'glyphs'} instanced
+ * @property {import('./glyph-shader.js').Instances} instanced
  * @property {boolean} hasMap
  * @property {string} uv attribute with the texture coordinates
  * @property {string} fold GLSL of the fold that moves the shape, or ''
@@ -85,9 +86,12 @@ function reader({ other, maps, gradients, wrap, flat, fold, linear }) {
 /** Fully transparent pixels write no depth, so that they hide nothing. */
 const NOTHING = 'if (diffuseColor.a == 0.0) discard;';
 
+/** Colour and opacity of a label. @param {Variant} variant */
+const tinted = ({ instanced }) => (isOfLabels(instanced) ? 'diffuseColor *= vextureTint;\n' : '');
+
 /** @param {Variant} variant */
 function colorLines(variant) {
-  if (variant.mode === 'alpha') return `diffuseColor.a *= ${coverage(variant)};\n${NOTHING}`;
+  if (variant.mode === 'alpha') return `${tinted(variant)}diffuseColor.a *= ${coverage(variant)};\n${NOTHING}`;
   if (variant.mode === 'mix') {
     const map = variant.hasMap ? ' * texture2D(vextureInsideMap, vextureMapUv)' : '';
     return `diffuseColor = mix(diffuseColor, vec4(vextureInside, opacity)${map}, ${coverage(variant)});`;
@@ -95,7 +99,7 @@ function colorLines(variant) {
   const over =
     variant.background === 'own'
       ? 'diffuseColor.rgb = mix(diffuseColor.rgb, vexturePaint.rgb, vexturePaint.a);'
-      : `diffuseColor = vec4(vexturePaint.rgb, vexturePaint.a * diffuseColor.a);\n${NOTHING}`;
+      : `${tinted(variant)}diffuseColor = vec4(vexturePaint.rgb, vexturePaint.a * diffuseColor.a);\n${NOTHING}`;
   const light = variant.maps === 'none' ? 'vextureStraight' : 'vextureLight';
   const straight = variant.other ? `vec4(vec3(0.0), ${variant.other.coverage})` : `${light}(${paint(variant)})`;
   return `vec4 vexturePaint = ${straight};\n${over}`;
@@ -118,14 +122,15 @@ export function texts(variant) {
   const declared = uv === 'uv' ? '' : `#ifndef USE_${uv.toUpperCase()}\nattribute vec2 ${uv};\n#endif\n`;
   const vertexDeclare = `uniform mat3 vextureTransform;\n${declared}${mapped ? 'uniform mat3 vextureMapTransform;\n' : ''}${
     instanced ? `attribute uint ${ROOT_ATTRIBUTE};\n` : ''
-  }${varyings}${instanced === 'glyphs' ? GLYPH_DECLARED : ''}`;
+  }${varyings}${isOfGlyphs(instanced) ? glyphDeclared(instanced) : ''}`;
   const vertexUv = `vextureUv = (vextureTransform * vec3(${uv}, 1.0)).xy;\n${
     mapped ? 'vextureMapUv = (vextureMapTransform * vec3(uv, 1.0)).xy;\n' : ''
   }${instanced ? `vextureInstance = ${ROOT_ATTRIBUTE};\n` : ''}`;
-  const fragmentDeclare = `${varyings}${inside ? 'uniform vec3 vextureInside;\n' : ''}${
+  const tint = isOfLabels(instanced) ? 'varying vec4 vextureTint;\n' : '';
+  const fragmentDeclare = `${varyings}${tint}${inside ? 'uniform vec3 vextureInside;\n' : ''}${
     mapped ? 'uniform sampler2D vextureInsideMap;\n' : ''
   }${mode === 'cut' ? 'uniform float vextureThreshold;\n' : ''}${steps}${reader(variant)}`;
-  const placed = instanced === 'glyphs' ? { vertexPlace: GLYPH_PLACED } : {};
+  const placed = isOfGlyphs(instanced) ? { vertexPlace: glyphPlaced(instanced) } : {};
   const common = { vertexDeclare, vertexUv, fragmentDeclare, ...placed };
   if (mode === 'cut') {
     return { ...common, fragmentCut: `${foldLines(variant)}if (${coverage(variant)} < vextureThreshold) discard;` };

@@ -1,6 +1,7 @@
 // Values of a mask's uniforms.
 import { Color } from 'three';
 import { VIEWPORT } from './glyph-shader.js';
+import { isLabels, isOfGlyphs } from './mask-options.js';
 
 /** @typedef {import('./mask-options.js').AllOptions} Options */
 
@@ -26,7 +27,8 @@ export function uniformValues(texture, { transform, threshold, color, map, fold,
     vextureInsideMap: map,
     vextureFolding: fold?.texture ?? null,
     vextureCycle: fold?.cycle ?? 0,
-    ...(instanced === 'glyphs' && { vextureViewport: VIEWPORT }),
+    ...(isOfGlyphs(instanced) && { vextureViewport: VIEWPORT }),
+    ...(isLabels(instanced) && { vextureLabels: instanced.texture }),
     vextureTime: fold?.clock(time) ?? 0,
   };
 }

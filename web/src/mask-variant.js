@@ -1,6 +1,7 @@
 // What makes the program of one mask differ from that of another.
 import { UV_ATTRIBUTES } from './attributes.js';
 import { FOOTPRINT } from './mask-shader.js';
+import { isLabels, isOfGlyphs } from './mask-options.js';
 import { mapsAmong, mapsOfGlyphs } from './select-root.js';
 
 /** @typedef {import('./mask-shader.js').Variant} Variant */
@@ -16,7 +17,7 @@ export function variantOf(texture, options, range) {
   const reader = texture.maskReader();
   const isAlone = Boolean(instanced) || range.count === 1;
   const shown = instanced ? texture.roots : texture.roots.slice(range.first, range.first + range.count);
-  const maps = instanced === 'glyphs' ? mapsOfGlyphs(mode) : mapsAmong(shown, isAlone);
+  const maps = isOfGlyphs(instanced) ? mapsOfGlyphs(mode) : mapsAmong(shown, isAlone);
   return {
     other: reader && { declared: reader.declared, coverage: reader.coverage(FOOTPRINT) },
     mode,
@@ -28,7 +29,7 @@ export function variantOf(texture, options, range) {
     flat,
     invert,
     background,
-    instanced,
+    instanced: isLabels(instanced) ? (instanced.areSprites ? 'sprites' : 'labels') : instanced,
     hasMap: mode === 'mix' && map !== null,
     uv: UV_ATTRIBUTES[channel],
     fold: fold?.glsl ?? '',

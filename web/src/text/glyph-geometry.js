@@ -24,6 +24,9 @@ import { GLYPH } from '../glyph-shader.js';
 /** Number of glyphs for which there is room at first. */
 const ROOM = 16;
 
+/** Ranges that are sent one by one; more are sent as one. */
+const MOST_RANGES = 32;
+
 /** Corners of the unit square. */
 const CORNERS = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0]);
 
@@ -38,15 +41,17 @@ const SIZES = Object.freeze({ [GLYPH.root]: 1, [GLYPH.place]: 4, [GLYPH.box]: 4,
 export class GlyphGeometry extends InstancedBufferGeometry {
   #room = 0;
 
-  constructor() {
+  /** @param {Record<string, number>} [more] further attributes, and the items of each */
+  constructor(more = {}) {
     super();
+    this.more = more;
     this.setIndex([0, 1, 2, 2, 1, 3]);
     this.setAttribute('position', new BufferAttribute(CORNERS, 3));
     this.setAttribute('normal', new BufferAttribute(NORMALS, 3));
     this.setAttribute('uv', new BufferAttribute(UVS, 2));
     this.boundingBox = new Box3();
     this.boundingSphere = new Sphere(new Vector3(), -1);
-    this.#makeRoom(ROOM, false);
+    this.makeRoom(ROOM, false);
     this.instanceCount = 0;
   }
 
@@ -61,12 +66,31 @@ export class GlyphGeometry extends InstancedBufferGeometry {
    * @param {Glyphs} glyphs
    * @param {Arrangement} arrangement
    */
-  setGlyphs({ shapes, places }, { boxOf, clip, colors, bend, z }) {
-    this.#makeRoom(shapes.length, colors !== null);
-    const [roots, at, boxes, turns] = Object.keys(SIZES).map((name) => this.#arrayOf(name));
-    const tint = colors && this.#arrayOf('color');
+  setGlyphs(glyphs, arrangement) {
+    this.makeRoom(glyphs.shapes.length, arrangement.colors !== null);
     const bounds = /** @type {Box3} */ (this.boundingBox).makeEmpty();
-    let count = 0;
+    this.instanceCount = this.write(0, glyphs, arrangement, bounds);
+    for (const name of [...Object.keys(SIZES), 'color']) {
+      /** @type {InstancedBufferAttribute | undefined} */ (this.attributes[name])?.clearUpdateRanges?.();
+      this.send(name, 0, this.instanceCount);
+    }
+    bounds.getBoundingSphere(/** @type {Sphere} */ (this.boundingSphere));
+  }
+
+  /**
+   * Write glyphs to the attributes.
+   *
+   * @protected
+   * @param {number} first place of the first
+   * @param {Glyphs} glyphs
+   * @param {Arrangement} arrangement
+   * @param {Box3} bounds are widened by those of the glyphs
+   * @returns {number} how many there are, without those that are clipped
+   */
+  write(first, { shapes, places }, { boxOf, clip, colors, bend, z }, bounds) {
+    const [roots, at, boxes, turns] = Object.keys(SIZES).map((name) => this.arrayOf(name));
+    const tint = colors && this.arrayOf('color');
+    let end = first;
     for (let k = 0; k < shapes.length; k++) {
       const left = places[3 * k], bottom = places[3 * k + 1], side = places[3 * k + 2];
       const [width, height] = boxOf(shapes[k]);
@@ -74,44 +98,59 @@ export class GlyphGeometry extends InstancedBufferGeometry {
       if (!box) continue;
       const x = left + 0.5 * width * side;
       const frame = bend?.(x, bottom);
-      roots[count] = shapes[k];
-      at.set(frame ? moved(frame, left - x, 0) : [left, bottom, z], 4 * count);
-      at[4 * count + 3] = side;
-      boxes.set(box, 4 * count);
-      turns.set(frame ? frame.rotation : [0, 0, 0, 1], 4 * count);
-      if (tint) tint.set(/** @type {Float32Array} */ (colors).subarray(3 * k, 3 * k + 3), 3 * count);
-      widen(bounds, at, count, side * Math.max(width, height), frame !== undefined, side * width, side * height);
-      count++;
+      roots[end] = shapes[k];
+      at.set(frame ? moved(frame, left - x, 0) : [left, bottom, z], 4 * end);
+      at[4 * end + 3] = side;
+      boxes.set(box, 4 * end);
+      turns.set(frame ? frame.rotation : [0, 0, 0, 1], 4 * end);
+      if (tint) tint.set(/** @type {Float32Array} */ (colors).subarray(3 * k, 3 * k + 3), 3 * end);
+      widen(bounds, at, end, side * Math.max(width, height), frame !== undefined, side * width, side * height);
+      end++;
     }
-    this.instanceCount = count;
-    for (const name of [...Object.keys(SIZES), 'color']) this.#send(name, count);
-    bounds.getBoundingSphere(/** @type {Sphere} */ (this.boundingSphere));
-  }
-
-  /** @param {string} name @param {number} count of glyphs */
-  #send(name, count) {
-    const attribute = /** @type {InstancedBufferAttribute | undefined} */ (this.attributes[name]);
-    if (!attribute) return;
-    attribute.clearUpdateRanges?.();
-    attribute.addUpdateRange?.(0, count * attribute.itemSize);
-    attribute.needsUpdate = true;
-  }
-
-  /** @param {string} name @returns {Float32Array | Uint32Array} */
-  #arrayOf(name) {
-    return /** @type {any} */ (this.attributes[name].array);
+    return end - first;
   }
 
   /**
+   * Send values of glyphs to the GPU.
+   *
+   * @protected
+   * @param {string} name of an attribute
+   * @param {number} first
+   * @param {number} count of glyphs
+   */
+  send(name, first, count) {
+    const attribute = /** @type {InstancedBufferAttribute | undefined} */ (this.attributes[name]);
+    if (!attribute) return;
+    const { itemSize } = attribute;
+    if ((attribute.updateRanges?.length ?? 0) < MOST_RANGES) attribute.addUpdateRange?.(first * itemSize, count * itemSize);
+    else {
+      attribute.clearUpdateRanges();
+      attribute.addUpdateRange(0, this.#room * itemSize);
+    }
+    attribute.needsUpdate = true;
+  }
+
+  /** @protected @param {string} name of an attribute @returns {Float32Array | Uint32Array} */
+  arrayOf(name) {
+    return /** @type {any} */ (this.attributes[name].array);
+  }
+
+  /** Number of glyphs for which there is room. */
+  get room() {
+    return this.#room;
+  }
+
+  /**
+   * @protected
    * @param {number} count of glyphs
    * @param {boolean} isColored
    */
-  #makeRoom(count, isColored) {
+  makeRoom(count, isColored) {
     if (count > this.#room) {
       this.#room = Math.max(count, 2 * this.#room, ROOM);
       this.dispose(); // three.js gives the buffers of attributes back with their geometry
-      for (const [name, size] of Object.entries(SIZES)) this.#allocate(name, size);
       this.deleteAttribute('color');
+      for (const [name, size] of Object.entries({ ...SIZES, ...this.more })) this.#allocate(name, size);
     }
     if (isColored && !this.attributes.color) this.#allocate('color', 3);
     if (!isColored && this.attributes.color) this.deleteAttribute('color');
@@ -119,9 +158,12 @@ export class GlyphGeometry extends InstancedBufferGeometry {
 
   /** @param {string} name @param {number} size */
   #allocate(name, size) {
-    const values = name === GLYPH.root ? new Uint32Array(this.#room) : new Float32Array(size * this.#room);
+    const isWhole = name === GLYPH.root || name === GLYPH.label;
+    const values = isWhole ? new Uint32Array(this.#room) : new Float32Array(size * this.#room);
     const attribute = new InstancedBufferAttribute(values, size).setUsage(DynamicDrawUsage);
-    if (name === GLYPH.root) attribute.gpuType = IntType;
+    if (isWhole) attribute.gpuType = IntType;
+    const before = /** @type {any} */ (this.attributes[name])?.array;
+    if (before) values.set(before);
     this.setAttribute(name, attribute);
   }
 }

@@ -5,6 +5,7 @@
  */
 import { MeshBasicMaterial } from 'three';
 import { applyVectorMask } from '../vector-mask.js';
+import { batchedTextOf } from './batched-text.js';
 import { textOf } from './text.js';
 
 export { VextureError } from '../errors.js';
@@ -16,9 +17,17 @@ export { getCaretAtPoint, getSelectionRects } from './layout.js';
 /** @typedef {import('./faces.js').FontFile} FontFile */
 /** @typedef {import('./faces.js').FontSource} FontSource */
 /** @typedef {import('./glyphs.js').GlyphsOptions} GlyphsOptions */
+/** @typedef {import('./batched-text.js').BatchOptions} BatchOptions */
+/** @typedef {import('./label.js').Label} Label */
+/** @typedef {import('./label.js').LabelOptions} LabelOptions */
 /** @typedef {import('./layout.js').TextLayout} TextLayout */
 /** @typedef {import('./layout.js').TextMeasures} TextMeasures */
 /** @typedef {import('./text-options.js').TextOptions} TextOptions */
 
+const MAKING = { makeMaterial: () => new MeshBasicMaterial(), applyMask: applyVectorMask };
+
 /** A text that WebGLRenderer draws. Each option is a property that can be set at any time. */
-export class Text extends textOf({ makeMaterial: () => new MeshBasicMaterial(), applyMask: applyVectorMask }) {}
+export class Text extends textOf(MAKING) {}
+
+/** Labels that WebGLRenderer draws in one call, however many there are. */
+export class BatchedText extends batchedTextOf(MAKING) {}

@@ -105,3 +105,34 @@ export function getSelectionRects({ carets }, start, end) {
   }
   return found.filter(({ left, right }) => right > left);
 }
+
+/**
+ * Some of the glyphs.
+ *
+ * @param {PlacedShapes & { clusters: Uint32Array }} layout
+ * @param {(shape: number) => boolean} isChosen
+ */
+export function chosen({ shapes, places, clusters }, isChosen) {
+  const kept = [...shapes.keys()].filter((k) => isChosen(shapes[k]));
+  return {
+    shapes: Uint32Array.from(kept, (k) => shapes[k]),
+    places: Float32Array.from(kept.flatMap((k) => [...places.subarray(3 * k, 3 * k + 3)])),
+    clusters: Uint32Array.from(kept, (k) => clusters[k]),
+  };
+}
+
+/**
+ * Find the glyph at a point.
+ *
+ * @param {PlacedShapes} layout
+ * @param {readonly [number, number][]} boxes
+ * @param {number} x
+ * @param {number} y
+ * @returns {number} glyph whose box has the point; -1: none
+ */
+export function glyphAt({ shapes, places }, boxes, x, y) {
+  return shapes.findIndex((shape, k) => {
+    const [left, bottom, side] = places.subarray(3 * k, 3 * k + 3), [width, height] = boxes[shape];
+    return x >= left && x <= left + width * side && y >= bottom && y <= bottom + height * side;
+  });
+}

@@ -1,12 +1,13 @@
 // A text in a three.js scene, whatever its renderer.
-import { Color, DoubleSide, Matrix4, Mesh, Ray, Vector3, Vector4 } from 'three';
+import { Color, DoubleSide, Matrix4, Mesh, Ray, Vector3 } from 'three';
 import { VextureError, givenOptions, line } from '../errors.js';
-import { VIEWPORT } from '../glyph-shader.js';
 import { alongCurve, onCylinder } from './bends.js';
 import { weightOf } from './faces.js';
 import { GlyphGeometry } from './glyph-geometry.js';
 import { Glyphs } from './glyphs.js';
+import { chosen, glyphAt } from './layout.js';
 import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, lengthOf, requestOf } from './text-options.js';
+import { readViewport } from './viewport.js';
 
 /** @import { Material } from 'three' */
 /** @import { PlacedShapes, TextLayout } from './layout.js' */
@@ -40,15 +41,6 @@ class Part extends Mesh {
   onBeforeRender(renderer) {
     readViewport(renderer);
   }
-}
-
-const CORNERS = new Vector4();
-
-/** Whoever draws says how large what is drawn to is; a node asks three.js. @param {any} renderer */
-function readViewport(renderer) {
-  if (!renderer.getCurrentViewport) return;
-  renderer.getCurrentViewport(CORNERS);
-  VIEWPORT.set(CORNERS.z, CORNERS.w);
 }
 
 /** Steps between the render orders of the parts of a text. */
@@ -359,7 +351,7 @@ const NOTHING = Object.freeze({ shapes: new Uint32Array(0), places: new Float32A
 
 /** The squares of neighbours overlap, so that depth is not written. @param {any} material */
 function usual(material) {
-  return Object.assign(material, { side: DoubleSide, depthWrite: false, transparent: true });
+  return Object.assign(material, { side: DoubleSide, depthWrite: false, transparent: true, forceSinglePass: true });
 }
 
 /**
@@ -373,21 +365,6 @@ function paint(material, color, opacity, depthOffset) {
   material.opacity = opacity;
   material.polygonOffset = depthOffset !== 0;
   material.polygonOffsetFactor = material.polygonOffsetUnits = depthOffset;
-}
-
-/**
- * Some of the glyphs.
- *
- * @param {PlacedShapes & { clusters: Uint32Array }} layout
- * @param {(shape: number) => boolean} isChosen
- */
-function chosen({ shapes, places, clusters }, isChosen) {
-  const kept = [...shapes.keys()].filter((k) => isChosen(shapes[k]));
-  return {
-    shapes: Uint32Array.from(kept, (k) => shapes[k]),
-    places: Float32Array.from(kept.flatMap((k) => [...places.subarray(3 * k, 3 * k + 3)])),
-    clusters: Uint32Array.from(kept, (k) => clusters[k]),
-  };
 }
 
 /**
@@ -405,20 +382,6 @@ function colorsOf(clusters, ranges, color) {
     (place < 0 ? before : tones[place]).toArray(colors, 3 * k);
   });
   return colors;
-}
-
-/**
- * @param {TextLayout} layout
- * @param {readonly [number, number][]} boxes
- * @param {number} x
- * @param {number} y
- * @returns {number} glyph whose box has the point; -1: none
- */
-function glyphAt({ shapes, places }, boxes, x, y) {
-  return shapes.findIndex((shape, k) => {
-    const [left, bottom, side] = places.subarray(3 * k, 3 * k + 3), [width, height] = boxes[shape];
-    return x >= left && x <= left + width * side && y >= bottom && y <= bottom + height * side;
-  });
 }
 
 /** Characters that were named already. @type {Set<number>} */
