@@ -67,8 +67,8 @@ vec3 vexturePut(vec3 at) {
     float depth = (projectionMatrix * modelViewMatrix * vec4(place.xyz, 1.0)).w;
     size *= -2.0 * depth / (vextureViewport.y * projectionMatrix[1][1]${isSprite ? '' : ' * length(modelViewMatrix[1].xyz)'});
   }
-  at = vextureRotated(at * size, vextureOfLabel(1u));
-  return place.xyz + ${isSprite ? 'inverse(mat3(modelViewMatrix)) * at' : 'at'};
+  at *= size;
+  return place.xyz + ${isSprite ? 'inverse(mat3(modelViewMatrix)) * at' : 'vextureRotated(at, vextureOfLabel(1u))'};
 }
 `;
 

@@ -71,9 +71,10 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
         checkOption(name, value);
       }
       const table = new LabelTable(sprites, pixels);
+      const flat = sprites; // each is parallel to the picture, though not all are at the same depth
       const masked = (/** @type {'alpha' | 'paint'} */ mode) => {
         const own = material ? material.clone() : Object.assign(makeMaterial(), { side: DoubleSide, depthWrite: false, transparent: true, forceSinglePass: true });
-        const mask = applyMask(own, glyphs.texture, { instanced: table, mode, background: mode === 'paint' ? 'none' : undefined });
+        const mask = applyMask(own, glyphs.texture, { instanced: table, mode, flat, background: mode === 'paint' ? 'none' : undefined });
         return Object.assign(own, { userData: { ...own.userData, mask } });
       };
       super(new LabelGeometry(), masked('alpha'));
@@ -223,8 +224,8 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
         CENTRE.copy(label.position).applyMatrix4(this.matrixWorld);
         const size = label.scale * this.#unitAt(CENTRE, raycaster);
         this.matrixWorld.decompose(new Vector3(), TURN, new Vector3());
-        if (this.#table.areSprites) TURN.copy(raycaster.camera.getWorldQuaternion(new Quaternion()));
-        TURN.multiply(label.quaternion);
+        if (this.#table.areSprites) raycaster.camera.getWorldQuaternion(TURN);
+        else TURN.multiply(label.quaternion);
         RAY.copy(raycaster.ray);
         RAY.origin.sub(CENTRE).applyQuaternion(TURN.conjugate()).divideScalar(size);
         RAY.direction.applyQuaternion(TURN);

@@ -40,6 +40,8 @@ const SIZES = Object.freeze({ [GLYPH.root]: 1, [GLYPH.place]: 4, [GLYPH.box]: 4,
 /** One rectangle for each glyph. */
 export class GlyphGeometry extends InstancedBufferGeometry {
   #room = 0;
+  /** Whether glyphs are not in one plane. */
+  isBent = false;
 
   /** @param {Record<string, number>} [more] further attributes, and the items of each */
   constructor(more = {}) {
@@ -68,6 +70,7 @@ export class GlyphGeometry extends InstancedBufferGeometry {
    */
   setGlyphs(glyphs, arrangement) {
     this.makeRoom(glyphs.shapes.length, arrangement.colors !== null);
+    this.isBent = arrangement.bend !== null;
     const bounds = /** @type {Box3} */ (this.boundingBox).makeEmpty();
     this.instanceCount = this.write(0, glyphs, arrangement, bounds);
     for (const name of [...Object.keys(SIZES), 'color']) {

@@ -9,7 +9,7 @@ import { LAYOUT, checkOption } from './text-options.js';
 /**
  * @typedef {object} LabelOptions Besides those of its layout.
  * @property {Vector3 | readonly [number, number, number]} [position]
- * @property {Quaternion} [quaternion] without effect on sprites that face the camera, but for a turn in the screen
+ * @property {Quaternion} [quaternion] without effect on sprites
  * @property {number} [scale] above 0; 1 by default
  * @property {import('three').ColorRepresentation} [color] white by default
  * @property {number} [opacity] 1 by default

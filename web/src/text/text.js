@@ -7,7 +7,7 @@ import { GlyphGeometry } from './glyph-geometry.js';
 import { Glyphs } from './glyphs.js';
 import { chosen, glyphAt } from './layout.js';
 import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, lengthOf, requestOf } from './text-options.js';
-import { readViewport } from './viewport.js';
+import { isUpright, readViewport } from './viewport.js';
 
 /** @import { Material } from 'three' */
 /** @import { PlacedShapes, TextLayout } from './layout.js' */
@@ -37,10 +37,23 @@ class Part extends Mesh {
     Object.assign(this, { isTextPart: true });
   }
 
-  /** @param {any} renderer */
-  onBeforeRender(renderer) {
+  /** @param {any} renderer @param {any} _scene @param {any} camera */
+  onBeforeRender(renderer, _scene, camera) {
     readViewport(renderer);
+    setFlat(this, camera);
   }
+}
+
+/**
+ * Take the cheaper method where a text is seen straight.
+ *
+ * @param {any} mesh
+ * @param {any} camera
+ */
+function setFlat(mesh, camera) {
+  const { mask } = mesh.material.userData, { isBent } = mesh.geometry;
+  const flat = !isBent && isUpright(mesh, camera);
+  if (mask.options.flat !== flat) mask.set({ flat });
 }
 
 /** Steps between the render orders of the parts of a text. */
@@ -283,9 +296,10 @@ export function textOf({ makeMaterial, applyMask }) {
       }
     }
 
-    /** @param {any} renderer */
-    onBeforeRender(renderer) {
+    /** @param {any} renderer @param {any} _scene @param {any} camera */
+    onBeforeRender(renderer, _scene, camera) {
       readViewport(renderer);
+      setFlat(this, camera);
     }
 
     /**

@@ -12,6 +12,7 @@ export { readPacked } from '../packed.js';
 export { loadMaps } from '../maps.js';
 export { VectorTextureLoader } from '../vector-texture-loader.js';
 export { VectorTexture } from '../vector-texture.js';
+export { BatchedText, Text } from './texts.js';
 export { VectorNodeMask, applyVectorMask, vectorMaskOf } from './vector-node-mask.js';
 export { VectorNodeMaterial } from './vector-node-material.js';
 export { instancedRoot, vectorColor, vectorCoverage } from './vector-nodes.js';

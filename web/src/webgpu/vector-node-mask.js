@@ -2,7 +2,7 @@ import { Color } from 'three';
 import { bool, float, materialColor, materialOpacity, mix, texture as textureNode, uniform, uv, vec3, vec4 } from 'three/tsl';
 import { UV_ATTRIBUTES, warnOfMissing } from '../attributes.js';
 import { VextureError, givenOptions, unfit } from '../errors.js';
-import { NAMES, isTranslucent, withOptions } from '../mask-options.js';
+import { NAMES, isOfGlyphs, isTranslucent, withOptions } from '../mask-options.js';
 import { takePartIn, warnOfJSON } from '../methods.js';
 import { MaskedMeshes, RayMesh } from '../ray-mesh.js';
 import { WHITE } from '../shape-material.js';
@@ -142,9 +142,9 @@ export class VectorNodeMask extends WithOptions {
     this.#shown.follow();
     const { options, range, texture } = this.#shown;
     const { mode, invert, background, map, channel, fold } = options;
-    const { variant, isSheets } = nodeVariant(/** @type {any} */ (texture), { ...options, instance: instanceOf(options), glyphs: options.instanced === 'glyphs' ? mode : null }, range);
-    const key = JSON.stringify([variant, isSheets, mode, invert, background, channel, options.instanced, this.#takesColor]);
-    const read = [texture, fold, map];
+    const { variant, isSheets } = nodeVariant(/** @type {any} */ (texture), { ...options, instance: instanceOf(options), glyphs: isOfGlyphs(options.instanced) ? mode : null }, range);
+    const key = JSON.stringify([variant, isSheets, mode, invert, background, channel, Boolean(options.instanced), this.#takesColor]);
+    const read = [texture, fold, map, options.instanced];
     this.#material.transparent = isTranslucent(options) || this.#before.transparent;
     if (key === this.#drawn && read.every((one, place) => one === this.#read[place])) return;
     [this.#drawn, this.#read] = [key, read];
@@ -173,9 +173,11 @@ export class VectorNodeMask extends WithOptions {
     const material = this.#material;
     const { mode, invert, background, map, channel } = this.#shown.options;
     const before = this.#before;
-    const opacity = float(before.opacityNode ?? materialOpacity);
-    const color = vec4(before.colorNode ?? /** @type {any} */ (materialColor));
-    const glyphs = this.#shown.options.instanced === 'glyphs' ? glyphNodes() : null;
+    const { instanced } = this.#shown.options;
+    const glyphs = isOfGlyphs(instanced) ? glyphNodes(/** @type {any} */ (instanced)) : null;
+    const tint = glyphs?.tint ?? null;
+    const opacity = tint ? float(before.opacityNode ?? materialOpacity).mul(tint.a) : float(before.opacityNode ?? materialOpacity);
+    const color = tint ? vec4(before.colorNode ?? /** @type {any} */ (materialColor)).mul(vec4(tint.rgb, 1)) : vec4(before.colorNode ?? /** @type {any} */ (materialColor));
     const paint = mode === 'paint' ? this.#node('colour', glyphs) : null;
     const shape = paint ? paint.a : this.#node('coverage', glyphs);
     const coverage = invert ? shape.oneMinus() : shape;
@@ -187,6 +189,7 @@ export class VectorNodeMask extends WithOptions {
       material.maskShadowNode = both(coverage.greaterThanEqual(this.#uniforms.threshold));
     }
     if (mode === 'alpha') material.opacityNode = opacity.mul(coverage);
+    if (mode === 'alpha' && tint) material.colorNode = color;
     if (mode === 'mix') {
       const inside = vec4(this.#uniforms.inside, 1);
       const painted = map ? inside.mul(/** @type {any} */ (textureNode(map, uv(channel)))) : inside;

@@ -1,0 +1,12 @@
+import { MeshBasicNodeMaterial } from 'three/webgpu';
+import { batchedTextOf } from '../text/batched-text.js';
+import { textOf } from '../text/text.js';
+import { applyVectorMask } from './vector-node-mask.js';
+
+const MAKING = { makeMaterial: () => /** @type {any} */ (new MeshBasicNodeMaterial()), applyMask: applyVectorMask };
+
+/** A text that WebGPURenderer draws; see `vexture/text`. */
+export class Text extends textOf(MAKING) {}
+
+/** Labels that WebGPURenderer draws in one call, however many there are; see `vexture/text`. */
+export class BatchedText extends batchedTextOf(MAKING) {}
