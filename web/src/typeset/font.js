@@ -3,11 +3,9 @@ import * as hb from 'harfbuzzjs';
 import { VextureError, line } from '../errors.js';
 import { fetchBytes, isTransport, shown } from '../fetching.js';
 import { sfntOf } from './sfnt.js';
+import { MOST_BYTES } from './tables.js';
 
 /** @typedef {Record<string, number>} Variations values of axes by their tags */
-
-/** Most bytes of a font file; the largest of Noto CJK has 20 MB. */
-const MOST_BYTES = 1 << 27;
 
 /** Time in ms after which a font that could not be fetched is tried again. */
 const PATIENCE = 10_000;
