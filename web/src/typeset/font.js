@@ -3,17 +3,24 @@ import * as hb from 'harfbuzzjs';
 import { VextureError, line } from '../errors.js';
 import { fetchBytes, isTransport, shown } from '../fetching.js';
 import { sfntOf } from './sfnt.js';
+import { MOST_BYTES } from './tables.js';
 
 /** @typedef {Record<string, number>} Variations values of axes by their tags */
-
-/** Most bytes of a font file; the largest of Noto CJK has 20 MB. */
-const MOST_BYTES = 1 << 27;
 
 /** Time in ms after which a font that could not be fetched is tried again. */
 const PATIENCE = 10_000;
 
 /** Heights in ems of fonts that neither say them nor have the letters. */
 const ESTIMATES = { capHeight: 0.7, xHeight: 0.5 };
+
+/** Tables of images of glyphs. */
+const IMAGES = ['CBDT', 'sbix', 'SVG '];
+
+const images = new hb.PaintFuncs();
+images.setImageFunc((_image, _width, _height, _format, _extents, found) => {
+  /** @type {{ hasImage: boolean }} */ (found).hasImage = true;
+  return true;
+});
 
 /** A font of a page. */
 export class TypeFont {
@@ -28,6 +35,10 @@ export class TypeFont {
   /** @type {hb.Face | null} */
   #face = null;
   #failedAt = -Infinity;
+  /** Ranges of glyphs with an SVG. @type {[number, number][]} */
+  #pictures = [];
+  #isPainted = false;
+  #isLayered = false;
 
   /**
    * @param {number} id
@@ -40,8 +51,12 @@ export class TypeFont {
     this.#ranges = unicodeRange ? rangesOf(unicodeRange) : null;
     /** Why it cannot be used. @type {VextureError | null} */
     this.error = null;
-    /** Whether it draws glyphs in colours. */
+    /** Whether it draws glyphs in colours, or has images of them. */
     this.hasColor = false;
+    /** Names of tables with images of glyphs, which are not drawn. */
+    this.hasImages = '';
+    /** What cannot be drawn. @type {Set<string>} */
+    this.notes = new Set();
   }
 
   get isLoaded() {
@@ -100,9 +115,27 @@ export class TypeFont {
     if (!face.referenceTable('cmap')?.length) {
       throw new VextureError('the font has no characters (no table cmap), or is damaged; give another file', 'font');
     }
-    this.hasColor = ['COLR', 'CBDT', 'sbix', 'SVG '].some((tag) => face.referenceTable(tag)?.length);
+    const has = (/** @type {string} */ tag) => Boolean(face.referenceTable(tag)?.length);
+    this.#isPainted = face.hasColorPaint();
+    this.#isLayered = face.hasColorLayers();
+    if (!this.#isPainted && !this.#isLayered) this.hasImages = IMAGES.filter(has).join(', ');
+    this.hasColor = this.#isPainted || this.#isLayered || this.hasImages !== '';
+    if (this.hasImages.includes('SVG')) this.#pictures = picturesOf(face.referenceTable('SVG '));
     this.axes = face.getAxisInfos();
     this.#face = face;
+  }
+
+  /** Whether a glyph has colours of its own (COLR). @param {number} glyph */
+  isColored(glyph) {
+    const { face } = this;
+    return (this.#isPainted && face.glyphHasColorPaint(glyph)) || (this.#isLayered && face.getGlyphColorLayers(glyph).length > 0);
+  }
+
+  /** Note that a glyph has an image, if it has one. @param {Instance} instance @param {number} glyph */
+  noteImages({ font }, glyph) {
+    const found = { hasImage: this.#pictures.some(([first, last]) => first <= glyph && glyph <= last) };
+    font.paintGlyph(glyph, images, found);
+    if (found.hasImage) this.notes.add(`glyphs with images (${this.hasImages.trim()}) are shown as outlines without colours, if they have any; take a font of the format COLR`);
   }
 
   /**
@@ -118,6 +151,11 @@ export class TypeFont {
       this.#instances.set(key, instance);
     }
     return instance;
+  }
+
+  /** Forget its instances, and so what they have shaped and converted. */
+  forget() {
+    this.#instances.clear();
   }
 
   /**
@@ -167,6 +205,19 @@ export class Instance {
   caretsOf(glyph, direction) {
     return glyph < 0 ? [] : this.font.getLigatureCarets(direction, glyph);
   }
+}
+
+/**
+ * Ranges of glyphs from a table of SVG documents; HarfBuzz is built without it.
+ *
+ * @param {Uint8Array | undefined} table
+ * @returns {[number, number][]}
+ */
+function picturesOf(table) {
+  if (!table || table.length < 12) return [];
+  const view = new DataView(table.buffer, table.byteOffset, table.byteLength), start = view.getUint32(2);
+  const count = start + 2 <= table.length ? Math.min(view.getUint16(start), Math.floor((table.length - start - 2) / 12)) : 0;
+  return Array.from({ length: count }, (_, k) => [view.getUint16(start + 2 + 12 * k), view.getUint16(start + 4 + 12 * k)]);
 }
 
 /**

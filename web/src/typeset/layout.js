@@ -1,6 +1,7 @@
 // Lines as places of glyphs: alignment, anchors, carets and bounds; y up.
 import * as hb from 'harfbuzzjs';
 import { graphemeEnds } from './breaks.js';
+import { kindOf } from './shapes.js';
 
 /** @import { Line, Piece } from './lines.js' */
 /** @import { Shape, Shapes } from './shapes.js' */
@@ -24,12 +25,49 @@ import { graphemeEnds } from './breaks.js';
  * @property {number} lineHeight
  * @property {number[]} missing
  * @property {string[]} notes
+ * @property {{ shapes: Uint32Array, places: Float32Array }} [outlines] the same glyphs, wider by `outlineWidth`
+ * @property {{ shapes: Uint32Array, places: Float32Array }} [strokes] lines of `strokeWidth` along their edges
  */
 
 /** Characters between which a justified line without spaces is stretched. */
 const IDEOGRAPH = /[\p{scx=Han}\p{scx=Hiragana}\p{scx=Katakana}\p{scx=Hangul}\p{scx=Bopomofo}]/u;
 
 /** Heights of a line above and below its baseline. @typedef {{ over: number, under: number, ascender: number, descender: number }} Heights */
+
+/** Further shapes of the same glyphs. */
+class Drawn {
+  /** @type {number[]} */
+  shapes = [];
+  /** @type {number[]} */
+  places = [];
+
+  /** @param {import('./shapes.js').Kind[]} kinds upright and turned */
+  constructor(kinds) {
+    this.kinds = kinds;
+  }
+
+  /** @param {Shape} shape @param {number} x @param {number} y @param {number} scale */
+  add(shape, x, y, scale) {
+    this.shapes.push(shape.place);
+    this.places.push(x + shape.x * scale, y + shape.y * scale, shape.side * scale);
+  }
+
+  /** @param {number} dx @param {number} dy */
+  moved(dx, dy) {
+    return { shapes: Uint32Array.from(this.shapes), places: shifted(this.places, dx, dy) };
+  }
+}
+
+/** Places of glyphs, moved. @param {number[]} places @param {number} dx @param {number} dy */
+function shifted(places, dx, dy) {
+  const floats = new Float32Array(places.length);
+  for (let k = 0; k < places.length; k += 3) {
+    floats[k] = places[k] + dx;
+    floats[k + 1] = places[k + 1] + dy;
+    floats[k + 2] = places[k + 2];
+  }
+  return floats;
+}
 
 /** A layout that is being made. */
 class Layout {
@@ -49,6 +87,11 @@ class Layout {
     this.text = text;
     this.style = style;
     this.all = all;
+    const { outlineWidth, strokeWidth, fontSize } = style;
+    const both = (/** @type {import('./shapes.js').Kind['part']} */ part, /** @type {number} */ width) => [false, true].map((isTurned) => kindOf(part, width / fontSize, isTurned));
+    this.kinds = both('', 0);
+    this.outlines = outlineWidth > 0 ? new Drawn(both('o', outlineWidth)) : null;
+    this.strokes = strokeWidth > 0 ? new Drawn(both('s', strokeWidth)) : null;
     this.carets = new Float64Array(4 * (text.length + 1));
     /** @type {Box} */
     this.ink = [Infinity, Infinity, -Infinity, -Infinity];
@@ -104,7 +147,7 @@ class Layout {
   /** @param {Piece} piece @param {number} k @param {number} at @param {number} base */
   #placeGlyph({ shaped, scale }, k, at, base) {
     const { isVertical } = this.style, { instance } = shaped, isTurned = isVertical && !shaped.isUpright;
-    const shape = this.all.of(instance, shaped.glyphs[k], isTurned ? 'r' : '');
+    const glyph = shaped.glyphs[k], shape = this.all.of(instance, glyph, this.kinds[Number(isTurned)]);
     if (!shape) return;
     const dx = shaped.dx[k] * scale, dy = shaped.dy[k] * scale;
     let x = at + dx, y = base + dy;
@@ -114,6 +157,10 @@ class Layout {
     this.shapes.push(shape.place);
     this.places.push(left, bottom, shape.side * scale);
     this.clusters.push(shaped.clusters[k]);
+    for (const drawn of [this.outlines, this.strokes]) {
+      const more = drawn && this.all.of(instance, glyph, drawn.kinds[Number(isTurned)]);
+      if (more) drawn.add(more, x, y, scale);
+    }
     if (left < ink[0]) ink[0] = left;
     if (bottom < ink[1]) ink[1] = bottom;
     if (left + shape.width * scale > ink[2]) ink[2] = left + shape.width * scale;
@@ -201,17 +248,15 @@ export function layOut(text, lines, style, shapes) {
 }
 
 /** The arrays of a layout, shifted. @param {Layout} layout @param {number} dx @param {number} dy */
-function moved({ shapes, places, clusters, carets, ink, style }, dx, dy) {
-  const floats = new Float32Array(places.length), edges = new Float32Array(carets.length);
-  for (let k = 0; k < places.length; k += 3) {
-    floats[k] = places[k] + dx;
-    floats[k + 1] = places[k + 1] + dy;
-    floats[k + 2] = places[k + 2];
-  }
+function moved({ shapes, places, clusters, carets, ink, style, outlines, strokes }, dx, dy) {
+  const edges = new Float32Array(carets.length);
   const [along, over] = style.isVertical ? [dy, dx] : [dx, dy];
   for (let k = 0; k < carets.length; k++) edges[k] = carets[k] + (k & 2 ? over : along);
   const visibleBounds = /** @type {Box} */ (shapes.length ? [ink[0] + dx, ink[1] + dy, ink[2] + dx, ink[3] + dy] : [0, 0, 0, 0]);
-  return { shapes: Uint32Array.from(shapes), places: floats, clusters: Uint32Array.from(clusters), carets: edges, visibleBounds };
+  return {
+    shapes: Uint32Array.from(shapes), places: shifted(places, dx, dy), clusters: Uint32Array.from(clusters), carets: edges, visibleBounds,
+    ...(outlines && { outlines: outlines.moved(dx, dy) }), ...(strokes && { strokes: strokes.moved(dx, dy) }),
+  };
 }
 
 /**

@@ -1,12 +1,12 @@
 // Glyphs as shapes of a texture: outlines by HarfBuzz, texels by the kernels.
-import * as hb from 'harfbuzzjs';
+import { VextureError } from '../errors.js';
 import { silhouetteOf } from '../convert/silhouette.js';
-
-/** Limit of the work on a glyph. */
-const MAX_SECONDS = 10;
+import { outlineStroke } from '../convert/stroke-outline.js';
+import { contoursOf, controlBox } from './outlines.js';
 
 /** @import { Kernels } from '../convert/kernels.js' */
-/** @import { Instance } from './font.js' */
+/** @import { ModuleName } from '../convert/kernel-modules.js' */
+/** @import { Instance, TypeFont } from './font.js' */
 
 /**
  * @typedef {object} Shape
@@ -18,62 +18,63 @@ const MAX_SECONDS = 10;
  * @property {number} height
  *
  * @typedef {{ key: string, quad: number, box: [number, number], isMap: boolean, hasGradients: boolean }} AddedShape
- * @typedef {{ firstShape: number, shapes: AddedShape[], first: number, words: Uint32Array }} Added
+ * @typedef {{ firstShape: number, shapes: AddedShape[], first: number, words: Uint32Array<ArrayBuffer> }} Added
+ *
+ * @typedef {object} Kind What is drawn of a glyph.
+ * @property {'' | 'o' | 's'} part itself, itself with an outline, or a line along its edge
+ * @property {number} width of the outline or the line, in ems
+ * @property {boolean} isTurned by a quarter, clockwise
+ * @property {string} key
+ *
+ * @typedef {typeof import('./color-glyphs.js')} ColorGlyphs
  */
 
-/** Collects the cubics of a glyph. */
-class Outline {
-  /** @type {number[]} */
-  cubics = [];
-  /** Numbers at which a contour begins. @type {number[]} */
-  starts = [];
-  x = 0;
-  y = 0;
+/** Limit of the work on a glyph. */
+const MAX_SECONDS = 10;
 
-  /** @param {number} x @param {number} y */
-  move(x, y) {
-    if (this.starts.at(-1) !== this.cubics.length) this.starts.push(this.cubics.length);
-    this.x = x;
-    this.y = y;
-  }
+/** Largest distance of an outline from the exact one, in ems. */
+const STROKE_TOLERANCE = 1e-4;
 
-  /** @param {number} x @param {number} y */
-  line(x, y) {
-    const { x: a, y: b } = this, dx = x - a, dy = y - b;
-    if (dx || dy) this.cubic(a + dx / 3, b + dy / 3, a + dx * (2 / 3), b + dy * (2 / 3), x, y);
-  }
+/** Digits of an outline's width. */
+const DIGITS = 4;
 
-  /** @param {number} u @param {number} v @param {number} x @param {number} y */
-  quadratic(u, v, x, y) {
-    const { x: a, y: b } = this, third = 2 / 3;
-    this.cubic(a + (u - a) * third, b + (v - b) * third, x + (u - x) * third, y + (v - y) * third, x, y);
-  }
-
-  /** @param {number} a @param {number} b @param {number} c @param {number} d @param {number} x @param {number} y */
-  cubic(a, b, c, d, x, y) {
-    this.cubics.push(this.x, this.y, a, b, c, d, x, y);
-    this.x = x;
-    this.y = y;
-  }
-
-  /** Its contours, closed; those without a cubic are left out. @returns {Float64Array[]} */
-  contours() {
-    const { cubics, starts } = this;
-    const parts = starts.map((start, k) => Float64Array.from(cubics.slice(start, starts[k + 1] ?? cubics.length)));
-    return parts.filter(({ length }) => length);
-  }
+/**
+ * @param {Kind['part']} part
+ * @param {number} width in ems
+ * @param {boolean} isTurned
+ * @returns {Kind}
+ */
+export function kindOf(part, width, isTurned) {
+  const rounded = Number(width.toPrecision(DIGITS));
+  return { part, width: rounded, isTurned, key: `${part}${part ? rounded : ''}${isTurned ? 'r' : ''}` };
 }
 
-const pen = new hb.DrawFuncs();
-pen.setMoveToFunc((x, y, out) => /** @type {Outline} */ (out).move(x, y));
-pen.setLineToFunc((x, y, out) => /** @type {Outline} */ (out).line(x, y));
-pen.setQuadraticToFunc((u, v, x, y, out) => /** @type {Outline} */ (out).quadratic(u, v, x, y));
-pen.setCubicToFunc((a, b, c, d, x, y, out) => /** @type {Outline} */ (out).cubic(a, b, c, d, x, y));
+/** What a shape's key says; null if it is none. @param {unknown} key */
+export function partsOfKey(key) {
+  const match = /^(\d+):([^:]*):(\d+)(?::(?:([os])([\d.e+-]+))?(r?))?$/.exec(String(key));
+  if (!match) return null;
+  const [, font, variation, glyph, part = '', width = '0', turned = ''] = match;
+  return { font: Number(font), variation, glyph: Number(glyph), kind: kindOf(/** @type {Kind['part']} */ (part), Number(width), turned !== '') };
+}
+
+/**
+ * Modules that a shape needs besides that of silhouettes.
+ *
+ * @param {TypeFont} font
+ * @param {number} glyph
+ * @param {Kind} kind
+ * @returns {ModuleName[]}
+ */
+export const modulesOf = (font, glyph, { part }) => [...(font.isColored(glyph) ? /** @type {const} */ (['maps']) : []), ...(part ? /** @type {const} */ (['strokes']) : [])];
 
 /** The shapes of a texture that grows. */
 export class Shapes {
-  /** Kernels of silhouettes. @type {Kernels | null} */
-  silhouettes = null;
+  /** Modules that are loaded. @type {Partial<Record<ModuleName, Kernels>>} */
+  kernels = {};
+  /** @type {ColorGlyphs | null} */
+  colors = null;
+  /** Modules without which glyphs were left out. @type {Set<ModuleName>} */
+  wanted = new Set();
   #count = 0;
   #next = 0;
   /** @type {AddedShape[]} */
@@ -84,23 +85,24 @@ export class Shapes {
   #known = new Set();
 
   /**
-   * The shape of a glyph; null if it shows nothing.
+   * The shape of a glyph; null if it shows nothing, or a module is wanted first.
    *
    * @param {Instance} instance
    * @param {number} glyph
-   * @param {string} kind what is drawn of it: '' itself, 'r' turned clockwise
+   * @param {Kind} kind
    * @returns {Shape | null}
    */
   of(instance, glyph, kind) {
-    let shapes = instance.shapes.get(kind);
+    let shapes = instance.shapes.get(kind.key);
     if (!shapes) {
       shapes = new Map();
-      instance.shapes.set(kind, shapes);
+      instance.shapes.set(kind.key, shapes);
       this.#known.add(shapes);
     }
     let shape = shapes.get(glyph);
     if (shape === undefined) {
       shape = this.#add(instance, glyph, kind);
+      if (shape === undefined) return null;
       shapes.set(glyph, shape);
     }
     return shape;
@@ -123,49 +125,99 @@ export class Shapes {
   /** Forget all shapes, and number them from 0 again. */
   clear() {
     for (const shapes of this.#known) shapes.clear();
+    this.#known.clear();
     this.#added = [];
     this.#texels = [];
     this.#count = this.#next = 0;
   }
 
-  /** @param {Instance} instance @param {number} glyph @param {string} kind @returns {Shape | null} */
-  #add(instance, glyph, kind) {
-    const outline = new Outline();
-    instance.font.drawGlyph(glyph, pen, outline);
-    let contours = outline.contours();
-    if (kind === 'r') contours = contours.map(turned);
-    return contours.length ? this.#addSilhouette(contours, `${instance.key}:${glyph}${kind && `:${kind}`}`) : null;
+  /**
+   * Convert a shape again; one that cannot be is left out, and refused when a text needs it.
+   *
+   * @param {Instance} instance
+   * @param {number} glyph
+   * @param {Kind} kind
+   */
+  restore(instance, glyph, kind) {
+    try {
+      this.of(instance, glyph, kind);
+    } catch (error) {
+      if (!(error instanceof VextureError)) throw error;
+    }
   }
 
-  /** @param {Float64Array[]} contours @param {string} key @returns {Shape} */
-  #addSilhouette(contours, key) {
-    const kernels = /** @type {Kernels} */ (this.silhouettes);
-    let left = Infinity, bottom = Infinity, right = -Infinity, top = -Infinity;
-    for (const contour of contours) {
-      for (let k = 0; k < contour.length; k += 2) {
-        const x = contour[k], y = contour[k + 1];
-        if (x < left) left = x;
-        if (x > right) right = x;
-        if (y < bottom) bottom = y;
-        if (y > top) top = y;
-      }
+  /** @param {ModuleName} name */
+  #kernels(name) {
+    const kernels = this.kernels[name];
+    if (!kernels) this.wanted.add(name);
+    return kernels ?? null;
+  }
+
+  /** @param {Instance} instance @param {number} glyph @param {Kind} kind @returns {Shape | null | undefined} undefined if a module is wanted */
+  #add(instance, glyph, kind) {
+    const key = `${instance.key}:${glyph}${kind.key && `:${kind.key}`}`;
+    if (instance.owner.isColored(glyph)) {
+      if (!this.#kernels('maps') || !this.colors) return undefined;
+      const painted = this.colors.paintGlyph(instance, glyph, kind.isTurned);
+      if (!painted) return null;
+      if (!kind.part && !painted.isPlain) return this.#addMap(painted, key, instance);
+      return this.#addParts(painted.paths.map(({ contours }) => contours), kind, key, instance.em);
     }
-    const width = right - left, height = top - bottom, side = Math.max(width, height) || 1;
-    for (const contour of contours) {
-      for (let k = 0; k < contour.length; k += 2) {
-        contour[k] = (contour[k] - left) / side;
-        contour[k + 1] = (contour[k + 1] - bottom) / side;
-      }
-    }
-    const { TOLERANCE, NEAR, MAX_DEPTH } = kernels.constants;
-    const bounds = { capacity: undefined, tolerance: TOLERANCE, near: NEAR, leastDepth: 1, maxDepth: MAX_DEPTH, maxSeconds: MAX_SECONDS };
-    const texels = silhouetteOf(kernels, /** @type {any} */ ({ name: `glyph ${key}`, paths: [{ contours, fillRule: 0 }] }), bounds, this.#next);
-    this.#added.push({ key, quad: this.#next, box: [width / side, height / side], isMap: false, hasGradients: false });
+    if (instance.owner.hasImages) instance.owner.noteImages(instance, glyph);
+    let contours = contoursOf(instance.font, glyph);
+    if (kind.isTurned) contours = contours.map(turned);
+    return contours.length ? this.#addParts([contours], kind, key, instance.em) : null;
+  }
+
+  /** @param {Float64Array[][]} parts @param {Kind} kind @param {string} key @param {number} em @returns {Shape | null | undefined} */
+  #addParts(parts, { part, width }, key, em) {
+    if (!part) return this.#addSilhouette(parts, key);
+    const strokes = this.#kernels('strokes');
+    if (!strokes) return undefined;
+    const style = {
+      width: em * width * (part === 'o' ? 2 : 1), cap: 'round', join: 'round', miterLimit: 4, dashes: [], dashOffset: 0, tolerance: em * STROKE_TOLERANCE,
+    };
+    const lines = parts.flat().flatMap((contour) => outlineStroke(strokes, contour, true, style)).filter(({ length }) => length);
+    if (part === 'o') return this.#addSilhouette([...parts, lines], key);
+    return lines.length ? this.#addSilhouette([lines], key) : null;
+  }
+
+  /** @param {Float64Array[][]} parts each filled by itself @param {string} key @returns {Shape} */
+  #addSilhouette(parts, key) {
+    const kernels = /** @type {Kernels} */ (this.kernels.silhouettes), box = controlBox(parts.flat()), [left, bottom] = box;
+    const side = sideOf(box);
+    const paths = parts.map((contours) => ({ contours: contours.map((contour) => contour.map((value, k) => (value - (k & 1 ? bottom : left)) / side)), fillRule: 0 }));
+    const drawing = /** @type {import('../convert/drawing.js').Drawing} */ (/** @type {unknown} */ ({ name: `glyph ${key}`, paths }));
+    const texels = silhouetteOf(kernels, drawing, boundsOf(kernels), this.#next);
+    return this.#push(box, { key, quad: this.#next, isMap: false, hasGradients: false }, texels);
+  }
+
+  /** @param {NonNullable<ReturnType<ColorGlyphs['paintGlyph']>>} painted @param {string} key @param {Instance} instance */
+  #addMap(painted, key, instance) {
+    const kernels = /** @type {Kernels} */ (this.kernels.maps), colors = /** @type {ColorGlyphs} */ (this.colors);
+    const found = colors.mapTexels(kernels, painted, `glyph ${key}`, boundsOf(kernels), this.#next);
+    for (const note of painted.notes) instance.owner.notes.add(note);
+    if (!found) throw new VextureError(`the emoji of glyph ${key} is too complex for a texture; take another font`, 'text');
+    return this.#push(painted.box, { key, quad: found.quad, isMap: true, hasGradients: found.hasGradients }, found.texels);
+  }
+
+  /** @param {[number, number, number, number]} box @param {Omit<AddedShape, 'box'>} shape @param {Uint32Array} texels @returns {Shape} */
+  #push(box, shape, texels) {
+    const [x, y, right, top] = box, side = sideOf(box), width = right - x, height = top - y;
+    this.#added.push({ ...shape, box: [width / side, height / side] });
     this.#texels.push(texels);
     this.#next += texels.length / 4;
-    return { place: this.#count++, x: left, y: bottom, side, width, height };
+    return { place: this.#count++, x, y, side, width, height };
   }
 }
+
+/** @param {readonly number[]} box */
+const sideOf = ([left, bottom, right, top]) => Math.max(right - left, top - bottom) || 1;
+
+/** @param {Kernels} kernels */
+const boundsOf = ({ constants: { TOLERANCE, NEAR, MAX_DEPTH } }) => ({
+  capacity: undefined, tolerance: TOLERANCE, near: NEAR, leastDepth: 1, maxDepth: MAX_DEPTH, maxSeconds: MAX_SECONDS,
+});
 
 /** A contour turned clockwise by a quarter. @param {Float64Array} contour */
 const turned = (contour) => contour.map((value, k) => (k % 2 ? -contour[k - 1] : contour[k + 1]));

@@ -4,10 +4,10 @@ import { KernelModules } from '../convert/kernel-modules.js';
 import { TypeFont } from './font.js';
 import { layOut } from './layout.js';
 import { linesOf } from './lines.js';
-import { Shapes } from './shapes.js';
+import { Shapes, modulesOf, partsOfKey } from './shapes.js';
 import { Style } from './style.js';
 
-/** @import { KernelSources } from '../convert/kernel-modules.js' */
+/** @import { KernelSources, ModuleName } from '../convert/kernel-modules.js' */
 /** @import { Result } from './layout.js' */
 /** @import { Added } from './shapes.js' */
 /** @import { Request } from './style.js' */
@@ -74,8 +74,8 @@ export class Typesetter {
       return null;
     }
     try {
-      this.#shapes.silhouettes ??= await this.#modules.load('silhouettes');
-      if (message.restart) return this.#reply({ id, restarted: true });
+      await this.#load(['silhouettes']);
+      if (message.restart) return await this.#restart(id, message.restart.keys);
       const requests = message.preload ? [requestOf(message.preload)] : (message.texts ?? []);
       const results = await this.#setAll(requests);
       return this.#reply({ id, results: message.preload ? [] : results });
@@ -87,22 +87,57 @@ export class Typesetter {
   /** @param {Omit<Reply, 'added'>} reply */
   #reply(reply) {
     const added = this.#shapes.take();
+    /** @type {Transferable[]} */
     const transfer = [added.words.buffer];
     for (const result of reply.results ?? []) {
-      if ('shapes' in result) transfer.push(result.shapes.buffer, result.places.buffer, result.clusters.buffer, result.carets.buffer);
+      if (!('shapes' in result)) continue;
+      const { clusters, carets } = result, drawn = [result, result.outlines, result.strokes].filter((one) => one !== undefined);
+      transfer.push(clusters.buffer, carets.buffer, ...drawn.flatMap(({ shapes, places }) => [shapes.buffer, places.buffer]));
     }
     return { reply: { ...reply, added }, transfer };
   }
 
+  /** @param {Iterable<ModuleName>} names */
+  async #load(names) {
+    await Promise.all(
+      Array.from(names, async (name) => {
+        if (name === 'maps') this.#shapes.colors ??= await import('./color-glyphs.js');
+        this.#shapes.kernels[name] ??= await this.#modules.load(name);
+      }),
+    );
+  }
+
   /** @param {Request[]} requests */
   async #setAll(requests) {
+    const { wanted } = this.#shapes;
     for (;;) {
       /** @type {Set<TypeFont>} */
       const needed = new Set();
+      wanted.clear();
       const results = requests.map((request) => this.#set(request, needed));
-      if (!needed.size) return /** @type {(Result | Refusal)[]} */ (results);
-      await Promise.all([...needed].map((font) => font.load()));
+      if (!needed.size && !wanted.size) return /** @type {(Result | Refusal)[]} */ (results);
+      await Promise.all([...Array.from(needed, (font) => font.load()), this.#load([...wanted])]);
     }
+  }
+
+  /**
+   * Number shapes from 0 again, beginning with those of some keys.
+   *
+   * @param {number} id
+   * @param {string[]} keys
+   */
+  async #restart(id, keys) {
+    const wanted = keys.map(partsOfKey).filter((parts) => parts !== null);
+    await Promise.all(Array.from(new Set(wanted.map(({ font }) => font)), (font) => this.#fonts.get(font)?.load()));
+    const found = wanted.flatMap(({ font, ...parts }) => {
+      const owner = this.#fonts.get(font);
+      return owner?.isLoaded ? [{ ...parts, owner }] : [];
+    });
+    await this.#load(new Set(found.flatMap(({ owner, glyph, kind }) => modulesOf(owner, glyph, kind))));
+    this.#shapes.clear();
+    for (const font of this.#fonts.values()) font.forget();
+    for (const { owner, variation, glyph, kind } of found) this.#shapes.restore(owner.instance(variation), glyph, kind);
+    return this.#reply({ id, restarted: true });
   }
 
   /**
@@ -124,8 +159,10 @@ export class Typesetter {
       if (needed.size > before || own.size) return null;
       const failed = style.fonts.filter(({ error }) => error);
       if (!style.fonts.some(({ isLoaded }) => isLoaded)) throw failed[0]?.error ?? new VextureError('no font is loaded; name one', 'fonts');
-      const notes = failed.map(({ error }) => /** @type {VextureError} */ (error).message);
-      return { ...layOut(text, lines, style, this.#shapes), missing: [...missing], notes };
+      const result = layOut(text, lines, style, this.#shapes);
+      const used = new Set(lines.flatMap(({ pieces }) => pieces.map(({ shaped }) => shaped.instance.owner)));
+      const notes = [...failed.map(({ error }) => /** @type {VextureError} */ (error).message), ...Array.from(used, (font) => [...font.notes]).flat()];
+      return { ...result, missing: [...missing], notes: [...new Set(notes)] };
     } catch (error) {
       const { message, field } = errorOf(error);
       return { error: message, field };
