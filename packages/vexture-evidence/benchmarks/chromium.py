@@ -29,7 +29,7 @@ FLAGS: Final = [
     "--hide-scrollbars",
 ]
 
-ENTRIES: Final = ("globe", "gltf", "maplibre", "react", "thesis", "water", "webgpu")
+ENTRIES: Final = ("globe", "gltf", "maplibre", "react", "text", "thesis", "water", "webgpu")
 """Entries of the npm package beside the main one."""
 
 
@@ -75,7 +75,7 @@ def bundle(entry: Path, output: Path, three: str = "three", *, is_split: bool = 
     installed is found from anywhere.
     """
     esbuild = WEB / "node_modules" / ".bin" / "esbuild"
-    command = [str(esbuild), str(entry), "--bundle", "--format=esm"]
+    command = [str(esbuild), str(entry), "--bundle", "--format=esm", "--external:module"]  # HarfBuzz asks Node.js for it
     if is_split:
         command += ["--splitting", f"--outdir={output.parent}", f"--entry-names={output.stem}"]
     else:
