@@ -109,8 +109,9 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
     addLabel(options = {}) {
       const row = this.#freeRows.pop() ?? this.#labels.size;
       const label = new Label(row, (stale) => this.#markStale(stale));
-      label.set(options);
       this.#labels.set(row, label);
+      this.#markStale(label);
+      label.set(options);
       if (this.#table.makeRoom(row + 1)) this.#glyphs.texture.dispatchEvent({ type: 'change' }); // masks take the table's other texture
       return label;
     }
