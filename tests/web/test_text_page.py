@@ -254,7 +254,7 @@ def test_rays_and_clicks_find_characters(page: Any) -> None:
 
 
 WRONG = {
-    "no font": ({"text": "a", "font": None}, "the text has no font; give the address or the content of one as `font`"),
+    "no address": ({"text": "a", "font": 7}, "a font is 7; give the address"),
     "not there": ({"text": "a", "font": "nothing.ttf"}, "nothing.ttf"),
     "no font file": ({"text": "a", "font": "text.js"}, "text.js"),
 }
