@@ -10,6 +10,7 @@ import { Label } from './label.js';
 import { chosen, glyphAt } from './layout.js';
 import { LAYOUT, checkOption, requestOf } from './text-options.js';
 import { readViewport } from './viewport.js';
+import { warnOf } from './warnings.js';
 
 /** @import { Material } from 'three' */
 /** @import { LabelOptions } from './label.js' */
@@ -155,6 +156,7 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
           const label = labels[place];
           if (outcome.status === 'rejected') problem = outcome.reason;
           else if (this.#labels.get(label.row) === label && !this.#stale.has(label)) this.#show(label, outcome.value);
+          if (outcome.status === 'fulfilled' && outcome.value) warnOf(outcome.value);
         });
         /** @type {LabelGeometry} */ (this.geometry).compact(this.#boxOf);
       }

@@ -9,7 +9,7 @@ import { Glyphs } from './glyphs.js';
 import { chosen, glyphAt } from './layout.js';
 import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, lengthOf, requestOf } from './text-options.js';
 import { isUpright, readViewport } from './viewport.js';
-import { warnOfCharacters } from './missing-characters.js';
+import { warnOf } from './warnings.js';
 
 /** @import { Material } from 'three' */
 /** @import { PlacedShapes, TextLayout } from './layout.js' */
@@ -213,7 +213,7 @@ export function textOf({ makeMaterial, applyMask }) {
       this.error = null;
       this.#arrange();
       this.#mirror.say(options.text, options.ariaLive);
-      if (layout) warnOfCharacters(layout.missing);
+      if (layout) warnOf(layout);
       this.dispatchEvent(/** @type {any} */ ({ type: 'synccomplete' }));
     }
 

@@ -1,10 +1,20 @@
-// Characters that no font of a text has.
+// What a text lacks, said once in the console.
 
 /** Characters that were named already. @type {Set<number>} */
 const NAMED = new Set();
 
+/** Notes that were given already. @type {Set<string>} */
+const NOTED = new Set();
+
+/** @param {{ missing: number[], notes: string[] }} layout */
+export function warnOf({ missing, notes }) {
+  warnOfCharacters(missing);
+  for (const note of notes) if (!NOTED.has(note)) console.warn(`vexture: ${note}`);
+  notes.forEach((note) => NOTED.add(note));
+}
+
 /** Name characters once that no font has. @param {number[]} missing code points */
-export function warnOfCharacters(missing) {
+function warnOfCharacters(missing) {
   const fresh = missing.filter((code) => !NAMED.has(code));
   if (!fresh.length) return;
   fresh.forEach((code) => NAMED.add(code));
