@@ -10,6 +10,7 @@ import path from 'node:path';
 import { givenOptions } from '../errors.js';
 import { findConverter, linesOf } from './converter.js';
 import { optionsOf, parametersOf } from './options.js';
+import { configOfWorkers } from './workers.js';
 
 /**
  * @typedef {import('./options.js').ConvertOptions} ConvertOptions
@@ -49,6 +50,9 @@ export default function vexture(options) {
   return {
     name: 'vexture',
     enforce: 'pre',
+    config(user) {
+      return configOfWorkers(user, this?.meta?.viteVersion); // Vite 6 tells nothing
+    },
     configResolved(config) {
       root = config.root;
     },
