@@ -285,6 +285,53 @@ def test_what_takes_too_long_is_one_error(page: Any) -> None:
         assert "is no number above 0; leave it out" in value["error"], limit
 
 
+MANY = (
+    "'<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\">{0}' +"
+    " '<path fill=\"#f00\" d=\"M1 1h5v5z\"/>'.repeat({2}) + '{1}</svg>'"
+)
+"""A drawing of many elements, as an expression of JavaScript: start, end, number."""
+
+READING = {
+    "paths": MANY.format("", "", 30_000),
+    "pattern": MANY.format('<pattern id="p" width="3" height="3" patternUnits="userSpaceOnUse">', "</pattern>", 20_000)[:-7]
+    + "<rect width=\"9\" height=\"9\" fill=\"url(#p)\"/></svg>'",
+    "measured": MANY.format('<clipPath id="c"><path d="M0 0h4v4z"/></clipPath><g style="clip-path: inset(1px)">', "</g>", 20_000),
+    "image": "'<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"><image width=\"9\" height=\"9\""
+    " href=\"data:image/svg+xml;base64,' + btoa(" + MANY.format("", "", 20_000) + ") + '\"/></svg>'",
+}
+"""Drawings that take a second or more to read, by where their elements are."""
+
+
+@pytest.mark.parametrize("kind", READING)
+def test_the_page_answers_while_a_drawing_is_read(page: Any, kind: str) -> None:
+    value = page.evaluate(f"async () => watched(readSvg({READING[kind]}).then(() => ({{ roots: [] }})))")
+    assert value["ms"] > 300
+    assert value["ticks"] > value["ms"] / 200
+
+
+@pytest.mark.parametrize("kind", READING)
+def test_reading_stops_by_its_signal_and_its_time_limit(page: Any, kind: str) -> None:
+    stopped = page.evaluate(
+        f"""async () => {{
+          const text = {READING[kind]};
+          const stop = new AbortController();
+          let asked;
+          setTimeout(() => {{ asked = performance.now(); stop.abort(new RangeError('no more')); }}, 0);
+          const found = await outcome(convert(text, {{ signal: stop.signal }}));
+          return {{ ...found, late: performance.now() - asked }};
+        }}"""
+    )
+    assert stopped["error"] == "RangeError: no more"
+    assert stopped["late"] < 1000
+    value = page.evaluate(f"() => outcome(convert({READING[kind]}, {{ maxSeconds: 0.1, name: 'many' }}))")
+    assert value["error"] == (
+        "VextureError: many: reading takes longer than 0.1 s; give a larger `maxSeconds`, or a simpler drawing"
+    )
+    assert value["field"] == "maxSeconds"
+    assert page.evaluate("document.querySelectorAll('iframe').length") == 0
+    assert page.failures == []
+
+
 def test_a_bad_source_is_one_error_and_the_page_goes_on(page: Any) -> None:
     wrong = {}
     for source, message in BAD.items():

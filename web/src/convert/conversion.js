@@ -2,6 +2,7 @@
 import { LATTICE, MAP_HEAD, MOST_CURVES, MOST_DEPTH, MOST_ROWS, ROW_BITS } from '../../generated/layout.js';
 import { VextureError, line } from '../errors.js';
 import { KernelModules } from './kernel-modules.js';
+import { MAX_SECONDS, checkSeconds } from './pace.js';
 import { sheetsOf } from './sheets.js';
 import { silhouetteOf } from './silhouette.js';
 import { layersOf, splitOf, withoutGradients, withoutMasks } from './split.js';
@@ -44,9 +45,6 @@ import { layersOf, splitOf, withoutGradients, withoutMasks } from './split.js';
  * @property {number} [flattened] paints of a map that are mean colours, because no program can hold their gradients
  * @property {import('../style.js').Style | null} [style]
  */
-
-/** Time limit without an option. */
-export const MAX_SECONDS = 60;
 
 /** Lattice units by which a curve may move, because its points are rounded when it is cut, and again in its leaf. */
 const DISPLACEMENT = 2;
@@ -138,7 +136,7 @@ function boundsOf({ constants }, { precision, tolerance, maxDepth = constants.MA
   }
   const leastDepth = precision === undefined ? 1 : Math.max(Math.ceil(Math.log2(DISPLACEMENT / (precision * LATTICE))), 1);
   const near = COINCIDENT * (precision ?? (0.5 * DISPLACEMENT) / LATTICE);
-  if (!(isNumber(maxSeconds) && maxSeconds > 0)) throw new VextureError(`\`maxSeconds\` ${line(maxSeconds)} is no number above 0; leave it out`, 'maxSeconds');
+  checkSeconds(maxSeconds);
   return { capacity, tolerance: allowed, near, leastDepth, maxDepth, maxSeconds };
 }
 

@@ -1,6 +1,7 @@
 // Drawings of contours: the form of every source, the same as Python's `vexture.drawing.drawing.Drawing`.
 import { VextureError, line } from '../errors.js';
 import { boundsOf, loopOf } from './contours.js';
+import { atOnce } from './pace.js';
 import { BLACK } from './paints.js';
 import { inUnitSquare } from './unit-square.js';
 
@@ -66,7 +67,7 @@ export function fromContours(shapes, { name = 'drawing', box } = {}) {
  */
 export function fromSource(paths, [x, y, width, height], name) {
   const moved = paths.map((path) => ({ ...path, contours: path.contours.map((contour) => contour.map((value, k) => value - (k % 2 ? y : x))) }));
-  const { paths: normal, toSource: [a, b, c, d, e, f], sides } = inUnitSquare(moved, [width, height]);
+  const { paths: normal, toSource: [a, b, c, d, e, f], sides } = atOnce(inUnitSquare(moved, [width, height]));
   return { name, paths: normal, groups: [], toSource: [a, b, c, d, x + e, y + f], sides, notes: [], crs: null };
 }
 
