@@ -286,17 +286,21 @@ def test_what_takes_too_long_is_one_error(page: Any) -> None:
 
 
 MANY = (
-    "'<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\">{0}' +"
+    '\'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">{0}\' +'
     " '<path fill=\"#f00\" d=\"M1 1h5v5z\"/>'.repeat({2}) + '{1}</svg>'"
 )
 """A drawing of many elements, as an expression of JavaScript: start, end, number."""
 
 READING = {
     "paths": MANY.format("", "", 30_000),
-    "pattern": MANY.format('<pattern id="p" width="3" height="3" patternUnits="userSpaceOnUse">', "</pattern>", 20_000)[:-7]
-    + "<rect width=\"9\" height=\"9\" fill=\"url(#p)\"/></svg>'",
-    "measured": MANY.format('<clipPath id="c"><path d="M0 0h4v4z"/></clipPath><g style="clip-path: inset(1px)">', "</g>", 20_000),
-    "image": "'<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"><image width=\"9\" height=\"9\""
+    "pattern": MANY.format('<pattern id="p" width="3" height="3" patternUnits="userSpaceOnUse">', "</pattern>", 20_000)[
+        :-7
+    ]
+    + '<rect width="9" height="9" fill="url(#p)"/></svg>\'',
+    "measured": MANY.format(
+        '<clipPath id="c"><path d="M0 0h4v4z"/></clipPath><g style="clip-path: inset(1px)">', "</g>", 20_000
+    ),
+    "image": '\'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><image width="9" height="9"'
     " href=\"data:image/svg+xml;base64,' + btoa(" + MANY.format("", "", 20_000) + ") + '\"/></svg>'",
 }
 """Drawings that take a second or more to read, by where their elements are."""

@@ -7,7 +7,7 @@ import { VextureError, givenOptions, line, unfit } from '../errors.js';
 import { loadMaps, mapParts } from '../maps.js';
 import { Converter } from './converter.js';
 import { Pace } from './pace.js';
-import { readGeojson } from './read-geojson.js';
+import { readPacedGeojson } from './read-geojson.js';
 import { loadMarkup } from './source.js';
 import { svgDrawing } from './svg.js';
 
@@ -170,7 +170,7 @@ async function read(source, options) {
   const isPlace = source instanceof URL || (typeof source === 'string' && !isMarkup);
   const isFile = isPlace || source instanceof Response || source instanceof Blob || source instanceof ArrayBuffer || source instanceof Uint8Array;
   if (!isMarkup && !isFile) {
-    if (typeof source === 'object' && source !== null) return readGeojson(source, options);
+    if (typeof source === 'object' && source !== null) return readPacedGeojson(source, options, options.pace);
     throw unfit('source', source, 'give an SVG or GeoJSON as a text, address, file or element');
   }
   const text = isMarkup ? source : await loadMarkup(isPlace ? placeOf(source) : source, options);
@@ -178,7 +178,7 @@ async function read(source, options) {
   const start = text.replace(/^\ufeff/, '').trimStart()[0];
   const named = { ...options, name: name ?? stem };
   if (start === '<') return readNamed(text, named);
-  if (start === '{') return readGeojson(text, named);
+  if (start === '{') return readPacedGeojson(text, named, named.pace);
   throw new VextureError(`${stem ?? 'the source'} begins with ${line(text.slice(0, 20))}; give SVG, GeoJSON or TopoJSON`, 'source');
 }
 
