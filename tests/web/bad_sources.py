@@ -15,7 +15,7 @@ BAD = {
     "'<svg xmlns=\"http://www.w3.org/2000/svg\">' + ' '.repeat(5e7)": "33,554,432",
     "'{' + ' '.repeat(5e7)": "the text has 50,000,001 letters; a page reads 33,554,432; simplify or split it",
     '`{"type":"Polygon","coordinates":${\'[\'.repeat(1e5)}${\']\'.repeat(1e5)}}`': "its lists are nested too deeply",
-    '\'{"type":"GeometryCollection","geometries":[\'.repeat(1e5) + \']}\'.repeat(1e5)': "nested more than 32 deep; flatten it",
+    '`${\'{"type":"GeometryCollection","geometries":[\'.repeat(1e5)}${\']}\'.repeat(1e5)}`': "more than 32 deep",
     "'<svg xmlns=\"http://www.w3.org/2000/svg\"><path'": "not well-formed XML",
     "'<!doctype html><html><p>text</html>'": "not well-formed XML|not <svg>",
     "'<html xmlns=\"http://www.w3.org/1999/xhtml\"><body/></html>'": "the root element is <html>, not <svg>",
