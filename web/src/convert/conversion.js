@@ -79,6 +79,8 @@ export class Conversion {
     const isMap = way === 'faces' && drawing.paths.length > 0;
     const kernels = await this.modules.load(isMap ? 'maps' : 'silhouettes');
     const bounds = boundsOf(kernels, limits);
+    checkSides(shown, bounds);
+    checkLayers(drawing.name, layers.length);
     const { tolerance } = bounds;
     const usual = boundsOf(kernels, { ...limits, precision: undefined, tolerance });
     const sheets = isMap
@@ -106,6 +108,31 @@ function silhouettesOf(kernels, drawings, bounds) {
     first += texels.length / 4;
     return { drawing, texels, isMap: false };
   });
+}
+
+/**
+ * Refuse a drawing so narrow that rounding would leave nothing of it, or another width.
+ *
+ * @param {Drawing} drawing
+ * @param {Bounds} bounds
+ * @throws {VextureError} if its shorter side is less than the largest shift by rounding
+ */
+function checkSides({ name, sides = [1, 1], paths }, { leastDepth }) {
+  const side = Math.min(...sides);
+  const shift = DISPLACEMENT * 0.5 ** leastDepth / LATTICE;
+  if (side >= shift || !paths.length) return;
+  const [part, most, precision] = [side, shift, side / 10].map((value) => value.toExponential(1));
+  throw new VextureError(
+    `${name}: its shorter side is ${part} of the longer one; rounding shifts by up to ${most} of it; give a \`precision\` of ${precision}, or a wider view box`,
+    'precision',
+  );
+}
+
+/** @param {string} name @param {number} count of layers @throws {VextureError} if no material can show so many */
+function checkLayers(name, count) {
+  if (count <= MOST_ROWS) return;
+  const [layers, most] = [count, MOST_ROWS].map((value) => value.toLocaleString('en-US'));
+  throw new VextureError(`${name}: ${layers} layers; a material shows ${most} at most; give \`split: 'faces'\`, or divide the drawing`, 'split');
 }
 
 /** @param {unknown} value @returns {value is number} texts compare like numbers, but are none */
