@@ -7,9 +7,15 @@ BAD = {
     "'PNG'": '/usual/PNG" answers 404; check the address',
     "'none.svg'": "answers 404; check the address",
     "'http://127.0.0.1:9/a.svg'": '"http://127.0.0.1:9/a.svg" cannot be loaded',
-    "new Blob(['PNG'])": 'the source begins with "PNG"; give SVG, GeoJSON or TopoJSON',
-    "new File([new Uint8Array([137, 80, 78, 71, 13, 10, 26, 10, 0])], 'a')": "a begins with",
-    "new Blob([])": "give SVG, GeoJSON or TopoJSON",
+    "new Blob(['PNG'])": 'the source is a text that begins with "PNG"; give SVG, GeoJSON or TopoJSON',
+    "new File([new Uint8Array([137, 80, 78, 71, 13, 10, 26, 10, 0])], 'a.png')": (
+        '"a.png" is a PNG picture; give SVG, GeoJSON or TopoJSON, or trace it with the program vexture'
+    ),
+    "new File(['Dear all'], 'a.txt')": '"a.txt" is a text that begins with "Dear all"; give SVG, GeoJSON or TopoJSON',
+    "new File([new Uint8Array([255, 216, 255, 224, 0, 16, 74, 70, 73, 70, 0])], 'a')": '"a" is a JPEG picture',
+    "new File([new Uint8Array([7, 200, 1])], 'a')": '"a" is no text; it begins with ',
+    "new File(['%PDF-1.4'], 'a.svg')": '"a.svg" is a PDF document',
+    "new Blob([])": "the source is empty; give SVG, GeoJSON or TopoJSON",
     "new Blob([new Uint8Array([31, 139, 8, 0, 1, 2, 3])])": "the file cannot be read",
     "new Blob([new Uint8Array(5e7)])": "the file is larger than 33,554,432 bytes; simplify or split the drawing",
     "'<svg xmlns=\"http://www.w3.org/2000/svg\">' + ' '.repeat(5e7)": "33,554,432",

@@ -22,8 +22,13 @@ from chromium import ROOT, WEB, bundle
 PAGES = Path(__file__).parent / "pages"
 DUCK = ROOT / "examples" / "shapes" / "duck.svg"
 BADGE = WEB / "test" / "fixtures" / "badge.svg"
+TRUSTED = "require-trusted-types-for 'script'"
+
 POLICY = "default-src 'self'; style-src 'unsafe-inline'"
 """A policy without 'wasm-unsafe-eval'."""
+
+POLICIES = {"strict": POLICY, "trusted": TRUSTED, "distrusted": f"{TRUSTED}; trusted-types other"}
+"""Policies of the folders of the site."""
 
 HEAD = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">'
 SCRIPT = '<script type="module" src="page.js"></script>'
@@ -62,8 +67,9 @@ class Site:
 
             def end_headers(self) -> None:
                 self.send_header("Cache-Control", "no-store")
-                if self.path.startswith("/strict/"):
-                    self.send_header("Content-Security-Policy", POLICY)
+                folder = self.path.split("/")[1]
+                if folder in POLICIES:
+                    self.send_header("Content-Security-Policy", POLICIES[folder])
                 super().end_headers()
 
             def log_message(self, *arguments: object) -> None:
@@ -84,7 +90,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
     bundle(WEB / "src" / "convert" / "worker.js", usual / "worker.js")
     (usual / "index.html").write_text(HEAD + LOGO + SCRIPT, encoding="utf-8")
     (usual / "red.svg").write_text(RED, encoding="utf-8")
-    for name in ("strict", "lost", "bare"):
+    for name in ("strict", "trusted", "distrusted", "lost", "bare"):
         shutil.copytree(usual, folder / name)
     (folder / "lost" / "worker.js").unlink()
     (folder / "bare" / "index.html").write_text(f"{HEAD}<script>delete WebAssembly</script>{SCRIPT}", encoding="utf-8")
@@ -131,6 +137,9 @@ def test_every_source_is_a_texture(page: Any, site: Site) -> None:
         "'red.svg'": ("red", None),
         "new URL('red.svg?1#a', document.baseURI)": ("red", None),
         "'red.svgz'": ("red", None),
+        "new URL('data:image/svg+xml,' + encodeURIComponent(text))": ("drawing", RED),
+        "URL.createObjectURL(new Blob([text]))": ("drawing", RED),
+        "new File([text], 'my.logo.svg')": ("my.logo", RED),
         "new File([text], 'a b.svg')": ("a b", RED),
         "new Blob([text])": ("drawing", RED),
         "new TextEncoder().encode(text)": ("drawing", RED),
@@ -400,6 +409,23 @@ def test_a_page_requests_only_its_own_files(page: Any, site: Site) -> None:
     assert all(url.startswith((site.address, "data:", "blob:", "about:")) for url in page.urls)
 
 
+def test_a_page_that_requires_trusted_types_converts(chromium: Any, site: Site) -> None:
+    context = chromium.new_context()
+    try:
+        opened = open_folder(context, site, "trusted")
+        drawing = svg('<style>.a { fill: #0f0 }</style><path class="a" d="M1 1h5v5z"/>')
+        for worker in (
+            "false",
+            "() => new Worker(trustedTypes.createPolicy('own', { createScriptURL: (url) => url })"
+            ".createScriptURL('worker.js'), { type: 'module' })",
+        ):
+            value = converted(opened, "text", f"{{ converter: new Converter({{ worker: {worker} }}) }}", drawing)
+            assert value.get("colors") == [[0, 1, 0]], value
+        assert opened.failures == []
+    finally:
+        context.close()
+
+
 @pytest.mark.parametrize(
     ("folder", "converter", "message"),
     [
@@ -422,6 +448,16 @@ def test_a_page_requests_only_its_own_files(page: Any, site: Site) -> None:
             "none.wasm: HTTP 404",
         ),
         ("lost", "new Converter({ worker: false, kernels: { silhouettes: 'red.svg' } })", "cannot be compiled"),
+        (
+            "trusted",
+            "undefined",
+            "the page requires Trusted Types: give a `worker` that starts it by a policy of the page",
+        ),
+        (
+            "distrusted",
+            "undefined",
+            "allow the policy 'vexture' in its Content-Security-Policy (trusted-types vexture)",
+        ),
         ("bare", "new Converter({ worker: false })", "this browser has no WebAssembly; convert the drawing with the"),
     ],
 )

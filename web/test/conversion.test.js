@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { convertData, fromContours } from '../src/convert/index.js';
+import { Converter, convertData, fromContours } from '../src/convert/index.js';
 import { layersOf } from '../src/layers.js';
 import { paintColor } from '../src/walk-map.js';
 import { VectorTexture } from '../src/vector-texture.js';
@@ -36,4 +36,10 @@ describe('drawings at the limits', () => {
       "many: 16,385 layers; a material shows 16,384 at most; give `split: 'faces'`, or divide the drawing",
     );
   });
+});
+
+test('a module of kernels that there is not is refused', () => {
+  expect(() => new Converter({ kernels: { map: 'maps.wasm' } })).toThrow('`kernels` have no "map"; there are silhouettes, maps, strokes');
+  expect(() => new Converter({ kernels: 'maps.wasm' })).toThrow('the kernels are "maps.wasm"; give an object');
+  expect(() => new Converter({ kernels: { maps: 'maps.wasm' } })).not.toThrow();
 });

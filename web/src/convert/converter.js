@@ -38,8 +38,9 @@ const LONGEST_DELAY = 2 ** 31 - 1;
  */
 const withoutWorker = (cause) =>
   new VextureError(
-    `the worker of conversions does not run (${shortened(cause)}); check the site's files and ` +
-      'its Content-Security-Policy (worker-src), or convert with `worker: false`',
+    `the worker of conversions does not run (${shortened(cause)}); ${/Trusted/.test(cause)
+      ? 'the page requires Trusted Types: give a `worker` that starts it by a policy of the page'
+      : 'check the site\'s files and its Content-Security-Policy (worker-src)'}, or convert with \`worker: false\``,
     'worker',
   );
 

@@ -6,6 +6,7 @@
 import { VextureError, givenOptions, line, unfit } from '../errors.js';
 import { loadMaps, mapParts } from '../maps.js';
 import { Converter } from './converter.js';
+import { describeContent } from './file-kinds.js';
 import { Pace } from './pace.js';
 import { readPacedGeojson } from './read-geojson.js';
 import { loadMarkup } from './source.js';
@@ -179,7 +180,8 @@ async function read(source, options) {
   const named = { ...options, name: name ?? stem };
   if (start === '<') return readNamed(text, named);
   if (start === '{') return readPacedGeojson(text, named, named.pace);
-  throw new VextureError(`${stem ?? 'the source'} begins with ${line(text.slice(0, 20))}; give SVG, GeoJSON or TopoJSON`, 'source');
+  const file = typeof File === 'function' && source instanceof File ? line(source.name) : stem ?? 'the source';
+  throw new VextureError(`${file} ${describeContent(text)}`, 'source');
 }
 
 /**
@@ -202,10 +204,11 @@ function placeOf(source) {
   throw new VextureError(`the source ${line(source)} is no address; give an SVG or GeoJSON as a text, address, file or element`, 'source');
 }
 
-/** @param {string} path @returns {string | undefined} name of the file without its suffixes */
+/** @param {string} path @returns {string | undefined} name of the file without its suffix, nor that of gzip; none of an address that is the data */
 function stemOf(path) {
+  if (/^(?:data|blob):/i.test(path)) return undefined;
   const file = path.replace(/[?#].*$/s, '').split(/[\\/]/).at(-1) ?? '';
-  const stem = file.replace(/(\.[a-z]+){1,2}$/i, '');
+  const stem = file.replace(/\.gz$/i, '').replace(/\.[a-z]+$/i, '');
   try {
     return decodeURIComponent(stem) || undefined;
   } catch {
