@@ -66,7 +66,7 @@ def test_the_tarball_has_what_it_needs_and_nothing_else(project: Path) -> None:
     package = project / "node_modules" / "vexture"
     assert (package / "LICENSE").read_text() == (ROOT / "LICENSE").read_text()
     folders = {path.name for path in package.iterdir()}
-    assert folders == {"LICENSE", "README.md", "generated", "kernels", "package.json", "src", "types"}
+    assert folders == {"LICENSE", "README.md", "bin", "generated", "kernels", "package.json", "src", "types"}
     for module in (package / "src").rglob("*.js"):
         types = package / "types" / module.relative_to(package).with_suffix(".d.ts")
         assert types.is_file()
