@@ -15,6 +15,7 @@ SCRIPTS_MAY_IMPORT = {
     "src/react": {"src"},
     "src/thesis": {"generated", "src"},
     "src/tiles": {"generated", "src"},
+    "src/typeset": {"generated", "src", "src/convert"},
     "src/vite": {"src", "src/convert"},
     "src/water": {"generated", "src"},
     "src/webgpu": {"generated", "src"},
