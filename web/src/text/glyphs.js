@@ -8,7 +8,7 @@ import { GrowingTexture } from './growing-texture.js';
 /** @import { Outcome, Request, TextLayout } from './layout.js' */
 
 /**
- * @typedef {object} GlyphsOptions
+ * @typedef {object} GlyphsOptions Where glyphs are made, and how much memory they may take.
  * @property {import('../convert/kernel-modules.js').KernelSources} [kernels] addresses or contents of the modules
  *   `silhouettes`, `maps` and `strokes`; by default those of this package
  * @property {(() => Worker) | false} [worker] starts the worker, for pages with their own way to load one; false sets texts in
@@ -55,7 +55,7 @@ export class Glyphs {
   /** @type {Set<WeakRef<GlyphUser>>} */
   #users = new Set();
   #isRestarting = false;
-  /** The texture with the shapes of all glyphs. */
+  /** The texture with the shapes of all glyphs. @internal */
   texture = new GrowingTexture();
 
   /** @param {GlyphsOptions} [options] */
@@ -72,6 +72,7 @@ export class Glyphs {
   /**
    * Set a text. Those that are requested at once are answered at once.
    *
+   * @internal
    * @param {Omit<Request, 'fonts'>} request
    * @param {{ font: FontSource | null, weight: number, isItalic: boolean }} wanted
    * @returns {Promise<TextLayout>}
@@ -96,7 +97,7 @@ export class Glyphs {
     await this.#ask({ preload: { fonts, characters } });
   }
 
-  /** Let something be told when its shapes get other indices. @param {GlyphUser} user @returns {() => void} ends it */
+  /** Let something be told when its shapes get other indices. @internal @param {GlyphUser} user @returns {() => void} ends it */
   follow(user) {
     const reference = new WeakRef(user);
     this.#users.add(reference);
