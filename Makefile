@@ -41,7 +41,7 @@ help:
 	@echo 'make viewer  build the pages of `vexture view` and `export`, of floods and of notebooks, with node and npm'
 	@echo 'make gallery  build a site of live, editable examples, with node and npm; it opens from the disk, too'
 	@echo 'make counties  build a page with a map of all counties of the United States, with node and npm'
-	@echo 'make wasm    compile the kernels that JavaScript calls to WebAssembly; make viewer does it, too'
+	@echo 'make wasm    compile the kernels that JavaScript calls to WebAssembly, and make its font; make viewer does it, too'
 	@echo 'make test    lint, types and all tests but the slow ones, with all that they need'
 	@echo 'make lint    the checks of style and types, with the tools that they need'
 	@echo 'make test-core  the tests of the core, without vexture-geo and vexture-evidence'
@@ -105,6 +105,7 @@ viewer: $(VIEWER) wasm
 
 # does nothing where the kernels and the tools have not changed; takes some minutes else
 wasm: .venv/for-wasm
+	@$(BIN)/python tools/make_default_font.py
 	@$(BIN)/python tools/build_wasm.py
 
 demo: .venv/for-demo
@@ -207,7 +208,7 @@ checks-web:
 kernels: .venv/for-test
 	@echo 'compiling the kernels once, before the tests run side by side ...'
 	@set -e; scratch=$$(mktemp -d); trap 'rm -rf "$$scratch"' EXIT; exec >"$$scratch/log"; \
-	$(BIN)/python tools/build_wasm.py & wasm=$$!; \
+	$(BIN)/python tools/make_default_font.py; $(BIN)/python tools/build_wasm.py & wasm=$$!; \
 	( $(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact && \
 		$(BIN)/python -m pytest --quiet tests/core/bezier/test_known_curves.py && \
 		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/thesis" --encoding thesis && \

@@ -25,7 +25,7 @@ from kernel_calls import ahead_calls
 from kernel_code import RUN_TIME, join_modules, object_file
 from vexture.base.kernels import Kernel, text_digest
 from vexture.base.machine_code import RELEASE, SHIPPED, Code, argument_type, host, load
-from vexture.tree.growth import WAITING, Growth, tree_of
+from vexture.tree.growth import WAITING, WHOLE, Growth, tree_of
 
 
 class Processor(NamedTuple):
@@ -94,7 +94,7 @@ def write(
 def is_growth(values: tuple[Any, ...]) -> bool:
     """Whether a tuple, which may have lost its name in machine code, is a tree that grows."""
     fields = Growth._fields
-    return len(values) == len(fields) and np.shape(values[fields.index("counts")]) == (WAITING + 1,)
+    return len(values) == len(fields) and np.shape(values[fields.index("counts")]) == (WHOLE + 1,)
 
 
 def bits(values: Any) -> Any:

@@ -120,7 +120,7 @@ def _build_tarball(folder: Path, copy: Path, output: Path, repository: str | Non
     """Pack what package.json names, with its types built first."""
     package: dict[str, Any] = json.loads((folder / "package.json").read_text(encoding="utf-8"))
     _run(["npm", "run", "--silent", "prepack"], folder)
-    _copy(folder, copy, package["files"])
+    _copy(folder, copy, [name for name in package["files"] if not name.startswith("!")])  # npm leaves these out
     _complete(folder, copy, package["version"], repository)
     if repository:
         home = folder.relative_to(ROOT).as_posix()

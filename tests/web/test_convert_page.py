@@ -1,12 +1,8 @@
-"""`vexture/convert` in a page: every source, the worker, limits, and what a page's policy or a bad source leads to."""
+"""`vexture/convert` in a page: every source, and what a bad source leads to."""
 
 import base64
-import functools
 import gzip
-import http.server
 import re
-import shutil
-import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -14,20 +10,13 @@ from typing import Any
 import numpy as np
 import pytest
 from bad_sources import BAD
+from convert_site import RED, Site, converted, open_folder, served_site, svg
 
 import vexture
-from build_wasm import OUTPUT
-from chromium import ROOT, WEB, bundle
+from chromium import ROOT, WEB
 
-PAGES = Path(__file__).parent / "pages"
 DUCK = ROOT / "examples" / "shapes" / "duck.svg"
 BADGE = WEB / "test" / "fixtures" / "badge.svg"
-POLICY = "default-src 'self'; style-src 'unsafe-inline'"
-"""A policy without 'wasm-unsafe-eval'."""
-
-HEAD = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">'
-SCRIPT = '<script type="module" src="page.js"></script>'
-LOGO = '<div style="color: #00f"><svg id="logo" viewBox="0 0 9 9"><path fill="currentColor" d="M1 1h5v5z"/></svg></div>'
 
 TOWNS = '{"type": "Polygon", "coordinates": [[[8, 47], [9, 47], [9, 48], [8, 47]]]}'
 TOPOLOGY = (
@@ -36,90 +25,18 @@ TOPOLOGY = (
 )
 
 
-def svg(body: str, root: str = 'viewBox="0 0 9 9"') -> str:
-    return f'<svg xmlns="http://www.w3.org/2000/svg" {root}>{body}</svg>'
-
-
-RED = svg('<path fill="#f00" d="M1 1h5v5z"/>')
-
-
-class Site:
-    """Folder of a page, its address, and the paths that were requested of its server."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder, self.address = folder, ""
-        self.paths: list[str] = []
-
-    def handler(self) -> Any:
-        site = self
-
-        class Handler(http.server.SimpleHTTPRequestHandler):
-            extensions_map = {".js": "text/javascript", ".wasm": "application/wasm", "": "text/html"}  # noqa: RUF012
-
-            def do_GET(self) -> None:
-                site.paths.append(self.path)
-                super().do_GET()
-
-            def end_headers(self) -> None:
-                self.send_header("Cache-Control", "no-store")
-                if self.path.startswith("/strict/"):
-                    self.send_header("Content-Security-Policy", POLICY)
-                super().end_headers()
-
-            def log_message(self, *arguments: object) -> None:
-                """Log nothing."""
-
-        return functools.partial(Handler, directory=str(self.folder))
-
-
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
-    """A site whose bundles lie in folders: `strict` has a policy, `lost` has no worker, `bare` no WebAssembly."""
-    if not all((OUTPUT / f"{name}.wasm").is_file() for name in ("silhouettes", "maps", "strokes")):
-        pytest.skip("no kernels (make wasm)")
-    folder = tmp_path_factory.mktemp("convert")
-    shutil.copytree(OUTPUT, folder / "kernels")
-    usual = folder / "usual"
-    bundle(PAGES / "convert.js", usual / "page.js")
-    bundle(WEB / "src" / "convert" / "worker.js", usual / "worker.js")
-    (usual / "index.html").write_text(HEAD + LOGO + SCRIPT, encoding="utf-8")
-    (usual / "red.svg").write_text(RED, encoding="utf-8")
-    for name in ("strict", "lost", "bare"):
-        shutil.copytree(usual, folder / name)
-    (folder / "lost" / "worker.js").unlink()
-    (folder / "bare" / "index.html").write_text(f"{HEAD}<script>delete WebAssembly</script>{SCRIPT}", encoding="utf-8")
-    one = Site(folder)
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), one.handler())
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    one.address = f"http://127.0.0.1:{server.server_port}"
-    yield one
-    server.shutdown()
-    server.server_close()
+    with served_site(tmp_path_factory.mktemp("convert")) as one:
+        yield one
 
 
 @pytest.fixture(scope="module")
 def page(chromium: Any, site: Site) -> Iterator[Any]:
-    """The usual page, and in `urls` all that it requests."""
-    with_context = chromium.new_context()
-    opened = open_folder(with_context, site, "usual")
-    yield opened
-    with_context.close()
-
-
-def open_folder(context: Any, site: Site, name: str) -> Any:
-    opened = context.new_page()
-    opened.urls, opened.failures = [], []
-    opened.on("request", lambda request: opened.urls.append(request.url))
-    opened.on("pageerror", lambda error: opened.failures.append(str(error)))
-    opened.goto(f"{site.address}/{name}/")
-    opened.wait_for_function("window.outcome")
-    return opened
-
-
-def converted(page: Any, source: str, options: str = "{}", value: Any = None) -> dict[str, Any]:
-    """Outcome of converting a source, which is an expression; `value` is there as `text`."""
-    found: dict[str, Any] = page.evaluate(f"async (text) => outcome(convert({source}, {options}))", value)
-    return found
+    """The usual page."""
+    context = chromium.new_context()
+    yield open_folder(context, site, "usual")
+    context.close()
 
 
 def test_every_source_is_a_texture(page: Any, site: Site) -> None:
@@ -131,6 +48,9 @@ def test_every_source_is_a_texture(page: Any, site: Site) -> None:
         "'red.svg'": ("red", None),
         "new URL('red.svg?1#a', document.baseURI)": ("red", None),
         "'red.svgz'": ("red", None),
+        "new URL('data:image/svg+xml,' + encodeURIComponent(text))": ("drawing", RED),
+        "URL.createObjectURL(new Blob([text]))": ("drawing", RED),
+        "new File([text], 'my.logo.svg')": ("my.logo", RED),
         "new File([text], 'a b.svg')": ("a b", RED),
         "new Blob([text])": ("drawing", RED),
         "new TextEncoder().encode(text)": ("drawing", RED),
@@ -186,19 +106,6 @@ def test_what_is_left_out_is_noted(page: Any) -> None:
     assert "blur" in value["notes"][0]["message"]
 
 
-def test_the_page_answers_while_the_worker_converts(page: Any) -> None:
-    value = page.evaluate("async () => { const d = await readSvg(heavy(60)); return watched(convert(d)); }")
-    assert value["isTexture"]
-    assert value["ms"] > 100
-    assert value["ticks"] > value["ms"] / 40
-    assert len(page.workers) == 1
-    here = "convert(d, { converter: new Converter({ worker: false }) })"
-    value = page.evaluate(f"async () => {{ const d = await readSvg(heavy(60)); return watched({here}); }}")
-    assert value["isTexture"]
-    assert value["ticks"] < value["ms"] / 40
-    assert len(page.workers) == 1
-
-
 def test_progress_is_told(page: Any) -> None:
     stages = page.evaluate(
         "async (text) => { const found = [];"
@@ -206,83 +113,6 @@ def test_progress_is_told(page: Any) -> None:
         RED,
     )
     assert stages == ["read", "convert", "done"]
-
-
-def test_a_signal_stops_a_conversion_with_its_reason(page: Any) -> None:
-    before = converted(page, "text", "{ signal: AbortSignal.abort(new RangeError('no more')) }", RED)
-    assert before["error"] == "RangeError: no more"
-    loading = converted(page, "'red.svg'", "{ signal: AbortSignal.abort() }")
-    assert loading["error"].startswith("AbortError: ")
-    during = page.evaluate(
-        """async () => {
-          const drawing = await readSvg(heavy());
-          const stop = new AbortController();
-          setTimeout(() => stop.abort(new RangeError('no more')), 100);
-          const other = new AbortController();
-          const waiting = outcome(convert(drawing, { signal: other.signal }));
-          const all = [outcome(convert(drawing, { signal: stop.signal })), outcome(convert('red.svg'))];
-          other.abort('other');
-          return Promise.all([waiting, ...all]);
-        }"""
-    )
-    assert [one.get("error") for one in during] == ["undefined: other", "RangeError: no more", None]
-    assert during[1]["ms"] < 1500
-    assert during[2]["isTexture"]
-    queued = page.evaluate(
-        """async () => {
-          const drawing = await readSvg(heavy());
-          const [first, second] = [new AbortController(), new AbortController()];
-          const running = outcome(convert(drawing, { signal: first.signal }));
-          const waiting = outcome(convert(drawing, { signal: second.signal }));
-          setTimeout(() => second.abort('second'), 50);
-          const early = await waiting;
-          first.abort('first');
-          return [early, await running];
-        }"""
-    )
-    assert [one["error"] for one in queued] == ["undefined: second", "undefined: first"]
-    assert page.failures == []
-
-
-def test_an_abort_while_a_body_is_read_has_its_reason(page: Any) -> None:
-    value = page.evaluate(
-        """async () => {
-          const usual = window.fetch;
-          const stop = new AbortController();
-          window.fetch = async (url, { signal }) => new Response(new ReadableStream({
-            start(controller) {
-              controller.enqueue(new TextEncoder().encode('<svg'));
-              signal.addEventListener('abort', () => controller.error(signal.reason));
-            },
-          }));
-          setTimeout(() => stop.abort(new RangeError('no more')), 20);
-          try {
-            return await outcome(convert('slow.svg', { signal: stop.signal }));
-          } finally {
-            window.fetch = usual;
-          }
-        }"""
-    )
-    assert value["error"] == "RangeError: no more"
-
-
-def test_what_takes_too_long_is_one_error(page: Any) -> None:
-    for converter in ("undefined", "new Converter({ worker: false })"):
-        value = page.evaluate(
-            f"async () => outcome(convert(await readSvg(heavy(), {{ name: 'knot' }}), {{ maxSeconds: 0.05,"
-            f" converter: {converter} }}))"
-        )
-        assert value["error"] == (
-            "VextureError: knot: converting takes longer than 0.05 s; give a larger `maxSeconds`, or a simpler drawing"
-        )
-        assert value["field"] == "maxSeconds"
-        assert value["ms"] < 4000
-    assert converted(page, "text", value=RED)["isTexture"]
-    for limit in ("Infinity", "1e9"):
-        assert converted(page, "text", f"{{ maxSeconds: {limit} }}", RED).get("isTexture"), limit
-    for limit in ("NaN", "-1", "'much'"):
-        value = converted(page, "text", f"{{ maxSeconds: {limit} }}", RED)
-        assert "is no number above 0; leave it out" in value["error"], limit
 
 
 def test_a_bad_source_is_one_error_and_the_page_goes_on(page: Any) -> None:
@@ -347,41 +177,3 @@ def test_a_page_requests_only_its_own_files(page: Any, site: Site) -> None:
     ]
     assert {*site.paths} == {"/usual/worker.js", "/kernels/strokes.wasm", "/kernels/maps.wasm"}
     assert all(url.startswith((site.address, "data:", "blob:", "about:")) for url in page.urls)
-
-
-@pytest.mark.parametrize(
-    ("folder", "converter", "message"),
-    [
-        ("strict", "undefined", "allow it by the policy script-src 'wasm-unsafe-eval'"),
-        ("strict", "new Converter({ worker: false })", "allow it by the policy script-src 'wasm-unsafe-eval'"),
-        (
-            "strict",
-            "new Converter({ worker: () => new Worker(URL.createObjectURL(new Blob(['']))) })",
-            "(worker-src), or convert with `worker: false`",
-        ),
-        ("lost", "undefined", "the worker of conversions does not run (it cannot be loaded); check the site's files"),
-        (
-            "lost",
-            "new Converter({ worker: () => { throw new Error('no\\nworkers') } })",
-            "the worker of conversions does not run (no workers); check the site's files",
-        ),
-        (
-            "lost",
-            "new Converter({ worker: false, kernels: { silhouettes: 'none.wasm' } })",
-            "none.wasm: HTTP 404",
-        ),
-        ("lost", "new Converter({ worker: false, kernels: { silhouettes: 'red.svg' } })", "cannot be compiled"),
-        ("bare", "new Converter({ worker: false })", "this browser has no WebAssembly; convert the drawing with the"),
-    ],
-)
-def test_what_a_page_lacks_is_one_error(chromium: Any, site: Site, folder: str, converter: str, message: str) -> None:
-    context = chromium.new_context()
-    try:
-        opened = open_folder(context, site, folder)
-        value = converted(opened, "text", f"{{ converter: {converter} }}", RED)
-        assert value.get("error", "").startswith("VextureError: "), value
-        assert message in value["error"]
-        assert "\n" not in value["error"]
-        assert opened.failures == []
-    finally:
-        context.close()

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from chromium import ROOT, WEB
+from dist import build
 
 MODULES = WEB / "node_modules"
 
@@ -66,10 +67,18 @@ def test_the_tarball_has_what_it_needs_and_nothing_else(project: Path) -> None:
     package = project / "node_modules" / "vexture"
     assert (package / "LICENSE").read_text() == (ROOT / "LICENSE").read_text()
     folders = {path.name for path in package.iterdir()}
-    assert folders == {"LICENSE", "README.md", "generated", "kernels", "package.json", "src", "types"}
+    assert folders == {"LICENSE", "README.md", "bin", "fonts", "generated", "kernels", "package.json", "src", "types"}
     for module in (package / "src").rglob("*.js"):
         types = package / "types" / module.relative_to(package).with_suffix(".d.ts")
         assert types.is_file()
+
+
+@pytest.mark.slow
+def test_a_release_has_the_same_files(project: Path, tmp_path: Path) -> None:
+    (released,) = build(WEB, tmp_path)
+    (packed,) = project.glob("*.tgz")
+    with tarfile.open(released) as one, tarfile.open(packed) as other:
+        assert sorted(one.getnames()) == sorted(other.getnames())
 
 
 @pytest.mark.slow

@@ -84,7 +84,16 @@ export function givenOptions(options, name = 'options') {
 function json(value) {
   try {
     return JSON.stringify(value) ?? String(value);
-  } catch { // a bigint, or a circular object
+  } catch { // a bigint, a circular object, or lists in one another by the thousand
+    return shallow(value);
+  }
+}
+
+/** @param {unknown} value */
+function shallow(value) {
+  try {
     return String(value);
+  } catch {
+    return 'a value nested too deeply';
   }
 }

@@ -10,7 +10,10 @@ import { ROOT_ATTRIBUTE } from './attributes.js';
 export const GLYPH = Object.freeze({
   /** x, y and z of the lower left corner of the unit square of the shape, and its side. */
   place: 'vextureGlyph',
-  /** The part of the unit square that is shown: left, bottom, right and top. */
+  /**
+   * The part of the unit square that is shown: left, bottom, right and top. Of what is clipped, left and bottom are above
+   * 0, and right and top have a minus sign: it has no rim there.
+   */
   box: 'vextureBox',
   /** Quaternion of the rotation of the glyph around that corner. */
   turn: 'vextureTurn',
@@ -98,8 +101,9 @@ ${put}vec3 vextureOfGlyph(vec2 at) {
  * @param {Instances} instances
  */
 export const glyphPlaced = (instances) => `{
-  vec2 vextureSize = (${GLYPH.box}.zw - ${GLYPH.box}.xy) * ${GLYPH.place}.w;
-  vec2 vextureAt = mix(${GLYPH.box}.xy, ${GLYPH.box}.zw, position.xy) * ${GLYPH.place}.w;
+  vec2 vextureSize = (abs(${GLYPH.box}.zw) - ${GLYPH.box}.xy) * ${GLYPH.place}.w;
+  vec2 vextureAt = mix(${GLYPH.box}.xy, abs(${GLYPH.box}.zw), position.xy) * ${GLYPH.place}.w;
+  vec2 vextureOutwards = mix(-step(${GLYPH.box}.xy, vec2(0.0)), step(0.0, ${GLYPH.box}.zw), position.xy);
   mat4 vextureToClip = projectionMatrix * modelViewMatrix;
   vec3 vextureCorner = vextureOfGlyph(vec2(0.0));
   vec3 vextureAlongU = vextureOfGlyph(vec2(1.0, 0.0)) - vextureCorner;
@@ -115,7 +119,7 @@ export const glyphPlaced = (instances) => `{
   vec2 vextureRim = ${(0.5 * (1 + MARGIN)).toFixed(4)} *
     vec2(abs(vextureV.x) + abs(vextureV.y), abs(vextureU.x) + abs(vextureU.y)) / vextureArea;
   vextureRim = min(vextureRim, ${MOST_RIM.toFixed(1)} * max(vextureSize.x, vextureSize.y));
-  vextureAt += (2.0 * position.xy - 1.0) * vextureRim;
+  vextureAt += vextureOutwards * vextureRim;
   transformed = vextureCorner + vextureAt.x * vextureAlongU + vextureAt.y * vextureAlongV;
   vextureUv = vextureAt / ${GLYPH.place}.w;
 ${instances === 'glyphs' ? '' : '  vextureTint = vextureOfLabel(2u);\n  if (vextureTint.a == 0.0) transformed = vextureCorner;\n'}}

@@ -1,8 +1,10 @@
 import { describe, expect, test } from 'vitest';
 import { mediaOf } from '../src/convert/cascade.js';
-import { openSvg } from '../src/convert/cascade-engine.js';
+import * as engine from '../src/convert/cascade-engine.js';
+import { Pace, atOnce } from '../src/convert/pace.js';
 
 /** @param {string} inner @param {string} [attributes] of the outermost element */
+const openSvg = (text) => atOnce(engine.openSvg(text, new Pace()));
 const open = (inner, attributes = '') => openSvg(`<svg xmlns="http://www.w3.org/2000/svg" ${attributes}>${inner}</svg>`);
 const styleOf = (engine, id) => engine.style(engine.target(`#${id}`));
 

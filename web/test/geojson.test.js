@@ -6,6 +6,15 @@ const polygon = { type: 'Polygon', coordinates: [ring] };
 const feature = (properties, rest = {}) => ({ type: 'Feature', geometry: polygon, properties, ...rest });
 
 describe('readGeojson', () => {
+  test('obeys its signal and its time limit', async () => {
+    const rings = Array.from({ length: 200_000 }, () => [ring]);
+    const many = { type: 'MultiPolygon', coordinates: rings };
+    await expect(readGeojson(many, { maxSeconds: 0.01 })).rejects.toThrow('reading takes longer than 0.01 s; give a larger `maxSeconds`');
+    const stop = new AbortController();
+    setTimeout(() => stop.abort(new RangeError('no more')), 5);
+    await expect(readGeojson(many, { signal: stop.signal })).rejects.toThrow('no more');
+  });
+
   test('fits the bounding box into the unit square, as Python does', async () => {
     const { paths, toSource: [a, b, c, d, e, f], crs, sides } = await readGeojson(JSON.stringify(polygon));
     const [contour] = paths[0].contours;
@@ -50,7 +59,11 @@ describe('readGeojson', () => {
     ['{"type": "Polygon", "coordinates": [[[1, 2], [3, 4]]]}', 'left out: ring of fewer than three positions'],
     ['{"type": "Polygon", "coordinates": [[[1, 2], [3, "x"], [5, 6]]]}', 'ring 1, position 2 is [3,"x"]; it must be two finite numbers'],
     ['{"type": "Polygon", "coordinates": [[[1, 2], [3, 2], [5, 2]]]}', 'both must be above 0'],
-  ])('refuses %s', async (text, message) => {
+    [`{"type":"Polygon","coordinates":${'['.repeat(1e5)}${']'.repeat(1e5)}}`, 'its lists are nested too deeply; GeoJSON needs no more than a few levels'],
+    ['{"type":"GeometryCollection","geometries":['.repeat(1e5) + ']}'.repeat(1e5), 'is nested more than 32 deep; flatten it'],
+    [`{"type":"Feature","properties":{"fill":${'['.repeat(1e5)}${']'.repeat(1e5)}},"geometry":null}`, 'it holds no polygon'],
+    [' '.repeat(2 ** 25 + 1), 'the text has 33,554,433 letters; a page reads 33,554,432; simplify or split it, or convert it'],
+  ])('refuses %.60s', async (text, message) => {
     await expect(readGeojson(text)).rejects.toThrow(message);
   });
 });

@@ -39,8 +39,8 @@ class Package:
     folder: str
 
     def all(self) -> list[Path]:
-        """Return its SVG files, sorted."""
-        return sorted((self.installed_folder() / self.folder).glob("*.svg"))
+        """Return its SVG files, those in folders of the folder too, sorted."""
+        return sorted((self.installed_folder() / self.folder).rglob("*.svg"))
 
     def files(self, count: int, seed: int) -> list[Path]:
         """Return `count` of its SVG files, drawn at random without repetition."""
@@ -196,8 +196,7 @@ def icons_logos_and_flags(seed: int) -> list[Path]:
     }
     found = list[Path]()
     for package, count in counts.items():
-        files = sorted((package.installed_folder() / package.folder).rglob("*.svg"))
-        found += random.Random(seed).sample(files, count)
+        found += package.files(count, seed)
     return found
 
 

@@ -60,7 +60,7 @@ def files_of(collection: corpora.Package | corpora.DebianPackage) -> list[Path]:
     """All drawings of a collection, in any of its folders."""
     if isinstance(collection, corpora.DebianPackage):
         return collection.files("*.svg")
-    return sorted((collection.installed_folder() / collection.folder).rglob("*.svg"))
+    return collection.all()
 
 
 def draw_on_white(drawing: Drawing, sides: tuple[int, int], size: tuple[float, float]) -> NDArray[np.int16]:

@@ -14,6 +14,9 @@ from vexture import Drawing, convert
 from vexture.base import machine_code
 from vexture.base.kernels import Kernel
 from vexture.texture.load import texture_from
+from vexture.tree.bounds import bounds_of
+from vexture.tree.build import SLICE, grow
+from vexture.tree.cubics import outlines_of
 from vexture.tree.planar.faces import new_faces
 
 ROOT = Path(__file__).parents[3]
@@ -179,7 +182,11 @@ print(code(*arguments)[1:], 'numba' in sys.modules)
 
 
 def test_what_is_compared_of_code_tells_trees_that_grow_from_other_tables() -> None:
-    """A table of faces has as many fields as a tree: it is compared as it is."""
+    """A table of faces has as many fields as a tree: it is compared as it is. Free rows of a tree are not compared."""
+    square = outlines_of(Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.9, 0.9), (0.1, 0.9)]))
+    tree, _ = grow.dispatcher(*square, bounds_of(0.0, 16, 8, None, 99), SLICE, 0)
+    other = tree._replace(curves=np.concatenate([tree.curves, tree.curves]))
+    assert compile_kernels.bits(tuple(tree)) == compile_kernels.bits(tuple(other))
     faces = new_faces(8, 8)
     assert len(faces) == len(compile_kernels.Growth._fields)
     assert len(compile_kernels.bits(tuple(faces))) == len(faces)

@@ -75,12 +75,19 @@ def test_no_texels_where_a_limit_is_passed() -> None:
     *_, quads, curves, paints, _ = coloured_texels(source, BOUNDS, 0, 0, ENDLESS, ENDLESS)
     assert paints > 0
     size = 3 * quads + curves + curves // 4
-    for most_quads, most_texels, most_work in ((5, ENDLESS, ENDLESS), (10**6, size // 2, ENDLESS), (10**6, size, 9)):
+    many = 10**6
+    passed_at_last = ((quads - 1, ENDLESS, ENDLESS), (many, size - 1, ENDLESS))  # by the last cell
+    for most_quads, most_texels, most_work in (
+        *passed_at_last,
+        (5, ENDLESS, ENDLESS),
+        (many, size // 2, ENDLESS),
+        (many, size, 9),
+    ):
         limits = BOUNDS._replace(most_quads=most_quads)
         answer = coloured_texels(source, limits, 0, 0, most_texels, most_work)
         texels, _, _, _, outside, *_, quads, curves, paints, _ = answer
         assert (len(texels), outside, paints) == (0, 0.0, 0)
-        assert (quads > most_quads) == (most_quads == 5)
+        assert (quads > most_quads) == (most_quads < many)
         assert (3 * quads + curves + curves // 4 > most_texels) == (most_texels < size)
 
 

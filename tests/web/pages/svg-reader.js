@@ -1,6 +1,4 @@
 // Reads SVG for tests; outlines of strokes come from the server.
-import { openSvg } from '../../../web/src/convert/page-engine.js';
-import { readSvg } from '../../../web/src/convert/read-svg.js';
 import { svgDrawing } from '../../../web/src/convert/svg.js';
 
 function strokeOutline(cubics, closed, style) {
@@ -12,16 +10,11 @@ function strokeOutline(cubics, closed, style) {
 
 const plain = (path) => ({ ...path, contours: path.contours.map((contour) => [...contour]) });
 
-window.readText = (text, name) => {
+window.readText = async (text, name) => {
   const start = performance.now();
   try {
-    const engine = openSvg(text);
-    try {
-      const drawing = readSvg(engine, { name, strokeOutline });
-      return { ...drawing, paths: drawing.paths.map(plain), ms: performance.now() - start };
-    } finally {
-      engine.close();
-    }
+    const drawing = await svgDrawing(text, { name, strokeOutline });
+    return { ...drawing, paths: drawing.paths.map(plain), ms: performance.now() - start };
   } catch (error) {
     return { error: `${error.name}: ${error.message}`, stack: error.stack, ms: performance.now() - start };
   }

@@ -5,6 +5,7 @@ import { Cascade } from './cascade.js';
 import { SVG } from './parse.js';
 import { parseXml } from './parse-xml.js';
 
+/** @import { Pace, Steps } from './pace.js' */
 /** @import { Engine, Style } from './page-engine.js' */
 /** @import { XmlElement } from './parse-xml.js' */
 
@@ -59,11 +60,14 @@ const toRgb = converter('rgb');
  * Open a document.
  *
  * @param {string} text
- * @returns {Engine}
+ * @param {Pace} pace
+ * @returns {Steps<Engine>}
  * @throws {VextureError} if it is no SVG, or exceeds a limit
  */
-export function openSvg(text) {
-  return new CascadeEngine(parseXml(text));
+export function* openSvg(text, pace) {
+  const engine = new CascadeEngine(yield* parseXml(text, pace));
+  yield* engine.prepare(pace);
+  return engine;
 }
 
 /** @implements {Engine} */
@@ -86,7 +90,6 @@ class CascadeEngine {
     this.cascade = new Cascade(root, (message) => this.#note(message));
     /** @type {Instance} */
     this.root = { base: root, parent: null, children: null, original: null };
-    this.#prepare(this.root);
   }
 
   /** @param {string} message */
@@ -94,10 +97,11 @@ class CascadeEngine {
     this.stripped.set(message, (this.stripped.get(message) ?? 0) + 1);
   }
 
-  /** Find the ids, and note what no drawing has, as the engine of a page does. @param {Instance} root */
-  #prepare(root) {
-    const stack = [root];
+  /** Find the ids, and note what no drawing has, as the engine of a page does. @param {Pace} pace @returns {Steps<void>} */
+  *prepare(pace) {
+    const stack = [this.root];
     for (let one = stack.pop(); one; one = stack.pop()) {
+      if (pace.isDue()) yield;
       const { attributes, children } = one.base;
       const id = attributes.get('id');
       if (id && !this.#ids.has(id)) this.#ids.set(id, one);
@@ -107,7 +111,7 @@ class CascadeEngine {
         if (child.local === 'script') this.#note('script');
         else if (isAnimation(child)) this.#note('animation');
       }
-      stack.push(...this.children(one).reverse());
+      for (const child of this.children(one).reverse()) stack.push(child);
     }
   }
 
@@ -196,8 +200,8 @@ class CascadeEngine {
     return found;
   }
 
-  /** @param {string} text @returns {Engine} */
-  open = (text) => new CascadeEngine(parseXml(text));
+  /** @param {string} text @param {Pace} pace @returns {Steps<Engine>} */
+  open = (text, pace) => openSvg(text, pace);
 
   close() {}
 }

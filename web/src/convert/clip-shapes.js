@@ -47,9 +47,9 @@ const MAKERS = { circle, ellipse, inset, rect, xywh, polygon, path };
  * @param {import('./scene.js').Scene} scene
  * @param {any} element
  * @param {import('./space.js').Place} place
- * @returns {ClipShape | null}
+ * @returns {import('./pace.js').Steps<ClipShape | null>}
  */
-export function clipShape(scene, element, place) {
+export function* clipShape(scene, element, place) {
   const value = place.style.get('clip-path');
   if (element === scene.root || ['clipPath', 'mask'].includes(scene.engine.name(element) ?? '')) return null;
   const match = /^(.*?)(?:([a-z]+)\((.*)\))?([^()]*)$/is.exec(value.trim());
@@ -59,7 +59,7 @@ export function clipShape(scene, element, place) {
   const kind = names.length ? BOXES[names[0]] : 'stroke';
   const [left, top, width, height] = kind === 'view'
     ? [0, 0, place.view.width, place.view.height]
-    : scene.around(element, place, kind === 'stroke') ?? [0, 0, 0, 0];
+    : (yield* scene.around(element, place, kind === 'stroke')) ?? [0, 0, 0, 0];
   const tolerance = ROUND * scene.size / stretch(place.space.whole);
   const box = { left, top, view: viewport(width, height, place.view.rem), fontSize: place.style.fontSize, tolerance };
   return make ? make(match[3], box) : upright(left, top, width, height);

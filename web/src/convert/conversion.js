@@ -2,6 +2,7 @@
 import { LATTICE, MAP_HEAD, MOST_CURVES, MOST_DEPTH, MOST_ROWS, ROW_BITS } from '../../generated/layout.js';
 import { VextureError, line } from '../errors.js';
 import { KernelModules } from './kernel-modules.js';
+import { MAX_SECONDS, checkSeconds } from './pace.js';
 import { sheetsOf } from './sheets.js';
 import { silhouetteOf } from './silhouette.js';
 import { layersOf, splitOf, withoutGradients, withoutMasks } from './split.js';
@@ -45,9 +46,6 @@ import { layersOf, splitOf, withoutGradients, withoutMasks } from './split.js';
  * @property {import('../style.js').Style | null} [style]
  */
 
-/** Time limit without an option. */
-export const MAX_SECONDS = 60;
-
 /** Lattice units by which a curve may move, because its points are rounded when it is cut, and again in its leaf. */
 const DISPLACEMENT = 2;
 
@@ -81,6 +79,8 @@ export class Conversion {
     const isMap = way === 'faces' && drawing.paths.length > 0;
     const kernels = await this.modules.load(isMap ? 'maps' : 'silhouettes');
     const bounds = boundsOf(kernels, limits);
+    checkSides(shown, bounds);
+    checkLayers(drawing.name, layers.length);
     const { tolerance } = bounds;
     const usual = boundsOf(kernels, { ...limits, precision: undefined, tolerance });
     const sheets = isMap
@@ -108,6 +108,31 @@ function silhouettesOf(kernels, drawings, bounds) {
     first += texels.length / 4;
     return { drawing, texels, isMap: false };
   });
+}
+
+/**
+ * Refuse a drawing so narrow that rounding would leave nothing of it, or another width.
+ *
+ * @param {Drawing} drawing
+ * @param {Bounds} bounds
+ * @throws {VextureError} if its shorter side is less than the largest shift by rounding
+ */
+function checkSides({ name, sides = [1, 1], paths }, { leastDepth }) {
+  const side = Math.min(...sides);
+  const shift = DISPLACEMENT * 0.5 ** leastDepth / LATTICE;
+  if (side >= shift || !paths.length) return;
+  const [part, most, precision] = [side, shift, side / 10].map((value) => value.toExponential(1));
+  throw new VextureError(
+    `${name}: its shorter side is ${part} of the longer one; rounding shifts by up to ${most} of it; give a \`precision\` of ${precision}, or a wider view box`,
+    'precision',
+  );
+}
+
+/** @param {string} name @param {number} count of layers @throws {VextureError} if no material can show so many */
+function checkLayers(name, count) {
+  if (count <= MOST_ROWS) return;
+  const [layers, most] = [count, MOST_ROWS].map((value) => value.toLocaleString('en-US'));
+  throw new VextureError(`${name}: ${layers} layers; a material shows ${most} at most; give \`split: 'faces'\`, or divide the drawing`, 'split');
 }
 
 /** @param {unknown} value @returns {value is number} texts compare like numbers, but are none */
@@ -138,7 +163,7 @@ function boundsOf({ constants }, { precision, tolerance, maxDepth = constants.MA
   }
   const leastDepth = precision === undefined ? 1 : Math.max(Math.ceil(Math.log2(DISPLACEMENT / (precision * LATTICE))), 1);
   const near = COINCIDENT * (precision ?? (0.5 * DISPLACEMENT) / LATTICE);
-  if (!(isNumber(maxSeconds) && maxSeconds > 0)) throw new VextureError(`\`maxSeconds\` ${line(maxSeconds)} is no number above 0; leave it out`, 'maxSeconds');
+  checkSeconds(maxSeconds);
   return { capacity, tolerance: allowed, near, leastDepth, maxDepth, maxSeconds };
 }
 

@@ -1,6 +1,7 @@
 // Runs conversions: in one worker, one after another, or in this thread where there are no workers.
 import { VextureError, line, shortened } from '../errors.js';
-import { Conversion, MAX_SECONDS } from './conversion.js';
+import { Conversion } from './conversion.js';
+import { MAX_SECONDS } from './pace.js';
 import { overtime } from './silhouette.js';
 import { outlineStroke } from './stroke-outline.js';
 
@@ -18,6 +19,7 @@ import { outlineStroke } from './stroke-outline.js';
  * @property {Drawing} drawing what `readSvg`, `readGeojson` or `fromContours` has made
  * @property {ConversionOptions} options of the conversion
  * @property {AbortSignal} [signal] stops it
+ * @property {number} [spent] seconds of its time limit that reading has taken
  *
  * @typedef {object} Waiting A job that waits for the worker.
  * @property {Job} job
@@ -36,8 +38,9 @@ const LONGEST_DELAY = 2 ** 31 - 1;
  */
 const withoutWorker = (cause) =>
   new VextureError(
-    `the worker of conversions does not run (${shortened(cause)}); check the site's files and ` +
-      'its Content-Security-Policy (worker-src), or convert with `worker: false`',
+    `the worker of conversions does not run (${shortened(cause)}); ${/Trusted/.test(cause)
+      ? 'the page requires Trusted Types: give a `worker` that starts it by a policy of the page'
+      : 'check the site\'s files and its Content-Security-Policy (worker-src)'}, or convert with \`worker: false\``,
     'worker',
   );
 
@@ -138,7 +141,7 @@ export class Converter {
    * @param {Job} job
    * @returns {Promise<Converted>}
    */
-  #convertInWorker({ drawing, options, signal }) {
+  #convertInWorker({ drawing, options, signal, spent = 0 }) {
     signal?.throwIfAborted();
     const worker = (this.#worker ??= this.#begin());
     const { maxSeconds = MAX_SECONDS } = options;
@@ -150,7 +153,7 @@ export class Converter {
       };
       const timer = setTimeout(() => {
         end(overtime(drawing.name, { maxSeconds }));
-      }, Math.min(1000 * (maxSeconds > 0 ? maxSeconds : MAX_SECONDS), LONGEST_DELAY)); // the worker refuses a wrong number
+      }, Math.min(1000 * Math.max((maxSeconds > 0 ? maxSeconds : MAX_SECONDS) - spent, 0), LONGEST_DELAY)); // the worker refuses a wrong number
       const onAbort = () => end(signal?.reason);
       const done = () => {
         clearTimeout(timer);

@@ -1,6 +1,7 @@
 // Drawings of contours: the form of every source, the same as Python's `vexture.drawing.drawing.Drawing`.
 import { VextureError, line } from '../errors.js';
 import { boundsOf, loopOf } from './contours.js';
+import { atOnce } from './pace.js';
 import { BLACK } from './paints.js';
 import { inUnitSquare } from './unit-square.js';
 
@@ -64,9 +65,24 @@ export function fromContours(shapes, { name = 'drawing', box } = {}) {
  * @param {string} name
  * @returns {Drawing}
  */
-export function fromSource(paths, [x, y, width, height], name) {
-  const moved = paths.map((path) => ({ ...path, contours: path.contours.map((contour) => contour.map((value, k) => value - (k % 2 ? y : x))) }));
-  const { paths: normal, toSource: [a, b, c, d, e, f], sides } = inUnitSquare(moved, [width, height]);
+export const fromSource = (paths, box, name) => atOnce(fitSource(paths, box, name));
+
+/**
+ * Bring the paths of a source into the normal form, in steps.
+ *
+ * @param {Path[]} paths
+ * @param {Box} box
+ * @param {string} name
+ * @param {import('./pace.js').Pace} [pace]
+ * @returns {import('./pace.js').Steps<Drawing>}
+ */
+export function* fitSource(paths, [x, y, width, height], name, pace) {
+  const moved = [];
+  for (const path of paths) {
+    if (pace?.isDue()) yield;
+    moved.push({ ...path, contours: path.contours.map((contour) => contour.map((value, k) => value - (k % 2 ? y : x))) });
+  }
+  const { paths: normal, toSource: [a, b, c, d, e, f], sides } = yield* inUnitSquare(moved, [width, height], pace);
   return { name, paths: normal, groups: [], toSource: [a, b, c, d, x + e, y + f], sides, notes: [], crs: null };
 }
 

@@ -85,15 +85,20 @@ function copyVariables(live, copy) {
  *
  * @param {Pair[]} pairs
  * @param {Window} window of the copies
+ * @param {import('./pace.js').Pace} pace
+ * @returns {import('./pace.js').Steps<void>}
  */
-export function copyStyles(pairs, window) {
-  const values = pairs.map(({ live }, k) => {
+export function* copyStyles(pairs, window, pace) {
+  const values = [];
+  for (const [k, { live }] of pairs.entries()) {
+    if (pace.isDue()) yield;
     const style = getComputedStyle(live);
     const names = k ? [...INHERITED, ...OWN] : INHERITED;
-    return new Map(names.map((name) => [name, style.getPropertyValue(name)]));
-  });
-  pairs.forEach(({ copy }, k) => {
-    if (!copy.isConnected) return;
+    values.push(new Map(names.map((name) => [name, style.getPropertyValue(name)])));
+  }
+  for (const [k, { copy }] of pairs.entries()) {
+    if (pace.isDue()) yield;
+    if (!copy.isConnected) continue;
     const computed = window.getComputedStyle(copy);
     const hasVariables = (/** @type {string} */ name) => {
       return `${copy.getAttribute(name)} ${copy.getAttribute('style')}`.includes('var(');
@@ -102,5 +107,5 @@ export function copyStyles(pairs, window) {
       const isSame = !value || computed.getPropertyValue(name) === value || hasVariables(name);
       if (!isSame) /** @type {SVGElement} */ (copy).style.setProperty(name, value, 'important');
     }
-  });
+  }
 }

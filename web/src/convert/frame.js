@@ -1,4 +1,5 @@
 // A frame for a document whose styles are to be computed: nothing in it runs, and nothing is fetched.
+import { withTrust } from './trusted.js';
 import { ownSize } from './viewport.js';
 
 const POLICY = "default-src 'none'; style-src 'unsafe-inline'";
@@ -27,7 +28,7 @@ export function openFrame(root) {
 /** @param {Document} inner @param {Element} root */
 function fill(inner, root) {
   inner.open();
-  inner.write(`<!doctype html><meta http-equiv="Content-Security-Policy" content="${POLICY}">`);
+  withTrust(`<!doctype html><meta http-equiv="Content-Security-Policy" content="${POLICY}">`, (trusted) => inner.write(trusted));
   inner.close();
   inner.replaceChild(inner.adoptNode(root), inner.documentElement);
   const { CSSStyleSheet } = /** @type {Window & typeof globalThis} */ (inner.defaultView);

@@ -2,10 +2,12 @@
 import { VextureError } from '../errors.js';
 import { IDENTITY, multiply, translate } from './affine.js';
 import { lengthOf } from './lengths.js';
+import { OvertimeError } from './pace.js';
 import { shortenText } from './report.js';
 import { isFlat, within } from './space.js';
 import { THINNEST, ownSize } from './viewport.js';
 
+/** @template Result @typedef {import('./pace.js').Steps<Result>} Steps */
 /** @typedef {import('./space.js').Place} Place */
 /** @typedef {import('./scene.js').Scene} Scene */
 
@@ -26,10 +28,10 @@ const MOST_IMAGES = 256;
  * @param {Place} place
  * @param {import('./painter.js').Painter} painter
  */
-export function paintImage(scene, element, place, painter) {
+export function* paintImage(scene, element, place, painter) {
   const link = (scene.engine.link(element) ?? '').trim();
   if (!link || place.style.get('visibility') !== 'visible' || isFlat(place.space)) return;
-  const inner = embeddedScene(scene, link);
+  const inner = yield* embeddedScene(scene, link);
   if (typeof inner === 'string') return scene.report.leftOut(inner);
   const [width, height] = ownSize((name) => inner.engine.attribute(inner.root, name));
   const sides = imageSides(place, [width, height]);
@@ -37,7 +39,7 @@ export function paintImage(scene, element, place, painter) {
   const fit = scene.fit(element, [0, 0, width, height], sides[2], sides[3]);
   const content = multiply(translate(IDENTITY, sides[0], sides[1]), fit);
   const visible = ['visible', 'auto'].includes(place.style.get('overflow')) ? null : sides;
-  paintEmbedded(scene, inner, within({ visible, content, size: [width, height] }, place), painter);
+  yield* paintEmbedded(scene, inner, within({ visible, content, size: [width, height] }, place), painter);
 }
 
 /**
@@ -56,23 +58,23 @@ export function imageSides({ style, view }, size) {
   return [x ?? 0, y ?? 0, width, tall ?? width / ratio];
 }
 
-/** @param {Scene} scene @param {string} link @returns {Scene | string} the scene of a drawing, or the text of a note */
-function embeddedScene(scene, link) {
+/** @param {Scene} scene @param {string} link @returns {Steps<Scene | string>} the scene of a drawing, or the text of a note */
+function* embeddedScene(scene, link) {
   let found = scene.images.get(link);
-  if (found === undefined) scene.images.set(link, (found = openImage(scene, link)));
+  if (found === undefined) scene.images.set(link, (found = yield* openImage(scene, link)));
   return found;
 }
 
-/** @param {Scene} scene @param {string} link @returns {Scene | string} */
-function openImage(scene, link) {
+/** @param {Scene} scene @param {string} link @returns {Steps<Scene | string>} */
+function* openImage(scene, link) {
   if (link.slice(0, 5).toLowerCase() !== 'data:') return `image '${nameOf(link)}' (nothing is fetched from an address)`;
   if (scene.images.size >= MOST_IMAGES) return `an embedded image (the drawing has more than ${MOST_IMAGES} images)`;
   if (!/^data:image\/svg\+xml[;,]/i.test(link)) return 'an embedded image';
   if (scene.depth >= DEEPEST) return `an embedded image (drawings in it are nested more than ${DEEPEST} deep)`;
   try {
-    return scene.inside(scene.engine.open(decodeData(link)));
+    return scene.inside(yield* scene.engine.open(decodeData(link), scene.pace));
   } catch (error) {
-    if (error instanceof VextureError) return `an embedded image (${error.message})`;
+    if (error instanceof VextureError && !(error instanceof OvertimeError)) return `an embedded image (${error.message})`;
     throw error;
   }
 }
@@ -103,7 +105,7 @@ function unescapedBytes(text) {
  * @param {Place} around
  * @param {import('./painter.js').Painter} painter
  */
-function paintEmbedded(scene, inner, around, painter) {
+function* paintEmbedded(scene, inner, around, painter) {
   const { width, height } = around.view;
   const box = inner.view(inner.root);
   if (box && Math.min(box[2], box[3]) < THINNEST) return;
@@ -119,7 +121,7 @@ function paintEmbedded(scene, inner, around, painter) {
   const own = painter.forScene(inner);
   inner.used = scene.used;
   inner.size = scene.size;
-  inner.walk(inner.insideRoot(place, own, content, [0, 0, width, height]), own);
+  yield* inner.walk(yield* inner.insideRoot(place, own, content, [0, 0, width, height]), own);
   [painter.segments, scene.used] = [own.segments, inner.used];
 }
 

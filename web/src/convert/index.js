@@ -5,9 +5,10 @@
  */
 import { VextureError, givenOptions, line, unfit } from '../errors.js';
 import { loadMaps, mapParts } from '../maps.js';
-import { MAX_SECONDS } from './conversion.js';
 import { Converter } from './converter.js';
-import { readGeojson } from './read-geojson.js';
+import { describeContent } from './file-kinds.js';
+import { Pace } from './pace.js';
+import { readPacedGeojson } from './read-geojson.js';
 import { loadMarkup } from './source.js';
 import { svgDrawing } from './svg.js';
 
@@ -32,6 +33,7 @@ export { writePacked } from './write-packed.js';
 /** @typedef {import('./kernel-modules.js').ModuleName} ModuleName */
 /** @typedef {import('./notes.js').Kind} Kind */
 /** @typedef {import('./notes.js').Note} Note */
+/** @typedef {import('./pace.js').PaceOptions} PaceOptions */
 /** @typedef {import('./painter.js').Path} Path */
 /** @typedef {import('./paints.js').Color} Color */
 /** @typedef {import('./paints.js').Gradient} Gradient */
@@ -61,7 +63,7 @@ export { writePacked } from './write-packed.js';
  * @property {boolean} [restyle] keep elements apart, so that `setPaints` can change their colours
  * @property {string} [names] property of GeoJSON that names the elements; those of an SVG have their `id`
  * @property {AbortSignal} [signal] stops the conversion, which rejects with its reason
- * @property {number} [maxSeconds] time limit of the conversion in the worker; 60 by default
+ * @property {number} [maxSeconds] time limit of reading and converting together; 60 by default
  * @property {(progress: { stage: 'read' | 'convert' | 'done' }) => void} [onProgress] called at the start of each stage
  * @property {Converter} [converter] by default one of the package, with a worker of its own
  *
@@ -97,11 +99,12 @@ export async function convert(source, options) {
  * @throws {VextureError} if it cannot be read or converted
  */
 export async function convertData(source, options) {
-  const { name, names, signal, maxSeconds = MAX_SECONDS, onProgress, converter = usual(), ...others } = checked(options);
+  const { name, names, signal, maxSeconds, onProgress, converter = usual(), ...others } = checked(options);
+  const pace = new Pace({ signal, maxSeconds });
   onProgress?.({ stage: 'read' });
-  const drawing = await read(source, { name, names, signal, converter });
+  const drawing = await read(source, { name, names, signal, converter, pace });
   onProgress?.({ stage: 'convert' });
-  const converted = await converter.convert({ drawing, options: { ...others, maxSeconds }, signal });
+  const converted = await converter.convert({ drawing, options: { ...others, maxSeconds }, signal, spent: pace.seconds });
   if (converted.roots.some(({ isMap }) => isMap)) {
     await loadMaps();
     for (const root of converted.roots) if (root.isMap) mapParts().checkPaintsOf(root, converted.texels);
@@ -116,12 +119,23 @@ export async function convertData(source, options) {
  *
  * @param {string | Blob | ArrayBuffer | Uint8Array | URL | Response | Element} source text, file or address, or an element of
  *   the page with the styles that it has there
- * @param {{ name?: string, converter?: Converter }} [options] the converter has the kernels that outline strokes
+ * @param {{ name?: string, converter?: Converter } & PaceOptions} [options] the converter has the kernels that outline strokes
  * @returns {Promise<Drawing>} its `notes` list what was left out, simplified or invalid
  * @throws {VextureError} if it is no SVG, or exceeds a limit
  */
-export async function readSvg(source, { name = 'drawing', converter = usual() } = {}) {
-  return svgDrawing(source, { name, loadStrokes: () => converter.strokeOutline() }).catch((error) => {
+export async function readSvg(source, { signal, maxSeconds, ...options } = {}) {
+  return readPaced(source, { ...options, signal, pace: new Pace({ signal, maxSeconds }) });
+}
+
+/**
+ * Read an SVG as `readSvg` does, with limits of time that others share.
+ *
+ * @param {Parameters<typeof readSvg>[0]} source
+ * @param {{ name?: string, converter?: Converter, signal?: AbortSignal, pace: Pace }} options
+ * @returns {Promise<Drawing>}
+ */
+async function readPaced(source, { name = 'drawing', converter = usual(), signal, pace }) {
+  return svgDrawing(source, { name, signal, pace, loadStrokes: () => converter.strokeOutline() }).catch((error) => {
     throw error instanceof VextureError ? error.in(name) : error;
   });
 }
@@ -146,7 +160,7 @@ function checked(options) {
 
 /**
  * @param {any} source
- * @param {Pick<ConvertOptions, 'name' | 'names' | 'signal' | 'converter'>} options
+ * @param {Pick<ConvertOptions, 'name' | 'names' | 'signal' | 'converter'> & { pace: Pace }} options
  * @returns {Promise<Drawing>}
  */
 async function read(source, options) {
@@ -157,7 +171,7 @@ async function read(source, options) {
   const isPlace = source instanceof URL || (typeof source === 'string' && !isMarkup);
   const isFile = isPlace || source instanceof Response || source instanceof Blob || source instanceof ArrayBuffer || source instanceof Uint8Array;
   if (!isMarkup && !isFile) {
-    if (typeof source === 'object' && source !== null) return readGeojson(source, options);
+    if (typeof source === 'object' && source !== null) return readPacedGeojson(source, options, options.pace);
     throw unfit('source', source, 'give an SVG or GeoJSON as a text, address, file or element');
   }
   const text = isMarkup ? source : await loadMarkup(isPlace ? placeOf(source) : source, options);
@@ -165,18 +179,19 @@ async function read(source, options) {
   const start = text.replace(/^\ufeff/, '').trimStart()[0];
   const named = { ...options, name: name ?? stem };
   if (start === '<') return readNamed(text, named);
-  if (start === '{') return readGeojson(text, named);
-  throw new VextureError(`${stem ?? 'the source'} begins with ${line(text.slice(0, 20))}; give SVG, GeoJSON or TopoJSON`, 'source');
+  if (start === '{') return readPacedGeojson(text, named, named.pace);
+  const file = typeof File === 'function' && source instanceof File ? line(source.name) : stem ?? 'the source';
+  throw new VextureError(`${file} ${describeContent(text)}`, 'source');
 }
 
 /**
  * Read an SVG, whose elements have the names of their `id`.
  *
  * @param {string | Element} source
- * @param {{ name?: string, names?: string, converter?: Converter }} options
+ * @param {{ name?: string, names?: string, converter?: Converter, signal?: AbortSignal, pace: Pace }} options
  */
 function readNamed(source, { names = 'id', ...options }) {
-  if (names === 'id') return readSvg(source, options);
+  if (names === 'id') return readPaced(source, options);
   throw new VextureError(`\`names\` ${line(names)} of an SVG needs the Python program; elements have the names of their \`id\` here`, 'names');
 }
 
@@ -189,10 +204,11 @@ function placeOf(source) {
   throw new VextureError(`the source ${line(source)} is no address; give an SVG or GeoJSON as a text, address, file or element`, 'source');
 }
 
-/** @param {string} path @returns {string | undefined} name of the file without its suffixes */
+/** @param {string} path @returns {string | undefined} name of the file without its suffix, nor that of gzip; none of an address that is the data */
 function stemOf(path) {
+  if (/^(?:data|blob):/i.test(path)) return undefined;
   const file = path.replace(/[?#].*$/s, '').split(/[\\/]/).at(-1) ?? '';
-  const stem = file.replace(/(\.[a-z]+){1,2}$/i, '');
+  const stem = file.replace(/\.gz$/i, '').replace(/\.[a-z]+$/i, '');
   try {
     return decodeURIComponent(stem) || undefined;
   } catch {

@@ -1,4 +1,5 @@
 // The modules of kernels, of which each is loaded when a conversion first needs it.
+import { VextureError, givenOptions, line } from '../errors.js';
 import { Kernels } from './kernels.js';
 
 /** @typedef {string | URL | BufferSource} KernelSource address or content of a module of kernels */
@@ -20,9 +21,11 @@ export class KernelModules {
   /** @type {Map<ModuleName, Promise<Kernels>>} */
   #loading = new Map();
 
-  /** @param {KernelSources} [sources] by default those of this package */
-  constructor(sources = {}) {
-    this.#sources = sources;
+  /** @param {KernelSources} [sources] by default those of this package @throws {VextureError} if there is no such module */
+  constructor(sources) {
+    this.#sources = givenOptions(sources, 'kernels');
+    const wrong = Object.keys(this.#sources).find((name) => !(name in OWN));
+    if (wrong !== undefined) throw new VextureError(`\`kernels\` have no ${line(wrong)}; there are ${Object.keys(OWN).join(', ')}`, 'kernels');
   }
 
   /**

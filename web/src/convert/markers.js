@@ -13,6 +13,7 @@ import { veilOf } from './veils.js';
 /** @typedef {import('./shapes.js').Shape} Shape */
 /** @typedef {import('./scene.js').Scene} Scene */
 /** @typedef {import('./arcs.js').Point} Point */
+/** @template Result @typedef {import('./pace.js').Steps<Result>} Steps */
 
 const MARKED = ['line', 'path', 'polygon', 'polyline'];
 const MARKERS = ['marker-start', 'marker-mid', 'marker-end'];
@@ -43,9 +44,9 @@ export const hasMarkers = (name, style) => MARKED.includes(name) && MARKERS.some
  * @param {Scene} scene
  * @param {any} element
  * @param {Place} place
- * @returns {Placed[][]}
+ * @returns {Steps<Placed[][]>}
  */
-export function markersOf(scene, element, place) {
+export function* markersOf(scene, element, place) {
   const { engine, report } = scene;
   const shape = { element, style: place.style, view: place.view, tolerance: ROUND * diagonal(place.view), report };
   const found = MARKERS.map((name) => readMarker(scene, name, shape, place));
@@ -64,7 +65,7 @@ export function markersOf(scene, element, place) {
   scene.checkUsed(masks * count, masks);
   const shown = [];
   for (const { marker, first, last } of drawn) {
-    for (let k = first; k < last; k++) shown.push(contentOf(scene, marker, points[k], angles[k], place, context));
+    for (let k = first; k < last; k++) shown.push(yield* contentOf(scene, marker, points[k], angles[k], place, context));
   }
   return shown;
 }
@@ -76,9 +77,9 @@ export function markersOf(scene, element, place) {
  * @param {number} direction
  * @param {Place} place
  * @param {Place['context']} context
- * @returns {Placed[]} the content of a marker on one vertex
+ * @returns {Steps<Placed[]>} the content of a marker on one vertex
  */
-function contentOf(scene, marker, point, direction, place, context) {
+function* contentOf(scene, marker, point, direction, place, context) {
   const turn = marker.angle + (marker.follows ? direction : 0);
   const turned = scale(rotate(translate(IDENTITY, ...point), turn), marker.scale);
   const matrix = translate(turned, -marker.anchor[0], -marker.anchor[1]);
@@ -86,7 +87,7 @@ function contentOf(scene, marker, point, direction, place, context) {
     space: withTransform(place.space, matrix), style: marker.style, veil: veilOf(marker.style, place.veil),
     name: place.name, context,
   });
-  const { place: inner, shown } = addMasks(scene, marker.element, within(marker.window, outer));
+  const { place: inner, shown } = yield* addMasks(scene, marker.element, within(marker.window, outer));
   const content = scene.engine.children(marker.element).reverse().map((child) => /** @type {Placed} */ ([child, inner]));
   return [...content, ...shown.reverse()];
 }

@@ -13,6 +13,7 @@ import { MASK, Veil } from './veils.js';
 /** @typedef {import('./space.js').Placed} Placed */
 /** @typedef {import('./scene.js').Scene} Scene */
 /** @typedef {import('./affine.js').Affine} Affine */
+/** @template Result @typedef {import('./pace.js').Steps<Result>} Steps */
 
 /** Properties that mask an element, with the elements to which they refer. @type {Readonly<Record<string, string>>} */
 export const MASKING = { 'clip-path': 'clipPath', mask: 'mask' };
@@ -29,17 +30,17 @@ const NOTHING = scale(IDENTITY, 0);
  * @param {any} element
  * @param {Place} place with its own veil if the element has a clip or a mask
  * @param {readonly string[]} [names] the properties that have an effect
- * @returns {{ place: Place, shown: Placed[] }}
+ * @returns {Steps<{ place: Place, shown: Placed[] }>}
  */
-export function addMasks(scene, element, place, names = Object.keys(MASKING)) {
+export function* addMasks(scene, element, place, names = Object.keys(MASKING)) {
   let inner = place;
   const shown = /** @type {Placed[]} */ ([]);
   for (const name of names) {
     if (inner.style.get(name) === 'none') continue;
-    const shape = name === 'clip-path' ? clipShape(scene, element, inner) : null;
+    const shape = name === 'clip-path' ? yield* clipShape(scene, element, inner) : null;
     const target = shape ? null : scene.servers.referenced(name, MASKING[name], inner);
     if (shape) inner = addClipShape(scene, shape, inner, shown);
-    if (target) inner = addMask(scene, element, target, inner, shown);
+    if (target) inner = yield* addMask(scene, element, target, inner, shown);
   }
   return { place: inner, shown };
 }
@@ -68,15 +69,15 @@ function addClipShape(scene, shape, place, shown) {
  * @param {any} target
  * @param {Place} place
  * @param {Placed[]} shown
- * @returns {Place}
+ * @returns {Steps<Place>}
  */
-function addMask(scene, element, target, place, shown) {
+function* addMask(scene, element, target, place, shown) {
   const { engine, report } = scene;
   const isClip = engine.name(target) === 'clipPath';
   const style = engine.style(target);
   let matrix = isClip ? elementTransform(scene, target, style, place) : IDENTITY;
   if (engine.attribute(target, isClip ? 'clipPathUnits' : 'maskContentUnits') === 'objectBoundingBox') {
-    matrix = multiply(matrix, boxMatrix(scene, element, place));
+    matrix = multiply(matrix, yield* boxMatrix(scene, element, place));
   }
   let space = withTransform(place.space, matrix);
   if (isClip && !isFlat(space)) {
@@ -87,14 +88,14 @@ function addMask(scene, element, target, place, shown) {
     if (style.get('color-interpolation').toLowerCase() === 'linearrgb') {
       report.simplified('mask in linear light (color-interpolation) read as one in sRGB');
     }
-    space = region(scene, element, target, place, matrix);
+    space = yield* region(scene, element, target, place, matrix);
   }
   const mode = place.style.get('mask-mode').split(',')[0].trim() || 'match-source';
   const kind = mode === 'match-source' ? style.get('mask-type') : mode;
   const veil = new Veil(place.veil, 1, 0, isClip || kind === 'alpha' ? MASK.opacity : MASK.luminance);
   place.veil?.masks.push(veil);
   const content = contentPlace(place, target, { space, style, veil, isClip });
-  const inner = addMasks(scene, target, content, isClip ? ['clip-path'] : undefined);
+  const inner = yield* addMasks(scene, target, content, isClip ? ['clip-path'] : undefined);
   shown.push(...inner.shown);
   for (const child of engine.children(target)) shown.push([child, inner.place]);
   return place;
@@ -104,19 +105,19 @@ function addMask(scene, element, target, place, shown) {
  * @param {Scene} scene
  * @param {any} element
  * @param {Place} place
- * @returns {Affine} from the unit square to the bounding box
+ * @returns {Steps<Affine>} from the unit square to the bounding box
  */
-export function boxMatrix(scene, element, place) {
-  const box = scene.extent(element, place);
+export function* boxMatrix(scene, element, place) {
+  const box = yield* scene.extent(element, place);
   return box ? [box[2], 0, 0, box[3], box[0], box[1]] : NOTHING;
 }
 
 /** @param {Scene} scene @param {any} element @param {any} target @param {Place} place @param {Affine} matrix */
-function region(scene, element, target, place, matrix) {
+function* region(scene, element, target, place, matrix) {
   const { engine, report } = scene;
   const byBox = engine.attribute(target, 'maskUnits') !== 'userSpaceOnUse';
   const whole = byBox ? [1, 1] : [place.view.width, place.view.height];
-  const units = byBox ? boxMatrix(scene, element, place) : IDENTITY;
+  const units = byBox ? yield* boxMatrix(scene, element, place) : IDENTITY;
   const [x, y, width, height] = Object.entries(REGION).map(([name, initial], k) => {
     const read = (/** @type {string} */ text) => lengthOf(place.view, text, whole[k % 2], place.style.fontSize);
     const text = engine.attribute(target, name) ?? initial;

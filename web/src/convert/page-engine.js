@@ -6,6 +6,8 @@ import { closeFrame, openFrame } from './frame.js';
 import { SVG, parseSvg } from './parse.js';
 import { strip } from './strip.js';
 
+/** @import { Pace, Steps } from './pace.js' */
+
 /**
  * @typedef {object} Style computed values of an element's properties, as text
  * @property {(name: string) => string} get lengths and transforms as written, where that is known
@@ -30,7 +32,7 @@ import { strip } from './strip.js';
  * @property {(use: any, target: any) => any} instance a copy of an element, whose style is that inside a `use`
  * @property {(element: any) => any} original the element of which another one is a copy, or itself
  * @property {(text: string) => [number, number, number, number] | null} color sRGB and opacity, 0..1
- * @property {(text: string) => Engine} open another document, which closes with this one
+ * @property {(text: string, pace: Pace) => Steps<Engine>} open another document, which closes with this one
  * @property {() => void} close
  */
 
@@ -56,28 +58,41 @@ const COLOR = /^(?:rgba?\(|color\(srgb )([^)]*)\)$/;
  * Open a document in a frame of the page; an `<svg>` of the page keeps the colours and variables that it has there.
  *
  * @param {string | Element} source markup, or an element
- * @returns {Engine}
+ * @param {Pace} pace
+ * @returns {Steps<Engine>}
  * @throws {VextureError} if it is no SVG, or exceeds a limit
  */
-export function openSvg(source) {
+export function* openSvg(source, pace) {
   if (typeof document === 'undefined') {
     throw new VextureError(
       'SVG is read in a page, and there is no document here; read it there, or give contours',
       'document',
     );
   }
-  if (typeof source === 'string') return new PageEngine(parseSvg(source));
+  if (typeof source === 'string') return yield* engineOf(parseSvg(source), pace);
   const { root, pairs } = copyElement(source);
-  const engine = new PageEngine(root);
-  copyStyles(pairs, engine.window);
+  const engine = yield* engineOf(root, pace);
+  try {
+    yield* copyStyles(pairs, engine.window, pace);
+  } catch (error) {
+    engine.close();
+    throw error;
+  }
   return engine;
+}
+
+/** @param {Element} parsed root of a document that is not shown @param {Pace} pace @returns {Steps<PageEngine>} */
+function* engineOf(parsed, pace) {
+  return new PageEngine(parsed, yield* strip(parsed, pace));
 }
 
 /** @implements {Engine} */
 class PageEngine {
-  /** @param {Element} parsed root of a document that is not shown */
-  constructor(parsed) {
-    const { links, sheets, stripped, invalid } = strip(parsed);
+  /**
+   * @param {Element} parsed root of a document that is not shown
+   * @param {import('./strip.js').Stripped} parts of it
+   */
+  constructor(parsed, { links, sheets, stripped, invalid }) {
     this.links = links;
     this.sheets = sheets;
     this.stripped = stripped;
@@ -240,9 +255,9 @@ class PageEngine {
     return this.probe.color ? this.probeStyle?.color ?? '' : '';
   }
 
-  /** @param {string} text @returns {Engine} */
-  open(text) {
-    const engine = new PageEngine(parseSvg(text));
+  /** @param {string} text @param {Pace} pace @returns {Steps<Engine>} */
+  *open(text, pace) {
+    const engine = yield* engineOf(parseSvg(text), pace);
     this.opened.push(engine);
     return engine;
   }

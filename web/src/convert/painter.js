@@ -18,6 +18,7 @@ import { Veil } from './veils.js';
 /** @typedef {import('./paints.js').Paint} Paint */
 /** @typedef {import('./patterns.js').Tiling} Tiling */
 /** @typedef {import('./shapes.js').Shape} Shape */
+/** @template Result @typedef {import('./pace.js').Steps<Result>} Steps */
 
 /**
  * @typedef {{ contours: Float64Array[], fillRule: number, paint: Paint, group: number, element: string }} Path as
@@ -50,9 +51,10 @@ export class Painter {
    *
    * @param {any} element
    * @param {Place} place
-   * @param {(() => Placed[][]) | null} [markers]
+   * @param {(() => Steps<Placed[][]>) | null} [markers]
+   * @returns {Steps<void>}
    */
-  paint(element, place, markers = null) {
+  *paint(element, place, markers = null) {
     const { style } = place;
     if (style.get('visibility') !== 'visible' || isFlat(place.space)) return;
     if (!place.isClip && !markers && style.get('fill') === 'none' && style.get('stroke') === 'none') return;
@@ -64,9 +66,9 @@ export class Painter {
     const fill = place.isClip ? BLACK : this.scene.servers.paint('fill', place, outlines);
     const line = place.isClip ? null : this.scene.servers.paint('stroke', place, outlines);
     for (const part of new Set([...style.get('paint-order').split(/\s+/), ...PARTS])) {
-      if (part === 'fill' && fill) this.add(outlines.map(loopOf), place, rule, fill, place.name);
-      else if (part === 'stroke' && line) this.stroke(shape, outlines, place, line, size);
-      else if (part === 'markers') for (const marker of markers?.() ?? []) this.scene.walk(marker, this);
+      if (part === 'fill' && fill) yield* this.add(outlines.map(loopOf), place, rule, fill, place.name);
+      else if (part === 'stroke' && line) yield* this.stroke(shape, outlines, place, line, size);
+      else if (part === 'markers' && markers) for (const marker of yield* markers()) yield* this.scene.walk(marker, this);
     }
   }
 
@@ -83,8 +85,9 @@ export class Painter {
    * @param {Place} place
    * @param {Paint | Tiling} paint
    * @param {number} size of the drawing, in the shape's user units
+   * @returns {Steps<void>}
    */
-  stroke(shape, outlines, place, paint, size) {
+  *stroke(shape, outlines, place, paint, size) {
     const stroke = strokeOf(shape, outlines);
     if (!stroke) return;
     const { strokeOutline, report } = this.scene;
@@ -99,7 +102,7 @@ export class Painter {
     const back = inverse(screen);
     const contours = onScreen.flatMap(({ cubics, closed }) => strokeOutline(cubics, closed, style));
     const placed = contours.map((contour) => mapPoints(contour, back));
-    this.add(placed, place, 0, paint, place.name && place.name + STROKE);
+    yield* this.add(placed, place, 0, paint, place.name && place.name + STROKE);
   }
 
   /**
@@ -110,8 +113,9 @@ export class Painter {
    * @param {number} rule
    * @param {Paint | Tiling} paint
    * @param {string} element
+   * @returns {Steps<void>}
    */
-  add(contours, place, rule, paint, element) {
+  *add(contours, place, rule, paint, element) {
     this.segments += countOf(contours);
     if (this.segments > MOST_SEGMENTS) {
       const most = MOST_SEGMENTS.toLocaleString('en-US');
@@ -119,7 +123,7 @@ export class Painter {
     }
     const clipped = contours.map((contour) => toDrawing(place.space, contour)).filter((contour) => contour.length);
     if (!clipped.length) return;
-    if (isTiling(paint) && this.tile(clipped, place, rule, paint, element)) return;
+    if (isTiling(paint) && (yield* this.tile(clipped, place, rule, paint, element))) return;
     const flat = isTiling(paint) ? paint.solid : paint;
     this.push({ contours: clipped, fillRule: rule, paint: flat, group: -1, element }, place.veil);
     place.veil?.add(boxOf(clipped));
@@ -139,12 +143,13 @@ export class Painter {
    * @param {number} rule
    * @param {Tiling} tiling
    * @param {string} element
+   * @returns {Steps<boolean>}
    */
-  tile(contours, place, rule, tiling, element) {
+  *tile(contours, place, rule, tiling, element) {
     if (!this.canvas.frame) return false;
     const { shape, window } = visiblePart(contours, this.canvas.frame);
     if (!shape.length) return true;
-    const first = this.firstTile(place, tiling);
+    const first = yield* this.firstTile(place, tiling);
     if (!first) return false;
     const tiles = new PatternTiles(first.canvas, shape, window, this.canvas);
     const costs = first.painted.map(({ path }) => tiles.cost(path));
@@ -157,6 +162,7 @@ export class Painter {
       this.push({ contours: shape, fillRule: rule, paint, group: -1, element: '' }, first.veil.maskPattern(tiling.opacity));
     }
     for (const { path, veil } of first.painted) {
+      if (this.scene.pace.isDue()) yield;
       for (const copy of tiles.repeat(path)) this.push({ ...copy, element }, veil);
     }
     return true;
@@ -167,8 +173,9 @@ export class Painter {
    *
    * @param {Place} place
    * @param {Tiling} tiling
+   * @returns {Steps<import('./tiles.js').FirstTile | null>}
    */
-  firstTile(place, tiling) {
+  *firstTile(place, tiling) {
     const { servers, engine } = this.scene;
     const { pattern, tile, whole, content, view } = tiling;
     const key = JSON.stringify([servers.numberOf(pattern), tile, whole, content, view.width, view.height]);
@@ -177,7 +184,7 @@ export class Painter {
       if (!servers.affords(pattern.element, { elements: engine.count(pattern.holder) })) return null;
       const canvas = { frame: tile, size: this.canvas.size, whole };
       const [painter, veil] = [new Painter(this.scene, canvas), new Veil(null, 1)];
-      this.scene.walk(firstTileContent(tiling, place, veil, engine), painter);
+      yield* this.scene.walk(firstTileContent(tiling, place, veil, engine), painter);
       first = firstTileOf(canvas, veil, painter.paths.map((path, k) => ({ path, veil: painter.veils[k] })));
       servers.tiles.set(key, first);
     }
@@ -202,8 +209,14 @@ export class Ruler extends Painter {
     this.corners = [];
   }
 
-  /** Add the outlines of a shape, in the units of the outermost place. @param {any} element @param {Place} place */
-  paint(element, place) {
+  /**
+   * Add the outlines of a shape, in the units of the outermost place.
+   *
+   * @param {any} element
+   * @param {Place} place
+   * @returns {Steps<void>}
+   */
+  *paint(element, place) {
     const shape = { element, style: place.style, view: place.view, tolerance: Infinity, report: this.scene.report };
     const outlines = shapeOutlines(shape);
     for (const { cubics } of outlines) this.measure(cubics, place);

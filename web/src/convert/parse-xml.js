@@ -3,6 +3,9 @@ import { SaxesParser } from 'saxes';
 import { VextureError, line } from '../errors.js';
 import { KNOWN, SVG, checkElement, checkName, checkSize } from './parse.js';
 
+/** Letters that are parsed between two turns of the page. */
+const PART = 2 ** 16;
+
 /**
  * An element.
  *
@@ -19,10 +22,11 @@ import { KNOWN, SVG, checkElement, checkName, checkSize } from './parse.js';
  * Parse an SVG document.
  *
  * @param {string} text
- * @returns {XmlElement} its root
+ * @param {import('./pace.js').Pace} pace
+ * @returns {import('./pace.js').Steps<XmlElement>} its root
  * @throws {VextureError} if it is not well-formed, exceeds a limit, or is not SVG
  */
-export function parseXml(text) {
+export function* parseXml(text, pace) {
   checkSize(text);
   const source = withEntities(text.replace(/^\ufeff/, '').trimStart());
   const parser = new SaxesParser({ xmlns: true, additionalNamespaces: prefixesIn(source) });
@@ -54,7 +58,11 @@ export function parseXml(text) {
   parser.on('error', (error) => {
     throw new VextureError(`not well-formed XML: ${source.startsWith('<') ? line(error) : 'it does not begin with <'}`, 'markup');
   });
-  parser.write(source).close();
+  for (let at = 0; at < source.length; at += PART) {
+    if (pace.isDue()) yield;
+    parser.write(source.slice(at, at + PART));
+  }
+  parser.close();
   return /** @type {XmlElement} */ (/** @type {unknown} */ (root));
 }
 

@@ -2,6 +2,7 @@
 import { MOST_ATTRIBUTES } from '../../generated/svg-reader.js';
 import { VextureError } from '../errors.js';
 import { shortenText } from './report.js';
+import { withTrust } from './trusted.js';
 
 export const SVG = 'http://www.w3.org/2000/svg';
 
@@ -43,7 +44,7 @@ export function parseSvg(text) {
 
 /** @param {string} source @returns {{ root: Element, message: string }} and the message of an error, if there is one */
 function parse(source) {
-  const parsed = new DOMParser().parseFromString(source, 'image/svg+xml');
+  const parsed = withTrust(source, (trusted) => new DOMParser().parseFromString(trusted, 'image/svg+xml'));
   return { root: parsed.documentElement, message: parsed.getElementsByTagName('parsererror')[0]?.textContent ?? '' };
 }
 

@@ -1,15 +1,19 @@
 // Reads GeoJSON (RFC 7946) and TopoJSON: the areas of their polygons, with their simplestyle colours.
-import { VextureError, line } from '../errors.js';
+import { VextureError, line, shortened } from '../errors.js';
 import { sides } from './arcs.js';
-import { EVENODD, boxOf, fromSource } from './drawing.js';
+import { EVENODD, boxOf, fitSource } from './drawing.js';
 import { Notes } from './notes.js';
+import { Pace } from './pace.js';
+import { LONGEST } from './parse.js';
 
 /** @import { Drawing, Path, Paint } from './drawing.js' */
 
 /**
- * @typedef {object} GeojsonOptions Options of `readGeojson`.
+ * @typedef {object} GeojsonLook Options of `readGeojson`.
  * @property {string} [name] name of the shape; `drawing` by default
  * @property {string} [names] property of the features that names the paths, in place of `id`
+ *
+ * @typedef {GeojsonLook & import('./pace.js').PaceOptions} GeojsonOptions
  *
  * @typedef {[number, number]} Position
  *
@@ -23,6 +27,9 @@ const MOST_POSITIONS = 20_000_000;
 
 /** Levels of nested geometry collections. */
 const MOST_NESTED = 32;
+
+/** Refusal of values in one another by the thousand. */
+const TOO_DEEP = 'its lists are nested too deeply; GeoJSON needs no more than a few levels';
 
 /** Largest coordinate. */
 const LARGEST = 1e300;
@@ -46,18 +53,53 @@ const URN = /^urn:ogc:def:crs:(\w+):[^:]*:(\w+)$/i;
  * @returns {Promise<Drawing>}
  * @throws {VextureError} if it is not GeoJSON, or holds no polygon
  */
-export async function readGeojson(source, { name = 'drawing', names } = {}) {
+export async function readGeojson(source, { signal, maxSeconds, ...look } = {}) {
+  return readPacedGeojson(source, look, new Pace({ signal, maxSeconds }));
+}
+
+/**
+ * Read GeoJSON as `readGeojson` does, with limits of time that others share.
+ *
+ * @param {string | object} source
+ * @param {GeojsonLook} look
+ * @param {Pace} pace
+ * @returns {Promise<Drawing>}
+ */
+export async function readPacedGeojson(source, look, pace) {
   const value = await geojsonOf(typeof source === 'string' ? parsed(source) : source);
+  return pace.run(drawingOf(value, look, pace));
+}
+
+/**
+ * @param {any} value the outermost object
+ * @param {GeojsonLook} look
+ * @param {Pace} pace
+ * @returns {import('./pace.js').Steps<Drawing>}
+ */
+function* drawingOf(value, { name = 'drawing', names }, pace) {
   const notes = new Notes();
   const reader = new Reader(notes, names);
-  const areas = [...reader.areas(value)];
+  const areas = [];
+  try {
+    for (const area of reader.areas(value)) {
+      if (pace.isDue()) yield;
+      areas.push(area);
+    }
+  } catch (error) {
+    if (isTooDeep(error)) refuse(TOO_DEEP);
+    throw error;
+  }
   if (!areas.length) {
     const list = notes.inOrder.map(({ message, count }) => (count > 1 ? `${message} (${count})` : message)).join(', ');
     refuse(`it holds no polygon to fill${list && ` (left out: ${list})`}; give Polygon or MultiPolygon geometries`);
   }
   reader.checkNames();
-  const paths = areas.map(pathOf);
-  const drawing = fromSource(paths, boxOf(paths.flatMap(({ contours }) => contours)), name);
+  const paths = [];
+  for (const area of areas) {
+    if (pace.isDue()) yield;
+    paths.push(pathOf(area));
+  }
+  const drawing = yield* fitSource(paths, boxOf(paths.flatMap(({ contours }) => contours)), name, pace);
   if (!drawing.paths.length) refuse('its polygons enclose no area; correct their coordinates');
   const [a, b, c, d, e, f] = drawing.toSource; // y down
   return { ...drawing, toSource: [a, -b || 0, c, -d || 0, e, -f || 0], crs: systemOf(value.crs), notes: notes.inOrder };
@@ -65,9 +107,14 @@ export async function readGeojson(source, { name = 'drawing', names } = {}) {
 
 /** @param {string} text */
 function parsed(text) {
+  if (text.length > LONGEST) {
+    const [count, most] = [text.length, LONGEST].map((value) => value.toLocaleString('en-US'));
+    refuse(`the text has ${count} letters; a page reads ${most}; simplify or split it, or convert it with the program vexture`);
+  }
   try {
     return JSON.parse(text.replace(/^\ufeff/, ''));
   } catch (error) {
+    if (isTooDeep(error)) refuse(TOO_DEEP);
     return refuse(`not JSON (${line(error)}); correct it`);
   }
 }
@@ -86,6 +133,7 @@ async function geojsonOf(value) {
     const collections = Object.values(value.objects).map((object) => /** @type {any} */ (feature(value, object)));
     return { type: 'FeatureCollection', features: collections.flatMap((one) => one.features ?? [one]), crs: value.crs };
   } catch (error) {
+    if (isTooDeep(error)) refuse(TOO_DEEP);
     return refuse(`its topology is damaged (${line(error)}); write it again`);
   }
 }
@@ -163,7 +211,7 @@ class Reader {
     if (type === 'Polygon') yield* this.#polygon(content, place, look);
     else if (type === 'MultiPolygon') {
       for (const [k, rings] of content.entries()) yield* this.#polygon(rings, at(place, `polygon ${k + 1}`), look);
-    } else if (depth === MOST_NESTED) refuse(`${at(place, type)} is nested more than ${MOST_NESTED} deep; flatten it`);
+    } else if (depth === MOST_NESTED) refuse(`${shortened(at(place, type))} is nested more than ${MOST_NESTED} deep; flatten it`);
     else for (const [k, part] of content.entries()) yield* this.#geometry(part, at(place, `geometry ${k + 1}`), look, depth + 1);
   }
 
@@ -269,6 +317,9 @@ function systemOf(member) {
   const urn = URN.exec(name);
   return urn ? `${urn[1].toUpperCase()}:${urn[2]}` : name;
 }
+
+/** @param {unknown} error @returns {boolean} whether the stack is too small for values in one another; engines name it variously */
+const isTooDeep = (error) => error instanceof RangeError || (error instanceof Error && error.name === 'InternalError');
 
 /** @param {string} place @param {string} part */
 const at = (place, part) => (place ? `${place}, ${part}` : part);

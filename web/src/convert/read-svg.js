@@ -1,6 +1,7 @@
 // Read an SVG as a drawing, the same value as Python's `vexture.drawing.drawing.Drawing`.
 import { IDENTITY } from './affine.js';
 import { isRelative, lengthOf } from './lengths.js';
+import { Pace } from './pace.js';
 import { fadePaint } from './paints.js';
 import { Scene } from './scene.js';
 import { inUnitSquare, toUserUnits } from './unit-square.js';
@@ -15,6 +16,7 @@ const UNPAINTED = 'nothing in it is painted';
  * @typedef {object} SvgOptions
  * @property {string} [name] of the drawing
  * @property {import('./strokes.js').StrokeOutline} [strokeOutline] without it, strokes are left out, with a note
+ * @property {Pace} [pace] limits of time
  */
 
 /**
@@ -27,16 +29,16 @@ const UNPAINTED = 'nothing in it is painted';
  *
  * @param {import('./page-engine.js').Engine} engine
  * @param {SvgOptions} [options]
- * @returns {Drawing}
+ * @returns {import('./pace.js').Steps<Drawing>}
  * @throws {VextureError} if a limit is exceeded
  */
-export function readSvg(engine, { name = 'drawing', strokeOutline } = {}) {
-  const scene = new Scene(engine, strokeOutline);
+export function* readSvg(engine, { name = 'drawing', strokeOutline, pace = new Pace() } = {}) {
+  const scene = new Scene(engine, strokeOutline, pace);
   const frame = frameOf(scene);
   if (!frame) scene.report.remark(UNPAINTED);
   if (!frame) return { name, paths: [], groups: [], toSource: IDENTITY, sides: [1, 1], notes: scene.report.inOrder };
-  const painted = scene.paint(frame.view, frame.content, frame.size, fadePaint);
-  const normal = inUnitSquare(painted.paths, frame.size);
+  const painted = yield* scene.paint(frame.view, frame.content, frame.size, fadePaint);
+  const normal = yield* inUnitSquare(painted.paths, frame.size, pace);
   const { paths, groups } = dropEmptyGroups(normal.paths, painted.groups);
   if (!paths.length) scene.report.remark(UNPAINTED);
   const toSource = toUserUnits(normal.toSource, frame.content);

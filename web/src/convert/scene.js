@@ -11,6 +11,7 @@ import { imageSides, paintImage } from './images.js';
 import { TooLargeError, along, lengthOf } from './lengths.js';
 import { hasMarkers, markersOf } from './markers.js';
 import { MASKING, addMasks } from './masks.js';
+import { OvertimeError, atOnce } from './pace.js';
 import { BLACK } from './paints.js';
 import { Painter, Ruler } from './painter.js';
 import { Report } from './report.js';
@@ -27,6 +28,7 @@ import { CENTRED, THINNEST, parseFit, viewBox, viewTransform } from './viewport.
 /** @typedef {import('./page-engine.js').Style} Style */
 /** @typedef {import('./affine.js').Affine} Affine */
 /** @typedef {import('./veils.js').Group} Group */
+/** @template Result @typedef {import('./pace.js').Steps<Result>} Steps */
 
 /** An error that names an element. */
 class LocatedError extends VextureError {}
@@ -36,9 +38,11 @@ export class Scene {
   /**
    * @param {import('./page-engine.js').Engine} engine
    * @param {import('./strokes.js').StrokeOutline | undefined} strokeOutline
+   * @param {import('./pace.js').Pace} pace
    */
-  constructor(engine, strokeOutline) {
+  constructor(engine, strokeOutline, pace) {
     this.engine = engine;
+    this.pace = pace;
     this.root = engine.root;
     this.strokeOutline = strokeOutline;
     this.report = new Report(engine);
@@ -57,7 +61,7 @@ export class Scene {
 
   /** @param {import('./page-engine.js').Engine} engine of a drawing in an image @returns {Scene} with the same notes */
   inside(engine) {
-    const scene = new Scene(engine, this.strokeOutline);
+    const scene = new Scene(engine, this.strokeOutline, this.pace);
     scene.report.counts = this.report.counts;
     scene.depth = this.depth + 1;
     return scene;
@@ -71,7 +75,7 @@ export class Scene {
    * @param {[number, number]} size in pixels
    * @param {(paint: import('./paints.js').Paint, opacity: number) => import('./paints.js').Paint} fade
    */
-  paint(view, content, size, fade) {
+  *paint(view, content, size, fade) {
     /** @type {Rectangle} */
     const frame = [0, 0, ...size];
     this.size = Math.max(...size);
@@ -81,7 +85,7 @@ export class Scene {
       view, space: SPACE, style: this.style, element: this.root, outer: null, depth: 0, used: false, use: null, veil: null,
       isClip: false, masks: 0, name: this.engine.attribute(this.root, 'id') ?? '', isInstance: false, context: null,
     };
-    this.walk(this.insideRoot(place, painter, content, frame), painter);
+    yield* this.walk(yield* this.insideRoot(place, painter, content, frame), painter);
     return groupPaths(painter.paths, painter.veils, fade);
   }
 
@@ -90,21 +94,21 @@ export class Scene {
    * @param {Painter} painter
    * @param {Affine} content
    * @param {Rectangle} frame
-   * @returns {Placed[]}
+   * @returns {Steps<Placed[]>}
    */
-  insideRoot(around, painter, content, frame) {
+  *insideRoot(around, painter, content, frame) {
     noteParts(this.engine, this.report, this.style);
     const opacity = this.style.opacity('opacity');
     if (this.style.get('display') === 'none' || opacity === 0 || !this.noteEffects(this.root, this.style)) return [];
     let place = { ...around, space: this.spaceInside(around.space, content, frame) };
     const isMasked = Object.keys(MASKING).some((name) => this.style.get(name) !== 'none');
     if (opacity < 1 || around.outer || isMasked) place.veil = new Veil(around.veil, opacity); // there is nothing to blend with
-    const inner = addMasks(this, this.root, place);
+    const inner = yield* addMasks(this, this.root, place);
     place = inner.place;
     const color = this.engine.color(this.style.get('background-color'));
     if (color && color[3] > 0) {
       const paint = { ...BLACK, color: /** @type {[number, number, number]} */ (color.slice(0, 3)), opacity: color[3] };
-      painter.add([loopOf(rectangle(...frame))], { ...place, space: around.space }, 0, paint, place.name);
+      yield* painter.add([loopOf(rectangle(...frame))], { ...place, space: around.space }, 0, paint, place.name);
     }
     const children = this.engine.children(this.root).reverse().map((child) => /** @type {Placed} */ ([child, place]));
     return [...inner.shown, ...children];
@@ -130,18 +134,20 @@ export class Scene {
    *
    * @param {Placed[]} first
    * @param {Painter} painter
+   * @returns {Steps<void>}
    */
-  walk(first, painter) {
+  *walk(first, painter) {
     const stack = [...first];
     for (let placed = stack.pop(); placed; placed = stack.pop()) {
       const [element, place] = placed;
+      if (this.pace.isDue()) yield;
       const count = place.masks || Number(place.used);
       this.checkUsed(count, place.masks);
       this.used += count;
       try {
-        stack.push(...this.visit(element, place, painter).reverse());
+        for (const one of (yield* this.visit(element, place, painter)).reverse()) stack.push(one); // a call has few arguments
       } catch (error) {
-        if (error instanceof LocatedError || !(error instanceof VextureError)) throw error;
+        if (error instanceof LocatedError || error instanceof OvertimeError || !(error instanceof VextureError)) throw error;
         const text = `${this.report.describe(element)}: ${error.message}`;
         if (!(error instanceof TooLargeError)) throw new LocatedError(text, error.field, { cause: error });
         this.report.leftOut(text);
@@ -163,11 +169,11 @@ export class Scene {
    * @param {any} element
    * @param {Place} place
    * @param {Painter} painter
-   * @returns {Placed[]}
+   * @returns {Steps<Placed[]>}
    */
-  visit(element, place, painter) {
+  *visit(element, place, painter) {
     if (element instanceof ClipShape) {
-      painter.add(element.contours, place, element.rule, BLACK, place.name);
+      yield* painter.add(element.contours, place, element.rule, BLACK, place.name);
       return [];
     }
     const { engine } = this;
@@ -196,9 +202,9 @@ export class Scene {
     }
     const inner = this.placeInside(element, name, style, place, matrix);
     if (!inner) return [];
-    if (isMeasured) return this.content(element, name, inner, painter);
-    const masked = addMasks(this, element, inner, inner.isClip ? ['clip-path'] : undefined);
-    return [...masked.shown, ...this.content(element, name, masked.place, painter)];
+    if (isMeasured) return yield* this.content(element, name, inner, painter);
+    const masked = yield* addMasks(this, element, inner, inner.isClip ? ['clip-path'] : undefined);
+    return [...masked.shown, ...(yield* this.content(element, name, masked.place, painter))];
   }
 
   /**
@@ -249,17 +255,17 @@ export class Scene {
    * @param {string} name
    * @param {Place} inner
    * @param {Painter} painter
-   * @returns {Placed[]}
+   * @returns {Steps<Placed[]>}
    */
-  content(element, name, inner, painter) {
+  *content(element, name, inner, painter) {
     if (name in SHAPES) {
       const isMarked = !inner.isClip && !(painter instanceof Ruler) && hasMarkers(name, inner.style);
-      painter.paint(element, inner, isMarked ? () => markersOf(this, element, inner) : null);
+      yield* painter.paint(element, inner, isMarked ? () => markersOf(this, element, inner) : null);
       return [];
     }
     if (name === 'image') {
       if (painter instanceof Ruler) painter.measure(rectangle(...imageSides(inner, [0, 0])).cubics, inner);
-      else if (!inner.isClip) paintImage(this, element, inner, painter);
+      else if (!inner.isClip) yield* paintImage(this, element, inner, painter);
       return [];
     }
     if (name === 'use') return this.useTarget(element, inner);
@@ -267,13 +273,9 @@ export class Scene {
     return children.map((child) => [child, inner]);
   }
 
-  /**
-   * @param {any} element
-   * @param {Place} place
-   * @returns {Rectangle | null} the box as `around`, without strokes; null without area
-   */
-  extent(element, place) {
-    const box = this.around(element, place, false);
+  /** @param {any} element @param {Place} place @returns {Steps<Rectangle | null>} the box without strokes; null without area */
+  *extent(element, place) {
+    const box = yield* this.around(element, place, false);
     return box && Math.min(box[2], box[3]) > 0 ? box : null;
   }
 
@@ -281,13 +283,13 @@ export class Scene {
    * @param {any} element
    * @param {Place} place
    * @param {boolean} isStroked
-   * @returns {Rectangle | null} the box of its content in the units of the place
+   * @returns {Steps<Rectangle | null>} the box of its content in the units of the place
    */
-  around(element, place, isStroked) {
+  *around(element, place, isStroked) {
     const silent = Object.assign(Object.create(Scene.prototype), this, { report: new Report(this.engine) });
     const ruler = new Ruler(silent, isStroked);
     const name = this.engine.name(element) ?? '';
-    silent.walk(silent.content(element, name, { ...place, space: SPACE }, ruler), ruler);
+    yield* silent.walk(yield* silent.content(element, name, { ...place, space: SPACE }, ruler), ruler);
     this.used = silent.used;
     return ruler.corners.length ? rectangleOf(boundsOf(ruler.corners)) : null;
   }
@@ -328,7 +330,7 @@ export class Scene {
 
   /** @param {Place} place @returns {import('./contours.js').Outline} the bounding box of the element at a place */
   boxOutline(place) {
-    return rectangle(...(this.extent(place.element, place) ?? /** @type {Rectangle} */ ([0, 0, 0, 0])));
+    return rectangle(...(atOnce(this.extent(place.element, place)) ?? /** @type {Rectangle} */ ([0, 0, 0, 0])));
   }
 
   /**

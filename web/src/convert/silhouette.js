@@ -1,5 +1,6 @@
 // The texels of a silhouette, by the kernel `silhouette_texels`.
 import { VextureError } from '../errors.js';
+import { overtime as lateness } from './pace.js';
 
 /** @import { Bounds } from './conversion.js' */
 /** @import { Drawing, Path } from './drawing.js' */
@@ -76,7 +77,7 @@ export const workOf = ({ maxSeconds }) => Math.ceil(Math.min(WORK * maxSeconds, 
  * @param {Pick<Bounds, 'maxSeconds'>} bounds
  */
 export function overtime(name, { maxSeconds }) {
-  return new VextureError(`${name}: converting takes longer than ${maxSeconds} s; give a larger \`maxSeconds\`, or a simpler drawing`, 'maxSeconds');
+  return lateness('converting', maxSeconds).in(name);
 }
 
 /**

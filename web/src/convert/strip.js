@@ -15,13 +15,18 @@ const CHECKED = new Set([
 const HTML = 'http://www.w3.org/1999/xhtml';
 
 /**
+ * @typedef {{ links: Map<Element, string>, sheets: string, stripped: Map<string, number>, invalid: Attr[] }} Stripped links by
+ *   element, the text of style sheets, messages on what is left out, and attributes with values that are not valid
+ */
+
+/**
  * Remove scripts, animations, HTML, links and imports of a document.
  *
  * @param {Element} root
- * @returns {{ links: Map<Element, string>, sheets: string, stripped: Map<string, number>, invalid: Attr[] }} links by
- *   element, the text of its style sheets, messages on what is left out, and attributes with values that are not valid
+ * @param {import('./pace.js').Pace} pace
+ * @returns {import('./pace.js').Steps<Stripped>}
  */
-export function strip(root) {
+export function* strip(root, pace) {
   /** @type {Map<Element, string>} */
   const links = new Map();
   /** @type {Map<string, number>} */
@@ -32,6 +37,7 @@ export function strip(root) {
   const invalid = [];
   const note = (/** @type {string} */ message) => stripped.set(message, (stripped.get(message) ?? 0) + 1);
   for (const element of [root, ...root.getElementsByTagName('*')]) {
+    if (pace.isDue()) yield;
     const name = element.localName;
     const link = LINKS.map((one) => element.getAttribute(one)).find(Boolean);
     if (link) links.set(element, link);

@@ -15,9 +15,10 @@ import { movePaint, rowsOf } from './paints.js';
  *
  * @param {Path[]} paths
  * @param {readonly [number, number]} sides of the drawing, in pixels
- * @returns {{ paths: Path[], toSource: import('./affine.js').Affine, sides: [number, number] }}
+ * @param {import('./pace.js').Pace} [pace]
+ * @returns {import('./pace.js').Steps<{ paths: Path[], toSource: import('./affine.js').Affine, sides: [number, number] }>}
  */
-export function inUnitSquare(paths, [width, height]) {
+export function* inUnitSquare(paths, [width, height], pace) {
   const size = Math.max(width, height);
   if (!(Math.min(width, height) > 0 && Number.isFinite(size) && Number.isFinite(1 / size))) {
     const text = `the drawing's box is ${exponential(width)} x ${exponential(height)}; both must be above 0`;
@@ -30,13 +31,19 @@ export function inUnitSquare(paths, [width, height]) {
   const low = sides.map((side) => (1 - side) / 2);
   const high = low.map((value) => 1 - value);
   const rows = rowsOf(toSource);
-  const placed = paths.map((path) => path.contours.map((contour) => placeContour(contour, size, low)));
+  const placed = [];
+  for (const path of paths) {
+    if (pace?.isDue()) yield;
+    placed.push(path.contours.map((contour) => placeContour(contour, size, low)));
+  }
   checkReach(placed.flat());
-  const normal = paths.map((path, k) => {
+  const normal = [];
+  for (const [k, path] of paths.entries()) {
+    if (pace?.isDue()) yield;
     const contours = placed[k].map((contour) => tidyContour(cutContour(contour, low, high))).filter((one) => one.length);
-    return { ...path, contours, paint: movePaint(path.paint, rows) };
-  });
-  return { paths: normal.filter((path) => path.contours.length), toSource, sides };
+    if (contours.length) normal.push({ ...path, contours, paint: movePaint(path.paint, rows) });
+  }
+  return { paths: normal, toSource, sides };
 }
 
 /** @param {Float64Array} contour @param {number} size @param {number[]} low @returns {Float64Array} */

@@ -10,6 +10,7 @@ import { Label } from './label.js';
 import { chosen, glyphAt } from './layout.js';
 import { LAYOUT, checkOption, requestOf } from './text-options.js';
 import { readViewport } from './viewport.js';
+import { warnOf } from './warnings.js';
 
 /** @import { Material } from 'three' */
 /** @import { LabelOptions } from './label.js' */
@@ -110,8 +111,9 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
     addLabel(options = {}) {
       const row = this.#freeRows.pop() ?? this.#labels.size;
       const label = new Label(row, (stale) => this.#markStale(stale));
-      label.set(options);
       this.#labels.set(row, label);
+      this.#markStale(label);
+      label.set(options);
       if (this.#table.makeRoom(row + 1)) this.#glyphs.texture.dispatchEvent({ type: 'change' }); // masks take the table's other texture
       return label;
     }
@@ -155,6 +157,7 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
           const label = labels[place];
           if (outcome.status === 'rejected') problem = outcome.reason;
           else if (this.#labels.get(label.row) === label && !this.#stale.has(label)) this.#show(label, outcome.value);
+          if (outcome.status === 'fulfilled' && outcome.value) warnOf(outcome.value);
         });
         /** @type {LabelGeometry} */ (this.geometry).compact(this.#boxOf);
       }

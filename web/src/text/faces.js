@@ -30,10 +30,17 @@ const NORMAL = 400,
 const OTHER_SIDE = 1000,
   OTHER_STYLE = 4000;
 
-/** Font of texts to which none is given; null: there is none yet. @type {FontSource | null} */
+/** Noto Sans, which the package brings along; bundlers recognise this form. */
+const bundled = () => new URL('../../fonts/noto-sans.woff', import.meta.url);
+
+/** Font of texts to which none is given; null: that of the package. @type {FontSource | null} */
 let usual = null;
 
-/** Set the font of all texts to which none is given. @param {FontSource | null} font */
+/**
+ * Set the font of all texts to which none is given.
+ *
+ * @param {FontSource | null} font null: Noto Sans in its regular face, with Latin, Greek and Cyrillic letters
+ */
 export function setDefaultFont(font) {
   usual = font;
 }
@@ -41,11 +48,10 @@ export function setDefaultFont(font) {
 /**
  * @param {FontSource | null} font
  * @returns {Face[]}
- * @throws {VextureError} if there is none, or it is none
+ * @throws {VextureError} if it is none
  */
 export function facesOf(font) {
-  const given = font ?? usual;
-  if (given === null) throw new VextureError('the text has no font; give the address or the content of one as `font`', 'font');
+  const given = font ?? usual ?? bundled();
   const faces = (Array.isArray(given) ? given : [given]).map(faceOf);
   if (!faces.length) throw new VextureError('the list of fonts is empty; give the address or the content of one', 'font');
   return faces;

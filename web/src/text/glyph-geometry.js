@@ -172,7 +172,7 @@ export class GlyphGeometry extends InstancedBufferGeometry {
 }
 
 /**
- * The part of a box of the unit square of a glyph that is in a rectangle; null if none is.
+ * The part of a box of the unit square of a glyph that is in a rectangle, as `GLYPH.box` has it; null if none is.
  *
  * @param {number} left
  * @param {number} bottom
@@ -187,7 +187,10 @@ function clipped(left, bottom, side, [x0, y0, x1, y1], [a, b, c, d]) {
     Math.max(x0, (a - left) / side), Math.max(y0, (b - bottom) / side),
     Math.min(x1, (c - left) / side), Math.min(y1, (d - bottom) / side),
   ];
-  return part[0] < part[2] && part[1] < part[3] ? part : null;
+  if (part[0] >= part[2] || part[1] >= part[3]) return null;
+  if (part[2] < x1) part[2] *= -1; // see `GLYPH.box`
+  if (part[3] < y1) part[3] *= -1;
+  return part;
 }
 
 /** A point of a frame. @param {Frame} frame @param {number} x @param {number} y */

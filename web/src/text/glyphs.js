@@ -1,5 +1,6 @@
 // The glyphs of a page: a worker that sets texts, and the texture that holds the shapes of what they show.
 import { VextureError, givenOptions, line, shortened } from '../errors.js';
+import { loadMaps } from '../maps.js';
 import { chooseFaces, facesOf } from './faces.js';
 import { GrowingTexture } from './growing-texture.js';
 
@@ -55,7 +56,14 @@ export class Glyphs {
   /** @type {Set<WeakRef<GlyphUser>>} */
   #users = new Set();
   #isRestarting = false;
+<<<<<<< HEAD
   /** The texture with the shapes of all glyphs. @internal */
+=======
+  /** @type {Promise<void> | null} */
+  #maps = null;
+  #hasMaps = false;
+  /** The texture with the shapes of all glyphs. */
+>>>>>>> text
   texture = new GrowingTexture();
 
   /** @param {GlyphsOptions} [options] */
@@ -160,7 +168,7 @@ export class Glyphs {
   /** @returns {Promise<Endpoint>} */
   async #open() {
     const { kernels, worker = startWorker } = this.#options;
-    const receive = (/** @type {any} */ data) => this.#receive(data);
+    const receive = (/** @type {any} */ data) => this.#receiveInTurn(data);
     const hasWorkers = typeof Worker === 'function';
     const endpoint = worker && hasWorkers ? worker() : await openHere(receive);
     if (hasWorkers && endpoint instanceof Worker) {
@@ -172,6 +180,21 @@ export class Glyphs {
     }
     endpoint.postMessage({ kernels: absolute(kernels) });
     return endpoint;
+  }
+
+  /**
+   * Receive an answer; from the first with glyphs in colours of their own on, when the module for planar maps is loaded.
+   *
+   * @param {{ id: number, added?: Added }} answer
+   */
+  #receiveInTurn(answer) {
+    if (!this.#maps && answer.added?.shapes.some(({ isMap }) => isMap)) {
+      this.#maps = loadMaps().then(() => {
+        this.#hasMaps = true;
+      });
+    }
+    if (this.#maps && !this.#hasMaps) this.#maps.then(() => this.#receive(answer), (error) => this.#receive({ ...answer, error }));
+    else this.#receive(answer);
   }
 
   /** @param {{ id: number, added?: Added, error?: { message: string, field: string } }} answer */

@@ -10,6 +10,7 @@ import { textOf } from './text.js';
 
 export { VextureError } from '../errors.js';
 export { setDefaultFont } from './faces.js';
+export { loadFontFaces } from './font-css.js';
 export { Glyphs } from './glyphs.js';
 export { getCaretAtPoint, getSelectionRects } from './layout.js';
 

@@ -49,6 +49,7 @@
  * @property {number} xHeight height of small letters
  * @property {number} lineHeight distance of baselines
  * @property {number[]} missing code points that no font has
+ * @property {string[]} notes what is drawn otherwise than the fonts say
  *
  * @typedef {PlacedShapes & TextMeasures & { outlines?: PlacedShapes, strokes?: PlacedShapes }} TextLayout
  *

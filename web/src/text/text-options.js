@@ -41,6 +41,8 @@ import { weightOf } from './faces.js';
  * @property {number | string} outlineOffsetY shifts the outline down
  * @property {ColorRepresentation} strokeColor grey by default
  * @property {number} strokeOpacity 1 by default
+ * @property {'off' | 'polite' | 'assertive'} ariaLive whether a hidden element of the page has the text, for screen readers;
+ *   `off` by default
  * @property {number} depthOffset moves the text nearer (below 0) or farther in the order of depths, in pixels
  *
  * @typedef {object} ArrangementOptions What the page does with glyphs.
@@ -64,7 +66,7 @@ export const LAYOUT = Object.freeze({
 /** @type {Readonly<LookOptions>} */
 export const LOOK = Object.freeze({
   color: null, fillOpacity: 1, outlineColor: 0x000000, outlineOpacity: 1, outlineOffsetX: 0, outlineOffsetY: 0,
-  strokeColor: 0x808080, strokeOpacity: 1, depthOffset: 0,
+  strokeColor: 0x808080, strokeOpacity: 1, depthOffset: 0, ariaLive: 'off',
 });
 
 /** @type {Readonly<ArrangementOptions>} */
@@ -81,6 +83,7 @@ const WORDS = Object.freeze({
   overflowWrap: ['normal', 'break-word'],
   direction: ['auto', 'ltr', 'rtl'],
   writingMode: ['horizontal-tb', 'vertical-rl'],
+  ariaLive: ['off', 'polite', 'assertive'],
 });
 
 const ANCHORS = Object.freeze({

@@ -1,6 +1,7 @@
 // A text in a three.js scene, whatever its renderer.
 import { Color, DoubleSide, Matrix4, Mesh, Ray, Vector3 } from 'three';
 import { VextureError, givenOptions, line } from '../errors.js';
+import { AriaMirror } from './aria-mirror.js';
 import { alongCurve, onCylinder } from './bends.js';
 import { weightOf } from './faces.js';
 import { GlyphGeometry } from './glyph-geometry.js';
@@ -8,6 +9,7 @@ import { Glyphs } from './glyphs.js';
 import { chosen, glyphAt } from './layout.js';
 import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, lengthOf, requestOf } from './text-options.js';
 import { isUpright, readViewport } from './viewport.js';
+import { warnOf } from './warnings.js';
 
 /** @import { Material } from 'three' */
 /** @import { PlacedShapes, TextLayout } from './layout.js' */
@@ -82,6 +84,7 @@ export function textOf({ makeMaterial, applyMask }) {
     /** @type {Promise<void> | null} */
     #syncing = null;
     #isStale = false;
+    #mirror = new AriaMirror();
     #glyphs;
     #unfollow;
     /** @type {Error | null} */
@@ -162,6 +165,7 @@ export function textOf({ makeMaterial, applyMask }) {
       options[name] = wanted;
       if (name in LAYOUT) this.#markStale();
       else if (name in ARRANGEMENT || name.startsWith('outlineOffset')) this.#arrange();
+      else if (name === 'ariaLive') this.#mirror.say(this.#options.text, value);
       else this.#paint();
     }
 
@@ -208,7 +212,8 @@ export function textOf({ makeMaterial, applyMask }) {
       this.#layout = layout;
       this.error = null;
       this.#arrange();
-      if (layout?.missing.length) warnOfMissing(layout.missing);
+      this.#mirror.say(options.text, options.ariaLive);
+      if (layout) warnOf(layout);
       this.dispatchEvent(/** @type {any} */ ({ type: 'synccomplete' }));
     }
 
@@ -340,6 +345,7 @@ export function textOf({ makeMaterial, applyMask }) {
     /** Free the GPU memory. The texture of glyphs is that of other texts, too. */
     dispose() {
       this.#unfollow();
+      this.#mirror.dispose();
       for (const name of [...this.#parts.keys()]) this.#removePart(name);
       this.geometry.dispose();
       this.#material.dispose();
@@ -396,16 +402,4 @@ function colorsOf(clusters, ranges, color) {
     (place < 0 ? before : tones[place]).toArray(colors, 3 * k);
   });
   return colors;
-}
-
-/** Characters that were named already. @type {Set<number>} */
-const NAMED = new Set();
-
-/** @param {number[]} missing code points */
-function warnOfMissing(missing) {
-  const fresh = missing.filter((code) => !NAMED.has(code));
-  if (!fresh.length) return;
-  fresh.forEach((code) => NAMED.add(code));
-  const shown = fresh.slice(0, 10).map((code) => `${String.fromCodePoint(code)} (U+${code.toString(16).toUpperCase().padStart(4, '0')})`);
-  console.warn(`vexture: no font of the text has ${shown.join(', ')}${fresh.length > 10 ? ` and ${fresh.length - 10} more` : ''}; add one to \`font\``);
 }

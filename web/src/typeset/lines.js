@@ -38,6 +38,9 @@ const SPACE = /[ \t\u1680\u2000-\u2006\u2008-\u200a\u205f\u3000]/;
 /** Most UTF-16 units of a run that are shaped at once. */
 const LONGEST_RUN = 4096;
 
+/** UTF-16 units of a user-perceived character that is not divided. */
+const LONGEST_GRAPHEME = 64;
+
 /** Widths of a space that a tab has. */
 const TAB = 8;
 
@@ -179,7 +182,7 @@ function movedRuns(runs, start, text) {
     const last = run.end + start;
     while (last - at > LONGEST_RUN) {
       const space = text.lastIndexOf(' ', at + LONGEST_RUN);
-      const end = space > at ? space : at + /** @type {number} */ (graphemeEnds(text.slice(at, at + LONGEST_RUN)).at(-2));
+      const end = space > at ? space : at + (graphemeEnds(text.slice(at, at + LONGEST_RUN)).at(-2) ?? LONGEST_RUN);
       moved.push({ ...run, start: at, end });
       at = end;
     }
@@ -218,9 +221,9 @@ function wrap(paragraph, next) {
     let line = null;
     for (last--; last >= at && !line; last--) {
       const tried = paragraph.line(from, places[last], goesOn(places[last]));
-      if (tried.width <= room || last === at) line = tried;
+      if (tried.width <= room) line = tried;
     }
-    if (!line || line.width > room) line = brokenWord(paragraph, from, places[at], room, goesOn);
+    line ??= style.breaksWords ? brokenWord(paragraph, sums, from, places[at], room, goesOn) : paragraph.line(from, places[at], goesOn(places[at]));
     line.isSoft = line.end < end;
     lines.push(line);
     from = line.end;
@@ -230,25 +233,26 @@ function wrap(paragraph, next) {
 }
 
 /**
- * The line of a word that is too wide.
+ * The line of a word that is too wide: as many user-perceived characters as fit, one at least.
  *
  * @param {Paragraph} paragraph
+ * @param {Float64Array} sums of widths
  * @param {number} from
  * @param {number} to
  * @param {number} room
  * @param {(to: number) => number} goesOn
  */
-function brokenWord(paragraph, from, to, room, goesOn) {
-  const whole = paragraph.line(from, to, goesOn(to));
-  if (!paragraph.style.breaksWords || whole.width <= room) return whole;
-  const ends = graphemeEnds(paragraph.text.slice(from, to));
-  let low = 0, high = ends.length - 1; // the line of `low` is taken, that of `high` is too wide
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (paragraph.line(from, from + ends[middle], 0).width <= room) low = middle;
-    else high = middle;
+function brokenWord(paragraph, sums, from, to, room, goesOn) {
+  const { start, text } = paragraph;
+  let near = from; // where the line is too long, if shaping the parts of the word does not change much
+  while (near < to && sums[near + 1 - start] - sums[from - start] <= room) near++;
+  const ends = graphemeEnds(text.slice(from, Math.min(near + LONGEST_GRAPHEME, to)));
+  let last = ends.findLastIndex((end) => from + end <= near);
+  for (; last > 0; last--) {
+    const line = paragraph.line(from, from + ends[last], goesOn(from + ends[last]));
+    if (line.width <= room) return line;
   }
-  return paragraph.line(from, from + ends[low], goesOn(from + ends[low]));
+  return paragraph.line(from, from + ends[0], goesOn(from + ends[0]));
 }
 
 /** Make control characters blank; a tab is as wide as some spaces. @param {Shaped} shaped @param {string} text */
@@ -265,22 +269,30 @@ function blankControls(shaped, text) {
 
 /** The glyphs of a part of a run; -1 if none begins there. @param {Shaped} shaped @param {number} low @param {number} high */
 function rangeOf({ clusters, count, isReversed }, low, high) {
-  let from = 0, to = count;
-  if (isReversed) {
-    while (from < to && clusters[from] >= high) from++;
-    while (to > from && clusters[to - 1] < low) to--;
-  } else {
-    while (from < to && clusters[from] < low) from++;
-    while (to > from && clusters[to - 1] >= high) to--;
-  }
+  const from = isReversed ? firstOf(count, (k) => clusters[k] < high) : firstOf(count, (k) => clusters[k] >= low);
+  const to = isReversed ? firstOf(count, (k) => clusters[k] < low) : firstOf(count, (k) => clusters[k] >= high);
   return [from < to ? from : -1, to];
 }
 
+/** The first index from which on a test is true, by bisection. @param {number} count @param {(k: number) => boolean} test */
+function firstOf(count, test) {
+  let low = 0, high = count;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (test(middle)) high = middle;
+    else low = middle + 1;
+  }
+  return low;
+}
+
 /** Whether a run may be cut before a character. @param {Shaped} shaped @param {number} place */
-const canCut = ({ clusters, unsafe }, place) => !unsafe?.has(place) && clusters.includes(place);
+function canCut({ clusters, unsafe, count, isReversed }, place) {
+  if (unsafe?.has(place)) return false;
+  return clusters[firstOf(count, isReversed ? (k) => clusters[k] <= place : (k) => clusters[k] >= place)] === place;
+}
 
 /** @param {Piece} piece */
-export function widthOf({ shaped: { advances, clusters }, from, to, scale, spacing }) {
+function widthOf({ shaped: { advances, clusters }, from, to, scale, spacing }) {
   let width = 0, count = 0;
   for (let k = from; k < to; k++) {
     width += advances[k];

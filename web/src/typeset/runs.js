@@ -1,5 +1,6 @@
 // Texts as runs of one font, script and direction.
 import bidiFactory from 'bidi-js';
+import { VextureError } from '../errors.js';
 import { graphemeEnds } from './breaks.js';
 
 /** @import { TypeFont } from './font.js' */
@@ -71,6 +72,11 @@ function expression(name, place) {
 
 const bidi = bidiFactory();
 
+/** Most isolates of a paragraph: the time of bidi-js grows with their square. */
+const MOST_ISOLATES = 10_000;
+
+const ISOLATE = /[\u2066-\u2068]/g;
+
 /** Texts that have only one direction, from left to right. */
 const LEFT_TO_RIGHT = /^[\0-\u058f\u0900-\u200d\u2010-\u2029\u2030-\u2065\u2070-\ud801\ud804-\ud839\ud83c-\udfff\ue000-\ufb1c\ufe00-\ufe6f\uff00-\uffff]*$/;
 
@@ -86,6 +92,10 @@ const STAND_INS = new Map([['R', '\u05d0'], ['AL', '\u0628'], ['AN', '\u0660'], 
  */
 export function levelsOf(text, direction) {
   if (direction !== 'rtl' && LEFT_TO_RIGHT.test(text)) return { levels: null, level: 0 };
+  const isolates = text.match(ISOLATE)?.length ?? 0;
+  if (isolates > MOST_ISOLATES) {
+    throw new VextureError(`\`text\` has ${isolates} isolates (U+2066 to U+2068) in a paragraph; the limit is ${MOST_ISOLATES}; divide it`, 'text');
+  }
   const seen = text.replace(/[\u{10000}-\u{10ffff}]/gu, (character) => STAND_INS.get(bidi.getBidiCharTypeName(character))?.repeat(2) ?? character);
   const { levels, paragraphs } = bidi.getEmbeddingLevels(seen, direction === 'auto' ? undefined : direction);
   return { levels, level: paragraphs[0]?.level ?? (direction === 'rtl' ? 1 : 0) };
@@ -127,11 +137,18 @@ export function runsOf(text, { fonts, levels, isVertical, needed, missing }) {
   /** @type {Run | null} */
   let run = null;
   let start = 0;
+  /** @type {Map<string, Pick<Run, 'font' | 'script' | 'isUpright'>>} */
+  const seen = new Map();
   for (const end of graphemeEnds(text)) {
     const cluster = text.slice(start, end);
-    const font = fontOf(cluster, fonts, run, needed, missing);
-    const script = scriptOf(/** @type {number} */ (cluster.codePointAt(0)));
-    const level = levels ? levels[start] : 0, isUpright = isVertical && UPRIGHT.test(cluster);
+    /** @type {Pick<Run, 'font' | 'script' | 'isUpright'> | undefined} */
+    let about = seen.get(cluster);
+    if (!about) {
+      const script = scriptOf(/** @type {number} */ (cluster.codePointAt(0)));
+      about = { font: fontOf(cluster, fonts, run, needed, missing), script, isUpright: isVertical && UPRIGHT.test(cluster) };
+      if (cluster !== ' ') seen.set(cluster, about); // the font of a space is that of what is before it
+    }
+    const { font, script, isUpright } = about, level = levels ? levels[start] : 0;
     const isSame = run && (script === SHARED || run.script === SHARED || run.script === script);
     if (run && isSame && run.font === font && run.level === level && run.isUpright === isUpright) {
       run.end = end;
@@ -178,7 +195,7 @@ function fontOf(cluster, fonts, before, needed, missing) {
   const found = plain ?? partial;
   if (found) return found;
   const fallback = fonts.find(({ isLoaded }) => isLoaded) ?? fonts[0];
-  if (isInvisible(code)) return before?.font ?? fallback;
+  if (isInvisible(code)) return fallback;
   if (fallback.isPending) needed.add(fallback);
   missing.add(code);
   return fallback;

@@ -1,10 +1,11 @@
 // The vertices of glyphs as nodes: what `glyph-shader.js` says in GLSL.
 import {
   Fn, abs, attribute, cameraProjectionMatrix, cross, int, inverse, ivec2, length, mat3, max, min, mix, modelViewMatrix, positionGeometry,
-  screenSize, select, texture as textureNode, textureLoad, varying, vec2, vec3, vec4,
+  screenSize, select, step, textureLoad, varying, vec2, vec3, vec4,
 } from 'three/tsl';
 import { GLYPH, LABEL_TEXELS, LABEL_WIDTH, MARGIN, MOST_RIM } from '../glyph-shader.js';
 import { isLabels } from '../mask-options.js';
+import { wordsNode } from './shape-inputs.js';
 
 /** @import { Labels } from '../glyph-shader.js' */
 
@@ -26,10 +27,7 @@ const toClip = () => /** @type {Node} */ (cameraProjectionMatrix).mul(modelViewM
  * @returns {(part: number) => Node}
  */
 function labelReader(labels) {
-  const table = /** @type {Node} */ (textureNode(labels.texture));
-  table.onRenderUpdate(() => {
-    table.value = labels.texture;
-  });
+  const table = wordsNode(() => labels.texture);
   return (part) => {
     const texel = /** @type {Node} */ (int(/** @type {Node} */ (attribute(GLYPH.label, 'uint')))).mul(LABEL_TEXELS).add(part);
     return textureLoad(table, ivec2(texel.mod(LABEL_WIDTH), texel.div(LABEL_WIDTH)));
@@ -70,20 +68,21 @@ export function glyphNodes(instanced) {
     const place = glyphAttribute(GLYPH.place), box = glyphAttribute(GLYPH.box), turn = glyphAttribute(GLYPH.turn);
     const ofGlyph = (/** @type {number} */ x, /** @type {number} */ y) => put(place.xyz.add(rotated(vec3(x, y, 0), turn)));
     const corner = /** @type {Node} */ (positionGeometry).xy;
-    const size = box.zw.sub(box.xy).mul(place.w);
-    const at = /** @type {Node} */ (mix(box.xy, box.zw, corner).mul(place.w).toVar());
+    const high = abs(box.zw), size = high.sub(box.xy).mul(place.w);
+    const at = /** @type {Node} */ (mix(box.xy, high, corner).mul(place.w).toVar());
+    const outwards = /** @type {Node} */ (mix(step(box.xy, vec2(0)).negate(), step(0, box.zw), corner)); // see `GLYPH.box`
     const origin = ofGlyph(0, 0).toVar(), alongU = ofGlyph(1, 0).sub(origin).toVar(), alongV = ofGlyph(0, 1).sub(origin).toVar();
     const clip = toClip();
     const atClip = clip.mul(vec4(origin.add(alongU.mul(at.x)).add(alongV.mul(at.y)), 1)).toVar();
     const depth = max(atClip.w, 1e-6).toVar();
-    const step = (/** @type {Node} */ along) => {
+    const onScreen = (/** @type {Node} */ along) => {
       const way = clip.mul(vec4(along, 0)).toVar();
       return way.xy.sub(atClip.xy.mul(way.w).div(depth)).mul(screenSize).mul(0.5).div(depth).toVar();
     };
-    const u = step(alongU), v = step(alongV);
+    const u = onScreen(alongU), v = onScreen(alongV);
     const area = max(abs(u.x.mul(v.y).sub(u.y.mul(v.x))), 1e-12);
     const rim = vec2(abs(v.x).add(abs(v.y)), abs(u.x).add(abs(u.y))).mul(0.5 * (1 + MARGIN)).div(area);
-    at.addAssign(corner.mul(2).sub(1).mul(min(rim, vec2(max(size.x, size.y).mul(MOST_RIM)))));
+    at.addAssign(outwards.mul(min(rim, vec2(max(size.x, size.y).mul(MOST_RIM)))));
     return vec4(at, 0, 0);
   });
   const at = /** @type {Node} */ (vertex()).xy.toVar();

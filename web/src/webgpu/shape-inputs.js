@@ -29,7 +29,7 @@ import { ShapeNode } from './shape-node.js';
  *
  * @param {() => import('three').DataTexture} current
  */
-function wordsNode(current) {
+export function wordsNode(current) {
   const plain = () => {
     const texture = current();
     texture.internalFormat = null;

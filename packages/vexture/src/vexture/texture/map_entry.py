@@ -14,7 +14,7 @@ from vexture.texture.map_texels import encode_map
 from vexture.tree.bounds import Bounds
 from vexture.tree.growth import CURVES, QUADS, UNRESOLVED, WAITING
 from vexture.tree.planar.build import grow_map, plant_map
-from vexture.tree.planar.map import arrange_map
+from vexture.tree.planar.map import arrange_map, texels_of
 from vexture.tree.planar.source import MapSource
 
 MapAnswer = tuple[
@@ -44,7 +44,9 @@ def coloured_texels(
     paints, flattened = 0, 0
     if outside <= CLOSED and reach <= FARTHEST:
         growth, faces = grow_map(growth, layers, faces, bounds, most_texels, most_work, 0)
-        if growth.tree.counts[WAITING] == 0:
+        quads, curves = growth.tree.counts[QUADS], growth.tree.counts[CURVES]
+        is_within = quads <= bounds.most_quads and texels_of(quads, curves) <= most_texels  # or the last cell was large
+        if growth.tree.counts[WAITING] == 0 and is_within:
             arrays, starts, members, flattened = arrange_map(growth, layers, faces)
             paints = len(arrays.paints)
             if paints <= MOST_PAINTS:
