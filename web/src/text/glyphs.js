@@ -56,14 +56,10 @@ export class Glyphs {
   /** @type {Set<WeakRef<GlyphUser>>} */
   #users = new Set();
   #isRestarting = false;
-<<<<<<< HEAD
-  /** The texture with the shapes of all glyphs. @internal */
-=======
   /** @type {Promise<void> | null} */
   #maps = null;
   #hasMaps = false;
-  /** The texture with the shapes of all glyphs. */
->>>>>>> text
+  /** The texture with the shapes of all glyphs. @internal */
   texture = new GrowingTexture();
 
   /** @param {GlyphsOptions} [options] */
