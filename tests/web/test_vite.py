@@ -10,10 +10,10 @@ import time
 from collections.abc import Callable
 from contextlib import ExitStack, contextmanager
 from hashlib import sha256
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+import fontpkg_noto_sans
 import httpx
 import numpy as np
 import pytest
@@ -31,6 +31,7 @@ HOSTILE = "a & b's $(touch evil) %41#é"
 
 CONFIG = "import vexture from 'vexture/vite';\nexport default {{ plugins: [vexture({options})] }};\n"
 NODE = shutil.which("node") or "node"
+SANS = next(Path(fontpkg_noto_sans.__file__).parent.glob("files/NotoSans[[]*.ttf"))
 
 
 class Project:
@@ -104,13 +105,6 @@ def need_kernels() -> None:
     """Skip where the npm package has no kernels."""
     if not (OUTPUT / "silhouettes.wasm").is_file():
         pytest.skip("no kernels (make wasm)")
-
-
-def font_file() -> Path:
-    """Noto Sans."""
-    found = find_spec("fontpkg_noto_sans")
-    assert found is not None and found.origin is not None, "the extra text is installed for tests"
-    return Path(found.origin).parent / "files" / "NotoSans[wdth,wght].ttf"
 
 
 @pytest.fixture
@@ -222,7 +216,8 @@ const renderer = new THREE.WebGLRenderer({ preserveDrawingBuffer: true });
 renderer.setSize(64, 64);
 document.body.append(renderer.domElement);
 const scene = new THREE.Scene();
-const text = new Text({ text: '\\u2014', font, fontSize: 2, color: 'red', anchorX: 'center', anchorY: 'middle', outlineWidth: 0.01 });
+const place = { anchorX: 'center', anchorY: 'middle' };
+const text = new Text({ text: '\\u2014', font, fontSize: 2, color: 'red', outlineWidth: 0.01, ...place });
 scene.add(text);
 await text.sync();
 renderer.render(scene, new THREE.OrthographicCamera(-1, 1, 1, -1, -1, 1));
@@ -248,7 +243,7 @@ def text_project(project: Project) -> Project:
     dependencies = json.loads((WEB / "package.json").read_text())["dependencies"]
     for name in ("three", *dependencies):
         (modules / name).symlink_to(WEB / "node_modules" / name)
-    shutil.copy(font_file(), project.folder / "font.ttf")
+    shutil.copy(SANS, project.folder / "font.ttf")
     (project.folder / "main.js").write_text(WRITTEN, encoding="utf-8")
     page = '<!doctype html><link rel="icon" href="data:,"><body><script type="module" src="/main.js"></script>'
     (project.folder / "index.html").write_text(page, encoding="utf-8")

@@ -15,6 +15,10 @@ import { VectorMaterial as Material } from '../vector-material.js';
 import { VectorTextureLoader } from '../vector-texture-loader.js';
 import { meshOf, useChanges, useColors, useMesh, useTime } from './hooks.js';
 
+export { VectorText } from './text.js';
+
+/** @typedef {import('./text.js').TextElementProps} TextElementProps */
+
 /** @import { VectorMask as Mask } from '../vector-mask.js' */
 /** @import { AnyVectorTexture, VectorTexture } from '../vector-texture.js' */
 
@@ -42,6 +46,9 @@ import { meshOf, useChanges, useColors, useMesh, useTime } from './hooks.js';
  *
  * @typedef {import('../mask-options.js').MaskOptions & SourceProps & MaskElementProps} VectorMaskProps the options of
  *   `applyVectorMask`, and the props of the component
+ *
+ * @typedef {import('./text.js').VectorTextProps} VectorTextProps the options of `Text`, props of the component, and those of any
+ *   mesh, such as `position` and `onClick`
  */
 
 extend({ VextureMaterial: Material });

@@ -80,6 +80,7 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
         return Object.assign(own, { userData: { ...own.userData, mask } });
       };
       super(new LabelGeometry(), masked('alpha'));
+      /** Labels are anywhere. @internal */
       this.frustumCulled = false; // labels are anywhere
       this.#defaults = { ...LAYOUT, ...layout };
       this.#glyphs = glyphs;
@@ -210,7 +211,7 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       }
     }
 
-    /** @param {any} renderer */
+    /** What three.js calls before each frame. @internal @param {any} renderer */
     onBeforeRender(renderer) {
       readViewport(renderer);
       this.#height = VIEWPORT.y;

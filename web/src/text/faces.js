@@ -5,7 +5,7 @@ import { VextureError, line } from '../errors.js';
  * @typedef {string | URL | ArrayBuffer | Uint8Array} FontFile address or content of a font: TTF, OTF, WOFF or WOFF2
  *
  * @typedef {object} FontFace One face of a family.
- * @property {FontFile} src
+ * @property {FontFile} src its address or content
  * @property {string} [family] faces of one family stand for each other by weight and style; others are its fallbacks
  * @property {number | 'normal' | 'bold' | readonly [number, number]} [weight] 1..1000, or the range of a variable font; 400 by default
  * @property {'normal' | 'italic'} [style] `normal` by default

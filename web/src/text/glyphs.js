@@ -9,7 +9,7 @@ import { GrowingTexture } from './growing-texture.js';
 /** @import { Outcome, Request, TextLayout } from './layout.js' */
 
 /**
- * @typedef {object} GlyphsOptions
+ * @typedef {object} GlyphsOptions Where glyphs are made, and how much memory they may take.
  * @property {import('../convert/kernel-modules.js').KernelSources} [kernels] addresses or contents of the modules
  *   `silhouettes`, `maps` and `strokes`; by default those of this package
  * @property {(() => Worker) | false} [worker] starts the worker, for pages with their own way to load one; false sets texts in
@@ -61,7 +61,7 @@ export class Glyphs {
   #hasMaps = false;
   /** @type {Set<string>} */
   #characters = new Set();
-  /** The texture with the shapes of all glyphs. */
+  /** The texture with the shapes of all glyphs. @internal */
   texture = new GrowingTexture();
 
   /** @param {GlyphsOptions} [options] */
@@ -83,6 +83,7 @@ export class Glyphs {
   /**
    * Set a text. Those that are requested at once are answered at once.
    *
+   * @internal
    * @param {Omit<Request, 'fonts'>} request
    * @param {{ font: FontSource | null, weight: number, isItalic: boolean }} wanted
    * @returns {Promise<TextLayout>}
@@ -113,7 +114,7 @@ export class Glyphs {
     return [...this.#characters].sort().join('');
   }
 
-  /** Let something be told when its shapes get other indices. @param {GlyphUser} user @returns {() => void} ends it */
+  /** Let something be told when its shapes get other indices. @internal @param {GlyphUser} user @returns {() => void} ends it */
   follow(user) {
     const reference = new WeakRef(user);
     this.#users.add(reference);

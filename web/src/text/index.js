@@ -23,11 +23,20 @@ export { getCaretAtPoint, getSelectionRects } from './layout.js';
 /** @typedef {import('./atlas-font.js').AtlasGlyph} AtlasGlyph */
 /** @typedef {import('./atlas-font.js').AtlasMetrics} AtlasMetrics */
 /** @typedef {import('./batched-text.js').BatchOptions} BatchOptions */
-/** @typedef {import('./label.js').Label} Label */
+/**
+ * @typedef {import('./label.js').Label} Label one of the labels of a `BatchedText`. Its `position`, `quaternion`, `scale`,
+ *   `color`, `opacity` and `visible` can be changed at any time, for the next frame; `set(options)` and `text` change the rest
+ */
 /** @typedef {import('./label.js').LabelOptions} LabelOptions */
-/** @typedef {import('./layout.js').TextLayout} TextLayout */
+/** @typedef {import('./layout.js').PlacedShapes} PlacedShapes */
+/** @typedef {import('./layout.js').Rectangle} Rectangle */
+/** @typedef {import('./layout.js').TextLayout} TextLayout places of glyphs and measures of a text that is shown */
+/** @typedef {import('./layout.js').TextLine} TextLine */
 /** @typedef {import('./layout.js').TextMeasures} TextMeasures */
-/** @typedef {import('./text-options.js').TextOptions} TextOptions */
+/** @typedef {import('./text-options.js').ArrangementOptions} ArrangementOptions */
+/** @typedef {import('./text-options.js').LayoutOptions} LayoutOptions */
+/** @typedef {import('./text-options.js').LookOptions} LookOptions */
+/** @typedef {import('./text-options.js').TextOptions} TextOptions all options of a `Text`, each of which is a property of it */
 
 const MAKING = { makeMaterial: () => new MeshBasicMaterial(), applyMask: applyVectorMask };
 

@@ -8,7 +8,7 @@ import { LAYOUT, checkOption } from './text-options.js';
 
 /**
  * @typedef {object} LabelOptions Besides those of its layout.
- * @property {Vector3 | readonly [number, number, number]} [position]
+ * @property {Vector3 | readonly [number, number, number]} [position] of its origin, in the space of the `BatchedText`
  * @property {Quaternion} [quaternion] without effect on sprites
  * @property {number} [scale] above 0; 1 by default
  * @property {import('three').ColorRepresentation} [color] white by default

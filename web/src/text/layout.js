@@ -31,23 +31,23 @@
  * @typedef {object} TextLine A line of a text.
  * @property {number} first index of its first character, in UTF-16 units
  * @property {number} end index after its last
- * @property {number} baseline
- * @property {number} left
- * @property {number} right
+ * @property {number} baseline y of its baseline
+ * @property {number} left x of its start
+ * @property {number} right x of its end
  *
  * @typedef {[number, number, number, number]} Rectangle left, bottom, right and top
  *
  * @typedef {object} TextMeasures Measures of a text that has been set, in its own units, y up.
  * @property {Uint32Array} clusters of each glyph the index of its first character
  * @property {Float32Array} carets of each character the x of its start and its end, bottom and top
- * @property {TextLine[]} lines
+ * @property {TextLine[]} lines from the first to the last
  * @property {Rectangle} blockBounds of the lines
  * @property {Rectangle} visibleBounds of the ink
- * @property {number} ascender
- * @property {number} descender
- * @property {number} capHeight
- * @property {number} xHeight
- * @property {number} lineHeight
+ * @property {number} ascender height of the font above the baseline
+ * @property {number} descender below 0: its depth below the baseline
+ * @property {number} capHeight height of capital letters
+ * @property {number} xHeight height of small letters
+ * @property {number} lineHeight distance of baselines
  * @property {number[]} missing code points that no font has
  * @property {string[]} notes what is drawn otherwise than the fonts say
  *

@@ -13,7 +13,7 @@ import { weightOf } from './faces.js';
  *   faces of a family; or a baked font; null: the default
  * @property {number} fontSize length of an em, 1 by default
  * @property {number | string} fontWeight 1..1000, `normal` or `bold`: chooses among the faces, and sets a variable font
- * @property {'normal' | 'italic'} fontStyle
+ * @property {'normal' | 'italic'} fontStyle `normal` by default
  * @property {Record<string, number>} fontVariations values of the axes of a variable font, such as `{ wdth: 75 }`
  * @property {string} fontFeatures OpenType features, such as `smcp, ss01, -liga`
  * @property {string} lang language, such as `sr`, for fonts with forms of their own for it
@@ -21,7 +21,7 @@ import { weightOf } from './faces.js';
  * @property {number | 'normal'} lineHeight distance of lines in ems; `normal`: that of the font
  * @property {number} maxWidth lines are broken to be no longer
  * @property {number} textIndent of the first line of each paragraph
- * @property {'left' | 'right' | 'center' | 'justify' | 'start' | 'end'} textAlign
+ * @property {'left' | 'right' | 'center' | 'justify' | 'start' | 'end'} textAlign `start` by default: on the side where a line begins
  * @property {'normal' | 'nowrap'} whiteSpace `nowrap` breaks lines at `\n` only
  * @property {'normal' | 'break-word'} overflowWrap `break-word` breaks words that are longer than a line
  * @property {'auto' | 'ltr' | 'rtl'} direction `auto`: that of the first letter of a paragraph
@@ -35,13 +35,13 @@ import { weightOf } from './faces.js';
  *
  * @typedef {object} LookOptions What changes nothing of where glyphs are.
  * @property {ColorRepresentation | null} color null: that of the material
- * @property {number} fillOpacity
- * @property {ColorRepresentation} outlineColor
- * @property {number} outlineOpacity
+ * @property {number} fillOpacity opacity of the letters, 1 by default
+ * @property {ColorRepresentation} outlineColor black by default
+ * @property {number} outlineOpacity 1 by default
  * @property {number | string} outlineOffsetX shifts the outline to the right, for a shadow; also as a percentage of `fontSize`
  * @property {number | string} outlineOffsetY shifts the outline down
- * @property {ColorRepresentation} strokeColor
- * @property {number} strokeOpacity
+ * @property {ColorRepresentation} strokeColor grey by default
+ * @property {number} strokeOpacity 1 by default
  * @property {'off' | 'polite' | 'assertive'} ariaLive whether a hidden element of the page has the text, for screen readers;
  *   `off` by default
  * @property {number} depthOffset moves the text nearer (below 0) or farther in the order of depths, in pixels
