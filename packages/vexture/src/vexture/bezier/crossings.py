@@ -1,4 +1,4 @@
-"""Where two cubics of a side of a stroke cross, and how far what is between turns to the wrong side."""
+"""Crossings of two cubics of a side of a stroke, and turns to the wrong side between them."""
 
 from typing import Final
 
