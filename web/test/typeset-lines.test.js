@@ -34,6 +34,14 @@ describe.skipIf(!isBuilt)('lines', () => {
     expect(await linesOf('to abcdefgh', { maxWidth: 2, overflowWrap: 'break-word' })).toEqual(['to ', 'abcd', 'efgh']);
   });
 
+  it('end with a hyphen where a soft one is, and nowhere else', async () => {
+    const [broken, whole] = await Promise.all([set('soft\u00adly', { maxWidth: 1.7 }), set('soft\u00adly')]);
+    expect(broken.lines.map(({ end }) => end)).toEqual([5, 7]);
+    expect(broken.shapes.length).toBe(whole.shapes.length + 1);
+    expect([...broken.clusters]).toContain(4);
+    expect(broken.lines[0].right).toBeGreaterThan((await set('soft')).lines[0].right + 0.1);
+  });
+
   it('are no wider than allowed', async () => {
     const { lines } = await set('The quick brown fox jumps over the lazy dog, and over the fence', { maxWidth: 5, fontSize: 0.7 });
     expect(lines.length).toBeGreaterThan(3);

@@ -141,6 +141,7 @@ export function runsOf(text, { fonts, levels, isVertical, needed, missing }) {
   const seen = new Map();
   for (const end of graphemeEnds(text)) {
     const cluster = text.slice(start, end);
+    /** @type {Pick<Run, 'font' | 'script' | 'isUpright'> | undefined} */
     let about = seen.get(cluster);
     if (!about) {
       const script = scriptOf(/** @type {number} */ (cluster.codePointAt(0)));
