@@ -103,6 +103,14 @@ describe.skipIf(!isBuilt)('lines', () => {
     expect(caret({ carets }, 2)[1]).toBeLessThan(lines[0].left);
   });
 
+  it('have the space at their end on the side of their paragraph, after a word of the other direction', async () => {
+    const text = 'abc \u0633\u0644\u0627 \u0633\u0644', width = (await set(text.slice(0, 7))).lines[0].right + 0.01;
+    const broken = await set(text, { maxWidth: width });
+    expect(broken.lines.map(({ end }) => end)).toEqual([8, 10]);
+    expect(caret(broken, 7)[0]).toBeGreaterThanOrEqual(caret(broken, 4)[0] - 1e-6);
+    expect(broken.lines[0].right).toBeCloseTo(caret(broken, 4)[0], 5);
+  });
+
   it('keep characters beyond the first plane in their direction', async () => {
     const emoji = await set('\u0633\u{1f600}\u0644'); // an emoji, which is neutral
     expect(caret(emoji, 0)[0]).toBeGreaterThan(caret(emoji, 1)[0]);
