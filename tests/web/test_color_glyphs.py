@@ -8,7 +8,7 @@ import pytest
 from fontTools.colorLib.builder import buildCOLR, buildCPAL
 from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.ttGlyphPen import TTGlyphPen
-from fontTools.ttLib.tables import otTables as ot
+from fontTools.ttLib.tables import otTables
 from test_kernels import built
 from test_typesetting import set_texts, typeset
 
@@ -60,34 +60,37 @@ def color_font(path: Path, paint: Any, version: int | None = None) -> Path:
 
 
 def solid(index: int, alpha: float = 1.0) -> dict[str, Any]:
-    return {"Format": ot.PaintFormat.PaintSolid, "PaletteIndex": index, "Alpha": alpha}
+    return {"Format": otTables.PaintFormat.PaintSolid, "PaletteIndex": index, "Alpha": alpha}
 
 
 def glyph(name: str, paint: dict[str, Any]) -> dict[str, Any]:
-    return {"Format": ot.PaintFormat.PaintGlyph, "Glyph": name, "Paint": paint}
+    return {"Format": otTables.PaintFormat.PaintGlyph, "Glyph": name, "Paint": paint}
 
 
 def layers(*paints: dict[str, Any]) -> dict[str, Any]:
-    return {"Format": ot.PaintFormat.PaintColrLayers, "Layers": [glyph("frame", solid(BLUE)), *paints]}
+    return {"Format": otTables.PaintFormat.PaintColrLayers, "Layers": [glyph("frame", solid(BLUE)), *paints]}
 
 
 def stops(*offsets: tuple[float, int], extend: str = "pad") -> dict[str, Any]:
-    return {"Extend": extend, "ColorStop": [{"StopOffset": at, "PaletteIndex": index, "Alpha": 1.0} for at, index in offsets]}
+    return {
+        "Extend": extend,
+        "ColorStop": [{"StopOffset": at, "PaletteIndex": index, "Alpha": 1.0} for at, index in offsets],
+    }
 
 
 def composite(mode: str, source: dict[str, Any], backdrop: dict[str, Any]) -> dict[str, Any]:
-    kind = ot.PaintFormat.PaintComposite
+    kind = otTables.PaintFormat.PaintComposite
     return {"Format": kind, "CompositeMode": mode, "SourcePaint": source, "BackdropPaint": backdrop}
 
 
 def linear(x0: int, y0: int, x1: int, y1: int, x2: int, y2: int, line: dict[str, Any]) -> dict[str, Any]:
     points = {"x0": x0, "y0": y0, "x1": x1, "y1": y1, "x2": x2, "y2": y2}
-    return {"Format": ot.PaintFormat.PaintLinearGradient, "ColorLine": line} | points
+    return {"Format": otTables.PaintFormat.PaintLinearGradient, "ColorLine": line} | points
 
 
 def radial(x0: int, y0: int, r0: int, x1: int, y1: int, r1: int, line: dict[str, Any]) -> dict[str, Any]:
     circles = {"x0": x0, "y0": y0, "r0": r0, "x1": x1, "y1": y1, "r1": r1}
-    return {"Format": ot.PaintFormat.PaintRadialGradient, "ColorLine": line} | circles
+    return {"Format": otTables.PaintFormat.PaintRadialGradient, "ColorLine": line} | circles
 
 
 def drawn(content: str, below: bool = True) -> bytes:
@@ -103,7 +106,9 @@ RED_GLYPH, GREEN_GLYPH = glyph("left", solid(RED)), glyph("right", solid(GREEN))
 
 def gradient(kind: str, attributes: str, *offsets: tuple[float, str]) -> str:
     inner = "".join(f'<stop offset="{at}" stop-color="{color}"/>' for at, color in offsets)
-    return f'<{kind} id="g" gradientUnits="userSpaceOnUse" {attributes}>{inner}</{kind}><path d="{LEFT}" fill="url(#g)"/>'
+    return (
+        f'<{kind} id="g" gradientUnits="userSpaceOnUse" {attributes}>{inner}</{kind}><path d="{LEFT}" fill="url(#g)"/>'
+    )
 
 
 def masked(path: str, color: str, by: str, inverse: bool = False) -> str:
@@ -113,7 +118,7 @@ def masked(path: str, color: str, by: str, inverse: bool = False) -> str:
 
 
 def shifted(paint: dict[str, Any], dx: int, dy: int) -> dict[str, Any]:
-    return {"Format": ot.PaintFormat.PaintTranslate, "Paint": paint, "dx": dx, "dy": dy}
+    return {"Format": otTables.PaintFormat.PaintTranslate, "Paint": paint, "dx": dx, "dy": dy}
 
 
 CASES: dict[str, tuple[Any, bytes]] = {
@@ -130,21 +135,40 @@ CASES: dict[str, tuple[Any, bytes]] = {
         drawn(gradient("linearGradient", 'x1="100" x2="600"', (0, "#f00"), (1, "#008000"))),
     ),
     "linear gradient askew, reflected": (
-        layers(glyph("left", linear(100, 100, 300, 100, 300, 300, stops((0.25, RED), (0.75, GREEN), extend="reflect")))),
-        drawn(gradient("linearGradient", 'x1="125" y1="75" x2="175" y2="25" spreadMethod="reflect"', (0, "#f00"), (1, "#008000"))),
+        layers(
+            glyph("left", linear(100, 100, 300, 100, 300, 300, stops((0.25, RED), (0.75, GREEN), extend="reflect")))
+        ),
+        drawn(
+            gradient(
+                "linearGradient",
+                'x1="125" y1="75" x2="175" y2="25" spreadMethod="reflect"',
+                (0, "#f00"),
+                (1, "#008000"),
+            )
+        ),
     ),
     "radial gradient": (
         layers(glyph("left", radial(300, 450, 50, 350, 500, 400, stops((0, RED), (1, GREEN))))),
-        drawn(gradient("radialGradient", 'cx="350" cy="500" r="400" fx="300" fy="450" fr="50"', (0, "#f00"), (1, "#008000"))),
+        drawn(
+            gradient(
+                "radialGradient", 'cx="350" cy="500" r="400" fx="300" fy="450" fr="50"', (0, "#f00"), (1, "#008000")
+            )
+        ),
     ),
     "radial gradient inward, moved": (
         layers(glyph("left", shifted(radial(300, 450, 300, 300, 450, 0, stops((0, RED), (1, GREEN))), 50, 50))),
         drawn(gradient("radialGradient", 'cx="350" cy="500" r="300"', (0, "#008000"), (1, "#f00"))),
     ),
-    "moved glyph": (layers(shifted(RED_GLYPH, 200, -50)), drawn(f'<path d="{LEFT}" fill="#f00" transform="translate(200 -50)"/>')),
+    "moved glyph": (
+        layers(shifted(RED_GLYPH, 200, -50)),
+        drawn(f'<path d="{LEFT}" fill="#f00" transform="translate(200 -50)"/>'),
+    ),
     "glyph in a glyph": (layers(glyph("strip", RED_GLYPH)), drawn(masked(LEFT, "#f00", STRIP))),
     "source in": (layers(composite("src_in", RED_GLYPH, GREEN_GLYPH)), drawn(masked(LEFT, "#f00", RIGHT))),
-    "destination out": (layers(composite("dest_out", RED_GLYPH, GREEN_GLYPH)), drawn(masked(RIGHT, "#008000", LEFT, inverse=True))),
+    "destination out": (
+        layers(composite("dest_out", RED_GLYPH, GREEN_GLYPH)),
+        drawn(masked(RIGHT, "#008000", LEFT, inverse=True)),
+    ),
     "source atop": (
         layers(composite("src_atop", RED_GLYPH, GREEN_GLYPH)),
         drawn(f'<path d="{RIGHT}" fill="#008000"/>' + masked(LEFT, "#f00", RIGHT)),
@@ -183,7 +207,12 @@ def test_glyphs_in_colours_are_the_same_drawing(name: str, tmp_path: Path) -> No
 
 
 def test_a_sweep_is_its_mean_and_a_glyph_of_the_text_s_colour_no_map(tmp_path: Path) -> None:
-    sweep = {"Format": ot.PaintFormat.PaintSweepGradient, "ColorLine": stops((0, RED), (1, BLUE)), "centerX": 0, "centerY": 0}
+    sweep = {
+        "Format": otTables.PaintFormat.PaintSweepGradient,
+        "ColorLine": stops((0, RED), (1, BLUE)),
+        "centerX": 0,
+        "centerY": 0,
+    }
     font = color_font(tmp_path / "sweep.ttf", layers(glyph("left", sweep | {"startAngle": 0, "endAngle": 360})))
     plain = color_font(tmp_path / "plain.ttf", [("left", 0xFFFF), ("right", 0xFFFF)])
     mixed = color_font(tmp_path / "mixed.ttf", [("left", 0xFFFF), ("right", RED)])
@@ -194,5 +223,3 @@ def test_a_sweep_is_its_mean_and_a_glyph_of_the_text_s_colour_no_map(tmp_path: P
     assert second["notes"] == []
     assert third["notes"] == ["parts in the text's colour, of glyphs that have others, are black"]
     assert keys == ["0::1", "1::1", "2::1"]
-
-

@@ -8,12 +8,14 @@ from typing import Any
 import fontpkg_noto_sans
 import pytest
 import uharfbuzz
+from fontTools.feaLib.builder import addOpenTypeFeaturesFromString
+from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.basePen import BasePen
+from fontTools.pens.ttGlyphPen import TTGlyphPen
 from fontTools.ttLib import TTFont
 from test_kernels import built
 
 from chromium import ROOT
-
 
 matplotlib = pytest.importorskip("matplotlib")
 
@@ -35,7 +37,12 @@ WORDS = {
 }
 """Words that DejaVu Sans has, by their scripts."""
 
-SANS_WORDS = {"Latin": "Waffle AVATAR Zoe\u0308 ȷ\u0301", "Devanagari": "हिन्दी क्षत्रिय र्क्ति", "Vietnamese": "Tiếng Việt", "Cyrillic": "Ёлка"}
+SANS_WORDS = {
+    "Latin": "Waffle AVATAR Zoe\u0308 ȷ\u0301",
+    "Devanagari": "हिन्दी क्षत्रिय र्क्ति",
+    "Vietnamese": "Tiếng Việt",
+    "Cyrillic": "Ёлка",
+}
 """Words that Noto Sans has."""
 
 Reply = dict[str, Any]
@@ -68,13 +75,13 @@ class LowPen(BasePen):
         super().__init__(glyphs)
         self.points: list[tuple[float, float]] = []
 
-    def _moveTo(self, point: tuple[float, float]) -> None:
+    def _moveTo(self, point: tuple[float, float]) -> None:  # noqa: N802 (fontTools' names)
         self.start = point
 
-    def _lineTo(self, point: tuple[float, float]) -> None:
+    def _lineTo(self, point: tuple[float, float]) -> None:  # noqa: N802
         self.points += [self._getCurrentPoint(), point]
 
-    def _curveToOne(self, *points: tuple[float, float]) -> None:
+    def _curveToOne(self, *points: tuple[float, float]) -> None:  # noqa: N802
         self.points += [self._getCurrentPoint(), *points]
 
     def low(self) -> tuple[float, float] | None:
@@ -94,7 +101,11 @@ class Oracle:
         self.order = file.getGlyphOrder()
 
     def places(
-        self, text: str, features: dict[str, int] | None = None, direction: str | None = None, language: str | None = None
+        self,
+        text: str,
+        features: dict[str, int] | None = None,
+        direction: str | None = None,
+        language: str | None = None,
     ) -> list[tuple[int, int, float, float]]:
         """Glyph, UTF-16 cluster, left and bottom in ems of each glyph that shows something."""
         buffer = uharfbuzz.Buffer()
@@ -130,7 +141,9 @@ def places_of(result: Reply, keys: list[str]) -> list[tuple[int, int, float, flo
     ]
 
 
-def assert_equal_places(found: list[tuple[int, int, float, float]], expected: list[tuple[int, int, float, float]]) -> None:
+def assert_equal_places(
+    found: list[tuple[int, int, float, float]], expected: list[tuple[int, int, float, float]]
+) -> None:
     assert [one[:2] for one in found] == [one[:2] for one in expected]
     for one, other in zip(found, expected, strict=True):
         assert one[2:] == pytest.approx(other[2:], abs=2e-6)
@@ -163,3 +176,71 @@ def test_features_language_and_weight_are_harfbuzz_s(tmp_path: Path) -> None:
     for result, (text, options, variations) in zip(results, cases, strict=True):
         assert_equal_places(places_of(result, keys), Oracle(SANS, variations).places(text, **options))
     assert any("wdth=80,wght=700" in key for key in keys)
+
+
+def upright_font(path: Path) -> Path:
+    """A font of ideographs and a comma, which has another glyph and place in vertical text."""
+    boxes = {
+        "one": (100, 0, 900, 800),
+        "two": (200, -50, 800, 850),
+        "comma": (100, -50, 300, 200),
+        "comma.vert": (700, 600, 900, 850),
+    }
+    builder = FontBuilder(1000, isTTF=True)
+    order = [".notdef", "a", *boxes]
+    builder.setupGlyphOrder(order)
+    builder.setupCharacterMap({ord("a"): "a", ord("漢"): "one", ord("字"): "two", ord("、"): "comma"})
+    glyphs = {".notdef": TTGlyphPen(None).glyph()}
+    for name, (left, bottom, right, top) in {"a": (50, 0, 450, 500), **boxes}.items():
+        pen = TTGlyphPen(None)
+        pen.moveTo((left, bottom))
+        for point in ((left, top), (right, top), (right, bottom)):
+            pen.lineTo(point)
+        pen.closePath()
+        glyphs[name] = pen.glyph()
+    builder.setupGlyf(glyphs)
+    outlines = builder.font["glyf"]
+    widths = {name: (500 if name == "a" else 1000, getattr(outlines[name], "xMin", 0)) for name in order}
+    builder.setupHorizontalMetrics(widths)
+    builder.setupHorizontalHeader(ascent=880, descent=-120)
+    builder.setupVerticalMetrics({name: (1000, 880 - getattr(outlines[name], "yMax", 880)) for name in order})
+    builder.setupVerticalHeader(ascent=500, descent=-500)
+    builder.setupPost()
+    addOpenTypeFeaturesFromString(builder.font, "feature vert { sub comma by comma.vert; } vert;")
+    builder.save(path)
+    return path
+
+
+def test_ideographs_stand_and_latin_lies_in_vertical_text(tmp_path: Path) -> None:
+    font = upright_font(tmp_path / "upright.ttf")
+    style = {"writingMode": "vertical-rl", "lineHeight": 1.5}
+    (result,), keys = set_texts(tmp_path, [font], {"text": "漢、字a", **style})
+    (line,) = result["lines"]
+    found = [
+        (int(keys[shape].split(":")[2]), cluster, x - line["baseline"], y)
+        for shape, cluster, x, y in zip(
+            result["shapes"], result["clusters"], result["places"][0::3], result["places"][1::3], strict=True
+        )
+    ]
+    assert_equal_places(found[:3], Oracle(font).places("漢、字", direction="ttb"))
+    assert [glyph for glyph, *_ in found] == [2, 5, 3, 1]
+    assert keys[-1] == "0::1:r"
+    # the letter is 0.4 x 0.5 em, from 0.05 em after its start, about the middle of ascender and descender
+    assert found[3][2:] == pytest.approx((-0.38, -3.45), abs=1e-6)
+    assert result["blockBounds"] == pytest.approx([0, -3.5, 1.5, 0])
+    assert result["carets"][:4] == pytest.approx([0, -1, 0, 1.5])
+
+
+def test_texts_of_several_fonts_are_those_of_each(tmp_path: Path) -> None:
+    (mixed, latin, arabic), keys = set_texts(
+        tmp_path,
+        [SANS, DEJAVU],
+        {"text": "Zoe\u0308 السلام"},
+        {"text": "Zoe\u0308 ", "fonts": [0]},
+        {"text": "السلام", "fonts": [1]},
+    )
+    names = [keys[shape].split(":")[0] for shape in mixed["shapes"]]
+    assert names == ["0"] * len(latin["shapes"]) + ["1"] * len(arabic["shapes"])
+    space = latin["carets"][4 * 5]
+    shifted = [x + space for x in arabic["places"][0::3]]
+    assert mixed["places"][0::3] == pytest.approx(latin["places"][0::3] + shifted, abs=1e-5)

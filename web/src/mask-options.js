@@ -42,7 +42,7 @@ export const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
 
 export const BACKGROUNDS = Object.freeze(['own', 'none']);
 
-export const INSTANCED = Object.freeze([false, true, 'glyphs']);
+export const INSTANCED = Object.freeze(/** @type {const} */ ([false, true, 'glyphs']));
 
 /** @param {unknown} instanced an option, or what a program has */
 export const isOfLabels = (instanced) => instanced === 'labels' || instanced === 'sprites' || isLabels(instanced);
@@ -188,7 +188,7 @@ export function checkOptions(options, type) {
   checkPlace({ wrap, fold });
   choose('background', background, BACKGROUNDS);
   choose('channel', channel, CHANNELS);
-  if (!isLabels(instanced)) choose('instanced', instanced, INSTANCED);
+  if (!isLabels(instanced)) choose('instanced', /** @type {boolean | 'glyphs'} */ (instanced), INSTANCED);
   if (!(threshold >= 0 && threshold <= 1)) {
     throw new VextureError(`threshold is ${line(threshold)}; it must be a coverage, 0 to 1`, 'threshold');
   }

@@ -29,7 +29,7 @@ export function variantOf(texture, options, range) {
     flat,
     invert,
     background,
-    instanced: isLabels(instanced) ? (instanced.areSprites ? 'sprites' : 'labels') : instanced,
+    instanced: isLabels(instanced) ? (instanced.areSprites ? 'sprites' : 'labels') : /** @type {boolean | 'glyphs'} */ (instanced),
     hasMap: mode === 'mix' && map !== null,
     uv: UV_ATTRIBUTES[channel],
     fold: fold?.glsl ?? '',

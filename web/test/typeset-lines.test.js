@@ -34,6 +34,14 @@ describe.skipIf(!isBuilt)('lines', () => {
     expect(await linesOf('to abcdefgh', { maxWidth: 2, overflowWrap: 'break-word' })).toEqual(['to ', 'abcd', 'efgh']);
   });
 
+  it('end with a hyphen where a soft one is, and nowhere else', async () => {
+    const [broken, whole] = await Promise.all([set('soft\u00adly', { maxWidth: 1.7 }), set('soft\u00adly')]);
+    expect(broken.lines.map(({ end }) => end)).toEqual([5, 7]);
+    expect(broken.shapes.length).toBe(whole.shapes.length + 1);
+    expect([...broken.clusters]).toContain(4);
+    expect(broken.lines[0].right).toBeGreaterThan((await set('soft')).lines[0].right + 0.1);
+  });
+
   it('are no wider than allowed', async () => {
     const { lines } = await set('The quick brown fox jumps over the lazy dog, and over the fence', { maxWidth: 5, fontSize: 0.7 });
     expect(lines.length).toBeGreaterThan(3);
@@ -93,6 +101,14 @@ describe.skipIf(!isBuilt)('lines', () => {
     const hebrew = '\u0633\u0644 \u0633', { lines, carets } = await set(hebrew, { maxWidth: 0.1 });
     expect(lines[0].left).toBeGreaterThanOrEqual(-1e-6);
     expect(caret({ carets }, 2)[1]).toBeLessThan(lines[0].left);
+  });
+
+  it('have the space at their end on the side of their paragraph, after a word of the other direction', async () => {
+    const text = 'abc \u0633\u0644\u0627 \u0633\u0644', width = (await set(text.slice(0, 7))).lines[0].right + 0.01;
+    const broken = await set(text, { maxWidth: width });
+    expect(broken.lines.map(({ end }) => end)).toEqual([8, 10]);
+    expect(caret(broken, 7)[0]).toBeGreaterThanOrEqual(caret(broken, 4)[0] - 1e-6);
+    expect(broken.lines[0].right).toBeCloseTo(caret(broken, 4)[0], 5);
   });
 
   it('keep characters beyond the first plane in their direction', async () => {

@@ -4,6 +4,7 @@ import {
   Children, createElement, forwardRef, useEffect, useImperativeHandle, useLayoutEffect, useMemo, useReducer, useRef,
 } from 'react';
 import { Glyphs } from '../text/index.js';
+import { AtlasFont } from '../text/atlas-font.js';
 import { weightOf } from '../text/faces.js';
 import { DEFAULTS, requestOf } from '../text/text-options.js';
 import { FollowingText } from './following-text.js';
@@ -93,7 +94,7 @@ function wait(glyphs, options) {
   const waits = WAITS.get(glyphs) ?? new Map();
   WAITS.set(glyphs, waits);
   const { font, fontWeight, fontStyle, text } = options;
-  if (!text) return;
+  if (!text || font instanceof AtlasFont) return; // a baked font waits for nothing
   const key = JSON.stringify([font, fontWeight, fontStyle, options.fontVariations, text], named);
   if (!waits.has(key)) {
     const fresh = /** @type {Wait} */ ({ isDone: false, error: null });

@@ -35,6 +35,8 @@ import { shapeRun } from './shaper.js';
 /** Spaces that hang at the end of a line. */
 const SPACE = /[ \t\u1680\u2000-\u2006\u2008-\u200a\u205f\u3000]/;
 
+const SOFT_HYPHEN = '\u00ad', HYPHEN = 0x2010, HYPHEN_MINUS = 0x2d;
+
 /** Most UTF-16 units of a run that are shaped at once. */
 const LONGEST_RUN = 4096;
 
@@ -125,7 +127,23 @@ class Paragraph {
         pieces.push(part);
       }
     });
-    return { first, end, next, pieces: inVisualOrder(pieces), width, trail, indent: first === this.start ? style.textIndent : 0, level: this.level, isSoft: next < this.end };
+    const isSoft = end < this.end;
+    if (isSoft && text[end - 1] === SOFT_HYPHEN && pieces.length) {
+      const hyphen = this.#hyphen(pieces[pieces.length - 1], end);
+      width += widthOf(hyphen);
+      pieces.push(hyphen);
+    }
+    const indent = first === this.start ? style.textIndent : 0;
+    return { first, end, next, pieces: inVisualOrder(pieces), width, trail, indent, level: this.level, isSoft };
+  }
+
+  /** The hyphen that a soft hyphen becomes at the end of a line. @param {Piece} last @param {number} end @returns {Piece} */
+  #hyphen(last, end) {
+    const { instance, isReversed } = last.shaped, hyphen = instance.owner.has(HYPHEN) ? HYPHEN : HYPHEN_MINUS;
+    const direction = isReversed ? hb.Direction.RTL : hb.Direction.LTR;
+    const shaped = shapeRun(instance, String.fromCodePoint(hyphen), 0, 1, direction, this.style);
+    shaped.clusters.fill(end - 1);
+    return { ...last, shaped, from: 0, to: shaped.count, start: end - 1, end };
   }
 
   /** @param {Run} run @param {Shaped} whole @param {number} low @param {number} high @returns {Piece} */
@@ -224,7 +242,6 @@ function wrap(paragraph, next) {
       if (tried.width <= room) line = tried;
     }
     line ??= style.breaksWords ? brokenWord(paragraph, sums, from, places[at], room, goesOn) : paragraph.line(from, places[at], goesOn(places[at]));
-    line.isSoft = line.end < end;
     lines.push(line);
     from = line.end;
     while (at < places.length && places[at] <= from) at++;

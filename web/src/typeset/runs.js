@@ -148,7 +148,8 @@ export function runsOf(text, { fonts, levels, isVertical, needed, missing }) {
       about = { font: fontOf(cluster, fonts, run, needed, missing), script, isUpright: isVertical && UPRIGHT.test(cluster) };
       if (cluster !== ' ') seen.set(cluster, about); // the font of a space is that of what is before it
     }
-    const { font, script, isUpright } = /** @type {Pick<Run, 'font' | 'script' | 'isUpright'>} */ (about);
+    /** @type {Pick<Run, 'font' | 'script' | 'isUpright'>} */
+    const { font, script, isUpright } = about;
     const level = levels ? levels[start] : 0;
     const isSame = run && (script === SHARED || run.script === SHARED || run.script === script);
     if (run && isSame && run.font === font && run.level === level && run.isUpright === isUpright) {

@@ -10,7 +10,7 @@ import { Style } from './style.js';
 
 /** @import { KernelSources, ModuleName } from '../convert/kernel-modules.js' */
 /** @import { Result } from './layout.js' */
-/** @import { Added } from './shapes.js' */
+/** @import { Added, Kind } from './shapes.js' */
 /** @import { Request } from './style.js' */
 
 /**
@@ -76,16 +76,28 @@ export class Typesetter {
     }
     try {
       await this.#load(['silhouettes']);
-      if (message.restart) return await this.#restart(id, message.restart.keys);
-      const requests = message.preload ? [requestOf(message.preload)] : (message.texts ?? []);
-      const results = await this.#setAll(requests);
-      return this.#reply({ id, results: message.preload ? [] : results });
+      if (message.restart) {
+        const parts = await this.#loadKeys(message.restart.keys);
+        this.#renumber(parts);
+        return this.#reply({ id, restarted: true });
+      }
+      const requests = message.preload ? [requestOf(message.preload)] : message.texts;
+      if (!Array.isArray(requests)) throw new VextureError(`\`texts\` is ${line(requests)}; give a list of requests`, 'texts');
+      for (;;) {
+        const { results, needed, wanted } = this.#attempt(requests);
+        if (!needed.length && !wanted.length) return this.#reply({ id, results: message.preload ? [] : results });
+        await Promise.all([...needed.map((font) => font.load()), this.#load(wanted)]);
+      }
     } catch (error) {
       return { reply: { id, error: errorOf(error) }, transfer: [] };
     }
   }
 
-  /** @param {Omit<Reply, 'added'>} reply */
+  /**
+   * A reply with what was added. It is made in the same step as its results: another message may be answered in the next.
+   *
+   * @param {Omit<Reply, 'added'>} reply
+   */
   #reply(reply) {
     const added = this.#shapes.take();
     /** @type {Transferable[]} */
@@ -108,26 +120,27 @@ export class Typesetter {
     );
   }
 
-  /** @param {Request[]} requests */
-  async #setAll(requests) {
+  /**
+   * Set texts as far as fonts and modules are loaded.
+   *
+   * @param {Request[]} requests
+   */
+  #attempt(requests) {
     const { wanted } = this.#shapes;
-    for (;;) {
-      /** @type {Set<TypeFont>} */
-      const needed = new Set();
-      wanted.clear();
-      const results = requests.map((request) => this.#set(request, needed));
-      if (!needed.size && !wanted.size) return /** @type {(Result | Refusal)[]} */ (results);
-      await Promise.all([...Array.from(needed, (font) => font.load()), this.#load([...wanted])]);
-    }
+    /** @type {Set<TypeFont>} */
+    const needed = new Set();
+    wanted.clear();
+    const results = requests.map((request) => this.#set(request, needed));
+    return { results: /** @type {(Result | Refusal)[]} */ (results), needed: [...needed], wanted: [...wanted] };
   }
 
   /**
-   * Number shapes from 0 again, beginning with those of some keys.
+   * Load what shapes need; the others, such as those of fonts that fail, are left out.
    *
-   * @param {number} id
-   * @param {string[]} keys
+   * @param {unknown} keys
    */
-  async #restart(id, keys) {
+  async #loadKeys(keys) {
+    if (!Array.isArray(keys)) throw new VextureError(`\`keys\` is ${line(keys)}; give a list of keys of shapes`, 'keys');
     const wanted = keys.map(partsOfKey).filter((parts) => parts !== null);
     await Promise.all(Array.from(new Set(wanted.map(({ font }) => font)), (font) => this.#fonts.get(font)?.load()));
     const found = wanted.flatMap(({ font, ...parts }) => {
@@ -135,10 +148,18 @@ export class Typesetter {
       return owner?.isLoaded ? [{ ...parts, owner }] : [];
     });
     await this.#load(new Set(found.flatMap(({ owner, glyph, kind }) => modulesOf(owner, glyph, kind))));
+    return found;
+  }
+
+  /**
+   * Number shapes from 0 again, beginning with some.
+   *
+   * @param {{ owner: TypeFont, variation: string, glyph: number, kind: Kind }[]} parts
+   */
+  #renumber(parts) {
     this.#shapes.clear();
     for (const font of this.#fonts.values()) font.forget();
-    for (const { owner, variation, glyph, kind } of found) this.#shapes.restore(owner.instance(variation), glyph, kind);
-    return this.#reply({ id, restarted: true });
+    for (const { owner, variation, glyph, kind } of parts) this.#shapes.restore(owner.instance(variation), glyph, kind);
   }
 
   /**
