@@ -134,6 +134,19 @@ def test_notes_have_the_words_of_python(read: Read, body: str) -> None:
     assert [Note(**note) for note in value["notes"]] == ours
 
 
+def test_a_stroke_of_too_many_dashes_is_solid_in_the_words_of_python(read: Read) -> None:
+    text = svg(
+        '<path id="fine" d="M0 9H100" stroke="red" stroke-width="2" stroke-dasharray="1e-9"/>'
+        '<path d="M0 50h100" stroke="blue" stroke-width="4" stroke-dasharray="10"/>'
+    )
+    value, ours = read(text), svg_drawing(text.encode(), "a.svg")
+    (note,) = ours.notes
+    assert "50,000,000,000 dashes" in note.message
+    words = note.message.replace(" in line 1", "")  # a page has no numbers of lines
+    assert [Note(**other) for other in value["notes"]] == [Note(note.kind, words, note.count)]
+    assert share_off(ours, to_drawing(value)) < MOST_OFF
+
+
 def test_nothing_is_fetched_and_no_script_runs(reader: tuple[Any, list[str]], read: Read) -> None:
     page, asked = reader
     asked.clear()

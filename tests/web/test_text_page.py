@@ -282,3 +282,32 @@ def test_a_wrong_option_is_refused_with_its_name(page: Any, option: str) -> None
         "option => { try { new Text({ glyphs, [option]: 'wide' }); } catch (error) { return error.message; } }", option
     )
     assert option in message and ";" in message
+
+
+def test_a_baked_font_sets_the_same_text_without_a_worker(page: Any) -> None:
+    characters = "".join(sorted(set("AVWA Tolé, wrapped at blanks")))
+    options = word_options(
+        text="AVWA Tolé,\nwrapped at blanks", fontSize=30, maxWidth=180, anchorY="middle", anchorX="center", textAlign="center"
+    )
+    size, camera = (320, 180), {"left": -160, "right": 160, "bottom": -90, "top": 90}
+    seen = page.evaluate("described => bake(described)", {"characters": characters, "options": options, "camera": camera, "size": size})
+    baked, full = (picture({"pixels": pixels}, size) for pixels in seen["pixels"])
+    assert full[..., 3].max() > 0.9
+    assert np.abs(baked - full).max() < CLOSE
+    for name in ("blockBounds", "visibleBounds", "carets", "clusters", "lineHeight"):
+        assert seen["layouts"][0][name] == pytest.approx(seen["layouts"][1][name], abs=1e-3), name
+    assert seen["metrics"]["kerning"]["A"]["V"] < -0.01
+
+
+def test_a_font_that_python_bakes_is_set_as_well(page: Any, address: str) -> None:
+    atlas = vexture.font_atlas(font=font(), characters="AVWé o")
+    metrics = page.evaluate("metrics => { globalThis.baked = metrics; return Object.keys(metrics); }", atlas.metrics)
+    assert {"glyphs", "kerning", "lines", "notdef"} <= set(metrics)
+    carets = page.evaluate("""async () => {
+        const text = new Text({ glyphs, font: 'font.ttf', text: 'AVWéo', anchorY: 'top-baseline' });
+        await text.sync();
+        const font = new AtlasFont({ roots: Array(99).fill({}), isVectorTexture: true }, baked);
+        const layout = font.typeset({ ...request, text: 'AVWéo' });
+        return [[...text.layout.carets], [...layout.carets]];
+    }""")
+    assert carets[0] == pytest.approx(carets[1], abs=1e-3)

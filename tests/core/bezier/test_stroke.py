@@ -92,6 +92,18 @@ def check_round(cubics, closed, half, seed, count=20):
     np.testing.assert_array_equal((winding > 0)[sure], (distance < half)[sure])
 
 
+def check_cracks(cubics, closed, half):
+    """What lies inside of a round stroke is covered, next to its contours, too: no gap opens between two of them."""
+    path = np.concatenate([points_on(cubics), cubics[-1:, 3], *([cubics[:1, 0]] if closed else [])])
+    contours = stroke(cubics, closed, style(2 * half, ROUND_CAP, ROUND_JOIN))
+    polygon = np.concatenate([points_on(contour) for contour in contours])[7::20]
+    step = np.concatenate([np.roll(points_on(contour), -1, axis=0) - points_on(contour) for contour in contours])[7::20]
+    inside = (distances(path, polygon) < half - 1.5 * TOLERANCE) & (np.hypot(*step.T) > 0)
+    across = 0.1 * TOLERANCE * step[inside, ::-1] * [-1.0, 1.0] / np.hypot(*step[inside].T)[:, None]
+    for side in (-across, across):
+        assert (windings(contours, polygon[inside] + side) > 0).all()
+
+
 def odd_curve(kind, random):
     """A cubic that almost has a cusp, lies almost on a line, or has an arm next to nothing."""
     points = random.uniform(0, 10, (4, 2))
@@ -114,6 +126,95 @@ def test_odd_curves_have_round_strokes(kind, half):
     for seed in range(4):
         random = np.random.default_rng(seed)
         check_round(odd_curve(kind, random)[None], seed % 2 == 1, half, seed, 15)
+
+
+@pytest.mark.parametrize(
+    ("kind", "half", "seed"),
+    [
+        # hooks and near-cusps that are smaller than an eighth of the tolerance
+        *(("arm", 0.05, 38), ("arm", 0.7, 38), ("arm", 0.7, 58), ("arm", 0.05, 47), ("cusp", 0.7, 7)),
+        ("line", 0.05, 0),
+        ("arm", 0.05, 46),  # an inflection in the first thousandth, and a tight bend behind it
+        ("end", 9.0, 9),  # an end without an arm in a bend that is tight all over
+    ],
+)
+def test_odd_curves_have_strokes_without_cracks(kind, half, seed):
+    curve = odd_curve(kind, np.random.default_rng(seed))[None]
+    check_round(curve, seed % 2 == 1, half, seed, 60)
+    check_cracks(curve, seed % 2 == 1, half)
+
+
+def path_of(*points):
+    """Cubics through points, of which every third is an end."""
+    points = np.array(points, np.float64)
+    return np.stack([points[k : k + 4] for k in range(0, len(points) - 1, 3)])
+
+
+def cornered(*ends):
+    """Cubics that follow each other, without their common ends twice: (4, 2) for curves, (2, 2) for lines."""
+    parts = [np.array(part, np.float64) for part in ends]
+    return np.concatenate([part[None] if len(part) == 4 else line_cubics(part[:1], part[1:]) for part in parts])
+
+
+@pytest.mark.parametrize(
+    ("cubics", "closed", "half"),
+    [
+        (
+            path_of((-0.009395, 0.018883), (10.016754, 10.004903), (0.00439, 9.994882), (10.003508, -0.005091)),
+            0,
+            0.3677,
+        ),
+        # a bend that crosses itself far from its corner, with long curves that turn the other way
+        (
+            path_of(
+                *((9.992864, -0.010909), (0.244726, 6.644489), (0.680851, 4.537604), (1.855116, 0.786158)),
+                *((0.341851, 3.096999), (4.113989, 6.76845), (5.088027, 7.950128)),
+            ),
+            *(False, 0.0497),
+        ),
+    ],
+)
+def test_a_near_cusp_and_a_loop_have_strokes_without_cracks(cubics, closed, half):
+    check_round(cubics, bool(closed), half, 1, 200)
+    check_cracks(cubics, bool(closed), half)
+
+
+BEND = [
+    *(((20.147, 12.854), (13.207, 19.793)), ((13.207, 19.793), (13.005, 19.995), (12.701, 20.056), (12.436, 19.946))),
+    *(((12.436, 19.946), (12.172, 19.837), (12.0, 19.579), (12.0, 19.293)), ((12.0, 19.293), (12.0, 16.0))),
+]
+"""A rounded corner of an icon, in thousandths: its arcs are not quite tangent to its sides."""
+
+BADGE = path_of(
+    *((7.298, 3.712), (7.009, 3.427), (6.921, 2.996), (7.075, 2.621), (7.229, 2.245), (7.594, 2.0), (8.0, 2.0)),
+    *((10.667, 2.0), (13.333, 2.0), (16.0, 2.0), (16.406, 2.0), (16.772, 2.245), (16.926, 2.62), (17.08, 2.996)),
+    *((16.992, 3.427), (16.703, 3.712), (15.373, 5.042), (14.042, 6.372), (12.712, 7.702), (12.524, 7.893)),
+    *((12.268, 8.0), (12.0, 8.0), (11.733, 8.001), (11.476, 7.893), (11.288, 7.703), (9.958, 6.373), (8.628, 5.042)),
+    (7.298, 3.712),
+)
+"""Arcs of the radius of half the width."""
+
+TIP = path_of(
+    *((16.13, 21.05), (17.78, 21.68), (19.81, 21.89), (21.0, 21.96), (21.26, 21.978), (21.514, 21.883)),
+    *((21.699, 21.699), (21.883, 21.514), (21.978, 21.26), (21.96, 21.0), (21.89, 19.342), (21.587, 17.703)),
+    (21.06, 16.13),
+)
+"""A short arc between long curves."""
+
+
+@pytest.mark.parametrize(
+    ("cubics", "closed", "unit"),
+    [
+        (cornered(*BEND), False, 3.84),
+        (cornered(*BEND[1:]), False, 3.84),
+        (BADGE, True, 0.96),
+        (TIP, False, 0.96),
+    ],
+)
+def test_bends_of_icons_are_as_exact_as_the_tolerance(cubics, closed, unit):
+    """Icons are rounded to thousandths; `unit` is the tolerance in them."""
+    check_round(cubics / unit, closed, 1.0 / unit, 1, 400)
+    check_cracks(cubics / unit, closed, 1.0 / unit)
 
 
 @pytest.mark.parametrize("half", [0.3, 2.0, 6.0])

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from vexture.base.errors import SourceWarning
@@ -39,3 +40,21 @@ def test_a_stroke_is_a_path_of_its_own(tmp_path: Path) -> None:
     fill, stroke = drawing_of(tmp_path, body).paths
     assert (fill.paint.color, stroke.paint.color) == ((1, 0, 0), (0, 0, 1))
     assert (fill.fill_rule.name, stroke.fill_rule.name) == ("EVENODD", "NONZERO")
+
+
+def test_a_stroke_of_too_many_dashes_is_solid_and_named(tmp_path: Path) -> None:
+    """The rest of the drawing is as it would be without this stroke."""
+    rest = '<path d="M0 50h100" stroke="blue" stroke-width="4" stroke-dasharray="10"/><rect width="9" height="9"/>'
+    fine = '<path id="fine" d="M0 9H100" stroke="red" stroke-width="2" stroke-dasharray="{}"/>'
+    with pytest.warns(SourceWarning, match="lengthen stroke-dasharray"):
+        drawing = drawing_of(tmp_path, fine.format("1e-9") + rest)
+    (note,) = drawing.notes
+    assert note.kind == "simplified"
+    assert note.message == (
+        'stroke of <path id="fine"> in line 1 read as solid: '
+        "50,000,000,000 dashes; the limit is 100,000; lengthen stroke-dasharray"
+    )
+    plain = drawing_of(tmp_path, fine.format("none") + rest)
+    assert [path.paint for path in drawing.paths] == [path.paint for path in plain.paths]
+    for ours, other in zip(drawing.paths, plain.paths, strict=True):
+        assert all(np.array_equal(a, b) for a, b in zip(ours.contours, other.contours, strict=True))

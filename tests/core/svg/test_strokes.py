@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from vexture.base.errors import SourceError
 from vexture.base.tolerance import ROUND
 from vexture.bezier.convert import ellipse_cubics
 from vexture.svg.outline import ShapeOutline
-from vexture.svg.strokes import Stroke, stroke_contours
+from vexture.svg.strokes import Stroke, dash_count, stroke_contours
 
 T = np.linspace(0, 1, 41)[:, None]
 
@@ -102,6 +101,7 @@ def test_a_shape_of_several_subpaths_starts_its_dashes_anew() -> None:
     assert sorted(contour[..., 0].min() for contour in contours) == pytest.approx([2.0, 2.0, 12.0, 12.0])
 
 
-def test_too_many_dashes_are_refused() -> None:
-    with pytest.raises(SourceError, match=r"8e\+06 dashes; the limit is 100,000"):
-        stroke_contours([line((0, 0), (80, 0))], Stroke(1.0, dashes=(5e-6, 5e-6)), 100.0)
+def test_dashes_are_counted_up_to_a_limit() -> None:
+    assert dash_count([line((0, 0), (80, 0))], Stroke(1.0, dashes=(5e-6, 5e-6))) == 8_000_000
+    assert dash_count([line((0, 0), (80, 0)), line((0, 0), (20, 0))], Stroke(1.0, dashes=(1.0, 1.0, 2.0, 0.0))) == 50
+    assert dash_count([line((0, 0), (80, 0))], Stroke(1.0, dashes=(1e-320, 0.0))) == 10**15

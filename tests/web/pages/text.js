@@ -1,7 +1,8 @@
 // Texts on each renderer, drawn one at a time as a test describes them.
 import * as WEBGPU from 'three/webgpu';
 import * as THREE from 'three';
-import { BatchedText, Glyphs, Text, getCaretAtPoint, getSelectionRects } from 'vexture/text';
+import { VectorTexture, readPacked } from 'vexture';
+import { AtlasFont, BatchedText, Glyphs, Text, bakeFont, getCaretAtPoint, getSelectionRects } from 'vexture/text';
 import { BatchedText as BatchedNodes, Text as TextNodes } from 'vexture/webgpu';
 
 const kernels = Object.fromEntries(['silhouettes', 'maps', 'strokes'].map((name) => [name, `${name}.wasm`]));
@@ -86,3 +87,18 @@ async function draw({ backend = 'webgl', options, matrix, camera: described, siz
 const plain = (layout) => Object.fromEntries(Object.entries(layout).map(([name, value]) => [name, ArrayBuffer.isView(value) ? [...value] : value]));
 
 Object.assign(globalThis, { THREE, Text, BatchedText, Glyphs, glyphs, makeGlyphs, getCaretAtPoint, getSelectionRects, draw, drawn: true });
+
+// A font baked in the page, and a text in it beside the same text set by the worker.
+async function bake({ characters, options, camera: described, size, kept = null }) {
+  const { texture, metrics } = await bakeFont({ characters, font: 'font.ttf', glyphs: glyphs.options });
+  const font = new AtlasFont(new VectorTexture(await readPacked(texture)), metrics);
+  const seen = [await draw({ options: { ...options, font }, camera: described, size }), await draw({ options: { ...options, font: 'font.ttf' }, camera: described, size })];
+  return { pixels: seen.map(({ pixels }) => pixels), layouts: seen.map(({ layout }) => layout), metrics, bytes: kept && base64(texture) };
+}
+
+const request = {
+  fontSize: 1, letterSpacing: 0, lineHeight: 'normal', maxWidth: Infinity, textIndent: 0, textAlign: 'start', whiteSpace: 'normal',
+  overflowWrap: 'normal', anchorX: 0, anchorY: 'top-baseline',
+};
+
+Object.assign(globalThis, { AtlasFont, bake, request });

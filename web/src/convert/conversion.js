@@ -41,6 +41,7 @@ import { layersOf, splitOf, withoutGradients, withoutMasks } from './split.js';
  * @typedef {object} Sheet A shape of the texture: its part of the drawing, and its texels.
  * @property {Drawing} drawing
  * @property {Uint32Array} texels
+ * @property {number} [size] of a map, its texels as Python estimates them, which decides where drawings are cut
  * @property {boolean} isMap
  * @property {number} [flattened] paints of a map that are mean colours, because no program can hold their gradients
  * @property {import('../style.js').Style | null} [style]

@@ -1,5 +1,5 @@
 // Painting of one shape: its fill and stroke become paths in the drawing's coordinates.
-import { MOST_SEGMENTS, ROUND } from '../../generated/svg-reader.js';
+import { MOST_DASHES, MOST_SEGMENTS, ROUND } from '../../generated/svg-reader.js';
 import { VextureError } from '../errors.js';
 import { IDENTITY, inverse, stretch } from './affine.js';
 import { boundsOf, countOf, loopOf, mapPoints } from './contours.js';
@@ -8,7 +8,7 @@ import { firstTileContent } from './patterns.js';
 import { isTiling } from './servers.js';
 import { shapeOutlines } from './shapes.js';
 import { isFlat, toDrawing } from './space.js';
-import { checkDashes, strokeOf } from './strokes.js';
+import { dashCount, strokeOf } from './strokes.js';
 import { PatternTiles, controlBox, copyVeils, firstTileOf, isWindow, visiblePart } from './tiles.js';
 import { Veil } from './veils.js';
 
@@ -97,8 +97,15 @@ export class Painter {
     if (!isFixed && effect !== 'none') report.leftOut(`vector-effect '${effect.slice(0, 40)}'`);
     const screen = isFixed ? place.space.whole : IDENTITY;
     const onScreen = isFixed ? outlines.map((one) => ({ ...one, cubics: mapPoints(one.cubics, screen) })) : outlines;
-    checkDashes(onScreen, stroke);
-    const style = { ...stroke, tolerance: ROUND * size * stretch(screen) };
+    const count = dashCount(onScreen, stroke);
+    const isSolid = count > MOST_DASHES;
+    if (isSolid) {
+      const [has, most] = [count, MOST_DASHES].map((value) => value.toLocaleString('en-US'));
+      const text = `${has} dashes; the limit is ${most}; lengthen stroke-dasharray`;
+      report.simplified(`stroke of ${report.describe(shape.element)} read as solid: ${text}`);
+    }
+    const dashes = isSolid ? [] : stroke.dashes;
+    const style = { ...stroke, dashes, tolerance: ROUND * size * stretch(screen) };
     const back = inverse(screen);
     const contours = onScreen.flatMap(({ cubics, closed }) => strokeOutline(cubics, closed, style));
     const placed = contours.map((contour) => mapPoints(contour, back));

@@ -44,7 +44,8 @@ export function mapOf(kernels, drawing, bounds, { restyle, first, mostTexels }) 
     if (!found.paints) throw overtime(drawing.name, bounds);
     throw new VextureError(`${drawing.name}: ${found.paints > MOST_PAINTS ? 'too many colours' : 'too many gradients'}; divide the drawing`, 'paints');
   }
-  return { drawing, texels, isMap: true, flattened, style: elements && styleOf(drawing, elements, found) };
+  const size = 3 * quads + curves + (curves >> 2) + (found.paints >> 1);
+  return { drawing, texels, size, isMap: true, flattened, style: elements && styleOf(drawing, elements, found) };
 }
 
 /**

@@ -132,7 +132,7 @@ function greedy(count, share, attempt) {
       const sheet = attempt(start, start + sizes[at], first);
       if (sheet) [best, fitting] = [sheet, at];
       else failing = at;
-      if (sheet && (SPARED * sheet.texels.length) / 4 >= (SPARED - 1) * share * sizes[at]) break;
+      if (sheet && SPARED * (sheet.size ?? sheet.texels.length / 4) >= (SPARED - 1) * share * sizes[at]) break;
       if (fitting >= 0 && failing < sizes.length) at = (fitting + failing) >> 1;
       else {
         at = Math.min(Math.max(at + (sheet ? step : -step), 0), sizes.length - 1);

@@ -2,6 +2,7 @@
 import { DoubleSide, Mesh, Quaternion, Ray, Vector3 } from 'three';
 import { VextureError, givenOptions, line } from '../errors.js';
 import { VIEWPORT } from '../glyph-shader.js';
+import { AtlasFont } from './atlas-font.js';
 import { weightOf } from './faces.js';
 import { Glyphs } from './glyphs.js';
 import { LabelGeometry } from './label-geometry.js';
@@ -171,8 +172,10 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
     /** @param {Label} label @returns {Promise<TextLayout | null>} */
     async #layout(label) {
       const options = { ...this.#defaults, ...label.options };
+      const { font } = options;
+      if (font instanceof AtlasFont) throw new VextureError('labels are not set in a baked font; give the address of a font', 'font');
       if (!options.text) return null;
-      return this.#glyphs.typeset(requestOf(options), { font: options.font, weight: weightOf(options.fontWeight), isItalic: options.fontStyle === 'italic' });
+      return this.#glyphs.typeset(requestOf(options), { font, weight: weightOf(options.fontWeight), isItalic: options.fontStyle === 'italic' });
     }
 
     /** @param {Label} label @param {TextLayout | null} layout */

@@ -59,12 +59,19 @@ export class Glyphs {
   /** @type {Promise<void> | null} */
   #maps = null;
   #hasMaps = false;
+  /** @type {Set<string>} */
+  #characters = new Set();
   /** The texture with the shapes of all glyphs. @internal */
   texture = new GrowingTexture();
 
   /** @param {GlyphsOptions} [options] */
   constructor(options) {
     this.#options = givenOptions(options);
+  }
+
+  /** Where its worker and its kernels are. */
+  get options() {
+    return { ...this.#options };
   }
 
   /** Those of the page, which texts use unless they are given others. */
@@ -85,6 +92,7 @@ export class Glyphs {
   typeset(request, { font, weight, isItalic }) {
     return new Promise((resolve, reject) => {
       const faces = chooseFaces(facesOf(font), weight, isItalic); // throws, which rejects
+      for (const character of request.text) this.#characters.add(character);
       const full = { ...request, fonts: faces.map((face) => this.#fontId(face)) };
       if (!this.#queue.length) queueMicrotask(() => this.#flush());
       this.#queue.push({ request: full, waiting: { resolve, reject } });
@@ -99,6 +107,11 @@ export class Glyphs {
   async preload({ font = null, characters = '' } = {}) {
     const fonts = facesOf(font).map((face) => this.#fontId(face));
     await this.#ask({ preload: { fonts, characters } });
+  }
+
+  /** Characters of all texts so far, for `bakeFont`. */
+  get characters() {
+    return [...this.#characters].sort().join('');
   }
 
   /** Let something be told when its shapes get other indices. @internal @param {GlyphUser} user @returns {() => void} ends it */

@@ -58,6 +58,15 @@ export class GrowingTexture extends VectorTexture {
     super(emptyData());
   }
 
+  /**
+   * As a baked font has them.
+   *
+   * @returns {{ texture: import('../vector-texture.js').AnyVectorTexture, boxes: [number, number][] }}
+   */
+  get asShapes() {
+    return { texture: this, boxes: this.boxes };
+  }
+
   /** Number of texels in use. */
   get length() {
     return this.#end;

@@ -9,6 +9,8 @@ import { batchedTextOf } from './batched-text.js';
 import { textOf } from './text.js';
 
 export { VextureError } from '../errors.js';
+export { AtlasFont } from './atlas-font.js';
+export { bakeFont } from './bake-font.js';
 export { setDefaultFont } from './faces.js';
 export { loadFontFaces } from './font-css.js';
 export { Glyphs } from './glyphs.js';
@@ -18,6 +20,8 @@ export { getCaretAtPoint, getSelectionRects } from './layout.js';
 /** @typedef {import('./faces.js').FontFile} FontFile */
 /** @typedef {import('./faces.js').FontSource} FontSource */
 /** @typedef {import('./glyphs.js').GlyphsOptions} GlyphsOptions */
+/** @typedef {import('./atlas-font.js').AtlasGlyph} AtlasGlyph */
+/** @typedef {import('./atlas-font.js').AtlasMetrics} AtlasMetrics */
 /** @typedef {import('./batched-text.js').BatchOptions} BatchOptions */
 /**
  * @typedef {import('./label.js').Label} Label one of the labels of a `BatchedText`. Its `position`, `quaternion`, `scale`,

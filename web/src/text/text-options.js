@@ -9,7 +9,8 @@ import { weightOf } from './faces.js';
 /**
  * @typedef {object} LayoutOptions What decides where glyphs are; lengths are in the units of the text.
  * @property {string} text `\n` begins a new line
- * @property {FontSource | null} font fonts in order of preference: addresses, contents or faces of a family; null: the default
+ * @property {FontSource | import('./atlas-font.js').AtlasFont | null} font fonts in order of preference: addresses, contents or
+ *   faces of a family; or a baked font; null: the default
  * @property {number} fontSize length of an em, 1 by default
  * @property {number | string} fontWeight 1..1000, `normal` or `bold`: chooses among the faces, and sets a variable font
  * @property {'normal' | 'italic'} fontStyle `normal` by default

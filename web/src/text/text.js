@@ -1,14 +1,15 @@
 // A text in a three.js scene, whatever its renderer.
-import { Color, DoubleSide, Matrix4, Mesh, Ray, Vector3 } from 'three';
+import { Color, Matrix4, Mesh, Ray, Vector3 } from 'three';
 import { VextureError, givenOptions, line } from '../errors.js';
 import { AriaMirror } from './aria-mirror.js';
+import { AtlasFont } from './atlas-font.js';
 import { alongCurve, onCylinder } from './bends.js';
 import { weightOf } from './faces.js';
 import { GlyphGeometry } from './glyph-geometry.js';
 import { Glyphs } from './glyphs.js';
 import { chosen, glyphAt } from './layout.js';
 import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, lengthOf, requestOf } from './text-options.js';
-import { isUpright, readViewport } from './viewport.js';
+import { Part, beforeDrawing, paint, usual } from './text-parts.js';
 import { warnOf } from './warnings.js';
 
 /** @import { Material } from 'three' */
@@ -29,34 +30,6 @@ import { warnOf } from './warnings.js';
  *
  * @typedef {Mesh & TextOptions & TextProperties} AnyText
  */
-
-/** A part of a text: its letters, what is around them, or glyphs in colours of their own. */
-class Part extends Mesh {
-  /** @param {Material} material */
-  constructor(material) {
-    super(new GlyphGeometry(), material);
-    this.raycast = () => {}; // that of the text finds its parts
-    Object.assign(this, { isTextPart: true });
-  }
-
-  /** @param {any} renderer @param {any} _scene @param {any} camera */
-  onBeforeRender(renderer, _scene, camera) {
-    readViewport(renderer);
-    setFlat(this, camera);
-  }
-}
-
-/**
- * Take the cheaper method where a text is seen straight.
- *
- * @param {any} mesh
- * @param {any} camera
- */
-function setFlat(mesh, camera) {
-  const { mask } = mesh.material.userData, { isBent } = mesh.geometry;
-  const flat = !isBent && isUpright(mesh, camera);
-  if (mask.options.flat !== flat) mask.set({ flat });
-}
 
 /** Steps between the render orders of the parts of a text. */
 const STEP = 2 ** -12;
@@ -85,6 +58,8 @@ export function textOf({ makeMaterial, applyMask }) {
     #syncing = null;
     #isStale = false;
     #mirror = new AriaMirror();
+    /** @type {AtlasFont | null} */
+    #atlas = null;
     #glyphs;
     #unfollow;
     /** @type {Error | null} */
@@ -145,7 +120,7 @@ export function textOf({ makeMaterial, applyMask }) {
       const material = this.#base ? this.#base.clone() : usual(makeMaterial());
       const isColored = part === 'colored';
       if (isColored && 'color' in material) /** @type {any} */ (material).color = new Color(0xffffff);
-      const mask = applyMask(material, this.#glyphs.texture, {
+      const mask = applyMask(material, this.#shapes.texture, {
         instanced: 'glyphs', mode: isColored ? 'paint' : 'alpha', background: isColored ? 'none' : undefined,
       });
       return Object.assign(material, { userData: { ...material.userData, mask } });
@@ -206,9 +181,9 @@ export function textOf({ makeMaterial, applyMask }) {
 
     async #syncOnce() {
       const options = this.#options;
-      const layout = options.text
-        ? await this.#glyphs.typeset(requestOf(options), { font: options.font, weight: weightOf(options.fontWeight), isItalic: options.fontStyle === 'italic' })
-        : null;
+      const { font } = options, atlas = font instanceof AtlasFont ? font : null;
+      const layout = options.text ? await this.#typeset(atlas) : null;
+      if (atlas !== this.#atlas) this.#takeTexture(atlas);
       this.#layout = layout;
       this.error = null;
       this.#arrange();
@@ -217,14 +192,34 @@ export function textOf({ makeMaterial, applyMask }) {
       this.dispatchEvent(/** @type {any} */ ({ type: 'synccomplete' }));
     }
 
+    /** @param {AtlasFont | null} atlas @returns {Promise<TextLayout> | TextLayout} */
+    #typeset(atlas) {
+      const { font, fontWeight, fontStyle } = this.#options, request = requestOf(this.#options);
+      if (atlas) return atlas.typeset(request);
+      return this.#glyphs.typeset(request, { font: /** @type {any} */ (font), weight: weightOf(fontWeight), isItalic: fontStyle === 'italic' });
+    }
+
+    /** Show shapes of a baked font, or again those of the glyphs. @param {AtlasFont | null} atlas */
+    #takeTexture(atlas) {
+      this.#atlas = atlas;
+      for (const name of [...this.#parts.keys()]) this.#removePart(name);
+      this.#material.userData.mask.set({ texture: this.#shapes.texture });
+    }
+
+    /** What has the shapes: their texture, and of each the part of its unit square that it fills. */
+    get #shapes() {
+      return this.#atlas ?? this.#glyphs.texture.asShapes;
+    }
+
     *#shapesInUse() {
+      if (this.#atlas) return;
       const { outlines, strokes, ...letters } = this.#layout ?? NOTHING;
       for (const one of [letters, outlines, strokes]) if (one) yield* one.shapes;
     }
 
     /** @param {ReadonlyMap<number, number>} places */
     #renumber(places) {
-      if (!this.#layout) return;
+      if (!this.#layout || this.#atlas) return;
       const { outlines, strokes } = this.#layout;
       for (const one of [this.#layout, outlines, strokes]) {
         if (!one) continue;
@@ -237,7 +232,7 @@ export function textOf({ makeMaterial, applyMask }) {
     /** Put the glyphs where they are. */
     #arrange() {
       const layout = this.#layout ?? NOTHING;
-      const { roots } = this.#glyphs.texture;
+      const { roots } = this.#shapes.texture;
       const { outlines, strokes } = layout;
       const isMap = (/** @type {number} */ shape) => roots[shape].isMap;
       const hasMaps = layout.shapes.some(isMap);
@@ -277,7 +272,7 @@ export function textOf({ makeMaterial, applyMask }) {
      */
     #fill(geometry, placed, part) {
       const { clipRect, colorRanges, curveRadius, curve } = this.#options;
-      const boxes = this.#glyphs.texture.boxes;
+      const { boxes } = this.#shapes;
       const colors = part === 'letters' && colorRanges && placed.clusters ? colorsOf(placed.clusters, colorRanges, this.#options.color) : null;
       const baseline = this.#layout?.lines[0]?.baseline ?? 0;
       const bend = curve ? alongCurve(curve, baseline) : curveRadius ? onCylinder(curveRadius) : null;
@@ -303,8 +298,7 @@ export function textOf({ makeMaterial, applyMask }) {
 
     /** @param {any} renderer @param {any} _scene @param {any} camera */
     onBeforeRender(renderer, _scene, camera) {
-      readViewport(renderer);
-      setFlat(this, camera);
+      beforeDrawing(this, renderer, camera);
     }
 
     /**
@@ -323,7 +317,7 @@ export function textOf({ makeMaterial, applyMask }) {
       RAY.at(distance, HIT);
       const [left, bottom, right, top] = layout.blockBounds;
       if (distance < 0 || HIT.x < left || HIT.x > right || HIT.y < bottom || HIT.y > top) return;
-      const glyph = glyphAt(layout, this.#glyphs.texture.boxes, HIT.x, HIT.y);
+      const glyph = glyphAt(layout, this.#shapes.boxes, HIT.x, HIT.y);
       const local = HIT.clone();
       const point = HIT.clone().applyMatrix4(this.matrixWorld);
       const far = raycaster.ray.origin.distanceTo(point);
@@ -368,24 +362,6 @@ export function textOf({ makeMaterial, applyMask }) {
 
 /** What an empty text shows. */
 const NOTHING = Object.freeze({ shapes: new Uint32Array(0), places: new Float32Array(0), clusters: new Uint32Array(0), outlines: undefined, strokes: undefined });
-
-/** The squares of neighbours overlap, so that depth is not written. @param {any} material */
-function usual(material) {
-  return Object.assign(material, { side: DoubleSide, depthWrite: false, transparent: true, forceSinglePass: true });
-}
-
-/**
- * @param {any} material
- * @param {any} color null: as it is
- * @param {number} opacity
- * @param {number} depthOffset
- */
-function paint(material, color, opacity, depthOffset) {
-  if (color !== null) material.color?.set(color);
-  material.opacity = opacity;
-  material.polygonOffset = depthOffset !== 0;
-  material.polygonOffsetFactor = material.polygonOffsetUnits = depthOffset;
-}
 
 /**
  * @param {Uint32Array} clusters

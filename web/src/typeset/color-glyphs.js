@@ -284,7 +284,7 @@ function composite(mode, below, source) {
     case MODE.SRC_ATOP: return [...below, ...masked(source, below)];
     case MODE.DEST_ATOP: return [...source, ...masked(below, source)];
     case MODE.XOR: return [...masked(source, below, true), ...masked(below, source, true)];
-    default: return [...below, ...source];
+    default: return [...below, ...(source.some((node) => 'blend' in node && node.blend) ? [{ nodes: source, blend: 0, mask: null }] : source)];
   }
 }
 

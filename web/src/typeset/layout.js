@@ -1,6 +1,7 @@
 // Lines as places of glyphs: alignment, anchors, carets and bounds; y up.
 import * as hb from 'harfbuzzjs';
 import { graphemeEnds } from './breaks.js';
+import { primaryFont } from './runs.js';
 import { kindOf } from './shapes.js';
 
 /** @import { Line, Piece } from './lines.js' */
@@ -214,7 +215,7 @@ class Layout {
  */
 export function layOut(text, lines, style, shapes) {
   const layout = new Layout(text, style, shapes), { isVertical, fontSize } = style;
-  const primary = style.instance(style.fonts.find(({ isLoaded }) => isLoaded) ?? style.fonts[0]), unit = fontSize / primary.em;
+  const primary = style.instance(primaryFont(style.fonts)), unit = fontSize / primary.em;
   const usual = heightsOf(primary, unit, style), heights = lines.map((line) => lineHeights(line, usual, style));
   const length = lines.reduce((most, { width, indent }) => Math.max(most, width + indent), 0);
   const isFilled = style.textAlign === 'justify' && style.maxWidth < Infinity && lines.some(({ isSoft }) => isSoft);

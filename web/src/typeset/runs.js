@@ -148,7 +148,8 @@ export function runsOf(text, { fonts, levels, isVertical, needed, missing }) {
       about = { font: fontOf(cluster, fonts, run, needed, missing), script, isUpright: isVertical && UPRIGHT.test(cluster) };
       if (cluster !== ' ') seen.set(cluster, about); // the font of a space is that of what is before it
     }
-    const { font, script, isUpright } = about, level = levels ? levels[start] : 0;
+    const { font, script, isUpright } = /** @type {Pick<Run, 'font' | 'script' | 'isUpright'>} */ (about);
+    const level = levels ? levels[start] : 0;
     const isSame = run && (script === SHARED || run.script === SHARED || run.script === script);
     if (run && isSame && run.font === font && run.level === level && run.isUpright === isUpright) {
       run.end = end;
@@ -194,11 +195,22 @@ function fontOf(cluster, fonts, before, needed, missing) {
   }
   const found = plain ?? partial;
   if (found) return found;
-  const fallback = fonts.find(({ isLoaded }) => isLoaded) ?? fonts[0];
-  if (isInvisible(code)) return fallback;
-  if (fallback.isPending) needed.add(fallback);
-  missing.add(code);
+  const fallback = primaryFont(fonts);
+  if (!fallback.isLoaded) needed.add(fallback);
+  else if (!isInvisible(code)) missing.add(code);
   return fallback;
+}
+
+/**
+ * The font whose metrics count, and whose .notdef is shown: the first that is loaded, or may be.
+ *
+ * @param {TypeFont[]} fonts
+ * @throws {VextureError} if all have failed
+ */
+export function primaryFont(fonts) {
+  const found = fonts.find(({ isLoaded }) => isLoaded) ?? fonts.find(({ isPending }) => isPending);
+  if (!found) throw fonts[0].error;
+  return found;
 }
 
 /** @param {number} code */

@@ -3,10 +3,10 @@ import { VextureError, line } from '../errors.js';
 import { inflate } from '../inflate.js';
 import { MOST_BYTES, damaged, joinTables } from './tables.js';
 
-/** First four bytes of files that HarfBuzz reads as they are: TrueType, OpenType, collections. */
-const PLAIN = new Set([0x00010000, 0x4f54544f, 0x74727565, 0x74746366]);
+const COLLECTION = 0x74746366, WOFF = 0x774f4646, WOFF2 = 0x774f4632;
 
-const WOFF = 0x774f4646, WOFF2 = 0x774f4632;
+/** First four bytes of files that HarfBuzz reads as they are: TrueType, OpenType, collections. */
+const PLAIN = new Set([0x00010000, 0x4f54544f, 0x74727565, COLLECTION]);
 
 /**
  * Return the tables of a font file as TrueType or OpenType.
@@ -18,8 +18,8 @@ const WOFF = 0x774f4646, WOFF2 = 0x774f4632;
 export async function sfntOf(bytes) {
   if (bytes.length < 12) throw new VextureError(`${bytes.length} bytes are no font; give a TTF, OTF, WOFF or WOFF2 file`, 'font');
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), signature = view.getUint32(0);
-  if (PLAIN.has(signature)) return bytes;
   try {
+    if (PLAIN.has(signature)) return checked(bytes, view);
     if (signature === WOFF) return await unpackWoff(bytes, view);
     if (signature === WOFF2) {
       const { unpackWoff2 } = await import('./woff2.js');
@@ -30,6 +30,15 @@ export async function sfntOf(bytes) {
   }
   const start = line(String.fromCharCode(...bytes.subarray(0, 4)));
   throw new VextureError(`a file that begins with ${start} is no font; give a TTF, OTF, WOFF or WOFF2 file`, 'font');
+}
+
+/** A file whose tables all are there; of a collection, those of the first font. @param {Uint8Array<ArrayBuffer>} bytes @param {DataView} view */
+function checked(bytes, view) {
+  const start = view.getUint32(0) === COLLECTION ? view.getUint32(12) : 0, count = view.getUint16(start + 4);
+  for (let at = start + 12; at < start + 12 + 16 * count; at += 16) {
+    if (view.getUint32(at + 8) + view.getUint32(at + 12) > bytes.length) throw damaged('it ends too early');
+  }
+  return bytes;
 }
 
 /** @param {Uint8Array<ArrayBuffer>} bytes @param {DataView} view */

@@ -4,6 +4,7 @@ import { KernelModules } from '../convert/kernel-modules.js';
 import { TypeFont } from './font.js';
 import { layOut } from './layout.js';
 import { linesOf } from './lines.js';
+import { primaryFont } from './runs.js';
 import { Shapes, modulesOf, partsOfKey } from './shapes.js';
 import { Style } from './style.js';
 
@@ -148,17 +149,17 @@ export class Typesetter {
   #set(request, needed) {
     try {
       for (const id of Array.isArray(request?.fonts) ? request.fonts : []) if (this.#wrong.has(id)) throw this.#wrong.get(id);
-      const style = new Style(request, this.#fonts), before = needed.size;
+      const style = new Style(request, this.#fonts);
       /** @type {Set<number>} */
       const missing = new Set();
       const { text } = request;
-      if (!text && style.fonts[0].isPending) needed.add(style.fonts[0]);
-      const own = new Set();
+      /** @type {Set<TypeFont>} */
+      const own = new Set(), primary = primaryFont(style.fonts);
       const lines = linesOf(text, style, own, missing);
+      if (!own.size && !primary.isLoaded) own.add(primary); // the metrics of blank texts
       own.forEach((font) => needed.add(font));
-      if (needed.size > before || own.size) return null;
+      if (own.size) return null;
       const failed = style.fonts.filter(({ error }) => error);
-      if (!style.fonts.some(({ isLoaded }) => isLoaded)) throw failed[0]?.error ?? new VextureError('no font is loaded; name one', 'fonts');
       const result = layOut(text, lines, style, this.#shapes);
       const used = new Set(lines.flatMap(({ pieces }) => pieces.map(({ shaped }) => shaped.instance.owner)));
       const notes = [...failed.map(({ error }) => /** @type {VextureError} */ (error).message), ...Array.from(used, (font) => [...font.notes]).flat()];

@@ -15,6 +15,12 @@ CUSP: Final = 1e-6
 GRID: Final = 8
 """Places between two cuts where the curvature is compared with the width."""
 
+SLOW: Final = 0.125
+"""Speed, as a share of the highest, below which these places are denser."""
+
+FINER: Final = 12
+"""Powers of a quarter up to which they are."""
+
 HALVINGS: Final = 45
 """Bisections of a place on a cubic."""
 
@@ -165,6 +171,38 @@ def _extreme_place(curve: NDArray[np.float64], half: float, low: float, high: fl
     return 0.5 * (low + high)
 
 
+@kernel(allocates=False)
+def _write_samples(
+    curve: NDArray[np.float64], places: NDArray[np.float64], count: int, out: NDArray[np.float64]
+) -> int:
+    """Write parameters that are dense enough to see where a cubic bends tightly; return their number.
+
+    `places` are where it begins, ends, slows down and has no curvature. Where it is slow, its curvature changes fast:
+    next to slow places, samples are ever denser.
+    """
+    fast, n = 0.0, 0
+    for k in range(count):
+        fast = max(fast, bend_at(curve, places[k])[1])
+    fast = max(fast, bend_at(curve, 0.5)[1])
+    for k in range(count - 1):
+        low, high = places[k], places[k + 1]
+        out[n] = low
+        n += 1
+        if bend_at(curve, low)[1] < SLOW * fast:
+            for m in range(FINER, 1, -1):
+                out[n] = low + (high - low) * 0.25**m
+                n += 1
+        for m in range(1, GRID):
+            out[n] = low + (high - low) * (m / GRID)
+            n += 1
+        if bend_at(curve, high)[1] < SLOW * fast:
+            for m in range(2, FINER + 1):
+                out[n] = high - (high - low) * 0.25**m
+                n += 1
+    out[n] = places[count - 1]
+    return n + 1
+
+
 @kernel
 def find_cuts(curve: NDArray[np.float64], half: float, out: NDArray[np.float64]) -> int:
     """Write where to cut a cubic before it is offset, in rising order; return how many.
@@ -183,13 +221,12 @@ def find_cuts(curve: NDArray[np.float64], half: float, out: NDArray[np.float64])
         slow = bend_at(curve, few[k])[1] <= CUSP * max(bend_at(curve, 0.0)[1], bend_at(curve, 1.0)[1])
         if slow or abs(tightness_at(curve, half, few[k])) > 1.0:
             found = insert_sorted(out, found, few[k])
-    size = (count - 1) * GRID
-    at, tight = np.empty(size + 1), np.empty(size + 1)
-    for i in range(size + 1):
-        k = min(i // GRID, count - 2)
-        at[i] = places[k] + (places[k + 1] - places[k]) * ((i - k * GRID) / GRID)
-        tight[i] = abs(tightness_at(curve, half, at[i]))
+    at = np.empty((len(places) - 1) * (GRID + 2 * FINER) + 1)
+    size = _write_samples(curve, places, count, at)
+    tight = np.empty(size)
     for i in range(size):
+        tight[i] = abs(tightness_at(curve, half, at[i]))
+    for i in range(size - 1):
         if (tight[i] > 1.0) != (tight[i + 1] > 1.0):
             found = insert_sorted(out, found, _tight_place(curve, half, at[i], at[i + 1]))
         if i > 0 and tight[i] > 1.0:

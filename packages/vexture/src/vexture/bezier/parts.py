@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
-from vexture.bezier.bends import MOST_CUTS, find_cuts, find_slowest
+from vexture.bezier.bends import MOST_CUTS, find_cuts, tangent_at
 from vexture.bezier.chain import CubicChain, append_cubic, empty_chain, unit
 from vexture.bezier.joins import ROUND_JOIN, StrokeStyle
 from vexture.bezier.roots import cubic_at, turning_points
@@ -16,7 +16,7 @@ STRAIGHT: Final = 1e-9
 """Sine of the angle between the arms of a cubic that counts as a line."""
 
 TINY: Final = 8.0
-"""Shortest steps. Cuts nearer to each other are one; a part that is longer may have an arm of zero, at a cusp."""
+"""Shortest steps. A smaller part is a corner; a larger one may have an arm of zero, at a cusp."""
 
 NOISE: Final = 1e-6
 """Length of an arm, as a share of the extent of a tiny part, that has no direction."""
@@ -110,24 +110,52 @@ def _extent(curve: NDArray[np.float64], t0: float, t1: float) -> float:
 
 
 @kernel
-def _is_cut(
-    curve: NDArray[np.float64], t0: float, cuts: NDArray[np.float64], k: int, count: int, shortest: float
-) -> bool:
-    """Whether a cut has a distance from the last one, at t0, and from those to come; of near ones, a cusp counts."""
-    slow = np.empty(2)
-    for m in range(find_slowest(curve, slow)):
-        if slow[m] == cuts[k]:
-            near = t0 == 0.0 and _extent(curve, 0.0, cuts[k]) < shortest
-            return cuts[k] > t0 and not near and _extent(curve, cuts[k], 1.0) >= shortest
-    following = cuts[k + 1] if k + 1 < count else 1.0
-    return _extent(curve, t0, cuts[k]) >= shortest and _extent(curve, cuts[k], following) >= shortest
+def _append_arm(parts: Parts, curve: NDArray[np.float64], at_end: bool, size: float, kind: int) -> Parts:
+    """Add a line along the direction at the start of a cubic, or at its end: all that counts of a tiny part."""
+    line, t, k = np.empty((4, 2)), (1.0 if at_end else 0.0), (3 if at_end else 0)
+    tx, ty = tangent_at(curve, t)
+    for i in range(4):
+        along = size * (i / 3.0 - t)
+        line[i, 0], line[i, 1] = curve[k, 0] + along * tx, curve[k, 1] + along * ty
+    return append_part(parts, line, kind)
+
+
+@kernel
+def _append_curved(parts: Parts, curve: NDArray[np.float64], style: StrokeStyle, cuts: NDArray[np.float64]) -> Parts:
+    """Add a cubic with area, cut where it slows down or bends too tightly.
+
+    A tiny part is a corner, wherever its curve goes: a round join of the parts before and after it covers all that it
+    does. At an end of the cubic it is a direction.
+    """
+    tiny = TINY * style.shortest
+    count, begin, t0, kind = find_cuts(curve, style.half, cuts), 0.0, 0.0, STYLED
+    part = np.empty((4, 2))
+    for k in range(count + 1):
+        t1 = cuts[k] if k < count else 1.0
+        if _extent(curve, begin, t1) < tiny:
+            t0 = t1
+            continue
+        if begin < t0:
+            if begin == 0.0:
+                parts = _append_arm(parts, curve, False, style.shortest, kind)
+            kind = ROUND_JOIN
+        size = _extent(curve, t0, t1)
+        _write_part(curve, t0, t1, style.shortest if size > tiny else NOISE * size, part)
+        ends = part[1, 0] == part[0, 0] and part[1, 1] == part[0, 1]
+        parts = append_part(parts, part, ROUND_JOIN if ends and kind == SMOOTH else kind)
+        kind, begin, t0 = SMOOTH, t1, t1
+    if begin < 1.0:
+        if begin == 0.0:
+            parts = _append_arm(parts, curve, False, style.shortest, kind)
+        parts = _append_arm(parts, curve, True, style.shortest, ROUND_JOIN)
+    return parts
 
 
 @kernel
 def cut_path(cubics: NDArray[np.float64], style: StrokeStyle) -> Parts:
     """Parts of a path that have parallel curves, or an evolute; steps without a direction are left out."""
     parts = Parts(empty_chain(2 * len(cubics)), np.empty(2 * len(cubics), np.int64), cubics[0, 0].copy())
-    curve, part, cuts = np.empty((4, 2)), np.empty((4, 2)), np.empty(MOST_CUTS)
+    curve, cuts = np.empty((4, 2)), np.empty(MOST_CUTS)
     for i in range(len(cubics)):
         size = 0.0
         for k in range(4):
@@ -141,17 +169,5 @@ def cut_path(cubics: NDArray[np.float64], style: StrokeStyle) -> Parts:
                 curve[1, axis] = parts.last[axis]
             curve[0, axis] = parts.last[axis]
             parts.last[axis] = curve[3, axis]
-        if is_straight(curve):
-            parts = _append_straight(parts, curve)
-            continue
-        count, t0, kind = find_cuts(curve, style.half, cuts), 0.0, STYLED
-        for k in range(count + 1):
-            t1 = cuts[k] if k < count else 1.0
-            if k < count and not _is_cut(curve, t0, cuts, k, count, TINY * style.shortest):
-                continue
-            size = _extent(curve, t0, t1)
-            _write_part(curve, t0, t1, style.shortest if size > TINY * style.shortest else NOISE * size, part)
-            ends = part[1, 0] == part[0, 0] and part[1, 1] == part[0, 1]
-            parts = append_part(parts, part, ROUND_JOIN if ends and kind == SMOOTH else kind)
-            kind, t0 = SMOOTH, t1
+        parts = _append_straight(parts, curve) if is_straight(curve) else _append_curved(parts, curve, style, cuts)
     return parts

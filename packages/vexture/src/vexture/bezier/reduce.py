@@ -12,6 +12,9 @@ from vexture.bezier.split import copy_curve
 PER_PIECE, MOST_SAMPLES = 8, 96
 """Points of a run that a fit uses: for each piece, and in all."""
 
+LEAST_PER_PIECE = 4
+"""Points of a piece that is longer than the tolerance: a short arc between long lines is seen, too."""
+
 UNSEEN = 0.1
 """Share of the tolerance. A shorter step back does not end a run: strokers leave such steps at joins."""
 
@@ -24,6 +27,27 @@ def _turns_between(before: NDArray[np.float64], after: NDArray[np.float64], unse
         if first * second < 0.0 and min(abs(first), abs(second)) > unseen:
             return True
     return False
+
+
+@kernel(allocates=False)
+def _returns(before: NDArray[np.float64], after: NDArray[np.float64], tolerance: float) -> bool:
+    """Return whether a piece goes back along the one before it, which is longer than both may be apart then."""
+    far, gap = 0.0, 0.0
+    for axis in range(2):
+        far = max(far, abs(before[3, axis] - before[0, axis]))
+        gap = max(gap, abs(after[3, axis] - before[0, axis]))
+    return gap <= 2.0 * tolerance < far
+
+
+@kernel(allocates=False)
+def _ends_run(pieces: NDArray[np.float64], i: int, tolerance: float) -> bool:
+    """Return whether a run ends before a piece, which may be past the last: where x or y turns, and around a way back.
+
+    A piece and the one that goes back along it stay as they are: if they changed sides, a gap would open.
+    """
+    n = len(pieces)
+    a, b, c, d = pieces[(i - 2) % n], pieces[(i - 1) % n], pieces[i % n], pieces[(i + 1) % n]
+    return _turns_between(b, c, UNSEEN * tolerance) or _returns(a, b, tolerance) or _returns(c, d, tolerance)
 
 
 @kernel(allocates=False)
@@ -42,15 +66,15 @@ def _fit_pieces(
 ) -> tuple[float, NDArray[np.float64]]:
     """Fit one monotone cubic (4, 2) to the pieces first..last-1; its distance from them, infinite if they close.
 
-    Each piece has points in proportion to its length: pieces near a cusp are tiny.
+    Each piece has points in proportion to its length, since pieces near a cusp are tiny, but a few if it can be seen.
     """
     curve, whole, count = np.empty((4, 2)), 0.0, 0
     for i in range(first, last):
         whole += lengths[i]
     samples = min(PER_PIECE * (last - first), MOST_SAMPLES)
-    points = np.empty((samples + 2 * (last - first) + 1, 2))
+    points = np.empty((samples + (LEAST_PER_PIECE + 1) * (last - first) + 1, 2))
     for i in range(first, last):
-        parts = int(np.ceil(samples * lengths[i] / whole))
+        parts = max(int(np.ceil(samples * lengths[i] / whole)), LEAST_PER_PIECE if lengths[i] > tolerance else 1)
         for m in range(parts):
             for axis in range(2):
                 p0, p1, p2, p3 = pieces[i, 0, axis], pieces[i, 1, axis], pieces[i, 2, axis], pieces[i, 3, axis]
@@ -80,11 +104,12 @@ def _fit_pieces(
 def reduce_contour(contour: NDArray[np.float64], tolerance: float) -> NDArray[np.float64]:
     """Replace a closed contour (n, 4, 2) by few monotone cubics (m, 4, 2) within a tolerance, closed bit for bit.
 
-    Runs end where x or y turns, where a quad-tree cuts anyway. Each cubic is as long as the tolerance allows.
+    Runs end where x or y turns, where a quad-tree cuts anyway, and around pieces that go back along others. Each cubic
+    is as long as the tolerance allows.
     """
     pieces = monotone_pieces(contour, np.zeros(len(contour), np.int64)).points
     n, begin = len(pieces), 0
-    while begin < n - 1 and not _turns_between(pieces[begin - 1], pieces[begin], UNSEEN * tolerance):
+    while begin < n - 1 and not _ends_run(pieces, begin, tolerance):
         begin += 1
     pieces = np.concatenate((pieces[begin:], pieces[:begin]))
     out, lengths = np.empty((n, 4, 2)), np.empty(n)
@@ -94,7 +119,7 @@ def reduce_contour(contour: NDArray[np.float64], tolerance: float) -> NDArray[np
     while at < n:
         if at == end:
             end += 1
-            while end < n and not _turns_between(pieces[end - 1], pieces[end], UNSEEN * tolerance):
+            while end < n and not _ends_run(pieces, end, tolerance):
                 end += 1
         copy_curve(pieces[at], out[count])
         good, bad, step = at + 1, end + 1, 1

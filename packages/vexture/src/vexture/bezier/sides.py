@@ -17,14 +17,12 @@ from vexture.base.kernels import kernel
 from vexture.bezier.arcs_join import append_arcs
 from vexture.bezier.bends import tangent_at, tightness_at
 from vexture.bezier.chain import CubicChain, append_cubic, append_line, empty_chain
+from vexture.bezier.crossings import find_crossing, wrong_turns_of
 from vexture.bezier.joins import ARCS, ROUND_JOIN, StrokeStyle, append_join
 from vexture.bezier.offset import append_offset, write_side
 from vexture.bezier.parts import SMOOTH, STYLED, Parts, is_straight
-from vexture.bezier.roots import cubic_at, velocity_at
+from vexture.bezier.roots import cubic_at
 from vexture.bezier.split import split
-
-STEPS: Final = 12
-"""Newton steps that find where two cubics cross."""
 
 NEAR: Final = 4
 """Cubics before and after a bend, or a corner, that may cross."""
@@ -38,8 +36,15 @@ MINOR: Final = 10.0
 UNSEEN: Final = 3.0
 """Tolerances of parallel curves that a point in a bend may be moved by."""
 
+DEEP: Final = 0.5
+"""Size of an evolute that can be one point, as a share of its distance from the path, and from the stroke's side."""
+
 EVEN: Final = 1e-9
 """Sine of a turn to the wrong side that is mere rounding."""
+
+UNEVEN: Final = 0.5
+"""Most turns to the wrong side in a bend, as a share of the sine of the angle at which the parts around it cross: what
+is cut off then stays on the other side of the bisector of this angle, where it is in the stroke."""
 
 
 class Side(NamedTuple):
@@ -129,81 +134,50 @@ def _is_smooth(parts: Parts, tangents: NDArray[np.float64], i: int, k: int, styl
 
 
 @kernel(allocates=False)
-def _turns_evenly(tangents: NDArray[np.float64], first: int, last: int, side: float) -> bool:
-    """Whether directions turn to their own side throughout, by less than half a turn.
+def _wrong_turns(tangents: NDArray[np.float64], first: int, last: int, side: float) -> float:
+    """Sum of the sines of turns to the other side than directions should turn; infinite if they turn back.
 
     Directions are numbered along the path, two to a part, and those of a closed path go on beyond its end.
     """
-    n = len(tangents)
+    n, wrong = len(tangents), 0.0
     a = tangents[first // 2 % n, first % 2]
     px, py = a[0], a[1]
     for m in range(first + 1, last + 1):
         t = tangents[m // 2 % n, m % 2]
         turn, whole = side * (px * t[1] - py * t[0]), side * (a[0] * t[1] - a[1] * t[0])
-        if turn > EVEN or whole > EVEN:
-            return False
-        if (turn > -EVEN and px * t[0] + py * t[1] < 0.0) or (whole > -EVEN and a[0] * t[0] + a[1] * t[1] < 0.0):
-            return False  # it turns back
+        wrong += max(turn, 0.0)
+        if whole > wrong + EVEN or (turn > -EVEN and px * t[0] + py * t[1] < 0.0):
+            return np.inf
+        if whole > -EVEN and a[0] * t[0] + a[1] * t[1] < 0.0:
+            return np.inf
         px, py = t[0], t[1]
-    return True
-
-
-@kernel(allocates=False)
-def _touch(a: NDArray[np.float64], b: NDArray[np.float64], slack: float) -> bool:
-    """Whether the boxes of the control points of two cubics are within a distance in x and y."""
-    for axis in range(2):
-        if (
-            min(min(a[0, axis], a[1, axis]), min(a[2, axis], a[3, axis]))
-            > max(max(b[0, axis], b[1, axis]), max(b[2, axis], b[3, axis])) + slack
-        ):
-            return False
-        if (
-            min(min(b[0, axis], b[1, axis]), min(b[2, axis], b[3, axis]))
-            > max(max(a[0, axis], a[1, axis]), max(a[2, axis], a[3, axis])) + slack
-        ):
-            return False
-    return True
-
-
-@kernel(allocates=False)
-def _cross_at(
-    a: NDArray[np.float64], b: NDArray[np.float64], t: float, u: float, side: float, slack: float
-) -> tuple[float, float]:
-    """Parameters at which two cubics cross, by Newton's method from t and u; -1 if it finds no turn to the side."""
-    for _ in range(STEPS):
-        ox = cubic_at(b[0, 0], b[1, 0], b[2, 0], b[3, 0], u) - cubic_at(a[0, 0], a[1, 0], a[2, 0], a[3, 0], t)
-        oy = cubic_at(b[0, 1], b[1, 1], b[2, 1], b[3, 1], u) - cubic_at(a[0, 1], a[1, 1], a[2, 1], a[3, 1], t)
-        ax, ay = velocity_at(a[0, 0], a[1, 0], a[2, 0], a[3, 0], t), velocity_at(a[0, 1], a[1, 1], a[2, 1], a[3, 1], t)
-        bx, by = velocity_at(b[0, 0], b[1, 0], b[2, 0], b[3, 0], u), velocity_at(b[0, 1], b[1, 1], b[2, 1], b[3, 1], u)
-        cross = ax * by - ay * bx
-        if max(abs(ox), abs(oy)) <= 1e-6 * slack:
-            beyond = max(max(t - 1.0, 0.0) * max(abs(ax), abs(ay)), max(-u, 0.0) * max(abs(bx), abs(by)))
-            good = t > 0.0 and u < 1.0 and beyond <= slack and side * cross < 0.0
-            return (t, u) if good else (-1.0, 0.0)
-        if cross == 0.0:
-            break
-        t, u = t + (ox * by - oy * bx) / cross, u + (ox * ay - oy * ax) / cross
-        if not (-0.5 < t < 1.5 and -0.5 < u < 1.5):
-            break
-    return -1.0, 0.0
+    return wrong
 
 
 @kernel
-def _trim(side: Side, before: int, after: int, sign: float, slack: float) -> bool:
+def _trim(side: Side, before: int, after: int, sign: float, slack: float, wrong: float) -> bool:
     """Cut the cubics of two parts where they cross near the end of one and the start of the other.
 
-    Curves that miss each other by less than `slack` are drawn out to where they cross.
+    Curves that miss each other by less than `slack` are drawn out to where they cross. `wrong` is the sum of the sines
+    of turns between them to the wrong side; with those of what is cut off, they must be few for the angle of the cut.
     """
     cubics, rest = side.chain.cubics, np.empty((4, 2))
     for i in range(side.end[before] - 1, max(side.begin[before], side.end[before] - NEAR) - 1, -1):
         for k in range(side.begin[after], min(side.end[after], side.begin[after] + NEAR)):
             a, b = cubics[i], cubics[k]
-            if not _touch(a, b, slack):
+            t, u = find_crossing(a, b, sign, slack)
+            if t <= 0.0:
                 continue
-            t, u = _cross_at(a, b, 1.0, 0.0, sign, slack)
-            if t <= 0.0:
-                t, u = _cross_at(a, b, 0.5, 0.5, sign, slack)
-            if t <= 0.0:
+            turns = wrong + wrong_turns_of(cubics, i, side.end[before] - 1, min(t, 1.0), 1.0, sign)
+            turns += wrong_turns_of(cubics, side.begin[after], k, 0.0, max(u, 0.0), sign)
+            ax, ay = tangent_at(a, t)
+            bx, by = tangent_at(b, u)
+            x = cubic_at(a[0, 0], a[1, 0], a[2, 0], a[3, 0], t)
+            y = cubic_at(a[0, 1], a[1, 1], a[2, 1], a[3, 1], t)
+            far = 0.0
+            for end in (side.points[before, 1], side.points[after, 0]):
+                far = max(far, max(abs(end[0] - x), abs(end[1] - y)))
+            if turns > max(UNEVEN * abs(ax * by - ay * bx), slack / max(far, slack)):
                 continue
             split(a, t, a, rest)
             split(b, u, rest, b)
@@ -218,22 +192,22 @@ def _trim(side: Side, before: int, after: int, sign: float, slack: float) -> boo
 @kernel
 def _follow_bend(side: Side, first: int, count: int, slack: float) -> Side:
     """Add chords of the evolutes along a bend, without points that move by less than `slack`."""
-    n, chain = len(side.begin), side.chain
+    n, chain, start = len(side.begin), side.chain, np.empty(2)
     x, y = side.points[first, 0, 0], side.points[first, 0, 1]
     at_x, at_y = x, y
     for m in range(count):
         i = (first + m) % n
         to_x, to_y = side.points[i, 1, 0], side.points[i, 1, 1]
         begin, end = side.begin[i], side.end[i]
-        start_x, start_y = side.points[i, 0, 0], side.points[i, 0, 1]
-        side.begin[i] = chain.length[0]
-        if max(abs(start_x - at_x), abs(start_y - at_y)) > slack:  # after a tiny part that is tight only in part
-            chain = append_line(chain, x, y, at_x, at_y)
-            chain = append_line(chain, at_x, at_y, start_x, start_y)
-            x, y = start_x, start_y
-            at_x, at_y = x, y
-        moves = not side.tight[i] and _extent(chain, begin, end, side.points[i, 0]) > slack
+        start[0], start[1] = side.points[i, 0, 0], side.points[i, 0, 1]
         side.points[i, 0, 0], side.points[i, 0, 1] = x, y
+        side.begin[i] = chain.length[0]
+        if max(abs(start[0] - at_x), abs(start[1] - at_y)) > slack:  # after a tiny part that is tight only in part
+            chain = append_line(chain, x, y, at_x, at_y)
+            chain = append_line(chain, at_x, at_y, start[0], start[1])
+            x, y = start[0], start[1]
+            at_x, at_y = x, y
+        moves = not side.tight[i] and _extent(chain, begin, end, start) > slack
         if moves or max(abs(to_x - x), abs(to_y - y)) > slack:
             chain = append_line(chain, x, y, at_x, at_y)
             x, y = at_x, at_y
@@ -250,16 +224,30 @@ def _follow_bend(side: Side, first: int, count: int, slack: float) -> Side:
     return Side(chain, side.begin, side.end, side.points, side.tight, side.minor)
 
 
-@kernel
-def _drop(side: Side, first: int, count: int) -> None:
-    """Leave out parts between two that were cut where they cross."""
+@kernel(allocates=False)
+def _drop(side: Side, first: int, count: int, x: float, y: float) -> None:
+    """Leave out parts: all of them are a point."""
     n = len(side.begin)
-    at = side.points[(first - 1) % n, 1]
     for m in range(count):
         i = (first + m) % n
         side.begin[i], side.end[i] = 0, 0
         for k in range(2):
-            side.points[i, k, 0], side.points[i, k, 1] = at[0], at[1]
+            side.points[i, k, 0], side.points[i, k, 1] = x, y
+
+
+@kernel(allocates=False)
+def _is_around_point(parts: Parts, side: Side, first: int, count: int, half: float) -> bool:
+    """Whether a bend turns around the first point of its evolute, and has the others near it, deep in the stroke."""
+    n, far, room = len(side.begin), 0.0, np.inf
+    for m in range(count):
+        i = (first + m) % n
+        for k in range(2):
+            curve, point = parts.chain.cubics[i], side.points[i, k]
+            dx, dy = point[0] - curve[3 * k, 0], point[1] - curve[3 * k, 1]
+            radius = np.sqrt(dx * dx + dy * dy)
+            room = min(room, min(radius, half - radius))
+            far = max(far, max(abs(point[0] - side.points[first, 0, 0]), abs(point[1] - side.points[first, 0, 1])))
+    return far <= DEEP * room
 
 
 @kernel
@@ -292,7 +280,9 @@ def clear_side(
     n = len(side.begin)
     for i in range(n):
         count = _bend_length(side.minor, parts, tangents, i, closed, style)
-        if count > 0:
+        if count > 0 and _is_around_point(parts, side, i, count, style.half):
+            _drop(side, i, count, side.points[i, 0, 0], side.points[i, 0, 1])
+        elif count > 0:
             side = _follow_bend(side, i, count, UNSEEN * style.tolerance)
     for i in range(n):
         count = _bend_length(side.minor, parts, tangents, i, closed, style)
@@ -320,10 +310,9 @@ def _cut_off(
                 continue
             if side.minor[before] or side.minor[after]:
                 continue
-            if not _turns_evenly(tangents, 2 * first + 1 + 2 * n, 2 * last + 2 * n, sign):
-                continue
-            if _trim(side, before, after, sign, slack):
-                _drop(side, before + 1, last - first - 1)
+            wrong = _wrong_turns(tangents, 2 * first + 1 + 2 * n, 2 * last + 2 * n, sign)
+            if wrong <= UNEVEN and _trim(side, before, after, sign, slack, wrong):
+                _drop(side, before + 1, last - first - 1, side.points[before, 1, 0], side.points[before, 1, 1])
                 return True
     return False
 

@@ -21,10 +21,10 @@ from vexture.svg.paint_servers import PaintServers
 from vexture.svg.pattern_tiles import Canvas, FirstTile, PatternTiles, is_window, visible
 from vexture.svg.patterns import Tiling
 from vexture.svg.properties import PARTS
-from vexture.svg.report import Report
+from vexture.svg.report import Report, describe_element
 from vexture.svg.shapes import ShapeElement, check, shape_outlines
 from vexture.svg.space import ElementPlace, PlacedElement
-from vexture.svg.strokes import Stroke, stroke_contours
+from vexture.svg.strokes import MOST_DASHES, Stroke, dash_count, stroke_contours
 from vexture.svg.text.typesetter import Text
 from vexture.svg.transform import Identity, Transform, map_points, scale_of
 from vexture.svg.values import number, words
@@ -164,6 +164,13 @@ class Painter:
             self.report.left_out(f"vector-effect '{effect[:40]}'", shape.element)
         if size == inf:
             size = max(stroke.width, *(float(np.ptp(outline.cubics, axis=(0, 1)).max()) for outline in outlines))
+        count = dash_count(outlines, stroke)
+        if count > MOST_DASHES:
+            text = f"{count:,} dashes; the limit is {MOST_DASHES:,}; lengthen stroke-dasharray"
+            self.report.simplification(
+                f"stroke of {describe_element(shape.element)} read as solid: {text}", shape.element
+            )
+            stroke = replace(stroke, dashes=())
         contours = stroke_contours(outlines, stroke, size)
         if screen is not Identity:
             contours = [map_points(contour, screen.inverse()) for contour in contours]

@@ -12,6 +12,7 @@ from vexture.base.tolerance import CLOSED
 from vexture.drawing.unit_square import FARTHEST
 from vexture.texture.map_texels import encode_map
 from vexture.tree.bounds import Bounds
+from vexture.tree.cubics import are_finite
 from vexture.tree.growth import CURVES, QUADS, UNRESOLVED, WAITING
 from vexture.tree.planar.build import grow_map, plant_map
 from vexture.tree.planar.map import arrange_map, texels_of
@@ -39,7 +40,7 @@ def coloured_texels(
     paints, or if its programs do not fit.
     """
     growth, layers, faces, outside, reach = plant_map(source, bounds.max_depth, restyle)
-    outside = outside if _are_finite(source.cubics) else np.nan
+    outside = outside if are_finite(source.cubics) else np.nan
     texels, starts, members = np.zeros((0, 4), np.uint32), np.zeros(1, np.int64), np.zeros(0, np.int32)
     paints, flattened = 0, 0
     if outside <= CLOSED and reach <= FARTHEST:
@@ -57,14 +58,3 @@ def coloured_texels(
     counts, deviation = growth.tree.counts, growth.tree.deviation[0]
     numbers = (outside, reach, deviation, counts[UNRESOLVED], counts[QUADS], counts[CURVES], paints, flattened)
     return texels, starts, members, hides, *numbers
-
-
-@kernel(allocates=False)
-def _are_finite(cubics: NDArray[np.float64]) -> bool:
-    """Whether all coordinates are finite numbers."""
-    for i in range(len(cubics)):
-        for k in range(4):
-            for axis in range(2):
-                if not np.isfinite(cubics[i, k, axis]):
-                    return False
-    return True

@@ -11,17 +11,8 @@ from vexture.base.tolerance import CLOSED
 from vexture.texture.encode import tree_texels
 from vexture.tree.bounds import Bounds
 from vexture.tree.build import grow
+from vexture.tree.cubics import are_finite
 from vexture.tree.growth import QUADS, UNRESOLVED, WAITING, arrange_tree
-
-
-@kernel(allocates=False)
-def _is_finite(cubics: NDArray[np.float64]) -> bool:
-    """Whether all coordinates are finite."""
-    total = 0.0
-    for i in range(len(cubics)):
-        for point in range(4):
-            total += 0.0 * cubics[i, point, 0] + 0.0 * cubics[i, point, 1]
-    return total == 0.0
 
 
 @kernel
@@ -41,7 +32,7 @@ def silhouette_texels(
     if the outline leaves the square by more than `CLOSED`, if there would be more than `bounds.most_quads` quads, or if
     the tree takes more than `most_work`, in units of `grow_on`.
     """
-    if not _is_finite(cubics):
+    if not are_finite(cubics):
         return np.zeros((0, 4), np.uint32), np.nan, 0.0, 0, 0
     tree, outside = grow(cubics, lengths, path, rules, bounds, most_work, 0)
     if not outside <= CLOSED or tree.counts[WAITING] > 0:

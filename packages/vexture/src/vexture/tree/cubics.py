@@ -52,6 +52,22 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
     return (*leave_out_copies(*outlines), outlines.rules)
 
 
+@kernel(allocates=False)
+def are_finite(cubics: NDArray[np.float64]) -> bool:
+    """Whether all coordinates of cubics (n, 4, 2) are finite.
+
+    Examples
+    --------
+    >>> are_finite(np.zeros((1, 4, 2))), are_finite(np.full((1, 4, 2), np.inf))
+    (True, False)
+    """
+    total = 0.0
+    for i in range(len(cubics)):
+        for k in range(4):
+            total += 0.0 * cubics[i, k, 0] + 0.0 * cubics[i, k, 1]
+    return total == 0.0
+
+
 @kernel
 def leave_out_copies(
     cubics: NDArray[np.float64], lengths: NDArray[np.int64], path: NDArray[np.int64], rules: NDArray[np.int64]
