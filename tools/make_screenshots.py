@@ -1,7 +1,7 @@
 """Take the pictures of the pages: `python tools/make_screenshots.py` writes those of MAKERS, or some by their names.
 
 Needs Chromium and the built pages (`make viewer counties`): they are exported and looked at as a person would. Those of
-the guide are what its test saw last (`pytest tests/web/test_guide_three.py`). The pictures go into docs/pictures/.
+the guide are what its test saw last (`pytest tests/web/test_guide_three.py tests/web/test_guide_text.py`). The pictures go into docs/pictures/.
 """
 
 import io
@@ -219,6 +219,7 @@ def notebook(browser: Any, folder: Path) -> Image.Image:
 
 MAKERS: Final[dict[str, Callable[[Any, Path], Image.Image]]] = {
     "guide.png": lambda browser, folder: row_of_guide(),
+    "text.png": lambda browser, folder: Image.open(GUIDE / "test_the_guide_to_texts_does_what_it_says.png"),
     "viewer.png": viewer,
     "flood.jpg": flood,
     "floods.jpg": lambda browser, folder: sheet_of(flood_kinds(browser, folder)),

@@ -30,7 +30,7 @@ import { VextureError, line, unfit } from './errors.js';
  *   mixes, or in sRGB, as browsers do. By default `true` on lit materials; without effect on a drawing of several layers
  * @property {'own' | 'none'} [background] mode `paint`: around the drawing, the material's own colour (the default), or
  *   nothing
- * @property {boolean | 'glyphs' | { isLabels: true }} [instanced] each instance shows the root in its attribute
+ * @property {boolean | 'glyphs' | { isLabels: true, texture: import('three').DataTexture, areSprites: boolean }} [instanced] each instance shows the root in its attribute
  *   `vextureRoot` (see `rootAttribute`), in mode `paint` one layer. `glyphs` and labels are for the parts of texts. `false`
  *   by default
  * @property {import('./fold-texture.js').FoldTexture | null} [fold] moves the shape with time; packed textures only. By default

@@ -30,13 +30,13 @@ export { getCaretAtPoint, getSelectionRects } from './layout.js';
 /** @typedef {import('./label.js').LabelOptions} LabelOptions */
 /** @typedef {import('./layout.js').PlacedShapes} PlacedShapes */
 /** @typedef {import('./layout.js').Rectangle} Rectangle */
-/** @typedef {import('./layout.js').TextLayout} TextLayout places of glyphs and measures of a text that is shown */
+/** @typedef {import('./layout.js').TextLayout} TextLayout */
 /** @typedef {import('./layout.js').TextLine} TextLine */
 /** @typedef {import('./layout.js').TextMeasures} TextMeasures */
 /** @typedef {import('./text-options.js').ArrangementOptions} ArrangementOptions */
 /** @typedef {import('./text-options.js').LayoutOptions} LayoutOptions */
 /** @typedef {import('./text-options.js').LookOptions} LookOptions */
-/** @typedef {import('./text-options.js').TextOptions} TextOptions all options of a `Text`, each of which is a property of it */
+/** @typedef {import('./text-options.js').TextOptions} TextOptions */
 
 const MAKING = { makeMaterial: () => new MeshBasicMaterial(), applyMask: applyVectorMask };
 

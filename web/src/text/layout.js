@@ -51,7 +51,8 @@
  * @property {number[]} missing code points that no font has
  * @property {string[]} notes what is drawn otherwise than the fonts say
  *
- * @typedef {PlacedShapes & TextMeasures & { outlines?: PlacedShapes, strokes?: PlacedShapes }} TextLayout
+ * @typedef {PlacedShapes & TextMeasures & { outlines?: PlacedShapes, strokes?: PlacedShapes }} TextLayout places of glyphs and
+ *   measures of a text that is shown
  *
  * @typedef {TextLayout | { error: string, field: string }} Outcome
  */

@@ -54,7 +54,7 @@ import { weightOf } from './faces.js';
  * @property {import('three').Curve<import('three').Vector2 | import('three').Vector3> | null} curve path along which the
  *   baseline runs, by its length
  *
- * @typedef {LayoutOptions & LookOptions & ArrangementOptions} TextOptions
+ * @typedef {LayoutOptions & LookOptions & ArrangementOptions} TextOptions all options of a `Text`, each of which is a property of it
  */
 
 /** @type {Readonly<LayoutOptions>} */
