@@ -52,7 +52,8 @@ def main() -> None:
     if output.is_file() and output.stat().st_mtime > max(Path(__file__).stat().st_mtime, original.stat().st_mtime):
         return
     font = instantiateVariableFont(TTFont(original), {"wght": 400, "wdth": 100})
-    options = Options(layout_features=["ccmp", "kern", "liga", "locl", "mark", "mkmk"], hinting=False, name_IDs=[0, 1, 2, 13, 14])
+    features = ["ccmp", "kern", "liga", "locl", "mark", "mkmk"]
+    options = Options(layout_features=features, hinting=False, name_IDs=[0, 1, 2, 13, 14])
     subsetter = Subsetter(options)
     subsetter.populate(unicodes=[code for first, last in RANGES for code in range(first, last + 1)])
     subsetter.subset(font)

@@ -63,7 +63,8 @@ createRoot(document.body.appendChild(document.createElement('div'))).render(
 );
 """
 CONFIGS = """
-const [plugged, plain] = (await Promise.all(['vite', 'without-plugin'].map((name) => import(`./${name}.config.js`)))).map((one) => one.default);
+const configs = ['vite', 'without-plugin'].map((name) => import(`./${name}.config.js`));
+const [plugged, plain] = (await Promise.all(configs)).map((one) => one.default);
 const config = plugged.plugins[0].config.call({ meta: { viteVersion: '8.1.0' } }, {});
 console.log(JSON.stringify([config, plain]));
 """

@@ -38,8 +38,8 @@ Picture = NDArray[np.float64]
 def font() -> Path:
     """Noto Sans, a variable font, which `vexture.text` takes by default."""
     found = find_spec("fontpkg_noto_sans")
-    assert found is not None and found.origin is not None, "the extra text is installed for tests"
-    return Path(found.origin).parent / "files" / "NotoSans[wdth,wght].ttf"
+    assert found is not None, "the extra text is installed for tests"
+    return Path(str(found.origin)).parent / "files" / "NotoSans[wdth,wght].ttf"
 
 
 @pytest.fixture(scope="module")
@@ -170,15 +170,18 @@ def test_ranges_of_characters_have_colours_of_their_own(page: Any) -> None:
     seen = drawn(page, options=options, camera=WHOLE | {"bottom": -80, "top": 40}, size=(320, 120))
     pixels = ink(seen)
     start = int(seen["layout"]["carets"][4 * 3])
-    assert pixels[:, : start - 1, 2].max() == 0.0 and pixels[:, : start - 1, 0].max() > 0.9
-    assert pixels[:, start + 1 :, 0].max() == 0.0 and pixels[:, start + 1 :, 2].max() > 0.9
+    assert pixels[:, : start - 1, 2].max() == 0.0
+    assert pixels[:, : start - 1, 0].max() > 0.9
+    assert pixels[:, start + 1 :, 0].max() == 0.0
+    assert pixels[:, start + 1 :, 2].max() > 0.9
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_labels_are_drawn_by_one_call_as_texts_are(page: Any, backend: str) -> None:
     """Each in its place, size, turn and colour; what is hidden, or has left, is not there."""
     angle = 0.3
-    label = {"text": WORD, "position": [40, -70, 0], "scale": 30, "quaternion": [0, 0, np.sin(angle / 2), np.cos(angle / 2)]}
+    quaternion = [0, 0, np.sin(angle / 2), np.cos(angle / 2)]
+    label = {"text": WORD, "position": [40, -70, 0], "scale": 30, "quaternion": quaternion}
     hidden = {"text": "hidden", "position": [0, -30, 0], "scale": 30, "visible": False}
     options = {"font": "font.ttf", "anchorY": "top-baseline"}
     seen = drawn(page, backend=backend, options=options, labels=[label, hidden], camera=WHOLE, size=(320, 120))
@@ -247,7 +250,8 @@ def test_rays_and_clicks_find_characters(page: Any) -> None:
     }""")
     assert [hits[0][0] for hits in found["letters"]] == [0, 1, 3]
     assert found["letters"][0][0][1] == pytest.approx(5)
-    assert found["blank"][0][0] == -1 and found["beside"] == []
+    assert found["blank"][0][0] == -1
+    assert found["beside"] == []
     assert found["caret"] == 4
     (rectangle,) = found["rectangles"]
     assert (rectangle["left"], rectangle["right"]) == (0, pytest.approx(found["width"]))
@@ -272,8 +276,11 @@ def test_a_text_that_cannot_be_set_says_why_in_one_line(address: str, open_page:
     }""",
         options,
     )
-    assert message[0] == "VextureError" and message[1] == message[2]
-    assert words in message[1] and "\n" not in message[1] and ";" in message[1]
+    assert message[0] == "VextureError"
+    assert message[1] == message[2]
+    assert words in message[1]
+    assert "\n" not in message[1]
+    assert ";" in message[1]
 
 
 @pytest.mark.parametrize("option", ["fontsize", "fontSize", "anchorX", "textAlign", "clipRect", "lineHeight"])
@@ -281,16 +288,17 @@ def test_a_wrong_option_is_refused_with_its_name(page: Any, option: str) -> None
     message = page.evaluate(
         "option => { try { new Text({ glyphs, [option]: 'wide' }); } catch (error) { return error.message; } }", option
     )
-    assert option in message and ";" in message
+    assert option in message
+    assert ";" in message
 
 
 def test_a_baked_font_sets_the_same_text_without_a_worker(page: Any) -> None:
     characters = "".join(sorted(set("AVWA Tolé, wrapped at blanks")))
-    options = word_options(
-        text="AVWA Tolé,\nwrapped at blanks", fontSize=30, maxWidth=180, anchorY="middle", anchorX="center", textAlign="center"
-    )
+    words, centred = "AVWA Tolé,\nwrapped at blanks", {"anchorY": "middle", "anchorX": "center", "textAlign": "center"}
+    options = word_options(text=words, fontSize=30, maxWidth=180, **centred)
     size, camera = (320, 180), {"left": -160, "right": 160, "bottom": -90, "top": 90}
-    seen = page.evaluate("described => bake(described)", {"characters": characters, "options": options, "camera": camera, "size": size})
+    described = {"characters": characters, "options": options, "camera": camera, "size": size}
+    seen = page.evaluate("described => bake(described)", described)
     baked, full = (picture({"pixels": pixels}, size) for pixels in seen["pixels"])
     assert full[..., 3].max() > 0.9
     assert np.abs(baked - full).max() < CLOSE

@@ -75,7 +75,8 @@ def bundle(entry: Path, output: Path, three: str = "three", *, is_split: bool = 
     installed is found from anywhere.
     """
     esbuild = WEB / "node_modules" / ".bin" / "esbuild"
-    command = [str(esbuild), str(entry), "--bundle", "--format=esm", "--external:module"]  # HarfBuzz asks Node.js for it
+    # HarfBuzz imports `module` in Node.js alone
+    command = [str(esbuild), str(entry), "--bundle", "--format=esm", "--external:module"]
     if is_split:
         command += ["--splitting", f"--outdir={output.parent}", f"--entry-names={output.stem}"]
     else:

@@ -40,6 +40,7 @@ export { writePacked } from './write-packed.js';
 /** @typedef {import('./paints.js').Paint} Paint */
 /** @typedef {import('./paints.js').Rows} Rows */
 /** @typedef {import('./paints.js').Stop} Stop */
+/** @typedef {import('./read-geojson.js').GeojsonLook} GeojsonLook */
 /** @typedef {import('./read-geojson.js').GeojsonOptions} GeojsonOptions */
 /** @typedef {import('./split.js').Split} Split */
 /** @typedef {import('./strokes.js').StrokeOutline} StrokeOutline */

@@ -9,11 +9,11 @@ import { LONGEST } from './parse.js';
 /** @import { Drawing, Path, Paint } from './drawing.js' */
 
 /**
- * @typedef {object} GeojsonLook Options of `readGeojson`.
+ * @typedef {object} GeojsonLook What `readGeojson` takes of a source.
  * @property {string} [name] name of the shape; `drawing` by default
  * @property {string} [names] property of the features that names the paths, in place of `id`
  *
- * @typedef {GeojsonLook & import('./pace.js').PaceOptions} GeojsonOptions
+ * @typedef {GeojsonLook & import('./pace.js').PaceOptions} GeojsonOptions Options of `readGeojson`, and its limits.
  *
  * @typedef {[number, number]} Position
  *

@@ -17,8 +17,9 @@ import { setLines } from './atlas-layout.js';
  * @typedef {object} AtlasMetrics What `vexture font` writes beside a texture.
  * @property {Record<string, AtlasGlyph>} glyphs by character
  * @property {Record<string, Record<string, number>>} kerning what to add to the advance of a character before another one
- * @property {{ ascender: number, descender: number, line_gap: number, x_height: number, cap_height: number }} lines
- * @property {AtlasGlyph} notdef
+ * @property {{ ascender: number, descender: number, line_gap: number, x_height: number, cap_height: number }} lines measures of a
+ *   line; the descender is below 0
+ * @property {AtlasGlyph} notdef what is shown for characters that the font lacks
  */
 
 /**
@@ -35,7 +36,9 @@ export class AtlasFont {
   constructor(texture, metrics) {
     const hasAll = [metrics?.glyphs, metrics?.lines, metrics?.notdef].every((part) => typeof part === 'object' && part !== null);
     if (!hasAll) throw new VextureError('the metrics of a font lack glyphs, lines or notdef; give the JSON that vexture font writes', 'metrics');
+    /** Its characters as shapes. */
     this.texture = texture;
+    /** Advances, kerning and lines. */
     this.metrics = { ...metrics, kerning: metrics.kerning ?? {} };
     /** Of each shape the part of its unit square that it fills. @type {[number, number][]} */
     this.boxes = texture.roots.map(() => [1, 1]);
@@ -64,6 +67,7 @@ export class AtlasFont {
     }
   }
 
+  /** Always true: identifies a baked font. */
   get isAtlasFont() {
     return true;
   }
