@@ -1,9 +1,10 @@
 // Texts as runs of one font, script and direction.
-import bidiFactory from 'bidi-js';
 import { VextureError } from '../errors.js';
 import { graphemeEnds } from './breaks.js';
+import { bidi } from './libraries.js';
 
 /** @import { TypeFont } from './font.js' */
+/** @import { Loadable } from './libraries.js' */
 
 /**
  * @typedef {object} Run
@@ -70,8 +71,6 @@ function expression(name, place) {
   return expressions[place];
 }
 
-const bidi = bidiFactory();
-
 /** Most isolates of a paragraph: the time of bidi-js grows with their square. */
 const MOST_ISOLATES = 10_000;
 
@@ -88,16 +87,21 @@ const STAND_INS = new Map([['R', '\u05d0'], ['AL', '\u0628'], ['AN', '\u0660'], 
  *
  * @param {string} text
  * @param {'auto' | 'ltr' | 'rtl'} direction
+ * @param {Set<Loadable>} needed a library to load first is added
  * @returns {{ levels: Uint8Array | null, level: number }} `levels` is null if all are 0; `level` of the paragraph
  */
-export function levelsOf(text, direction) {
+export function levelsOf(text, direction, needed) {
   if (direction !== 'rtl' && LEFT_TO_RIGHT.test(text)) return { levels: null, level: 0 };
+  if (!bidi.isLoaded) {
+    needed.add(bidi);
+    return { levels: null, level: 0 };
+  }
   const isolates = text.match(ISOLATE)?.length ?? 0;
   if (isolates > MOST_ISOLATES) {
     throw new VextureError(`\`text\` has ${isolates} isolates (U+2066 to U+2068) in a paragraph; the limit is ${MOST_ISOLATES}; divide it`, 'text');
   }
-  const seen = text.replace(/[\u{10000}-\u{10ffff}]/gu, (character) => STAND_INS.get(bidi.getBidiCharTypeName(character))?.repeat(2) ?? character);
-  const { levels, paragraphs } = bidi.getEmbeddingLevels(seen, direction === 'auto' ? undefined : direction);
+  const seen = text.replace(/[\u{10000}-\u{10ffff}]/gu, (character) => STAND_INS.get(bidi.content.getBidiCharTypeName(character))?.repeat(2) ?? character);
+  const { levels, paragraphs } = bidi.content.getEmbeddingLevels(seen, direction === 'auto' ? undefined : direction);
   return { levels, level: paragraphs[0]?.level ?? (direction === 'rtl' ? 1 : 0) };
 }
 
@@ -120,7 +124,7 @@ const PLAIN = /^[\x20-\x7e]*$/;
  * @param {TypeFont[]} about.fonts in order of preference
  * @param {Uint8Array | null} about.levels
  * @param {boolean} about.isVertical
- * @param {Set<TypeFont>} about.needed fonts to load first are added
+ * @param {Set<Loadable>} about.needed fonts to load first are added
  * @param {Set<number>} about.missing characters that no font has are added
  * @returns {Run[]} in the order of the text
  */
@@ -170,7 +174,7 @@ export function runsOf(text, { fonts, levels, isVertical, needed, missing }) {
  * @param {string} cluster
  * @param {TypeFont[]} fonts
  * @param {Run | null} before the run before it, whose font spaces take
- * @param {Set<TypeFont>} needed
+ * @param {Set<Loadable>} needed
  * @param {Set<number>} missing
  * @returns {TypeFont}
  */
