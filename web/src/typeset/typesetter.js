@@ -184,8 +184,9 @@ export class Typesetter {
       const failed = style.fonts.filter(({ error }) => error);
       const result = layOut(text, lines, style, this.#shapes);
       const used = new Set(lines.flatMap(({ pieces }) => pieces.map(({ shaped }) => shaped.instance.owner)));
-      const notes = [...failed.map(({ error }) => /** @type {VextureError} */ (error).message), ...Array.from(used, (font) => [...font.notes]).flat()];
-      return { ...result, missing: [...missing], notes: [...new Set(notes)] };
+      const notes = new Set(failed.map(({ error }) => /** @type {VextureError} */ (error).message));
+      for (const font of used) for (const note of font.notes) notes.add(note);
+      return { ...result, missing: [...missing], notes: [...notes] };
     } catch (error) {
       const { message, field } = errorOf(error);
       return { error: message, field };
