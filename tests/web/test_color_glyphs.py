@@ -10,7 +10,7 @@ from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.ttGlyphPen import TTGlyphPen
 from fontTools.ttLib.tables import otTables
 from test_kernels import built
-from test_typesetting import set_texts, typeset
+from test_typesetting import DEJAVU, set_texts, typeset
 
 import vexture
 from vexture.base.layout import ROW_BITS
@@ -43,17 +43,17 @@ GLYPHS = {
 }
 
 
-def color_font(path: Path, paint: Any, version: int | None = None) -> Path:
-    """A font whose letter A has a paint or layers."""
+def color_font(path: Path, paint: Any, character: str = "A") -> Path:
+    """A font whose only character has a paint or layers."""
     builder = FontBuilder(EM, isTTF=True)
     builder.setupGlyphOrder([*GLYPHS])
-    builder.setupCharacterMap({ord("A"): "A"})
+    builder.setupCharacterMap({ord(character): "A"})
     builder.setupGlyf({name: make() for name, make in GLYPHS.items()})
     outlines = builder.font["glyf"]
     builder.setupHorizontalMetrics({name: (EM, getattr(outlines[name], "xMin", 0)) for name in GLYPHS})
     builder.setupHorizontalHeader(ascent=EM, descent=0)
     builder.setupPost()
-    builder.font["COLR"] = buildCOLR({"A": paint}, version=version)
+    builder.font["COLR"] = buildCOLR({"A": paint})
     builder.font["CPAL"] = buildCPAL([PALETTE])
     builder.save(path)
     return path
@@ -223,3 +223,12 @@ def test_a_sweep_is_its_mean_and_a_glyph_of_the_text_s_colour_no_map(tmp_path: P
     assert second["notes"] == []
     assert third["notes"] == ["parts in the text's colour, of glyphs that have others, are black"]
     assert keys == ["0::1", "1::1", "2::1"]
+
+
+def test_emoji_take_a_font_with_colours_unless_they_are_text(tmp_path: Path) -> None:
+    font = color_font(tmp_path / "heart.ttf", layers(RED_GLYPH), "\u2764")
+    hearts = ("\u2764", "\u2764\ufe0f", "\u2764\ufe0e", "a\u2764\ufe0f\u200db")
+    results, keys = set_texts(tmp_path, [DEJAVU, font], *({"text": text} for text in hearts))
+    fonts = [[keys[shape].split(":")[0] for shape in result["shapes"]] for result in results]
+    assert fonts == [["0"], ["1"], ["0"], ["0", "1", "0"]]
+    assert all(result["missing"] == [] for result in results)

@@ -3,7 +3,10 @@ import { readFileSync } from 'node:fs';
 import { Typesetter } from '../src/typeset/typesetter.js';
 
 /** @param {string} name */
-export const fontFile = (name) => new Uint8Array(readFileSync(new URL(`../node_modules/@fontsource/${name.split('-')[0] === 'reem' ? 'reem-kufi-fun' : 'pacifico'}/files/${name}`, import.meta.url))).buffer;
+export function fontFile(name) {
+  const family = name.startsWith('reem') ? 'reem-kufi-fun' : 'pacifico';
+  return new Uint8Array(readFileSync(new URL(`../node_modules/@fontsource/${family}/files/${name}`, import.meta.url))).buffer;
+}
 
 export const PACIFICO = 'pacifico-latin-400-normal.woff', CYRILLIC = 'pacifico-cyrillic-400-normal.woff2', ARABIC = 'reem-kufi-fun-arabic-400-normal.woff2';
 

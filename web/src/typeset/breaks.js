@@ -1,6 +1,5 @@
 // Where lines may break (UAX 14), and user-perceived characters (UAX 29).
-// @ts-expect-error: the package has no types
-import LineBreaker from 'linebreak';
+import { lineBreaker } from './libraries.js';
 
 /** Characters of a line's end, each pair of CR and LF as one. */
 export const NEWLINE = /\r\n|[\n\r\v\f\u0085\u2028\u2029]/g;
@@ -44,13 +43,13 @@ function endsIn(text) {
 }
 
 /**
- * Places in a paragraph before which a line may break; the last is its end.
+ * Places in a paragraph before which a line may break; the last is its end. The library `lineBreaker` must be loaded.
  *
  * @param {string} text of one paragraph
  * @returns {number[]}
  */
 export function breaksOf(text) {
-  const breaker = new LineBreaker(text), places = [];
+  const breaker = new lineBreaker.content(text), places = [];
   for (let next = breaker.nextBreak(); next; next = breaker.nextBreak()) places.push(next.position);
   if (places.at(-1) !== text.length) places.push(text.length);
   return UNSPACED.test(text) && dictionary ? withWords(text, places, dictionary) : places;

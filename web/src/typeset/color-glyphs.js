@@ -18,6 +18,7 @@ import { contoursOf, controlBox } from './outlines.js';
 
 /**
  * @typedef {{ contours: Float64Array[], paint: Paint }} Fill
+ * @typedef {{ toRamp: Affine, focus: [number, number] | null, isReversed?: boolean }} Ramp
  * @typedef {object} Layer Nodes that are composited together.
  * @property {Node[]} nodes
  * @property {number} blend
@@ -129,7 +130,7 @@ class GlyphPainter {
     this.fill({ ...colorOf(color), gradient: null });
   }
 
-  /** @param {hb.ColorLine} line @param {(low: number, high: number) => { toRamp: Affine, focus: [number, number] | null, isReversed?: boolean } | null} ramp from the offsets at the ends */
+  /** @param {hb.ColorLine} line @param {(low: number, high: number) => Ramp | null} ramp from the offsets at its ends */
   fillGradient({ extend, colorStops }, ramp) {
     const stops = colorStops.map(({ offset, color, isForeground }) => {
       if (isForeground) this.notes.add(FOREGROUND);
@@ -167,8 +168,12 @@ funcs.setPushClipGlyphFunc((glyph, _, data) => painterOf(data).pushGlyph(glyph))
 funcs.setPushClipRectangleFunc((left, bottom, right, top, data) => painterOf(data).pushBox(left, bottom, right, top));
 funcs.setPopClipFunc((data) => painterOf(data).popClip());
 funcs.setColorFunc((isForeground, color, data) => painterOf(data).fillFlat(isForeground, color));
-funcs.setLinearGradientFunc((line, x0, y0, x1, y1, x2, y2, data) => painterOf(data).fillGradient(line, (low, high) => linearRamp([x0, y0, x1, y1, x2, y2], low, high)));
-funcs.setRadialGradientFunc((line, x0, y0, r0, x1, y1, r1, data) => painterOf(data).fillGradient(line, (low, high) => radialRamp([x0, y0, r0], [x1, y1, r1], low, high)));
+funcs.setLinearGradientFunc((line, x0, y0, x1, y1, x2, y2, data) => {
+  painterOf(data).fillGradient(line, (low, high) => linearRamp([x0, y0, x1, y1, x2, y2], low, high));
+});
+funcs.setRadialGradientFunc((line, x0, y0, r0, x1, y1, r1, data) => {
+  painterOf(data).fillGradient(line, (low, high) => radialRamp([x0, y0, r0], [x1, y1, r1], low, high));
+});
 funcs.setSweepGradientFunc((line, _x, _y, _start, _end, data) => painterOf(data).fillSweep(line));
 funcs.setPushGroupFunc((data) => painterOf(data).pushGroup());
 funcs.setPopGroupFunc((mode, data) => painterOf(data).popGroup(mode));
@@ -229,7 +234,8 @@ export function mapTexels(kernels, { paths, groups, box: [left, bottom, right, t
     contours: path.contours.map((one) => one.map((value, k) => (value - (k % 2 ? bottom : left)) / side)),
     paint: path.paint.gradient ? { ...path.paint, gradient: moveGradient(path.paint.gradient, rows) } : path.paint,
   }));
-  const drawing = { name, paths: normal, groups, toSource: /** @type {Affine} */ ([side, 0, 0, side, left, bottom]), sides: /** @type {[number, number]} */ ([1, 1]), notes: [] };
+  /** @type {import('../convert/drawing.js').Drawing} */
+  const drawing = { name, paths: normal, groups, toSource: [side, 0, 0, side, left, bottom], sides: [1, 1], notes: [] };
   const sheet = mapOf(kernels, drawing, bounds, { restyle: false, first, mostTexels: MOST_TEXELS });
   if (!sheet) return null;
   if (sheet.flattened) notes.add(FLATTENED);
@@ -249,7 +255,9 @@ function rectangle([left, bottom, right, top]) {
 }
 
 /** All contours that show. @param {Node[]} nodes @returns {Float64Array[]} */
-const contoursIn = (nodes) => nodes.flatMap((node) => ('contours' in node ? node.contours : [...contoursIn(node.nodes), ...contoursIn(node.mask?.nodes ?? [])]));
+function contoursIn(nodes) {
+  return nodes.flatMap((node) => ('contours' in node ? node.contours : contoursIn([...node.nodes, ...(node.mask?.nodes ?? [])])));
+}
 
 /** What hides by its opacity, in black. @param {Node[]} nodes @returns {Node[]} */
 const blackened = (nodes) =>
@@ -284,7 +292,10 @@ function composite(mode, below, source) {
     case MODE.SRC_ATOP: return [...below, ...masked(source, below)];
     case MODE.DEST_ATOP: return [...source, ...masked(below, source)];
     case MODE.XOR: return [...masked(source, below, true), ...masked(below, source, true)];
-    default: return [...below, ...(source.some((node) => 'blend' in node && node.blend) ? [{ nodes: source, blend: 0, mask: null }] : source)];
+    default: {
+      const isIsolated = source.some((node) => 'blend' in node && node.blend);
+      return [...below, ...(isIsolated ? [{ nodes: source, blend: 0, mask: null }] : source)];
+    }
   }
 }
 

@@ -135,7 +135,9 @@ export class TypeFont {
   noteImages({ font }, glyph) {
     const found = { hasImage: this.#pictures.some(([first, last]) => first <= glyph && glyph <= last) };
     font.paintGlyph(glyph, images, found);
-    if (found.hasImage) this.notes.add(`glyphs with images (${this.hasImages.trim()}) are shown as outlines without colours, if they have any; take a font of the format COLR`);
+    if (!found.hasImage) return;
+    const remedy = 'take a font of the format COLR';
+    this.notes.add(`glyphs with images (${this.hasImages.trim()}) are shown as outlines without colours, if they have any; ${remedy}`);
   }
 
   /**

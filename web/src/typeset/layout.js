@@ -5,7 +5,7 @@ import { primaryFont } from './runs.js';
 import { kindOf } from './shapes.js';
 
 /** @import { Line, Piece } from './lines.js' */
-/** @import { Shape, Shapes } from './shapes.js' */
+/** @import { Kind, Shape, Shapes } from './shapes.js' */
 /** @import { Style } from './style.js' */
 
 /** @typedef {[number, number, number, number]} Box least x and y, largest x and y */
@@ -42,7 +42,7 @@ class Drawn {
   /** @type {number[]} */
   places = [];
 
-  /** @param {import('./shapes.js').Kind[]} kinds upright and turned */
+  /** @param {Kind[]} kinds upright and turned */
   constructor(kinds) {
     this.kinds = kinds;
   }
@@ -89,7 +89,8 @@ class Layout {
     this.style = style;
     this.all = all;
     const { outlineWidth, strokeWidth, fontSize } = style;
-    const both = (/** @type {import('./shapes.js').Kind['part']} */ part, /** @type {number} */ width) => [false, true].map((isTurned) => kindOf(part, width / fontSize, isTurned));
+    const both = (/** @type {Kind['part']} */ part, /** @type {number} */ width) =>
+      [false, true].map((isTurned) => kindOf(part, width / fontSize, isTurned));
     this.kinds = both('', 0);
     this.outlines = outlineWidth > 0 ? new Drawn(both('o', outlineWidth)) : null;
     this.strokes = strokeWidth > 0 ? new Drawn(both('s', strokeWidth)) : null;
@@ -112,8 +113,8 @@ class Layout {
     const isStretched = stretch.space || stretch.letter;
     const end = line.pieces.reduce((last, piece) => (piece.start < line.end - trailOf(this.text, line) ? Math.max(last, piece.end) : last), 0);
     for (const piece of line.pieces) {
-      const extra = isStretched && piece.start < end ? (/** @type {number} */ from, /** @type {number} */ to) => stretchOf(this.text, from, to, end, stretch) : null;
-      at = this.#placePiece(piece, at, base, heights, extra);
+      const extra = (/** @type {number} */ from, /** @type {number} */ to) => stretchOf(this.text, from, to, end, stretch);
+      at = this.#placePiece(piece, at, base, heights, isStretched && piece.start < end ? extra : null);
     }
     return at;
   }
@@ -238,7 +239,10 @@ export function layOut(text, lines, style, shapes) {
       const at = isLeftToRight ? end : start - trail;
       layout.setCaret(index, at, at, base + own.descender, base + own.ascender);
     }
-    shown.push(isVertical ? { first: line.first, end: line.end, baseline: base + dx, left: dy - start, right: dy - right } : { first: line.first, end: line.end, baseline: base + dy, left: start + dx, right: right + dx });
+    const edges = isVertical
+      ? { baseline: base + dx, left: dy - start, right: dy - right }
+      : { baseline: base + dy, left: start + dx, right: right + dx };
+    shown.push({ first: line.first, end: line.end, ...edges });
   });
   const [width, height] = isVertical ? [thickness, block] : [block, thickness];
   return {

@@ -1,10 +1,11 @@
 // Paragraphs as lines: runs are shaped once, and again where a line breaks within what belongs together.
 import * as hb from 'harfbuzzjs';
 import { NEWLINE, breaksOf, graphemeEnds } from './breaks.js';
+import { lineBreaker } from './libraries.js';
 import { isCursive, levelsOf, runsOf } from './runs.js';
 import { shapeRun } from './shaper.js';
 
-/** @import { TypeFont } from './font.js' */
+/** @import { Loadable } from './libraries.js' */
 /** @import { Run } from './runs.js' */
 /** @import { Shaped } from './shaper.js' */
 /** @import { Style } from './style.js' */
@@ -162,7 +163,7 @@ class Paragraph {
  *
  * @param {string} text
  * @param {Style} style
- * @param {Set<TypeFont>} needed fonts that must be loaded first are added; then there are no lines
+ * @param {Set<Loadable>} needed what must be loaded first is added; then there are no lines
  * @param {Set<number>} missing characters that no font has are added
  * @returns {Line[]}
  */
@@ -171,11 +172,12 @@ export function linesOf(text, style, needed, missing) {
   let start = 0;
   for (const { end, next } of partsOf(text)) {
     const part = start === 0 && end === text.length ? text : text.slice(start, end);
-    const { levels, level } = levelsOf(part, style.direction);
+    const { levels, level } = levelsOf(part, style.direction, needed);
     const runs = runsOf(part, { fonts: style.fonts, levels, isVertical: style.isVertical, needed, missing });
     paragraphs.push({ start, end, next, runs: start || part.length > LONGEST_RUN ? movedRuns(runs, start, text) : runs, level });
     start = next;
   }
+  if (style.wraps && !lineBreaker.isLoaded) needed.add(lineBreaker);
   if (needed.size) return [];
   return paragraphs.flatMap(({ start, end, next, runs, level }) => {
     const paragraph = new Paragraph(text, start, end, runs, style, level);

@@ -1,9 +1,10 @@
 // Texts as runs of one font, script and direction.
-import bidiFactory from 'bidi-js';
 import { VextureError } from '../errors.js';
 import { graphemeEnds } from './breaks.js';
+import { bidi } from './libraries.js';
 
 /** @import { TypeFont } from './font.js' */
+/** @import { Loadable } from './libraries.js' */
 
 /**
  * @typedef {object} Run
@@ -16,9 +17,24 @@ import { graphemeEnds } from './breaks.js';
  */
 
 /** Scripts by their names in Unicode; a run has one, from which HarfBuzz chooses the rules. */
-const SCRIPTS = 'Latin|Greek|Cyrillic|Han|Hiragana|Katakana|Hangul|Arabic|Hebrew|Devanagari|Thai|Bengali|Tamil|Telugu|Gujarati|Gurmukhi|Kannada|Malayalam|Oriya|Sinhala|Lao|Tibetan|Myanmar|Georgian|Armenian|Ethiopic|Khmer|Mongolian|Syriac|Thaana|Nko|Cherokee|Bopomofo|Yi|Adlam|Ahom|Anatolian_Hieroglyphs|Avestan|Balinese|Bamum|Bassa_Vah|Batak|Bhaiksuki|Brahmi|Braille|Buginese|Buhid|Canadian_Aboriginal|Carian|Caucasian_Albanian|Chakma|Cham|Chorasmian|Coptic|Cuneiform|Cypriot|Cypro_Minoan|Deseret|Dives_Akuru|Dogra|Duployan|Egyptian_Hieroglyphs|Elbasan|Elymaic|Garay|Glagolitic|Gothic|Grantha|Gunjala_Gondi|Gurung_Khema|Hanifi_Rohingya|Hanunoo|Hatran|Imperial_Aramaic|Inscriptional_Pahlavi|Inscriptional_Parthian|Javanese|Kaithi|Kawi|Kayah_Li|Kharoshthi|Khitan_Small_Script|Khojki|Khudawadi|Kirat_Rai|Lepcha|Limbu|Linear_A|Linear_B|Lisu|Lycian|Lydian|Mahajani|Makasar|Mandaic|Manichaean|Marchen|Masaram_Gondi|Medefaidrin|Meetei_Mayek|Mende_Kikakui|Meroitic_Cursive|Meroitic_Hieroglyphs|Miao|Modi|Mro|Multani|Nabataean|Nag_Mundari|Nandinagari|Newa|New_Tai_Lue|Nushu|Nyiakeng_Puachue_Hmong|Ogham|Ol_Chiki|Ol_Onal|Old_Hungarian|Old_Italic|Old_North_Arabian|Old_Permic|Old_Persian|Old_Sogdian|Old_South_Arabian|Old_Turkic|Old_Uyghur|Osage|Osmanya|Pahawh_Hmong|Palmyrene|Pau_Cin_Hau|Phags_Pa|Phoenician|Psalter_Pahlavi|Rejang|Runic|Samaritan|Saurashtra|Sharada|Shavian|Siddham|SignWriting|Sogdian|Sora_Sompeng|Soyombo|Sundanese|Sunuwar|Syloti_Nagri|Tagalog|Tagbanwa|Tai_Le|Tai_Tham|Tai_Viet|Takri|Tangsa|Tangut|Tifinagh|Tirhuta|Todhri|Toto|Tulu_Tigalari|Ugaritic|Vai|Vithkuqi|Wancho|Warang_Citi|Yezidi|Zanabazar_Square'.split(
-  '|',
-);
+const SCRIPTS = `
+  Latin Greek Cyrillic Han Hiragana Katakana Hangul Arabic Hebrew Devanagari Thai Bengali Tamil Telugu Gujarati
+  Gurmukhi Kannada Malayalam Oriya Sinhala Lao Tibetan Myanmar Georgian Armenian Ethiopic Khmer Mongolian Syriac
+  Thaana Nko Cherokee Bopomofo Yi Adlam Ahom Anatolian_Hieroglyphs Avestan Balinese Bamum Bassa_Vah Batak
+  Bhaiksuki Brahmi Braille Buginese Buhid Canadian_Aboriginal Carian Caucasian_Albanian Chakma Cham Chorasmian
+  Coptic Cuneiform Cypriot Cypro_Minoan Deseret Dives_Akuru Dogra Duployan Egyptian_Hieroglyphs Elbasan Elymaic
+  Garay Glagolitic Gothic Grantha Gunjala_Gondi Gurung_Khema Hanifi_Rohingya Hanunoo Hatran Imperial_Aramaic
+  Inscriptional_Pahlavi Inscriptional_Parthian Javanese Kaithi Kawi Kayah_Li Kharoshthi Khitan_Small_Script Khojki
+  Khudawadi Kirat_Rai Lepcha Limbu Linear_A Linear_B Lisu Lycian Lydian Mahajani Makasar Mandaic Manichaean
+  Marchen Masaram_Gondi Medefaidrin Meetei_Mayek Mende_Kikakui Meroitic_Cursive Meroitic_Hieroglyphs Miao Modi Mro
+  Multani Nabataean Nag_Mundari Nandinagari Newa New_Tai_Lue Nushu Nyiakeng_Puachue_Hmong Ogham Ol_Chiki Ol_Onal
+  Old_Hungarian Old_Italic Old_North_Arabian Old_Permic Old_Persian Old_Sogdian Old_South_Arabian Old_Turkic
+  Old_Uyghur Osage Osmanya Pahawh_Hmong Palmyrene Pau_Cin_Hau Phags_Pa Phoenician Psalter_Pahlavi Rejang Runic
+  Samaritan Saurashtra Sharada Shavian Siddham SignWriting Sogdian Sora_Sompeng Soyombo Sundanese Sunuwar
+  Syloti_Nagri Tagalog Tagbanwa Tai_Le Tai_Tham Tai_Viet Takri Tangsa Tangut Tifinagh Tirhuta Todhri Toto
+  Tulu_Tigalari Ugaritic Vai Vithkuqi Wancho Warang_Citi Yezidi Zanabazar_Square`
+  .trim()
+  .split(/\s+/);
 
 const LATIN = 0, KANA = SCRIPTS.indexOf('Hiragana'), KATAKANA = SCRIPTS.indexOf('Katakana');
 
@@ -70,8 +86,6 @@ function expression(name, place) {
   return expressions[place];
 }
 
-const bidi = bidiFactory();
-
 /** Most isolates of a paragraph: the time of bidi-js grows with their square. */
 const MOST_ISOLATES = 10_000;
 
@@ -81,23 +95,31 @@ const ISOLATE = /[\u2066-\u2068]/g;
 const LEFT_TO_RIGHT = /^[\0-\u058f\u0900-\u200d\u2010-\u2029\u2030-\u2065\u2070-\ud801\ud804-\ud839\ud83c-\udfff\ue000-\ufb1c\ufe00-\ufe6f\uff00-\uffff]*$/;
 
 /** Classes of supplementary characters that bidi-js, which looks at UTF-16 units, does not see, as characters it does. */
-const STAND_INS = new Map([['R', '\u05d0'], ['AL', '\u0628'], ['AN', '\u0660'], ['EN', '0'], ['NSM', '\u0300'], ['BN', '\u200d'], ['ON', '!'], ['ET', '#'], ['ES', '+']]);
+/** @type {Record<string, string>} */
+const STAND_INS = { R: '\u05d0', AL: '\u0628', AN: '\u0660', EN: '0', NSM: '\u0300', BN: '\u200d', ON: '!', ET: '#', ES: '+' };
 
 /**
  * Levels of embedding of a paragraph's units (UAX 9, before rule L1 at the ends of lines).
  *
  * @param {string} text
  * @param {'auto' | 'ltr' | 'rtl'} direction
+ * @param {Set<Loadable>} needed a library to load first is added
  * @returns {{ levels: Uint8Array | null, level: number }} `levels` is null if all are 0; `level` of the paragraph
  */
-export function levelsOf(text, direction) {
+export function levelsOf(text, direction, needed) {
   if (direction !== 'rtl' && LEFT_TO_RIGHT.test(text)) return { levels: null, level: 0 };
+  if (!bidi.isLoaded) {
+    needed.add(bidi);
+    return { levels: null, level: 0 };
+  }
   const isolates = text.match(ISOLATE)?.length ?? 0;
   if (isolates > MOST_ISOLATES) {
     throw new VextureError(`\`text\` has ${isolates} isolates (U+2066 to U+2068) in a paragraph; the limit is ${MOST_ISOLATES}; divide it`, 'text');
   }
-  const seen = text.replace(/[\u{10000}-\u{10ffff}]/gu, (character) => STAND_INS.get(bidi.getBidiCharTypeName(character))?.repeat(2) ?? character);
-  const { levels, paragraphs } = bidi.getEmbeddingLevels(seen, direction === 'auto' ? undefined : direction);
+  const seen = text.replace(/[\u{10000}-\u{10ffff}]/gu, (character) => {
+    return STAND_INS[bidi.content.getBidiCharTypeName(character)]?.repeat(2) ?? character;
+  });
+  const { levels, paragraphs } = bidi.content.getEmbeddingLevels(seen, direction === 'auto' ? undefined : direction);
   return { levels, level: paragraphs[0]?.level ?? (direction === 'rtl' ? 1 : 0) };
 }
 
@@ -107,7 +129,20 @@ const INVISIBLE = /[\p{Default_Ignorable_Code_Point}\p{Cc}]/u;
 const EMOJI = /^\p{Emoji}\ufe0f|^\p{Emoji_Presentation}(?!\ufe0e)|^\p{RI}{2}|^[#*0-9]\ufe0f?\u20e3/u;
 
 /** Characters that stand upright in vertical text (UAX 50: U, Tu, Tr; the font turns those that it has turned). */
-const UPRIGHT = /[\u00a7\u00a9\u00ae\u00b1\u00bc-\u00be\u00d7\u00f7\u02ea\u02eb\u1100-\u11ff\u1401-\u167f\u18b0-\u18ff\u2016\u2020\u2021\u2030\u2031\u203b\u203c\u2042\u2047-\u2049\u2051\u20dd-\u20e0\u20e2-\u20e4\u2100\u2101\u2103-\u2109\u210f\u2113\u2114\u2116\u2117\u211e-\u2123\u2125\u2127\u2129\u212e\u2135-\u213f\u2145-\u214a\u214c\u214d\u214f-\u2189\u218c-\u218f\u221e\u2234\u2235\u2300-\u2307\u230c-\u231f\u2324-\u232b\u237d-\u239a\u23be-\u23cd\u23cf\u23d1-\u23db\u23e2-\u2422\u2424-\u24ff\u25a0-\u2619\u2620-\u2767\u2776-\u2793\u2b12-\u2b2f\u2b50-\u2b59\u2b97\u2bb8-\u2bd1\u2bd3-\u2beb\u2bf0-\u2bff\u2e50\u2e51\u2e80-\ua4cf\ua960-\ua97f\uac00-\ud7ff\ue000-\ufaff\ufe10-\ufe1f\ufe30-\ufe48\ufe50-\ufe57\ufe5f-\ufe62\ufe67-\ufe6f\uff01-\uff0c\uff0e-\uff1b\uff1f-\uff60\uffe0-\uffe2\uffe4-\uffe7\u{1b000}-\u{1b2ff}\u{1d300}-\u{1d35f}\u{1f000}-\u{1faff}\u{20000}-\u{3fffd}]/u;
+const UPRIGHT = rangesOf(`
+  00a7 00a9 00ae 00b1 00bc-00be 00d7 00f7 02ea 02eb 1100-11ff 1401-167f 18b0-18ff 2016 2020 2021 2030 2031 203b
+  203c 2042 2047-2049 2051 20dd-20e0 20e2-20e4 2100 2101 2103-2109 210f 2113 2114 2116 2117 211e-2123 2125 2127
+  2129 212e 2135-213f 2145-214a 214c 214d 214f-2189 218c-218f 221e 2234 2235 2300-2307 230c-231f 2324-232b
+  237d-239a 23be-23cd 23cf 23d1-23db 23e2-2422 2424-24ff 25a0-2619 2620-2767 2776-2793 2b12-2b2f 2b50-2b59 2b97
+  2bb8-2bd1 2bd3-2beb 2bf0-2bff 2e50 2e51 2e80-a4cf a960-a97f ac00-d7ff e000-faff fe10-fe1f fe30-fe48 fe50-fe57
+  fe5f-fe62 fe67-fe6f ff01-ff0c ff0e-ff1b ff1f-ff60 ffe0-ffe2 ffe4-ffe7 1b000-1b2ff 1d300-1d35f 1f000-1faff
+  20000-3fffd`);
+
+/** An expression of characters in ranges of hexadecimal numbers. @param {string} ranges */
+function rangesOf(ranges) {
+  const parts = ranges.trim().split(/\s+/);
+  return new RegExp(`[${parts.map((part) => part.replace(/[0-9a-f]+/g, (code) => `\\u{${code}}`)).join('')}]`, 'u');
+}
 
 /** Texts that one run of the first font holds, if it has their characters. */
 const PLAIN = /^[\x20-\x7e]*$/;
@@ -120,7 +155,7 @@ const PLAIN = /^[\x20-\x7e]*$/;
  * @param {TypeFont[]} about.fonts in order of preference
  * @param {Uint8Array | null} about.levels
  * @param {boolean} about.isVertical
- * @param {Set<TypeFont>} about.needed fonts to load first are added
+ * @param {Set<Loadable>} about.needed fonts to load first are added
  * @param {Set<number>} about.missing characters that no font has are added
  * @returns {Run[]} in the order of the text
  */
@@ -170,7 +205,7 @@ export function runsOf(text, { fonts, levels, isVertical, needed, missing }) {
  * @param {string} cluster
  * @param {TypeFont[]} fonts
  * @param {Run | null} before the run before it, whose font spaces take
- * @param {Set<TypeFont>} needed
+ * @param {Set<Loadable>} needed
  * @param {Set<number>} missing
  * @returns {TypeFont}
  */
@@ -178,7 +213,8 @@ function fontOf(cluster, fonts, before, needed, missing) {
   const code = /** @type {number} */ (cluster.codePointAt(0));
   if (cluster === ' ' && before?.font.isLoaded && before.font.has(code)) return before.font;
   const isSingle = cluster.length === (code > 0xffff ? 2 : 1);
-  const others = isSingle ? [] : Array.from(cluster).slice(1).map((one) => /** @type {number} */ (one.codePointAt(0))).filter((one) => !isInvisible(one));
+  const codes = isSingle ? [code] : Array.from(cluster, (one) => /** @type {number} */ (one.codePointAt(0)));
+  const others = codes.slice(1).filter((one) => !isInvisible(one));
   const isEmoji = code > 0x22 && EMOJI.test(cluster);
   /** @type {TypeFont | null} */
   let partial = null, plain = null;

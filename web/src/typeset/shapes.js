@@ -65,7 +65,11 @@ export function partsOfKey(key) {
  * @param {Kind} kind
  * @returns {ModuleName[]}
  */
-export const modulesOf = (font, glyph, { part }) => [...(font.isColored(glyph) ? /** @type {const} */ (['maps']) : []), ...(part ? /** @type {const} */ (['strokes']) : [])];
+export function modulesOf(font, glyph, { part }) {
+  /** @type {ModuleName[]} */
+  const names = font.isColored(glyph) ? ['maps'] : [];
+  return part ? [...names, 'strokes'] : names;
+}
 
 /** The shapes of a texture that grows. */
 export class Shapes {
@@ -175,7 +179,8 @@ export class Shapes {
     const strokes = this.#kernels('strokes');
     if (!strokes) return undefined;
     const style = {
-      width: em * width * (part === 'o' ? 2 : 1), cap: 'round', join: 'round', miterLimit: 4, dashes: [], dashOffset: 0, tolerance: em * STROKE_TOLERANCE,
+      width: em * width * (part === 'o' ? 2 : 1), tolerance: em * STROKE_TOLERANCE,
+      cap: 'round', join: 'round', miterLimit: 4, dashes: [], dashOffset: 0,
     };
     const lines = parts.flat().flatMap((contour) => outlineStroke(strokes, contour, true, style)).filter(({ length }) => length);
     if (part === 'o') return this.#addSilhouette([...parts, lines], key);
@@ -186,7 +191,8 @@ export class Shapes {
   #addSilhouette(parts, key) {
     const kernels = /** @type {Kernels} */ (this.kernels.silhouettes), box = controlBox(parts.flat()), [left, bottom] = box;
     const side = sideOf(box);
-    const paths = parts.map((contours) => ({ contours: contours.map((contour) => contour.map((value, k) => (value - (k & 1 ? bottom : left)) / side)), fillRule: 0 }));
+    const placed = (/** @type {Float64Array} */ contour) => contour.map((value, k) => (value - (k & 1 ? bottom : left)) / side);
+    const paths = parts.map((contours) => ({ contours: contours.map(placed), fillRule: 0 }));
     const drawing = /** @type {import('../convert/drawing.js').Drawing} */ (/** @type {unknown} */ ({ name: `glyph ${key}`, paths }));
     const texels = silhouetteOf(kernels, drawing, boundsOf(kernels), this.#next);
     return this.#push(box, { key, quad: this.#next, isMap: false, hasGradients: false }, texels);

@@ -9,6 +9,7 @@ import { Shapes, modulesOf, partsOfKey } from './shapes.js';
 import { Style } from './style.js';
 
 /** @import { KernelSources, ModuleName } from '../convert/kernel-modules.js' */
+/** @import { Loadable } from './libraries.js' */
 /** @import { Result } from './layout.js' */
 /** @import { Added, Kind } from './shapes.js' */
 /** @import { Request } from './style.js' */
@@ -86,7 +87,7 @@ export class Typesetter {
       for (;;) {
         const { results, needed, wanted } = this.#attempt(requests);
         if (!needed.length && !wanted.length) return this.#reply({ id, results: message.preload ? [] : results });
-        await Promise.all([...needed.map((font) => font.load()), this.#load(wanted)]);
+        await Promise.all([...needed.map((one) => one.load()), this.#load(wanted)]);
       }
     } catch (error) {
       return { reply: { id, error: errorOf(error) }, transfer: [] };
@@ -127,7 +128,7 @@ export class Typesetter {
    */
   #attempt(requests) {
     const { wanted } = this.#shapes;
-    /** @type {Set<TypeFont>} */
+    /** @type {Set<Loadable>} */
     const needed = new Set();
     wanted.clear();
     const results = requests.map((request) => this.#set(request, needed));
@@ -164,8 +165,8 @@ export class Typesetter {
 
   /**
    * @param {Request} request
-   * @param {Set<TypeFont>} needed fonts to load first are added
-   * @returns {Result | Refusal | null} null if fonts are needed
+   * @param {Set<Loadable>} needed what to load first is added
+   * @returns {Result | Refusal | null} null if something is needed
    */
   #set(request, needed) {
     try {
@@ -174,17 +175,18 @@ export class Typesetter {
       /** @type {Set<number>} */
       const missing = new Set();
       const { text } = request;
-      /** @type {Set<TypeFont>} */
+      /** @type {Set<Loadable>} */
       const own = new Set(), primary = primaryFont(style.fonts);
       const lines = linesOf(text, style, own, missing);
       if (!own.size && !primary.isLoaded) own.add(primary); // the metrics of blank texts
-      own.forEach((font) => needed.add(font));
+      own.forEach((one) => needed.add(one));
       if (own.size) return null;
       const failed = style.fonts.filter(({ error }) => error);
       const result = layOut(text, lines, style, this.#shapes);
       const used = new Set(lines.flatMap(({ pieces }) => pieces.map(({ shaped }) => shaped.instance.owner)));
-      const notes = [...failed.map(({ error }) => /** @type {VextureError} */ (error).message), ...Array.from(used, (font) => [...font.notes]).flat()];
-      return { ...result, missing: [...missing], notes: [...new Set(notes)] };
+      const notes = new Set(failed.map(({ error }) => /** @type {VextureError} */ (error).message));
+      for (const font of used) for (const note of font.notes) notes.add(note);
+      return { ...result, missing: [...missing], notes: [...notes] };
     } catch (error) {
       const { message, field } = errorOf(error);
       return { error: message, field };
