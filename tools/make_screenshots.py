@@ -1,7 +1,8 @@
 """Take the pictures of the pages: `python tools/make_screenshots.py` writes those of MAKERS, or some by their names.
 
 Needs Chromium and the built pages (`make viewer counties`): they are exported and looked at as a person would. Those of
-the guide are what its test saw last (`pytest tests/web/test_guide_three.py tests/web/test_guide_text.py`). The pictures go into docs/pictures/.
+two guides are what their tests saw last (`pytest tests/web/test_guide_three.py tests/web/test_guide_text.py`). The
+pictures go into docs/pictures/.
 """
 
 import io

@@ -13,7 +13,7 @@ SCRIPTS_MAY_IMPORT = {
     "src/gltf": {"generated", "src"},
     "src/maplibre": {"src", "src/tiles"},
     "src/react": {"src", "src/text"},
-    "src/text": {"src", "src/typeset"},
+    "src/text": {"generated", "src", "src/convert", "src/typeset"},
     "src/thesis": {"generated", "src"},
     "src/tiles": {"generated", "src"},
     "src/typeset": {"generated", "src", "src/convert"},

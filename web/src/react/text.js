@@ -93,7 +93,7 @@ function wait(glyphs, options) {
   const waits = WAITS.get(glyphs) ?? new Map();
   WAITS.set(glyphs, waits);
   const { font, fontWeight, fontStyle, text } = options;
-  if (!text) return;
+  if (!text || (font && typeof font === 'object' && 'isAtlasFont' in font)) return; // a baked font is there
   const key = JSON.stringify([font, fontWeight, fontStyle, options.fontVariations, text], named);
   if (!waits.has(key)) {
     const fresh = /** @type {Wait} */ ({ isDone: false, error: null });

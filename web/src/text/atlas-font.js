@@ -17,8 +17,8 @@ import { setLines } from './atlas-layout.js';
  * @typedef {object} AtlasMetrics What `vexture font` writes beside a texture.
  * @property {Record<string, AtlasGlyph>} glyphs by character
  * @property {Record<string, Record<string, number>>} kerning what to add to the advance of a character before another one
- * @property {{ ascender: number, descender: number, line_gap: number, x_height: number, cap_height: number }} lines
- * @property {AtlasGlyph} notdef
+ * @property {{ ascender: number, descender: number, line_gap: number, x_height: number, cap_height: number }} lines of its lines, in ems
+ * @property {AtlasGlyph} notdef for characters that it lacks
  */
 
 /**
@@ -35,7 +35,9 @@ export class AtlasFont {
   constructor(texture, metrics) {
     const hasAll = [metrics?.glyphs, metrics?.lines, metrics?.notdef].every((part) => typeof part === 'object' && part !== null);
     if (!hasAll) throw new VextureError('the metrics of a font lack glyphs, lines or notdef; give the JSON that vexture font writes', 'metrics');
+    /** Its shapes. */
     this.texture = texture;
+    /** Places and sizes of its characters. */
     this.metrics = { ...metrics, kerning: metrics.kerning ?? {} };
     /** Of each shape the part of its unit square that it fills. @type {[number, number][]} */
     this.boxes = texture.roots.map(() => [1, 1]);
@@ -64,6 +66,7 @@ export class AtlasFont {
     }
   }
 
+  /** @internal */
   get isAtlasFont() {
     return true;
   }
