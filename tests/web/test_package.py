@@ -33,6 +33,9 @@ OTHERS = [f"--external:{name}" for name in ("three", "react", "@react-three/fibe
 WEBGPU_LIMIT = 27_500
 """And what a page with nodes loads: both languages are in it, as the backend is known later."""
 
+TEXT_LIMIT = 39_000
+"""And what a page with texts loads at first, without its worker."""
+
 REACT_LIMIT = 2_000
 """And of what the components of React Three Fiber add."""
 
@@ -129,13 +132,20 @@ def test_a_page_with_vector_textures_loads_little(project: Path) -> None:
 def test_react_components_cost_little_more(project: Path) -> None:
     names = "FoldLoader, VectorMaterial, VectorTextureLoader, applyVectorMask"
     (project / "shared.js").write_text(f"export {{ {names} }} from 'vexture';\n", encoding="utf-8")
-    text = "export * as react from 'vexture/react';\nexport * as shared from './shared.js';\n"
+    used = "VectorMask, VectorMaterial, useFold, useVectorTexture"  # VectorText is a module of its own
+    text = f"export {{ {used} }} from 'vexture/react';\nexport * as shared from './shared.js';\n"
     (project / "react.js").write_text(text, encoding="utf-8")
     loaded = []
     for name in ("shared.js", "react.js"):
         _, sizes, first = _split(name, project)
         loaded.append(sum(sizes[one] for one in first))
     assert 500 < loaded[1] - loaded[0] <= REACT_LIMIT
+
+
+def test_a_page_with_texts_loads_little_besides_its_worker(project: Path) -> None:
+    (project / "texts.js").write_text("export { Text } from 'vexture/text';\n", encoding="utf-8")
+    _, sizes, first = _split("texts.js", project, "--external:module")  # HarfBuzz asks Node.js for it
+    assert 20_000 < sum(sizes[name] for name in first) <= TEXT_LIMIT
 
 
 def test_a_page_of_webgpu_loads_little(project: Path) -> None:
@@ -164,10 +174,10 @@ def test_only_its_own_entry_brings_the_encoding_of_the_thesis(project: Path) -> 
         assert [mark in bundle for mark in marks] == [entry == "vexture/thesis"] * 2
 
 
-def _split(entry: str, project: Path) -> tuple[dict[str, Any], dict[str, int], set[str]]:
+def _split(entry: str, project: Path, *more: str) -> tuple[dict[str, Any], dict[str, int], set[str]]:
     """What a bundler makes of a module, the sizes of the files in transit, and those that a page loads at first."""
     folder = entry.removesuffix(".js")
-    options = ["--bundle", "--minify", "--format=esm", *OTHERS, "--splitting", f"--outdir={folder}"]
+    options = ["--bundle", "--minify", "--format=esm", *OTHERS, *more, "--splitting", f"--outdir={folder}"]
     _run(MODULES / ".bin" / "esbuild", entry, *options, f"--metafile={folder}.json", cwd=project)
     outputs = json.loads((project / f"{folder}.json").read_text())["outputs"]
     sizes = {name: len(gzip.compress((project / name).read_bytes(), 9)) for name in outputs}

@@ -11,7 +11,7 @@
  * @property {string} features
  * @property {string} language
  * @property {number} letterSpacing
- * @property {number | 'normal'} lineHeight
+ * @property {number | 'normal'} lineHeight distance of baselines
  * @property {number} maxWidth
  * @property {number} textIndent
  * @property {'left' | 'right' | 'center' | 'justify' | 'start' | 'end'} textAlign
