@@ -149,6 +149,7 @@ def write_page(folder: Path, example: Example, around: tuple[Entry, Entry], fact
     parts = (("libraries", sums[0]), ("data", sums[1]), ("the page", sums[2]))
     named = ", ".join(f"{what} {spoken(weight.sent)}" for what, weight in parts if weight.plain)
     made = "".join(f"<p><code>{html.escape(line)}</code></p>" for line in example.commands)
+    made = f"<p>The files are made by</p>{made}" if made else ""
     about = {
         "title": example.title,
         "source": example.source,
@@ -173,7 +174,7 @@ def write_page(folder: Path, example: Example, around: tuple[Entry, Entry], fact
         buttons="" if example.page else BUTTONS,
         readonly=" readonly" if example.page else "",
         source=html.escape(example.source),
-        made="" if example.page else f"<p>The files are made by</p>{made}{HELPERS}",
+        made="" if example.page else f"{made}{HELPERS}",
         bytes=f"{html.escape(facts)} First load: {total} ({named}).".strip(),
     )
     (folder / example.name / "index.html").write_text(text, encoding="utf-8")

@@ -27,6 +27,7 @@ import numpy as np
 from PIL import Image
 
 import vexture
+from gallery_bundles import WEB, bundle
 from gallery_data import PACKAGES, SOURCES
 from gallery_pages import (
     GALLERY,
@@ -44,10 +45,6 @@ from gallery_pages import (
 )
 from vexture.cli.main import main as command
 
-WEB: Final = ROOT / "web"
-ENTRIES: Final = ("globe", "gltf", "maplibre", "react", "water", "webgpu")
-"""Entries of the npm package beside the main one that the gallery shows."""
-
 LICENSED: Final = (
     "three",
     "fflate",
@@ -63,6 +60,13 @@ LICENSED: Final = (
     "@fontsource/pacifico",
     "opentype.js",
     "topojson-client",
+    "harfbuzzjs",
+    "bidi-js",
+    "linebreak",
+    "unicode-trie",
+    "tiny-inflate",
+    "base64-js",
+    "brotli",
 )
 """Packages in the bundles."""
 
@@ -120,30 +124,6 @@ CREDITS: Final = (
 def report(step: str) -> None:
     """Print what is done now, at once: the whole takes minutes."""
     print(f"{step} ...", flush=True)
-
-
-def bundle(folder: Path, name: str) -> None:
-    """Bundle a library of gallery/libraries as a classic script, minified; and its text for pages from the disk."""
-    modules = WEB / "node_modules"
-    three = modules / "three"
-    options = ["--bundle", "--minify", "--format=iife", "--legal-comments=none", "--log-level=error"]
-    options += [f"--outfile={folder / f'{name}.js'}", '--define:process.env.NODE_ENV="production"']
-    options += [f"--alias:vexture={WEB / 'src' / 'index.js'}"]
-    options += [f"--alias:vexture/{entry}={WEB / 'src' / entry / 'index.js'}" for entry in ENTRIES]
-    options += [f"--alias:three/{entry}={three / 'build' / f'three.{entry}.js'}" for entry in ("webgpu", "tsl")]
-    # WebGPURenderer has a three.js of its own, which is that of the whole page
-    webgpu = three / "build" / "three.webgpu.js"
-    main = {"three": three, "webgpu": webgpu}.get(name, GALLERY / "libraries" / "loaded-three.cjs")
-    options += [f"--alias:three/addons={three / 'examples' / 'jsm'}", f"--alias:three={main}"]
-    source = GALLERY / "libraries" / f"{name}.js"
-    call = [str(modules / ".bin" / "esbuild"), str(source), *options]
-    environment = os.environ | {"NODE_PATH": str(modules)}
-    outcome = subprocess.run(call, cwd=WEB, env=environment, capture_output=True, text=True, check=False)
-    if outcome.returncode:
-        sys.exit(f"{source.name} cannot be bundled: {outcome.stderr.strip().splitlines()[0]}")
-    text = json.dumps((folder / f"{name}.js").read_text(encoding="utf-8"), ensure_ascii=False)
-    given = f"(globalThis.galleryTexts ??= {{}})[{json.dumps(name)}] = {text};\n"
-    (folder / f"{name}.text.js").write_text(given, encoding="utf-8")
 
 
 def run(line: str, folder: Path) -> None:
