@@ -50,7 +50,7 @@ renderer.setAnimationLoop((now) => {
   coins.forEach((coin, k) => coin.rotateY(2 * step).visible = (way - k) % 16 > 3);
   gain.position.copy(along(Math.floor(way), 0.8 + (way % 1)));
   gain.fillOpacity = gain.outlineOpacity = 1 - (way % 1);
-  camera.position.copy(along(way / 3 + 1, 0)).setLength(8.5 / Math.min(1, camera.aspect)).setY(5);
+  camera.position.copy(along(way / 3 + 1, 0)).setLength(9.5 / Math.min(1, camera.aspect)).setY(5);
   camera.lookAt(0, 0.4, 0);
   gain.quaternion.copy(camera.quaternion);
 
