@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from fontTools.subset import Options, Subsetter
+from fontTools.ttLib import TTFont
 
 ROOT: Final = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "packages" / "vexture-evidence" / "benchmarks"), str(ROOT / "examples")]
@@ -237,6 +239,44 @@ def bottle(folder: Path, *, quick: bool) -> None:
     (folder / "bottle.gltf").write_text(json.dumps(gallery_model.bottle()), encoding="utf-8")
 
 
+def subset(package: corpora.Package, file: str, name: str) -> Callable[..., None]:
+    """Write a font of an npm package with the characters of the messages only, as WOFF."""
+
+    def write_font(folder: Path, *, quick: bool) -> None:
+        font = TTFont(fetched_folder(package) / file)
+        messages = (ROOT / "gallery" / "drawings" / "messages.json").read_text(encoding="utf-8")
+        subsetter = Subsetter(Options(layout_features=["*"], hinting=False, notdef_outline=True, drop_tables=["FFTM"]))
+        subsetter.populate(text=messages)
+        subsetter.subset(font)
+        font.flavor = "woff"
+        font.save(folder / name)
+
+    return write_font
+
+
+def latin_font(folder: Path, *, quick: bool) -> None:
+    """Copy the font of the npm package vexture, with Latin, Greek and Cyrillic letters."""
+    shutil.copyfile(ROOT / "web" / "fonts" / "noto-sans.woff", folder / "latin.woff")
+
+
+FONTS: Final = {
+    **{
+        script: corpora.Package(f"@fontsource/noto-sans-{script}", "5.3.0", "files")
+        for script in ("georgian", "arabic", "hebrew", "devanagari", "thai")
+    },
+    "korean": corpora.Package("@fontsource/gowun-dodum", "5.3.0", "files"),
+    "japanese": corpora.Package("@fontsource/sawarabi-gothic", "5.3.1", "files"),
+}
+"""Packages with fonts of scripts."""
+
+EMOJI: Final = corpora.Package("twemoji-colr-font", "15.0.3", "")
+
+
+def font_file(package: corpora.Package, script: str) -> str:
+    """Name of the file with the regular face of a script in a package of Fontsource."""
+    return f"{package.name.removeprefix('@fontsource/')}-{script}-400-normal.woff"
+
+
 PACKAGES: Final[dict[str, corpora.Package]] = {
     "lucide": corpora.LUCIDE,
     "counties.geojson": COUNTIES,
@@ -246,6 +286,8 @@ PACKAGES: Final[dict[str, corpora.Package]] = {
     "countries.json": WORLD,
     **{f"{name}.svg": corpora.MDI for name in SYMBOLS},
     **{f"{name}.svg": corpora.FLAG_ICONS for name in FLAGS},
+    **{f"{script}.woff": package for script, package in FONTS.items()},
+    "emoji.woff": EMOJI,
 }
 """Of each source that comes from an npm package, the package."""
 
@@ -262,6 +304,9 @@ SOURCES: Final[dict[str, Callable[..., None]]] = {
     "bottle.gltf": bottle,
     **{f"{name}.svg": packaged(corpora.MDI, f"{name}.svg") for name in SYMBOLS},
     **{f"{name}.svg": packaged(corpora.FLAG_ICONS, f"{name}.svg") for name in FLAGS},
-    **{name: drawing(name) for name in ("logo.svg", "balloon.svg", "label.svg")},
+    **{name: drawing(name) for name in ("logo.svg", "balloon.svg", "label.svg", "messages.json")},
+    **{f"{script}.woff": subset(one, font_file(one, script), f"{script}.woff") for script, one in FONTS.items()},
+    "emoji.woff": subset(EMOJI, "twemoji.woff2", "emoji.woff"),
+    "latin.woff": latin_font,
 }
 """What writes each file that a command of gallery.toml reads: given the folder, and whether it is a quick build."""
