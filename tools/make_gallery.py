@@ -13,9 +13,7 @@ import hashlib
 import importlib
 import io
 import json
-import os
 import shutil
-import subprocess
 import sys
 from collections.abc import Sequence
 from importlib.metadata import distributions
@@ -117,6 +115,9 @@ CREDITS: Final = (
     '<a href="https://github.com/topojson/world-atlas">world-atlas</a>, of Natural Earth (both ISC). Figures of '
     "counties: Bureau of Labor Statistics and U.S. Geological Survey (public domain), from "
     '<a href="https://github.com/vega/vega-datasets">vega-datasets</a> (BSD). Coastlines: GSHHG (LGPL). '
+    'Fonts: <a href="https://notofonts.github.io">Noto Sans</a>, Sawarabi Gothic and Gowun Dodum, from '
+    '<a href="https://fontsource.org">Fontsource</a> (OFL); emoji: '
+    '<a href="https://github.com/mozilla/twemoji-colr">Twemoji</a> (CC BY 4.0). '
     '<a href="lib/LICENSES.txt">Licences</a> of these and of the libraries.'
 )
 
@@ -312,6 +313,7 @@ def licence_of(name: str) -> str:
 def write_licences(folder: Path, examples: Sequence[Example]) -> None:
     """Write the licences of what is bundled and converted."""
     parts = [f"{name}\n\n{licence_of(name)}\n" for name in [*LICENSED, *held_packages()]]
+    parts.append(f"Noto Sans\n\n{(WEB / 'fonts' / 'LICENSE').read_text(encoding='utf-8').strip()}\n")
     found = {PACKAGES[source] for one in examples for source in one.sources if source in PACKAGES}
     for package in sorted(found, key=lambda one: one.name):
         root = package.installed_folder()

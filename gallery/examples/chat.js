@@ -50,13 +50,14 @@ const runs = panel.toggle('Live', moves);
 for (const message of messages.slice(0, 12)) await say(message);
 list.position.y = length;
 fillWindow(renderer, camera);
-let last = 0;
+let [last, before] = [0, 0];
 renderer.setAnimationLoop((now) => {
   if (runs.value && now - last > 1000 * period.value) {
     last = now;
     say(messages[count % messages.length]);
   }
-  list.position.y += (length - list.position.y) * 0.15;
+  list.position.y = THREE.MathUtils.damp(list.position.y, length, 6, (now - before) / 1000);
+  before = now;
   while (lines[0].position.y + list.position.y > HEIGHT) lines.shift().removeFromParent().dispose();
   camera.position.set(0, 4.2, 14 / Math.min(1, camera.aspect));
   renderer.render(scene, camera);

@@ -24,7 +24,7 @@ const island = solid(new THREE.CylinderGeometry(5, 4.2, 1, 64).translate(0, -0.5
 const track = solid(new THREE.RingGeometry(3.2, 4.4, 96).rotateX(-Math.PI / 2), '#e8d9ae');
 const ball = solid(new THREE.SphereGeometry(0.35, 32, 16), '#d8433b');
 const gain = new Text({ text: '+250', fontSize: 0.8, anchorX: 'center', color: '#fff3b0', outlineWidth: '8%' });
-scene.add(sun, new THREE.HemisphereLight('#ffffff', '#4d7a52', 1.4), island, track, ball, gain);
+scene.add(sun, new THREE.HemisphereLight('#ffffff', '#8d9a72', 2), island, track, ball, gain);
 const along = (coin, height) => new THREE.Vector3().setFromCylindricalCoords(3.8, (2 * Math.PI * coin) / 16, height);
 const coins = Array.from({ length: 16 }, (_, k) => {
   const coin = solid(new THREE.CylinderGeometry(0.3, 0.3, 0.08, 32).rotateX(Math.PI / 2), '#ffc933');
