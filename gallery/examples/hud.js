@@ -41,7 +41,7 @@ panel.color('Colour', '#ffffff', (color) => (score.color = color));
 const runs = panel.toggle('Run', moves);
 
 fillWindow(renderer, camera);
-let [way, points, seconds, last] = [0.5, 0, 0, 0];
+let [way, points, seconds, last] = [16.5, 0, 0, 0];
 renderer.setAnimationLoop((now) => {
   const step = runs.value ? Math.min(now - last, 100) / 1000 : 0;
   [last, seconds, way] = [now, seconds + step, way + speed.value * step];
