@@ -137,7 +137,8 @@ def first_load(code: str) -> int:
         (folder / "page.js").write_text(code, encoding="utf-8")
         command = [ESBUILD, folder / "page.js", "--bundle", "--minify", "--format=esm", "--splitting"]
         command += [f"--outdir={folder / 'built'}", f"--metafile={folder / 'built.json'}", "--external:three"]
-        command += [f"--alias:vexture/convert={WEB / 'src' / 'convert' / 'index.js'}"]
+        command += [f"--alias:vexture/{name}={WEB / 'src' / name / 'index.js'}" for name in ("convert", "text")]
+        command += ["--external:module"]
         command += [f"--alias:vexture={WEB / 'src' / 'index.js'}", "--log-level=error"]
         subprocess.run([*map(str, command)], cwd=folder, check=True)
         outputs = json.loads((folder / "built.json").read_text())["outputs"]

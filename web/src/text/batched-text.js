@@ -10,7 +10,7 @@ import { LabelTable } from './label-table.js';
 import { Label } from './label.js';
 import { chosen, glyphAt } from './layout.js';
 import { LAYOUT, checkOption, requestOf } from './text-options.js';
-import { readViewport } from './viewport.js';
+import { isUpright, readViewport } from './viewport.js';
 import { warnOf } from './warnings.js';
 
 /** @import { Material } from 'three' */
@@ -211,11 +211,17 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       }
     }
 
-    /** What three.js calls before each frame. @internal @param {any} renderer */
-    onBeforeRender(renderer) {
+    /** What three.js calls before each frame. @internal @param {any} renderer @param {any} _scene @param {any} camera */
+    onBeforeRender(renderer, _scene, camera) {
       readViewport(renderer);
       this.#height = VIEWPORT.y;
       this.#table.update(this.#labels.values());
+      // labels that are parallel to the picture are seen straight, though not all from the same distance
+      const flat = this.#table.areSprites || (!this.#table.hasTurns && isUpright(this, camera));
+      for (const mesh of [this, this.#colored]) {
+        const mask = /** @type {any} */ (mesh?.material)?.userData.mask;
+        if (mask && mask.flat !== flat) mask.set({ flat });
+      }
     }
 
     /**

@@ -19,6 +19,8 @@ export class LabelTable {
   isLabels = true;
   #rows = 0;
   #values = new Float32Array(0);
+  /** Whether any label is turned; sprites never are. */
+  hasTurns = false;
   /** @type {DataTexture} */
   texture;
 
@@ -62,7 +64,8 @@ export class LabelTable {
    */
   update(labels) {
     const values = this.#values;
-    let isChanged = false;
+    let isChanged = false,
+      hasTurns = false;
     const put = (/** @type {number} */ at, /** @type {number} */ value) => {
       if (values[at] === Math.fround(value)) return;
       values[at] = value;
@@ -78,12 +81,14 @@ export class LabelTable {
       put(at + 5, quaternion.y);
       put(at + 6, quaternion.z);
       put(at + 7, quaternion.w);
+      hasTurns ||= quaternion.x !== 0 || quaternion.y !== 0 || quaternion.z !== 0;
       const { r, g, b } = color instanceof Color ? color : TINT.set(color);
       put(at + 8, r);
       put(at + 9, g);
       put(at + 10, b);
       put(at + 11, visible ? opacity : 0);
     }
+    this.hasTurns = hasTurns && !this.areSprites;
     if (isChanged) this.texture.needsUpdate = true;
   }
 }
