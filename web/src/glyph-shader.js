@@ -5,6 +5,8 @@
 // rectangle is as large as needed, and no larger, because each of its pixels costs time.
 import { Vector2 } from 'three';
 import { ROOT_ATTRIBUTE } from './attributes.js';
+import { glyphHooks } from './glyph-hooks.js';
+import { isLabels } from './mask-options.js';
 
 /** Names of the attributes of glyphs. */
 export const GLYPH = Object.freeze({
@@ -80,7 +82,7 @@ vec3 vexturePut(vec3 at) {
  *
  * @param {Instances} instances
  */
-export function glyphDeclared(instances) {
+function glyphDeclared(instances) {
   const put = instances === 'glyphs' ? PUT : putLabel(instances === 'sprites');
   return `uniform vec2 vextureViewport;
 attribute vec4 ${GLYPH.place};
@@ -100,7 +102,7 @@ ${put}vec3 vextureOfGlyph(vec2 at) {
  *
  * @param {Instances} instances
  */
-export const glyphPlaced = (instances) => `{
+const glyphPlaced = (instances) => `{
   vec2 vextureSize = (abs(${GLYPH.box}.zw) - ${GLYPH.box}.xy) * ${GLYPH.place}.w;
   vec2 vextureAt = mix(${GLYPH.box}.xy, abs(${GLYPH.box}.zw), position.xy) * ${GLYPH.place}.w;
   vec2 vextureOutwards = mix(-step(${GLYPH.box}.xy, vec2(0.0)), step(0.0, ${GLYPH.box}.zw), position.xy);
@@ -124,3 +126,14 @@ export const glyphPlaced = (instances) => `{
   vextureUv = vextureAt / ${GLYPH.place}.w;
 ${instances === 'glyphs' ? '' : '  vextureTint = vextureOfLabel(2u);\n  if (vextureTint.a == 0.0) transformed = vextureCorner;\n'}}
 `;
+
+/** @param {unknown} instanced */
+const glyphUniforms = (instanced) => ({
+  vextureViewport: VIEWPORT,
+  ...(isLabels(instanced) && { vextureLabels: instanced.texture }),
+});
+
+/** Let masks show glyphs. */
+export function installGlyphShader() {
+  Object.assign(glyphHooks, { declared: glyphDeclared, placed: glyphPlaced, uniforms: glyphUniforms });
+}

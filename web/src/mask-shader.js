@@ -2,7 +2,7 @@
 import { packed, steps } from '../generated/shaders.js';
 import { WRAPS } from '../generated/wraps.js';
 import { ROOT_ATTRIBUTE } from './attributes.js';
-import { glyphDeclared, glyphPlaced } from './glyph-shader.js';
+import { glyphHooks } from './glyph-hooks.js';
 import { isOfGlyphs, isOfLabels } from './mask-options.js';
 import { withMaps } from './maps.js';
 
@@ -122,7 +122,7 @@ export function texts(variant) {
   const declared = uv === 'uv' ? '' : `#ifndef USE_${uv.toUpperCase()}\nattribute vec2 ${uv};\n#endif\n`;
   const vertexDeclare = `uniform mat3 vextureTransform;\n${declared}${mapped ? 'uniform mat3 vextureMapTransform;\n' : ''}${
     instanced ? `attribute uint ${ROOT_ATTRIBUTE};\n` : ''
-  }${varyings}${isOfGlyphs(instanced) ? glyphDeclared(instanced) : ''}`;
+  }${varyings}${isOfGlyphs(instanced) ? glyphHooks.declared(instanced) : ''}`;
   const vertexUv = `vextureUv = (vextureTransform * vec3(${uv}, 1.0)).xy;\n${
     mapped ? 'vextureMapUv = (vextureMapTransform * vec3(uv, 1.0)).xy;\n' : ''
   }${instanced ? `vextureInstance = ${ROOT_ATTRIBUTE};\n` : ''}`;
@@ -130,7 +130,7 @@ export function texts(variant) {
   const fragmentDeclare = `${varyings}${tint}${inside ? 'uniform vec3 vextureInside;\n' : ''}${
     mapped ? 'uniform sampler2D vextureInsideMap;\n' : ''
   }${mode === 'cut' ? 'uniform float vextureThreshold;\n' : ''}${steps}${reader(variant)}`;
-  const placed = isOfGlyphs(instanced) ? { vertexPlace: glyphPlaced(instanced) } : {};
+  const placed = isOfGlyphs(instanced) ? { vertexPlace: glyphHooks.placed(instanced) } : {};
   const common = { vertexDeclare, vertexUv, fragmentDeclare, ...placed };
   if (mode === 'cut') {
     return { ...common, fragmentCut: `${foldLines(variant)}if (${coverage(variant)} < vextureThreshold) discard;` };

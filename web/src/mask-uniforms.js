@@ -1,7 +1,7 @@
 // Values of a mask's uniforms.
 import { Color } from 'three';
-import { VIEWPORT } from './glyph-shader.js';
-import { isLabels, isOfGlyphs } from './mask-options.js';
+import { glyphHooks } from './glyph-hooks.js';
+import { isOfGlyphs } from './mask-options.js';
 
 /** @typedef {import('./mask-options.js').AllOptions} Options */
 
@@ -27,8 +27,7 @@ export function uniformValues(texture, { transform, threshold, color, map, fold,
     vextureInsideMap: map,
     vextureFolding: fold?.texture ?? null,
     vextureCycle: fold?.cycle ?? 0,
-    ...(isOfGlyphs(instanced) && { vextureViewport: VIEWPORT }),
-    ...(isLabels(instanced) && { vextureLabels: instanced.texture }),
+    ...(isOfGlyphs(instanced) && glyphHooks.uniforms(instanced)),
     vextureTime: fold?.clock(time) ?? 0,
   };
 }

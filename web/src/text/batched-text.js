@@ -1,7 +1,7 @@
 // Many labels in one draw call, whatever the renderer.
 import { DoubleSide, Mesh, Quaternion, Ray, Vector3 } from 'three';
 import { VextureError, givenOptions, line } from '../errors.js';
-import { VIEWPORT } from '../glyph-shader.js';
+import { VIEWPORT, installGlyphShader } from '../glyph-shader.js';
 import { AtlasFont } from './atlas-font.js';
 import { weightOf } from './faces.js';
 import { Glyphs } from './glyphs.js';
@@ -44,6 +44,7 @@ const RAY = new Ray(),
  * @param {TextMaking} making
  */
 export function batchedTextOf({ makeMaterial, applyMask }) {
+  installGlyphShader();
   return class BatchedText extends Mesh {
     #defaults;
     #glyphs;

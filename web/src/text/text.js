@@ -1,6 +1,7 @@
 // A text in a three.js scene, whatever its renderer.
 import { Color, Matrix4, Mesh, Ray, Vector3 } from 'three';
 import { VextureError, givenOptions, line } from '../errors.js';
+import { installGlyphShader } from '../glyph-shader.js';
 import { AriaMirror } from './aria-mirror.js';
 import { AtlasFont } from './atlas-font.js';
 import { alongCurve, onCylinder } from './bends.js';
@@ -45,6 +46,7 @@ const RAY = new Ray(),
  * @returns {new (options?: Partial<TextOptions> & { material?: Material | null, glyphs?: Glyphs }) => AnyText}
  */
 export function textOf({ makeMaterial, applyMask }) {
+  installGlyphShader();
   class Text extends Mesh {
     /** @type {TextOptions} */
     #options = { ...DEFAULTS };
