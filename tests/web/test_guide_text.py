@@ -66,7 +66,8 @@ createRoot(document.body.appendChild(document.createElement('div'))).render(
 );
 """
 CONFIGS = """
-const plugged = (await import('./vite.config.js')).default, plain = (await import('./without-plugin.config.js')).default;
+const plugged = (await import('./vite.config.js')).default;
+const plain = (await import('./without-plugin.config.js')).default;
 const config = plugged.plugins[0].config.call({ meta: { viteVersion: '8.1.0' } }, {});
 console.log(JSON.stringify([config, plain]));
 """
