@@ -3,6 +3,8 @@ import { batchedTextOf } from '../text/batched-text.js';
 import { textOf } from '../text/text.js';
 import { applyVectorMask } from './vector-node-mask.js';
 
+/** @import { AnyText } from '../text/text.js' */
+
 const MAKING = { makeMaterial: () => /** @type {any} */ (new MeshBasicNodeMaterial()), applyMask: applyVectorMask };
 
 /** A text that WebGPURenderer draws; see `vexture/text`. */
