@@ -20,6 +20,8 @@ ELSEWHERE = {
     "coastal-data": "geo/flood/test_guide_coastal.py",
     "fonts": "web/test_guide_fonts.py",
     "web-maps": "web/test_guide_maps.py",
+    "text": "web/test_guide_text.py",
+    "from-troika": "web/test_guide_text.py",
 }
 TESTS = Path(__file__).parents[1]
 

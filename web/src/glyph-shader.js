@@ -6,7 +6,7 @@
 import { Vector2 } from 'three';
 import { ROOT_ATTRIBUTE } from './attributes.js';
 import { glyphHooks } from './glyph-hooks.js';
-import { isLabels } from './mask-options.js';
+import { isOfGlyphs } from './mask-options.js';
 
 /** Names of the attributes of glyphs. */
 export const GLYPH = Object.freeze({
@@ -46,7 +46,7 @@ export const VIEWPORT = new Vector2(1, 1);
  * @typedef {object} Labels The table of labels.
  * @property {true} isLabels
  * @property {import('three').DataTexture} texture
- * @property {boolean} areSprites whether they face the camera
+ * @property {'labels' | 'sprites'} kind sprites face the camera
  */
 
 /** @typedef {boolean | 'glyphs' | 'labels' | 'sprites'} Instances whether a mesh has instances, and what they are */
@@ -83,6 +83,7 @@ vec3 vexturePut(vec3 at) {
  * @param {Instances} instances
  */
 function glyphDeclared(instances) {
+  if (!isOfGlyphs(instances)) return '';
   const put = instances === 'glyphs' ? PUT : putLabel(instances === 'sprites');
   return `uniform vec2 vextureViewport;
 attribute vec4 ${GLYPH.place};
@@ -102,7 +103,10 @@ ${put}vec3 vextureOfGlyph(vec2 at) {
  *
  * @param {Instances} instances
  */
-const glyphPlaced = (instances) => `{
+const glyphPlaced = (instances) => (isOfGlyphs(instances) ? { vertexPlace: placedLines(instances) } : {});
+
+/** @param {Instances} instances */
+const placedLines = (instances) => `{
   vec2 vextureSize = (abs(${GLYPH.box}.zw) - ${GLYPH.box}.xy) * ${GLYPH.place}.w;
   vec2 vextureAt = mix(${GLYPH.box}.xy, abs(${GLYPH.box}.zw), position.xy) * ${GLYPH.place}.w;
   vec2 vextureOutwards = mix(-step(${GLYPH.box}.xy, vec2(0.0)), step(0.0, ${GLYPH.box}.zw), position.xy);
@@ -127,13 +131,16 @@ const glyphPlaced = (instances) => `{
 ${instances === 'glyphs' ? '' : '  vextureTint = vextureOfLabel(2u);\n  if (vextureTint.a == 0.0) transformed = vextureCorner;\n'}}
 `;
 
-/** @param {unknown} instanced */
-const glyphUniforms = (instanced) => ({
-  vextureViewport: VIEWPORT,
-  ...(isLabels(instanced) && { vextureLabels: instanced.texture }),
+/** @param {any} instanced */
+const glyphUniforms = (instanced) => (isOfGlyphs(instanced) ? { vextureViewport: VIEWPORT, ...(instanced.isLabels && { vextureLabels: instanced.texture }) } : {});
+
+/** Lines of the colour of a label. @param {Instances} instances */
+const glyphTint = (instances) => ({
+  declared: instances !== 'labels' && instances !== 'sprites' ? '' : 'varying vec4 vextureTint;\n',
+  used: instances !== 'labels' && instances !== 'sprites' ? '' : 'diffuseColor *= vextureTint;\n',
 });
 
 /** Let masks show glyphs. */
 export function installGlyphShader() {
-  Object.assign(glyphHooks, { declared: glyphDeclared, placed: glyphPlaced, uniforms: glyphUniforms });
+  Object.assign(glyphHooks, { declared: glyphDeclared, placed: glyphPlaced, tint: glyphTint, uniforms: glyphUniforms });
 }

@@ -1,7 +1,6 @@
 // Values of a mask's uniforms.
 import { Color } from 'three';
 import { glyphHooks } from './glyph-hooks.js';
-import { isOfGlyphs } from './mask-options.js';
 
 /** @typedef {import('./mask-options.js').AllOptions} Options */
 
@@ -18,7 +17,7 @@ export function uniformValues(texture, { transform, threshold, color, map, fold,
     vextureTexels: textures.texels ?? null,
     vexturePaints: textures.layers ?? null,
     ...texture.maskReader()?.uniforms,
-    vextureRootQuad: roots[first]?.quad ?? 0, // a texture of glyphs may have none yet
+    vextureRootQuad: roots[first]?.quad, // a texture of glyphs may have none yet
     vextureFirst: first,
     vextureCount: count,
     vextureTransform: transform,
@@ -27,7 +26,7 @@ export function uniformValues(texture, { transform, threshold, color, map, fold,
     vextureInsideMap: map,
     vextureFolding: fold?.texture ?? null,
     vextureCycle: fold?.cycle ?? 0,
-    ...(isOfGlyphs(instanced) && glyphHooks.uniforms(instanced)),
+    ...glyphHooks.uniforms?.(instanced),
     vextureTime: fold?.clock(time) ?? 0,
   };
 }

@@ -51,6 +51,8 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
     #table;
     #boxOf;
     #unfollow;
+    /** It is held here, and nowhere else: glyphs do not keep labels alive. @type {import('./glyphs.js').GlyphUser} */
+    #user;
     /** @type {Map<number, Label>} by row */
     #labels = new Map();
     /** @type {number[]} */
@@ -88,10 +90,8 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       this.#table = table;
       this.#boxOf = (/** @type {number} */ shape) => glyphs.texture.boxes[shape];
       this.#makeMesh = () => Object.assign(new Mesh(new LabelGeometry(), masked('paint')), { frustumCulled: false, raycast: () => {}, renderOrder: this.renderOrder });
-      this.#unfollow = glyphs.follow({
-        shapesInUse: () => this.#shapesInUse(),
-        renumber: (places) => this.#renumber(places),
-      });
+      this.#user = { shapesInUse: () => this.#shapesInUse(), renumber: (places) => this.#renumber(places) };
+      this.#unfollow = glyphs.follow(this.#user);
     }
 
     /** The labels. */
@@ -157,6 +157,7 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
         const outcomes = await Promise.allSettled(labels.map((label) => this.#layout(label)));
         outcomes.forEach((outcome, place) => {
           const label = labels[place];
+          label.error = outcome.status === 'rejected' ? outcome.reason : null;
           if (outcome.status === 'rejected') problem = outcome.reason;
           else if (this.#labels.get(label.row) === label && !this.#stale.has(label)) this.#show(label, outcome.value);
           if (outcome.status === 'fulfilled' && outcome.value) warnOf(outcome.value);
@@ -263,6 +264,11 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       const { elements } = /** @type {any} */ (camera).projectionMatrix;
       const depth = elements[15] === 1 ? 1 : -at.clone().applyMatrix4(camera.matrixWorldInverse).z;
       return (2 * depth) / (this.#height * elements[5]);
+    }
+
+    /** @returns {any} */
+    copy() {
+      throw new VextureError('labels are not copied; make another BatchedText, and add labels to it', 'copy');
     }
 
     /** Free the GPU memory. */

@@ -17,6 +17,8 @@ const TINT = new Color();
 export class LabelTable {
   /** @type {true} */
   isLabels = true;
+  /** @type {'labels' | 'sprites'} */
+  kind;
   #rows = 0;
   #values = new Float32Array(0);
   /** Whether any label is turned; sprites never are. */
@@ -30,6 +32,7 @@ export class LabelTable {
    */
   constructor(areSprites, arePixels) {
     this.areSprites = areSprites;
+    this.kind = areSprites ? 'sprites' : 'labels';
     this.arePixels = arePixels;
     this.texture = this.#grow(1);
   }
