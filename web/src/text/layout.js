@@ -150,3 +150,6 @@ export function shownPart([left, bottom, right, top], clip) {
   if (!clip) return [left, bottom, right, top];
   return [Math.max(left, clip[0]), Math.max(bottom, clip[1]), Math.min(right, clip[2]), Math.min(top, clip[3])];
 }
+
+/** What an empty text shows. */
+export const NOTHING = Object.freeze({ shapes: new Uint32Array(0), places: new Float32Array(0), clusters: new Uint32Array(0), outlines: undefined, strokes: undefined });

@@ -8,7 +8,7 @@ import { alongCurve, onCylinder } from './bends.js';
 import { weightOf } from './faces.js';
 import { GlyphGeometry } from './glyph-geometry.js';
 import { Glyphs } from './glyphs.js';
-import { chosen, glyphAt, shownPart } from './layout.js';
+import { NOTHING, chosen, glyphAt, shownPart } from './layout.js';
 import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, lengthOf, requestOf } from './text-options.js';
 import { Part, beforeDrawing, paint, usual } from './text-parts.js';
 import { warnOf } from './warnings.js';
@@ -381,9 +381,6 @@ export function textOf({ makeMaterial, applyMask }) {
   }
   return /** @type {any} */ (Text);
 }
-
-/** What an empty text shows. */
-const NOTHING = Object.freeze({ shapes: new Uint32Array(0), places: new Float32Array(0), clusters: new Uint32Array(0), outlines: undefined, strokes: undefined });
 
 /**
  * @param {Uint32Array} clusters
