@@ -1,7 +1,7 @@
 """The reader of SVG in a page makes the drawings that Python's makes, and what is hostile does no harm."""
 
-import warnings
 import re
+import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any

@@ -323,7 +323,8 @@ def test_a_font_that_python_bakes_is_set_as_well(page: Any, address: str) -> Non
 
 def test_texts_stay_as_they_are_when_glyphs_are_forgotten(page: Any) -> None:
     shown = page.evaluate("""async () => {
-        const own = makeGlyphs({ budget: 20000 }), keep = new Text({ glyphs: own, font: 'font.ttf', text: 'Keep me ABC' });
+        const own = makeGlyphs({ budget: 20000 });
+        const keep = new Text({ glyphs: own, font: 'font.ttf', text: 'Keep me ABC' });
         await keep.sync();
         const names = () => [...keep.layout.shapes].map((shape) => own.texture.roots[shape].name);
         const before = names();
@@ -352,7 +353,8 @@ def test_a_copy_shows_the_same_and_is_independent(page: Any) -> None:
         const copy = group.clone().children[0];
         copy.text = 'three';
         await copy.sync();
-        const seen = [text, copy].map((one) => [one.text, one.geometry.instanceCount, one.material.type, one.material.color.getHex(), one.children.length]);
+        const seen = [text, copy].map(({ text: words, geometry, material: { type, color }, children }) =>
+            [words, geometry.instanceCount, type, color.getHex(), children.length]);
         copy.dispose();
         text.dispose();
         return seen;
@@ -374,7 +376,10 @@ def test_ranges_of_colours_can_be_set_and_taken_back_later(page: Any) -> None:
             renderer.render(scene, camera);
             const bytes = new Uint8Array(4 * 64 * 32), colors = new Set();
             gl.readPixels(0, 0, 64, 32, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-            for (let k = 0; k < bytes.length; k += 4) if (bytes[k] > 200 || bytes[k + 2] > 200) colors.add(bytes[k] > 200 ? 'red' : 'blue');
+            for (let k = 0; k < bytes.length; k += 4) {
+                if (bytes[k] > 200) colors.add('red');
+                else if (bytes[k + 2] > 200) colors.add('blue');
+            }
             seen.push([...colors].sort().join());
         };
         text.text = 'MM';

@@ -142,5 +142,11 @@ const glyphTint = (instances) => ({
 
 /** Let masks show glyphs. */
 export function installGlyphShader() {
-  Object.assign(glyphHooks, { declared: glyphDeclared, placed: glyphPlaced, tint: glyphTint, uniforms: glyphUniforms });
+  const kindOf = (/** @type {any} */ instanced) => instanced?.kind ?? instanced;
+  Object.assign(glyphHooks, {
+    declared: (/** @type {any} */ instanced) => glyphDeclared(kindOf(instanced)),
+    placed: (/** @type {any} */ instanced) => glyphPlaced(kindOf(instanced)),
+    tint: (/** @type {any} */ instanced) => glyphTint(kindOf(instanced)),
+    uniforms: glyphUniforms,
+  });
 }

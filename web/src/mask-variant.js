@@ -29,7 +29,7 @@ export function variantOf(texture, options, range) {
     flat,
     invert,
     background,
-    instanced: /** @type {any} */ (instanced).kind ?? instanced,
+    instanced: /** @type {any} */ (instanced), // labels are their kind in the key of a program
     hasMap: mode === 'mix' && map !== null,
     uv: UV_ATTRIBUTES[channel],
     fold: fold?.glsl ?? '',

@@ -37,6 +37,11 @@ export class LabelTable {
     this.texture = this.#grow(1);
   }
 
+  /** What of them makes a program another one. */
+  toJSON() {
+    return this.kind;
+  }
+
   /** @param {number} rows */
   #grow(rows) {
     const values = new Float32Array(4 * LABEL_WIDTH * rows);
