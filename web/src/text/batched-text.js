@@ -266,7 +266,7 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       return (2 * depth) / (this.#height * elements[5]);
     }
 
-    /** @returns {any} */
+    /** Labels are not copied. @internal @returns {any} */
     copy() {
       throw new VextureError('labels are not copied; make another BatchedText, and add labels to it', 'copy');
     }
