@@ -78,16 +78,16 @@ def write(
     kernel: Kernel, arguments: tuple[Any, ...], result: Any, processor: Processor, folder: Path, digest: str
 ) -> None:
     """Write the code file of a kernel that Numba has compiled for these arguments."""
-    (overload,) = kernel.dispatcher.overloads.values()
-    (text,) = kernel.dispatcher.inspect_llvm().values()
+    types = tuple(map(kernel.dispatcher.typeof_pyval, arguments))  # its callers may need others
+    overload, text = kernel.dispatcher.overloads[types], kernel.dispatcher.inspect_llvm(types)
     entry = overload.fndesc.llvm_func_name
     machine_code, symbols = code_of(text, entry, processor)
     if any(symbol.startswith(("NRT", "Py", "_Py", "numba")) for symbol in symbols):
         sys.exit(f"{kernel.__name__} calls {', '.join(symbols)}; write what is not the C library's into RUN_TIME")
     features = list(processor.features)
-    types = argument_type(arguments), argument_type(result)
+    described = argument_type(arguments), argument_type(result)
     file = folder / f"{kernel.__module__}.{kernel.__name__}-{processor.name}.code"
-    Code(host()[0], features, symbols, digest, *types, entry).write(file, machine_code)
+    Code(host()[0], features, symbols, digest, *described, entry).write(file, machine_code)
     print(f"{file}: {file.stat().st_size} bytes, calls {', '.join(symbols)}")
 
 

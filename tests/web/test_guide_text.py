@@ -3,6 +3,7 @@
 import io
 import json
 import re
+import shlex
 import shutil
 import subprocess
 from collections.abc import Callable, Iterator
@@ -17,6 +18,7 @@ from PIL import Image
 from build_wasm import OUTPUT
 from chromium import WEB, bundle, serve_folder
 from guides import GUIDES, blocks_of
+from viewing import VEXTURE
 
 SANS = next(Path(fontpkg_noto_sans.__file__).parent.glob("files/NotoSans[[]*.ttf"))
 SIZE = (720, 480)
@@ -38,11 +40,12 @@ ARRANGED = """
 title.position.set(-5.6, 3.6, 0);
 sign.position.set(0.6, 3.5, 0);
 text.position.set(-3.8, 1.6, 0);
+clock.position.set(-1.8, 2.2, 0);
 road.position.set(3, 0.7, 0);
 paragraph.position.set(-5.6, -0.2, 0);
 labels.position.set(3.2, -1.8, 0);
 renderer.setAnimationLoop(() => renderer.render(scene, camera));
-await Promise.all([text, title, paragraph, sign, road, labels].map((one) => one.sync()));
+await Promise.all([text, title, paragraph, sign, road, labels, clock].map((one) => one.sync()));
 Object.assign(window, { caret, rectangles, layout: text.layout, faces: sans.length, count: [...labels.labels].length });
 """
 """Puts what the guide's program has shown side by side."""
@@ -63,8 +66,8 @@ createRoot(document.body.appendChild(document.createElement('div'))).render(
 );
 """
 CONFIGS = """
-const configs = ['vite', 'without-plugin'].map((name) => import(`./${name}.config.js`));
-const [plugged, plain] = (await Promise.all(configs)).map((one) => one.default);
+const plugged = (await import('./vite.config.js')).default;
+const plain = (await import('./without-plugin.config.js')).default;
 const config = plugged.plugins[0].config.call({ meta: { viteVersion: '8.1.0' } }, {});
 console.log(JSON.stringify([config, plain]));
 """
@@ -81,6 +84,8 @@ def site(made_once: Callable[..., Path]) -> Path:
         shutil.copytree(OUTPUT, folder / "kernels")
         shutil.copytree(WEB / "fonts", folder / "fonts")
         shutil.copy(SANS, folder / "fonts" / "NotoSans.ttf")
+        (command,) = (block.text for block in blocks_of("text") if block.text.startswith("vexture font"))
+        subprocess.run([*VEXTURE, *shlex.split(command)[1:]], cwd=folder / "fonts", check=True, capture_output=True)
         shutil.copytree(WEB / "node_modules" / "@fontsource" / "pacifico", folder / "fonts" / "pacifico")
 
     return made_once("guide-text", fill)
@@ -138,7 +143,7 @@ def test_the_guide_to_texts_does_what_it_says(show: Callable[..., Any], screensh
     assert page.evaluate("faces") > 3
     assert page.evaluate("count") == 200
     picture = pixels(page)
-    for color in ((255, 99, 71), (0, 128, 128), (0, 100, 0), (160, 82, 45)):  # tomato, teal, darkgreen, sienna
+    for color in ((255, 99, 71), (0, 128, 128), (0, 100, 0), (160, 82, 45), (128, 0, 128)):
         assert share(picture, color) > 0.00005, color
     red, green, blue = np.moveaxis(picture, 2, 0)
     assert np.mean((red > 150) & (green < 80) & (blue < 110)) > 0.005, "crimson, in the light"
@@ -146,9 +151,8 @@ def test_the_guide_to_texts_does_what_it_says(show: Callable[..., Any], screensh
 
 @pytest.mark.slow
 def test_what_replaces_troika_runs(show: Callable[..., Any]) -> None:
-    page = show(
-        {"main.js": f"{SCENE}camera.position.z = 1;\n{programs('from-troika')['after.js']}\nwindow.label = label;"}
-    )
+    near = "camera.position.z = 1;"
+    page = show({"main.js": f"{SCENE}{near}\n{programs('from-troika')['after.js']}\nwindow.label = label;"})
     page.wait_for_function("window.label?.layout")
     page.wait_for_timeout(300)
     assert share(pixels(page), (0, 51, 102)) > 0.001

@@ -30,7 +30,7 @@ TILE_LOAD_LIMITS = {"vexture/maplibre": 48_300, "vexture/globe": 48_300}
 OTHERS = [f"--external:{name}" for name in ("three", "react", "@react-three/fiber", "maplibre-gl")]
 """What a page has anyhow."""
 
-WEBGPU_LIMIT = 27_500
+WEBGPU_LIMIT = 27_700
 """And what a page with nodes loads: both languages are in it, as the backend is known later."""
 
 TEXT_LIMIT = 39_000

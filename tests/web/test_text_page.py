@@ -319,3 +319,80 @@ def test_a_font_that_python_bakes_is_set_as_well(page: Any, address: str) -> Non
         return [[...text.layout.carets], [...layout.carets]];
     }""")
     assert carets[0] == pytest.approx(carets[1], abs=1e-3)
+
+
+def test_texts_stay_as_they_are_when_glyphs_are_forgotten(page: Any) -> None:
+    shown = page.evaluate("""async () => {
+        const own = makeGlyphs({ budget: 20000 });
+        const keep = new Text({ glyphs: own, font: 'font.ttf', text: 'Keep me ABC' });
+        await keep.sync();
+        const names = () => [...keep.layout.shapes].map((shape) => own.texture.roots[shape].name);
+        const before = names();
+        let most = 0;
+        for (let k = 0; k < 12; k++) {
+            const word = Array.from({ length: 30 }, (_, n) => String.fromCodePoint(0x100 + 30 * k + n)).join('');
+            const other = new Text({ glyphs: own, font: 'font.ttf', text: word });
+            await other.sync();
+            most = Math.max(most, own.texture.roots.length);
+            other.dispose();
+        }
+        await keep.sync();
+        own.dispose();
+        return { before, after: names(), most, last: own.texture.roots.length };
+    }""")
+    assert shown["after"] == shown["before"]
+    assert shown["last"] < shown["most"], "nothing was forgotten"
+
+
+def test_a_copy_shows_the_same_and_is_independent(page: Any) -> None:
+    found = page.evaluate("""async () => {
+        const material = new THREE.MeshStandardMaterial(), group = new THREE.Group();
+        const text = new Text({ glyphs, font: 'font.ttf', text: 'one', color: 0xff0000, outlineWidth: 0.05, material });
+        group.add(text);
+        await text.sync();
+        const copy = group.clone().children[0];
+        copy.text = 'three';
+        await copy.sync();
+        const seen = [text, copy].map(({ text: words, geometry, material: { type, color }, children }) =>
+            [words, geometry.instanceCount, type, color.getHex(), children.length]);
+        copy.dispose();
+        text.dispose();
+        return seen;
+    }""")
+    standard = ["MeshStandardMaterial", 0xFF0000, 1]
+    assert found == [["one", 3, *standard], ["three", 5, *standard]]
+
+
+def test_ranges_of_colours_can_be_set_and_taken_back_later(page: Any) -> None:
+    """Programs with and without colours of vertices are two."""
+    pixels = page.evaluate("""async () => {
+        const renderer = new THREE.WebGLRenderer(), scene = new THREE.Scene(), seen = [];
+        renderer.setSize(64, 32);
+        const camera = new THREE.OrthographicCamera(0, 2, 0, -1, -1, 1), gl = renderer.getContext();
+        const text = new Text({ glyphs, font: 'font.ttf', text: '\u2588\u2588', color: 0x0000ff, letterSpacing: 0.2 });
+        scene.add(text);
+        const look = async () => {
+            await text.sync();
+            renderer.render(scene, camera);
+            const bytes = new Uint8Array(4 * 64 * 32), colors = new Set();
+            gl.readPixels(0, 0, 64, 32, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+            for (let k = 0; k < bytes.length; k += 4) {
+                if (bytes[k] > 200) colors.add('red');
+                else if (bytes[k + 2] > 200) colors.add('blue');
+            }
+            seen.push([...colors].sort().join());
+        };
+        text.text = 'MM';
+        await look();
+        text.colorRanges = { 1: 0xff0000 };
+        await look();
+        text.color = 0xff0000;
+        await look();
+        text.colorRanges = null;
+        text.color = 0x0000ff;
+        await look();
+        text.dispose();
+        renderer.dispose();
+        return seen;
+    }""")
+    assert pixels == ["blue", "blue,red", "red", "blue"]

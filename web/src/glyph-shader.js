@@ -5,6 +5,8 @@
 // rectangle is as large as needed, and no larger, because each of its pixels costs time.
 import { Vector2 } from 'three';
 import { ROOT_ATTRIBUTE } from './attributes.js';
+import { glyphHooks } from './glyph-hooks.js';
+import { isOfGlyphs } from './mask-options.js';
 
 /** Names of the attributes of glyphs. */
 export const GLYPH = Object.freeze({
@@ -44,7 +46,7 @@ export const VIEWPORT = new Vector2(1, 1);
  * @typedef {object} Labels The table of labels.
  * @property {true} isLabels
  * @property {import('three').DataTexture} texture
- * @property {boolean} areSprites whether they face the camera
+ * @property {'labels' | 'sprites'} kind sprites face the camera
  */
 
 /** @typedef {boolean | 'glyphs' | 'labels' | 'sprites'} Instances whether a mesh has instances, and what they are */
@@ -80,7 +82,8 @@ vec3 vexturePut(vec3 at) {
  *
  * @param {Instances} instances
  */
-export function glyphDeclared(instances) {
+function glyphDeclared(instances) {
+  if (!isOfGlyphs(instances)) return '';
   const put = instances === 'glyphs' ? PUT : putLabel(instances === 'sprites');
   return `uniform vec2 vextureViewport;
 attribute vec4 ${GLYPH.place};
@@ -100,7 +103,10 @@ ${put}vec3 vextureOfGlyph(vec2 at) {
  *
  * @param {Instances} instances
  */
-export const glyphPlaced = (instances) => `{
+const glyphPlaced = (instances) => (isOfGlyphs(instances) ? { vertexPlace: placedLines(instances) } : {});
+
+/** @param {Instances} instances */
+const placedLines = (instances) => `{
   vec2 vextureSize = (abs(${GLYPH.box}.zw) - ${GLYPH.box}.xy) * ${GLYPH.place}.w;
   vec2 vextureAt = mix(${GLYPH.box}.xy, abs(${GLYPH.box}.zw), position.xy) * ${GLYPH.place}.w;
   vec2 vextureOutwards = mix(-step(${GLYPH.box}.xy, vec2(0.0)), step(0.0, ${GLYPH.box}.zw), position.xy);
@@ -124,3 +130,23 @@ export const glyphPlaced = (instances) => `{
   vextureUv = vextureAt / ${GLYPH.place}.w;
 ${instances === 'glyphs' ? '' : '  vextureTint = vextureOfLabel(2u);\n  if (vextureTint.a == 0.0) transformed = vextureCorner;\n'}}
 `;
+
+/** @param {any} instanced */
+const glyphUniforms = (instanced) => (isOfGlyphs(instanced) ? { vextureViewport: VIEWPORT, ...(instanced.isLabels && { vextureLabels: instanced.texture }) } : {});
+
+/** Lines of the colour of a label. @param {Instances} instances */
+const glyphTint = (instances) => ({
+  declared: instances !== 'labels' && instances !== 'sprites' ? '' : 'varying vec4 vextureTint;\n',
+  used: instances !== 'labels' && instances !== 'sprites' ? '' : 'diffuseColor *= vextureTint;\n',
+});
+
+/** Let masks show glyphs. */
+export function installGlyphShader() {
+  const kindOf = (/** @type {any} */ instanced) => instanced?.kind ?? instanced;
+  Object.assign(glyphHooks, {
+    declared: (/** @type {any} */ instanced) => glyphDeclared(kindOf(instanced)),
+    placed: (/** @type {any} */ instanced) => glyphPlaced(kindOf(instanced)),
+    tint: (/** @type {any} */ instanced) => glyphTint(kindOf(instanced)),
+    uniforms: glyphUniforms,
+  });
+}

@@ -42,16 +42,12 @@ export const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
 
 export const BACKGROUNDS = Object.freeze(['own', 'none']);
 
-export const INSTANCED = Object.freeze(/** @type {const} */ ([false, true, 'glyphs']));
-
-/** @param {unknown} instanced an option, or what a program has */
-export const isOfLabels = (instanced) => instanced === 'labels' || instanced === 'sprites' || isLabels(instanced);
-
-/** @param {unknown} instanced an option, or what a program has */
-export const isOfGlyphs = (instanced) => instanced === 'glyphs' || isOfLabels(instanced);
-
-/** @param {any} instanced @returns {instanced is import('./glyph-shader.js').Labels} */
-export const isLabels = (instanced) => instanced?.isLabels === true;
+/**
+ * Whether instances are glyphs, of a text or of labels.
+ *
+ * @param {unknown} instanced an option, or what a program has
+ */
+export const isOfGlyphs = (instanced) => instanced !== true && Boolean(instanced);
 
 export const CHANNELS = Object.freeze([0, 1]);
 
@@ -183,12 +179,11 @@ export function checkNodeOptions({ wrap = 'none', fold = null, ...others }, name
  * @throws {VextureError} if an option is out of range, or options exclude each other
  */
 export function checkOptions(options, type) {
-  const { mode, wrap, background, invert, threshold, transform, fold, time, channel, instanced } = options;
+  const { mode, wrap, background, invert, threshold, transform, fold, time, channel } = options;
   if (mode !== null) choose('mode', mode, MODES);
   checkPlace({ wrap, fold });
   choose('background', background, BACKGROUNDS);
   choose('channel', channel, CHANNELS);
-  if (!isLabels(instanced)) choose('instanced', /** @type {boolean | 'glyphs'} */ (instanced), INSTANCED);
   if (!(threshold >= 0 && threshold <= 1)) {
     throw new VextureError(`threshold is ${line(threshold)}; it must be a coverage, 0 to 1`, 'threshold');
   }

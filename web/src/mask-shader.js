@@ -2,8 +2,7 @@
 import { packed, steps } from '../generated/shaders.js';
 import { WRAPS } from '../generated/wraps.js';
 import { ROOT_ATTRIBUTE } from './attributes.js';
-import { glyphDeclared, glyphPlaced } from './glyph-shader.js';
-import { isOfGlyphs, isOfLabels } from './mask-options.js';
+import { glyphHooks } from './glyph-hooks.js';
 import { withMaps } from './maps.js';
 
 const planar = withMaps(async () => (await import('../generated/planar-shader.js')).planar);
@@ -86,8 +85,8 @@ function reader({ other, maps, gradients, wrap, flat, fold, linear }) {
 /** Fully transparent pixels write no depth, so that they hide nothing. */
 const NOTHING = 'if (diffuseColor.a == 0.0) discard;';
 
-/** Colour and opacity of a label. @param {Variant} variant */
-const tinted = ({ instanced }) => (isOfLabels(instanced) ? 'diffuseColor *= vextureTint;\n' : '');
+/** Lines of the colour of a label. @param {Variant} variant @param {'declared' | 'used'} [part] */
+const tinted = ({ instanced }, part = 'used') => glyphHooks.tint?.(instanced)[part] ?? '';
 
 /** @param {Variant} variant */
 function colorLines(variant) {
@@ -122,16 +121,14 @@ export function texts(variant) {
   const declared = uv === 'uv' ? '' : `#ifndef USE_${uv.toUpperCase()}\nattribute vec2 ${uv};\n#endif\n`;
   const vertexDeclare = `uniform mat3 vextureTransform;\n${declared}${mapped ? 'uniform mat3 vextureMapTransform;\n' : ''}${
     instanced ? `attribute uint ${ROOT_ATTRIBUTE};\n` : ''
-  }${varyings}${isOfGlyphs(instanced) ? glyphDeclared(instanced) : ''}`;
+  }${varyings}${glyphHooks.declared?.(instanced) ?? ''}`;
   const vertexUv = `vextureUv = (vextureTransform * vec3(${uv}, 1.0)).xy;\n${
     mapped ? 'vextureMapUv = (vextureMapTransform * vec3(uv, 1.0)).xy;\n' : ''
   }${instanced ? `vextureInstance = ${ROOT_ATTRIBUTE};\n` : ''}`;
-  const tint = isOfLabels(instanced) ? 'varying vec4 vextureTint;\n' : '';
-  const fragmentDeclare = `${varyings}${tint}${inside ? 'uniform vec3 vextureInside;\n' : ''}${
+  const fragmentDeclare = `${varyings}${tinted(variant, 'declared')}${inside ? 'uniform vec3 vextureInside;\n' : ''}${
     mapped ? 'uniform sampler2D vextureInsideMap;\n' : ''
   }${mode === 'cut' ? 'uniform float vextureThreshold;\n' : ''}${steps}${reader(variant)}`;
-  const placed = isOfGlyphs(instanced) ? { vertexPlace: glyphPlaced(instanced) } : {};
-  const common = { vertexDeclare, vertexUv, fragmentDeclare, ...placed };
+  const common = { vertexDeclare, vertexUv, fragmentDeclare, ...glyphHooks.placed?.(instanced) };
   if (mode === 'cut') {
     return { ...common, fragmentCut: `${foldLines(variant)}if (${coverage(variant)} < vextureThreshold) discard;` };
   }

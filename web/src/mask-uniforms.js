@@ -1,7 +1,6 @@
 // Values of a mask's uniforms.
 import { Color } from 'three';
-import { VIEWPORT } from './glyph-shader.js';
-import { isLabels, isOfGlyphs } from './mask-options.js';
+import { glyphHooks } from './glyph-hooks.js';
 
 /** @typedef {import('./mask-options.js').AllOptions} Options */
 
@@ -18,7 +17,7 @@ export function uniformValues(texture, { transform, threshold, color, map, fold,
     vextureTexels: textures.texels ?? null,
     vexturePaints: textures.layers ?? null,
     ...texture.maskReader()?.uniforms,
-    vextureRootQuad: roots[first]?.quad ?? 0, // a texture of glyphs may have none yet
+    vextureRootQuad: roots[first]?.quad, // a texture of glyphs may have none yet
     vextureFirst: first,
     vextureCount: count,
     vextureTransform: transform,
@@ -27,8 +26,7 @@ export function uniformValues(texture, { transform, threshold, color, map, fold,
     vextureInsideMap: map,
     vextureFolding: fold?.texture ?? null,
     vextureCycle: fold?.cycle ?? 0,
-    ...(isOfGlyphs(instanced) && { vextureViewport: VIEWPORT }),
-    ...(isLabels(instanced) && { vextureLabels: instanced.texture }),
+    ...glyphHooks.uniforms?.(instanced),
     vextureTime: fold?.clock(time) ?? 0,
   };
 }

@@ -1,7 +1,7 @@
 // What makes the program of one mask differ from that of another.
 import { UV_ATTRIBUTES } from './attributes.js';
 import { FOOTPRINT } from './mask-shader.js';
-import { isLabels, isOfGlyphs } from './mask-options.js';
+import { isOfGlyphs } from './mask-options.js';
 import { mapsAmong, mapsOfGlyphs } from './select-root.js';
 
 /** @typedef {import('./mask-shader.js').Variant} Variant */
@@ -29,7 +29,7 @@ export function variantOf(texture, options, range) {
     flat,
     invert,
     background,
-    instanced: isLabels(instanced) ? (instanced.areSprites ? 'sprites' : 'labels') : /** @type {boolean | 'glyphs'} */ (instanced),
+    instanced: /** @type {any} */ (instanced), // labels are their kind in the key of a program
     hasMap: mode === 'mix' && map !== null,
     uv: UV_ATTRIBUTES[channel],
     fold: fold?.glsl ?? '',

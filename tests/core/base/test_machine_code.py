@@ -55,22 +55,24 @@ def longer_of(values: Halves, rows: int) -> tuple[Halves, NDArray[np.float64]]:
     return Halves(whole, values.rest), values.rest[:0]
 
 
-def write(function: Any, arguments: tuple[Any, ...], folder: Path) -> Kernel:
-    """Write the code of a function, compiled for this very machine."""
+def write(function: Any, arguments: tuple[Any, ...], folder: Path, *others: tuple[Any, ...]) -> Kernel:
+    """Write the code of a function, compiled for this very machine; `others` are arguments of earlier calls."""
     kernel = Kernel(function, allocates=True, ahead=True)
     import numba
 
     kernel.dispatcher = numba.njit(error_model="numpy")(function)  # not from the cache
     processor = compile_kernels.PROCESSORS[compile_kernels.MACHINE]
+    for other in others:
+        kernel.dispatcher(*other)
     compile_kernels.write(kernel, arguments, kernel.dispatcher(*arguments), processor, folder, TEXT)
     return kernel
 
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Kernel, Path]:
-    """A kernel and the folder of its code."""
+    """A kernel and the folder of its code; Numba has compiled it for a whole factor, too."""
     folder = tmp_path_factory.mktemp("code")
-    return write(halves_of, ARGUMENTS, folder), folder
+    return write(halves_of, ARGUMENTS, folder, (np.array([0.5]), 3, 2)), folder
 
 
 def loaded(written: tuple[Kernel, Path], text: str = TEXT, arguments: Any = ARGUMENTS) -> Any:

@@ -12,8 +12,12 @@ import { VectorGlobe, openTiles } from 'vexture/globe';
 import { VectorTexturePlugin } from 'vexture/gltf';
 import { VectorTileLayer } from 'vexture/maplibre';
 import {
-  VectorMask, VectorMaterial, useFold, useVectorTexture, type VectorMaskProps, type VectorMaterialProps,
+  VectorMask, VectorMaterial, VectorText, useFold, useVectorTexture, type VectorMaskProps, type VectorMaterialProps,
+  type VectorTextProps,
 } from 'vexture/react';
+import {
+  BatchedText, Glyphs, Text, getCaretAtPoint, getSelectionRects, type FontFace, type TextLayout, type TextOptions,
+} from 'vexture/text';
 import * as nodes from 'vexture/webgpu';
 import { ThesisLoader, ThesisTexture, readThesis, type ThesisData } from 'vexture/thesis';
 import {
@@ -82,6 +86,32 @@ export function App() {
   );
 }
 
+/** A text with a material of its own, as the guide to texts has it. */
+export function Score({ points, ...props }: VectorTextProps & { points: number }) {
+  const text = useRef<Text>(null);
+  return (
+    <VectorText ref={text} fontSize={0.4} anchorY="bottom" position={[0, 1, 0]} onSync={(one) => one.layout} suspend {...props}>
+      {points} points
+      <meshStandardMaterial color="orange" />
+    </VectorText>
+  );
+}
+
+/** Texts without React. */
+export async function texts(faces: FontFace[]): Promise<void> {
+  const options: Partial<TextOptions> = { text: 'Hello', font: faces, fontWeight: 'bold', outlineWidth: '5%' };
+  const text = new Text({ ...options, material: new MeshStandardMaterial(), glyphs: new Glyphs({ budget: 2 ** 20 }) });
+  text.color = 'red';
+  await text.sync();
+  const layout: TextLayout | null = text.layout;
+  if (layout) console.log(getCaretAtPoint(layout, 0, 0)?.charIndex, getSelectionRects(layout, 0, 1));
+  const labels = new BatchedText({ pixels: true, sprites: true });
+  labels.addLabel({ text: 'Here', position: [1, 2, 3] }).visible = false;
+  text.dispose();
+}
+
+// @ts-expect-error there is no such anchor
+export const wrongAnchor = <VectorText textAlign="middle">x</VectorText>;
 // @ts-expect-error there is no such mode
 export const wrongMode = <VectorMaterial src={logo} mode="glow" />;
 // @ts-expect-error there is no such option
@@ -157,5 +187,6 @@ export async function tilesAndNodes(texture: vexture.VectorTexture): Promise<voi
   const material = new nodes.VectorNodeMaterial({ texture, mode: 'paint', side: 2 });
   // @ts-expect-error there is no such mode
   material.mode = 'glow';
-  console.log(globe.attribution, nodes.vectorCoverage(texture, { wrap: 'repeat', root: nodes.instancedRoot() }));
+  const title = new nodes.Text({ text: 'Map' });
+  console.log(title.layout, globe.attribution, nodes.vectorCoverage(texture, { wrap: 'repeat', root: nodes.instancedRoot() }));
 }

@@ -1,4 +1,5 @@
 // Fonts for production: the characters that texts show as a texture and its metrics.
+import { writePacked } from '../convert/write-packed.js';
 import { Glyphs } from './glyphs.js';
 import { LAYOUT, requestOf } from './text-options.js';
 
@@ -35,7 +36,6 @@ export async function bakeFont({ characters, font = null, weight = 400, glyphs: 
   /** @type {Map<number, string>} */
   const names = new Map([[missing.shapes[0], '.notdef']]);
   set.forEach(({ shapes }, k) => shapes.length && !names.has(shapes[0]) && names.set(shapes[0], single[k]));
-  const { writePacked } = await import('../convert/write-packed.js');
   const texture = await writePacked({
     encoding: 'packed', name: 'font', width, height: rows, texels: texels.slice(0, 4 * width * rows),
     roots: roots.map((root, shape) => ({ ...root, name: names.get(shape) ?? root.name })),

@@ -1,7 +1,7 @@
 // Many labels in one draw call, whatever the renderer.
 import { DoubleSide, Mesh, Quaternion, Ray, Vector3 } from 'three';
 import { VextureError, givenOptions, line } from '../errors.js';
-import { VIEWPORT } from '../glyph-shader.js';
+import { VIEWPORT, installGlyphShader } from '../glyph-shader.js';
 import { AtlasFont } from './atlas-font.js';
 import { weightOf } from './faces.js';
 import { Glyphs } from './glyphs.js';
@@ -10,7 +10,7 @@ import { LabelTable } from './label-table.js';
 import { Label } from './label.js';
 import { chosen, glyphAt } from './layout.js';
 import { LAYOUT, checkOption, requestOf } from './text-options.js';
-import { readViewport } from './viewport.js';
+import { isUpright, readViewport } from './viewport.js';
 import { warnOf } from './warnings.js';
 
 /** @import { Material } from 'three' */
@@ -44,12 +44,15 @@ const RAY = new Ray(),
  * @param {TextMaking} making
  */
 export function batchedTextOf({ makeMaterial, applyMask }) {
+  installGlyphShader();
   return class BatchedText extends Mesh {
     #defaults;
     #glyphs;
     #table;
     #boxOf;
     #unfollow;
+    /** It is held here, and nowhere else: glyphs do not keep labels alive. @type {import('./glyphs.js').GlyphUser} */
+    #user;
     /** @type {Map<number, Label>} by row */
     #labels = new Map();
     /** @type {number[]} */
@@ -87,10 +90,8 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       this.#table = table;
       this.#boxOf = (/** @type {number} */ shape) => glyphs.texture.boxes[shape];
       this.#makeMesh = () => Object.assign(new Mesh(new LabelGeometry(), masked('paint')), { frustumCulled: false, raycast: () => {}, renderOrder: this.renderOrder });
-      this.#unfollow = glyphs.follow({
-        shapesInUse: () => this.#shapesInUse(),
-        renumber: (places) => this.#renumber(places),
-      });
+      this.#user = { shapesInUse: () => this.#shapesInUse(), renumber: (places) => this.#renumber(places) };
+      this.#unfollow = glyphs.follow(this.#user);
     }
 
     /** The labels. */
@@ -156,6 +157,7 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
         const outcomes = await Promise.allSettled(labels.map((label) => this.#layout(label)));
         outcomes.forEach((outcome, place) => {
           const label = labels[place];
+          label.error = outcome.status === 'rejected' ? outcome.reason : null;
           if (outcome.status === 'rejected') problem = outcome.reason;
           else if (this.#labels.get(label.row) === label && !this.#stale.has(label)) this.#show(label, outcome.value);
           if (outcome.status === 'fulfilled' && outcome.value) warnOf(outcome.value);
@@ -211,11 +213,17 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       }
     }
 
-    /** What three.js calls before each frame. @internal @param {any} renderer */
-    onBeforeRender(renderer) {
+    /** What three.js calls before each frame. @internal @param {any} renderer @param {any} _scene @param {any} camera */
+    onBeforeRender(renderer, _scene, camera) {
       readViewport(renderer);
       this.#height = VIEWPORT.y;
       this.#table.update(this.#labels.values());
+      // labels that are parallel to the picture are seen straight, though not all from the same distance
+      const flat = this.#table.areSprites || (!this.#table.hasTurns && isUpright(this, camera));
+      for (const mesh of [this, this.#colored]) {
+        const mask = /** @type {any} */ (mesh?.material)?.userData.mask;
+        if (mask && mask.flat !== flat) mask.set({ flat });
+      }
     }
 
     /**
@@ -256,6 +264,11 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       const { elements } = /** @type {any} */ (camera).projectionMatrix;
       const depth = elements[15] === 1 ? 1 : -at.clone().applyMatrix4(camera.matrixWorldInverse).z;
       return (2 * depth) / (this.#height * elements[5]);
+    }
+
+    /** Labels are not copied. @internal @returns {any} */
+    copy() {
+      throw new VextureError('labels are not copied; make another BatchedText, and add labels to it', 'copy');
     }
 
     /** Free the GPU memory. */

@@ -13,7 +13,7 @@ import { GrowingTexture } from './growing-texture.js';
  * @property {import('../convert/kernel-modules.js').KernelSources} [kernels] addresses or contents of the modules
  *   `silhouettes`, `maps` and `strokes`; by default those of this package
  * @property {(() => Worker) | false} [worker] starts the worker, for pages with their own way to load one; false sets texts in
- *   this thread
+ *   this thread, in Node.js
  * @property {number} [budget] bytes of the texture above which glyphs that no text shows are forgotten; 32 MiB by default
  *
  * @typedef {object} GlyphUser What shows glyphs.
@@ -32,6 +32,9 @@ const BUDGET = 32 * 2 ** 20;
 
 /** Bytes of a texel. */
 const TEXEL = 16;
+
+/** Shapes above which glyphs are forgotten, too: a texture has room for a quarter more. */
+const MANY = 12_288;
 
 /** Glyphs are forgotten if that leaves at most this share of them. */
 const WORTHWHILE = 0.75;
@@ -56,6 +59,8 @@ export class Glyphs {
   /** @type {Set<WeakRef<GlyphUser>>} */
   #users = new Set();
   #isRestarting = false;
+  /** Whether an answer had more shapes than there is room for: the worker counts others than the texture has. */
+  #isFull = false;
   /** @type {Promise<void> | null} */
   #maps = null;
   #hasMaps = false;
@@ -106,7 +111,9 @@ export class Glyphs {
    */
   async preload({ font = null, characters = '' } = {}) {
     const fonts = facesOf(font).map((face) => this.#fontId(face));
-    await this.#ask({ preload: { fonts, characters } });
+    const { results } = await this.#ask({ preload: { fonts, characters: characters || ' ' } });
+    const failed = results.find((/** @type {any} */ result) => 'error' in result);
+    if (failed) throw new VextureError(failed.error, failed.field);
   }
 
   /** Characters of all texts so far, for `bakeFont`. */
@@ -219,6 +226,7 @@ export class Glyphs {
       else if (added) this.texture.append(added);
       waiting?.resolve(answer);
     } catch (problem) {
+      this.#isFull = true;
       waiting?.reject(problem);
     }
     this.#forget();
@@ -227,13 +235,18 @@ export class Glyphs {
   /** Start again with the glyphs that are shown, if those of the past take too much memory. */
   async #forget() {
     const { budget = BUDGET } = this.#options;
-    if (this.#isRestarting || this.texture.length * TEXEL <= budget) return;
+    const isLarge = this.texture.length * TEXEL > budget || this.texture.roots.length > MANY;
+    if (this.#isRestarting || !(isLarge || this.#isFull)) return;
     const living = new Set([...this.#present()].flatMap((user) => [...user.shapesInUse()]));
     const { roots } = this.texture;
-    if (living.size > WORTHWHILE * roots.length) return;
+    if (!this.#isFull && living.size > WORTHWHILE * roots.length) return;
+    const shown = [...living].filter((shape) => shape < roots.length).sort((a, b) => a - b);
     this.#isRestarting = true;
     try {
-      await this.#ask({ restart: { keys: [...living].sort((a, b) => a - b).map((shape) => roots[shape].name) } });
+      await this.#ask({ restart: { keys: shown.map((shape) => roots[shape].name) } });
+      this.#isFull = false;
+    } catch {
+      // disposed of meanwhile, or the worker has failed: those who wait are told
     } finally {
       this.#isRestarting = false;
     }
@@ -276,13 +289,14 @@ export class Glyphs {
 const withoutWorker = (cause) =>
   new VextureError(
     `the worker of texts does not run (${shortened(cause)}); check the site's files and its Content-Security-Policy ` +
-      '(worker-src, wasm-unsafe-eval), or make Glyphs with `worker: false`',
+      '(worker-src, wasm-unsafe-eval), or give Glyphs a `worker` of your own',
     'worker',
   );
 
 /** A worker in this thread. @param {(data: any) => void} receive @returns {Promise<Endpoint>} */
 async function openHere(receive) {
-  const { Typesetter } = await import('../typeset/typesetter.js');
+  const { Typesetter } = await import('#typesetter'); // in Node.js
+  if (!Typesetter) throw new VextureError('a page sets no texts in its own thread; leave `worker` out, or give one that starts the worker', 'worker');
   const typesetter = new Typesetter();
   return {
     postMessage: async (message) => {

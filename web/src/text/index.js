@@ -38,6 +38,8 @@ export { getCaretAtPoint, getSelectionRects } from './layout.js';
 /** @typedef {import('./text-options.js').LookOptions} LookOptions */
 /** @typedef {import('./text-options.js').TextOptions} TextOptions */
 
+/** @import { AnyText } from './text.js' */
+
 const MAKING = { makeMaterial: () => new MeshBasicMaterial(), applyMask: applyVectorMask };
 
 /** A text that WebGLRenderer draws. Each option is a property that can be set at any time. */

@@ -17,8 +17,12 @@ const TINT = new Color();
 export class LabelTable {
   /** @type {true} */
   isLabels = true;
+  /** @type {'labels' | 'sprites'} */
+  kind;
   #rows = 0;
   #values = new Float32Array(0);
+  /** Whether any label is turned; sprites never are. */
+  hasTurns = false;
   /** @type {DataTexture} */
   texture;
 
@@ -28,8 +32,14 @@ export class LabelTable {
    */
   constructor(areSprites, arePixels) {
     this.areSprites = areSprites;
+    this.kind = areSprites ? 'sprites' : 'labels';
     this.arePixels = arePixels;
     this.texture = this.#grow(1);
+  }
+
+  /** What of them makes a program another one. */
+  toJSON() {
+    return this.kind;
   }
 
   /** @param {number} rows */
@@ -62,7 +72,8 @@ export class LabelTable {
    */
   update(labels) {
     const values = this.#values;
-    let isChanged = false;
+    let isChanged = false,
+      hasTurns = false;
     const put = (/** @type {number} */ at, /** @type {number} */ value) => {
       if (values[at] === Math.fround(value)) return;
       values[at] = value;
@@ -78,12 +89,14 @@ export class LabelTable {
       put(at + 5, quaternion.y);
       put(at + 6, quaternion.z);
       put(at + 7, quaternion.w);
+      hasTurns ||= quaternion.x !== 0 || quaternion.y !== 0 || quaternion.z !== 0;
       const { r, g, b } = color instanceof Color ? color : TINT.set(color);
       put(at + 8, r);
       put(at + 9, g);
       put(at + 10, b);
       put(at + 11, visible ? opacity : 0);
     }
+    this.hasTurns = hasTurns && !this.areSprites;
     if (isChanged) this.texture.needsUpdate = true;
   }
 }

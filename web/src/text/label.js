@@ -29,7 +29,9 @@ export class Label {
   #onChange;
   /** Measures of what is shown; null: nothing yet. @type {TextLayout | null} */
   layout = null;
-  position = new Vector3();
+  #position = new Vector3();
+  /** Why its last change is not shown. @type {Error | null} */
+  error = null;
   quaternion = new Quaternion();
   scale = 1;
   /** @type {import('three').ColorRepresentation} */
@@ -50,6 +52,17 @@ export class Label {
   /** Options of the layout that are its own. */
   get options() {
     return this.#options;
+  }
+
+  /** Where it is; a vector or three numbers can be assigned. */
+  get position() {
+    return this.#position;
+  }
+
+  set position(position) {
+    const given = /** @type {any} */ (position), parts = Array.isArray(given) ? given : [given?.x, given?.y, given?.z];
+    if (parts.length !== 3 || !parts.every(Number.isFinite)) throw new VextureError(`the position of a label is ${line(given)}; give three numbers or a Vector3`, 'position');
+    this.#position.fromArray(parts);
   }
 
   get text() {
@@ -76,8 +89,7 @@ export class Label {
     let isStale = false;
     for (const [name, value] of given) {
       const self = /** @type {any} */ (this), options = /** @type {any} */ (this.#options);
-      if (name === 'position' && Array.isArray(value)) this.position.fromArray(value);
-      else if (name === 'position' || name === 'quaternion') self[name].copy(value);
+      if (name === 'quaternion') self.quaternion.copy(value);
       else if (OWN.includes(name)) self[name] = value;
       else if (!Object.is(options[name], value)) {
         options[name] = value;

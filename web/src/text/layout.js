@@ -138,3 +138,18 @@ export function glyphAt({ shapes, places }, boxes, x, y) {
     return x >= left && x <= left + width * side && y >= bottom && y <= bottom + height * side;
   });
 }
+
+/**
+ * The part of a rectangle that is shown.
+ *
+ * @param {Rectangle} bounds
+ * @param {Rectangle | null} clip
+ * @returns {Rectangle}
+ */
+export function shownPart([left, bottom, right, top], clip) {
+  if (!clip) return [left, bottom, right, top];
+  return [Math.max(left, clip[0]), Math.max(bottom, clip[1]), Math.min(right, clip[2]), Math.min(top, clip[3])];
+}
+
+/** What an empty text shows. */
+export const NOTHING = Object.freeze({ shapes: new Uint32Array(0), places: new Float32Array(0), clusters: new Uint32Array(0), outlines: undefined, strokes: undefined });

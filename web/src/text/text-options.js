@@ -59,7 +59,7 @@ import { weightOf } from './faces.js';
 
 /** @type {Readonly<LayoutOptions>} */
 export const LAYOUT = Object.freeze({
-  text: '', font: null, fontSize: 1, fontWeight: 'normal', fontStyle: 'normal', fontVariations: {}, fontFeatures: '', lang: '',
+  text: '', font: null, fontSize: 1, fontWeight: 'normal', fontStyle: 'normal', fontVariations: Object.freeze({}), fontFeatures: '', lang: '',
   letterSpacing: 0, lineHeight: 'normal', maxWidth: Infinity, textIndent: 0, textAlign: 'start', whiteSpace: 'normal',
   overflowWrap: 'normal', direction: 'auto', writingMode: 'horizontal-tb', anchorX: 0, anchorY: 0, outlineWidth: 0, strokeWidth: 0,
 });

@@ -5,6 +5,9 @@ import { isUpright, readViewport } from './viewport.js';
 
 /** @import { Material } from 'three' */
 
+/** Steps between the render orders of the parts of a text. */
+const STEP = 2 ** -12;
+
 /** A part of a text: its letters, what is around them, or glyphs in colours of their own. */
 export class Part extends Mesh {
   /** @param {Material} material */
@@ -12,6 +15,12 @@ export class Part extends Mesh {
     super(new GlyphGeometry(), material);
     this.raycast = () => {}; // that of the text finds its parts
     Object.assign(this, { isTextPart: true });
+  }
+
+  /** Be drawn as its text is. @param {Mesh} text @param {boolean} isBehind */
+  follow(text, isBehind) {
+    this.renderOrder = text.renderOrder + (isBehind ? -STEP : STEP);
+    this.layers.mask = text.layers.mask;
   }
 
   /** @param {any} renderer @param {any} _scene @param {any} camera */

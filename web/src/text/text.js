@@ -1,13 +1,14 @@
 // A text in a three.js scene, whatever its renderer.
-import { Color, Matrix4, Mesh, Ray, Vector3 } from 'three';
+import { Color, Matrix4, Mesh, Object3D, Ray, Vector3 } from 'three';
 import { VextureError, givenOptions, line } from '../errors.js';
+import { installGlyphShader } from '../glyph-shader.js';
 import { AriaMirror } from './aria-mirror.js';
 import { AtlasFont } from './atlas-font.js';
 import { alongCurve, onCylinder } from './bends.js';
 import { weightOf } from './faces.js';
 import { GlyphGeometry } from './glyph-geometry.js';
 import { Glyphs } from './glyphs.js';
-import { chosen, glyphAt } from './layout.js';
+import { NOTHING, chosen, glyphAt, shownPart } from './layout.js';
 import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, lengthOf, requestOf } from './text-options.js';
 import { Part, beforeDrawing, paint, usual } from './text-parts.js';
 import { warnOf } from './warnings.js';
@@ -25,14 +26,11 @@ import { warnOf } from './warnings.js';
  * @property {Glyphs} glyphs the worker and the texture, by default those of the page
  * @property {TextLayout | null} layout measures and places of what is shown; null: nothing yet
  * @property {Error | null} error why the last change is not shown
- * @property {() => Promise<void>} sync resolves when the text is shown as its options say
+ * @property {(callback?: () => void) => Promise<void>} sync resolves when the text is shown as its options say
  * @property {() => void} dispose frees the GPU memory
  *
  * @typedef {Mesh & TextOptions & TextProperties} AnyText
  */
-
-/** Steps between the render orders of the parts of a text. */
-const STEP = 2 ** -12;
 
 const RAY = new Ray(),
   INVERSE = new Matrix4(),
@@ -45,6 +43,7 @@ const RAY = new Ray(),
  * @returns {new (options?: Partial<TextOptions> & { material?: Material | null, glyphs?: Glyphs }) => AnyText}
  */
 export function textOf({ makeMaterial, applyMask }) {
+  installGlyphShader();
   class Text extends Mesh {
     /** @type {TextOptions} */
     #options = { ...DEFAULTS };
@@ -60,8 +59,12 @@ export function textOf({ makeMaterial, applyMask }) {
     #mirror = new AriaMirror();
     /** @type {AtlasFont | null} */
     #atlas = null;
+    /** @type {any} */
     #glyphs;
+    /** @type {any} */
     #unfollow;
+    /** It is held here, and nowhere else: glyphs do not keep texts alive. @type {import('./glyphs.js').GlyphUser} */
+    #user;
     /** @type {Error | null} */
     error = null;
 
@@ -69,16 +72,20 @@ export function textOf({ makeMaterial, applyMask }) {
     constructor(options) {
       const { material = null, glyphs = Glyphs.shared, ...others } = givenOptions(options);
       super(new GlyphGeometry(), /** @type {any} */ (undefined));
-      this.#glyphs = glyphs;
-      this.#unfollow = glyphs.follow({
-        shapesInUse: () => this.#shapesInUse(),
-        renumber: (places) => this.#renumber(places),
-      });
+      this.#user = { shapesInUse: () => this.#shapesInUse(), renumber: (places) => this.#renumber(places) };
+      this.#take(glyphs);
       this.#setBase(material);
       for (const [name, value] of Object.entries(others)) {
         if (!(name in DEFAULTS)) throw new VextureError(`a text has no option ${line(name)}; correct its name`, name);
         /** @type {any} */ (this)[name] = value;
       }
+    }
+
+    /** @param {Glyphs} glyphs */
+    #take(glyphs) {
+      this.#unfollow?.();
+      this.#glyphs = glyphs;
+      this.#unfollow = glyphs.follow(this.#user);
     }
 
     get isText() {
@@ -133,13 +140,14 @@ export function textOf({ makeMaterial, applyMask }) {
 
     /** Change an option. @param {string} name @param {any} value */
     change(name, value) {
-      const wanted = value === undefined ? /** @type {any} */ (DEFAULTS)[name] : value;
+      const given = name === 'text' && typeof value === 'number' ? String(value) : value;
+      const wanted = given === undefined ? /** @type {any} */ (DEFAULTS)[name] : given;
       checkOption(name, wanted);
       const options = /** @type {any} */ (this.#options);
       if (Object.is(options[name], wanted)) return;
       options[name] = wanted;
       if (name in LAYOUT) this.#markStale();
-      else if (name in ARRANGEMENT || name.startsWith('outlineOffset')) this.#arrange();
+      else if (name in ARRANGEMENT || name.startsWith('outlineOffset') || (name === 'color' && this.#options.colorRanges)) this.#arrange();
       else if (name === 'ariaLive') this.#mirror.say(this.#options.text, value);
       else this.#paint();
     }
@@ -153,13 +161,15 @@ export function textOf({ makeMaterial, applyMask }) {
     /**
      * Show the text as its options say. It is done by itself after a change; this tells when.
      *
+     * @param {() => void} [callback] called when it is done, or has failed
      * @returns {Promise<void>}
      * @throws {VextureError} if it cannot be set
      */
-    sync() {
+    sync(callback) {
       this.#syncing ??= this.#syncWhileStale().finally(() => {
         this.#syncing = null;
       });
+      if (callback) this.#syncing.then(() => callback(), () => callback());
       return this.#syncing;
     }
 
@@ -273,27 +283,38 @@ export function textOf({ makeMaterial, applyMask }) {
     #fill(geometry, placed, part) {
       const { clipRect, colorRanges, curveRadius, curve } = this.#options;
       const { boxes } = this.#shapes;
-      const colors = part === 'letters' && colorRanges && placed.clusters ? colorsOf(placed.clusters, colorRanges, this.#options.color) : null;
+      const colors = part === 'letters' && colorRanges && placed.clusters ? colorsOf(placed.clusters, colorRanges, this.#plainColor) : null;
       const baseline = this.#layout?.lines[0]?.baseline ?? 0;
       const bend = curve ? alongCurve(curve, baseline) : curveRadius ? onCylinder(curveRadius) : null;
       geometry.setGlyphs(placed, { boxOf: (shape) => boxes[shape], clip: clipRect, colors, bend, z: 0 });
     }
 
+    /** Colour of what has no colour of its own. */
+    get #plainColor() {
+      return this.#options.color ?? /** @type {any} */ (this.#base)?.color ?? 0xffffff;
+    }
+
     /** Set the colours and opacities. */
     #paint() {
-      const { color, fillOpacity, outlineColor, outlineOpacity, outlineOffsetX, outlineOffsetY, strokeColor, strokeOpacity, depthOffset, fontSize, colorRanges } = this.#options;
-      const base = /** @type {any} */ (this.#base);
-      const plain = colorRanges ? 0xffffff : (color ?? base?.color ?? 0xffffff);
-      paint(this.#material, colorRanges ? 0xffffff : plain, fillOpacity * (base?.opacity ?? 1), depthOffset);
-      this.#material.vertexColors = Boolean(colorRanges);
+      const { fillOpacity, outlineColor, outlineOpacity, outlineOffsetX, outlineOffsetY, strokeColor, strokeOpacity, depthOffset, fontSize, colorRanges } = this.#options;
+      paint(this.#material, colorRanges ? 0xffffff : this.#plainColor, fillOpacity * (this.#base?.opacity ?? 1), depthOffset);
+      if (this.#material.vertexColors !== Boolean(colorRanges)) {
+        this.#material.vertexColors = Boolean(colorRanges);
+        this.#material.needsUpdate = true;
+      }
       for (const [name, part] of this.#parts) {
         const { material } = part;
         if (name === 'outline') paint(material, outlineColor, outlineOpacity, depthOffset);
         if (name === 'stroke') paint(material, strokeColor, strokeOpacity, depthOffset);
         if (name === 'colored') paint(material, null, fillOpacity, depthOffset);
-        part.renderOrder = this.renderOrder + (name === 'outline' ? -STEP : STEP);
         if (name === 'outline') part.position.set(lengthOf(outlineOffsetX, fontSize), -lengthOf(outlineOffsetY, fontSize), 0);
       }
+    }
+
+    /** What three.js calls before it sorts what it draws: the parts follow the text. @param {boolean} [force] */
+    updateMatrixWorld(force) {
+      for (const [name, part] of this.#parts ?? []) part.follow(this, name === 'outline');
+      super.updateMatrixWorld(force);
     }
 
     /** @param {any} renderer @param {any} _scene @param {any} camera */
@@ -315,8 +336,8 @@ export function textOf({ makeMaterial, applyMask }) {
       if (Math.abs(RAY.direction.z) < 1e-12 * RAY.direction.length()) return;
       const distance = -RAY.origin.z / RAY.direction.z;
       RAY.at(distance, HIT);
-      const [left, bottom, right, top] = layout.blockBounds;
-      if (distance < 0 || HIT.x < left || HIT.x > right || HIT.y < bottom || HIT.y > top) return;
+      const [left, bottom, right, top] = shownPart(layout.blockBounds, this.#options.clipRect);
+      if (!(distance >= 0) || HIT.x < left || HIT.x > right || HIT.y < bottom || HIT.y > top) return;
       const glyph = glyphAt(layout, this.#shapes.boxes, HIT.x, HIT.y);
       const local = HIT.clone();
       const point = HIT.clone().applyMatrix4(this.matrixWorld);
@@ -329,9 +350,10 @@ export function textOf({ makeMaterial, applyMask }) {
     copy(source, recursive) {
       const parts = source.children.filter((/** @type {any} */ { isTextPart }) => isTextPart);
       source.remove(...parts);
-      super.copy(source, recursive);
+      Object3D.prototype.copy.call(this, source, recursive); // that of a mesh would share the material, which has a mask
       if (parts.length) source.add(...parts);
-      this.geometry = new GlyphGeometry();
+      this.#take(source.glyphs);
+      this.#setBase(source.#base);
       for (const name of Object.keys(DEFAULTS)) this.change(name, source.get(name));
       return this;
     }
@@ -359,9 +381,6 @@ export function textOf({ makeMaterial, applyMask }) {
   }
   return /** @type {any} */ (Text);
 }
-
-/** What an empty text shows. */
-const NOTHING = Object.freeze({ shapes: new Uint32Array(0), places: new Float32Array(0), clusters: new Uint32Array(0), outlines: undefined, strokes: undefined });
 
 /**
  * @param {Uint32Array} clusters

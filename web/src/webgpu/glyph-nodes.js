@@ -4,7 +4,6 @@ import {
   screenSize, select, step, textureLoad, varying, vec2, vec3, vec4,
 } from 'three/tsl';
 import { GLYPH, LABEL_TEXELS, LABEL_WIDTH, MARGIN, MOST_RIM } from '../glyph-shader.js';
-import { isLabels } from '../mask-options.js';
 import { wordsNode } from './shape-inputs.js';
 
 /** @import { Labels } from '../glyph-shader.js' */
@@ -62,9 +61,10 @@ function labelPlacer(read, isSprite) {
  *   glyph's shape, and colour of a label
  */
 export function glyphNodes(instanced) {
-  const read = isLabels(instanced) ? labelReader(instanced) : null;
+  const labels = instanced === 'glyphs' ? null : instanced;
+  const read = labels && labelReader(labels);
   const vertex = Fn(() => {
-    const put = read ? labelPlacer(read, /** @type {Labels} */ (instanced).areSprites) : (/** @type {Node} */ at) => at;
+    const put = read ? labelPlacer(read, labels?.kind === 'sprites') : (/** @type {Node} */ at) => at;
     const place = glyphAttribute(GLYPH.place), box = glyphAttribute(GLYPH.box), turn = glyphAttribute(GLYPH.turn);
     const ofGlyph = (/** @type {number} */ x, /** @type {number} */ y) => put(place.xyz.add(rotated(vec3(x, y, 0), turn)));
     const corner = /** @type {Node} */ (positionGeometry).xy;
@@ -87,7 +87,7 @@ export function glyphNodes(instanced) {
   });
   const at = /** @type {Node} */ (vertex()).xy.toVar();
   const position = Fn(() => {
-    const put = read ? labelPlacer(read, /** @type {Labels} */ (instanced).areSprites) : (/** @type {Node} */ point) => point;
+    const put = read ? labelPlacer(read, labels?.kind === 'sprites') : (/** @type {Node} */ point) => point;
     const moved = put(glyphAttribute(GLYPH.place).xyz.add(rotated(vec3(at, 0), glyphAttribute(GLYPH.turn))));
     return read ? select(read(2).w.equal(0), put(glyphAttribute(GLYPH.place).xyz), moved) : moved;
   })();

@@ -2,12 +2,12 @@ import { Color } from 'three';
 import { bool, float, materialColor, materialOpacity, mix, texture as textureNode, uniform, uv, vec3, vec4 } from 'three/tsl';
 import { UV_ATTRIBUTES, warnOfMissing } from '../attributes.js';
 import { VextureError, givenOptions, unfit } from '../errors.js';
+import { glyphHooks } from '../glyph-hooks.js';
 import { NAMES, isOfGlyphs, isTranslucent, withOptions } from '../mask-options.js';
 import { takePartIn, warnOfJSON } from '../methods.js';
 import { MaskedMeshes, RayMesh } from '../ray-mesh.js';
 import { WHITE } from '../shape-material.js';
 import { ShownShape, checkMesh, isOn } from '../shown-shape.js';
-import { glyphNodes } from './glyph-nodes.js';
 import { nodeVariant, shapeNode } from './shape-inputs.js';
 import { instancedRoot } from './vector-nodes.js';
 
@@ -174,7 +174,7 @@ export class VectorNodeMask extends WithOptions {
     const { mode, invert, background, map, channel } = this.#shown.options;
     const before = this.#before;
     const { instanced } = this.#shown.options;
-    const glyphs = isOfGlyphs(instanced) ? glyphNodes(/** @type {any} */ (instanced)) : null;
+    const glyphs = isOfGlyphs(instanced) ? (glyphHooks.nodes?.(instanced) ?? null) : null;
     const tint = glyphs?.tint ?? null;
     const opacity = tint ? float(before.opacityNode ?? materialOpacity).mul(tint.a) : float(before.opacityNode ?? materialOpacity);
     const color = tint ? vec4(before.colorNode ?? /** @type {any} */ (materialColor)).mul(vec4(tint.rgb, 1)) : vec4(before.colorNode ?? /** @type {any} */ (materialColor));
