@@ -86,7 +86,7 @@ export class Typesetter {
       if (!Array.isArray(requests)) throw new VextureError(`\`texts\` is ${line(requests)}; give a list of requests`, 'texts');
       for (;;) {
         const { results, needed, wanted } = this.#attempt(requests);
-        if (!needed.length && !wanted.length) return this.#reply({ id, results });
+        if (!needed.length && !wanted.length) return this.#reply({ id, results: message.preload ? results.filter((one) => 'error' in one) : results });
         await Promise.all([...needed.map((one) => one.load()), this.#load(wanted)]);
       }
     } catch (error) {
