@@ -353,13 +353,13 @@ def test_a_copy_shows_the_same_and_is_independent(page: Any) -> None:
         const copy = group.clone().children[0];
         copy.text = 'three';
         await copy.sync();
-        const seen = [text, copy].map(({ text: words, geometry, material: { type, color }, children }) =>
-            [words, geometry.instanceCount, type, color.getHex(), children.length]);
+        const seen = [text, copy].map((one) => [one.text, one.geometry.instanceCount, one.material.type,
+            one.material.color.getHex(), one.children.length, one.customDepthMaterial?.type]);
         copy.dispose();
         text.dispose();
         return seen;
     }""")
-    standard = ["MeshStandardMaterial", 0xFF0000, 1]
+    standard = ["MeshStandardMaterial", 0xFF0000, 1, "MeshDepthMaterial"]
     assert found == [["one", 3, *standard], ["three", 5, *standard]]
 
 

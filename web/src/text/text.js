@@ -59,10 +59,8 @@ export function textOf({ makeMaterial, applyMask }) {
     #mirror = new AriaMirror();
     /** @type {AtlasFont | null} */
     #atlas = null;
-    /** @type {any} */
-    #glyphs;
-    /** @type {any} */
-    #unfollow;
+    /** @type {any} */ #glyphs;
+    /** @type {any} */ #unfollow;
     /** It is held here, and nowhere else: glyphs do not keep texts alive. @type {import('./glyphs.js').GlyphUser} */
     #user;
     /** @type {Error | null} */
@@ -116,8 +114,10 @@ export function textOf({ makeMaterial, applyMask }) {
     /** @param {Material | null} base */
     #setBase(base) {
       this.#base = base;
+      this.#material?.userData.mask.detach(this);
       this.#material?.dispose();
       this.#material = this.#masked('letters');
+      this.#material.userData.mask.attach(this); // its shadow is that of letters
       for (const name of this.#parts.keys()) this.#removePart(name);
       this.#arrange();
     }
