@@ -1,4 +1,5 @@
-import { describe, expect, test } from 'vitest';
+import { expect, test } from 'vitest';
+import { describeWithKernels } from './built-kernels.js';
 import { Converter, convertData, fromContours } from '../src/convert/index.js';
 import { layersOf } from '../src/layers.js';
 import { paintColor } from '../src/walk-map.js';
@@ -15,7 +16,7 @@ const triangles = (count) => fromContours(Array.from({ length: count }, (_, k) =
   return { contours: [contour], color: [(k % 256) / 255, (k >> 8) / 255, 0] };
 }));
 
-describe('drawings at the limits', () => {
+describeWithKernels('drawings at the limits', () => {
   test.each([[200_000, 1], [1, 200_000], [40_000, 1]])('%s x %s is refused, not empty', async (width, height) => {
     await expect(convertData(thin(width, height), { name: 'thin' })).rejects.toThrow(
       /^thin: its shorter side is \S+ of the longer one; rounding shifts by up to 3.1e-5 of it; give a `precision` of \S+, or a wider view box$/,

@@ -1,12 +1,11 @@
-// Calls of kernels in WebAssembly. Without the module, which tools/build_wasm.py builds, all of this is skipped.
-import { existsSync, readFileSync } from 'node:fs';
+// Calls of kernels in WebAssembly.
+import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
-import { describe, expect, it } from 'vitest';
+import { expect, it } from 'vitest';
+import { describeWithKernels } from './built-kernels.js';
 import { Kernels } from '../src/convert/kernels.js';
 
 const FILE = new URL('../kernels/silhouettes.wasm', import.meta.url);
-const isBuilt = existsSync(FILE);
-if (!isBuilt) console.warn('no web/kernels/silhouettes.wasm (make wasm): its tests are skipped');
 
 /** @param {[number, number][]} corners */
 const polygon = (corners) =>
@@ -50,7 +49,7 @@ const silhouette = (kernels, cubics, contours = 1) => {
   ]);
 };
 
-describe.skipIf(!isBuilt)('kernels', () => {
+describeWithKernels('kernels', () => {
   it('are loaded from the package, from bytes, and from a response of any type', async () => {
     const kernels = await Kernels.load(FILE);
     expect(kernels.digest).toMatch(/^[0-9a-f]{12}$/);

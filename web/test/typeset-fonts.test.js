@@ -1,15 +1,13 @@
 // Fonts of texts: files, fallback, errors; shapes, and restarts of their texture.
-import { existsSync } from 'node:fs';
 import { createServer } from 'node:http';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { afterAll, beforeAll, expect, it } from 'vitest';
+import { describeWithKernels } from './built-kernels.js';
 import { ARABIC, CYRILLIC, PACIFICO, fontFile, setText, typesetter } from './typeset-fonts.js';
 import { checkForest } from '../src/check-texels.js';
 import { loadMaps } from '../src/maps.js';
 import { Typesetter } from '../src/typeset/typesetter.js';
 
-const isBuilt = existsSync(new URL('../kernels/silhouettes.wasm', import.meta.url));
-
-describe.skipIf(!isBuilt)('fonts', () => {
+describeWithKernels('fonts', () => {
   /** @type {import('node:http').Server} */
   let server;
   let home = '';
@@ -93,7 +91,7 @@ describe.skipIf(!isBuilt)('fonts', () => {
   });
 });
 
-describe.skipIf(!isBuilt)('requests', () => {
+describeWithKernels('requests', () => {
   const set = (style, text = 'text') => setText(typesetter(), text, style);
 
   it.each([
@@ -129,7 +127,7 @@ describe.skipIf(!isBuilt)('requests', () => {
   });
 });
 
-describe.skipIf(!isBuilt)('shapes', () => {
+describeWithKernels('shapes', () => {
   it('are converted once, before the texts that show them', async () => {
     const setter = typesetter();
     const { reply } = await setter.answer({ id: 1, preload: { fonts: [0], characters: 'abc' } });

@@ -1,12 +1,9 @@
 // Lines of texts: breaks, alignment, anchors, direction and carets.
-import { existsSync } from 'node:fs';
-import { beforeAll, describe, expect, it } from 'vitest';
+import { beforeAll, expect, it } from 'vitest';
+import { describeWithKernels } from './built-kernels.js';
 import { setText, typesetter } from './typeset-fonts.js';
 
-const isBuilt = existsSync(new URL('../kernels/silhouettes.wasm', import.meta.url));
-if (!isBuilt) console.warn('no web/kernels/silhouettes.wasm (make wasm): texts are not set');
-
-describe.skipIf(!isBuilt)('lines', () => {
+describeWithKernels('lines', () => {
   /** @type {import('../src/typeset/typesetter.js').Typesetter} */
   let setter;
   const set = (text, style) => setText(setter, text, style);

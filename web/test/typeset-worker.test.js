@@ -1,11 +1,9 @@
 // The worker of texts, in this thread: it answers what comes before it is loaded, and outlives errors.
-import { existsSync } from 'node:fs';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { afterAll, beforeAll, expect, it } from 'vitest';
+import { describeWithKernels } from './built-kernels.js';
 import { PACIFICO, fontFile } from './typeset-fonts.js';
 
-const isBuilt = existsSync(new URL('../kernels/silhouettes.wasm', import.meta.url));
-
-describe.skipIf(!isBuilt)('the worker', () => {
+describeWithKernels('the worker', () => {
   const scope = /** @type {any} */ (globalThis);
   /** @type {any[]} */
   const posted = [];
