@@ -99,18 +99,28 @@ describeWithKernels('requests', () => {
     ['text', { text: 'x'.repeat(1_000_001) }, '`text` has 1000001 UTF-16 units; the limit is 1000000; divide it into several texts'],
     ['fonts', { fonts: [] }, '`fonts` is []; give the ids of one font or more'],
     ['fonts', { fonts: [9] }, 'the font 9 is unknown; name it to the worker first'],
-    ['fontSize', { fontSize: 0 }, '`fontSize` is 0; give a number above 0 to 1000000000'],
+    ['fontSize', { fontSize: -1 }, '`fontSize` is -1; give a number from 0 to 1000000000'],
+    ['tabSize', { tabSize: -1 }, '`tabSize` is -1; give a number from 0 to 1000000000'],
     ['maxWidth', { maxWidth: -1 }, '`maxWidth` is -1; give a number from 0 to 1000000000'],
     ['letterSpacing', { letterSpacing: Number.NaN }, null],
     ['textAlign', { textAlign: 'middle' }, '`textAlign` is "middle"; it must be one of left, right, center, justify, start, end'],
     ['anchorY', { anchorY: 'baseline' }, null],
-    ['features', { features: 'small caps' }, '`features` has "small caps"; write tags of four letters, such as \'smcp, ss01=2\''],
-    ['language', { language: 'a b' }, null],
-    ['weight', { weight: 'bold' }, '`weight` has "bold" for "wght"; give a number'],
+    ['fontFeatures', { features: 'small caps' }, '`fontFeatures` has "small caps"; write tags of four letters, such as \'smcp, ss01=2\''],
+    ['lang', { language: 'a b' }, '`lang` is "a b"; give a tag such as \'sr\' or \'zh-Hant\''],
+    ['fontWeight', { weight: 'bold' }, '`fontWeight` has "bold" for "wght"; give a number'],
+    ['fontVariations', { variations: { wdth: 'narrow' } }, '`fontVariations` has "narrow" for "wdth"; give a number'],
   ])('with a wrong %s are refused', async (field, style, message) => {
     const found = await set(style);
     if (message) expect(found).toMatchObject({ error: message, field });
     else expect(found.field ?? 'none').toBe(field === 'letterSpacing' ? 'none' : field);
+  });
+
+  it('of no size show nothing', async () => {
+    const found = await set({ fontSize: 0, outlineWidth: 0.1, strokeWidth: 0.1, maxWidth: 3 }, 'no\tsize\nat all');
+    expect(found).toMatchObject({ visibleBounds: [0, 0, 0, 0], lineHeight: 0, missing: [] });
+    expect(found.shapes.length).toBe(0);
+    expect(found.lines.length).toBe(2);
+    expect([...found.carets, ...found.blockBounds].every((value) => value === 0)).toBe(true);
   });
 
   it('refused leave the others in peace', async () => {

@@ -39,6 +39,27 @@ describeWithKernels('lines', () => {
     expect(broken.lines[0].right).toBeGreaterThan((await set('soft')).lines[0].right + 0.1);
   });
 
+  it('have tabs that lead to stops', async () => {
+    const space = caret(await set(' '), 0)[1], stop = 8 * space;
+    const starts = async (text, style) => {
+      const found = await set(text, style);
+      return [...text.matchAll(/\t+/g)].map(({ index, 0: { length } }) => caret(found, index + length - 1)[1]);
+    };
+    const near = (...values) => values.map((value) => expect.closeTo(value, 5));
+    expect(await starts('a\tb\tc')).toEqual(near(stop, 2 * stop));
+    expect(await starts('\t\tb')).toEqual(near(2 * stop));
+    expect(await starts('\tb', { tabSize: 2 })).toEqual(near(2 * space));
+    expect(await starts('a\tb', { tabSize: 0 })).toEqual(near((await set('a')).lines[0].right));
+    const wide = (await set('mmmmm')).lines[0].right;
+    expect(wide).toBeGreaterThan(stop);
+    expect(await starts('mmmmm\tb')).toEqual(near(Math.ceil(wide / stop + 0.5 / 8) * stop));
+    expect(await starts('a\tb', { fontSize: 3, letterSpacing: 0.5 })).toEqual(near(8 * (3 * space + 0.5)));
+    const { lines } = await set('a\tb\tc\td', { maxWidth: 2.5 * stop });
+    expect(lines.map(({ first }) => first)).toEqual([0, 6]);
+    const hebrew = await set('א\tב', { fonts: [0] });
+    expect(hebrew.lines[0].right - caret(hebrew, 2)[0]).toBeCloseTo(stop, 5);
+  });
+
   it('are no wider than allowed', async () => {
     const { lines } = await set('The quick brown fox jumps over the lazy dog, and over the fence', { maxWidth: 5, fontSize: 0.7 });
     expect(lines.length).toBeGreaterThan(3);

@@ -3,26 +3,30 @@
 /** @import { AtlasGlyph, AtlasMetrics } from './atlas-font.js' */
 /** @import { Request, TextLayout, TextLine } from './layout.js' */
 
-/** @typedef {{ index: number, length: number, glyph: AtlasGlyph, advance: number, isBlank: boolean }} Letter */
+/** @typedef {{ index: number, length: number, glyph: AtlasGlyph, advance: number, isBlank: boolean, isTab: boolean }} Letter */
 
-/** @typedef {{ letters: Letter[], width: number, first: number, end: number }} Row */
+/** @typedef {{ letters: Letter[], width: number, indent: number, first: number, end: number }} Row in ems */
+
+/** Width of a space of a font without one, in ems. */
+const DEFAULT_SPACE = 0.25;
 
 /**
  * Set a text.
  *
  * @param {AtlasMetrics} metrics
- * @param {Omit<Request, 'fonts'>} request
+ * @param {Omit<Request, 'fonts'>} wanted
  * @returns {TextLayout}
  */
-export function setLines(metrics, request) {
-  const { text, fontSize, textAlign } = request;
+export function setLines(metrics, wanted) {
+  const { text, fontSize, textAlign } = wanted;
+  const request = fontSize > 0 ? wanted : { ...wanted, letterSpacing: 0, textIndent: 0, maxWidth: Infinity, fontSize: 1 }; // shows nothing
   const { lines } = metrics;
   /** @type {Set<number>} */
   const missing = new Set();
-  const rows = rowsOf(lettersOf(metrics, request, missing), request);
+  const rows = rowsOf(lettersOf(metrics, request, missing), request, metrics.glyphs[' ']?.advance ?? DEFAULT_SPACE);
   const normal = lines.ascender - lines.descender + lines.line_gap;
   const leading = request.lineHeight === 'normal' ? normal : request.lineHeight;
-  const widest = Math.max(...rows.map(({ width }) => width), 0);
+  const widest = rows.reduce((most, { width, indent }) => Math.max(most, width + indent), 0);
   const height = rows.length * leading;
   const first = (leading - (lines.ascender - lines.descender)) / 2 + lines.ascender; // half of the leading is above
   const marks = { first, last: first + (rows.length - 1) * leading, height, ...lines };
@@ -37,15 +41,15 @@ export function setLines(metrics, request) {
   const carets = new Float32Array(4 * (text.length + 1));
   const ink = [Infinity, Infinity, -Infinity, -Infinity];
   /** @type {TextLine[]} */
-  const set = rows.map(({ letters, width, first: start, end }, row) => {
-    const baseline = y0 - (first + row * leading) * fontSize, left = x0 + shift * (widest - width) * fontSize;
+  const set = rows.map(({ letters, width, indent, first: start, end }, row) => {
+    const baseline = y0 - (first + row * leading) * fontSize, left = x0 + (indent + shift * (widest - width - indent)) * fontSize;
     let x = left;
     for (const { index, length, glyph, advance } of letters) {
       const after = x + advance * fontSize;
       for (let k = 0; k < length; k++) {
         carets.set([k ? after : x, after, baseline + lines.descender * fontSize, baseline + lines.ascender * fontSize], 4 * (index + k));
       }
-      if (glyph.shape !== null && glyph.square && glyph.box) {
+      if (glyph.shape !== null && glyph.square && glyph.box && fontSize > 0) {
         shapes.push(glyph.shape);
         clusters.push(index);
         const [dx, dy, side] = glyph.square;
@@ -92,7 +96,7 @@ function lettersOf({ glyphs, kerning, notdef }, { text, letterSpacing, fontSize 
       if (!glyph) missing.add(/** @type {number} */ (character.codePointAt(0)));
       const { advance } = glyph ?? notdef;
       const added = (kerning[character]?.[characters[k + 1]] ?? 0) + letterSpacing / fontSize;
-      const letter = { index, length: character.length, glyph: glyph ?? notdef, advance: advance + added, isBlank };
+      const letter = { index, length: character.length, glyph: glyph ?? notdef, advance: advance + added, isBlank, isTab: character === '\t' };
       index += character.length;
       return letter;
     });
@@ -106,32 +110,38 @@ function lettersOf({ glyphs, kerning, notdef }, { text, letterSpacing, fontSize 
  *
  * @param {Letter[][]} paragraphs
  * @param {Omit<Request, 'fonts'>} request
+ * @param {number} space width of one
  * @returns {Row[]}
  */
-function rowsOf(paragraphs, { maxWidth, whiteSpace, overflowWrap, fontSize, textIndent }) {
+function rowsOf(paragraphs, { maxWidth, whiteSpace, overflowWrap, fontSize, textIndent, tabSize, letterSpacing }, space) {
   const most = whiteSpace === 'nowrap' ? Infinity : maxWidth / fontSize;
+  const stop = tabSize * (space + letterSpacing / fontSize);
+  const widen = (/** @type {number} */ width, /** @type {Letter} */ letter) => {
+    if (letter.isTab) letter.advance = stop > 0 ? (Math.floor(width / stop + 0.5 / tabSize) + 1) * stop - width : 0;
+    return width + letter.advance;
+  };
   let start = 0;
   return paragraphs.flatMap((letters) => {
     /** @type {Row[]} */
     const rows = [];
-    let from = 0, width = 0, opportunity = -1;
+    let from = 0, indent = textIndent / fontSize, width = indent, opportunity = -1;
     const close = (/** @type {number} */ end) => {
       const own = letters.slice(from, end);
       let inked = own.length;
       while (inked > 1 && own[inked - 1].isBlank) inked--; // blanks hang at the end of a line
       const last = letters[end - 1];
       const after = last ? last.index + last.length : start;
-      rows.push({ letters: own, width: own.slice(0, inked).reduce((sum, { advance }) => sum + advance, 0), first: letters[from]?.index ?? start, end: after });
+      rows.push({ letters: own, width: own.slice(0, inked).reduce((sum, { advance }) => sum + advance, 0), indent, first: letters[from]?.index ?? start, end: after });
       from = end;
+      indent = 0;
       opportunity = -1;
     };
-    width = textIndent / fontSize;
     for (let k = 0; k < letters.length; k++) {
-      width += letters[k].advance;
+      width = widen(width, letters[k]);
       if (letters[k].isBlank) opportunity = k + 1;
       else if (width > most && (opportunity > from || (overflowWrap === 'break-word' && k > from))) {
         close(opportunity > from ? opportunity : k);
-        width = letters.slice(from, k + 1).reduce((sum, { advance }) => sum + advance, 0);
+        width = letters.slice(from, k + 1).reduce(widen, 0);
       }
     }
     close(letters.length);

@@ -5,6 +5,9 @@ import { Matrix4, Quaternion, Vector3 } from 'three';
 
 /** @typedef {(x: number, y: number) => Frame} Bend place and rotation of what is at a point of the plane */
 
+/** Whether a radius is that of a cylinder: 0 and infinity stand for none. @param {number} radius */
+export const isBent = (radius) => radius !== 0 && Number.isFinite(radius);
+
 /**
  * On a vertical cylinder that touches the plane at x = 0.
  *

@@ -11,6 +11,7 @@
  * @property {string} features
  * @property {string} language
  * @property {number} letterSpacing
+ * @property {number} tabSize
  * @property {number | 'normal'} lineHeight distance of baselines
  * @property {number} maxWidth
  * @property {number} textIndent

@@ -18,6 +18,7 @@ import { weightOf } from './faces.js';
  * @property {string} fontFeatures OpenType features, such as `smcp, ss01, -liga`
  * @property {string} lang language, such as `sr`, for fonts with forms of their own for it
  * @property {number} letterSpacing added after each character
+ * @property {number} tabSize distance of tab stops in widths of a space; 8 by default
  * @property {number | 'normal'} lineHeight distance of lines in ems; `normal`: that of the font
  * @property {number} maxWidth lines are broken to be no longer
  * @property {number} textIndent of the first line of each paragraph
@@ -60,7 +61,7 @@ import { weightOf } from './faces.js';
 /** @type {Readonly<LayoutOptions>} */
 export const LAYOUT = Object.freeze({
   text: '', font: null, fontSize: 1, fontWeight: 'normal', fontStyle: 'normal', fontVariations: Object.freeze({}), fontFeatures: '', lang: '',
-  letterSpacing: 0, lineHeight: 'normal', maxWidth: Infinity, textIndent: 0, textAlign: 'start', whiteSpace: 'normal',
+  letterSpacing: 0, tabSize: 8, lineHeight: 'normal', maxWidth: Infinity, textIndent: 0, textAlign: 'start', whiteSpace: 'normal',
   overflowWrap: 'normal', direction: 'auto', writingMode: 'horizontal-tb', anchorX: 0, anchorY: 0, outlineWidth: 0, strokeWidth: 0,
 });
 
@@ -94,7 +95,7 @@ const ANCHORS = Object.freeze({
 
 /** Options that are numbers, and their least value. */
 const NUMBERS = Object.freeze({
-  fontSize: 0, letterSpacing: -Infinity, maxWidth: 0, textIndent: -Infinity, fillOpacity: 0, outlineOpacity: 0, strokeOpacity: 0,
+  fontSize: 0, letterSpacing: -Infinity, tabSize: 0, maxWidth: 0, textIndent: -Infinity, fillOpacity: 0, outlineOpacity: 0, strokeOpacity: 0,
   depthOffset: -Infinity, curveRadius: -Infinity,
 });
 

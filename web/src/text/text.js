@@ -4,7 +4,7 @@ import { VextureError, givenOptions, line } from '../errors.js';
 import { installGlyphShader } from '../glyph-shader.js';
 import { AriaMirror } from './aria-mirror.js';
 import { AtlasFont } from './atlas-font.js';
-import { alongCurve, onCylinder } from './bends.js';
+import { alongCurve, isBent, onCylinder } from './bends.js';
 import { weightOf } from './faces.js';
 import { GlyphGeometry } from './glyph-geometry.js';
 import { Glyphs } from './glyphs.js';
@@ -285,7 +285,7 @@ export function textOf({ makeMaterial, applyMask }) {
       const { boxes } = this.#shapes;
       const colors = part === 'letters' && colorRanges && placed.clusters ? colorsOf(placed.clusters, colorRanges, this.#plainColor) : null;
       const baseline = this.#layout?.lines[0]?.baseline ?? 0;
-      const bend = curve ? alongCurve(curve, baseline) : curveRadius ? onCylinder(curveRadius) : null;
+      const bend = curve ? alongCurve(curve, baseline) : isBent(curveRadius) ? onCylinder(curveRadius) : null;
       geometry.setGlyphs(placed, { boxOf: (shape) => boxes[shape], clip: clipRect, colors, bend, z: 0 });
     }
 

@@ -92,8 +92,8 @@ class Layout {
     const both = (/** @type {Kind['part']} */ part, /** @type {number} */ width) =>
       [false, true].map((isTurned) => kindOf(part, width / fontSize, isTurned));
     this.kinds = both('', 0);
-    this.outlines = outlineWidth > 0 ? new Drawn(both('o', outlineWidth)) : null;
-    this.strokes = strokeWidth > 0 ? new Drawn(both('s', strokeWidth)) : null;
+    this.outlines = outlineWidth > 0 && fontSize > 0 ? new Drawn(both('o', outlineWidth)) : null;
+    this.strokes = strokeWidth > 0 && fontSize > 0 ? new Drawn(both('s', strokeWidth)) : null;
     this.carets = new Float64Array(4 * (text.length + 1));
     /** @type {Box} */
     this.ink = [Infinity, Infinity, -Infinity, -Infinity];
@@ -136,7 +136,7 @@ class Layout {
       const room = spacing + (extra ? extra(cluster, after) : 0), begin = at;
       if (isReversed) at += room;
       for (let n = k; n < next; n++) {
-        if (shaped.glyphs[n] >= 0) this.#placeGlyph(piece, n, at, base);
+        if (shaped.glyphs[n] >= 0 && scale > 0) this.#placeGlyph(piece, n, at, base);
         at += shaped.advances[n] * scale;
       }
       if (!isReversed) at += room;

@@ -2,7 +2,7 @@
 import * as hb from 'harfbuzzjs';
 import { NEWLINE, breaksOf, graphemeEnds } from './breaks.js';
 import { lineBreaker } from './libraries.js';
-import { isCursive, levelsOf, runsOf } from './runs.js';
+import { isCursive, levelsOf, primaryFont, runsOf } from './runs.js';
 import { shapeRun } from './shaper.js';
 
 /** @import { Loadable } from './libraries.js' */
@@ -44,8 +44,10 @@ const LONGEST_RUN = 4096;
 /** UTF-16 units of a user-perceived character that is not divided. */
 const LONGEST_GRAPHEME = 64;
 
-/** Widths of a space that a tab has. */
-const TAB = 8;
+const TAB = '\t';
+
+/** Part of the width of a space that a tab has at least (CSS Text 3, 4.2). */
+const LEAST_TAB = 0.5;
 
 /** Widths of a line that are more by mere rounding, relatively. */
 const SAME = 1e-9;
@@ -73,6 +75,39 @@ class Paragraph {
     this.style = style;
     this.level = level;
     this.#shaped = runs.map((run) => this.#shape(run, run.start, run.end));
+    /** Places of its tabs. */
+    this.tabs = runs.filter((run) => text[run.start] === TAB).map((run) => run.start);
+    const space = this.tabs.length ? spaceOf(style) : 0;
+    this.least = LEAST_TAB * space;
+    /** Distance of places to which tabs lead. */
+    this.stop = space > 0 ? style.tabSize * (space + style.letterSpacing) : 0;
+    /** Where `widthOf` has come to: most callers lengthen a part. */
+    this.seen = { from: -1, to: 0, next: 0, tabs: 0 };
+  }
+
+  /** Width of a tab that begins at a place of its line. @param {number} at */
+  tabWidth(at) {
+    const { stop, least } = this;
+    if (!(stop > 0)) return 0;
+    const left = (Math.floor(at / stop + SAME) + 1) * stop - at;
+    return left < least ? left + stop : left;
+  }
+
+  /**
+   * Width of a part as a line.
+   *
+   * @param {Float64Array} sums of widths, without tabs
+   * @param {number} from
+   * @param {number} to
+   */
+  widthOf(sums, from, to) {
+    const { start, tabs } = this, before = sums[from - start];
+    if (!tabs.length) return sums[to - start] - before;
+    if (this.seen.from !== from || this.seen.to > to) this.seen = { from, to, next: firstOf(tabs.length, (k) => tabs[k] >= from), tabs: 0 };
+    const { seen } = this, indent = from === start ? this.style.textIndent : 0;
+    for (; tabs[seen.next] < to; seen.next++) seen.tabs += this.tabWidth(indent + sums[tabs[seen.next] - start] - before + seen.tabs);
+    seen.to = to;
+    return sums[to - start] - before + seen.tabs;
   }
 
   /** @param {Run} run @param {number} start @param {number} end */
@@ -84,11 +119,12 @@ class Paragraph {
     return shaped;
   }
 
-  /** Sums of the widths before each character. */
+  /** Sums of the widths before each character; those of tabs, which depend on their lines, are 0. */
   sums() {
     const { start, end, runs, style } = this, sums = new Float64Array(end - start + 1);
     runs.forEach((run, k) => {
-      const { glyphs, clusters, advances, count, instance } = this.#shaped[k], scale = style.fontSize / instance.em, spacing = spacingOf(run, style);
+      if (this.text[run.start] === TAB) return;
+      const { clusters, advances, count, instance } = this.#shaped[k], scale = style.fontSize / instance.em, spacing = spacingOf(run, style);
       for (let n = 0; n < count; n++) {
         sums[clusters[n] - start + 1] += advances[n] * scale + (n === 0 || clusters[n] !== clusters[n - 1] ? spacing : 0);
       }
@@ -111,11 +147,13 @@ class Paragraph {
     while (trimmed > first && SPACE.test(text[trimmed - 1])) trimmed--;
     /** @type {Piece[]} */
     const pieces = [];
+    const indent = first === this.start ? style.textIndent : 0;
     let width = 0, trail = 0;
-    runs.forEach((run, k) => {
-      if (run.end <= first || run.start >= end) return;
+    for (let k = firstOf(runs.length, (n) => runs[n].end > first); k < runs.length && runs[k].start < end; k++) {
+      const run = runs[k];
       const low = Math.max(run.start, first), high = Math.min(run.end, end);
       const piece = this.#piece(run, this.#shaped[k], low, high);
+      if (text[low] === TAB) widen(piece, this.tabWidth(indent + width + trail));
       const isCut = trimmed > low && trimmed < high;
       const parts = isCut ? [this.#piece(run, piece.shaped, low, trimmed), this.#piece(run, piece.shaped, trimmed, high)] : [piece];
       for (const part of parts) {
@@ -127,14 +165,13 @@ class Paragraph {
         }
         pieces.push(part);
       }
-    });
+    }
     const isSoft = end < this.end;
     if (isSoft && text[end - 1] === SOFT_HYPHEN && pieces.length) {
       const hyphen = this.#hyphen(pieces[pieces.length - 1], end);
       width += widthOf(hyphen);
       pieces.push(hyphen);
     }
-    const indent = first === this.start ? style.textIndent : 0;
     return { first, end, next, pieces: inVisualOrder(pieces), width, trail, indent, level: this.level, isSoft };
   }
 
@@ -224,11 +261,11 @@ const spacingOf = (run, style) => (style.letterSpacing && !isCursive(run.script)
 function wrap(paragraph, next) {
   const { text, start, end, style } = paragraph, { maxWidth } = style;
   const sums = paragraph.sums(), limit = maxWidth * (1 + SAME);
-  if (sums[end - start] + style.textIndent <= limit) return [paragraph.line(start, end, next)];
+  if (paragraph.widthOf(sums, start, end) + style.textIndent <= limit) return [paragraph.line(start, end, next)];
   const places = breaksOf(text.slice(start, end)).map((place) => place + start);
   const trimmed = (/** @type {number} */ from, /** @type {number} */ to) => {
     while (to > from && SPACE.test(text[to - 1])) to--;
-    return sums[to - start] - sums[from - start];
+    return paragraph.widthOf(sums, from, to);
   };
   /** @type {Line[]} */
   const lines = [];
@@ -274,15 +311,25 @@ function brokenWord(paragraph, sums, from, to, room, goesOn) {
   return paragraph.line(from, from + ends[0], goesOn(from + ends[0]));
 }
 
-/** Make control characters blank; a tab is as wide as some spaces. @param {Shaped} shaped @param {string} text */
+/** Width of a space of a text. @param {Style} style */
+function spaceOf(style) {
+  const { font, em } = style.instance(primaryFont(style.fonts)), space = font.nominalGlyph(0x20);
+  return ((space === undefined ? em / 4 : font.glyphHAdvance(space)) * style.fontSize) / em;
+}
+
+/** Give a tab a width. @param {Piece} piece @param {number} width */
+function widen(piece, width) {
+  piece.shaped = { ...piece.shaped, advances: piece.shaped.advances.map(() => (piece.scale > 0 ? width / piece.scale : 0)) };
+  piece.spacing = 0;
+}
+
+/** Make control characters blank. @param {Shaped} shaped @param {string} text */
 function blankControls(shaped, text) {
-  const { font, em } = shaped.instance;
   for (let k = 0; k < shaped.count; k++) {
     const code = text.charCodeAt(shaped.clusters[k]);
     if (code >= 0x20 && (code < 0x7f || code > 0x9f)) continue;
     shaped.glyphs[k] = -1;
-    const space = font.nominalGlyph(0x20);
-    shaped.advances[k] = code === 9 ? TAB * (space === undefined ? em / 4 : font.glyphHAdvance(space)) : 0;
+    shaped.advances[k] = 0;
   }
 }
 

@@ -120,11 +120,15 @@ export function levelsOf(text, direction, needed) {
     return STAND_INS[bidi.content.getBidiCharTypeName(character)]?.repeat(2) ?? character;
   });
   const { levels, paragraphs } = bidi.content.getEmbeddingLevels(seen, direction === 'auto' ? undefined : direction);
-  return { levels, level: paragraphs[0]?.level ?? (direction === 'rtl' ? 1 : 0) };
+  const level = paragraphs[0]?.level ?? (direction === 'rtl' ? 1 : 0);
+  for (const { index, 0: separator } of text.matchAll(/[ \t]*\t/g)) levels.fill(level, index, index + separator.length); // rule L1
+  return { levels, level };
 }
 
 /** Characters that show nothing, if a font lacks them. */
 const INVISIBLE = /[\p{Default_Ignorable_Code_Point}\p{Cc}]/u;
+
+const TAB = '\t';
 
 const EMOJI = /^\p{Emoji}\ufe0f|^\p{Emoji_Presentation}(?!\ufe0e)|^\p{RI}{2}|^[#*0-9]\ufe0f?\u20e3/u;
 
@@ -148,7 +152,7 @@ function rangesOf(ranges) {
 const PLAIN = /^[\x20-\x7e]*$/;
 
 /**
- * Divide a paragraph into runs.
+ * Divide a paragraph into runs; a tab is one by itself, as its width depends on what is before it in its line.
  *
  * @param {string} text
  * @param {object} about
@@ -186,7 +190,8 @@ export function runsOf(text, { fonts, levels, isVertical, needed, missing }) {
     /** @type {Pick<Run, 'font' | 'script' | 'isUpright'>} */
     const { font, script, isUpright } = about;
     const level = levels ? levels[start] : 0;
-    const isSame = run && (script === SHARED || run.script === SHARED || run.script === script);
+    const isTab = cluster === TAB || text[start - 1] === TAB;
+    const isSame = run && !isTab && (script === SHARED || run.script === SHARED || run.script === script);
     if (run && isSame && run.font === font && run.level === level && run.isUpright === isUpright) {
       run.end = end;
       if (script !== SHARED) run.script = script;

@@ -5,6 +5,9 @@ import { featuresOf } from './shaper.js';
 
 /** @import { Instance, TypeFont, Variations } from './font.js' */
 
+/** Options of a text by what requests name them. @type {Record<string, string>} */
+const OPTIONS = { features: 'fontFeatures', language: 'lang', variations: 'fontVariations', weight: 'fontWeight' };
+
 /**
  * @typedef {object} Request Lengths are in the text's own units.
  * @property {string} text
@@ -16,6 +19,7 @@ import { featuresOf } from './shaper.js';
  * @property {string} [features] as CSS or HarfBuzz writes them
  * @property {string} [language]
  * @property {number} [letterSpacing]
+ * @property {number} [tabSize]
  * @property {number | 'normal'} [lineHeight] a factor of `fontSize`
  * @property {number} [maxWidth]
  * @property {number} [textIndent]
@@ -77,8 +81,9 @@ export class Style {
       throw new VextureError(`\`text\` has ${text.length} UTF-16 units; the limit is ${MOST_UNITS}; divide it into several texts`, 'text');
     }
     this.fonts = fontsOf(request.fonts, fonts);
-    this.fontSize = number(request, 'fontSize', 1, Number.MIN_VALUE);
+    this.fontSize = number(request, 'fontSize', 1, 0);
     this.letterSpacing = letterSpacing ? number(request, 'letterSpacing', 0) : 0;
+    this.tabSize = number(request, 'tabSize', 8, 0);
     this.lineHeight = lineHeight === undefined || lineHeight === 'normal' ? null : number(request, 'lineHeight', 1, 0);
     this.maxWidth = maxWidth === undefined || maxWidth === null || maxWidth === Infinity ? Infinity : number(request, 'maxWidth', 0, 0);
     this.textIndent = number(request, 'textIndent', 0);
@@ -124,15 +129,14 @@ function fontsOf(ids, fonts) {
 
 /**
  * @param {Request} request
- * @param {'fontSize' | 'letterSpacing' | 'lineHeight' | 'maxWidth' | 'textIndent' | 'outlineWidth' | 'strokeWidth'} name
+ * @param {'fontSize' | 'letterSpacing' | 'tabSize' | 'lineHeight' | 'maxWidth' | 'textIndent' | 'outlineWidth' | 'strokeWidth'} name
  * @param {number} usual
  * @param {number} [least]
  */
 function number(request, name, usual, least = -LARGEST) {
   const value = request[name] ?? usual;
   if (typeof value === 'number' && value >= least && value <= LARGEST) return value;
-  const range = least === 0 ? 'from 0' : least > 0 ? 'above 0' : `from ${least}`;
-  throw new VextureError(`\`${name}\` is ${line(value)}; give a number ${range} to ${LARGEST}`, name);
+  throw new VextureError(`\`${name}\` is ${line(value)}; give a number from ${least} to ${LARGEST}`, name);
 }
 
 /**
@@ -167,7 +171,7 @@ function anchor(request, name, names, usual) {
 /** @param {unknown} language */
 function languageOf(language) {
   if (typeof language === 'string' && /^[a-z\d]{1,8}([-_][a-z\d]{1,8})*$/i.test(language)) return language;
-  throw new VextureError(`\`language\` is ${line(language)}; give a tag such as 'sr' or 'zh-Hant'`, 'language');
+  throw new VextureError(`\`${OPTIONS.language}\` is ${line(language)}; give a tag such as 'sr' or 'zh-Hant'`, OPTIONS.language);
 }
 
 /** @param {string} text */
@@ -176,7 +180,7 @@ function featureList(text) {
   if (!list) {
     const found = featuresOf(String(text));
     if (typeof found === 'string') {
-      throw new VextureError(`\`features\` has ${line(found)}; write tags of four letters, such as 'smcp, ss01=2'`, 'features');
+      throw new VextureError(`\`${OPTIONS.features}\` has ${line(found)}; write tags of four letters, such as 'smcp, ss01=2'`, OPTIONS.features);
     }
     if (features.size >= MOST_FEATURES) features.clear();
     features.set(text, (list = found));
@@ -190,7 +194,7 @@ function checkedVariations({ variations, weight, italic }) {
   const all = { ...(weight === undefined ? null : { wght: weight }), ...(italic ? { ital: 1, slnt: -LARGEST } : null), ...variations };
   for (const [tag, value] of Object.entries(all)) {
     if (typeof value !== 'number' || Number.isNaN(value)) {
-      const name = tag === 'wght' && variations?.wght === undefined ? 'weight' : 'variations';
+      const name = tag === 'wght' && variations?.wght === undefined ? OPTIONS.weight : OPTIONS.variations;
       throw new VextureError(`\`${name}\` has ${line(value)} for ${line(tag)}; give a number`, name);
     }
   }
