@@ -92,6 +92,28 @@ export async function fetchBytes(url, options, most, onBytes) {
 }
 
 /**
+ * The content of a file on this machine, in Node.js; null for other addresses, and in pages, which may not read it.
+ *
+ * @param {string} url
+ * @param {number} most bytes
+ * @returns {Promise<Uint8Array<ArrayBuffer> | null>}
+ * @throws {VextureError} if it cannot be read, or is longer
+ */
+export async function fileBytes(url, most) {
+  if (!url.startsWith('file:') || !('process' in globalThis)) return null;
+  const files = 'node:fs/promises'; // a name that bundlers of pages leave alone
+  const { readFile, stat } = await import(/* @vite-ignore */ /* webpackIgnore: true */ files);
+  const place = new URL(url);
+  try {
+    const { size } = await stat(place);
+    if (size > most) throw new VextureError(`${url}: longer than ${most} bytes; check the address`, 'byteLength');
+    return new Uint8Array(await readFile(place));
+  } catch (error) {
+    throw error instanceof VextureError ? error : new VextureError(`${url}: cannot be read (${line(error)}); check the address`, 'url', { cause: error });
+  }
+}
+
+/**
  * Return whether an error means that a file could not be fetched, as opposed to invalid content.
  *
  * @param {unknown} error

@@ -11,7 +11,7 @@ import { Label } from './label.js';
 import { chosen, glyphAt } from './layout.js';
 import { LAYOUT, checkOption, requestOf } from './text-options.js';
 import { isUpright, readViewport } from './viewport.js';
-import { warnOf } from './warnings.js';
+import { reportOnce, warnOf } from './warnings.js';
 
 /** @import { Material } from 'three' */
 /** @import { LabelOptions } from './label.js' */
@@ -167,7 +167,7 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       if (!problem) return void this.dispatchEvent(/** @type {any} */ ({ type: 'synccomplete' }));
       const message = problem instanceof Error ? problem.message : String(problem);
       this.dispatchEvent(/** @type {any} */ ({ type: 'error', message }));
-      console.error(`vexture: ${message}`);
+      reportOnce(message);
       throw problem;
     }
 

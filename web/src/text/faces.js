@@ -30,8 +30,21 @@ const NORMAL = 400,
 const OTHER_SIDE = 1000,
   OTHER_STYLE = 4000;
 
-/** Noto Sans, which the package brings along; bundlers recognise this form. */
+/** The file of the package; bundlers recognise this form. */
 const bundled = () => new URL('../../fonts/noto-sans.woff', import.meta.url);
+
+/**
+ * Noto Sans in its regular face, with Latin, Greek and Cyrillic letters, which the package brings along: for lists of fonts
+ * that end with it, such as `[address, NOTO_SANS]`.
+ *
+ * @type {Readonly<FontFace>}
+ */
+export const NOTO_SANS = Object.freeze({
+  get src() {
+    return bundled(); // when it is wanted: a bundle that is no module has no address
+  },
+  family: 'Noto Sans of vexture',
+});
 
 /** Font of texts to which none is given; null: that of the package. @type {FontSource | null} */
 let usual = null;
@@ -39,7 +52,7 @@ let usual = null;
 /**
  * Set the font of all texts to which none is given.
  *
- * @param {FontSource | null} font null: Noto Sans in its regular face, with Latin, Greek and Cyrillic letters
+ * @param {FontSource | null} font null: `NOTO_SANS`
  */
 export function setDefaultFont(font) {
   usual = font;
@@ -51,7 +64,7 @@ export function setDefaultFont(font) {
  * @throws {VextureError} if it is none
  */
 export function facesOf(font) {
-  const given = font ?? usual ?? bundled();
+  const given = font ?? usual ?? NOTO_SANS;
   const faces = (Array.isArray(given) ? given : [given]).map(faceOf);
   if (!faces.length) throw new VextureError('the list of fonts is empty; give the address or the content of one', 'font');
   return faces;

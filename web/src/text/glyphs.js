@@ -1,5 +1,5 @@
 // The glyphs of a page: a worker that sets texts, and the texture that holds the shapes of what they show.
-import { VextureError, givenOptions, line, shortened } from '../errors.js';
+import { VextureError, givenOptions, line, shortened, unfit } from '../errors.js';
 import { loadMaps } from '../maps.js';
 import { chooseFaces, facesOf } from './faces.js';
 import { GrowingTexture } from './growing-texture.js';
@@ -12,6 +12,8 @@ import { GrowingTexture } from './growing-texture.js';
  * @typedef {object} GlyphsOptions Where glyphs are made, and how much memory they may take.
  * @property {import('../convert/kernel-modules.js').KernelSources} [kernels] addresses or contents of the modules
  *   `silhouettes`, `maps` and `strokes`; by default those of this package
+ * @property {string | URL | BufferSource} [harfbuzz] address or content of `harfbuzz.wasm`, for pages; by default that beside the
+ *   worker's script
  * @property {(() => Worker) | false} [worker] starts the worker, for pages with their own way to load one; false sets texts in
  *   this thread, in Node.js
  * @property {number} [budget] bytes of the texture above which glyphs that no text shows are forgotten; 32 MiB by default
@@ -36,6 +38,9 @@ const TEXEL = 16;
 /** Shapes above which glyphs are forgotten, too: a texture has room for a quarter more. */
 const MANY = 12_288;
 
+/** Time in ms after which a worker that did not start is tried again. */
+const PATIENCE = 10_000;
+
 /** Glyphs are forgotten if that leaves at most this share of them. */
 const WORTHWHILE = 0.75;
 
@@ -58,6 +63,10 @@ export class Glyphs {
   #fonts = new Map();
   /** @type {Set<WeakRef<GlyphUser>>} */
   #users = new Set();
+  /** Why the worker did not start, and when. @type {{ error: VextureError, time: number } | null} */
+  #failure = null;
+  /** Whether the worker has answered. */
+  #isRunning = false;
   #isRestarting = false;
   /** Whether an answer had more shapes than there is room for: the worker counts others than the texture has. */
   #isFull = false;
@@ -79,10 +88,15 @@ export class Glyphs {
     return { ...this.#options };
   }
 
-  /** Those of the page, which texts use unless they are given others. */
+  /** Those of the page, which texts use unless they are given others. Others can be set, for the texts that are made after. */
   static get shared() {
     own ??= new Glyphs();
     return own;
+  }
+
+  static set shared(glyphs) {
+    if (!(glyphs instanceof Glyphs)) throw unfit('glyphs', glyphs, 'give new Glyphs({ ... })');
+    own = glyphs;
   }
 
   /**
@@ -173,28 +187,33 @@ export class Glyphs {
 
   /** @param {Record<string, unknown>} message */
   async #send(message) {
+    if (this.#failure && Date.now() - this.#failure.time < PATIENCE) {
+      this.#fail(this.#failure.error);
+      return;
+    }
     try {
       this.#endpoint ??= this.#open();
       (await this.#endpoint).postMessage(message);
     } catch (error) {
-      this.#fail(withoutWorker(line(error)));
+      this.#fail(withoutWorker(line(error)), true);
     }
   }
 
   /** @returns {Promise<Endpoint>} */
   async #open() {
-    const { kernels, worker = startWorker } = this.#options;
+    const { kernels, harfbuzz, worker = startWorker } = this.#options;
     const receive = (/** @type {any} */ data) => this.#receiveInTurn(data);
     const hasWorkers = typeof Worker === 'function';
+    this.#isRunning = false;
     const endpoint = worker && hasWorkers ? worker() : await openHere(receive);
     if (hasWorkers && endpoint instanceof Worker) {
       endpoint.onmessage = ({ data }) => receive(data);
       endpoint.onerror = (event) => {
         event.preventDefault?.();
-        this.#fail(withoutWorker(event.message || 'it cannot be loaded'));
+        this.#fail(withoutWorker(event.message || 'it cannot be loaded'), true);
       };
     }
-    endpoint.postMessage({ kernels: absolute(kernels) });
+    endpoint.postMessage({ kernels: absolute(kernels), ...absolute({ harfbuzz }) });
     return endpoint;
   }
 
@@ -216,6 +235,7 @@ export class Glyphs {
   /** @param {{ id: number, added?: Added, error?: { message: string, field: string } }} answer */
   #receive({ id, added, error, ...answer }) {
     const waiting = this.#waiting.get(id);
+    this.#isRunning = true;
     this.#waiting.delete(id);
     if (error) {
       waiting?.reject(new VextureError(error.message, error.field));
@@ -274,8 +294,9 @@ export class Glyphs {
     }
   }
 
-  /** @param {VextureError} error */
-  #fail(error) {
+  /** @param {VextureError} error @param {boolean} [isWorker] whether the worker has failed: one that never ran is not started in each frame */
+  #fail(error, isWorker = false) {
+    if (isWorker && !this.#isRunning) this.#failure = { error, time: Date.now() };
     const waiting = [...this.#waiting.values()];
     this.#waiting.clear();
     this.#endpoint?.then((endpoint) => endpoint.terminate(), () => {});

@@ -11,7 +11,7 @@ import { textOf } from './text.js';
 export { VextureError } from '../errors.js';
 export { AtlasFont } from './atlas-font.js';
 export { bakeFont } from './bake-font.js';
-export { setDefaultFont } from './faces.js';
+export { NOTO_SANS, setDefaultFont } from './faces.js';
 export { loadFontFaces } from './font-css.js';
 export { Glyphs } from './glyphs.js';
 export { getCaretAtPoint, getSelectionRects } from './layout.js';

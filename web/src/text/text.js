@@ -11,7 +11,7 @@ import { Glyphs } from './glyphs.js';
 import { NOTHING, chosen, glyphAt, shownPart } from './layout.js';
 import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, lengthOf, requestOf } from './text-options.js';
 import { Part, beforeDrawing, paint, usual } from './text-parts.js';
-import { warnOf } from './warnings.js';
+import { reportOnce, warnOf } from './warnings.js';
 
 /** @import { Material } from 'three' */
 /** @import { PlacedShapes, TextLayout } from './layout.js' */
@@ -183,7 +183,7 @@ export function textOf({ makeMaterial, applyMask }) {
           if (this.#isStale) continue; // a later change may mend it
           this.error = /** @type {Error} */ (error);
           this.dispatchEvent(/** @type {any} */ ({ type: 'error', message: this.error.message }));
-          console.error(`vexture: ${this.error.message}`);
+          reportOnce(this.error.message);
           throw error;
         }
       }

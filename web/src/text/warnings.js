@@ -13,6 +13,13 @@ export function warnOf({ missing, notes }) {
   notes.forEach((note) => NOTED.add(note));
 }
 
+/** Say an error, once. @param {string} message */
+export function reportOnce(message) {
+  if (NOTED.has(message)) return;
+  NOTED.add(message);
+  console.error(`vexture: ${message}`);
+}
+
 /** Name characters once that no font has. @param {number[]} missing code points */
 function warnOfCharacters(missing) {
   const fresh = missing.filter((code) => !NAMED.has(code));

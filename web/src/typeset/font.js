@@ -1,7 +1,7 @@
 // Fonts: loaded when a text first needs one, with an instance of HarfBuzz for each set of variations.
 import * as hb from 'harfbuzzjs';
 import { VextureError, line } from '../errors.js';
-import { fetchBytes, isTransport, shown } from '../fetching.js';
+import { fetchBytes, fileBytes, isTransport, shown } from '../fetching.js';
 import { sfntOf } from './sfnt.js';
 import { MOST_BYTES } from './tables.js';
 
@@ -109,7 +109,8 @@ export class TypeFont {
   async #load() {
     const source = this.#source;
     const signal = new AbortController().signal;
-    const file = typeof source === 'string' ? await fetchBytes(source, { signal }, MOST_BYTES) : new Uint8Array(source);
+    const fetched = async (/** @type {string} */ url) => (await fileBytes(url, MOST_BYTES)) ?? fetchBytes(url, { signal }, MOST_BYTES);
+    const file = typeof source === 'string' ? await fetched(source) : new Uint8Array(source);
     const bytes = await sfntOf(/** @type {Uint8Array<ArrayBuffer>} */ (file));
     const face = new hb.Face(new hb.Blob(bytes));
     if (!face.referenceTable('cmap')?.length) {
