@@ -5,8 +5,8 @@
 /**
  * @typedef {object} GlyphHooks Each gives nothing for instances that are no glyphs.
  * @property {(instances: Instances) => string} declared lines of a vertex shader outside of functions
- * @property {(instances: Instances) => { vertexPlace?: string }} placed lines that follow those that make `transformed` of the
- *   position
+ * @property {(instances: Instances) => { vertexNormal?: string, vertexPlace?: string }} placed lines that follow those that make
+ *   `objectNormal` of the normal, and `transformed` of the position
  * @property {(instances: Instances) => { declared: string, used: string }} tint lines of a fragment shader for the colour of a
  *   label
  * @property {(instanced: any) => Record<string, unknown>} uniforms values of the declared uniforms

@@ -51,13 +51,16 @@ export const VIEWPORT = new Vector2(1, 1);
 
 /** @typedef {boolean | 'glyphs' | 'labels' | 'sprites'} Instances whether a mesh has instances, and what they are */
 
-/** Where a point of a text is in the object. */
+/** Where a point and a normal of a text are in the object. */
 const PUT = `vec3 vexturePut(vec3 at) {
   return at;
 }
+vec3 vextureFacing(vec3 normal) {
+  return normal;
+}
 `;
 
-/** Where a point of a label is in the object; sprites face the camera. @param {boolean} isSprite */
+/** Where a point and a normal of a label are in the object; sprites face the camera. @param {boolean} isSprite */
 const putLabel = (isSprite) => `uniform highp sampler2D vextureLabels;
 attribute uint ${GLYPH.label};
 varying vec4 vextureTint;
@@ -74,6 +77,9 @@ vec3 vexturePut(vec3 at) {
   }
   at *= size;
   return place.xyz + ${isSprite ? 'inverse(mat3(modelViewMatrix)) * at' : 'vextureRotated(at, vextureOfLabel(1u))'};
+}
+vec3 vextureFacing(vec3 normal) {
+  return ${isSprite ? 'normal * mat3(modelViewMatrix)' : 'vextureRotated(normal, vextureOfLabel(1u))'};
 }
 `;
 
@@ -98,12 +104,16 @@ ${put}vec3 vextureOfGlyph(vec2 at) {
 `;
 }
 
+/** The normal of a glyph. */
+const NORMAL = `objectNormal = vextureFacing(vextureRotated(objectNormal, ${GLYPH.turn}));\n`;
+
 /**
- * Lines that follow those that make `transformed` of the position, which is a corner of a unit square here.
+ * Lines that follow those that make `objectNormal` of the normal, and `transformed` of the position, which is a corner of a
+ * unit square here.
  *
  * @param {Instances} instances
  */
-const glyphPlaced = (instances) => (isOfGlyphs(instances) ? { vertexPlace: placedLines(instances) } : {});
+const glyphPlaced = (instances) => (isOfGlyphs(instances) ? { vertexNormal: NORMAL, vertexPlace: placedLines(instances) } : {});
 
 /** @param {Instances} instances */
 const placedLines = (instances) => `{

@@ -4,7 +4,7 @@ import { VextureError } from './errors.js';
 import { takePartIn } from './methods.js';
 
 /**
- * @typedef {'vertexDeclare' | 'vertexUv' | 'vertexPlace' | 'fragmentDeclare' | 'fragmentCut' | 'fragmentColor' | 'fragmentLight'
+ * @typedef {'vertexDeclare' | 'vertexUv' | 'vertexNormal' | 'vertexPlace' | 'fragmentDeclare' | 'fragmentCut' | 'fragmentColor' | 'fragmentLight'
  *   | 'fragmentLast'} HookName
  *
  * @typedef {object} Shader
@@ -17,7 +17,7 @@ import { takePartIn } from './methods.js';
 
 /**
  * The include that each text follows. vertexDeclare and fragmentDeclare are outside functions. At vertexUv the
- * attribute uv is available. At vertexPlace `transformed` is the position of the vertex in the object. At fragmentCut nothing has been computed. At fragmentColor `diffuseColor` is complete,
+ * attribute uv is available. At vertexNormal `objectNormal` is the normal, where a material needs one. At vertexPlace `transformed` is the position of the vertex in the object. At fragmentCut nothing has been computed. At fragmentColor `diffuseColor` is complete,
  * before alphaTest. fragmentLight precedes its include; there `gl_FragColor` is the outgoing light in linear colour. At
  * fragmentLast `gl_FragColor` is in the colour space of the canvas.
  *
@@ -26,6 +26,7 @@ import { takePartIn } from './methods.js';
 const HOOKS = Object.freeze({
   vertexDeclare: { stage: 'vertexShader', include: 'common' },
   vertexUv: { stage: 'vertexShader', include: 'uv_vertex' },
+  vertexNormal: { stage: 'vertexShader', include: 'beginnormal_vertex' },
   vertexPlace: { stage: 'vertexShader', include: 'begin_vertex' },
   fragmentDeclare: { stage: 'fragmentShader', include: 'clipping_planes_pars_fragment' },
   fragmentCut: { stage: 'fragmentShader', include: 'clipping_planes_fragment' },

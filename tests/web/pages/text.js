@@ -101,4 +101,5 @@ const request = {
   overflowWrap: 'normal', anchorX: 0, anchorY: 'top-baseline',
 };
 
-Object.assign(globalThis, { AtlasFont, bake, request });
+const nodeTexts = { Text: TextNodes, BatchedText: BatchedNodes };
+Object.assign(globalThis, { AtlasFont, WEBGPU, bake, nodeTexts, pixelsOf, rendererOf, request });

@@ -83,13 +83,18 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
         return Object.assign(own, { userData: { ...own.userData, mask } });
       };
       super(new LabelGeometry(), masked('alpha'));
+      /** @type {any} */ (this.material).userData.mask.attach(this); // its shadow is that of letters
       /** Labels are anywhere. @internal */
       this.frustumCulled = false; // labels are anywhere
       this.#defaults = { ...LAYOUT, ...layout };
       this.#glyphs = glyphs;
       this.#table = table;
       this.#boxOf = (/** @type {number} */ shape) => glyphs.texture.boxes[shape];
-      this.#makeMesh = () => Object.assign(new Mesh(new LabelGeometry(), masked('paint')), { frustumCulled: false, raycast: () => {}, renderOrder: this.renderOrder });
+      this.#makeMesh = () => {
+        const { renderOrder, castShadow, receiveShadow } = this, mesh = new Mesh(new LabelGeometry(), masked('paint'));
+        /** @type {any} */ (mesh.material).userData.mask.attach(mesh);
+        return Object.assign(mesh, { frustumCulled: false, raycast: () => {}, renderOrder, castShadow, receiveShadow });
+      };
       this.#user = { shapesInUse: () => this.#shapesInUse(), renumber: (places) => this.#renumber(places) };
       this.#unfollow = glyphs.follow(this.#user);
     }
@@ -211,6 +216,11 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
           this.#show(label, layout);
         }
       }
+    }
+
+    /** What three.js calls before it draws shadows, which is before the labels themselves. @internal */
+    onBeforeShadow() {
+      this.#table.update(this.#labels.values());
     }
 
     /** What three.js calls before each frame. @internal @param {any} renderer @param {any} _scene @param {any} camera */

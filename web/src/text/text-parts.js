@@ -15,12 +15,15 @@ export class Part extends Mesh {
     super(new GlyphGeometry(), material);
     this.raycast = () => {}; // that of the text finds its parts
     Object.assign(this, { isTextPart: true });
+    material.userData.mask.attach(this); // its shadow is that of letters
   }
 
   /** Be drawn as its text is. @param {Mesh} text @param {boolean} isBehind */
   follow(text, isBehind) {
     this.renderOrder = text.renderOrder + (isBehind ? -STEP : STEP);
     this.layers.mask = text.layers.mask;
+    this.castShadow = text.castShadow;
+    this.receiveShadow = text.receiveShadow;
   }
 
   /** @param {any} renderer @param {any} _scene @param {any} camera */

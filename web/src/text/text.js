@@ -8,7 +8,8 @@ import { alongCurve, isBent, onCylinder } from './bends.js';
 import { weightOf } from './faces.js';
 import { GlyphGeometry } from './glyph-geometry.js';
 import { Glyphs } from './glyphs.js';
-import { NOTHING, chosen, glyphAt, shownPart } from './layout.js';
+import { NOTHING, chosen } from './layout.js';
+import { meetText } from './rays.js';
 import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, lengthOf, requestOf } from './text-options.js';
 import { Part, beforeDrawing, paint, usual } from './text-parts.js';
 import { reportOnce, warnOf } from './warnings.js';
@@ -33,8 +34,7 @@ import { reportOnce, warnOf } from './warnings.js';
  */
 
 const RAY = new Ray(),
-  INVERSE = new Matrix4(),
-  HIT = new Vector3();
+  INVERSE = new Matrix4();
 
 /**
  * The class of texts of a renderer.
@@ -323,8 +323,8 @@ export function textOf({ makeMaterial, applyMask }) {
     }
 
     /**
-     * Meet a ray. An intersection is anywhere in the block of the text; its `instanceId` is the glyph there, and `charIndex`
-     * its first character, or -1 between glyphs.
+     * Meet a ray. An intersection is anywhere in the block of the text, or in a glyph of one along a curve; its `instanceId` is
+     * the glyph there, and `charIndex` its first character, or -1 between glyphs.
      *
      * @param {import('three').Raycaster} raycaster
      * @param {import('three').Intersection[]} hits
@@ -333,17 +333,12 @@ export function textOf({ makeMaterial, applyMask }) {
       const layout = this.#layout;
       if (!layout) return;
       RAY.copy(raycaster.ray).applyMatrix4(INVERSE.copy(this.matrixWorld).invert());
-      if (Math.abs(RAY.direction.z) < 1e-12 * RAY.direction.length()) return;
-      const distance = -RAY.origin.z / RAY.direction.z;
-      RAY.at(distance, HIT);
-      const [left, bottom, right, top] = shownPart(layout.blockBounds, this.#options.clipRect);
-      if (!(distance >= 0) || HIT.x < left || HIT.x > right || HIT.y < bottom || HIT.y > top) return;
-      const glyph = glyphAt(layout, this.#shapes.boxes, HIT.x, HIT.y);
-      const local = HIT.clone();
-      const point = HIT.clone().applyMatrix4(this.matrixWorld);
-      const far = raycaster.ray.origin.distanceTo(point);
-      if (far < raycaster.near || far > raycaster.far) return;
-      hits.push(/** @type {any} */ ({ distance: far, point, object: this, local, instanceId: glyph, charIndex: glyph < 0 ? -1 : layout.clusters[glyph] }));
+      for (const { distance, glyph } of meetText(RAY, layout, this.#shapes.boxes, this.#options)) {
+        const local = RAY.at(distance, new Vector3()), point = local.clone().applyMatrix4(this.matrixWorld);
+        const far = raycaster.ray.origin.distanceTo(point);
+        if (far < raycaster.near || far > raycaster.far) continue;
+        hits.push(/** @type {any} */ ({ distance: far, point, object: this, local, instanceId: glyph, charIndex: glyph < 0 ? -1 : layout.clusters[glyph] }));
+      }
     }
 
     /** @param {any} source @param {boolean} [recursive] */

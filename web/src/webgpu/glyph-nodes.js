@@ -1,7 +1,7 @@
 // The vertices of glyphs as nodes: what `glyph-shader.js` says in GLSL.
 import {
-  Fn, abs, attribute, cameraProjectionMatrix, cross, int, inverse, ivec2, length, mat3, max, min, mix, modelViewMatrix, positionGeometry,
-  screenSize, select, step, textureLoad, varying, vec2, vec3, vec4,
+  Fn, abs, attribute, cameraProjectionMatrix, cross, int, inverse, ivec2, length, mat3, max, min, mix, modelViewMatrix, normalGeometry,
+  normalLocal, normalize, positionGeometry, screenSize, select, step, textureLoad, varying, vec2, vec3, vec4,
 } from 'three/tsl';
 import { GLYPH, LABEL_TEXELS, LABEL_WIDTH, MARGIN, MOST_RIM } from '../glyph-shader.js';
 import { wordsNode } from './shape-inputs.js';
@@ -88,6 +88,10 @@ export function glyphNodes(instanced) {
   const at = /** @type {Node} */ (vertex()).xy.toVar();
   const position = Fn(() => {
     const put = read ? labelPlacer(read, labels?.kind === 'sprites') : (/** @type {Node} */ point) => point;
+    const normal = rotated(/** @type {Node} */ (normalGeometry), glyphAttribute(GLYPH.turn)), view = /** @type {Node} */ (modelViewMatrix);
+    const facing = vec3(view[0].z, view[1].z, view[2].z);
+    const whole = read ? (labels?.kind === 'sprites' ? normalize(facing) : rotated(normal, read(1))) : normal;
+    /** @type {Node} */ (normalLocal).assign(whole); // as three.js does for instances
     const moved = put(glyphAttribute(GLYPH.place).xyz.add(rotated(vec3(at, 0), glyphAttribute(GLYPH.turn))));
     return read ? select(read(2).w.equal(0), put(glyphAttribute(GLYPH.place).xyz), moved) : moved;
   })();
