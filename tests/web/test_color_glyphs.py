@@ -216,13 +216,34 @@ def test_a_sweep_is_its_mean_and_a_glyph_of_the_text_s_colour_no_map(tmp_path: P
     font = color_font(tmp_path / "sweep.ttf", layers(glyph("left", sweep | {"startAngle": 0, "endAngle": 360})))
     plain = color_font(tmp_path / "plain.ttf", [("left", 0xFFFF), ("right", 0xFFFF)])
     mixed = color_font(tmp_path / "mixed.ttf", [("left", 0xFFFF), ("right", RED)])
-    (first, second, third), keys = set_texts(
+    (first, second, third, *_), keys = set_texts(
         tmp_path, [font, plain, mixed], *({"text": "A", "fonts": [place]} for place in range(3))
     )
     assert first["notes"] == ["sweep gradients of glyphs are shown in their mean colours"]
     assert second["notes"] == []
-    assert third["notes"] == ["parts in the text's colour, of glyphs that have others, are black"]
+    assert third["notes"] == ["parts in the text's colour, of glyphs that have others, are black here"]
+    assert [result["hasInk"] for result in (first, second, third)] == [False, False, True]
     assert keys == ["0::1", "1::1", "2::1"]
+
+
+def test_parts_in_the_text_s_colour_have_it(tmp_path: Path) -> None:
+    """Each colour is another shape, which a restart makes again."""
+    built("maps")
+    fading = glyph("right", linear(400, 200, 900, 200, 400, 700, stops((0, 0xFFFF), (1, GREEN))))
+    font = color_font(tmp_path / "ink.ttf", layers(glyph("left", solid(0xFFFF, 0.5)), fading))
+    inks = [[0, "ff8000"], [1, "800080"]]
+    texts = [{"text": "AAA", "fonts": [0], "inks": inks}, {"text": "A", "fonts": [0], "inks": [[0, "800080"]]}]
+    first, again = typeset(
+        tmp_path, [font], [{"id": 1, "texts": texts}, {"id": 2, "restart": {"keys": ["0::1:#800080"]}}]
+    )
+    assert [shape["key"] for shape in first["added"]["shapes"]] == ["0::1:#ff8000", "0::1:#800080"]
+    assert [result["shapes"] for result in first["results"]] == [[0, 1, 1], [1]]
+    assert [result["notes"] for result in first["results"]] == [[], []]
+    gradient_of_ink = gradient("linearGradient", 'x1="400" x2="900"', (0, "#800080"), (1, "#008000"))
+    right = gradient_of_ink.replace(LEFT, RIGHT)
+    svg = drawn(f'<path d="{LEFT}" fill="#800080" opacity="0.5"/>{right}')
+    glyph_picture, drawing_picture = pictures(again["added"], svg)
+    assert np.abs(glyph_picture - drawing_picture).max() < 0.02
 
 
 def test_emoji_take_a_font_with_colours_unless_they_are_text(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Texts in light: their shadows, their normals, and the rays that meet them, wherever they are bent to."""
+"""Texts in light and colour: their shadows, their normals, and the rays that meet them, wherever they are bent to."""
 
 import base64
 import shutil
@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from test_color_glyphs import GREEN, color_font, glyph, layers, solid
 from test_text_page import PAGE, WORKER, font
 
 from build_wasm import OUTPUT
@@ -57,6 +58,7 @@ def address(chromium: Any, made_once: Callable[..., Path]) -> Iterator[str]:
         bundle(WORKER, folder / "worker.js")
         shutil.copy(WEB / "node_modules" / "harfbuzzjs" / "dist" / "harfbuzz.wasm", folder)
         shutil.copy(font(), folder / "font.ttf")
+        color_font(folder / "ink.ttf", layers(glyph("left", solid(0xFFFF)), glyph("strip", solid(GREEN))))
         for name in ("silhouettes", "maps", "strokes"):
             shutil.copy(OUTPUT / f"{name}.wasm", folder)
         icon = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><body>'
@@ -163,3 +165,34 @@ def test_rays_meet_texts_where_they_are_bent_to(page: Any) -> None:
     assert [index for index, _ in found["side"]] == [6, 2]
     assert found["above"] == found["beside"] == found["flat"] == []
     assert found["along"] == [[[5, 5.0]], [[5, 5.0]]]
+
+
+INK = """async (areLabels) => {
+    const renderer = new THREE.WebGLRenderer(), scene = new THREE.Scene(), seen = [];
+    renderer.setSize(32, 32);
+    const camera = new THREE.OrthographicCamera(0, 1, 1, 0, -1, 1), gl = renderer.getContext();
+    const options = { glyphs, font: 'ink.ttf', anchorY: 'top-baseline' };
+    const text = areLabels ? new BatchedText(options) : new Text({ ...options, text: 'A' });
+    const colored = areLabels ? text.addLabel({ text: 'A' }) : text;
+    scene.add(text);
+    for (const color of ['red', 'white', 'red']) {
+        colored.color = color;
+        if (areLabels) renderer.render(scene, camera); // then its colour is seen
+        await text.sync();
+        renderer.render(scene, camera);
+        const bytes = new Uint8Array(4);
+        gl.readPixels(9, 6, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+        seen.push([...bytes].slice(0, 3));
+        gl.readPixels(9, 16, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+        seen.push([...bytes].slice(0, 3));
+    }
+    text.dispose();
+    renderer.dispose();
+    return seen;
+}"""
+
+
+@pytest.mark.parametrize("are_labels", [False, True])
+def test_parts_of_emoji_in_the_text_s_colour_follow_it(page: Any, are_labels: bool) -> None:
+    red, white, green = [255, 0, 0], [255, 255, 255], [0, 128, 0]
+    assert page.evaluate(INK, are_labels) == [red, green, white, green, red, green]

@@ -9,7 +9,7 @@ import { LabelGeometry } from './label-geometry.js';
 import { LabelTable } from './label-table.js';
 import { Label } from './label.js';
 import { chosen, glyphAt } from './layout.js';
-import { LAYOUT, checkOption, requestOf } from './text-options.js';
+import { LAYOUT, checkOption, inksOf, requestOf } from './text-options.js';
 import { isUpright, readViewport } from './viewport.js';
 import { reportOnce, warnOf } from './warnings.js';
 
@@ -64,6 +64,8 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
     /** Labels in colours of their own; made when there are any. @type {Mesh | null} */
     #colored = null;
     #makeMesh;
+    /** Labels with emoji that have parts in the label's colour, and that colour. @type {Map<Label, string>} */
+    #inked = new Map();
     /** Pixels of the picture from its bottom to its top. */
     #height = 1;
 
@@ -130,6 +132,7 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       if (this.#labels.get(label.row) !== label) return;
       this.#labels.delete(label.row);
       this.#stale.delete(label);
+      this.#inked.delete(label);
       this.#freeRows.push(label.row);
       this.#show(label, null);
     }
@@ -182,7 +185,11 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       const { font } = options;
       if (font instanceof AtlasFont) throw new VextureError('labels are not set in a baked font; give the address of a font', 'font');
       if (!options.text) return null;
-      return this.#glyphs.typeset(requestOf(options), { font, weight: weightOf(options.fontWeight), isItalic: options.fontStyle === 'italic' });
+      const inks = inksOf(label.color);
+      const layout = await this.#glyphs.typeset({ ...requestOf(options), inks }, { font, weight: weightOf(options.fontWeight), isItalic: options.fontStyle === 'italic' });
+      if (layout.hasInk) this.#inked.set(label, inks[0][1]);
+      else this.#inked.delete(label);
+      return layout;
     }
 
     /** @param {Label} label @param {TextLayout | null} layout */
@@ -228,6 +235,7 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       readViewport(renderer);
       this.#height = VIEWPORT.y;
       this.#table.update(this.#labels.values());
+      for (const [label, ink] of this.#inked) if (inksOf(label.color)[0][1] !== ink) this.#markStale(label);
       // labels that are parallel to the picture are seen straight, though not all from the same distance
       const flat = this.#table.areSprites || (!this.#table.hasTurns && isUpright(this, camera));
       for (const mesh of [this, this.#colored]) {

@@ -24,6 +24,7 @@
  * @property {number | string} anchorY
  * @property {number} outlineWidth
  * @property {number} strokeWidth
+ * @property {[number, string][]} [inks] colours as six hexadecimal digits, each from an index of the text on
  *
  * @typedef {object} PlacedShapes Shapes and where they are.
  * @property {Uint32Array} shapes indices of shapes
@@ -51,6 +52,7 @@
  * @property {number} lineHeight distance of baselines
  * @property {number[]} missing code points that no font has
  * @property {string[]} notes what is drawn otherwise than the fonts say
+ * @property {boolean} [hasInk] whether the text's colours are in shapes, of emoji with parts in them
  *
  * @typedef {PlacedShapes & TextMeasures & { outlines?: PlacedShapes, strokes?: PlacedShapes }} TextLayout places of glyphs and
  *   measures of a text that is shown

@@ -1,4 +1,5 @@
 // The options of a text: their names, defaults and checks.
+import { Color } from 'three';
 import { VextureError, line } from '../errors.js';
 import { weightOf } from './faces.js';
 
@@ -131,6 +132,20 @@ export function checkOption(name, value) {
 
 /** @param {number | string} value length or percentage @param {number} fontSize @returns {number} */
 export const lengthOf = (value, fontSize) => (typeof value === 'string' ? (Number.parseFloat(value) / 100) * fontSize : value);
+
+const TONE = new Color();
+
+/**
+ * Colours of a text as the worker takes them.
+ *
+ * @param {ColorRepresentation} color
+ * @param {Record<number, ColorRepresentation> | null} [ranges]
+ * @returns {[number, string][]}
+ */
+export function inksOf(color, ranges) {
+  const starts = Object.keys(ranges ?? {}).map(Number).filter(Number.isInteger).sort((a, b) => a - b);
+  return [[0, TONE.set(color).getHexString()], ...starts.map((start) => /** @type {[number, string]} */ ([start, TONE.set(/** @type {any} */ (ranges)[start]).getHexString()]))];
+}
 
 /** @param {LayoutOptions} options @returns {Omit<Request, 'fonts'>} */
 export function requestOf({ font, fontWeight, fontStyle, fontVariations, fontFeatures, lang, outlineWidth, strokeWidth, ...same }) {

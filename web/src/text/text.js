@@ -10,7 +10,7 @@ import { GlyphGeometry } from './glyph-geometry.js';
 import { Glyphs } from './glyphs.js';
 import { NOTHING, chosen } from './layout.js';
 import { meetText } from './rays.js';
-import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, lengthOf, requestOf } from './text-options.js';
+import { ARRANGEMENT, DEFAULTS, LAYOUT, checkOption, inksOf, lengthOf, requestOf } from './text-options.js';
 import { Part, beforeDrawing, paint, usual } from './text-parts.js';
 import { reportOnce, warnOf } from './warnings.js';
 
@@ -119,6 +119,7 @@ export function textOf({ makeMaterial, applyMask }) {
       this.#material = this.#masked('letters');
       this.#material.userData.mask.attach(this); // its shadow is that of letters
       for (const name of this.#parts.keys()) this.#removePart(name);
+      if (this.#layout?.hasInk) this.#markStale();
       this.#arrange();
     }
 
@@ -146,8 +147,9 @@ export function textOf({ makeMaterial, applyMask }) {
       const options = /** @type {any} */ (this.#options);
       if (Object.is(options[name], wanted)) return;
       options[name] = wanted;
-      if (name in LAYOUT) this.#markStale();
-      else if (name in ARRANGEMENT || name.startsWith('outlineOffset') || (name === 'color' && this.#options.colorRanges)) this.#arrange();
+      if (name in LAYOUT || (name.startsWith('color') && this.#layout?.hasInk)) this.#markStale();
+      if (name in LAYOUT) return;
+      if (name in ARRANGEMENT || name.startsWith('outlineOffset') || (name === 'color' && this.#options.colorRanges)) this.#arrange();
       else if (name === 'ariaLive') this.#mirror.say(this.#options.text, value);
       else this.#paint();
     }
@@ -204,7 +206,8 @@ export function textOf({ makeMaterial, applyMask }) {
 
     /** @param {AtlasFont | null} atlas @returns {Promise<TextLayout> | TextLayout} */
     #typeset(atlas) {
-      const { font, fontWeight, fontStyle } = this.#options, request = requestOf(this.#options);
+      const { font, fontWeight, fontStyle, colorRanges } = this.#options;
+      const request = { ...requestOf(this.#options), inks: inksOf(this.#plainColor, colorRanges) };
       if (atlas) return atlas.typeset(request);
       return this.#glyphs.typeset(request, { font: /** @type {any} */ (font), weight: weightOf(fontWeight), isItalic: fontStyle === 'italic' });
     }

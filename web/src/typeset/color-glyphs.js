@@ -46,7 +46,7 @@ const MOST_TEXELS = 1 << 17;
 
 /** Notes. */
 const SWEEP = 'sweep gradients of glyphs are shown in their mean colours';
-const FOREGROUND = "parts in the text's colour, of glyphs that have others, are black";
+const FOREGROUND = "parts in the text's colour, of glyphs that have others, are black here";
 const FLATTENED = 'gradients of glyphs are shown in their mean colours, where too many are on one another';
 
 /** @type {Paint} */
@@ -64,12 +64,26 @@ class GlyphPainter {
   #open = [[]];
   /** @type {Set<string>} */
   notes = new Set();
-  /** Whether all of it has the text's colour. */
+  /** Whether all of it has the text's colour, and whether a part has. */
   isPlain = true;
+  hasInk = false;
 
-  /** @param {Instance} instance */
-  constructor(instance) {
+  /** @param {Instance} instance @param {string} ink colour of the text as six hexadecimal digits; '' if it has none yet */
+  constructor(instance, ink) {
     this.instance = instance;
+    this.ink = ink ? Number.parseInt(ink, 16) : null;
+  }
+
+  /** A colour of the font, or that of the text. @param {hb.Color} color @param {boolean} isForeground */
+  #colorOf({ red, green, blue, alpha }, isForeground) {
+    /** @type {Color} */
+    let color = [red / 255, green / 255, blue / 255];
+    if (isForeground) {
+      this.hasInk = true;
+      if (this.ink === null) this.notes.add(FOREGROUND);
+      else color = [(this.ink >> 16) / 255, ((this.ink >> 8) & 255) / 255, (this.ink & 255) / 255];
+    }
+    return { color, opacity: alpha / 255 };
   }
 
   get nodes() {
@@ -125,17 +139,13 @@ class GlyphPainter {
 
   /** @param {boolean} isForeground @param {hb.Color} color */
   fillFlat(isForeground, color) {
-    if (isForeground) this.notes.add(FOREGROUND);
     if (!isForeground || color.alpha < 255 || this.#open.length > 1) this.isPlain = false;
-    this.fill({ ...colorOf(color), gradient: null });
+    this.fill({ ...this.#colorOf(color, isForeground), gradient: null });
   }
 
   /** @param {hb.ColorLine} line @param {(low: number, high: number) => Ramp | null} ramp from the offsets at its ends */
   fillGradient({ extend, colorStops }, ramp) {
-    const stops = colorStops.map(({ offset, color, isForeground }) => {
-      if (isForeground) this.notes.add(FOREGROUND);
-      return { offset, ...colorOf(color) };
-    });
+    const stops = colorStops.map(({ offset, color, isForeground }) => ({ offset, ...this.#colorOf(color, isForeground) }));
     stops.sort((one, other) => one.offset - other.offset);
     this.isPlain = false;
     if (!stops.length) return;
@@ -155,7 +165,7 @@ class GlyphPainter {
   fillSweep({ colorStops }) {
     this.notes.add(SWEEP);
     this.isPlain = false;
-    const stops = colorStops.map(({ offset, color }) => ({ offset, ...colorOf(color) }));
+    const stops = colorStops.map(({ offset, color, isForeground }) => ({ offset, ...this.#colorOf(color, isForeground) }));
     if (stops.length) this.fill({ ...paintOfGradient({ toRamp: rowsOf(IDENTITY), stops, spread: 0, focus: null }), gradient: null });
   }
 }
@@ -184,9 +194,10 @@ funcs.setPopGroupFunc((mode, data) => painterOf(data).popGroup(mode));
  * @param {Instance} instance
  * @param {number} glyph
  * @param {boolean} isTurned by a quarter, clockwise
+ * @param {string} ink colour of the text as six hexadecimal digits; '' if it has none yet
  */
-export function paintGlyph(instance, glyph, isTurned) {
-  const painter = new GlyphPainter(instance);
+export function paintGlyph(instance, glyph, isTurned, ink) {
+  const painter = new GlyphPainter(instance, ink);
   if (isTurned) painter.pushTransform([0, -1, 1, 0, 0, 0]);
   instance.font.paintGlyph(glyph, funcs, painter);
   const box = controlBox(contoursIn(painter.nodes));
@@ -214,7 +225,8 @@ export function paintGlyph(instance, glyph, isTurned) {
   };
   emit(painter.nodes, null);
   const grouped = groupPaths(paths, veils, fadePaint);
-  return { ...dropEmptyGroups(grouped.paths, grouped.groups), box, notes: painter.notes, isPlain: painter.isPlain && !grouped.groups.length };
+  const { notes, hasInk } = painter, isPlain = painter.isPlain && !grouped.groups.length;
+  return { ...dropEmptyGroups(grouped.paths, grouped.groups), box, notes, isPlain, hasInk };
 }
 
 /**
@@ -241,9 +253,6 @@ export function mapTexels(kernels, { paths, groups, box: [left, bottom, right, t
   if (sheet.flattened) notes.add(FLATTENED);
   return { texels: sheet.texels, quad: first + MAP_HEAD, hasGradients: headOf(sheet.texels, MAP_HEAD).operations > 0 };
 }
-
-/** @param {hb.Color} color @returns {{ color: Color, opacity: number }} */
-const colorOf = ({ red, green, blue, alpha }) => ({ color: [red / 255, green / 255, blue / 255], opacity: alpha / 255 });
 
 /** @param {readonly number[]} box */
 function rectangle([left, bottom, right, top]) {

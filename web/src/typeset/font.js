@@ -55,6 +55,8 @@ export class TypeFont {
     this.hasColor = false;
     /** Names of tables with images of glyphs, which are not drawn. */
     this.hasImages = '';
+    /** Which glyphs have parts in the colour of their text, beside other colours. @type {Map<number, boolean>} */
+    this.inked = new Map();
     /** What cannot be drawn. @type {Set<string>} */
     this.notes = new Set();
   }

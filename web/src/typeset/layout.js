@@ -26,6 +26,7 @@ import { kindOf } from './shapes.js';
  * @property {number} lineHeight
  * @property {number[]} missing
  * @property {string[]} notes
+ * @property {boolean} hasInk whether its colours are in some of its shapes
  * @property {{ shapes: Uint32Array, places: Float32Array }} [outlines] the same glyphs, wider by `outlineWidth`
  * @property {{ shapes: Uint32Array, places: Float32Array }} [strokes] lines of `strokeWidth` along their edges
  */
@@ -78,6 +79,7 @@ class Layout {
   places = [];
   /** @type {number[]} */
   clusters = [];
+  hasInk = false;
 
   /**
    * @param {string} text
@@ -149,7 +151,7 @@ class Layout {
   /** @param {Piece} piece @param {number} k @param {number} at @param {number} base */
   #placeGlyph({ shaped, scale }, k, at, base) {
     const { isVertical } = this.style, { instance } = shaped, isTurned = isVertical && !shaped.isUpright;
-    const glyph = shaped.glyphs[k], shape = this.all.of(instance, glyph, this.kinds[Number(isTurned)]);
+    const glyph = shaped.glyphs[k], shape = this.all.of(instance, glyph, this.#kindOf(instance, glyph, isTurned, shaped.clusters[k]));
     if (!shape) return;
     const dx = shaped.dx[k] * scale, dy = shaped.dy[k] * scale;
     let x = at + dx, y = base + dy;
@@ -167,6 +169,14 @@ class Layout {
     if (bottom < ink[1]) ink[1] = bottom;
     if (left + shape.width * scale > ink[2]) ink[2] = left + shape.width * scale;
     if (bottom + shape.height * scale > ink[3]) ink[3] = bottom + shape.height * scale;
+  }
+
+  /** @param {import('./font.js').Instance} instance @param {number} glyph @param {boolean} isTurned @param {number} cluster */
+  #kindOf(instance, glyph, isTurned, cluster) {
+    if (!instance.owner.hasColor || !this.all.hasInk(instance, glyph)) return this.kinds[Number(isTurned)];
+    this.hasInk = true;
+    const ink = this.style.inks.findLast(([start]) => start <= cluster)?.[1] ?? '';
+    return kindOf('', 0, isTurned, ink);
   }
 
   /**
@@ -253,13 +263,13 @@ export function layOut(text, lines, style, shapes) {
 }
 
 /** The arrays of a layout, shifted. @param {Layout} layout @param {number} dx @param {number} dy */
-function moved({ shapes, places, clusters, carets, ink, style, outlines, strokes }, dx, dy) {
+function moved({ shapes, places, clusters, carets, ink, style, outlines, strokes, hasInk }, dx, dy) {
   const edges = new Float32Array(carets.length);
   const [along, over] = style.isVertical ? [dy, dx] : [dx, dy];
   for (let k = 0; k < carets.length; k++) edges[k] = carets[k] + (k & 2 ? over : along);
   const visibleBounds = /** @type {Box} */ (shapes.length ? [ink[0] + dx, ink[1] + dy, ink[2] + dx, ink[3] + dy] : [0, 0, 0, 0]);
   return {
-    shapes: Uint32Array.from(shapes), places: shifted(places, dx, dy), clusters: Uint32Array.from(clusters), carets: edges, visibleBounds,
+    shapes: Uint32Array.from(shapes), places: shifted(places, dx, dy), clusters: Uint32Array.from(clusters), carets: edges, visibleBounds, hasInk,
     ...(outlines && { outlines: outlines.moved(dx, dy) }), ...(strokes && { strokes: strokes.moved(dx, dy) }),
   };
 }

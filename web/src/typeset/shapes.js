@@ -24,6 +24,7 @@ import { contoursOf, controlBox } from './outlines.js';
  * @property {'' | 'o' | 's'} part itself, itself with an outline, or a line along its edge
  * @property {number} width of the outline or the line, in ems
  * @property {boolean} isTurned by a quarter, clockwise
+ * @property {string} ink colour of the text, of a glyph that has parts in it beside other colours; else ''
  * @property {string} key
  *
  * @typedef {typeof import('./color-glyphs.js')} ColorGlyphs
@@ -42,19 +43,20 @@ const DIGITS = 4;
  * @param {Kind['part']} part
  * @param {number} width in ems
  * @param {boolean} isTurned
+ * @param {string} [ink]
  * @returns {Kind}
  */
-export function kindOf(part, width, isTurned) {
+export function kindOf(part, width, isTurned, ink = '') {
   const rounded = Number(width.toPrecision(DIGITS));
-  return { part, width: rounded, isTurned, key: `${part}${part ? rounded : ''}${isTurned ? 'r' : ''}` };
+  return { part, width: rounded, isTurned, ink, key: `${part}${part ? rounded : ''}${isTurned ? 'r' : ''}${ink && `#${ink}`}` };
 }
 
 /** What a shape's key says; null if it is none. @param {unknown} key */
 export function partsOfKey(key) {
-  const match = /^(\d+):([^:]*):(\d+)(?::(?:([os])([\d.e+-]+))?(r?))?$/.exec(String(key));
+  const match = /^(\d+):([^:]*):(\d+)(?::(?:([os])([\d.e+-]+))?(r?)(?:#([\da-f]{6}))?)?$/.exec(String(key));
   if (!match) return null;
-  const [, font, variation, glyph, part = '', width = '0', turned = ''] = match;
-  return { font: Number(font), variation, glyph: Number(glyph), kind: kindOf(/** @type {Kind['part']} */ (part), Number(width), turned !== '') };
+  const [, font, variation, glyph, part = '', width = '0', turned = '', ink = ''] = match;
+  return { font: Number(font), variation, glyph: Number(glyph), kind: kindOf(/** @type {Kind['part']} */ (part), Number(width), turned !== '', ink) };
 }
 
 /**
@@ -112,6 +114,24 @@ export class Shapes {
     return shape;
   }
 
+  /**
+   * Whether a glyph in colours has parts in that of its text, so that each colour is another shape. Glyphs that are all in
+   * it take it from their material.
+   *
+   * @param {Instance} instance
+   * @param {number} glyph
+   */
+  hasInk(instance, glyph) {
+    const { inked } = instance.owner;
+    let found = inked.get(glyph);
+    if (found !== undefined) return found;
+    if (!this.colors) return false; // it is wanted by `of`
+    const painted = instance.owner.isColored(glyph) ? this.colors.paintGlyph(instance, glyph, false, '') : null;
+    found = painted !== null && painted.hasInk && !painted.isPlain;
+    inked.set(glyph, found);
+    return found;
+  }
+
   /** What was added since it was last taken. @returns {Added} */
   take() {
     const shapes = this.#added, words = new Uint32Array(this.#texels.reduce((sum, { length }) => sum + length, 0));
@@ -162,7 +182,7 @@ export class Shapes {
     const key = `${instance.key}:${glyph}${kind.key && `:${kind.key}`}`;
     if (instance.owner.isColored(glyph)) {
       if (!this.#kernels('maps') || !this.colors) return undefined;
-      const painted = this.colors.paintGlyph(instance, glyph, kind.isTurned);
+      const painted = this.colors.paintGlyph(instance, glyph, kind.isTurned, kind.ink);
       if (!painted) return null;
       if (!kind.part && !painted.isPlain) return this.#addMap(painted, key, instance);
       return this.#addParts(painted.paths.map(({ contours }) => contours), kind, key, instance.em);

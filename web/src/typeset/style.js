@@ -30,6 +30,7 @@ const OPTIONS = { features: 'fontFeatures', language: 'lang', variations: 'fontV
  * @property {'horizontal-tb' | 'vertical-rl'} [writingMode]
  * @property {number | string} [anchorX]
  * @property {number | string} [anchorY]
+ * @property {[number, string][]} [inks] colours as six hexadecimal digits, each from an index of the text on
  * @property {number} [outlineWidth]
  * @property {number} [strokeWidth]
  */
@@ -98,6 +99,7 @@ export class Style {
     this.outlineWidth = number(request, 'outlineWidth', 0, 0);
     this.strokeWidth = number(request, 'strokeWidth', 0, 0);
     this.language = request.language ? languageOf(request.language) : '';
+    this.inks = inksOf(request.inks ?? []);
     this.features = featureList(request.features ?? '');
     if (this.letterSpacing) this.features = [...SPREAD, ...this.features];
     this.#variations = weight === undefined && !italic && !variations ? null : checkedVariations(request);
@@ -172,6 +174,13 @@ function anchor(request, name, names, usual) {
 function languageOf(language) {
   if (typeof language === 'string' && /^[a-z\d]{1,8}([-_][a-z\d]{1,8})*$/i.test(language)) return language;
   throw new VextureError(`\`${OPTIONS.language}\` is ${line(language)}; give a tag such as 'sr' or 'zh-Hant'`, OPTIONS.language);
+}
+
+/** @param {any} inks @returns {[number, string][]} */
+function inksOf(inks) {
+  const areInks = Array.isArray(inks) && inks.every((one) => Number.isInteger(one?.[0]) && /^[\da-f]{6}$/.test(one[1]));
+  if (areInks) return inks;
+  throw new VextureError(`\`inks\` are ${line(inks)}; give pairs such as [0, 'ff0000']`, 'inks');
 }
 
 /** @param {string} text */

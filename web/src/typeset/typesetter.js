@@ -195,7 +195,7 @@ export class Typesetter {
 }
 
 /** @param {{ fonts: number[], characters: string }} preload @returns {Request} */
-const requestOf = ({ characters, ...style }) => ({ ...style, text: characters });
+const requestOf = ({ characters, ...style }) => ({ ...style, text: characters, inks: [[0, '000000']] });
 
 /** @param {unknown} error */
 function errorOf(error) {
