@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import vexture
 from build_wasm import OUTPUT
 from chromium import WEB, bundle, serve_folder
 from guides import GUIDES, blocks_of
@@ -187,6 +188,19 @@ def test_the_configurations_of_vite_say_the_same(tmp_path: Path) -> None:
     assert outcome.returncode == 0, outcome.stderr
     plugged, plain = json.loads(outcome.stdout)
     assert plugged == plain
+
+
+def test_the_program_that_bakes_a_font_writes_its_files(tmp_path: Path) -> None:
+    (tmp_path / "bake.mjs").write_text(programs("text")["bake.mjs"], encoding="utf-8")
+    (tmp_path / "node_modules").mkdir()
+    (tmp_path / "node_modules" / "vexture").symlink_to(WEB)
+    command = ["node", "bake.mjs"]
+    outcome = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert outcome.returncode == 0, outcome.stderr
+    metrics = json.loads((tmp_path / "digits.json").read_text(encoding="utf-8"))
+    assert set("0123456789: points") <= set(metrics["glyphs"])
+    texture = vexture.load(tmp_path / "digits.ktx2")
+    assert {"0", "9", "p", ".notdef"} <= {root.name for root in texture.roots}
 
 
 def test_every_property_of_troika_is_in_the_table() -> None:

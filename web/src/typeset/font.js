@@ -2,8 +2,10 @@
 import * as hb from 'harfbuzzjs';
 import { VextureError, line } from '../errors.js';
 import { fetchBytes, fileBytes, isTransport, shown } from '../fetching.js';
+import { kerningOf } from './kern.js';
 import { sfntOf } from './sfnt.js';
 import { MOST_BYTES } from './tables.js';
+import { uprightFont } from './vertical.js';
 
 /** @typedef {Record<string, number>} Variations values of axes by their tags */
 
@@ -55,6 +57,8 @@ export class TypeFont {
     this.hasColor = false;
     /** Names of tables with images of glyphs, which are not drawn. */
     this.hasImages = '';
+    /** Kerning without OpenType's features. @type {import('./kern.js').Pairs[]} */
+    this.kerning = [];
     /** Which glyphs have parts in the colour of their text, beside other colours. @type {Map<number, boolean>} */
     this.inked = new Map();
     /** What cannot be drawn. @type {Set<string>} */
@@ -125,6 +129,7 @@ export class TypeFont {
     this.hasColor = this.#isPainted || this.#isLayered || this.hasImages !== '';
     if (this.hasImages.includes('SVG')) this.#pictures = picturesOf(face.referenceTable('SVG '));
     this.axes = face.getAxisInfos();
+    this.kerning = kerningOf(face);
     this.#face = face;
   }
 
@@ -183,6 +188,8 @@ export class TypeFont {
 export class Instance {
   /** @type {Map<string, Map<number, import('./shapes.js').Shape | null>>} shapes of its glyphs by kind, then glyph */
   shapes = new Map();
+  /** @type {hb.Font | null} */
+  #upright = null;
 
   /** @param {TypeFont} owner @param {string} key */
   constructor(owner, key) {
@@ -204,6 +211,12 @@ export class Instance {
   #height(tag, letter, estimate) {
     const glyph = this.font.nominalGlyph(letter.charCodeAt(0));
     return this.font.getMetricPosition(tag) || (glyph && this.font.glyphExtents(glyph)?.yBearing) || estimate * this.em;
+  }
+
+  /** Its font for text from top to bottom. */
+  get uprightFont() {
+    this.#upright ??= uprightFont(this);
+    return this.#upright;
   }
 
   /** Carets within a ligature. @param {number} glyph @param {hb.Direction} direction */

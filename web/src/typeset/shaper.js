@@ -1,5 +1,6 @@
 // Calls of HarfBuzz: a run of one font, script and direction becomes glyphs.
 import * as hb from 'harfbuzzjs';
+import { kern } from './kern.js';
 
 /** @import { Instance } from './font.js' */
 
@@ -44,7 +45,7 @@ export function shapeRun(instance, text, start, end, direction, { features, lang
   buffer.setDirection(direction);
   if (language) buffer.setLanguage(language);
   buffer.guessSegmentProperties();
-  hb.shape(instance.font, buffer, features);
+  hb.shape(direction === hb.Direction.TTB ? instance.uprightFont : instance.font, buffer, features);
   const infos = buffer.getGlyphInfos(), places = buffer.getGlyphPositions(), count = infos.length;
   const isUpright = direction === hb.Direction.TTB;
   /** @type {Shaped} */
@@ -61,6 +62,8 @@ export function shapeRun(instance, text, start, end, direction, { features, lang
     shaped.dy[k] = yOffset;
     if (flags & hb.GlyphFlag.UNSAFE_TO_BREAK) (shaped.unsafe ??= new Set()).add(cluster + from);
   }
+  const { kerning } = instance.owner;
+  if (kerning.length && !isUpright && !features.some(({ tag, value }) => tag === 'kern' && value === 0)) kern(shaped, kerning);
   return shaped;
 }
 
