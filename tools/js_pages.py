@@ -13,7 +13,7 @@ VARIABLE, FUNCTION, CLASS = 32, 64, 128
 KINDS: Final = {VARIABLE: "function", FUNCTION: "function", CLASS: "class"}
 """Symbols of headings, as mkdocstrings names them; all else is a type."""
 
-GROUPS: Final = {"class": "Classes", "function": "Functions", "type_alias": "Types"}
+GROUPS: Final = {"class": "Classes", "function": "Functions", "attribute": "Constants", "type_alias": "Types"}
 WIDTH: Final = 88
 OPTIONS: Final = "MaskOptions"
 
@@ -239,7 +239,9 @@ class Book:
                 yield from self._method(child, name, entry, said)
             return
         writer = self._writer(entry)
-        if "type" in one and not (one["type"]["type"] == "reflection" and members(one)):
+        if kind == "attribute":
+            yield code(f"const {plain(name)}: {writer.type(one['type'])}")
+        elif "type" in one and not (one["type"]["type"] == "reflection" and members(one)):
             yield code(f"type {plain(name)}{writer.generics(one)} = {writer.type(one['type'])}")
         yield said(description_of(one))
         yield from self._properties(members(one), name, entry, said)
