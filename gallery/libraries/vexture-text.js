@@ -24,7 +24,6 @@ function worker() {
   return started;
 }
 
-const glyphs = new vexture.Glyphs({ worker, kernels: { silhouettes, maps, strokes } });
-Object.defineProperty(vexture.Glyphs, 'shared', { get: () => glyphs });
+vexture.Glyphs.shared = new vexture.Glyphs({ worker, kernels: { silhouettes, maps, strokes } });
 vexture.setDefaultFont(font);
 Object.assign(globalThis.galleryModules, { 'vexture/text': vexture });

@@ -93,9 +93,9 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
       this.#table = table;
       this.#boxOf = (/** @type {number} */ shape) => glyphs.texture.boxes[shape];
       this.#makeMesh = () => {
-        const { renderOrder, castShadow, receiveShadow } = this, mesh = new Mesh(new LabelGeometry(), masked('paint'));
+        const mesh = new Mesh(new LabelGeometry(), masked('paint'));
         /** @type {any} */ (mesh.material).userData.mask.attach(mesh);
-        return Object.assign(mesh, { frustumCulled: false, raycast: () => {}, renderOrder, castShadow, receiveShadow });
+        return Object.assign(mesh, { frustumCulled: false, raycast: () => {} });
       };
       this.#user = { shapesInUse: () => this.#shapesInUse(), renumber: (places) => this.#renumber(places) };
       this.#unfollow = glyphs.follow(this.#user);
@@ -223,6 +223,15 @@ export function batchedTextOf({ makeMaterial, applyMask }) {
           this.#show(label, layout);
         }
       }
+    }
+
+    /** What three.js calls before it sorts what it draws: emoji follow the labels. @internal @param {boolean} [force] */
+    updateMatrixWorld(force) {
+      if (this.#colored) {
+        const { renderOrder, castShadow, receiveShadow, layers } = this;
+        Object.assign(this.#colored, { renderOrder, castShadow, receiveShadow }).layers.mask = layers.mask;
+      }
+      super.updateMatrixWorld(force);
     }
 
     /** What three.js calls before it draws shadows, which is before the labels themselves. @internal */
