@@ -34,6 +34,23 @@ describeWithKernels('texts in Node.js', () => {
     expect(await fontsOf({ text: 'aλ', fontWeight: 'bold', fontStyle: 'italic' })).toEqual([latin, greek]);
   });
 
+  it.each([Infinity, -Infinity, 0, -0])('are straight with a radius of %s', async (curveRadius) => {
+    const [straight, bent] = [new Text({ glyphs, text: 'abc' }), new Text({ glyphs, text: 'abc', curveRadius })];
+    await Promise.all([straight.sync(), bent.sync()]);
+    expect(bent.geometry.attributes.vextureGlyph.array).toEqual(straight.geometry.attributes.vextureGlyph.array);
+    expect(bent.geometry.isBent).toBe(false);
+    expect(bent.geometry.boundingSphere.radius).toBeGreaterThan(0.5);
+  });
+
+  it('of no size show nothing, until they have one', async () => {
+    const text = new Text({ glyphs, text: 'abc', fontSize: 0, outlineWidth: '10%', strokeWidth: 0.1 });
+    await text.sync();
+    expect(text.geometry.instanceCount).toBe(0);
+    text.fontSize = 1;
+    await text.sync();
+    expect(text.geometry.instanceCount).toBe(3);
+  });
+
   it('name a file that is not there', async () => {
     const text = new Text({ glyphs, text: 'a', font: new URL('nothing.woff', import.meta.url) });
     await expect(text.sync()).rejects.toThrow(/nothing\.woff: cannot be read .*; check the address$/);
