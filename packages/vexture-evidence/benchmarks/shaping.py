@@ -59,6 +59,12 @@ GLYPH: Final = re.compile(
 ROUNDED: Final = 1.0
 """Units by which a place may be off where a size is not the font's own, for each glyph before it: HarfBuzz rounds."""
 
+IGNORABLE: Final = (
+    *((code, code) for code in (0xAD, 0x34F, 0x61C, 0x115F, 0x1160, 0x17B4, 0x17B5, 0x3164, 0xFEFF, 0xFFA0)),
+    *((0x180B, 0x180F), (0x200B, 0x200F), (0x202A, 0x202E), (0x2060, 0x206F), (0xFE00, 0xFE0F), (0xE0000, 0xE0FFF)),
+)
+"""Characters that show nothing, where a font has no glyph for them."""
+
 NATIVE: Final = "ot"
 """HarfBuzz's own shaper, and its own functions of fonts."""
 
@@ -223,17 +229,9 @@ def is_hidden(line: Line, answer: dict[str, Any], k: int) -> bool:
     """Whether a glyph stands for a character that shows nothing, and which an option removes."""
     if not answer["blank"][k]:
         return False
-    code = line.characters[answer["clusters"][k]]
-    functions = {0xAD, 0x34F, 0x61C, 0x115F, 0x1160, 0x17B4, 0x17B5, 0x3164, 0xFEFF, 0xFFA0}
-    ranges = (
-        (0x180B, 0x180F),
-        (0x200B, 0x200F),
-        (0x202A, 0x202E),
-        (0x2060, 0x206F),
-        (0xFE00, 0xFE0F),
-        (0xE0000, 0xE0FFF),
-    )
-    return code in functions or any(first <= code <= last for first, last in ranges)
+    start = answer["clusters"][k]
+    end = min((one for one in answer["clusters"] if one > start), default=len(line.characters))
+    return any(code in range(first, last + 1) for code in line.characters[start:end] for first, last in IGNORABLE)
 
 
 def shape(requests: Sequence[dict[str, Any]]) -> dict[str, Any]:
