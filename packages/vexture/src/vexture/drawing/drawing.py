@@ -20,9 +20,10 @@ from vexture.base.deadline import check_time
 from vexture.base.errors import SourceError
 from vexture.base.notes import Note
 from vexture.bezier.convert import line_cubics
+from vexture.drawing.affine import Affine
 from vexture.drawing.contours import check_contours, join_contours, together
 from vexture.drawing.group import Blend, Group, Mask, groups_around
-from vexture.drawing.paint import BLACK, Affine, Paint
+from vexture.drawing.paint import BLACK, Paint
 from vexture.drawing.unit_square import clip_contours, tidy_contours
 
 SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
