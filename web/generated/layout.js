@@ -30,6 +30,7 @@ export const MOST_DEPTH = 20;
 export const MOST_HALF_PAINTS = 65536;
 export const MOST_KEPT = 3;
 export const MOST_PAINTS = 16777216;
+export const MOST_PICTURE_SIDE = 16384;
 export const MOST_PROGRAM = 64;
 export const MOST_ROWS = 16384;
 export const MOST_STOPS = 255;

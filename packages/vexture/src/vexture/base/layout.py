@@ -103,6 +103,9 @@ KIND_PICTURE, KIND_SOLID, KIND_LINEAR, KIND_RADIAL, KIND_FOCAL, KIND_KEEP, KIND_
 """Kinds of operations: a picture; a colour; linear, radial and focal gradients; the begin and end of a group; a further
 texel of a picture or gradient."""
 
+MOST_PICTURE_SIDE: Final = 1 << 14
+"""Most columns or rows of a picture."""
+
 HOLDS_PROGRAM: Final = 4
 """Added to the cell byte of a planar map's leaf if one of its paints is a program."""
 

@@ -8,10 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.errors import SourceError
+from vexture.base.layout import MOST_PICTURE_SIDE
 from vexture.drawing.affine import Affine, compose_affine
-
-MOST_SIDE = 16384
-"""Most columns or rows of a picture."""
 
 
 class Sampling(IntEnum):
@@ -44,8 +42,10 @@ class Picture:
 
     def __post_init__(self) -> None:
         shape, numbers = np.shape(self.pixels), [*self.to_pixels[0], *self.to_pixels[1]]
-        if len(shape) != 3 or shape[2] != 4 or not (min(shape[:2]) > 0 and max(shape[:2]) <= MOST_SIDE):
-            raise SourceError(f"a picture has the shape {shape}; it needs 1 to {MOST_SIDE:,} rows and columns of RGBA")
+        if len(shape) != 3 or shape[2] != 4 or not (min(shape[:2]) > 0 and max(shape[:2]) <= MOST_PICTURE_SIDE):
+            raise SourceError(
+                f"a picture has the shape {shape}; it needs 1 to {MOST_PICTURE_SIDE:,} rows and columns of RGBA"
+            )
         if self.pixels.dtype != np.uint8 or (self.pixels[..., :3] > self.pixels[..., 3:]).any():
             raise SourceError("a picture's pixels are not premultiplied bytes")
         if not all(map(isfinite, numbers)) or not 0.0 <= self.opacity <= 1.0:
