@@ -40,8 +40,13 @@ function pictureAt(texels, texel) {
   };
 }
 
-/** Texels of a picture's pixels with all its levels, each half as large as the one before. @param {Picture} picture */
-function texelsOfPicture({ columns, rows }) {
+/**
+ * Texels of a picture's pixels with all its levels, each half as large as the one before.
+ *
+ * @param {number} columns
+ * @param {number} rows
+ */
+export function texelCount(columns, rows) {
   let texels = 0;
   for (let [wide, high] = [columns, rows]; ; [wide, high] = [(wide + 1) >> 1, (high + 1) >> 1]) {
     texels += ((wide + 1) >> 1) * ((high + 1) >> 1);
@@ -64,7 +69,7 @@ export function faultOfPicture(texels, texel, first, count) {
   if (opacity > PAINT_ONE || sampling > LINEAR) return 'no such picture';
   if (Math.min(columns, rows) < 1 || Math.max(columns, rows) > MOST_PICTURE_SIDE) return 'a picture of no such size';
   if (![...across, ...down].every(Number.isFinite)) return 'a number is not finite';
-  if (pixels < first || pixels + texelsOfPicture({ ...pictureAt(texels, texel) }) > first + count) return 'pixels elsewhere';
+  if (pixels < first || pixels + texelCount(columns, rows) > first + count) return 'pixels elsewhere';
   return '';
 }
 
