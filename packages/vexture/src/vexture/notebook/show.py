@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from vexture_geo.flood.page import FloodPage
     from vexture_geo.flood.widget import FloodWidget
 
-READING: Final = ("select", "names", "snap", "fonts", "trace_images", "page_colors")
+READING: Final = ("select", "names", "snap", "fonts", "images", "page_colors")
 """Options of a conversion that belong to its reader."""
 
 OPTIONAL: Final = ("root", "width", "colors", "view")

@@ -57,7 +57,7 @@ def shape_of(
     >>> shape.facts["segments"], shape.facts["box"]
     (4, [0.0, 0.0, 1.0, 1.0])
     """
-    from vexture.conversion.reading import images_of, read_drawing
+    from vexture.conversion.reading import images_of, read_drawing, traced_if_outlined
     from vexture.svg.read import framed_drawing
 
     with about(file_name):
@@ -70,12 +70,15 @@ def shape_of(
     start = time.perf_counter()
     framed = None
     if kind is FileKind.SVG:
-        images = images_of(folder, traced=parameters.trace_images)
+        images = images_of(folder, parameters.images)
         fonts = parameters.fonts or ()
         given: dict[str, Any] = {"fonts": fonts, "images": images, "page_colors": parameters.page_colors}
         drawing, framed = framed_drawing(plain, file_name, parameters.select, **given)
     else:
-        drawing = read_drawing(plain, name=file_name, select=parameters.select)
+        reading: dict[str, Any] = {"select": parameters.select, "images": parameters.images}
+        if parameters.split is None and parameters.images == "draw":
+            reading = traced_if_outlined(plain, {"select": parameters.select})
+        drawing = read_drawing(plain, name=file_name, **reading)
     named = replace(drawing, name=name)
     shape = shape_of_drawing(named, file_name, parameters, start)
     if parameters.precision is not None:
@@ -121,7 +124,7 @@ def shape_of_drawing(drawing: "Drawing", file_name: str, parameters: Parameters,
     """Convert a drawing into a shape, with the facts of its conversion; the notes, if any, form one line."""
     from vexture.conversion.pipeline import combine, trees_of
 
-    reading = replace(parameters, select=None, fonts=None, trace_images=False, page_colors=None)  # already read
+    reading = replace(parameters, select=None, fonts=None, images="draw", page_colors=None)  # already read
     part = trees_of(drawing, reading)
     texture = combine([part], drawing.name, PurePath(file_name).name)
     milliseconds = 1000.0 * (time.perf_counter() - start)
