@@ -7,8 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.base.layout import MOST_PICTURE_SIDE
 from vexture.drawing.drawing import Path
-from vexture.drawing.picture import MOST_SIDE, Picture
+from vexture.drawing.picture import Picture
 
 
 class Reduction(NamedTuple):
@@ -43,7 +44,7 @@ def halvings_needed(columns: int, rows: int, most: int) -> int:
     (0, 1, 2)
     """
     count = 0
-    while texel_count(columns, rows) > most or max(columns, rows) > MOST_SIDE:
+    while texel_count(columns, rows) > most or max(columns, rows) > MOST_PICTURE_SIDE:
         columns, rows, count = -(-columns // 2), -(-rows // 2), count + 1
     return count
 
