@@ -80,6 +80,7 @@ function sourceOf({ paths, groups }, elements) {
     groups.flatMap(({ outer, blend, mask }) => [outer, blend, mask]),
     groups.map(({ opacity }) => opacity),
     ramps, stops,
+    [], // pixels of pictures, which no reader makes yet
   ];
 }
 
